@@ -1,0 +1,2 @@
+//! The terminal skin: the binary chereme.
+fn main() {}

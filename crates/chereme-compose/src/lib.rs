@@ -1,0 +1,1 @@
+//! Recipes to movement: recombination and synthesis.

@@ -1,0 +1,1 @@
+//! A corpus opened for work: SQLite, search index, history, every use case.

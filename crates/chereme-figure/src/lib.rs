@@ -1,0 +1,1 @@
+//! Movement to a body to look at: its geometry, and pictures drawn without a window.

@@ -1,0 +1,358 @@
+//! Units and axes of a file, and the way to model space and back.
+
+use std::fmt;
+use std::str::FromStr;
+use std::sync::Arc;
+
+use glam::{DMat3, DQuat, DVec3};
+use serde::{Deserialize, Serialize};
+
+use crate::clip::{Channel, Clip};
+use crate::skeleton::{Joint, Skeleton};
+
+/// One of the three axes of a space.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Axis {
+    /// The first.
+    X,
+    /// The second.
+    Y,
+    /// The third.
+    Z,
+}
+
+impl Axis {
+    /// Returns 0, 1 or 2.
+    #[must_use]
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+
+    /// Returns the unit vector along the axis.
+    #[must_use]
+    pub const fn vector(self) -> DVec3 {
+        match self {
+            Self::X => DVec3::X,
+            Self::Y => DVec3::Y,
+            Self::Z => DVec3::Z,
+        }
+    }
+
+    /// Returns the right-handed turn by `angle` radians about the axis.
+    #[must_use]
+    pub fn rotation(self, angle: f64) -> DQuat {
+        DQuat::from_axis_angle(self.vector(), angle)
+    }
+}
+
+/// An axis and which way along it, written `+Y` or `-Z`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct Direction {
+    /// The axis.
+    pub axis: Axis,
+    /// Whether it points against the axis.
+    pub negative: bool,
+}
+
+impl Direction {
+    /// Returns the direction nearest to `vector`; of equal ones the first axis.
+    #[must_use]
+    pub fn nearest(vector: DVec3) -> Self {
+        let size = vector.abs();
+        let axis = if size.x >= size.y && size.x >= size.z {
+            Axis::X
+        } else if size.y >= size.z {
+            Axis::Y
+        } else {
+            Axis::Z
+        };
+        Self {
+            axis,
+            negative: vector[axis.index()] < 0.0,
+        }
+    }
+
+    /// Returns the unit vector of the direction.
+    #[must_use]
+    pub fn vector(self) -> DVec3 {
+        if self.negative {
+            -self.axis.vector()
+        } else {
+            self.axis.vector()
+        }
+    }
+}
+
+impl fmt::Display for Direction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}{:?}",
+            if self.negative { '-' } else { '+' },
+            self.axis
+        )
+    }
+}
+
+/// A text that names no direction or no pair of axes.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{0:?} names no axes; write a direction as +X, -Z …, and axes as up,left: for example +Y,+X"
+)]
+pub struct AxesError(pub String);
+
+impl FromStr for Direction {
+    type Err = AxesError;
+    fn from_str(text: &str) -> Result<Self, AxesError> {
+        let error = || AxesError(text.to_owned());
+        let (negative, name) = match text.trim() {
+            t if t.starts_with('-') => (true, &t[1..]),
+            t => (false, t.strip_prefix('+').unwrap_or(t)),
+        };
+        let axis = match name {
+            "X" | "x" => Axis::X,
+            "Y" | "y" => Axis::Y,
+            "Z" | "z" => Axis::Z,
+            _ => return Err(error()),
+        };
+        Ok(Self { axis, negative })
+    }
+}
+
+impl TryFrom<String> for Direction {
+    type Error = AxesError;
+    fn try_from(text: String) -> Result<Self, AxesError> {
+        text.parse()
+    }
+}
+
+impl From<Direction> for String {
+    fn from(direction: Direction) -> Self {
+        direction.to_string()
+    }
+}
+
+/// Which of a file's directions are the signer's up and left; the third follows by the right hand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub struct Axes {
+    up: Direction,
+    left: Direction,
+}
+
+impl Axes {
+    /// Model space: Y up, the left at +X, facing +Z.
+    pub const MODEL: Self = Self {
+        up: Direction {
+            axis: Axis::Y,
+            negative: false,
+        },
+        left: Direction {
+            axis: Axis::X,
+            negative: false,
+        },
+    };
+
+    /// Returns the axes whose up and left are those directions; nothing where they lie on one axis.
+    #[must_use]
+    pub fn new(up: Direction, left: Direction) -> Option<Self> {
+        (up.axis != left.axis).then_some(Self { up, left })
+    }
+
+    /// Returns the file's direction that is up.
+    #[must_use]
+    pub fn up(self) -> Direction {
+        self.up
+    }
+
+    /// Returns the file's direction to the signer's left.
+    #[must_use]
+    pub fn left(self) -> Direction {
+        self.left
+    }
+
+    /// Returns the file's direction that the signer faces.
+    #[must_use]
+    pub fn forward(self) -> Direction {
+        Direction::nearest(self.left.vector().cross(self.up.vector()))
+    }
+
+    /// Returns the rotation that takes the file's directions to those of model space.
+    #[must_use]
+    pub fn to_model(self) -> DQuat {
+        let (left, up, forward) = (
+            self.left.vector(),
+            self.up.vector(),
+            self.forward().vector(),
+        );
+        DQuat::from_mat3(&DMat3::from_cols(left, up, forward).transpose()).normalize()
+    }
+}
+
+impl fmt::Display for Axes {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{},{}", self.up, self.left)
+    }
+}
+
+impl FromStr for Axes {
+    type Err = AxesError;
+    fn from_str(text: &str) -> Result<Self, AxesError> {
+        let error = || AxesError(text.to_owned());
+        let (up, left) = text.split_once(',').ok_or_else(error)?;
+        Self::new(up.parse()?, left.parse()?).ok_or_else(error)
+    }
+}
+
+/// How a file's numbers become metres in model space: its unit and its axes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Convention {
+    /// How many metres one unit of the file is; above zero.
+    pub metres_per_unit: f64,
+    /// The file's axes.
+    pub axes: Axes,
+}
+
+impl Convention {
+    /// Metres in model space: nothing to convert.
+    pub const MODEL: Self = Self {
+        metres_per_unit: 1.0,
+        axes: Axes::MODEL,
+    };
+
+    /// Returns the place `at` of the file in metres in model space.
+    #[must_use]
+    pub fn point(&self, at: DVec3) -> DVec3 {
+        self.axes.to_model() * (at * self.metres_per_unit)
+    }
+
+    /// Returns `skeleton`, measured in the file's unit and axes, in metres and model axes.
+    #[must_use]
+    pub fn skeleton(&self, skeleton: &Skeleton) -> Skeleton {
+        self.map_skeleton(skeleton, self.axes.to_model(), self.metres_per_unit)
+    }
+
+    /// Returns `clip`, measured in the file's unit and axes, in metres and model axes.
+    ///
+    /// Every joint's own space is turned alike, so that offsets o, translations t and rotations q
+    /// become s·(C o), s·(C t) and C q C⁻¹, with C the change of axes and s the metres a unit.
+    #[must_use]
+    pub fn clip(&self, clip: &Clip) -> Clip {
+        self.map_clip(clip, self.axes.to_model(), self.metres_per_unit)
+    }
+
+    /// Returns `clip`, in metres and model axes, in the file's unit and axes: the inverse of
+    /// [`clip`](Self::clip).
+    #[must_use]
+    pub fn clip_back(&self, clip: &Clip) -> Clip {
+        self.map_clip(
+            clip,
+            self.axes.to_model().inverse(),
+            1.0 / self.metres_per_unit,
+        )
+    }
+
+    fn map_skeleton(&self, skeleton: &Skeleton, turn: DQuat, scale: f64) -> Skeleton {
+        let joints = skeleton
+            .joints()
+            .iter()
+            .map(|joint| Joint {
+                name: joint.name.clone(),
+                parent: joint.parent,
+                offset: turn * (joint.offset * scale),
+                rest: (turn * joint.rest * turn.inverse()).normalize(),
+                tip: joint.tip.map(|tip| turn * (tip * scale)),
+            })
+            .collect();
+        Skeleton::new(joints).expect("turning and scaling keeps a skeleton one")
+    }
+
+    fn map_clip(&self, clip: &Clip, turn: DQuat, scale: f64) -> Clip {
+        let skeleton = Arc::new(self.map_skeleton(clip.skeleton(), turn, scale));
+        let back = turn.inverse();
+        let channels = clip
+            .channels()
+            .iter()
+            .map(|channel| Channel {
+                rotations: channel
+                    .rotations
+                    .iter()
+                    .map(|&q| (turn * q * back).normalize())
+                    .collect(),
+                translations: channel
+                    .translations
+                    .as_ref()
+                    .map(|places| places.iter().map(|&t| turn * (t * scale)).collect()),
+            })
+            .collect();
+        Clip::new(skeleton, clip.rate(), channels).expect("turning and scaling keeps a clip one")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::time::Rate;
+
+    fn all_axes() -> Vec<Axes> {
+        let names = ["+X", "-X", "+Y", "-Y", "+Z", "-Z"];
+        let pairs = names
+            .iter()
+            .flat_map(|up| names.iter().map(move |left| format!("{up},{left}")));
+        pairs.filter_map(|text| text.parse().ok()).collect()
+    }
+
+    #[test]
+    fn all_twenty_four_axes_turn_up_left_and_forward_to_y_x_and_z() {
+        let all = all_axes();
+        assert_eq!(all.len(), 24);
+        for axes in all {
+            let turn = axes.to_model();
+            assert!(
+                (turn * axes.up().vector()).abs_diff_eq(DVec3::Y, 1e-12),
+                "{axes}"
+            );
+            assert!(
+                (turn * axes.left().vector()).abs_diff_eq(DVec3::X, 1e-12),
+                "{axes}"
+            );
+            assert!(
+                (turn * axes.forward().vector()).abs_diff_eq(DVec3::Z, 1e-12),
+                "{axes}"
+            );
+            assert_eq!(axes.to_string().parse(), Ok(axes));
+        }
+        assert!("+Y,-Y".parse::<Axes>().is_err() && "up".parse::<Axes>().is_err());
+    }
+
+    #[test]
+    fn a_clip_there_and_back_is_the_same_and_places_are_those_of_the_file() {
+        let skeleton = Skeleton::new(vec![
+            Joint::new("a", None, DVec3::new(1.0, 2.0, 3.0)),
+            Joint::new("b", Some(0), DVec3::new(0.0, 10.0, 4.0)).with_tip(DVec3::Z),
+        ])
+        .expect("a tree");
+        let mut channels =
+            Clip::still(skeleton.clone().into(), Rate::new(1, 1).expect("rate"), 1).into_channels();
+        channels[0].rotations[0] = DQuat::from_rotation_x(0.7) * DQuat::from_rotation_z(0.2);
+        channels[0].translations = Some(vec![DVec3::new(5.0, 6.0, 7.0)]);
+        let clip =
+            Clip::new(skeleton.into(), Rate::new(1, 1).expect("rate"), channels).expect("clip");
+        for axes in all_axes() {
+            let convention = Convention {
+                metres_per_unit: 0.01,
+                axes,
+            };
+            let model = convention.clip(&clip);
+            let there = convention.point(clip.model_pose(0).position(1));
+            assert!(model.model_pose(0).position(1).abs_diff_eq(there, 1e-12));
+            let back = convention.clip_back(&model);
+            assert!(back.pose(0).rotations[0].angle_between(clip.pose(0).rotations[0]) < 1e-7);
+            assert!(
+                back.model_pose(0)
+                    .position(1)
+                    .abs_diff_eq(clip.model_pose(0).position(1), 1e-9)
+            );
+        }
+    }
+}

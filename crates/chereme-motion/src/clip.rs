@@ -1,0 +1,424 @@
+//! Movement as values: the rotations of a skeleton's joints over frames, joint by joint.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3};
+
+use crate::pose::{ModelPose, Pose};
+use crate::skeleton::Skeleton;
+use crate::time::{Instant, Rate, Span};
+
+/// The movement of one joint in its parent's space.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Channel {
+    /// One unit quaternion a frame.
+    pub rotations: Vec<DQuat>,
+    /// One place a frame in metres where the joint also moves; else it stays at its offset.
+    pub translations: Option<Vec<DVec3>>,
+}
+
+/// A stretch of movement: one [`Channel`] a joint, all of the same length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Clip {
+    skeleton: Arc<Skeleton>,
+    rate: Rate,
+    frames: usize,
+    channels: Vec<Channel>,
+}
+
+/// What keeps channels from being a clip.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ClipError {
+    /// There is not one channel a joint.
+    #[error("{channels} channels were given for a skeleton of {joints} joints")]
+    Joints {
+        /// The channels given.
+        channels: usize,
+        /// The skeleton's joints.
+        joints: usize,
+    },
+    /// A channel is longer or shorter than the first.
+    #[error("the channel of joint {joint:?} has {found} frames where {expected} were expected")]
+    Length {
+        /// The joint's name.
+        joint: String,
+        /// Its frames.
+        found: usize,
+        /// The frames of the first channel.
+        expected: usize,
+    },
+    /// A rotation or place is not finite, or a rotation is not of length one.
+    #[error("joint {joint:?} has a value that is no rotation or place at frame {frame}")]
+    Value {
+        /// The joint's name.
+        joint: String,
+        /// The frame, from 0.
+        frame: usize,
+    },
+}
+
+impl Clip {
+    /// Returns the clip of one channel a joint.
+    ///
+    /// # Errors
+    /// [`ClipError`] where channels are missing, differ in length, or hold what is no rotation.
+    pub fn new(
+        skeleton: Arc<Skeleton>,
+        rate: Rate,
+        channels: Vec<Channel>,
+    ) -> Result<Self, ClipError> {
+        if channels.len() != skeleton.len() {
+            return Err(ClipError::Joints {
+                channels: channels.len(),
+                joints: skeleton.len(),
+            });
+        }
+        let frames = channels[0].rotations.len();
+        for (joint, channel) in skeleton.joints().iter().zip(&channels) {
+            let name = || joint.name.clone();
+            let moved = channel.translations.as_ref().map_or(frames, Vec::len);
+            for found in [channel.rotations.len(), moved] {
+                if found != frames {
+                    return Err(ClipError::Length {
+                        joint: name(),
+                        found,
+                        expected: frames,
+                    });
+                }
+            }
+            let turned = channel.rotations.iter().position(|q| !q.is_normalized());
+            let moved = channel
+                .translations
+                .iter()
+                .flatten()
+                .position(|t: &DVec3| !t.is_finite());
+            if let Some(frame) = turned.or(moved) {
+                return Err(ClipError::Value {
+                    joint: name(),
+                    frame,
+                });
+            }
+        }
+        Ok(Self {
+            skeleton,
+            rate,
+            frames,
+            channels,
+        })
+    }
+
+    /// Returns `frames` frames of the skeleton at rest.
+    #[must_use]
+    pub fn still(skeleton: Arc<Skeleton>, rate: Rate, frames: usize) -> Self {
+        let channels = skeleton
+            .joints()
+            .iter()
+            .map(|joint| Channel {
+                rotations: vec![joint.rest; frames],
+                translations: None,
+            })
+            .collect();
+        Self {
+            skeleton,
+            rate,
+            frames,
+            channels,
+        }
+    }
+
+    /// Returns the clip that holds `poses`, a frame each; joints that never leave their offset get
+    /// no translations.
+    ///
+    /// # Errors
+    /// [`ClipError`] where a pose has another number of joints, or holds what is no rotation.
+    pub fn from_poses(
+        skeleton: Arc<Skeleton>,
+        rate: Rate,
+        poses: &[Pose],
+    ) -> Result<Self, ClipError> {
+        let joints = skeleton.len();
+        if let Some(pose) = poses
+            .iter()
+            .find(|pose| pose.rotations.len() != joints || pose.translations.len() != joints)
+        {
+            let channels = pose.rotations.len().min(pose.translations.len());
+            return Err(ClipError::Joints { channels, joints });
+        }
+        let channels = (0..joints)
+            .map(|j| {
+                let offset = skeleton.joint(j).offset;
+                let moves = poses.iter().any(|pose| pose.translations[j] != offset);
+                Channel {
+                    rotations: poses.iter().map(|pose| pose.rotations[j]).collect(),
+                    translations: moves
+                        .then(|| poses.iter().map(|pose| pose.translations[j]).collect()),
+                }
+            })
+            .collect();
+        Self::new(skeleton, rate, channels)
+    }
+
+    /// Returns the skeleton that moves.
+    #[must_use]
+    pub fn skeleton(&self) -> &Arc<Skeleton> {
+        &self.skeleton
+    }
+
+    /// Returns the frame rate.
+    #[must_use]
+    pub fn rate(&self) -> Rate {
+        self.rate
+    }
+
+    /// Returns how many frames there are; a clip may be empty.
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        self.frames
+    }
+
+    /// Returns the time the clip takes, from zero on.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        self.rate.span(0..self.frames)
+    }
+
+    /// Returns the movement of `joint`.
+    #[must_use]
+    pub fn channel(&self, joint: usize) -> &Channel {
+        &self.channels[joint]
+    }
+
+    /// Returns the movement of every joint.
+    #[must_use]
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// Returns the channels, for a new clip to be made of them.
+    #[must_use]
+    pub fn into_channels(self) -> Vec<Channel> {
+        self.channels
+    }
+
+    /// Returns the place of `joint` in its parent's space at `frame`, in metres.
+    #[must_use]
+    pub fn translation(&self, joint: usize, frame: usize) -> DVec3 {
+        match &self.channels[joint].translations {
+            Some(places) => places[frame],
+            None => self.skeleton.joint(joint).offset,
+        }
+    }
+
+    /// Returns the posture at `frame`, in local space.
+    ///
+    /// # Panics
+    /// Where `frame` is not below [`frames`](Self::frames).
+    #[must_use]
+    pub fn pose(&self, frame: usize) -> Pose {
+        Pose {
+            rotations: self
+                .channels
+                .iter()
+                .map(|channel| channel.rotations[frame])
+                .collect(),
+            translations: (0..self.channels.len())
+                .map(|j| self.translation(j, frame))
+                .collect(),
+        }
+    }
+
+    /// Returns the posture at `frame`, in model space.
+    ///
+    /// # Panics
+    /// Where `frame` is not below [`frames`](Self::frames).
+    #[must_use]
+    pub fn model_pose(&self, frame: usize) -> ModelPose {
+        ModelPose::of(&self.skeleton, &self.pose(frame))
+    }
+
+    /// Returns the posture at `instant`: between two frames the rotations are slerped and the
+    /// places blended; outside the clip it is that of the nearest frame. An empty clip is at rest.
+    #[must_use]
+    pub fn sample(&self, instant: Instant) -> Pose {
+        if self.frames == 0 {
+            return self.skeleton.rest_pose();
+        }
+        let at = (instant.seconds() * self.rate.per_second()).clamp(0.0, (self.frames - 1) as f64);
+        let (first, share) = (at.floor() as usize, at.fract());
+        if share == 0.0 {
+            return self.pose(first);
+        }
+        let second = first + 1;
+        let rotations = self.channels.iter().map(|channel| {
+            let (a, b) = (channel.rotations[first], channel.rotations[second]);
+            a.slerp(b, share)
+        });
+        let translations = (0..self.channels.len()).map(|j| {
+            self.translation(j, first)
+                .lerp(self.translation(j, second), share)
+        });
+        Pose {
+            rotations: rotations.collect(),
+            translations: translations.collect(),
+        }
+    }
+
+    /// Returns where `joint` is in model space at every frame, in metres.
+    ///
+    /// Only the joints between it and the root are looked at.
+    #[must_use]
+    pub fn path(&self, joint: usize) -> Vec<DVec3> {
+        let mut up: Vec<usize> = self.skeleton.ancestors(joint).collect();
+        up.reverse();
+        (0..self.frames)
+            .map(|frame| {
+                let (mut position, mut rotation) = (DVec3::ZERO, DQuat::IDENTITY);
+                for &j in &up {
+                    position += rotation * self.translation(j, frame);
+                    rotation *= self.channels[j].rotations[frame];
+                }
+                position
+            })
+            .collect()
+    }
+
+    /// Returns the frames in `frames`, cut to those there are.
+    #[must_use]
+    pub fn slice(&self, frames: Range<usize>) -> Self {
+        let end = frames.end.min(self.frames);
+        let range = frames.start.min(end)..end;
+        let channels = self
+            .channels
+            .iter()
+            .map(|channel| Channel {
+                rotations: channel.rotations[range.clone()].to_vec(),
+                translations: channel
+                    .translations
+                    .as_ref()
+                    .map(|t| t[range.clone()].to_vec()),
+            })
+            .collect();
+        Self {
+            skeleton: Arc::clone(&self.skeleton),
+            rate: self.rate,
+            frames: range.len(),
+            channels,
+        }
+    }
+
+    /// Returns the same movement at another frame rate; the first frame stays, and no frame lies
+    /// after the last one here.
+    #[must_use]
+    pub fn resampled(&self, rate: Rate) -> Self {
+        if rate == self.rate || self.frames == 0 {
+            return Self {
+                rate,
+                ..self.clone()
+            };
+        }
+        let last = self.rate.instant(self.frames - 1);
+        let frames = rate.frame_at(last) + usize::from(rate.instant(rate.frame_at(last)) <= last);
+        self.retimed(rate, frames, |frame| rate.instant(frame))
+    }
+
+    /// Returns `frames` frames at `rate`, each sampled from the instant that `source` gives for it.
+    #[must_use]
+    pub fn retimed(&self, rate: Rate, frames: usize, source: impl Fn(usize) -> Instant) -> Self {
+        let poses: Vec<Pose> = (0..frames)
+            .map(|frame| self.sample(source(frame)))
+            .collect();
+        Self::from_poses(Arc::clone(&self.skeleton), rate, &poses)
+            .expect("sampled poses are of this skeleton and slerp keeps unit length")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::skeleton::Joint;
+
+    fn turning(frames: usize) -> Clip {
+        let skeleton = Skeleton::new(vec![
+            Joint::new("root", None, DVec3::ZERO),
+            Joint::new("arm", Some(0), DVec3::X),
+        ])
+        .expect("a tree");
+        let mut channels = Clip::still(
+            skeleton.clone().into(),
+            Rate::new(10, 1).expect("rate"),
+            frames,
+        )
+        .into_channels();
+        for (i, q) in channels[0].rotations.iter_mut().enumerate() {
+            *q = DQuat::from_rotation_y(i as f64 * 0.1);
+        }
+        Clip::new(skeleton.into(), Rate::new(10, 1).expect("rate"), channels).expect("a clip")
+    }
+
+    #[test]
+    fn a_path_is_what_kinematics_give_and_follows_the_circle() {
+        let clip = turning(20);
+        for (frame, at) in clip.path(1).into_iter().enumerate() {
+            let angle = frame as f64 * 0.1;
+            assert!(at.abs_diff_eq(DVec3::new(angle.cos(), 0.0, -angle.sin()), 1e-12));
+            assert!(at.abs_diff_eq(clip.model_pose(frame).position(1), 1e-12));
+        }
+    }
+
+    #[test]
+    fn sampling_between_frames_turns_half_way_and_stays_at_the_ends() {
+        let clip = turning(5);
+        let half = clip.sample(Instant::from_seconds(0.15)).rotations[0];
+        assert!(half.angle_between(DQuat::from_rotation_y(0.15)) < 1e-7);
+        assert_eq!(clip.sample(Instant::from_seconds(9.0)), clip.pose(4));
+        assert_eq!(clip.sample(Instant::from_seconds(-1.0)), clip.pose(0));
+    }
+
+    #[test]
+    fn resampling_up_and_down_again_gives_the_frames_back() {
+        let clip = turning(7);
+        let fine = clip.resampled(Rate::new(40, 1).expect("rate"));
+        assert_eq!(fine.frames(), 25);
+        let back = fine.resampled(clip.rate());
+        assert_eq!(back.frames(), 7);
+        for frame in 0..7 {
+            let (a, b) = (clip.pose(frame), back.pose(frame));
+            assert!(a.rotations[0].angle_between(b.rotations[0]) < 1e-7);
+        }
+    }
+
+    #[test]
+    fn slices_compose_to_the_intersection() {
+        let clip = turning(10);
+        assert_eq!(clip.slice(2..9).slice(1..4), clip.slice(3..6));
+        assert_eq!(clip.slice(8..30).frames(), 2);
+        assert_eq!(clip.slice(20..30).frames(), 0);
+    }
+
+    #[test]
+    fn what_is_no_clip_is_refused_by_joint_and_frame() {
+        let clip = turning(3);
+        let mut channels = clip.clone().into_channels();
+        channels[1].rotations[2] = DQuat::from_xyzw(0.0, 0.0, 0.0, 2.0);
+        let error = Clip::new(clip.skeleton().clone(), clip.rate(), channels).expect_err("no unit");
+        assert_eq!(
+            error,
+            ClipError::Value {
+                joint: "arm".into(),
+                frame: 2
+            }
+        );
+        let mut channels = clip.clone().into_channels();
+        channels[1].rotations.pop();
+        let error = Clip::new(clip.skeleton().clone(), clip.rate(), channels).expect_err("short");
+        assert_eq!(
+            error,
+            ClipError::Length {
+                joint: "arm".into(),
+                found: 2,
+                expected: 3
+            }
+        );
+    }
+}

@@ -1,0 +1,49 @@
+//! Geometry and timing of articulated movement, as pure functions on values.
+//!
+//! Lengths are metres, angles radians, rotations unit quaternions. *Model space* is right-handed,
+//! Y up, the signer facing +Z with the left side at +X; *local space* is that of a joint's parent.
+//! Nothing here reads files, knows a word of sign language, or uses unseeded randomness.
+//!
+//! ```
+//! use chereme_motion::{Clip, Joint, Rate, Skeleton, glam::DVec3};
+//!
+//! let skeleton = Skeleton::new(vec![
+//!     Joint::new("hips", None, DVec3::ZERO),
+//!     Joint::new("chest", Some(0), DVec3::new(0.0, 0.4, 0.0)),
+//! ])?;
+//! let clip = Clip::still(skeleton.into(), Rate::new(120, 1)?, 240);
+//! assert_eq!(clip.span().seconds(), 2.0);
+//! assert_eq!(clip.model_pose(0).position(1), DVec3::new(0.0, 0.4, 0.0));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`time`] | instants, spans, frame rates |
+//! | [`skeleton`] | joints, parents first, checked once |
+//! | [`pose`] | local and model-space postures, forward kinematics |
+//! | [`clip`] | movement: a skeleton's rotations over frames; slicing, sampling, resampling |
+//! | [`euler`] | rotation orders and angles, as files write them |
+//! | [`axes`] | units and axes of a file, and the way to model space and back |
+//! | [`interpolation`] | the ways from one posture to another |
+//! | [`hand`] | the posture of a hand as joint angles |
+
+pub use glam;
+
+pub mod axes;
+pub mod clip;
+pub mod euler;
+pub mod hand;
+pub mod interpolation;
+pub mod pose;
+pub mod skeleton;
+pub mod time;
+
+pub use axes::{Axes, Axis, Convention, Direction};
+pub use clip::{Channel, Clip, ClipError};
+pub use euler::RotationOrder;
+pub use hand::{Finger, FingerAngles, HandAngles, Side, ThumbAngles};
+pub use interpolation::Interpolation;
+pub use pose::{ModelPose, Pose};
+pub use skeleton::{Joint, Skeleton, SkeletonError};
+pub use time::{Instant, Rate, RateError, Span, SpanError};

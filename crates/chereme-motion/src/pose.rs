@@ -1,0 +1,179 @@
+//! Postures in local and in model space, and the way from one to the other.
+
+use glam::{DQuat, DVec3};
+
+use crate::skeleton::Skeleton;
+
+/// A posture in local space: each joint relative to its parent.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pose {
+    /// The rotation of each joint in its parent's space, a unit quaternion.
+    pub rotations: Vec<DQuat>,
+    /// The place of each joint in its parent's space, in metres; the root's is in model space.
+    pub translations: Vec<DVec3>,
+}
+
+/// A posture in model space: where each joint is and how it is turned.
+///
+/// With R the rotation and p the position of a joint in model space, q and t its rotation and
+/// translation in its parent's space, and P its parent: `R = R_P · q` and `p = p_P + R_P · t`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelPose {
+    positions: Vec<DVec3>,
+    rotations: Vec<DQuat>,
+}
+
+impl ModelPose {
+    /// Returns `pose` in model space (forward kinematics).
+    ///
+    /// # Panics
+    /// Where `pose` has another number of joints than `skeleton`.
+    #[must_use]
+    pub fn of(skeleton: &Skeleton, pose: &Pose) -> Self {
+        let mut model = Self {
+            positions: Vec::new(),
+            rotations: Vec::new(),
+        };
+        model.set(skeleton, pose);
+        model
+    }
+
+    /// Replaces this posture by `pose` in model space without allocating anew.
+    ///
+    /// # Panics
+    /// Where `pose` has another number of joints than `skeleton`.
+    pub fn set(&mut self, skeleton: &Skeleton, pose: &Pose) {
+        assert_eq!(
+            pose.rotations.len(),
+            skeleton.len(),
+            "a pose has one rotation a joint"
+        );
+        assert_eq!(
+            pose.translations.len(),
+            skeleton.len(),
+            "a pose has one translation a joint"
+        );
+        self.positions.clear();
+        self.rotations.clear();
+        for (index, joint) in skeleton.joints().iter().enumerate() {
+            let (rotation, translation) = (pose.rotations[index], pose.translations[index]);
+            let (position, rotation) = match joint.parent {
+                None => (translation, rotation),
+                Some(parent) => {
+                    let turned = self.rotations[parent];
+                    (
+                        self.positions[parent] + turned * translation,
+                        turned * rotation,
+                    )
+                }
+            };
+            self.positions.push(position);
+            self.rotations.push(rotation);
+        }
+    }
+
+    /// Returns where `joint` is, in metres.
+    #[must_use]
+    pub fn position(&self, joint: usize) -> DVec3 {
+        self.positions[joint]
+    }
+
+    /// Returns how `joint` is turned.
+    #[must_use]
+    pub fn rotation(&self, joint: usize) -> DQuat {
+        self.rotations[joint]
+    }
+
+    /// Returns where every joint is, in metres.
+    #[must_use]
+    pub fn positions(&self) -> &[DVec3] {
+        &self.positions
+    }
+
+    /// Returns how every joint is turned.
+    #[must_use]
+    pub fn rotations(&self) -> &[DQuat] {
+        &self.rotations
+    }
+
+    /// Returns the point `local` of `joint`'s space in model space.
+    #[must_use]
+    pub fn point(&self, joint: usize, local: DVec3) -> DVec3 {
+        self.positions[joint] + self.rotations[joint] * local
+    }
+
+    /// Returns the end of `joint`'s bone where it has a tip.
+    #[must_use]
+    pub fn tip(&self, skeleton: &Skeleton, joint: usize) -> Option<DVec3> {
+        skeleton.joint(joint).tip.map(|tip| self.point(joint, tip))
+    }
+
+    /// Returns the same posture in local space.
+    #[must_use]
+    pub fn to_local(&self, skeleton: &Skeleton) -> Pose {
+        let mut pose = Pose {
+            rotations: Vec::new(),
+            translations: Vec::new(),
+        };
+        for (index, joint) in skeleton.joints().iter().enumerate() {
+            let (position, rotation) = (self.positions[index], self.rotations[index]);
+            let (translation, rotation) = match joint.parent {
+                None => (position, rotation),
+                Some(parent) => {
+                    let back = self.rotations[parent].inverse();
+                    (back * (position - self.positions[parent]), back * rotation)
+                }
+            };
+            pose.rotations.push(rotation.normalize());
+            pose.translations.push(translation);
+        }
+        pose
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::skeleton::Joint;
+    use glam::{DMat4, EulerRot};
+    use proptest::prelude::*;
+
+    fn chain() -> Skeleton {
+        Skeleton::new(vec![
+            Joint::new("a", None, DVec3::ZERO),
+            Joint::new("b", Some(0), DVec3::new(0.0, 0.5, 0.1)),
+            Joint::new("c", Some(1), DVec3::new(0.3, 0.0, 0.0)),
+            Joint::new("d", Some(1), DVec3::new(-0.3, 0.0, 0.2)).with_tip(DVec3::Y),
+        ])
+        .expect("a tree")
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn kinematics_agree_with_matrices_and_go_back(angles in proptest::array::uniform12(-3.0f64..3.0)) {
+            let skeleton = chain();
+            let pose = Pose {
+                rotations: angles.chunks(3)
+                    .map(|a| DQuat::from_euler(EulerRot::XYZ, a[0], a[1], a[2])).collect(),
+                translations: skeleton.rest_pose().translations,
+            };
+            let model = ModelPose::of(&skeleton, &pose);
+            let mut matrices: Vec<DMat4> = Vec::new();
+            for (i, joint) in skeleton.joints().iter().enumerate() {
+                let local = DMat4::from_rotation_translation(pose.rotations[i], pose.translations[i]);
+                matrices.push(joint.parent.map_or(local, |parent| matrices[parent] * local));
+                let point = matrices[i].transform_point3(DVec3::ZERO);
+                prop_assert!(model.position(i).abs_diff_eq(point, 1e-12));
+            }
+            let tip = matrices[3].transform_point3(DVec3::Y);
+            prop_assert!(model.tip(&skeleton, 3).is_some_and(|at| at.abs_diff_eq(tip, 1e-12)));
+            let back = model.to_local(&skeleton);
+            for i in 0..skeleton.len() {
+                prop_assert!(back.rotations[i].angle_between(pose.rotations[i]) < 1e-7);
+                prop_assert!(back.translations[i].abs_diff_eq(pose.translations[i], 1e-12));
+            }
+        }
+    }
+}

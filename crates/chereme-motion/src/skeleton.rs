@@ -1,0 +1,264 @@
+//! The tree of joints, parents before children, checked once and never invalid.
+
+use glam::{DQuat, DVec3};
+use serde::{Deserialize, Serialize};
+
+use crate::pose::{ModelPose, Pose};
+
+/// One joint of a skeleton.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Joint {
+    /// The name as its source has it.
+    pub name: String,
+    /// The index of the parent joint; only the root has none.
+    pub parent: Option<usize>,
+    /// Where the joint is in its parent's space at rest, in metres.
+    pub offset: DVec3,
+    /// The local rotation at rest; the identity where the source knows none.
+    pub rest: DQuat,
+    /// The end of the bone where no joint follows (an End Site), in this joint's space, in metres.
+    pub tip: Option<DVec3>,
+}
+
+impl Joint {
+    /// Returns a joint that is not turned at rest and has no tip.
+    #[must_use]
+    pub fn new(name: impl Into<String>, parent: Option<usize>, offset: DVec3) -> Self {
+        Self {
+            name: name.into(),
+            parent,
+            offset,
+            rest: DQuat::IDENTITY,
+            tip: None,
+        }
+    }
+
+    /// Returns the joint with a tip at `tip` in its own space.
+    #[must_use]
+    pub fn with_tip(self, tip: DVec3) -> Self {
+        Self {
+            tip: Some(tip),
+            ..self
+        }
+    }
+}
+
+/// Joints in a tree with one root; every parent comes before its children.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Vec<Joint>", into = "Vec<Joint>")]
+pub struct Skeleton {
+    joints: Vec<Joint>,
+    children: Vec<Vec<usize>>,
+}
+
+/// What keeps joints from being a skeleton.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum SkeletonError {
+    /// There is no joint at all.
+    #[error("a skeleton needs at least one joint")]
+    Empty,
+    /// The first joint has a parent, or a later one has none.
+    #[error("joint {index} ({name:?}) is a second root; exactly the first joint has no parent")]
+    Root {
+        /// The joint's index.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+    /// A joint's parent is itself, follows it, or does not exist.
+    #[error(
+        "joint {index} ({name:?}) names parent {parent}, but a parent comes before its children"
+    )]
+    Parent {
+        /// The joint's index.
+        index: usize,
+        /// Its name.
+        name: String,
+        /// The parent it names.
+        parent: usize,
+    },
+    /// An offset, tip or rest rotation is not finite, or the rotation is not of length one.
+    #[error("joint {index} ({name:?}) has an offset, tip or rest rotation that is no number")]
+    Value {
+        /// The joint's index.
+        index: usize,
+        /// Its name.
+        name: String,
+    },
+}
+
+impl Skeleton {
+    /// Returns the skeleton of `joints`, the root first and every parent before its children.
+    ///
+    /// # Errors
+    /// [`SkeletonError`] where the joints are not one tree in that order, or a number is not finite.
+    pub fn new(joints: Vec<Joint>) -> Result<Self, SkeletonError> {
+        if joints.is_empty() {
+            return Err(SkeletonError::Empty);
+        }
+        let mut children = vec![Vec::new(); joints.len()];
+        for (index, joint) in joints.iter().enumerate() {
+            let name = || joint.name.clone();
+            match joint.parent {
+                None if index > 0 => {
+                    return Err(SkeletonError::Root {
+                        index,
+                        name: name(),
+                    });
+                }
+                Some(_) if index == 0 => {
+                    return Err(SkeletonError::Root {
+                        index,
+                        name: name(),
+                    });
+                }
+                Some(parent) if parent >= index => {
+                    return Err(SkeletonError::Parent {
+                        index,
+                        name: name(),
+                        parent,
+                    });
+                }
+                Some(parent) => children[parent].push(index),
+                None => {}
+            }
+            let finite = joint.offset.is_finite()
+                && joint.tip.is_none_or(DVec3::is_finite)
+                && joint.rest.is_normalized();
+            if !finite {
+                return Err(SkeletonError::Value {
+                    index,
+                    name: name(),
+                });
+            }
+        }
+        Ok(Self { joints, children })
+    }
+
+    /// Returns the joints, the root first.
+    #[must_use]
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// Returns how many joints there are; never zero.
+    #[must_use]
+    #[expect(clippy::len_without_is_empty, reason = "a skeleton is never empty")]
+    pub fn len(&self) -> usize {
+        self.joints.len()
+    }
+
+    /// Returns the joint at `index`.
+    ///
+    /// # Panics
+    /// Where `index` is not below [`len`](Self::len).
+    #[must_use]
+    pub fn joint(&self, index: usize) -> &Joint {
+        &self.joints[index]
+    }
+
+    /// Returns the joints whose parent is `index`, in order.
+    #[must_use]
+    pub fn children(&self, index: usize) -> &[usize] {
+        &self.children[index]
+    }
+
+    /// Returns the parent of `index`.
+    #[must_use]
+    pub fn parent(&self, index: usize) -> Option<usize> {
+        self.joints[index].parent
+    }
+
+    /// Returns the first joint called `name`, letter by letter.
+    #[must_use]
+    pub fn find(&self, name: &str) -> Option<usize> {
+        self.joints.iter().position(|joint| joint.name == name)
+    }
+
+    /// Returns the joints from `index` up to the root, `index` first.
+    pub fn ancestors(&self, index: usize) -> impl Iterator<Item = usize> + '_ {
+        std::iter::successors(Some(index), |&joint| self.parent(joint))
+    }
+
+    /// Returns `index` and all joints below it, parents first.
+    #[must_use]
+    pub fn subtree(&self, index: usize) -> Vec<usize> {
+        let mut inside = vec![false; self.len()];
+        inside[index] = true;
+        for joint in index + 1..self.len() {
+            inside[joint] = self.parent(joint).is_some_and(|parent| inside[parent]);
+        }
+        (index..self.len()).filter(|&joint| inside[joint]).collect()
+    }
+
+    /// Returns the posture at rest, in local space.
+    #[must_use]
+    pub fn rest_pose(&self) -> Pose {
+        Pose {
+            rotations: self.joints.iter().map(|joint| joint.rest).collect(),
+            translations: self.joints.iter().map(|joint| joint.offset).collect(),
+        }
+    }
+
+    /// Returns the posture at rest, in model space.
+    #[must_use]
+    pub fn rest_model_pose(&self) -> ModelPose {
+        ModelPose::of(self, &self.rest_pose())
+    }
+}
+
+impl TryFrom<Vec<Joint>> for Skeleton {
+    type Error = SkeletonError;
+    fn try_from(joints: Vec<Joint>) -> Result<Self, SkeletonError> {
+        Self::new(joints)
+    }
+}
+
+impl From<Skeleton> for Vec<Joint> {
+    fn from(skeleton: Skeleton) -> Self {
+        skeleton.joints
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_tree_is_refused_by_name() {
+        let joint = |name: &str, parent| Joint::new(name, parent, DVec3::Y);
+        for (joints, want) in [
+            (vec![], "at least one joint"),
+            (vec![joint("a", Some(0))], "second root"),
+            (
+                vec![joint("a", None), joint("b", None)],
+                "joint 1 (\"b\") is a second root",
+            ),
+            (
+                vec![joint("a", None), joint("b", Some(1))],
+                "names parent 1",
+            ),
+            (
+                vec![joint("a", None), joint("b", Some(7))],
+                "names parent 7",
+            ),
+            (vec![Joint::new("a", None, DVec3::NAN)], "no number"),
+        ] {
+            let error = Skeleton::new(joints).expect_err(want).to_string();
+            assert!(error.contains(want), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_subtree_holds_what_hangs_below() {
+        let parents = [None, Some(0), Some(1), Some(0), Some(2), Some(3)];
+        let joints = parents
+            .map(|parent| Joint::new("j", parent, DVec3::Y))
+            .to_vec();
+        let skeleton = Skeleton::new(joints).expect("a tree");
+        assert_eq!(skeleton.subtree(1), [1, 2, 4]);
+        assert_eq!(skeleton.subtree(0), [0, 1, 2, 3, 4, 5]);
+        assert_eq!(skeleton.ancestors(4).collect::<Vec<_>>(), [4, 2, 1, 0]);
+        assert_eq!(skeleton.children(0), [1, 3]);
+    }
+}

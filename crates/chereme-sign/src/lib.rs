@@ -1,0 +1,1 @@
+//! What is said about movement: tiers, component inventories, notation, keys.
