@@ -1,1 +1,10 @@
 //! What is said about movement: tiers, component inventories, notation, keys.
+
+pub mod component;
+pub mod text;
+pub mod tier;
+
+pub use component::{Component, Field, FieldError, HandRef, Handedness, Phase, Reading};
+pub use tier::{
+    Annotation, AnnotationId, Change, Edit, Seam, Stereotype, Tier, TierId, TierRole, TierSet,
+};

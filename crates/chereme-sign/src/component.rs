@@ -1,0 +1,622 @@
+//! The components of a sign, whose hand they belong to, and how a search names one of them.
+
+use chereme_motion::Side;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::str::FromStr;
+
+/// One of the five kinds of thing that tell one sign from another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Component {
+    /// The shape of the hand.
+    Configuration,
+    /// Where the hand is, on the body or in space.
+    Placement,
+    /// How the hand moves.
+    Movement,
+    /// Where the palm and the fingers point.
+    Orientation,
+    /// What the face, head, shoulders and body do.
+    NonManual,
+}
+
+impl Component {
+    /// The five components in the order in which they are printed.
+    pub const ALL: [Self; 5] = [
+        Self::Configuration,
+        Self::Placement,
+        Self::Movement,
+        Self::Orientation,
+        Self::NonManual,
+    ];
+
+    /// Returns the house name, as queries spell it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.names()[0]
+    }
+
+    /// Returns every spelling that is understood, the house name first.
+    #[must_use]
+    pub fn names(self) -> &'static [&'static str] {
+        match self {
+            Self::Configuration => &["configuration", "handshape", "shape", "config"],
+            Self::Placement => &["placement", "location", "place"],
+            Self::Movement => &["movement", "motion"],
+            Self::Orientation => &["orientation"],
+            Self::NonManual => &["nonmanual", "non-manual", "non_manual", "nmm"],
+        }
+    }
+
+    /// Tells whether the component belongs to a hand; only the non-manual one does not.
+    #[must_use]
+    pub fn is_manual(self) -> bool {
+        self != Self::NonManual
+    }
+
+    fn from_name(text: &str) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|component| component.names().contains(&text))
+    }
+}
+
+impl fmt::Display for Component {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for Component {
+    type Err = FieldError;
+    fn from_str(text: &str) -> Result<Self, FieldError> {
+        Self::from_name(&text.trim().to_lowercase()).ok_or_else(|| FieldError::NoComponent {
+            text: text.to_owned(),
+        })
+    }
+}
+
+/// Which hand a signer signs one-handed signs with.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize,
+)]
+#[serde(rename_all = "lowercase")]
+pub enum Handedness {
+    /// Right-handed.
+    #[default]
+    Right,
+    /// Left-handed.
+    Left,
+}
+
+impl Handedness {
+    /// Returns the side of the dominant hand.
+    #[must_use]
+    pub fn dominant(self) -> Side {
+        match self {
+            Self::Right => Side::Right,
+            Self::Left => Side::Left,
+        }
+    }
+}
+
+/// A hand, named by its side or by its part in signing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum HandRef {
+    /// The signer's right hand.
+    Right,
+    /// The signer's left hand.
+    Left,
+    /// The hand that signs one-handed signs.
+    Dominant,
+    /// The other hand.
+    Weak,
+}
+
+impl HandRef {
+    /// The four ways of naming a hand.
+    pub const ALL: [Self; 4] = [Self::Right, Self::Left, Self::Dominant, Self::Weak];
+
+    /// Returns the house name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.names()[0]
+    }
+
+    /// Returns every spelling that is understood, the house name first.
+    #[must_use]
+    pub fn names(self) -> &'static [&'static str] {
+        match self {
+            Self::Right => &["right", "rh"],
+            Self::Left => &["left", "lh"],
+            Self::Dominant => &["dominant", "strong"],
+            Self::Weak => &["weak", "nondominant", "non-dominant"],
+        }
+    }
+
+    /// Returns the side of the body that is meant for a signer of this handedness.
+    #[must_use]
+    pub fn resolve(self, handedness: Handedness) -> Side {
+        match self {
+            Self::Right => Side::Right,
+            Self::Left => Side::Left,
+            Self::Dominant => handedness.dominant(),
+            Self::Weak => handedness.dominant().other(),
+        }
+    }
+
+    fn from_name(text: &str) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|hand| hand.names().contains(&text))
+    }
+}
+
+impl From<Side> for HandRef {
+    fn from(side: Side) -> Self {
+        match side {
+            Side::Right => Self::Right,
+            Side::Left => Self::Left,
+        }
+    }
+}
+
+impl fmt::Display for HandRef {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for HandRef {
+    type Err = FieldError;
+    fn from_str(text: &str) -> Result<Self, FieldError> {
+        Self::from_name(&text.trim().to_lowercase()).ok_or_else(|| FieldError::UnknownHand {
+            text: text.to_owned(),
+        })
+    }
+}
+
+/// Which of several successive values inside one sign is meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Phase {
+    /// The first of several values.
+    Initial,
+    /// A value between the first and the last, counted from 1; `middle` alone is the first of them.
+    Middle(u8),
+    /// The last of several values.
+    Final,
+}
+
+impl Phase {
+    fn from_name(text: &str) -> Option<Self> {
+        match text {
+            "initial" | "start" => Some(Self::Initial),
+            "final" | "end" => Some(Self::Final),
+            "middle" => Some(Self::Middle(1)),
+            _ => {
+                let count = text.strip_prefix("middle")?;
+                let canonical = !count.starts_with(['0', '+']);
+                count.parse().ok().filter(|_| canonical).map(Self::Middle)
+            }
+        }
+    }
+}
+
+impl fmt::Display for Phase {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Initial => f.write_str("initial"),
+            Self::Middle(1) => f.write_str("middle"),
+            Self::Middle(count) => write!(f, "middle{count}"),
+            Self::Final => f.write_str("final"),
+        }
+    }
+}
+
+impl FromStr for Phase {
+    type Err = FieldError;
+    fn from_str(text: &str) -> Result<Self, FieldError> {
+        Self::from_name(&text.trim().to_lowercase()).ok_or_else(|| FieldError::UnknownPhase {
+            text: text.to_owned(),
+        })
+    }
+}
+
+/// A component of a token as a search names it: `final.right.placement`, `nonmanual.brows`.
+///
+/// Parsing takes phase and hand in either order before the component, and any of the names and
+/// aliases; printing always gives `phase.hand.component.feature` with the house names. Without a
+/// hand either hand is meant; without a phase, any value of the sign.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct Field {
+    /// The hand, or nothing for either.
+    pub hand: Option<HandRef>,
+    /// The component.
+    pub component: Component,
+    /// The part of the component in lower case, such as `brows` or `palm`, or nothing for the whole.
+    pub feature: Option<String>,
+    /// Which of several successive values, or nothing for any.
+    pub phase: Option<Phase>,
+}
+
+impl Field {
+    /// Returns the field of `component` on either hand, whole, in any phase.
+    #[must_use]
+    pub fn new(component: Component) -> Self {
+        Self {
+            hand: None,
+            component,
+            feature: None,
+            phase: None,
+        }
+    }
+
+    /// Returns this field on `hand`.
+    #[must_use]
+    pub fn on(mut self, hand: impl Into<HandRef>) -> Self {
+        self.hand = Some(hand.into());
+        self
+    }
+
+    /// Returns this field narrowed to one feature, such as `palm` of the orientation.
+    #[must_use]
+    pub fn of(mut self, feature: impl Into<String>) -> Self {
+        self.feature = Some(feature.into());
+        self
+    }
+
+    /// Returns this field in `phase`.
+    #[must_use]
+    pub fn at(mut self, phase: Phase) -> Self {
+        self.phase = Some(phase);
+        self
+    }
+
+    /// Returns this field with `dominant` and `weak` turned into `right` and `left`.
+    #[must_use]
+    pub fn resolved(mut self, handedness: Handedness) -> Self {
+        self.hand = self.hand.map(|hand| hand.resolve(handedness).into());
+        self
+    }
+}
+
+impl fmt::Display for Field {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(phase) = self.phase {
+            write!(f, "{phase}.")?;
+        }
+        if let Some(hand) = self.hand {
+            write!(f, "{hand}.")?;
+        }
+        f.write_str(self.component.name())?;
+        match &self.feature {
+            Some(feature) => write!(f, ".{feature}"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl FromStr for Field {
+    type Err = FieldError;
+
+    fn from_str(text: &str) -> Result<Self, FieldError> {
+        let lower = text.trim().to_lowercase();
+        let (mut hand, mut phase) = (None, None);
+        let mut parts = lower.split('.');
+        let component = loop {
+            let Some(part) = parts.next() else {
+                return Err(FieldError::NoComponent {
+                    text: text.to_owned(),
+                });
+            };
+            if let Some(component) = Component::from_name(part) {
+                break component;
+            }
+            let repeated = if let Some(found) = HandRef::from_name(part) {
+                hand.replace(found).is_some()
+            } else if let Some(found) = Phase::from_name(part) {
+                phase.replace(found).is_some()
+            } else {
+                return Err(FieldError::unknown(part));
+            };
+            if repeated {
+                return Err(FieldError::Repeated {
+                    part: part.to_owned(),
+                });
+            }
+        };
+        let feature = parts.next().map(str::to_owned);
+        let legal = |name: &String| {
+            !name.is_empty()
+                && name
+                    .chars()
+                    .all(|c| c.is_alphanumeric() || "-_".contains(c))
+        };
+        if !feature.iter().all(legal) || parts.next().is_some() {
+            return Err(FieldError::Feature {
+                text: text.to_owned(),
+            });
+        }
+        if hand.is_some() && !component.is_manual() {
+            return Err(FieldError::HandOfNonManual {
+                text: text.to_owned(),
+            });
+        }
+        Ok(Self {
+            hand,
+            component,
+            feature,
+            phase,
+        })
+    }
+}
+
+impl TryFrom<String> for Field {
+    type Error = FieldError;
+    fn try_from(text: String) -> Result<Self, FieldError> {
+        text.parse()
+    }
+}
+
+impl From<Field> for String {
+    fn from(field: Field) -> Self {
+        field.to_string()
+    }
+}
+
+/// A text that names no field.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum FieldError {
+    /// No part of the text is a component.
+    #[error(
+        "{text:?} names no component: configuration, placement, movement, orientation or nonmanual"
+    )]
+    NoComponent {
+        /// What was written.
+        text: String,
+    },
+    /// A part before the component is neither a hand nor a phase.
+    #[error("{part:?} is no hand, phase or component{}", crate::text::did_you_mean(nearest.as_deref()))]
+    UnknownPart {
+        /// The part that was not understood.
+        part: String,
+        /// The known word nearest to it.
+        nearest: Option<String>,
+    },
+    /// A hand or a phase is named twice.
+    #[error("{part:?} is the second hand or phase of this field: give one of each")]
+    Repeated {
+        /// The second one.
+        part: String,
+    },
+    /// What follows the component is not one feature name.
+    #[error("{text:?}: after the component stands at most one feature, such as orientation.palm")]
+    Feature {
+        /// What was written.
+        text: String,
+    },
+    /// A hand is given for a component that belongs to no hand.
+    #[error("{text:?}: non-manual components belong to no hand; leave the hand out")]
+    HandOfNonManual {
+        /// What was written.
+        text: String,
+    },
+    /// The text names no hand.
+    #[error("{text:?} is no hand: right, left, dominant or weak")]
+    UnknownHand {
+        /// What was written.
+        text: String,
+    },
+    /// The text names no phase.
+    #[error("{text:?} is no phase: initial, middle, middle2 ... or final")]
+    UnknownPhase {
+        /// What was written.
+        text: String,
+    },
+}
+
+impl FieldError {
+    fn unknown(part: &str) -> Self {
+        let hands = HandRef::ALL.into_iter().flat_map(HandRef::names);
+        let components = Component::ALL.into_iter().flat_map(Component::names);
+        let words = hands
+            .chain(components)
+            .chain(&["initial", "middle", "final"])
+            .copied();
+        let nearest = crate::text::nearest(part, words).map(str::to_owned);
+        Self::UnknownPart {
+            part: part.to_owned(),
+            nearest,
+        }
+    }
+}
+
+/// What is known of a component: a value, or one of three different ways of having none.
+///
+/// Two readings are the same value only when both are [`Value`](Self::Value); see
+/// [`same_value`](Self::same_value).
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Reading {
+    /// The id of an inventory's value, or free text.
+    Value(String),
+    /// Nobody has coded it yet.
+    #[default]
+    Unset,
+    /// There is nothing to code, such as the weak hand of a one-handed sign.
+    NotApplicable,
+    /// Somebody looked and could not tell.
+    Unclear,
+}
+
+impl Reading {
+    /// Returns the value, where there is one.
+    #[must_use]
+    pub fn value(&self) -> Option<&str> {
+        match self {
+            Self::Value(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Tells whether both readings are values and equal; two missing readings are never the same.
+    #[must_use]
+    pub fn same_value(&self, other: &Self) -> bool {
+        self.value().is_some() && self.value() == other.value()
+    }
+}
+
+impl From<&str> for Reading {
+    /// Makes blank text [`Unset`](Self::Unset) and any other text a value.
+    fn from(text: &str) -> Self {
+        if text.trim().is_empty() {
+            Self::Unset
+        } else {
+            Self::Value(text.to_owned())
+        }
+    }
+}
+
+impl fmt::Display for Reading {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Value(value) => value,
+            Self::Unset => "unset",
+            Self::NotApplicable => "not applicable",
+            Self::Unclear => "unclear",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn fields_parse_and_print_in_one_order() {
+        for (text, printed) in [
+            ("right.configuration", "right.configuration"),
+            ("Right.Handshape", "right.configuration"),
+            ("final.placement", "final.placement"),
+            ("right.final.location", "final.right.placement"),
+            ("final.right.placement", "final.right.placement"),
+            ("weak.configuration", "weak.configuration"),
+            ("nondominant.shape", "weak.configuration"),
+            ("nonmanual.brows", "nonmanual.brows"),
+            ("start.nmm.mouth", "initial.nonmanual.mouth"),
+            ("orientation.palm", "orientation.palm"),
+            ("middle.movement.direction", "middle.movement.direction"),
+            ("middle3.movement", "middle3.movement"),
+            ("middle1.movement", "middle.movement"),
+        ] {
+            let field: Field = text.parse().expect(text);
+            assert_eq!(field.to_string(), printed);
+        }
+    }
+
+    #[test]
+    fn bad_fields_say_what_is_wrong() {
+        for (text, message) in [
+            ("", r#""" is no hand, phase or component"#),
+            (
+                "right",
+                r#""right" names no component: configuration, placement, movement, orientation or nonmanual"#,
+            ),
+            (
+                "rihgt.configuration",
+                r#""rihgt" is no hand, phase or component; did you mean "right"?"#,
+            ),
+            (
+                "right.placment",
+                r#""placment" is no hand, phase or component; did you mean "placement"?"#,
+            ),
+            (
+                "right.left.placement",
+                r#""left" is the second hand or phase of this field: give one of each"#,
+            ),
+            (
+                "placement.x.y",
+                r#""placement.x.y": after the component stands at most one feature, such as orientation.palm"#,
+            ),
+            (
+                "placement.",
+                r#""placement.": after the component stands at most one feature, such as orientation.palm"#,
+            ),
+            (
+                "left.nonmanual.brows",
+                r#""left.nonmanual.brows": non-manual components belong to no hand; leave the hand out"#,
+            ),
+            (
+                "middle0.movement",
+                r#""middle0" is no hand, phase or component; did you mean "middle"?"#,
+            ),
+        ] {
+            let error = text.parse::<Field>().expect_err(text);
+            assert_eq!(error.to_string(), message);
+        }
+    }
+
+    #[test]
+    fn dominance_resolves_through_handedness() {
+        assert_eq!(HandRef::Weak.resolve(Handedness::Right), Side::Left);
+        assert_eq!(HandRef::Dominant.resolve(Handedness::Left), Side::Left);
+        let field: Field = "weak.placement".parse().expect("a field");
+        assert_eq!(
+            field.resolved(Handedness::Left).to_string(),
+            "right.placement"
+        );
+    }
+
+    #[test]
+    fn missing_readings_are_never_the_same_value() {
+        let missing = [Reading::Unset, Reading::NotApplicable, Reading::Unclear];
+        for a in &missing {
+            assert!(missing.iter().all(|b| !a.same_value(b)));
+        }
+        assert!(Reading::from("U").same_value(&Reading::from("U")));
+        assert_eq!(Reading::from("  "), Reading::Unset);
+    }
+
+    fn any_field() -> impl Strategy<Value = Field> {
+        let hand = proptest::option::of(proptest::sample::select(HandRef::ALL.to_vec()));
+        let component = proptest::sample::select(Component::ALL.to_vec());
+        let phase = prop_oneof![
+            Just(None),
+            Just(Some(Phase::Initial)),
+            (1u8..).prop_map(|count| Some(Phase::Middle(count))),
+            Just(Some(Phase::Final)),
+        ];
+        (
+            hand,
+            component,
+            proptest::option::of("[a-z][a-z0-9_-]{0,8}"),
+            phase,
+        )
+            .prop_map(|(hand, component, feature, phase)| Field {
+                hand: hand.filter(|_| component.is_manual()),
+                component,
+                feature,
+                phase,
+            })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn printing_then_parsing_gives_the_field_back(field in any_field()) {
+            prop_assert_eq!(field.to_string().parse::<Field>(), Ok(field.clone()));
+            let json = serde_json::to_string(&field).expect("fields serialise");
+            prop_assert_eq!(serde_json::from_str::<Field>(&json).expect("and back"), field);
+        }
+
+        #[test]
+        fn any_text_is_a_field_or_an_error(text in ".{0,40}") {
+            let _ = text.parse::<Field>();
+        }
+    }
+}

@@ -1,0 +1,551 @@
+//! Tiers and annotations: what is said about a recording, standing off from it.
+//!
+//! A [`Tier`] is a list of annotations of one kind; a child tier hangs below a parent tier by one
+//! of ELAN's four [`Stereotype`]s. A [`TierSet`] holds the tiers of one recording, or only the
+//! neighbourhood of one change. Nothing edits a tier set directly: [`plan`] turns a [`Change`]
+//! into the [`Edit`]s that carry it out with all its consequences, or says which rule it would
+//! break; [`check`] lists what is broken in a set that came from elsewhere.
+//!
+//! # Rules
+//!
+//! | tier | rule |
+//! |---|---|
+//! | all | annotations of a tier never overlap; an aligned one lasts at least a microsecond |
+//! | root | every annotation has its own time |
+//! | Time_Subdivision | the children of one parent tile it without gaps |
+//! | Included_In | each annotation lies inside one parent |
+//! | Symbolic_Subdivision | the children of one parent are an ordered list; each has an equal share of its time |
+//! | Symbolic_Association | at most one child per parent, with its parent's time |
+//! | tree | no tier is its own ancestor; an alignable tier never sits below a symbolic one |
+//! | vocabulary | where the values of a tier's vocabulary are known, its annotations use no others |
+
+use crate::component::{Component, Field, HandRef, Reading};
+use chereme_motion::Span;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+use std::str::FromStr;
+
+/// Names one tier within a corpus.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct TierId(pub u64);
+
+/// Names one annotation within a corpus.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct AnnotationId(pub u64);
+
+impl fmt::Display for TierId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "tier:{}", self.0)
+    }
+}
+
+impl fmt::Display for AnnotationId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "annotation:{}", self.0)
+    }
+}
+
+/// What the annotations of a tier say.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TierRole {
+    /// Which sign is made; each annotation is a token.
+    Gloss,
+    /// One component of the sign, or one feature of it.
+    Component {
+        /// The component.
+        component: Component,
+        /// The feature, such as `brows` or `palm`, or nothing for the whole.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        feature: Option<String>,
+    },
+    /// What is said, in a spoken language.
+    Translation,
+    /// Remarks of the annotators.
+    Comment,
+    /// Anything else.
+    #[default]
+    Free,
+}
+
+impl TierRole {
+    /// Returns the role as text: `gloss`, `translation`, `comment`, `free`, or the component as a
+    /// query spells it, such as `configuration` or `nonmanual.brows`.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match self {
+            Self::Gloss => "gloss".to_owned(),
+            Self::Component { component, feature } => {
+                let field = Field::new(*component);
+                feature
+                    .iter()
+                    .fold(field, |field, feature| field.of(feature))
+                    .to_string()
+            }
+            Self::Translation => "translation".to_owned(),
+            Self::Comment => "comment".to_owned(),
+            Self::Free => "free".to_owned(),
+        }
+    }
+}
+
+impl FromStr for TierRole {
+    type Err = crate::component::FieldError;
+
+    /// Reads what [`name`](Self::name) writes; a hand or phase in a component's name is dropped.
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Ok(match text {
+            "gloss" => Self::Gloss,
+            "translation" => Self::Translation,
+            "comment" => Self::Comment,
+            "free" => Self::Free,
+            _ => {
+                let Field {
+                    component, feature, ..
+                } = text.parse()?;
+                Self::Component { component, feature }
+            }
+        })
+    }
+}
+
+/// How the annotations of a child tier hang below those of its parent tier, as ELAN has it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Stereotype {
+    /// The children tile their parent without gaps.
+    #[serde(rename = "Time_Subdivision")]
+    TimeSubdivision,
+    /// Each child lies inside one parent; gaps are allowed.
+    #[serde(rename = "Included_In")]
+    IncludedIn,
+    /// The children are an ordered list without times of their own.
+    #[serde(rename = "Symbolic_Subdivision")]
+    SymbolicSubdivision,
+    /// At most one child, without a time of its own.
+    #[serde(rename = "Symbolic_Association")]
+    SymbolicAssociation,
+}
+
+impl Stereotype {
+    /// The four stereotypes.
+    pub const ALL: [Self; 4] = [
+        Self::TimeSubdivision,
+        Self::IncludedIn,
+        Self::SymbolicSubdivision,
+        Self::SymbolicAssociation,
+    ];
+
+    /// Returns ELAN's name of the stereotype, such as `Time_Subdivision`.
+    #[must_use]
+    pub fn elan_name(self) -> &'static str {
+        match self {
+            Self::TimeSubdivision => "Time_Subdivision",
+            Self::IncludedIn => "Included_In",
+            Self::SymbolicSubdivision => "Symbolic_Subdivision",
+            Self::SymbolicAssociation => "Symbolic_Association",
+        }
+    }
+
+    /// Returns the stereotype of ELAN's name; case, blanks and underscores do not count.
+    #[must_use]
+    pub fn from_elan_name(text: &str) -> Option<Self> {
+        let plain = |name: &str| {
+            name.chars()
+                .filter(|c| c.is_alphanumeric())
+                .collect::<String>()
+                .to_lowercase()
+        };
+        Self::ALL
+            .into_iter()
+            .find(|stereotype| plain(stereotype.elan_name()) == plain(text))
+    }
+
+    /// Tells whether annotations below this stereotype have times of their own.
+    #[must_use]
+    pub fn is_alignable(self) -> bool {
+        matches!(self, Self::TimeSubdivision | Self::IncludedIn)
+    }
+}
+
+impl fmt::Display for Stereotype {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.elan_name())
+    }
+}
+
+/// A list of annotations of one kind about one recording.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Tier {
+    /// The tier's handle.
+    pub id: TierId,
+    /// The name, unique within its recording.
+    pub name: String,
+    /// What the annotations say.
+    pub role: TierRole,
+    /// Whose hand they are about, if a hand's.
+    pub hand: Option<HandRef>,
+    /// The tier above and how this one hangs below it; nothing for a root tier.
+    pub parent: Option<(TierId, Stereotype)>,
+    /// The id of the inventory or controlled vocabulary that the values come from.
+    pub vocabulary: Option<String>,
+}
+
+impl Tier {
+    /// Returns a root tier of glosses without a hand.
+    #[must_use]
+    pub fn root(id: TierId, name: impl Into<String>) -> Self {
+        let (role, hand, parent, vocabulary) = (TierRole::Gloss, None, None, None);
+        Self {
+            id,
+            name: name.into(),
+            role,
+            hand,
+            parent,
+            vocabulary,
+        }
+    }
+
+    /// Returns the stereotype, or nothing for a root tier.
+    #[must_use]
+    pub fn stereotype(&self) -> Option<Stereotype> {
+        self.parent.map(|(_, stereotype)| stereotype)
+    }
+
+    /// Returns the handle of the tier above, or nothing for a root tier.
+    #[must_use]
+    pub fn parent_id(&self) -> Option<TierId> {
+        self.parent.map(|(id, _)| id)
+    }
+
+    /// Tells whether the annotations have times of their own.
+    #[must_use]
+    pub fn is_alignable(&self) -> bool {
+        self.stereotype().is_none_or(Stereotype::is_alignable)
+    }
+
+    /// Returns the field that the tier codes, or nothing for a tier that codes no component.
+    #[must_use]
+    pub fn field(&self) -> Option<Field> {
+        match &self.role {
+            TierRole::Component { component, feature } => Some(Field {
+                hand: self.hand,
+                component: *component,
+                feature: feature.clone(),
+                phase: None,
+            }),
+            _ => None,
+        }
+    }
+}
+
+/// One statement about a stretch of a recording.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Annotation {
+    /// The annotation's handle.
+    pub id: AnnotationId,
+    /// The tier it is on.
+    pub tier: TierId,
+    /// The annotation above it on the parent tier; nothing on a root tier.
+    pub parent: Option<AnnotationId>,
+    /// The place among its siblings in a Symbolic_Subdivision, counted from 0; 0 elsewhere.
+    pub order: u32,
+    /// The time it holds: its own, or on a symbolic tier the one that follows from its parent.
+    pub span: Span,
+    /// What it says.
+    pub value: Reading,
+}
+
+/// Values that the annotations of a tier may have.
+pub type Vocabulary = BTreeSet<String>;
+
+/// The tiers of a recording with their annotations, or the neighbourhood of one change.
+///
+/// A set that holds less than everything must hold every tier of the recording, and for a
+/// [`Change`] the annotations that [`Change::window`] describes.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct TierSet {
+    tiers: BTreeMap<TierId, Tier>,
+    vocabularies: BTreeMap<String, Vocabulary>,
+    annotations: BTreeMap<AnnotationId, Annotation>,
+    by_time: BTreeMap<TierId, BTreeSet<TimeKey>>,
+    children: BTreeMap<AnnotationId, BTreeSet<(TierId, TimeKey)>>,
+}
+
+type TimeKey = (chereme_motion::Instant, u32, AnnotationId);
+
+/// One step of a change: what to write to the annotations, or to a tier.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Edit {
+    /// Writes the annotation, in place of the one with the same handle if there is one.
+    Put(Annotation),
+    /// Removes the annotation with this handle.
+    Remove(AnnotationId),
+    /// Gives a tier another vocabulary, or none.
+    Vocabulary {
+        /// The tier.
+        tier: TierId,
+        /// The id of the vocabulary.
+        vocabulary: Option<String>,
+    },
+}
+
+/// What somebody wants to do to annotations.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum Change {
+    /// Adds an annotation with a time of its own to an alignable tier.
+    Add {
+        /// The tier.
+        tier: TierId,
+        /// The time. On a Time_Subdivision it is a whole parent that has no child there yet, or
+        /// the head or tail of one sibling, which gives way.
+        span: Span,
+        /// What it says.
+        value: Reading,
+    },
+    /// Adds an annotation below a parent on a symbolic tier.
+    AddBelow {
+        /// The tier.
+        tier: TierId,
+        /// The annotation above.
+        parent: AnnotationId,
+        /// The place among the siblings from 0, later ones moving on; nothing for the end.
+        order: Option<u32>,
+        /// What it says.
+        value: Reading,
+    },
+    /// Gives an aligned annotation another time.
+    ///
+    /// An annotation that keeps its length takes everything below it along; one that changes it
+    /// clips what is below, and removes what would have no time left. On a Time_Subdivision the
+    /// neighbours' shared boundaries follow.
+    Move {
+        /// The annotation.
+        annotation: AnnotationId,
+        /// The new time.
+        span: Span,
+    },
+    /// Gives an annotation of a Symbolic_Subdivision another place among its siblings.
+    Reorder {
+        /// The annotation.
+        annotation: AnnotationId,
+        /// The new place from 0; past the end is the end.
+        order: u32,
+    },
+    /// Cuts an aligned annotation in two, both with its value.
+    ///
+    /// What lies below goes to the half it lies in; what crosses the cut is cut too; symbolic
+    /// children stay with the first half.
+    Split {
+        /// The annotation, which becomes the first half.
+        annotation: AnnotationId,
+        /// The cut, inside the annotation.
+        at: chereme_motion::Instant,
+    },
+    /// Makes one annotation of two neighbours on an alignable tier or in a Symbolic_Subdivision.
+    ///
+    /// The first stays and takes the second's time and children; a gap between them is filled.
+    /// Symbolic lists are joined; of two equal Symbolic_Associations one stays.
+    Merge {
+        /// The earlier annotation, which stays.
+        first: AnnotationId,
+        /// The later annotation, which goes.
+        second: AnnotationId,
+        /// What the merged annotation says; nothing where both say the same.
+        value: Option<Reading>,
+        /// What happens to children that meet where the two met.
+        seam: Seam,
+    },
+    /// Removes an annotation and all below it.
+    ///
+    /// On a Time_Subdivision the sibling before it, or else after it, takes over its time.
+    Remove {
+        /// The annotation.
+        annotation: AnnotationId,
+    },
+    /// Changes what an annotation says.
+    SetValue {
+        /// The annotation.
+        annotation: AnnotationId,
+        /// What it says from now on.
+        value: Reading,
+    },
+    /// Gives a tier another vocabulary, or none.
+    SetVocabulary {
+        /// The tier.
+        tier: TierId,
+        /// The id of the vocabulary.
+        vocabulary: Option<String>,
+    },
+}
+
+/// What a merge does with children of equal value that meet where their parents met.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Seam {
+    /// They stay apart.
+    #[default]
+    Keep,
+    /// They become one, which undoes a split that cut them.
+    Join,
+}
+
+impl TierSet {
+    /// Returns a set with these tiers and annotations, whatever they are worth; [`check`] tells.
+    #[must_use]
+    pub fn new(
+        tiers: impl IntoIterator<Item = Tier>,
+        annotations: impl IntoIterator<Item = Annotation>,
+    ) -> Self {
+        let mut set = Self::default();
+        for tier in tiers {
+            set.tiers.insert(tier.id, tier);
+        }
+        for annotation in annotations {
+            set.put(annotation);
+        }
+        set
+    }
+
+    /// Returns this set knowing the values of the vocabulary `id`; values of vocabularies that a
+    /// set does not know are not checked.
+    #[must_use]
+    pub fn with_vocabulary(
+        mut self,
+        id: impl Into<String>,
+        values: impl IntoIterator<Item = String>,
+    ) -> Self {
+        self.vocabularies
+            .insert(id.into(), values.into_iter().collect());
+        self
+    }
+
+    /// Returns the tiers in the order of their handles.
+    pub fn tiers(&self) -> impl Iterator<Item = &Tier> {
+        self.tiers.values()
+    }
+
+    /// Returns the tier with this handle.
+    #[must_use]
+    pub fn tier(&self, id: TierId) -> Option<&Tier> {
+        self.tiers.get(&id)
+    }
+
+    /// Returns the tiers that hang directly below `id`.
+    pub fn tiers_below(&self, id: TierId) -> impl Iterator<Item = &Tier> {
+        self.tiers
+            .values()
+            .filter(move |tier| tier.parent_id() == Some(id))
+    }
+
+    /// Returns the known values of the vocabulary `id`.
+    #[must_use]
+    pub fn vocabulary(&self, id: &str) -> Option<&Vocabulary> {
+        self.vocabularies.get(id)
+    }
+
+    /// Returns every annotation in the order of their handles.
+    pub fn annotations(&self) -> impl Iterator<Item = &Annotation> {
+        self.annotations.values()
+    }
+
+    /// Returns the annotation with this handle.
+    #[must_use]
+    pub fn annotation(&self, id: AnnotationId) -> Option<&Annotation> {
+        self.annotations.get(&id)
+    }
+
+    /// Returns the annotations of a tier in the order of time, and of their places below a parent.
+    pub fn on(&self, tier: TierId) -> impl DoubleEndedIterator<Item = &Annotation> {
+        let keys = self.by_time.get(&tier).into_iter().flatten();
+        keys.filter_map(|(_, _, id)| self.annotations.get(id))
+    }
+
+    /// Returns the annotations directly below `parent`, tier by tier, each in the order of time.
+    pub fn below(&self, parent: AnnotationId) -> impl DoubleEndedIterator<Item = &Annotation> {
+        let keys = self.children.get(&parent).into_iter().flatten();
+        keys.filter_map(|(_, (_, _, id))| self.annotations.get(id))
+    }
+
+    /// Returns the annotations of `tier` directly below `parent` in the order of time.
+    pub fn below_on(
+        &self,
+        parent: AnnotationId,
+        tier: TierId,
+    ) -> impl DoubleEndedIterator<Item = &Annotation> {
+        self.below(parent).filter(move |child| child.tier == tier)
+    }
+
+    /// Returns the annotations of `tier` that share an instant with `span`, in the order of time.
+    #[must_use]
+    pub fn overlapping(&self, tier: TierId, span: Span) -> Vec<&Annotation> {
+        let Some(keys) = self.by_time.get(&tier) else {
+            return Vec::new();
+        };
+        let end = (span.end(), 0, AnnotationId(0));
+        let mut found: Vec<&Annotation> = keys
+            .range(..end)
+            .rev()
+            .filter_map(|(_, _, id)| self.annotations.get(id))
+            .take_while(|annotation| annotation.span.end() > span.start())
+            .collect();
+        found.reverse();
+        found
+    }
+
+    /// Carries out `edits` in their order.
+    pub fn apply(&mut self, edits: impl IntoIterator<Item = Edit>) {
+        for edit in edits {
+            match edit {
+                Edit::Put(annotation) => self.put(annotation),
+                Edit::Remove(id) => self.remove(id),
+                Edit::Vocabulary { tier, vocabulary } => {
+                    if let Some(tier) = self.tiers.get_mut(&tier) {
+                        tier.vocabulary = vocabulary;
+                    }
+                }
+            }
+        }
+    }
+
+    fn put(&mut self, annotation: Annotation) {
+        self.remove(annotation.id);
+        let key = time_key(&annotation);
+        self.by_time.entry(annotation.tier).or_default().insert(key);
+        if let Some(parent) = annotation.parent {
+            self.children
+                .entry(parent)
+                .or_default()
+                .insert((annotation.tier, key));
+        }
+        self.annotations.insert(annotation.id, annotation);
+    }
+
+    fn remove(&mut self, id: AnnotationId) {
+        let Some(old) = self.annotations.remove(&id) else {
+            return;
+        };
+        let key = time_key(&old);
+        if let Some(keys) = self.by_time.get_mut(&old.tier) {
+            keys.remove(&key);
+            if keys.is_empty() {
+                self.by_time.remove(&old.tier);
+            }
+        }
+        let Some(parent) = old.parent else { return };
+        if let Some(keys) = self.children.get_mut(&parent) {
+            keys.remove(&(old.tier, key));
+            if keys.is_empty() {
+                self.children.remove(&parent);
+            }
+        }
+    }
+}
+
+fn time_key(annotation: &Annotation) -> TimeKey {
+    (annotation.span.start(), annotation.order, annotation.id)
+}
