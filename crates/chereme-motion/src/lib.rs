@@ -26,10 +26,12 @@
 //! | [`euler`] | rotation orders and angles, as files write them |
 //! | [`axes`] | units and axes of a file, and the way to model space and back |
 //! | [`interpolation`] | the ways from one posture to another |
+//! | [`anatomy`] | which joint is what, whatever the skeleton calls it; landmarks, measures, finger angles |
 //! | [`hand`] | the posture of a hand as joint angles |
 
 pub use glam;
 
+pub mod anatomy;
 pub mod axes;
 pub mod clip;
 pub mod euler;
@@ -39,6 +41,7 @@ pub mod pose;
 pub mod skeleton;
 pub mod time;
 
+pub use anatomy::{Anatomy, ArmChain, Evidence, Part, Roles, RolesError};
 pub use axes::{Axes, Axis, Convention, Direction};
 pub use clip::{Channel, Clip, ClipError};
 pub use euler::RotationOrder;

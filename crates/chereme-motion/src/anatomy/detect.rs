@@ -1,0 +1,291 @@
+//! Finding the parts of the body: by name first, then by topology and side.
+
+use std::collections::BTreeMap;
+
+use super::names::{self, Digit, Label, Segment, Word};
+use super::part::Part;
+use super::{Ambiguity, Anatomy, Evidence};
+use crate::hand::Side;
+use crate::skeleton::Skeleton;
+
+/// What was found.
+pub(super) struct Detected {
+    pub(super) found: BTreeMap<Part, (usize, Evidence)>,
+    pub(super) ambiguous: Vec<Ambiguity>,
+}
+
+/// Finds the parts; `said` is the user's word, nothing for a part the skeleton does not have.
+pub(super) fn detect(skeleton: &Skeleton, said: &BTreeMap<Part, Option<usize>>) -> Detected {
+    let mut finder = Finder::new(skeleton, said);
+    finder.head_and_trunk();
+    for side in Side::BOTH {
+        finder.arm(side);
+        finder.leg(side);
+        for digit in Digit::ALL {
+            finder.digit(side, digit);
+        }
+    }
+    finder.chest_and_spine();
+    finder.ambiguous.sort_by_key(|ambiguity| ambiguity.part);
+    Detected {
+        found: finder.found,
+        ambiguous: finder.ambiguous,
+    }
+}
+
+struct Finder<'a> {
+    skeleton: &'a Skeleton,
+    labels: Vec<Option<Label>>,
+    said: &'a BTreeMap<Part, Option<usize>>,
+    found: BTreeMap<Part, (usize, Evidence)>,
+    ambiguous: Vec<Ambiguity>,
+}
+
+impl<'a> Finder<'a> {
+    fn new(skeleton: &'a Skeleton, said: &'a BTreeMap<Part, Option<usize>>) -> Self {
+        let joints = skeleton.joints().iter();
+        let names: Vec<&str> = joints.map(|joint| joint.name.as_str()).collect();
+        let mut labels = names::read_all(&names);
+        let told: Vec<usize> = said.values().copied().flatten().collect();
+        for joint in told {
+            labels[joint] = None;
+        }
+        let mut finder = Self {
+            skeleton,
+            labels,
+            said,
+            found: said
+                .iter()
+                .filter_map(|(&part, joint)| Some((part, ((*joint)?, Evidence::Roles))))
+                .collect(),
+            ambiguous: Vec::new(),
+        };
+        finder.inherit_sides();
+        finder
+    }
+
+    /// Gives labels without a side that of the joints above, else that of the joints below.
+    fn inherit_sides(&mut self) {
+        for joint in 0..self.labels.len() {
+            let Some(label) = self.labels[joint] else {
+                continue;
+            };
+            if label.side.is_some() || !label.word.sided() {
+                continue;
+            }
+            let side_of = |&other: &usize| self.labels[other].and_then(|label| label.side);
+            let above = self
+                .skeleton
+                .ancestors(joint)
+                .find(|j| side_of(j).is_some());
+            let near = above.or_else(|| {
+                let below = self.skeleton.subtree(joint);
+                below.into_iter().find(|j| side_of(j).is_some())
+            });
+            let side = near.and_then(|near| side_of(&near));
+            if side.is_some() {
+                self.labels[joint] = Some(Label { side, ..label });
+            }
+        }
+    }
+
+    fn joint(&self, part: Part) -> Option<usize> {
+        self.found.get(&part).map(|&(joint, _)| joint)
+    }
+
+    fn put(&mut self, part: Part, joint: usize, evidence: Evidence) {
+        if !self.said.contains_key(&part) && !self.found.contains_key(&part) {
+            self.found.insert(part, (joint, evidence));
+        }
+    }
+
+    fn labelled(&self, side: Option<Side>, word: Word) -> Vec<usize> {
+        let want = Some(Label { side, word });
+        (0..self.labels.len())
+            .filter(|&j| self.labels[j] == want)
+            .collect()
+    }
+
+    fn is_below(&self, joint: usize, above: usize) -> bool {
+        self.skeleton.ancestors(joint).any(|j| j == above)
+    }
+
+    /// Takes the first of the words that occurs for `part`; a joint of the same name that is not
+    /// in one chain with it makes the part ambiguous.
+    fn take(&mut self, part: Part, words: &[Word]) {
+        let side = part.side();
+        let all = words.iter().map(|&word| self.labelled(side, word));
+        let Some(all) = all.into_iter().find(|all| !all.is_empty()) else {
+            return;
+        };
+        let first = all[0];
+        let rivals = all[1..].iter().copied();
+        let others: Vec<usize> = rivals.filter(|&j| !self.is_below(j, first)).collect();
+        if !others.is_empty() && !self.said.contains_key(&part) {
+            self.ambiguous.push(Ambiguity {
+                part,
+                taken: first,
+                others,
+            });
+        }
+        self.put(part, first, Evidence::Name);
+    }
+
+    fn head_and_trunk(&mut self) {
+        self.take(Part::Hips, &[Word::Hips, Word::Root]);
+        self.take(Part::Neck, &[Word::Neck]);
+        self.take(Part::Head, &[Word::Head]);
+        self.take(Part::Jaw, &[Word::Jaw]);
+        for side in Side::BOTH {
+            self.take(Part::Eye(side), &[Word::Eye]);
+        }
+    }
+
+    fn arm(&mut self, side: Side) {
+        let has = |word| !self.labelled(Some(side), word).is_empty();
+        let upper_said = has(Word::UpperArm);
+        let (clavicle, upper): (&[Word], &[Word]) = if upper_said {
+            (&[Word::Clavicle, Word::Shoulder], &[Word::UpperArm])
+        } else {
+            (&[Word::Clavicle], &[Word::Shoulder])
+        };
+        self.take(Part::Clavicle(side), clavicle);
+        self.take(Part::UpperArm(side), upper);
+        self.take(Part::Forearm(side), &[Word::Forearm]);
+        self.take_upper_of(Part::Hand(side), [Word::Wrist, Word::Hand]);
+    }
+
+    /// Of two words for joints of one chain (wrist and hand) takes the one nearer the body.
+    fn take_upper_of(&mut self, part: Part, words: [Word; 2]) {
+        let first = |word| self.labelled(part.side(), word).first().copied();
+        let words = match words.map(first) {
+            [Some(a), Some(b)] if b < a => [words[1], words[0]],
+            _ => words,
+        };
+        self.take(part, &words);
+    }
+
+    fn leg(&mut self, side: Side) {
+        let has = |word| !self.labelled(Some(side), word).is_empty();
+        let thigh_said = has(Word::Thigh) || has(Word::SideHip);
+        let (ankle_said, toes_said) = (has(Word::Ankle), has(Word::Toes));
+        let thigh: &[Word] = if thigh_said {
+            &[Word::Thigh, Word::SideHip]
+        } else {
+            &[Word::Leg]
+        };
+        self.take(Part::Thigh(side), thigh);
+        if thigh_said {
+            self.take(Part::Shin(side), &[Word::Shin, Word::Leg]);
+        } else {
+            self.take(Part::Shin(side), &[Word::Shin]);
+        }
+        self.take(Part::Foot(side), &[Word::Ankle, Word::Foot]);
+        if toes_said {
+            self.take(Part::Toes(side), &[Word::Toes]);
+        } else if ankle_said {
+            self.take(Part::Toes(side), &[Word::Foot]);
+        }
+    }
+
+    fn digit(&mut self, side: Side, digit: Digit) {
+        let mut chain: Vec<(usize, Segment)> = Vec::new();
+        for (joint, label) in self.labels.iter().enumerate() {
+            if let Some(label) = label
+                && label.side == Some(side)
+                && let Word::Digit(which, segment) = label.word
+                && which == digit
+            {
+                chain.push((joint, segment));
+            }
+        }
+        let Some(&(first, _)) = chain.first() else {
+            return;
+        };
+        chain.retain(|&(joint, _)| self.is_below(joint, first));
+        let joints: Vec<usize> = chain.iter().map(|&(joint, _)| joint).collect();
+        let metacarpal = chain[0].1 == Segment::Metacarpal
+            || (!chain.iter().any(|(_, s)| *s == Segment::Proximal) && self.starts_inside(&joints));
+        let skip = u8::from(!metacarpal);
+        for (place, &joint) in (0u8..).zip(&joints) {
+            let part = match digit {
+                Digit::Thumb if place < 3 => Part::Thumb(side, place),
+                Digit::Finger(finger) if place + skip < 4 => {
+                    Part::Finger(side, finger, place + skip)
+                }
+                _ => break,
+            };
+            self.put(part, joint, Evidence::Name);
+        }
+    }
+
+    /// Whether the first joint of a finger of three or more lies inside the hand: nearer to the
+    /// wrist than to its second joint, as a metacarpal does and a base joint does not.
+    fn starts_inside(&self, chain: &[usize]) -> bool {
+        let [first, second, _, ..] = *chain else {
+            return false;
+        };
+        let length = |joint: usize| self.skeleton.joint(joint).offset.length();
+        length(first) < length(second)
+    }
+
+    /// The chest is where the arms (or one arm and the neck) part; the spine begins above the hips.
+    fn chest_and_spine(&mut self) {
+        let arms: Vec<usize> = Side::BOTH
+            .iter()
+            .filter_map(|&side| {
+                let clavicle = self.joint(Part::Clavicle(side));
+                clavicle.or_else(|| self.joint(Part::UpperArm(side)))
+            })
+            .collect();
+        let neck = self.joint(Part::Neck).or_else(|| self.joint(Part::Head));
+        let fork = match (arms.as_slice(), neck) {
+            (&[a, b], _) | (&[a], Some(b)) => self.common(a, b),
+            (&[a], None) => self.skeleton.parent(a),
+            _ => None,
+        };
+        let is_spine = |finder: &Self, joint: usize| {
+            finder.labels[joint].is_some_and(|label| label.word == Word::Spine)
+        };
+        let hips = self.joint(Part::Hips);
+        let last_named = (0..self.labels.len()).rev().find(|&j| is_spine(self, j));
+        let Some(chest) = fork.filter(|&j| Some(j) != hips).or(last_named) else {
+            return;
+        };
+        let how = |finder: &Self, joint| {
+            if is_spine(finder, joint) {
+                Evidence::Name
+            } else {
+                Evidence::Topology
+            }
+        };
+        self.put(Part::Chest, chest, how(self, chest));
+        let path = self.skeleton.ancestors(chest);
+        let above: Vec<usize> = path.take_while(|&j| Some(j) != hips && j != 0).collect();
+        let named = above.iter().rev().find(|&&j| is_spine(self, j));
+        if let Some(&spine) = named.or(above.last()) {
+            self.put(Part::Spine, spine, how(self, spine));
+        }
+    }
+
+    /// Returns the lowest joint above both.
+    fn common(&self, a: usize, b: usize) -> Option<usize> {
+        let above: Vec<usize> = self.skeleton.ancestors(b).collect();
+        self.skeleton
+            .ancestors(a)
+            .find(|joint| above.contains(joint))
+    }
+}
+
+/// Pairs joints by part, then children of paired joints by what their names say.
+pub(super) fn mirror_map(anatomy: &Anatomy, skeleton: &Skeleton) -> Vec<Option<usize>> {
+    let mut map: Vec<Option<usize>> = Vec::with_capacity(skeleton.len());
+    for joint in 0..skeleton.len() {
+        let counterpart = match anatomy.part_of(joint) {
+            Some(part) => anatomy.joint(part.mirrored()),
+            None => Some(joint),
+        };
+        map.push(counterpart);
+    }
+    map
+}

@@ -1,0 +1,461 @@
+//! What a joint's name says, over the naming conventions that people meet.
+//!
+//! A name is cut into words at separators, digits and capitals; words that tell the side, the
+//! rig's prefix and fillers are taken out; what is left is looked up in one table.
+
+use crate::hand::{Finger, Side};
+
+/// What a joint's name says it is. `Shoulder`, `SideHip`, `Leg`, `Foot` and `Hand` mean different
+/// joints in different conventions; which one shows only beside the other joints' names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Word {
+    Root,
+    Hips,
+    Spine,
+    Neck,
+    Head,
+    Jaw,
+    Eye,
+    Clavicle,
+    Shoulder,
+    UpperArm,
+    Forearm,
+    Wrist,
+    Hand,
+    Digit(Digit, Segment),
+    SideHip,
+    Thigh,
+    Leg,
+    Shin,
+    Ankle,
+    Foot,
+    Toes,
+}
+
+impl Word {
+    /// Whether there is one of it on each side.
+    pub(super) fn sided(self) -> bool {
+        !matches!(
+            self,
+            Self::Root | Self::Hips | Self::Spine | Self::Neck | Self::Head | Self::Jaw
+        )
+    }
+}
+
+/// The thumb or one of the fingers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Digit {
+    Thumb,
+    Finger(Finger),
+}
+
+impl Digit {
+    pub(super) const ALL: [Self; 5] = [
+        Self::Thumb,
+        Self::Finger(Finger::Index),
+        Self::Finger(Finger::Middle),
+        Self::Finger(Finger::Ring),
+        Self::Finger(Finger::Little),
+    ];
+}
+
+/// Which bone of a digit a name means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Segment {
+    Metacarpal,
+    Proximal,
+    Intermediate,
+    Distal,
+    Number(u32),
+    Unsaid,
+}
+
+/// What one name says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Label {
+    pub(super) side: Option<Side>,
+    pub(super) word: Word,
+}
+
+/// Returns what each of a skeleton's names says, nothing where it says nothing known.
+pub(super) fn read_all(names: &[&str]) -> Vec<Option<Label>> {
+    let bare: Vec<&str> = names.iter().map(|name| without_rig(name)).collect();
+    let prefix = common_prefix(&bare);
+    let bare: Vec<&str> = bare
+        .iter()
+        .map(|name| name.strip_prefix(prefix).unwrap_or(name))
+        .collect();
+    let from_zero = bare.iter().any(|name| {
+        let words = words(name);
+        words.iter().any(|word| word == "finger") && words.iter().any(|word| word == "0")
+    });
+    bare.iter().map(|name| read(name, from_zero)).collect()
+}
+
+/// Cuts off namespaces and the prefixes of well-known rigs.
+fn without_rig(name: &str) -> &str {
+    let name = name.rsplit([':', '|']).next().unwrap_or(name);
+    for rig in [
+        "mixamorig",
+        "Character1_",
+        "Bip001",
+        "Bip01",
+        "J_Bip_C_",
+        "J_Bip_",
+        "J_Adj_",
+    ] {
+        let cut = name
+            .get(..rig.len())
+            .filter(|head| head.eq_ignore_ascii_case(rig));
+        if cut.is_some() && name.len() > rig.len() {
+            let rest = &name[rig.len()..];
+            let digits = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+            let rest = if rig == "mixamorig" { digits } else { rest };
+            return rest.trim_start_matches(['_', ' ', '-']);
+        }
+    }
+    name
+}
+
+/// Returns the leading word that four joints in five share, with its separator: a character's name.
+fn common_prefix<'a>(names: &[&'a str]) -> &'a str {
+    let head = |name: &'a str| {
+        let end = name.find(['_', '-', '.', ' '])?;
+        let head = &name[..=end];
+        let said = words(head);
+        let plain = said
+            .iter()
+            .all(|word| side(word).is_none() && word.len() > 1);
+        (plain && read(head, false).is_none() && name.len() > head.len()).then_some(head)
+    };
+    let heads: Vec<&str> = names.iter().filter_map(|name| head(name)).collect();
+    let Some(first) = heads
+        .iter()
+        .max_by_key(|&&a| heads.iter().filter(|&&b| a == b).count())
+    else {
+        return "";
+    };
+    let shared = heads.iter().filter(|head| *head == first).count();
+    if shared > 1 && shared * 5 >= names.len() * 4 {
+        first
+    } else {
+        ""
+    }
+}
+
+/// Cuts a name into lower-case words at separators, between letters and digits, and at capitals.
+fn words(name: &str) -> Vec<String> {
+    let mut words: Vec<String> = vec![String::new()];
+    let letters: Vec<char> = name.chars().collect();
+    for (i, &c) in letters.iter().enumerate() {
+        if !c.is_alphanumeric() {
+            words.push(String::new());
+            continue;
+        }
+        let before = i.checked_sub(1).map(|at| letters[at]);
+        let next_lower = letters.get(i + 1).is_some_and(|c| c.is_lowercase());
+        let starts = before.is_some_and(|b| {
+            (b.is_numeric() != c.is_numeric())
+                || (c.is_uppercase() && (b.is_lowercase() || next_lower))
+        });
+        if starts {
+            words.push(String::new());
+        }
+        let word = words.last_mut();
+        if let Some(word) = word {
+            word.extend(c.to_lowercase());
+        }
+    }
+    words.retain(|word| !word.is_empty());
+    words
+}
+
+fn side(word: &str) -> Option<Side> {
+    match word {
+        "l" | "left" | "lft" | "lf" => Some(Side::Left),
+        "r" | "right" | "rgt" | "rt" => Some(Side::Right),
+        _ => None,
+    }
+}
+
+/// Words that make a joint a helper, whatever else its name says.
+const HELPERS: [&str; 25] = [
+    "twist",
+    "roll",
+    "ik",
+    "fk",
+    "pole",
+    "ctrl",
+    "control",
+    "end",
+    "nub",
+    "tip",
+    "top",
+    "helper",
+    "target",
+    "aux",
+    "site",
+    "lid",
+    "brow",
+    "socket",
+    "weapon",
+    "prop",
+    "effector",
+    "leaf",
+    "null",
+    "lash",
+    "correctiveroot",
+];
+
+/// Words that say nothing.
+const FILLERS: [&str; 12] = [
+    "joint", "jnt", "bone", "def", "org", "mch", "bip", "bend", "smplhf", "c", "center", "b",
+];
+
+/// Returns what one name says; `from_zero` where the skeleton counts its fingers from the thumb, 0.
+fn read(name: &str, from_zero: bool) -> Option<Label> {
+    let all = words(name);
+    if let [letter, number] = all.as_slice()
+        && matches!(letter.as_str(), "l" | "t" | "c")
+        && number.chars().all(|c| c.is_ascii_digit())
+        && name.starts_with(|c: char| c.is_uppercase())
+    {
+        let word = if letter == "c" {
+            Word::Neck
+        } else {
+            Word::Spine
+        };
+        return Some(Label { side: None, word });
+    }
+    if all.iter().any(|word| HELPERS.contains(&word.as_str())) {
+        return None;
+    }
+    let numbers: Vec<&str> = all
+        .iter()
+        .filter(|word| word.starts_with(|c: char| c.is_ascii_digit()))
+        .map(String::as_str)
+        .collect();
+    let mut found = None;
+    let mut core = String::new();
+    for word in &all {
+        if numbers.contains(&word.as_str()) || FILLERS.contains(&word.as_str()) {
+            continue;
+        }
+        match side(word) {
+            Some(side) if found.is_none() => found = Some(side),
+            Some(_) => return None,
+            None => core.push_str(word),
+        }
+    }
+    let (found, core) = merged_side(found, &core, &numbers, from_zero);
+    let word = lookup(core, found.is_some(), &numbers, from_zero)?;
+    Some(Label { side: found, word })
+}
+
+/// Finds the side in names without separators or capitals: `lhumerus`, `leftupperarm`.
+fn merged_side<'a>(
+    found: Option<Side>,
+    core: &'a str,
+    numbers: &[&str],
+    from_zero: bool,
+) -> (Option<Side>, &'a str) {
+    if found.is_some() || lookup(core, false, numbers, from_zero).is_some() {
+        return (found, core);
+    }
+    for (head, side) in [
+        ("left", Side::Left),
+        ("right", Side::Right),
+        ("l", Side::Left),
+        ("r", Side::Right),
+    ] {
+        if let Some(rest) = core.strip_prefix(head)
+            && lookup(rest, true, numbers, from_zero).is_some_and(Word::sided)
+        {
+            return (Some(side), rest);
+        }
+    }
+    (found, core)
+}
+
+fn lookup(core: &str, sided: bool, numbers: &[&str], from_zero: bool) -> Option<Word> {
+    Some(match core {
+        "root" => Word::Root,
+        "hip" if sided => Word::SideHip,
+        "pelvis" | "hips" if sided => return None,
+        "hips" | "hip" | "pelvis" | "hara" => Word::Hips,
+        "spine" | "spinelower" | "spineupper" | "spinemid" | "lowerback" | "upperback" | "back"
+        | "abdomen" | "abdomenlower" | "abdomenupper" | "ab" | "torso" | "lowertorso"
+        | "uppertorso" | "waist" | "chest" | "chestlower" | "chestupper" | "upperchest"
+        | "lowerchest" | "thorax" | "ribs" | "ribcage" | "stomach" | "belly" | "sternum" => {
+            Word::Spine
+        }
+        "neck" | "lowerneck" | "upperneck" | "necklower" | "neckupper" => Word::Neck,
+        "head" | "skull" => Word::Head,
+        "jaw" | "mandible" | "lowerjaw" => Word::Jaw,
+        "eye" | "eyeball" | "faceeye" => Word::Eye,
+        "clavicle" | "collar" | "clav" | "collarbone" | "clavicula" => Word::Clavicle,
+        "shoulder" | "shldr" | "shldrs" | "shld" => Word::Shoulder,
+        "upperarm" | "uparm" | "arm" | "humerus" | "armupper" | "uarm" | "bicep" => Word::UpperArm,
+        "forearm" | "lowerarm" | "lowarm" | "elbow" | "radius" | "armlower" | "ulna" => {
+            Word::Forearm
+        }
+        "wrist" => Word::Wrist,
+        "hand" | "carpus" => Word::Hand,
+        "thigh" | "upleg" | "upperleg" | "femur" | "legupper" => Word::Thigh,
+        "leg" => Word::Leg,
+        "shin" | "lowleg" | "lowerleg" | "calf" | "knee" | "tibia" | "leglower" => Word::Shin,
+        "ankle" => Word::Ankle,
+        "foot" | "feet" => Word::Foot,
+        "toe" | "toes" | "toebase" | "ball" | "toebone" => Word::Toes,
+        _ => return digit(core, numbers, from_zero),
+    })
+}
+
+const DIGITS: [(&str, Digit); 14] = [
+    ("thumb", Digit::Thumb),
+    ("index", Digit::Finger(Finger::Index)),
+    ("pointer", Digit::Finger(Finger::Index)),
+    ("middle", Digit::Finger(Finger::Middle)),
+    ("mid", Digit::Finger(Finger::Middle)),
+    ("ring", Digit::Finger(Finger::Ring)),
+    ("pinky", Digit::Finger(Finger::Little)),
+    ("pinkie", Digit::Finger(Finger::Little)),
+    ("little", Digit::Finger(Finger::Little)),
+    ("first", Digit::Thumb),
+    ("second", Digit::Finger(Finger::Index)),
+    ("third", Digit::Finger(Finger::Middle)),
+    ("fourth", Digit::Finger(Finger::Ring)),
+    ("fifth", Digit::Finger(Finger::Little)),
+];
+
+fn digit(core: &str, numbers: &[&str], from_zero: bool) -> Option<Word> {
+    if let Some(rest) = core.strip_prefix("finger") {
+        return numbered_finger(rest, numbers, from_zero);
+    }
+    let inside = core.starts_with("inhand");
+    let heads = ["inhand", "hand", "f"].iter();
+    let bare = heads
+        .filter_map(|head| core.strip_prefix(head))
+        .find(|rest| DIGITS.iter().any(|(name, _)| rest.starts_with(name)));
+    let core = bare.unwrap_or(core);
+    if matches!(core, "palm" | "carpal" | "metacarpal") {
+        let n: usize = numbers.first()?.parse().ok()?;
+        let digit = *Digit::ALL.get(n)?;
+        return Some(Word::Digit(digit, Segment::Metacarpal));
+    }
+    let (name, digit) = DIGITS.iter().find(|(name, _)| core.starts_with(name))?;
+    let number = numbers.first().and_then(|n| n.parse().ok());
+    let segment = segment(&core[name.len()..], number)?;
+    let segment = if inside { Segment::Metacarpal } else { segment };
+    Some(Word::Digit(*digit, segment))
+}
+
+fn segment(rest: &str, number: Option<u32>) -> Option<Segment> {
+    Some(match rest {
+        "" | "finger" => number.map_or(Segment::Unsaid, Segment::Number),
+        "metacarpal" | "mc" | "meta" | "carpal" => Segment::Metacarpal,
+        "proximal" | "pp" | "prox" => Segment::Proximal,
+        "intermediate" | "medial" | "mp" | "inter" | "med" => Segment::Intermediate,
+        "distal" | "dp" | "dist" => Segment::Distal,
+        _ => return None,
+    })
+}
+
+/// Reads `Finger2Medial`, `Finger12` (finger 1, bone 2) and `finger_2_1`.
+fn numbered_finger(rest: &str, numbers: &[&str], from_zero: bool) -> Option<Word> {
+    let (first, more) = (numbers.first()?, numbers.get(1));
+    let finger = first.get(..1)?.parse::<usize>().ok()?;
+    let place = if from_zero {
+        finger
+    } else {
+        finger.checked_sub(1)?
+    };
+    let digit = *Digit::ALL.get(place)?;
+    let bone = match (more, first.get(1..)) {
+        (Some(more), _) => more.parse().ok()?,
+        (None, Some(bone)) if !bone.is_empty() => bone.parse::<u32>().ok()? + 1,
+        _ => 1,
+    };
+    Some(Word::Digit(digit, segment(rest, Some(bone))?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn say(name: &str) -> String {
+        match read_all(&[name])[0] {
+            None => "-".to_owned(),
+            Some(Label { side, word }) => {
+                let side = side.map_or("", Side::name);
+                format!("{side} {word:?}").trim().to_owned()
+            }
+        }
+    }
+
+    #[test]
+    fn names_of_many_conventions_say_what_they_mean() {
+        let index = "left Digit(Finger(Index), ";
+        for (name, want) in [
+            ("mixamorig:LeftForeArm", "left Forearm".to_owned()),
+            ("mixamorig9:RightHand", "right Hand".into()),
+            ("mixamorig_RightUpLeg", "right Thigh".into()),
+            ("mixamorigLeftHandIndex1", format!("{index}Number(1))")),
+            ("mixamorig:HeadTop_End", "-".into()),
+            ("lhumerus", "left UpperArm".into()),
+            ("rradius", "right Forearm".into()),
+            ("lwrist", "left Wrist".into()),
+            ("LHipJoint", "left SideHip".into()),
+            ("LeftInHandIndex", format!("{index}Metacarpal)")),
+            ("L5", "Spine".into()),
+            ("T12", "Spine".into()),
+            ("f_index.01.L", format!("{index}Number(1))")),
+            ("upper_arm.L", "left UpperArm".into()),
+            ("palm.01.L", format!("{index}Metacarpal)")),
+            ("DEF-forearm.R", "right Forearm".into()),
+            ("leftIndexIntermediate", format!("{index}Intermediate)")),
+            ("J_Bip_L_UpperArm", "left UpperArm".into()),
+            ("J_Bip_C_UpperChest", "Spine".into()),
+            ("upperarm_l", "left UpperArm".into()),
+            ("upperarm_twist_01_l", "-".into()),
+            ("index_metacarpal_l", format!("{index}Metacarpal)")),
+            ("left_index1", format!("{index}Number(1))")),
+            ("left_eye_smplhf", "left Eye".into()),
+            ("rShldr", "right Shoulder".into()),
+            ("lMid2", "left Digit(Finger(Middle), Number(2))".into()),
+            ("Upperarm_R", "right UpperArm".into()),
+            ("Pelvis_R", "-".into()),
+            ("LeftFinger2Medial", format!("{index}Intermediate)")),
+            ("LeftSecondPP", format!("{index}Proximal)")),
+            ("Bip01 L Finger12", "left Digit(Thumb, Number(3))".into()),
+            ("LFingers", "-".into()),
+            ("LThumb", "left Digit(Thumb, Unsaid)".into()),
+            ("Root", "Root".into()),
+            ("base", "-".into()),
+            ("", "-".into()),
+            ("手", "-".into()),
+        ] {
+            assert_eq!(say(name), want, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_character_s_own_prefix_is_seen_through() {
+        let names = [
+            "Armature",
+            "Anna_Hips",
+            "Anna_Spine",
+            "Anna_LeftArm",
+            "Anna_Head",
+        ];
+        let words: Vec<_> = read_all(&names)
+            .into_iter()
+            .skip(1)
+            .map(|l| l.map(|l| l.word))
+            .collect();
+        assert_eq!(
+            words,
+            [Word::Hips, Word::Spine, Word::UpperArm, Word::Head].map(Some)
+        );
+    }
+}

@@ -1,0 +1,216 @@
+//! Roles: what the user says about which joint is which part.
+
+use std::collections::BTreeMap;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+use super::part::{Part, PartError, nearest};
+use crate::skeleton::Skeleton;
+
+/// Which joint is which part, by the user's word; it overrides what is detected.
+///
+/// Written as lines `part = joint`, where `#` starts a comment and an empty joint says that the
+/// skeleton has no such part, or as a JSON object of the same:
+///
+/// ```
+/// use chereme_motion::anatomy::{Part, Roles};
+///
+/// let roles: Roles = "# our rig\nright hand = wrist_7\njaw =".parse()?;
+/// assert_eq!(roles.0[&Part::Jaw], "");
+/// assert_eq!(roles, r#"{"right hand": "wrist_7", "jaw": ""}"#.parse()?);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Roles(
+    /// The name of each part's joint; empty for a part that the skeleton does not have.
+    pub BTreeMap<Part, String>,
+);
+
+/// What is wrong with roles.
+#[derive(Debug, thiserror::Error)]
+pub enum RolesError {
+    /// A line has no equals sign.
+    #[error("line {line} of the roles ({text:?}) is not of the form `part = joint`")]
+    Line {
+        /// The line, from 1.
+        line: usize,
+        /// What it says.
+        text: String,
+    },
+    /// A line names no part.
+    #[error("line {line} of the roles: {error}")]
+    Part {
+        /// The line, from 1.
+        line: usize,
+        /// What it names instead.
+        #[source]
+        error: PartError,
+    },
+    /// A part is named twice.
+    #[error("line {line} of the roles names {part} again; each part has one joint")]
+    Twice {
+        /// The second line, from 1.
+        line: usize,
+        /// The part.
+        part: Part,
+    },
+    /// The JSON is none, or not an object of parts and joint names.
+    #[error("the roles are no JSON object of parts and joint names: {0}")]
+    Json(#[from] serde_json::Error),
+    /// The skeleton has no joint of that name.
+    #[error("{part}: the skeleton has no joint {joint:?}; did you mean {suggestion:?}?")]
+    Joint {
+        /// The part.
+        part: Part,
+        /// The name given for its joint.
+        joint: String,
+        /// The name of a joint that is spelt most like it.
+        suggestion: String,
+    },
+    /// Two parts that differ are given the same joint.
+    #[error(
+        "joint {joint:?} is given to both {first} and {second}; only spine and chest may share"
+    )]
+    Shared {
+        /// The joint's name.
+        joint: String,
+        /// The first part.
+        first: Part,
+        /// The second part.
+        second: Part,
+    },
+}
+
+impl FromStr for Roles {
+    type Err = RolesError;
+    fn from_str(text: &str) -> Result<Self, RolesError> {
+        let text = text.trim_start_matches('\u{feff}');
+        if text.trim_start().starts_with('{') {
+            return Ok(serde_json::from_str(text)?);
+        }
+        let mut roles = BTreeMap::new();
+        for (line, content) in (1..).zip(text.lines()) {
+            let content = content.split('#').next().unwrap_or_default().trim();
+            if content.is_empty() {
+                continue;
+            }
+            let Some((part, joint)) = content.split_once('=') else {
+                return Err(RolesError::Line {
+                    line,
+                    text: content.to_owned(),
+                });
+            };
+            let part = part
+                .trim()
+                .parse()
+                .map_err(|error| RolesError::Part { line, error })?;
+            if roles.insert(part, joint.trim().to_owned()).is_some() {
+                return Err(RolesError::Twice { line, part });
+            }
+        }
+        Ok(Self(roles))
+    }
+}
+
+impl Roles {
+    /// Returns each part's joint, nothing for a part that is said to be missing.
+    ///
+    /// # Errors
+    /// [`RolesError::Joint`] or [`RolesError::Shared`].
+    pub(super) fn resolve(
+        &self,
+        skeleton: &Skeleton,
+    ) -> Result<BTreeMap<Part, Option<usize>>, RolesError> {
+        let mut joints = BTreeMap::new();
+        let mut taken: BTreeMap<usize, Part> = BTreeMap::new();
+        for (&part, name) in &self.0 {
+            if name.is_empty() {
+                joints.insert(part, None);
+                continue;
+            }
+            let Some(joint) = skeleton.find(name) else {
+                let names = skeleton.joints().iter().map(|joint| joint.name.as_str());
+                return Err(RolesError::Joint {
+                    part,
+                    joint: name.clone(),
+                    suggestion: nearest(name, names).to_owned(),
+                });
+            };
+            if let Some(first) = taken.insert(joint, part)
+                && (first, part) != (Part::Spine, Part::Chest)
+            {
+                return Err(RolesError::Shared {
+                    joint: name.clone(),
+                    first,
+                    second: part,
+                });
+            }
+            joints.insert(part, Some(joint));
+        }
+        Ok(joints)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::anatomy::{Anatomy, Evidence};
+    use crate::hand::Side;
+    use crate::skeleton::Joint;
+    use glam::DVec3;
+
+    #[test]
+    fn faults_name_line_part_and_what_was_meant() {
+        let skeleton = Skeleton::new(vec![
+            Joint::new("pelvis", None, DVec3::ZERO),
+            Joint::new("wrist_7", Some(0), DVec3::X),
+        ])
+        .expect("a tree");
+        let faults = |text: &str| match text.parse::<Roles>() {
+            Err(error) => error.to_string(),
+            Ok(roles) => match Anatomy::with_roles(&skeleton, &roles) {
+                Err(error) => error.to_string(),
+                Ok(_) => String::new(),
+            },
+        };
+        for (text, want) in [
+            ("\nright hand wrist_7", "line 2"),
+            ("right hnad = wrist_7", "did you mean \"right hand\""),
+            ("jaw = a\njaw = b", "line 2 of the roles names jaw again"),
+            ("right hand = wrist7", "did you mean \"wrist_7\""),
+            (
+                "right hand = wrist_7\nleft hand = wrist_7",
+                "both right hand and left hand",
+            ),
+            ("{\"right hand\": 7}", "JSON"),
+            ("{\"rihgt hand\": \"wrist_7\"}", "no part of the body"),
+            ("right hand = wrist_7", ""),
+        ] {
+            let error = faults(text);
+            assert!(
+                error.contains(want) && error.is_empty() == want.is_empty(),
+                "{text}: {error}"
+            );
+        }
+    }
+
+    #[test]
+    fn roles_override_names_and_take_parts_away() {
+        let skeleton = Skeleton::new(vec![
+            Joint::new("hips", None, DVec3::ZERO),
+            Joint::new("RightHand", Some(0), DVec3::X),
+            Joint::new("other", Some(0), DVec3::X),
+            Joint::new("jaw", Some(0), DVec3::X),
+        ])
+        .expect("a tree");
+        let roles: Roles = "right hand = other\njaw =".parse().expect("roles");
+        let anatomy = Anatomy::with_roles(&skeleton, &roles).expect("joints");
+        let hand = Part::Hand(Side::Right);
+        assert_eq!(anatomy.joint(hand), Some(2));
+        assert_eq!(anatomy.evidence(hand), Some(Evidence::Roles));
+        assert_eq!(anatomy.joint(Part::Jaw), None);
+        assert_eq!(anatomy.part_of(1), None);
+    }
+}
