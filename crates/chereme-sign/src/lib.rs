@@ -6,5 +6,6 @@ pub mod tier;
 
 pub use component::{Component, Field, FieldError, HandRef, Handedness, Phase, Reading};
 pub use tier::{
-    Annotation, AnnotationId, Change, Edit, Seam, Stereotype, Tier, TierId, TierRole, TierSet,
+    Annotation, AnnotationId, Change, Edit, EditError, Seam, Stereotype, Tier, TierId, TierRole,
+    TierSet, Violation, check, plan,
 };

@@ -19,6 +19,17 @@
 //! | tree | no tier is its own ancestor; an alignable tier never sits below a symbolic one |
 //! | vocabulary | where the values of a tier's vocabulary are known, its annotations use no others |
 
+mod check;
+mod error;
+mod merge;
+mod plan;
+#[cfg(test)]
+mod tests;
+
+pub use check::{MAX_DEPTH, Named, Violation, check, check_tiers};
+pub use error::EditError;
+pub use plan::plan;
+
 use crate::component::{Component, Field, HandRef, Reading};
 use chereme_motion::Span;
 use serde::{Deserialize, Serialize};
@@ -497,6 +508,63 @@ impl TierSet {
         found
     }
 
+    /// Returns this set with the places and times of all symbolic annotations as they follow from
+    /// their parents: places counted anew from 0 in their order, times shared out.
+    ///
+    /// For sets from files, which give symbolic annotations no times.
+    #[must_use]
+    pub fn settled(mut self) -> Self {
+        let symbolic = |tier: &&Tier| !tier.is_alignable();
+        let mut tiers: Vec<(TierId, Option<TierId>)> = self
+            .tiers
+            .values()
+            .filter(symbolic)
+            .map(|tier| (tier.id, tier.parent_id()))
+            .collect();
+        let mut ready = true;
+        while ready {
+            let waiting: BTreeSet<TierId> = tiers.iter().map(|(id, _)| *id).collect();
+            let (now, later): (Vec<_>, Vec<_>) = tiers
+                .into_iter()
+                .partition(|(_, above)| above.is_none_or(|above| !waiting.contains(&above)));
+            ready = !now.is_empty();
+            now.into_iter().for_each(|(id, _)| self.settle(id));
+            tiers = later;
+        }
+        self
+    }
+
+    fn settle(&mut self, tier: TierId) {
+        let mut families: BTreeMap<AnnotationId, Vec<Annotation>> = BTreeMap::new();
+        for child in self.on(tier) {
+            if let Some(parent) = child.parent {
+                families.entry(parent).or_default().push(child.clone());
+            }
+        }
+        let listed =
+            self.tier(tier).and_then(Tier::stereotype) == Some(Stereotype::SymbolicSubdivision);
+        for (parent, mut family) in families {
+            let Some(span) = self.annotation(parent).map(|parent| parent.span) else {
+                continue;
+            };
+            family.sort_by_key(|child| (child.order, child.id));
+            let count = family.len();
+            for (place, mut child) in family.into_iter().enumerate() {
+                child.order = if listed {
+                    u32::try_from(place).unwrap_or(u32::MAX)
+                } else {
+                    0
+                };
+                child.span = if listed {
+                    share(span, place, count)
+                } else {
+                    span
+                };
+                self.put(child);
+            }
+        }
+    }
+
     /// Carries out `edits` in their order.
     pub fn apply(&mut self, edits: impl IntoIterator<Item = Edit>) {
         for edit in edits {
@@ -544,6 +612,22 @@ impl TierSet {
             }
         }
     }
+}
+
+/// Returns the time of the child at `place` of `count` equal ones below a parent, as ELAN shows a
+/// Symbolic_Subdivision.
+///
+/// The shares tile the parent; their lengths differ by a microsecond at most.
+#[must_use]
+pub fn share(parent: Span, place: usize, count: usize) -> Span {
+    let (length, count) = (i128::from(parent.micros()), (count as i128).max(1));
+    let at = |place: i128| {
+        let offset = length * place.min(count) / count;
+        parent
+            .start()
+            .shifted(i64::try_from(offset).unwrap_or(i64::MAX))
+    };
+    Span::between(at(place as i128), at(place as i128 + 1))
 }
 
 fn time_key(annotation: &Annotation) -> TimeKey {

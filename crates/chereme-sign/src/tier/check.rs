@@ -1,0 +1,458 @@
+//! The tier rules as a list of what is broken.
+
+use super::{Annotation, AnnotationId, Stereotype, Tier, TierId, TierSet, share};
+use crate::text::did_you_mean;
+use chereme_motion::{Instant, Span};
+use std::collections::BTreeMap;
+
+/// How many tiers may hang below one another.
+pub const MAX_DEPTH: usize = 64;
+
+/// One broken rule: which, where, and in the message what would be right.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Violation {
+    /// Two tiers have one name.
+    #[error("{tier} has the name {name:?} of {other}; give it another")]
+    DuplicateName {
+        /// The later tier.
+        tier: TierId,
+        /// The tier that had the name first.
+        other: TierId,
+        /// The name.
+        name: String,
+    },
+    /// A tier hangs below one that does not exist.
+    #[error("{tier} hangs below {parent}, which does not exist; make it a root tier")]
+    MissingParentTier {
+        /// The tier.
+        tier: TierId,
+        /// The missing parent.
+        parent: TierId,
+    },
+    /// A tier is its own ancestor.
+    #[error("{tier} hangs below itself; give it a parent that is not below it")]
+    ParentCycle {
+        /// The tier.
+        tier: TierId,
+    },
+    /// A tier hangs below more than [`MAX_DEPTH`] others.
+    #[error("{tier} hangs below more than {MAX_DEPTH} other tiers; hang it higher")]
+    TooDeep {
+        /// The tier.
+        tier: TierId,
+    },
+    /// A tier with times of its own hangs below one without.
+    #[error(
+        "{tier} has times of its own but hangs below {parent}, which has none; make it Symbolic_Subdivision or Symbolic_Association"
+    )]
+    AlignableBelowSymbolic {
+        /// The tier.
+        tier: TierId,
+        /// The symbolic tier above.
+        parent: TierId,
+    },
+    /// An annotation is on a tier that does not exist.
+    #[error("{annotation} is on {tier}, which does not exist")]
+    MissingTier {
+        /// The annotation.
+        annotation: AnnotationId,
+        /// The missing tier.
+        tier: TierId,
+    },
+    /// An annotation lasts no time.
+    #[error("{annotation} on {tier} starts and ends at {at}; it must last at least a microsecond")]
+    ZeroLength {
+        /// The tier.
+        tier: TierId,
+        /// The annotation, or nothing for one that was to be added.
+        annotation: Named,
+        /// Its start and end.
+        at: Instant,
+    },
+    /// Two annotations of one tier share time.
+    #[error("{annotation} from {} to {} overlaps {other} on {tier}; end it at {} or before, or start it at {} or after", span.start(), span.end(), other_span.start(), other_span.end())]
+    Overlap {
+        /// The tier.
+        tier: TierId,
+        /// The annotation, or nothing for one that was to be added.
+        annotation: Named,
+        /// Its time.
+        span: Span,
+        /// The one it overlaps.
+        other: AnnotationId,
+        /// The time of that one.
+        other_span: Span,
+    },
+    /// An annotation of a child tier has no parent on the tier above.
+    #[error("{annotation} on {tier} has no annotation above it on {parent_tier}")]
+    MissingParent {
+        /// The tier.
+        tier: TierId,
+        /// The annotation.
+        annotation: AnnotationId,
+        /// The tier above.
+        parent_tier: TierId,
+    },
+    /// An annotation of a root tier has a parent.
+    #[error(
+        "{annotation} on the root tier {tier} hangs below {parent}; annotations of a root tier have no parent"
+    )]
+    ParentOfRoot {
+        /// The tier.
+        tier: TierId,
+        /// The annotation.
+        annotation: AnnotationId,
+        /// Its parent.
+        parent: AnnotationId,
+    },
+    /// An aligned annotation reaches out of its parent.
+    #[error("{annotation} on {tier} lasts from {} to {}; it must lie inside {parent}, from {} to {}", span.start(), span.end(), parent_span.start(), parent_span.end())]
+    OutsideParent {
+        /// The tier.
+        tier: TierId,
+        /// The annotation.
+        annotation: AnnotationId,
+        /// Its time.
+        span: Span,
+        /// The annotation above.
+        parent: AnnotationId,
+        /// The time of that one.
+        parent_span: Span,
+    },
+    /// The Time_Subdivision of an annotation leaves time uncovered.
+    #[error("the Time_Subdivision {tier} of {parent} leaves {} to {} uncovered; move a boundary there", gap.start(), gap.end())]
+    Gap {
+        /// The tier.
+        tier: TierId,
+        /// The annotation above.
+        parent: AnnotationId,
+        /// The uncovered time.
+        gap: Span,
+    },
+    /// A parent has a second child on a Symbolic_Association.
+    #[error(
+        "{parent} has {other} on the Symbolic_Association {tier} already; change that one, or remove {annotation}"
+    )]
+    SecondAssociation {
+        /// The tier.
+        tier: TierId,
+        /// The second child, or nothing for one that was to be added.
+        annotation: Named,
+        /// The annotation above.
+        parent: AnnotationId,
+        /// The first child.
+        other: AnnotationId,
+    },
+    /// A place among siblings is taken twice, left out, or given where there are no places.
+    #[error("{annotation} on {tier} has place {order} among its siblings; it must be {expected}")]
+    Order {
+        /// The tier.
+        tier: TierId,
+        /// The annotation.
+        annotation: AnnotationId,
+        /// Its place.
+        order: u32,
+        /// The place it must have.
+        expected: u32,
+    },
+    /// A symbolic annotation has another time than follows from its parent.
+    #[error("{annotation} on the symbolic {tier} lasts from {} to {}; from its parent follows {} to {}", span.start(), span.end(), expected.start(), expected.end())]
+    DerivedSpan {
+        /// The tier.
+        tier: TierId,
+        /// The annotation.
+        annotation: AnnotationId,
+        /// Its time.
+        span: Span,
+        /// The time that follows from its parent.
+        expected: Span,
+    },
+    /// A value is not in the tier's vocabulary.
+    #[error("{annotation} on {tier} says {value:?}, which is not in {vocabulary:?}{}", did_you_mean(nearest.as_deref()))]
+    NotInVocabulary {
+        /// The tier.
+        tier: TierId,
+        /// The annotation, or nothing for one that was to be added.
+        annotation: Named,
+        /// The value.
+        value: String,
+        /// The id of the vocabulary.
+        vocabulary: String,
+        /// The value of the vocabulary nearest to it.
+        nearest: Option<String>,
+    },
+}
+
+/// An annotation, or one that was to be added and has no handle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Named(pub Option<AnnotationId>);
+
+impl std::fmt::Display for Named {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.0 {
+            Some(id) => id.fmt(f),
+            None => f.write_str("the new annotation"),
+        }
+    }
+}
+
+impl From<AnnotationId> for Named {
+    fn from(id: AnnotationId) -> Self {
+        Self(Some(id))
+    }
+}
+
+/// Returns every broken rule of the set: of the tiers first, then tier by tier in time order.
+#[must_use]
+pub fn check(set: &TierSet) -> Vec<Violation> {
+    let mut found = check_tiers(set);
+    for annotation in set.annotations().filter(|a| set.tier(a.tier).is_none()) {
+        let Annotation { id, tier, .. } = *annotation;
+        found.push(Violation::MissingTier {
+            annotation: id,
+            tier,
+        });
+    }
+    for tier in set.tiers() {
+        check_annotations(set, tier, &mut found);
+    }
+    found
+}
+
+/// Returns every broken rule of the tiers alone: names, parents, stereotypes.
+#[must_use]
+pub fn check_tiers(set: &TierSet) -> Vec<Violation> {
+    let mut found = Vec::new();
+    let mut names = BTreeMap::new();
+    for tier in set.tiers() {
+        if let Some(other) = names.insert(&tier.name, tier.id) {
+            let (tier, name) = (tier.id, tier.name.clone());
+            found.push(Violation::DuplicateName { tier, other, name });
+        }
+        found.extend(check_ancestors(set, tier));
+    }
+    found
+}
+
+fn check_ancestors(set: &TierSet, tier: &Tier) -> Option<Violation> {
+    let parent = set.tier(tier.parent_id()?);
+    match parent {
+        None => {
+            let parent = tier.parent_id()?;
+            return Some(Violation::MissingParentTier {
+                tier: tier.id,
+                parent,
+            });
+        }
+        Some(parent) if tier.is_alignable() && !parent.is_alignable() => {
+            let parent = parent.id;
+            return Some(Violation::AlignableBelowSymbolic {
+                tier: tier.id,
+                parent,
+            });
+        }
+        Some(_) => {}
+    }
+    let mut above = parent;
+    for _ in 0..MAX_DEPTH {
+        let ancestor = above?;
+        if ancestor.id == tier.id {
+            return Some(Violation::ParentCycle { tier: tier.id });
+        }
+        above = ancestor.parent_id().and_then(|id| set.tier(id));
+    }
+    above.map(|_| Violation::TooDeep { tier: tier.id })
+}
+
+fn check_annotations(set: &TierSet, tier: &Tier, found: &mut Vec<Violation>) {
+    let mut latest: Option<&Annotation> = None;
+    let mut families: BTreeMap<AnnotationId, Vec<&Annotation>> = BTreeMap::new();
+    for annotation in set.on(tier.id) {
+        found.extend(check_value(
+            set,
+            tier,
+            annotation.id.into(),
+            &annotation.value,
+        ));
+        if tier.is_alignable() {
+            found.extend(check_time(annotation, latest));
+            latest = latest
+                .into_iter()
+                .chain([annotation])
+                .max_by_key(|a| a.span.end());
+        }
+        match check_parent(set, tier, annotation) {
+            Ok(Some(parent)) => families.entry(parent).or_default().push(annotation),
+            Ok(None) => {}
+            Err(violation) => found.push(violation),
+        }
+    }
+    for (parent, children) in families {
+        if let (Some(parent), Some(stereotype)) = (set.annotation(parent), tier.stereotype()) {
+            check_family(parent, stereotype, children, found);
+        }
+    }
+}
+
+fn check_time(annotation: &Annotation, latest: Option<&Annotation>) -> Option<Violation> {
+    let Annotation { id, tier, span, .. } = *annotation;
+    if span.is_empty() {
+        return Some(Violation::ZeroLength {
+            tier,
+            annotation: id.into(),
+            at: span.start(),
+        });
+    }
+    let other = latest.filter(|other| other.span.overlaps(span))?;
+    Some(overlap(tier, id.into(), span, other))
+}
+
+pub(super) fn overlap(tier: TierId, annotation: Named, span: Span, with: &Annotation) -> Violation {
+    Violation::Overlap {
+        tier,
+        annotation,
+        span,
+        other: with.id,
+        other_span: with.span,
+    }
+}
+
+/// Returns the parent that the annotation has and must have, or how it breaks the rule.
+fn check_parent(
+    set: &TierSet,
+    tier: &Tier,
+    annotation: &Annotation,
+) -> Result<Option<AnnotationId>, Violation> {
+    let id = annotation.id;
+    match (tier.parent_id(), annotation.parent) {
+        (None, None) => Ok(None),
+        (None, Some(parent)) => Err(Violation::ParentOfRoot {
+            tier: tier.id,
+            annotation: id,
+            parent,
+        }),
+        (Some(parent_tier), parent) => parent
+            .filter(|parent| {
+                set.annotation(*parent)
+                    .is_some_and(|p| p.tier == parent_tier)
+            })
+            .map(Some)
+            .ok_or(Violation::MissingParent {
+                tier: tier.id,
+                annotation: id,
+                parent_tier,
+            }),
+    }
+}
+
+fn check_family(
+    parent: &Annotation,
+    stereotype: Stereotype,
+    mut children: Vec<&Annotation>,
+    found: &mut Vec<Violation>,
+) {
+    children.sort_by_key(|child| child.order);
+    let count = children.len();
+    for (place, child) in children.iter().enumerate() {
+        let Annotation {
+            id: annotation,
+            tier,
+            span,
+            order,
+            ..
+        } = **child;
+        let listed = stereotype == Stereotype::SymbolicSubdivision;
+        let expected = if listed {
+            u32::try_from(place).unwrap_or(u32::MAX)
+        } else {
+            0
+        };
+        if order != expected {
+            found.push(Violation::Order {
+                tier,
+                annotation,
+                order,
+                expected,
+            });
+        }
+        let (parent, parent_span) = (parent.id, parent.span);
+        if stereotype.is_alignable() {
+            if !parent_span.covers(span) {
+                found.push(Violation::OutsideParent {
+                    tier,
+                    annotation,
+                    span,
+                    parent,
+                    parent_span,
+                });
+            }
+            continue;
+        }
+        if place > 0 && !listed {
+            let (annotation, other) = (annotation.into(), children[0].id);
+            found.push(Violation::SecondAssociation {
+                tier,
+                annotation,
+                parent,
+                other,
+            });
+        }
+        let expected = if listed {
+            share(parent_span, place, count)
+        } else {
+            parent_span
+        };
+        if span != expected {
+            found.push(Violation::DerivedSpan {
+                tier,
+                annotation,
+                span,
+                expected,
+            });
+        }
+    }
+    if stereotype == Stereotype::TimeSubdivision {
+        check_tiling(parent, &children, found);
+    }
+}
+
+fn check_tiling(parent: &Annotation, children: &[&Annotation], found: &mut Vec<Violation>) {
+    let ends = children
+        .iter()
+        .map(|child| (child.span.start(), child.span.end()));
+    let mut covered = parent.span.start();
+    let end = parent.span.end();
+    for (start, next) in ends.chain([(end, end)]) {
+        if covered < start {
+            let (tier, gap) = (children[0].tier, Span::between(covered, start));
+            found.push(Violation::Gap {
+                tier,
+                parent: parent.id,
+                gap,
+            });
+        }
+        covered = covered.max(next);
+    }
+}
+
+/// Returns how a value breaks the rule of its tier's vocabulary, if it does.
+pub(super) fn check_value(
+    set: &TierSet,
+    tier: &Tier,
+    annotation: Named,
+    value: &crate::component::Reading,
+) -> Option<Violation> {
+    let value = value.value()?;
+    let vocabulary = tier.vocabulary.as_deref()?;
+    let known = set
+        .vocabulary(vocabulary)
+        .filter(|known| !known.contains(value))?;
+    let nearest = crate::text::nearest(value, known.iter().map(String::as_str));
+    Some(Violation::NotInVocabulary {
+        tier: tier.id,
+        annotation,
+        value: value.to_owned(),
+        vocabulary: vocabulary.to_owned(),
+        nearest: nearest.map(str::to_owned),
+    })
+}

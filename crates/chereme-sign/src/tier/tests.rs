@@ -1,0 +1,745 @@
+//! The tier rules case by case, and their laws.
+
+use super::*;
+use chereme_motion::Instant;
+use proptest::prelude::*;
+use std::fmt::Write as _;
+
+fn at(millis: i64) -> Instant {
+    Instant::from_millis(millis)
+}
+
+fn span(start: i64, end: i64) -> Span {
+    Span::between(at(start), at(end))
+}
+
+fn tier(id: u64, parent: Option<(u64, Stereotype)>) -> Tier {
+    let parent = parent.map(|(parent, stereotype)| (TierId(parent), stereotype));
+    Tier {
+        parent,
+        ..Tier::root(TierId(id), format!("tier {id}"))
+    }
+}
+
+fn note(id: u64, tier: u64, parent: u64, order: u32, (start, end): (i64, i64)) -> Annotation {
+    Annotation {
+        id: AnnotationId(id),
+        tier: TierId(tier),
+        parent: (parent > 0).then_some(AnnotationId(parent)),
+        order,
+        span: span(start, end),
+        value: Reading::Value(format!("v{id}")),
+    }
+}
+
+const GLOSS: u64 = 1;
+const TIME: u64 = 2;
+const INCLUDED: u64 = 3;
+const LIST: u64 = 4;
+const ASSOCIATED: u64 = 5;
+const BELOW_INCLUDED: u64 = 6;
+const BELOW_TIME: u64 = 7;
+const BELOW_LIST: u64 = 8;
+
+fn tiers() -> Vec<Tier> {
+    use Stereotype::*;
+    vec![
+        tier(GLOSS, None),
+        tier(TIME, Some((GLOSS, TimeSubdivision))),
+        tier(INCLUDED, Some((GLOSS, IncludedIn))),
+        tier(LIST, Some((GLOSS, SymbolicSubdivision))),
+        tier(ASSOCIATED, Some((GLOSS, SymbolicAssociation))),
+        tier(BELOW_INCLUDED, Some((INCLUDED, TimeSubdivision))),
+        tier(BELOW_TIME, Some((TIME, SymbolicAssociation))),
+        tier(BELOW_LIST, Some((LIST, SymbolicSubdivision))),
+    ]
+}
+
+/// Two glosses, the first with children on every tier.
+fn example() -> TierSet {
+    let notes = [
+        note(10, GLOSS, 0, 0, (0, 10)),
+        note(11, GLOSS, 0, 0, (10, 30)),
+        note(12, GLOSS, 0, 0, (40, 50)),
+        note(20, TIME, 10, 0, (0, 4)),
+        note(21, TIME, 10, 0, (4, 10)),
+        note(30, INCLUDED, 10, 0, (2, 6)),
+        note(31, INCLUDED, 10, 0, (7, 9)),
+        note(32, INCLUDED, 11, 0, (12, 20)),
+        note(40, LIST, 10, 0, (0, 5)),
+        note(41, LIST, 10, 1, (5, 10)),
+        note(50, ASSOCIATED, 10, 0, (0, 10)),
+        note(51, ASSOCIATED, 11, 0, (10, 30)),
+        note(60, BELOW_INCLUDED, 30, 0, (2, 5)),
+        note(61, BELOW_INCLUDED, 30, 0, (5, 6)),
+        note(70, BELOW_TIME, 21, 0, (4, 10)),
+        note(80, BELOW_LIST, 41, 0, (5, 10)),
+    ];
+    let set = TierSet::new(tiers(), notes);
+    assert_eq!(check(&set), []);
+    set
+}
+
+fn show(set: &TierSet, edits: &[Edit]) -> String {
+    let mut text = String::new();
+    for edit in edits {
+        match edit {
+            Edit::Put(note) => {
+                let (id, start, end) = (note.id.0, note.span.start(), note.span.end());
+                let millis = |at: Instant| at.micros() as f64 / 1000.0;
+                let _ = write!(text, "{id}[{},{})", millis(start), millis(end));
+                if let Some(old) = set.annotation(note.id) {
+                    if old.parent != note.parent {
+                        let _ = write!(text, "^{}", note.parent.map_or(0, |parent| parent.0));
+                    }
+                    if old.order != note.order {
+                        let _ = write!(text, "#{}", note.order);
+                    }
+                    if old.value != note.value {
+                        let _ = write!(text, "={}", note.value);
+                    }
+                } else {
+                    let parent = note.parent.map_or(0, |parent| parent.0);
+                    let _ = write!(text, "^{parent}#{}={}", note.order, note.value);
+                }
+            }
+            Edit::Remove(id) => {
+                let _ = write!(text, "-{}", id.0);
+            }
+            Edit::Vocabulary { tier, vocabulary } => {
+                let _ = write!(text, "{tier}:{vocabulary:?}");
+            }
+        }
+        text.push(' ');
+    }
+    text.trim_end().to_owned()
+}
+
+fn planned(set: &TierSet, change: &Change) -> Result<Vec<Edit>, EditError> {
+    let mut next = 100;
+    plan(set, change, &mut || {
+        next += 1;
+        AnnotationId(next)
+    })
+}
+
+fn add(tier: u64, start: i64, end: i64) -> Change {
+    Change::Add {
+        tier: TierId(tier),
+        span: span(start, end),
+        value: "new".into(),
+    }
+}
+
+fn add_below(tier: u64, parent: u64, order: Option<u32>) -> Change {
+    let (tier, parent) = (TierId(tier), AnnotationId(parent));
+    Change::AddBelow {
+        tier,
+        parent,
+        order,
+        value: "new".into(),
+    }
+}
+
+fn shift(id: u64, start: i64, end: i64) -> Change {
+    Change::Move {
+        annotation: AnnotationId(id),
+        span: span(start, end),
+    }
+}
+
+fn split(id: u64, cut: i64) -> Change {
+    Change::Split {
+        annotation: AnnotationId(id),
+        at: at(cut),
+    }
+}
+
+fn merge(first: u64, second: u64, value: Option<&str>) -> Change {
+    let (first, second) = (AnnotationId(first), AnnotationId(second));
+    Change::Merge {
+        first,
+        second,
+        value: value.map(Reading::from),
+        seam: Seam::Keep,
+    }
+}
+
+fn remove(id: u64) -> Change {
+    Change::Remove {
+        annotation: AnnotationId(id),
+    }
+}
+
+#[test]
+fn changes_bring_their_consequences() {
+    let reorder = Change::Reorder {
+        annotation: AnnotationId(41),
+        order: 0,
+    };
+    let same = Change::SetValue {
+        annotation: AnnotationId(10),
+        value: "v10".into(),
+    };
+    for (change, edits) in [
+        (add(GLOSS, 30, 40), "101[30,40)^0#0=new"),
+        (add(INCLUDED, 20, 25), "101[20,25)^11#0=new"),
+        (add(TIME, 10, 30), "101[10,30)^11#0=new"),
+        (add(TIME, 4, 6), "21[6,10) 70[6,10) 101[4,6)^10#0=new"),
+        (add(TIME, 2, 4), "20[0,2) 101[2,4)^10#0=new"),
+        (
+            add_below(LIST, 10, Some(1)),
+            "40[0,3.333) 101[3.333,6.666)^10#1=new 41[6.666,10)#2 80[6.666,10)",
+        ),
+        (add_below(LIST, 11, None), "101[10,30)^11#0=new"),
+        (add_below(ASSOCIATED, 12, None), "101[40,50)^12#0=new"),
+        (
+            shift(10, -10, 0),
+            "10[-10,0) 20[-10,-6) 21[-6,0) 70[-6,0) 30[-8,-4) 60[-8,-5) 61[-5,-4) 31[-3,-1) \
+             40[-10,-5) 41[-5,0) 80[-5,0) 50[-10,0)",
+        ),
+        (
+            shift(10, 0, 5),
+            "10[0,5) 21[4,5) 70[4,5) 30[2,5) 40[0,2.5) 41[2.5,5) 80[2.5,5) 50[0,5) -31 -61",
+        ),
+        (shift(31, 24, 28), "31[24,28)^11"),
+        (shift(20, 0, 7), "20[0,7) 21[7,10) 70[7,10)"),
+        (shift(60, 2, 3), "60[2,3) 61[3,6)"),
+        (reorder, "41[0,5)#0 80[0,5) 40[5,10)#1"),
+        (
+            split(10, 4),
+            "10[0,4) 101[4,10)^0#0=v10 21[4,10)^101 30[2,4) 102[4,6)^101#0=v30 60[2,4) \
+             103[4,5)^102#0=v60 61[5,6)^102 31[7,9)^101 40[0,2) 41[2,4) 80[2,4) 50[0,4)",
+        ),
+        (split(20, 3), "20[0,3) 101[3,4)^10#0=v20"),
+        (merge(11, 12, Some("x")), "11[10,50)=x 51[10,50) -12"),
+        (merge(20, 21, Some("x")), "20[0,10)=x 70[0,10)^20 -21"),
+        (merge(40, 41, Some("x")), "40[0,10)=x 80[0,10)^40 -41"),
+        (remove(11), "-51 -32 -11"),
+        (remove(20), "21[0,10) 70[0,10) -20"),
+        (remove(21), "20[0,10) -70 -21"),
+        (remove(40), "41[0,10)#0 80[0,10) -40"),
+        (remove(50), "-50"),
+        (same, ""),
+    ] {
+        let set = example();
+        let planned = planned(&set, &change).unwrap_or_else(|e| panic!("{change:?}: {e}"));
+        assert_eq!(show(&set, &planned), edits, "{change:?}");
+        let mut after = set;
+        after.apply(planned);
+        assert_eq!(check(&after), [], "{change:?}");
+    }
+}
+
+#[test]
+fn refusals_name_the_rule_and_what_would_be_right() {
+    let reorder = Change::Reorder {
+        annotation: AnnotationId(10),
+        order: 0,
+    };
+    for (change, message) in [
+        (
+            add(GLOSS, 5, 5),
+            "the new annotation on tier:1 starts and ends at 0.005s; it must last at least a microsecond",
+        ),
+        (
+            add(GLOSS, 35, 45),
+            "the new annotation from 0.035s to 0.045s overlaps annotation:12 on tier:1; end it at 0.040s or before, or start it at 0.050s or after",
+        ),
+        (
+            add(INCLUDED, 5, 12),
+            "the new annotation from 0.005s to 0.012s must lie inside one annotation of tier:1; annotation:10 there lasts from 0.000s to 0.010s",
+        ),
+        (
+            add(INCLUDED, 32, 36),
+            "the new annotation from 0.032s to 0.036s must lie inside one annotation of tier:1",
+        ),
+        (
+            add(TIME, 10, 20),
+            "the first annotation of tier:2 below annotation:11 must last from 0.010s to 0.030s as that does; split it afterwards",
+        ),
+        (
+            add(TIME, 5, 6),
+            "on the Time_Subdivision tier:2 a new annotation takes the head or the tail of one that is there; split annotation:21 instead",
+        ),
+        (
+            add(TIME, 0, 4),
+            "the new annotation from 0.000s to 0.004s overlaps annotation:20 on tier:2; end it at 0.000s or before, or start it at 0.004s or after",
+        ),
+        (
+            add(LIST, 0, 4),
+            "tier:4 is a Symbolic_Subdivision: its annotations have no times of their own; change the one above",
+        ),
+        (add(99, 0, 4), "tier:99 does not exist"),
+        (
+            add_below(GLOSS, 10, None),
+            "tier:1 has times of its own; give the new annotation a time instead of a parent",
+        ),
+        (
+            add_below(LIST, 20, None),
+            "annotation:20 is not on tier:1, the tier above tier:4",
+        ),
+        (
+            add_below(ASSOCIATED, 10, None),
+            "annotation:10 has annotation:50 on the Symbolic_Association tier:5 already; change that one, or remove the new annotation",
+        ),
+        (
+            shift(11, 5, 30),
+            "annotation:11 from 0.005s to 0.030s overlaps annotation:10 on tier:1; end it at 0.000s or before, or start it at 0.010s or after",
+        ),
+        (
+            shift(20, 1, 4),
+            "annotation:20 cannot have a boundary at 0.001s; between 0.000s and 0.000s is right",
+        ),
+        (
+            shift(20, 0, 10),
+            "annotation:20 cannot have a boundary at 0.010s; between 0.000s and 0.010s is right",
+        ),
+        (
+            shift(50, 0, 4),
+            "tier:5 is a Symbolic_Association: its annotations have no times of their own; change the one above",
+        ),
+        (shift(99, 0, 4), "annotation:99 does not exist"),
+        (
+            reorder,
+            "tier:1 is no Symbolic_Subdivision: its annotations have no order to change",
+        ),
+        (
+            split(10, 10),
+            "annotation:10 cannot be cut at 0.010s; it lasts from 0.000s to 0.010s",
+        ),
+        (
+            merge(10, 12, None),
+            "annotation:10 and annotation:12 are not neighbours in this order on one tier below one parent; merge only such",
+        ),
+        (
+            merge(11, 10, None),
+            "annotation:11 and annotation:10 are not neighbours in this order on one tier below one parent; merge only such",
+        ),
+        (
+            merge(31, 32, None),
+            "annotation:31 and annotation:32 are not neighbours in this order on one tier below one parent; merge only such",
+        ),
+        (
+            merge(11, 12, None),
+            r#"annotation:11 says "v11" and annotation:12 says "v12"; give the value that both shall have"#,
+        ),
+        (
+            merge(10, 11, Some("x")),
+            r#"annotation:50 says "v50" and annotation:51 says "v51"; give the value that both shall have"#,
+        ),
+    ] {
+        let error = planned(&example(), &change).expect_err(message);
+        assert_eq!(error.to_string(), message);
+    }
+    let far = planned(&example(), &shift(12, i64::MAX - 9, i64::MAX));
+    assert!(
+        matches!(
+            far,
+            Err(EditError::TooFar { .. }) | Err(EditError::Breaks(_))
+        ),
+        "{far:?}"
+    );
+}
+
+#[test]
+fn values_stay_in_the_vocabulary() {
+    let set = example().with_vocabulary("signs", ["BOL".to_owned(), "CHAT".to_owned()]);
+    let vocabulary = |id: &str| Change::SetVocabulary {
+        tier: TierId(GLOSS),
+        vocabulary: Some(id.to_owned()),
+    };
+    let error = planned(&set, &vocabulary("signs")).expect_err("v10 is no value");
+    assert_eq!(
+        error.to_string(),
+        r#"annotation:10 on tier:1 says "v10", which is not in "signs""#
+    );
+    let edits =
+        planned(&set, &vocabulary("unknown")).expect("unknown vocabularies are not checked");
+    assert_eq!(show(&set, &edits), r#"tier:1:Some("unknown")"#);
+
+    let mut set = TierSet::new([tier(GLOSS, None)], [note(10, GLOSS, 0, 0, (0, 9))])
+        .with_vocabulary("signs", ["BOL".to_owned(), "v10".to_owned()]);
+    set.apply(planned(&set, &vocabulary("signs")).expect("all values are known"));
+    let say = |value: Reading| Change::SetValue {
+        annotation: AnnotationId(10),
+        value,
+    };
+    let error = planned(&set, &say("BLO".into())).expect_err("no such value");
+    assert_eq!(
+        error.to_string(),
+        r#"annotation:10 on tier:1 says "BLO", which is not in "signs"; did you mean "BOL"?"#
+    );
+    for value in [
+        Reading::Unset,
+        Reading::Unclear,
+        Reading::NotApplicable,
+        "BOL".into(),
+    ] {
+        set.apply(planned(&set, &say(value)).expect("missing values belong to no vocabulary"));
+        assert_eq!(check(&set), []);
+    }
+}
+
+#[test]
+fn check_names_every_broken_rule() {
+    use Stereotype::*;
+    let mut tiers = tiers();
+    tiers.push(tier(9, Some((LIST, IncludedIn))));
+    tiers.push(tier(10, Some((11, IncludedIn))));
+    tiers.push(tier(11, Some((10, IncludedIn))));
+    tiers.push(tier(12, Some((99, SymbolicAssociation))));
+    tiers.push(Tier::root(TierId(13), "tier 1"));
+    let notes = [
+        note(1, 77, 0, 0, (0, 1)),
+        note(2, GLOSS, 0, 0, (0, 10)),
+        note(3, GLOSS, 2, 0, (9, 20)),
+        note(4, GLOSS, 0, 0, (30, 30)),
+        note(5, TIME, 2, 0, (1, 4)),
+        note(6, TIME, 2, 0, (5, 11)),
+        note(7, INCLUDED, 0, 0, (0, 5)),
+        note(8, LIST, 2, 3, (0, 10)),
+        note(9, ASSOCIATED, 2, 0, (0, 9)),
+        note(10, ASSOCIATED, 2, 0, (0, 10)),
+    ];
+    let found: Vec<String> = check(&TierSet::new(tiers, notes))
+        .iter()
+        .map(|v| format!("{v:?}"))
+        .collect();
+    let kinds: Vec<&str> = found
+        .iter()
+        .map(|v| v.split(' ').next().unwrap_or_default())
+        .collect();
+    assert_eq!(
+        kinds,
+        [
+            "AlignableBelowSymbolic",
+            "ParentCycle",
+            "ParentCycle",
+            "MissingParentTier",
+            "DuplicateName",
+            "MissingTier",
+            "Overlap",
+            "ParentOfRoot",
+            "ZeroLength",
+            "OutsideParent",
+            "Gap",
+            "Gap",
+            "MissingParent",
+            "Order",
+            "DerivedSpan",
+            "SecondAssociation",
+        ],
+        "{found:#?}"
+    );
+}
+
+#[test]
+fn a_long_chain_of_tiers_is_refused() {
+    let chain = |id| tier(id, (id > 1).then_some((id - 1, Stereotype::IncludedIn)));
+    let set = TierSet::new((1..=10_000).map(chain), []);
+    let first = check_tiers(&set).into_iter().next();
+    assert_eq!(
+        first,
+        Some(Violation::TooDeep {
+            tier: TierId(MAX_DEPTH as u64 + 2)
+        })
+    );
+    assert!(matches!(
+        planned(&set, &add(1, 0, 1)),
+        Err(EditError::Breaks(_))
+    ));
+}
+
+#[test]
+fn stereotypes_go_by_elans_names() {
+    for stereotype in Stereotype::ALL {
+        assert_eq!(
+            Stereotype::from_elan_name(stereotype.elan_name()),
+            Some(stereotype)
+        );
+    }
+    assert_eq!(
+        Stereotype::from_elan_name("time subdivision"),
+        Some(Stereotype::TimeSubdivision)
+    );
+    assert_eq!(Stereotype::from_elan_name("Sub"), None);
+}
+
+#[test]
+fn settling_gives_symbolic_annotations_their_time() {
+    let example = example();
+    let broken = example.annotations().cloned().map(|mut note| {
+        if [LIST, ASSOCIATED, BELOW_TIME, BELOW_LIST].contains(&note.tier.0) {
+            note.span = span(0, 0);
+            note.order = note.order * 3 + 1;
+        }
+        note
+    });
+    assert_eq!(
+        TierSet::new(tiers(), broken.collect::<Vec<_>>()).settled(),
+        example
+    );
+}
+
+/// A change by random numbers: what, where, when, how long.
+type Dice = (u8, u8, u8, u8);
+
+fn rolled(set: &TierSet, (what, whom, start, length): Dice, unique: u64) -> Change {
+    let timed = matches!(what % 9, 3..=5);
+    let fits = |note: &&Annotation| !timed || set.tier(note.tier).is_some_and(Tier::is_alignable);
+    let count = set.annotations().filter(fits).count().max(1);
+    let picked = set
+        .annotations()
+        .filter(fits)
+        .nth(usize::from(whom) % count);
+    let annotation = picked.map_or(AnnotationId(0), |note| note.id);
+    let old = picked.map_or(span(0, 1), |note| note.span);
+    let tier = TierId(1 + u64::from(whom) % 8);
+    let (start, length) = (i64::from(start), i64::from(length));
+    let wanted = span(start % 60, start % 60 + length % 14);
+    let order = length as u32 % 4;
+    let value = Reading::Value(format!("v{unique}"));
+    match what % 9 {
+        0 => Change::Add {
+            tier,
+            span: wanted,
+            value,
+        },
+        1 => {
+            let below = set.tiers_below(picked.map_or(tier, |note| note.tier));
+            let tier = below
+                .filter(|tier| tier.is_alignable())
+                .last()
+                .map_or(tier, |tier| tier.id);
+            Change::Add {
+                tier,
+                span: old,
+                value,
+            }
+        }
+        2 => {
+            let below = set.tiers_below(picked.map_or(tier, |note| note.tier));
+            let tier = below
+                .filter(|tier| !tier.is_alignable())
+                .last()
+                .map_or(tier, |tier| tier.id);
+            Change::AddBelow {
+                tier,
+                parent: annotation,
+                order: Some(order),
+                value,
+            }
+        }
+        3 => Change::Move {
+            annotation,
+            span: wanted,
+        },
+        4 => {
+            let (a, b) = (
+                old.start().shifted(start % 3 * 700),
+                old.end().shifted(length % 3 * 900 - 900),
+            );
+            Change::Move {
+                annotation,
+                span: Span::between(a, b),
+            }
+        }
+        5 => {
+            let at = old.start().shifted(start * 97 % old.micros().max(1));
+            Change::Split { annotation, at }
+        }
+        6 => {
+            let siblings: Vec<AnnotationId> = picked
+                .into_iter()
+                .flat_map(|note| set.on(note.tier))
+                .map(|note| note.id)
+                .collect();
+            let place = siblings
+                .iter()
+                .position(|id| *id == annotation)
+                .unwrap_or(0);
+            let second = siblings.get(place + 1).copied().unwrap_or(annotation);
+            let seam = if length % 2 == 0 {
+                Seam::Keep
+            } else {
+                Seam::Join
+            };
+            Change::Merge {
+                first: annotation,
+                second,
+                value: Some(value),
+                seam,
+            }
+        }
+        7 => Change::Remove { annotation },
+        _ => Change::Reorder { annotation, order },
+    }
+}
+
+/// Runs the changes that are accepted, and hands each step to `each`.
+fn run(dice: &[Dice], mut each: impl FnMut(&TierSet, &Change, &[Edit])) -> (TierSet, usize) {
+    let mut set = example();
+    let (mut next, mut accepted) = (1000, 0);
+    for roll in dice {
+        let change = rolled(&set, *roll, next);
+        let edits = plan(&set, &change, &mut || {
+            next += 1;
+            AnnotationId(next)
+        });
+        next += 1;
+        if let Ok(edits) = edits {
+            each(&set, &change, &edits);
+            set.apply(edits);
+            accepted += 1;
+        }
+    }
+    (set, accepted)
+}
+
+/// Returns the part of `set` that [`Change::window`] says a change needs.
+fn neighbourhood(set: &TierSet, change: &Change) -> TierSet {
+    let mut named: Vec<&Annotation> = change
+        .annotations()
+        .iter()
+        .filter_map(|id| set.annotation(*id))
+        .collect();
+    let parents = |note: &&Annotation| note.parent.and_then(|parent| set.annotation(parent));
+    let mut kept: BTreeMap<AnnotationId, Annotation> = BTreeMap::new();
+    for note in named
+        .iter()
+        .copied()
+        .chain(named.iter().filter_map(parents))
+    {
+        kept.insert(note.id, note.clone());
+    }
+    let symbolic = |note: &&&Annotation| set.tier(note.tier).is_some_and(|t| !t.is_alignable());
+    let above: Vec<&Annotation> = named.iter().filter(symbolic).filter_map(parents).collect();
+    named.extend(above);
+    let tier = match change {
+        Change::Add { tier, .. } | Change::AddBelow { tier, .. } => Some(*tier),
+        _ => named.first().map(|note| note.tier),
+    };
+    let parent_tier = tier
+        .and_then(|tier| set.tier(tier))
+        .and_then(Tier::parent_id);
+    if let Some(window) = change.window(&named) {
+        let near = |note: &&Annotation| {
+            note.span.start() <= window.end() && note.span.end() >= window.start()
+        };
+        let mut open: Vec<&Annotation> = Vec::new();
+        for note in set.annotations().filter(near) {
+            if Some(note.tier) == tier || Some(note.tier) == parent_tier {
+                kept.insert(note.id, note.clone());
+            }
+            if Some(note.tier) == tier {
+                open.push(note);
+            }
+        }
+        while let Some(note) = open.pop() {
+            kept.insert(note.id, note.clone());
+            open.extend(set.below(note.id));
+        }
+    }
+    TierSet::new(set.tiers().cloned(), kept.into_values())
+}
+
+fn dice() -> impl Strategy<Value = Vec<Dice>> {
+    proptest::collection::vec(any::<Dice>(), 0..60)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn accepted_changes_never_break_a_rule(dice in dice()) {
+        run(&dice, |set, change, edits| {
+            let mut after = set.clone();
+            for edit in edits {
+                match edit {
+                    Edit::Put(note) => {
+                        let parent = note.parent.is_none_or(|parent| after.annotation(parent).is_some());
+                        assert!(parent, "{change:?} puts {} before its parent", note.id);
+                    }
+                    Edit::Remove(id) => {
+                        assert_eq!(after.below(*id).next(), None, "{change:?} leaves children of {id}");
+                    }
+                    Edit::Vocabulary { .. } => {}
+                }
+                after.apply([edit.clone()]);
+            }
+            assert_eq!(check(&after), [], "{change:?} {}", show(set, edits));
+        });
+    }
+
+    #[test]
+    fn the_neighbourhood_is_enough_to_plan(dice in dice()) {
+        run(&dice, |set, change, edits| {
+            let part = neighbourhood(set, change);
+            let first = edits.iter().filter_map(|edit| match edit {
+                Edit::Put(note) if set.annotation(note.id).is_none() => Some(note.id.0),
+                _ => None,
+            }).min();
+            let mut next = first.unwrap_or(0);
+            let again = plan(&part, change, &mut || { next += 1; AnnotationId(next - 1) });
+            assert_eq!(again.as_deref(), Ok(edits), "{change:?}");
+        });
+    }
+
+    #[test]
+    fn merging_undoes_a_split(dice in dice(), whom in any::<u8>(), cut in any::<u8>()) {
+        let (mut set, _) = run(&dice, |_, _, _| {});
+        let notes: Vec<Annotation> = set.annotations().cloned().collect();
+        set.apply(notes.into_iter().map(|note| {
+            Edit::Put(Annotation { value: Reading::Value(note.id.to_string()), ..note })
+        }));
+        let aligned: Vec<Annotation> = set
+            .annotations()
+            .filter(|note| set.tier(note.tier).is_some_and(Tier::is_alignable))
+            .filter(|note| note.span.micros() > 1)
+            .cloned()
+            .collect();
+        prop_assume!(!aligned.is_empty());
+        let note = &aligned[usize::from(whom) % aligned.len()];
+        let at = note.span.start().shifted(1 + i64::from(cut) % (note.span.micros() - 1));
+        let mut next = 1_000_000;
+        let mut fresh = || { next += 1; AnnotationId(next) };
+        let mut halves = set.clone();
+        let split = Change::Split { annotation: note.id, at };
+        halves.apply(plan(&set, &split, &mut fresh).expect("a cut inside"));
+        prop_assert_eq!(check(&halves), []);
+        let (first, second) = (note.id, AnnotationId(1_000_001));
+        let merge = Change::Merge { first, second, value: None, seam: Seam::Join };
+        let edits = plan(&halves, &merge, &mut fresh).expect("two halves are neighbours");
+        halves.apply(edits);
+        prop_assert_eq!(halves, set);
+    }
+
+    #[test]
+    fn shares_tile_the_parent(start in -50i64..50, length in 0i64..100, count in 1usize..12) {
+        let parent = span(start, start + length);
+        let mut covered = parent.start();
+        for place in 0..count {
+            let share = share(parent, place, count);
+            prop_assert_eq!(share.start(), covered);
+            prop_assert!((share.micros() - length * 1000 / count as i64) <= 1);
+            covered = share.end();
+        }
+        prop_assert_eq!(covered, parent.end());
+    }
+}
+
+#[test]
+fn random_changes_are_often_accepted() {
+    let dice: Vec<Dice> = (0..2000u32)
+        .map(|n| {
+            let [a, b, c, d] = n.wrapping_mul(2_654_435_761).to_be_bytes();
+            (a, b, c, d)
+        })
+        .collect();
+    let (_, accepted) = run(&dice, |_, _, _| {});
+    assert!(
+        accepted > 400,
+        "{accepted} of 2000 random changes were accepted"
+    );
+}
