@@ -1,0 +1,495 @@
+//! Dynamic time warping: how alike two movements are whatever their tempo, and which frame of the
+//! one goes with which of the other.
+//!
+//! Exact, multivariate, in `f64`; the same numbers as dtw-python and R's `dtw`, which the field
+//! uses. [`align`] gives the path, [`distance`] the cost alone in the memory of one row, and
+//! [`nearest`] the best of many.
+//!
+//! ```
+//! use chereme_analysis::dtw::{Options, Series, StepPattern, align};
+//!
+//! let query = Series::from_rows(&[[0.0], [5.0]])?;
+//! let reference = Series::from_rows(&[[0.0], [9.0], [5.0]])?;
+//! let options = Options { pattern: StepPattern::Asymmetric, ..Options::default() };
+//! let alignment = align(&query, &reference, &options)?;
+//! assert_eq!((alignment.cost.distance, alignment.path), (0.0, vec![(0, 0), (1, 2)]));
+//! # Ok::<(), chereme_analysis::dtw::DtwError>(())
+//! ```
+//!
+//! **Where no path exists** (a window narrower than the difference in length, a pattern that
+//! cannot stretch so far) there is no distance either. [`Policy`] says what happens then; the
+//! default refuses, and whatever else was done is told in [`Cost::made`].
+
+mod nearest;
+mod pattern;
+mod rows;
+mod series;
+mod skew;
+mod window;
+
+pub use nearest::{Nearest, Neighbour, nearest};
+pub use pattern::StepPattern;
+pub use series::Series;
+pub use window::Window;
+
+use std::fmt;
+use std::ops::Range;
+
+use serde::{Deserialize, Serialize};
+
+use pattern::Norm;
+use skew::Reversed;
+
+/// How far apart two frames are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Local {
+    /// The Euclidean distance over all channels.
+    #[default]
+    Euclidean,
+    /// Its square; costs add up squares and no root is taken at the end.
+    SquaredEuclidean,
+}
+
+/// What to do where no path exists under the asked pattern and window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Policy {
+    /// Refuse with [`DtwError::NoPath`], as dtw-python and R do.
+    #[default]
+    Refuse,
+    /// Bring the reference to the query's length by linear interpolation and align that, under the
+    /// same pattern and window; always possible. The path names the nearest original frames.
+    Resample,
+    /// Exchange the window for a slanted band at least as wide (and wide enough for the lengths);
+    /// what the step pattern itself forbids is still refused.
+    SlantedBand,
+}
+
+/// Limits that keep two long recordings from filling memory or running for hours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Limits {
+    /// Most cells for which [`align`] keeps a step, one byte each.
+    pub kept: u64,
+    /// Most cells that are worked out at all, in [`align`] and in [`distance`].
+    pub cells: u64,
+}
+
+impl Default for Limits {
+    /// 256 MiB of steps (16,000 by 16,000 frames), 2^36 cells (about two minutes of work).
+    fn default() -> Self {
+        Self {
+            kept: 1 << 28,
+            cells: 1 << 36,
+        }
+    }
+}
+
+/// How two series are aligned; the default is R's: symmetric2, no window, closed ends, refusing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Options {
+    /// The steps a path may take.
+    pub pattern: StepPattern,
+    /// The cells a path may visit.
+    pub window: Window,
+    /// The distance of two frames.
+    pub local: Local,
+    /// The path may start at any frame of the reference; only for patterns normalised by the
+    /// query's length. The window still counts from the first frames of both (dtw-python's is one
+    /// frame off there). All but the plain asymmetric pattern then leave out the reference's first
+    /// frame, as a step along the reference leads to the query's first.
+    pub open_begin: bool,
+    /// The path may end at any frame of the reference: at the one with the least normalised
+    /// distance, the earliest where several have it; not for symmetric1.
+    pub open_end: bool,
+    /// What happens where there is no path.
+    pub policy: Policy,
+    /// How much work and memory is allowed.
+    pub limits: Limits,
+}
+
+/// How a cost came about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Made {
+    /// Under the pattern and window that were asked for.
+    AsAsked,
+    /// After bringing the reference to the query's length, by [`Policy::Resample`].
+    Resampled,
+    /// In a slanted band of this half width, by [`Policy::SlantedBand`].
+    SlantedBand(usize),
+}
+
+/// The cost of the best alignment.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Cost {
+    /// Weighted sum of the local distances along the path.
+    pub distance: f64,
+    /// The distance by the path's total weight (the query's length, or both lengths together, of
+    /// which the reference counts up to the path's end); nothing for symmetric1.
+    pub normalized: Option<f64>,
+    /// Whether the policy for missing paths was needed.
+    pub made: Made,
+}
+
+/// The best alignment of a query with a reference.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Alignment {
+    /// What it costs.
+    pub cost: Cost,
+    /// Frames of the query and of the reference that go together, in order, neither ever falling.
+    pub path: Vec<(usize, usize)>,
+}
+
+/// Why there is no path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Obstacle {
+    /// The window leaves out the last pair of frames, or the first.
+    Window(Window),
+    /// The step pattern cannot stretch one length to the other.
+    Slope(StepPattern),
+    /// Each would do, but not this window with this pattern.
+    Together(Window, StepPattern),
+}
+
+impl fmt::Display for Obstacle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Window(window) => write!(f, "the window {window:?} does not reach both corners"),
+            Self::Slope(pattern) => write!(f, "{pattern:?} steps cannot stretch so far"),
+            Self::Together(window, pattern) => {
+                write!(
+                    f,
+                    "{pattern:?} steps find no way inside the window {window:?}"
+                )
+            }
+        }
+    }
+}
+
+/// What cannot be aligned, and what would be right.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum DtwError {
+    /// A series has no frame or no channel.
+    #[error("a series needs at least one frame and one channel")]
+    Empty,
+    /// A frame has another number of values than the others.
+    #[error("frame {frame} has {found} values where {expected} channels were expected")]
+    Ragged {
+        /// The frame, from 0.
+        frame: usize,
+        /// Values it has.
+        found: usize,
+        /// Values it should have.
+        expected: usize,
+    },
+    /// A value that has no distance to others.
+    #[error(
+        "channel {channel} is {value} at frame {frame}; values must be numbers within 1e140 of \
+         zero: fill gaps first or leave the channel out"
+    )]
+    Value {
+        /// The frame, from 0.
+        frame: usize,
+        /// The channel, from 0.
+        channel: usize,
+        /// What was found.
+        value: f64,
+    },
+    /// Not one scale per channel.
+    #[error("{found} scales were given for {channels} channels; each channel needs one")]
+    Scales {
+        /// Scales given.
+        found: usize,
+        /// Channels of the series.
+        channels: usize,
+    },
+    /// A scale that nothing can be divided by.
+    #[error("the scale of channel {channel} is {scale}; it must be a number above zero")]
+    Scale {
+        /// The channel, from 0.
+        channel: usize,
+        /// The scale given.
+        scale: f64,
+    },
+    /// The two series do not have the same channels.
+    #[error(
+        "the query has {query} channels and the reference {reference}; compare the channels that \
+         both have"
+    )]
+    Channels {
+        /// Channels of the query.
+        query: usize,
+        /// Channels of the reference.
+        reference: usize,
+    },
+    /// An open end was asked of a pattern that has no norm for it.
+    #[error(
+        "{pattern:?} cannot have an open {end}: {}",
+        if *end == "begin" {
+            "use Asymmetric, AsymmetricP1 or TypeIiiC, which are normalised by the query's length"
+        } else {
+            "use any pattern but Symmetric1, which has no norm to choose an end by"
+        }
+    )]
+    OpenEnd {
+        /// The pattern asked for.
+        pattern: StepPattern,
+        /// `begin` or `end`.
+        end: &'static str,
+    },
+    /// No path leads from the first to the last frames.
+    #[error("{query} frames cannot be aligned with {reference}: {reason}; {remedy}")]
+    NoPath {
+        /// Frames of the query.
+        query: usize,
+        /// Frames of the reference.
+        reference: usize,
+        /// What is in the way.
+        reason: Obstacle,
+        /// What would give a path.
+        remedy: String,
+    },
+    /// The table is larger than the limits allow.
+    #[error("aligning takes {cells} cells and {limit} are allowed; {remedy}")]
+    TooLarge {
+        /// Cells inside the window.
+        cells: u64,
+        /// Cells allowed.
+        limit: u64,
+        /// What would fit.
+        remedy: String,
+    },
+}
+
+/// Returns the best alignment of `query` with `reference` and its path.
+///
+/// Memory is one byte per cell inside the window; see [`Limits`].
+///
+/// # Errors
+/// [`DtwError::Channels`], [`DtwError::OpenEnd`], [`DtwError::TooLarge`], and
+/// [`DtwError::NoPath`] where the policy leaves none.
+pub fn align(query: &Series, reference: &Series, options: &Options) -> Result<Alignment, DtwError> {
+    check(
+        query,
+        reference,
+        options,
+        options.limits.kept.min(options.limits.cells),
+    )?;
+    with_policy(query, reference, options, |query, reference, options| {
+        let rows = options.window.rows(query.frames(), reference.frames());
+        let table = rows::fill(query, reference, &rows, options, true);
+        let (end, cost) = finish(&table.last, query.frames(), options)?;
+        Some(Alignment {
+            cost,
+            path: table.path(&rows, options, end),
+        })
+    })
+}
+
+/// Returns the cost of the best alignment of `query` with `reference`, without its path.
+///
+/// Equal to that of [`align`] to the last digit or two; memory grows with the lengths only.
+///
+/// # Errors
+/// As [`align`].
+pub fn distance(query: &Series, reference: &Series, options: &Options) -> Result<Cost, DtwError> {
+    check(query, reference, options, options.limits.cells)?;
+    let found = with_policy(query, reference, options, |query, reference, options| {
+        let (n, m) = (query.frames(), reference.frames());
+        let rows = options.window.rows(n, m);
+        let ends_closed = !options.open_begin && !options.open_end;
+        if let (true, Some(diagonal)) = (ends_closed, options.pattern.diagonal()) {
+            let ask = skew::Ask {
+                rows: &rows,
+                diagonal,
+                local: options.local,
+                limit: f64::INFINITY,
+                rest: &[],
+            };
+            let distance = skew::least_cost(query, &Reversed::of(reference), &ask)?;
+            return distance
+                .is_finite()
+                .then(|| whole(distance, n, m, options.pattern));
+        }
+        let table = rows::fill(query, reference, &rows, options, false);
+        finish(&table.last, n, options).map(|(_, cost)| Alignment {
+            cost,
+            path: Vec::new(),
+        })
+    });
+    found.map(|alignment| alignment.cost)
+}
+
+fn whole(distance: f64, n: usize, m: usize, pattern: StepPattern) -> Alignment {
+    let normalized = norm(pattern, n, m - 1).map(|norm| distance / norm);
+    Alignment {
+        cost: Cost {
+            distance,
+            normalized,
+            made: Made::AsAsked,
+        },
+        path: Vec::new(),
+    }
+}
+
+/// Returns what a path to frame `end` of the reference is divided by.
+fn norm(pattern: StepPattern, query: usize, end: usize) -> Option<f64> {
+    match pattern.norm() {
+        Norm::None => None,
+        Norm::Query => Some(query as f64),
+        Norm::Both => Some((query + end + 1) as f64),
+    }
+}
+
+/// Chooses the frame of the reference at which the path ends; nothing where none is reached.
+fn finish(last: &[f64], query: usize, options: &Options) -> Option<(usize, Cost)> {
+    let normalized = |end: usize| norm(options.pattern, query, end).map(|norm| last[end] / norm);
+    let end = if options.open_end {
+        let least = |end: &usize| normalized(*end).unwrap_or(last[*end]);
+        (0..last.len()).min_by(|a, b| least(a).total_cmp(&least(b)))?
+    } else {
+        last.len() - 1
+    };
+    let cost = Cost {
+        distance: last[end],
+        normalized: normalized(end),
+        made: Made::AsAsked,
+    };
+    cost.distance.is_finite().then_some((end, cost))
+}
+
+fn check(
+    query: &Series,
+    reference: &Series,
+    options: &Options,
+    limit: u64,
+) -> Result<(), DtwError> {
+    let (channels, other) = (query.channels(), reference.channels());
+    if channels != other {
+        return Err(DtwError::Channels {
+            query: channels,
+            reference: other,
+        });
+    }
+    let pattern = options.pattern;
+    if options.open_begin && pattern.norm() != Norm::Query {
+        return Err(DtwError::OpenEnd {
+            pattern,
+            end: "begin",
+        });
+    }
+    if options.open_end && pattern.norm() == Norm::None {
+        return Err(DtwError::OpenEnd {
+            pattern,
+            end: "end",
+        });
+    }
+    let cells = options.window.cells(query.frames(), reference.frames());
+    if cells > limit {
+        return Err(too_large(
+            cells,
+            limit,
+            query.frames(),
+            limit < options.limits.cells,
+        ));
+    }
+    Ok(())
+}
+
+fn too_large(cells: u64, limit: u64, frames: usize, kept: bool) -> DtwError {
+    let half_width = (limit / frames.max(1) as u64).saturating_sub(1) / 2;
+    let without_path = if kept {
+        ", or ask for the distance without its path"
+    } else {
+        ""
+    };
+    let remedy = if half_width > 0 {
+        format!("use a slanted band of at most {half_width} frames{without_path}")
+    } else {
+        format!("cut the recordings into signs or lower their frame rate{without_path}")
+    };
+    DtwError::TooLarge {
+        cells,
+        limit,
+        remedy,
+    }
+}
+
+/// Runs `run` as asked, and where that finds no path once more as the policy has it.
+fn with_policy(
+    query: &Series,
+    reference: &Series,
+    options: &Options,
+    run: impl Fn(&Series, &Series, &Options) -> Option<Alignment>,
+) -> Result<Alignment, DtwError> {
+    if let Some(found) = run(query, reference, options) {
+        return Ok(found);
+    }
+    let (n, m) = (query.frames(), reference.frames());
+    let remedied = match options.policy {
+        Policy::Refuse => None,
+        Policy::Resample => run(query, &reference.resampled(n), options).map(|mut found| {
+            for (_, j) in &mut found.path {
+                *j = series::place(*j, n, m).round() as usize;
+            }
+            found.cost.made = Made::Resampled;
+            found
+        }),
+        Policy::SlantedBand => {
+            let half_width = slanted_width(options.window, n, m);
+            let window = Window::SlantedBand(half_width);
+            check(
+                query,
+                reference,
+                &Options { window, ..*options },
+                options.limits.kept,
+            )?;
+            run(query, reference, &Options { window, ..*options }).map(|mut found| {
+                found.cost.made = Made::SlantedBand(half_width);
+                found
+            })
+        }
+    };
+    remedied.ok_or_else(|| no_path(n, m, options))
+}
+
+/// Returns the half width of a slanted band no narrower than `window` that holds both corners.
+fn slanted_width(window: Window, n: usize, m: usize) -> usize {
+    let asked = match window {
+        Window::None => m,
+        Window::SakoeChiba(w) | Window::SlantedBand(w) => w,
+    };
+    asked.max(m.div_ceil(n))
+}
+
+fn no_path(query: usize, reference: usize, options: &Options) -> DtwError {
+    let (pattern, window) = (options.pattern, options.window);
+    let rows: Vec<Range<usize>> = window.rows(query, reference);
+    let (reason, remedy) = if !pattern.spans(query, reference) && !options.open_end {
+        let remedy = "use a symmetric pattern, or resample one of them (policy resample)";
+        (Obstacle::Slope(pattern), remedy.to_owned())
+    } else if !window::connected(&rows, reference) {
+        let remedy = match window {
+            Window::SakoeChiba(_) => format!(
+                "use a window of at least {} frames, a slanted band, or the policy resample",
+                query.abs_diff(reference)
+            ),
+            _ => format!(
+                "use a slanted band of at least {} frames, or the policy resample",
+                slanted_width(Window::SlantedBand(0), query, reference)
+            ),
+        };
+        (Obstacle::Window(window), remedy)
+    } else {
+        let remedy = "widen the window, use a symmetric pattern, or the policy resample";
+        (Obstacle::Together(window, pattern), remedy.to_owned())
+    };
+    DtwError::NoPath {
+        query,
+        reference,
+        reason,
+        remedy,
+    }
+}

@@ -1,0 +1,254 @@
+//! The nearest of many series, exactly, without working out most of the alignments.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use super::skew::{Ask, Reversed, SLACK, least_cost};
+use super::window::{connected, transposed};
+use super::{DtwError, Local, Options, Policy, Series, check, distance};
+
+/// One of the candidates and how far it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Neighbour {
+    /// Its place among the candidates, from 0.
+    pub index: usize,
+    /// The distance of its best alignment, as [`distance`] gives it (not normalised).
+    pub distance: f64,
+}
+
+/// The candidates nearest to a query, and what was done to find them.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Nearest {
+    /// Nearest first, equal distances by index; fewer than asked for where fewer have a path.
+    pub neighbours: Vec<Neighbour>,
+    /// Candidates whose alignment was worked out to the end; the others were ruled out earlier.
+    pub completed: usize,
+    /// Candidates that have no path under these options, and so no distance.
+    pub without_path: usize,
+}
+
+/// Returns the `k` candidates with the least alignment distance to `query`.
+///
+/// The answer is that of calling [`distance`] on every candidate. For the symmetric patterns with
+/// closed ends a lower bound of each (Keogh and Ratanamahatana 2005, doi
+/// 10.1007/s10115-004-0154-9; on each channel, with the window's own envelope) decides the order
+/// of work and rules most out, and a running alignment is given up once it cannot win.
+///
+/// # Errors
+/// As [`distance`], but candidates without a path are counted instead of refused.
+pub fn nearest(
+    query: &Series,
+    candidates: &[Series],
+    k: usize,
+    options: &Options,
+) -> Result<Nearest, DtwError> {
+    for candidate in candidates {
+        check(query, candidate, options, options.limits.cells)?;
+    }
+    let closed = !options.open_begin && !options.open_end;
+    match options.pattern.diagonal() {
+        Some(diagonal) if closed && options.policy == Policy::Refuse => {
+            Ok(pruned(query, candidates, k, options, diagonal))
+        }
+        _ => every(query, candidates, k, options),
+    }
+}
+
+fn every(
+    query: &Series,
+    candidates: &[Series],
+    k: usize,
+    options: &Options,
+) -> Result<Nearest, DtwError> {
+    let mut best = Best::new(k);
+    for (index, candidate) in candidates.iter().enumerate() {
+        match distance(query, candidate, options) {
+            Ok(cost) => best.offer(index, cost.distance),
+            Err(DtwError::NoPath { .. }) => best.found.without_path += 1,
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(best.found)
+}
+
+fn pruned(
+    query: &Series,
+    candidates: &[Series],
+    k: usize,
+    options: &Options,
+    diagonal: f64,
+) -> Nearest {
+    let mut best = Best::new(k);
+    let mut envelopes: BTreeMap<usize, Option<Envelope>> = BTreeMap::new();
+    let mut bounds = Vec::with_capacity(candidates.len());
+    let mut scratch = Vec::new();
+    for (index, candidate) in candidates.iter().enumerate() {
+        let length = candidate.frames();
+        let envelope = envelopes
+            .entry(length)
+            .or_insert_with(|| Envelope::of(query, length, options));
+        match envelope {
+            Some(envelope) => {
+                envelope.bounds(candidate, options.local, &mut scratch);
+                bounds.push((scratch.iter().sum::<f64>() * SLACK, index));
+            }
+            None => best.found.without_path += 1,
+        }
+    }
+    bounds.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let reversed = Reversed::of(query);
+    for (bound, index) in bounds {
+        if bound > best.limit() {
+            break;
+        }
+        let candidate = &candidates[index];
+        let Some(Some(envelope)) = envelopes.get(&candidate.frames()) else {
+            continue;
+        };
+        envelope.bounds(candidate, options.local, &mut scratch);
+        remaining(&mut scratch);
+        let ask = Ask {
+            rows: &envelope.rows,
+            diagonal,
+            local: options.local,
+            limit: best.limit(),
+            rest: &scratch,
+        };
+        if let Some(distance) = least_cost(candidate, &reversed, &ask) {
+            best.offer(index, distance);
+        }
+    }
+    best.found
+}
+
+/// Turns bounds of single frames into bounds of all later frames.
+fn remaining(bounds: &mut [f64]) {
+    let mut sum = 0.0;
+    for bound in bounds.iter_mut().rev() {
+        let own = *bound;
+        *bound = sum;
+        sum += own;
+    }
+}
+
+/// The range of the query's values that each frame of a candidate may meet, for one length.
+struct Envelope {
+    /// Frames of the query that each frame of the candidate may be aligned with.
+    rows: Vec<Range<usize>>,
+    /// Least and greatest value, channel by channel.
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+}
+
+impl Envelope {
+    /// Returns the envelope for candidates of `length` frames; nothing where they have no path.
+    fn of(query: &Series, length: usize, options: &Options) -> Option<Self> {
+        let window = options.window.rows(query.frames(), length);
+        if !connected(&window, length) {
+            return None;
+        }
+        let rows = transposed(&window, length);
+        let (mut lower, mut upper) = (Vec::new(), Vec::new());
+        for channel in 0..query.channels() {
+            let column = query.column(channel);
+            lower.extend(sliding(column, &rows, |a, b| a <= b));
+            upper.extend(sliding(column, &rows, |a, b| a >= b));
+        }
+        Some(Self { rows, lower, upper })
+    }
+
+    /// Writes for every frame of `candidate` how far it is at least from any it may meet.
+    fn bounds(&self, candidate: &Series, local: Local, out: &mut Vec<f64>) {
+        pulp::Arch::new().dispatch(
+            #[inline(always)]
+            || self.sums(candidate, local, out),
+        );
+    }
+
+    #[inline(always)]
+    fn sums(&self, candidate: &Series, local: Local, out: &mut Vec<f64>) {
+        let frames = candidate.frames();
+        out.clear();
+        out.resize(frames, 0.0);
+        let envelope = self
+            .lower
+            .chunks_exact(frames)
+            .zip(self.upper.chunks_exact(frames));
+        for (channel, (lower, upper)) in envelope.enumerate() {
+            let column = candidate.column(channel);
+            for (((sum, value), lower), upper) in out.iter_mut().zip(column).zip(lower).zip(upper) {
+                let (below, above) = (lower - value, value - upper);
+                let outside = if below > above { below } else { above };
+                let outside = if outside > 0.0 { outside } else { 0.0 };
+                *sum += outside * outside;
+            }
+        }
+        if local == Local::Euclidean {
+            out.iter_mut().for_each(|sum| *sum = sum.sqrt());
+        }
+    }
+}
+
+/// Returns the first value of each range under the order `before`, by a queue of the values that
+/// no later one precedes (Lemire 2009, doi 10.1016/j.patcog.2008.11.030).
+fn sliding(column: &[f64], ranges: &[Range<usize>], before: fn(f64, f64) -> bool) -> Vec<f64> {
+    let mut queue: std::collections::VecDeque<usize> = std::collections::VecDeque::new();
+    let mut next = 0;
+    ranges
+        .iter()
+        .map(|range| {
+            while next < range.end {
+                while queue
+                    .back()
+                    .is_some_and(|last| before(column[next], column[*last]))
+                {
+                    queue.pop_back();
+                }
+                queue.push_back(next);
+                next += 1;
+            }
+            while queue.front().is_some_and(|first| *first < range.start) {
+                queue.pop_front();
+            }
+            queue.front().map_or(0.0, |first| column[*first])
+        })
+        .collect()
+}
+
+/// The best so far.
+struct Best {
+    k: usize,
+    found: Nearest,
+}
+
+impl Best {
+    fn new(k: usize) -> Self {
+        Self {
+            k,
+            found: Nearest::default(),
+        }
+    }
+
+    /// Returns the distance that a candidate must not exceed to be of use.
+    fn limit(&self) -> f64 {
+        let kept = &self.found.neighbours;
+        match kept.last() {
+            _ if self.k == 0 => f64::NEG_INFINITY,
+            Some(last) if kept.len() >= self.k => last.distance,
+            _ => f64::INFINITY,
+        }
+    }
+
+    fn offer(&mut self, index: usize, distance: f64) {
+        self.found.completed += 1;
+        let kept = &mut self.found.neighbours;
+        let place = kept.partition_point(|n| {
+            n.distance
+                .total_cmp(&distance)
+                .then(n.index.cmp(&index))
+                .is_lt()
+        });
+        kept.insert(place, Neighbour { index, distance });
+        kept.truncate(self.k);
+    }
+}

@@ -1,0 +1,137 @@
+//! Step patterns as tables: the ways in which an alignment may reach a cell.
+
+use serde::{Deserialize, Serialize};
+
+/// Which steps an alignment may take and what they weigh.
+///
+/// With *i* the frame of the query, *j* that of the reference, *d* the local distance and *g* the
+/// least cost of reaching a cell; the first cell always weighs 1. Where ways cost the same, the
+/// one listed first wins. Sources: Sakoe and Chiba 1978 (doi 10.1109/TASSP.1978.1163055), table I,
+/// for the symmetric and P1 patterns; Rabiner and Juang 1993, chapter 4, for the plain asymmetric
+/// one (Itakura's slope) and type III c.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum StepPattern {
+    /// `d + min(g(i-1,j-1), g(i,j-1), g(i-1,j))`; favours the diagonal and so has no norm.
+    Symmetric1,
+    /// `min(g(i-1,j-1) + 2d, g(i,j-1) + d, g(i-1,j) + d)`; normalised by the sum of the lengths.
+    #[default]
+    Symmetric2,
+    /// `d + min(g(i-1,j), g(i-1,j-1), g(i-1,j-2))`; every frame of the query counts exactly once
+    /// and frames of the reference may be skipped, so that its arguments cannot be exchanged. A
+    /// path needs `M-1 <= 2(N-1)`. Normalised by the query's length.
+    Asymmetric,
+    /// Sakoe and Chiba's symmetric pattern of slope constraint P = 1.
+    SymmetricP1,
+    /// Sakoe and Chiba's asymmetric pattern of slope constraint P = 1.
+    AsymmetricP1,
+    /// Rabiner and Juang's type III with slope weighting c: no two steps along the query in turn.
+    TypeIiiC,
+}
+
+/// What an alignment's cost is divided by to be comparable between lengths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Norm {
+    /// Path weights depend on the path: there is no norm.
+    None,
+    /// The query's length.
+    Query,
+    /// The sum of both lengths.
+    Both,
+}
+
+/// One way to reach a cell: where it comes from, and the cells passed since then with their
+/// weights, each as an amount back along the query and along the reference.
+pub(crate) struct Production {
+    pub(crate) from: (usize, usize),
+    pub(crate) via: &'static [(usize, usize, f64)],
+}
+
+const fn way(from: (usize, usize), via: &'static [(usize, usize, f64)]) -> Production {
+    Production { from, via }
+}
+
+const SYMMETRIC1: &[Production] = &[
+    way((1, 1), &[(0, 0, 1.0)]),
+    way((0, 1), &[(0, 0, 1.0)]),
+    way((1, 0), &[(0, 0, 1.0)]),
+];
+const SYMMETRIC2: &[Production] = &[
+    way((1, 1), &[(0, 0, 2.0)]),
+    way((0, 1), &[(0, 0, 1.0)]),
+    way((1, 0), &[(0, 0, 1.0)]),
+];
+const ASYMMETRIC: &[Production] = &[
+    way((1, 0), &[(0, 0, 1.0)]),
+    way((1, 1), &[(0, 0, 1.0)]),
+    way((1, 2), &[(0, 0, 1.0)]),
+];
+const SYMMETRIC_P1: &[Production] = &[
+    way((1, 2), &[(0, 1, 2.0), (0, 0, 1.0)]),
+    way((1, 1), &[(0, 0, 2.0)]),
+    way((2, 1), &[(1, 0, 2.0), (0, 0, 1.0)]),
+];
+const ASYMMETRIC_P1: &[Production] = &[
+    way((1, 2), &[(0, 1, 0.5), (0, 0, 0.5)]),
+    way((1, 1), &[(0, 0, 1.0)]),
+    way((2, 1), &[(1, 0, 1.0), (0, 0, 1.0)]),
+];
+const TYPE_III_C: &[Production] = &[
+    way((1, 2), &[(0, 0, 1.0)]),
+    way((1, 1), &[(0, 0, 1.0)]),
+    way((2, 1), &[(1, 0, 1.0), (0, 0, 1.0)]),
+    way((2, 2), &[(1, 0, 1.0), (0, 0, 1.0)]),
+];
+
+impl StepPattern {
+    /// Every step pattern.
+    pub const ALL: [Self; 6] = [
+        Self::Symmetric1,
+        Self::Symmetric2,
+        Self::Asymmetric,
+        Self::SymmetricP1,
+        Self::AsymmetricP1,
+        Self::TypeIiiC,
+    ];
+
+    pub(crate) fn productions(self) -> &'static [Production] {
+        match self {
+            Self::Symmetric1 => SYMMETRIC1,
+            Self::Symmetric2 => SYMMETRIC2,
+            Self::Asymmetric => ASYMMETRIC,
+            Self::SymmetricP1 => SYMMETRIC_P1,
+            Self::AsymmetricP1 => ASYMMETRIC_P1,
+            Self::TypeIiiC => TYPE_III_C,
+        }
+    }
+
+    pub(crate) fn norm(self) -> Norm {
+        match self {
+            Self::Symmetric1 => Norm::None,
+            Self::Symmetric2 | Self::SymmetricP1 => Norm::Both,
+            Self::Asymmetric | Self::AsymmetricP1 | Self::TypeIiiC => Norm::Query,
+        }
+    }
+
+    /// Returns the weight of a diagonal step where only single steps are allowed both ways.
+    pub(crate) fn diagonal(self) -> Option<f64> {
+        match self {
+            Self::Symmetric1 => Some(1.0),
+            Self::Symmetric2 => Some(2.0),
+            _ => None,
+        }
+    }
+
+    /// Tells whether steps of this pattern can lead over `query` by `reference` frames without a
+    /// window.
+    pub(crate) fn spans(self, query: usize, reference: usize) -> bool {
+        let (n, m) = (query.saturating_sub(1), reference.saturating_sub(1));
+        match self {
+            Self::Symmetric1 | Self::Symmetric2 => true,
+            Self::Asymmetric => m <= n.saturating_mul(2),
+            Self::SymmetricP1 | Self::AsymmetricP1 | Self::TypeIiiC => {
+                m <= n.saturating_mul(2) && n <= m.saturating_mul(2)
+            }
+        }
+    }
+}

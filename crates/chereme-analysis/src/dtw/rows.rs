@@ -1,0 +1,249 @@
+//! The table of least costs row by row, for every step pattern, with the steps taken where a path
+//! is wanted.
+
+use std::ops::Range;
+
+use super::pattern::Production;
+use super::{Local, Options, Series, StepPattern};
+
+/// Columns of unreachable cost before the first, so that steps back need no test.
+const PAD: usize = 2;
+/// Columns whose local distance is found together.
+const CHUNK: usize = 16;
+
+/// What is left of a filled table: the costs of its last row, and each cell's step if kept.
+pub(super) struct Table {
+    /// Least cost of reaching each frame of the reference with the query's last; infinite where
+    /// no path leads.
+    pub(super) last: Vec<f64>,
+    steps: Vec<u8>,
+}
+
+/// Fills the table over `rows`; with `keep` it holds one byte per cell of them.
+pub(super) fn fill(
+    query: &Series,
+    reference: &Series,
+    rows: &[Range<usize>],
+    options: &Options,
+    keep: bool,
+) -> Table {
+    pulp::Arch::new().dispatch(
+        #[inline(always)]
+        || filled(query, reference, rows, options, keep),
+    )
+}
+
+#[inline(always)]
+fn filled(
+    query: &Series,
+    reference: &Series,
+    rows: &[Range<usize>],
+    options: &Options,
+    keep: bool,
+) -> Table {
+    let (n, m) = (query.frames(), reference.frames());
+    let mut costs = [(); 3].map(|()| vec![f64::INFINITY; m + PAD]);
+    let mut locals = [(); 2].map(|()| vec![f64::INFINITY; m + PAD]);
+    let mut steps = vec![
+        0;
+        if keep {
+            rows.iter().map(Range::len).sum()
+        } else {
+            m
+        }
+    ];
+    let mut used = 0;
+    if options.open_begin {
+        costs[0][PAD..].fill(0.0);
+    }
+    for i in 0..n {
+        let range = rows[i].clone();
+        let stale = if i >= 3 { rows[i - 3].clone() } else { 0..m };
+        let mut cost = std::mem::take(&mut costs[(i + 1) % 3]);
+        cost[stale.start + PAD..stale.end + PAD].fill(f64::INFINITY);
+        let ahead = rows.get(i + 1).map_or(0, |next| next.end).max(range.end);
+        let values: Vec<f64> = query.frame(i).collect();
+        local_row(
+            &values,
+            reference,
+            range.start.saturating_sub(1)..ahead,
+            options.local,
+            &mut locals[i % 2][PAD..],
+        );
+        let back = |d: usize| costs[(i + 4 - d) % 3].as_slice();
+        let taken = if keep {
+            used..used + range.len()
+        } else {
+            0..range.len()
+        };
+        used += range.len();
+        let row = Row {
+            range,
+            start: i == 0 && !options.open_begin,
+            previous: [back(1), back(2)],
+            locals: [&locals[i % 2], &locals[(i + 1) % 2]],
+        };
+        row.fill(options.pattern, &mut cost, &mut steps[taken]);
+        costs[(i + 1) % 3] = cost;
+    }
+    let last = costs[n % 3].split_off(PAD);
+    Table { last, steps }
+}
+
+/// One row of the table: what it is made from. Slices begin [`PAD`] columns early.
+struct Row<'a> {
+    range: Range<usize>,
+    /// Whether the row's first cell is the fixed start of every path.
+    start: bool,
+    /// Costs of the row before and of the one before that.
+    previous: [&'a [f64]; 2],
+    /// Local distances of this row and of the row before.
+    locals: [&'a [f64]; 2],
+}
+
+impl Row<'_> {
+    #[inline(always)]
+    fn fill(mut self, pattern: StepPattern, cost: &mut [f64], mut steps: &mut [u8]) {
+        if self.start && self.range.contains(&0) {
+            cost[PAD] = self.locals[0][PAD];
+            self.range.start = 1;
+            steps = &mut steps[1..];
+        }
+        match pattern {
+            StepPattern::Symmetric1 => self.symmetric(1.0, cost, steps),
+            StepPattern::Symmetric2 => self.symmetric(2.0, cost, steps),
+            StepPattern::Asymmetric => self.asymmetric(cost, steps),
+            other => self.any(other.productions(), cost, steps),
+        }
+    }
+
+    /// Symmetric patterns: 0 diagonal, 1 along the reference, 2 along the query.
+    #[inline(always)]
+    fn symmetric(self, weight: f64, cost: &mut [f64], steps: &mut [u8]) {
+        let Range { start, end } = self.range;
+        let above = &self.previous[0][start + PAD - 1..end + PAD];
+        let local = &self.locals[0][start + PAD..end + PAD];
+        let mut left = cost[start + PAD - 1];
+        let out = &mut cost[start + PAD..end + PAD];
+        for (((two, d), out), step) in above.windows(2).zip(local).zip(out).zip(steps) {
+            let (diagonal, along, up) = (two[0] + weight * d, left + d, two[1] + d);
+            let (best, code) = if along < diagonal {
+                (along, 1)
+            } else {
+                (diagonal, 0)
+            };
+            let (best, code) = if up < best { (up, 2) } else { (best, code) };
+            (*out, *step, left) = (best, code, best);
+        }
+    }
+
+    /// The asymmetric pattern: the step is how far the reference moves on.
+    #[inline(always)]
+    fn asymmetric(self, cost: &mut [f64], steps: &mut [u8]) {
+        let Range { start, end } = self.range;
+        let above = &self.previous[0][start + PAD - 2..end + PAD];
+        let local = &self.locals[0][start + PAD..end + PAD];
+        let out = &mut cost[start + PAD..end + PAD];
+        for (((three, d), out), step) in above.windows(3).zip(local).zip(out).zip(steps) {
+            let (best, code) = if three[1] < three[2] {
+                (three[1], 1)
+            } else {
+                (three[2], 0)
+            };
+            let (best, code) = if three[0] < best {
+                (three[0], 2)
+            } else {
+                (best, code)
+            };
+            (*out, *step) = (best + d, code);
+        }
+    }
+
+    fn any(self, productions: &[Production], cost: &mut [f64], steps: &mut [u8]) {
+        for (j, step) in (self.range.start + PAD..self.range.end + PAD).zip(steps) {
+            let mut best = (f64::INFINITY, 0);
+            for (code, production) in (0u8..).zip(productions) {
+                let (di, dj) = production.from;
+                let via = production.via.iter();
+                let via: f64 = via
+                    .map(|(a, b, weight)| weight * self.locals[*a][j - b])
+                    .sum();
+                let found = self.previous[di - 1][j - dj] + via;
+                if found < best.0 {
+                    best = (found, code);
+                }
+            }
+            (cost[j], *step) = best;
+        }
+    }
+}
+
+/// Writes the local distances of one frame, `values`, to the frames `range` of the reference.
+#[inline(always)]
+fn local_row(
+    values: &[f64],
+    reference: &Series,
+    range: Range<usize>,
+    local: Local,
+    out: &mut [f64],
+) {
+    let mut start = range.start;
+    for out in out[range].chunks_mut(CHUNK) {
+        let mut sums = [0.0; CHUNK];
+        for (channel, value) in values.iter().enumerate() {
+            let column = &reference.column(channel)[start..start + out.len()];
+            match <&[f64; CHUNK]>::try_from(column) {
+                Ok(column) => add_squares(&mut sums, *value, column),
+                Err(_) => add_squares(&mut sums[..column.len()], *value, column),
+            }
+        }
+        if local == Local::Euclidean {
+            sums = sums.map(f64::sqrt);
+        }
+        out.copy_from_slice(&sums[..out.len()]);
+        start += out.len();
+    }
+}
+
+#[inline(always)]
+fn add_squares(sums: &mut [f64], value: f64, column: &[f64]) {
+    for (sum, other) in sums.iter_mut().zip(column) {
+        *sum += (value - other) * (value - other);
+    }
+}
+
+impl Table {
+    /// Returns the path to frame `end` of the reference, first pair first, from a table that kept
+    /// its steps.
+    pub(super) fn path(
+        &self,
+        rows: &[Range<usize>],
+        options: &Options,
+        end: usize,
+    ) -> Vec<(usize, usize)> {
+        let mut offsets = vec![0];
+        offsets.extend(rows.iter().scan(0, |sum, row| {
+            *sum += row.len();
+            Some(*sum)
+        }));
+        let productions = options.pattern.productions();
+        let mut path = Vec::with_capacity(rows.len() * 2);
+        let (mut i, mut j) = (rows.len() - 1, end);
+        loop {
+            if i == 0 && j == 0 && !options.open_begin {
+                path.push((0, 0));
+                break;
+            }
+            let step = self.steps[offsets[i] + j - rows[i].start];
+            let production = &productions[usize::from(step)];
+            path.extend(production.via.iter().rev().map(|(a, b, _)| (i - a, j - b)));
+            let (di, dj) = production.from;
+            if di > i {
+                break;
+            }
+            (i, j) = (i - di, j - dj);
+        }
+        path.reverse();
+        path
+    }
+}

@@ -1,0 +1,198 @@
+//! The least cost alone for the symmetric patterns: eight rows at a time along anti-diagonals,
+//! whose cells do not wait for each other, in memory of one row.
+
+use std::ops::Range;
+
+use super::{Local, Series};
+
+/// Bounds are lowered by this share, far more than rounding can raise them.
+pub(super) const SLACK: f64 = 1.0 - 1e-9;
+
+/// Rows that are worked on together.
+const LANES: usize = 8;
+/// Anti-diagonals whose local distances are found before their costs.
+const TILE: usize = 32;
+
+type Lane = [f64; LANES];
+
+/// A series with its frames reversed and padded, so that the cells of an anti-diagonal lie side
+/// by side.
+pub(super) struct Reversed {
+    frames: usize,
+    stride: usize,
+    values: Vec<f64>,
+}
+
+impl Reversed {
+    pub(super) fn of(series: &Series) -> Self {
+        let frames = series.frames();
+        let stride = frames + 2 * LANES;
+        let mut values = vec![0.0; stride * series.channels()];
+        for (channel, out) in values.chunks_exact_mut(stride).enumerate() {
+            for (out, value) in out[LANES..]
+                .iter_mut()
+                .zip(series.column(channel).iter().rev())
+            {
+                *out = *value;
+            }
+        }
+        Self {
+            frames,
+            stride,
+            values,
+        }
+    }
+}
+
+/// What a run of the kernel is asked for.
+pub(super) struct Ask<'a> {
+    /// Columns that each row may reach.
+    pub(super) rows: &'a [Range<usize>],
+    /// Weight of a diagonal step.
+    pub(super) diagonal: f64,
+    /// Distance between two frames.
+    pub(super) local: Local,
+    /// The cost above which the answer is of no use.
+    pub(super) limit: f64,
+    /// For every row a lower bound of what the rows after it still cost; may be empty.
+    pub(super) rest: &'a [f64],
+}
+
+/// Returns the least cost from the first to the last cell: infinite without a path, nothing where
+/// it was found to exceed the limit.
+pub(super) fn least_cost(rows: &Series, columns: &Reversed, ask: &Ask<'_>) -> Option<f64> {
+    pulp::Arch::new().dispatch(
+        #[inline(always)]
+        || match ask.diagonal > 1.0 {
+            true => blocks::<true>(rows, columns, ask),
+            false => blocks::<false>(rows, columns, ask),
+        },
+    )
+}
+
+#[inline(always)]
+fn blocks<const DOUBLE: bool>(rows: &Series, columns: &Reversed, ask: &Ask<'_>) -> Option<f64> {
+    let (n, m) = (rows.frames(), columns.frames);
+    let mut above = vec![f64::INFINITY; m + LANES + 1];
+    let mut values = vec![[0.0; LANES]; rows.channels()];
+    load(rows, 0, &mut values);
+    let mut corner = [[0.0; LANES]];
+    local_costs(&values, columns, 0, ask.local, &mut corner);
+    // The first cell weighs 1 whatever a diagonal step weighs.
+    above[0] = if DOUBLE { -corner[0][0] } else { 0.0 };
+    for first in (0..n).step_by(LANES) {
+        load(rows, first, &mut values);
+        let rows = &ask.rows[first..n.min(first + LANES)];
+        let least = block::<DOUBLE>(&values, columns, rows, ask.local, &mut above);
+        let last = first + rows.len() - 1;
+        let rest = ask.rest.get(last).copied().unwrap_or(0.0);
+        if (least + rest) * SLACK > ask.limit {
+            return None;
+        }
+    }
+    Some(above[m])
+}
+
+/// Gathers the eight frames from `first` on, channel by channel; past the end the last is repeated.
+#[inline(always)]
+fn load(rows: &Series, first: usize, values: &mut [Lane]) {
+    for (channel, lane) in values.iter_mut().enumerate() {
+        let column = rows.column(channel);
+        for (r, value) in lane.iter_mut().enumerate() {
+            *value = column[(first + r).min(column.len() - 1)];
+        }
+    }
+}
+
+/// Advances the row of costs `above` (from one column before the first) by the block's rows and
+/// returns the least cost in the new row.
+#[inline(always)]
+fn block<const DOUBLE: bool>(
+    values: &[Lane],
+    columns: &Reversed,
+    rows: &[Range<usize>],
+    local: Local,
+    above: &mut [f64],
+) -> f64 {
+    let last = rows.len() - 1;
+    let (start, end) = (rows[0].start, rows[last].end + last);
+    let mut diagonal = [f64::INFINITY; LANES];
+    diagonal[0] = std::mem::replace(&mut above[start], f64::INFINITY);
+    let mut left = [f64::INFINITY; LANES];
+    let mut least = f64::INFINITY;
+    let mut tile = [[0.0; LANES]; TILE];
+    let mut from = start;
+    while from < end {
+        let count = TILE.min(end - from);
+        let tile = &mut tile[..count];
+        local_costs(values, columns, from, local, tile);
+        mask(rows, from, tile);
+        for (s, d) in (from..).zip(tile.iter()) {
+            let mut up = [above[s + 1]; LANES];
+            up[1..].copy_from_slice(&left[..LANES - 1]);
+            for r in 0..LANES {
+                let straight = lesser(up[r], left[r]);
+                left[r] = if DOUBLE {
+                    lesser(straight + d[r], diagonal[r] + (d[r] + d[r]))
+                } else {
+                    lesser(straight, diagonal[r]) + d[r]
+                };
+            }
+            diagonal = up;
+            if s >= start + last {
+                above[s - last + 1] = left[last];
+                least = lesser(left[last], least);
+            }
+        }
+        from += count;
+    }
+    least
+}
+
+/// Writes the local distances of the anti-diagonals from step `from` on: lane `r` of step `s` is
+/// row `r`, column `s - r`.
+#[inline(always)]
+fn local_costs(values: &[Lane], columns: &Reversed, from: usize, local: Local, tile: &mut [Lane]) {
+    let base = LANES + columns.frames - 1 - from;
+    for (t, out) in tile.iter_mut().enumerate() {
+        let mut sums = [0.0; LANES];
+        for (value, column) in values
+            .iter()
+            .zip(columns.values.chunks_exact(columns.stride))
+        {
+            let column = &column[base - t..][..LANES];
+            for r in 0..LANES {
+                let difference = value[r] - column[r];
+                sums[r] += difference * difference;
+            }
+        }
+        *out = if local == Local::Euclidean {
+            sums.map(f64::sqrt)
+        } else {
+            sums
+        };
+    }
+}
+
+/// Makes the cells of a tile that lie outside their row's range unreachable.
+#[inline(always)]
+fn mask(rows: &[Range<usize>], from: usize, tile: &mut [Lane]) {
+    let count = tile.len();
+    for r in 0..LANES {
+        let (start, end) = rows
+            .get(r)
+            .map_or((count + from, 0), |row| (row.start + r, row.end + r));
+        let inside = start.saturating_sub(from).min(count)..end.saturating_sub(from).min(count);
+        for d in &mut tile[..inside.start] {
+            d[r] = f64::INFINITY;
+        }
+        for d in &mut tile[inside.end.max(inside.start)..] {
+            d[r] = f64::INFINITY;
+        }
+    }
+}
+
+#[inline(always)]
+fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
