@@ -1,0 +1,366 @@
+//! How one span of time stands to another: ELAN's eleven relations and Allen's.
+
+use crate::text::{did_you_mean, fold, nearest};
+use chereme_motion::{Instant, Span};
+use std::fmt;
+use std::str::FromStr;
+
+/// How a span `a` stands to a span `b`; spans are half-open.
+///
+/// The first eleven are those of ELAN's structured search; the others complete the thirteen of
+/// Allen (*Maintaining knowledge about temporal intervals*, 1983), of which ELAN's
+/// `OverlapsBegin` and `OverlapsEnd` are two and `Before` and `After` hold two each. Distances are
+/// microseconds, and one below zero counts as zero.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Relation {
+    /// `a` lies wholly in `b`.
+    Inside,
+    /// Some of `a` lies outside `b`.
+    NotInside,
+    /// They share an instant.
+    Overlaps,
+    /// They share no instant.
+    NotOverlaps,
+    /// `a` starts before `b` and ends inside it: it overlaps only the begin.
+    OverlapsBegin,
+    /// `a` starts inside `b` and ends after it: it overlaps only the end.
+    OverlapsEnd,
+    /// `a` lies wholly in `b` with this much added on both sides.
+    Around(i64),
+    /// `a` lies wholly within this distance of the start of `b`.
+    OfBegin(i64),
+    /// `a` lies wholly within this distance of the end of `b`.
+    OfEnd(i64),
+    /// `a` has ended when `b` starts.
+    Before,
+    /// `a` starts when `b` has ended.
+    After,
+    /// They have the same start and end.
+    Equals,
+    /// `a` ends where `b` starts.
+    Meets,
+    /// `a` starts where `b` ends.
+    MetBy,
+    /// They start together and `a` ends first.
+    Starts,
+    /// They start together and `b` ends first.
+    StartedBy,
+    /// They end together and `b` starts first.
+    Finishes,
+    /// They end together and `a` starts first.
+    FinishedBy,
+    /// `b` lies wholly in `a`.
+    Covers,
+}
+
+impl Relation {
+    /// The relations without a distance, by the name that queries use.
+    pub const PLAIN: [(&'static str, Self); 16] = [
+        ("overlaps", Self::Overlaps),
+        ("not-overlaps", Self::NotOverlaps),
+        ("inside", Self::Inside),
+        ("not-inside", Self::NotInside),
+        ("overlaps-begin", Self::OverlapsBegin),
+        ("overlaps-end", Self::OverlapsEnd),
+        ("before", Self::Before),
+        ("after", Self::After),
+        ("equals", Self::Equals),
+        ("meets", Self::Meets),
+        ("met-by", Self::MetBy),
+        ("starts", Self::Starts),
+        ("started-by", Self::StartedBy),
+        ("finishes", Self::Finishes),
+        ("finished-by", Self::FinishedBy),
+        ("covers", Self::Covers),
+    ];
+
+    /// Tells whether `a` stands to `b` in this relation.
+    #[must_use]
+    pub fn holds(self, a: Span, b: Span) -> bool {
+        let (start, end) = (a.start().cmp(&b.start()), a.end().cmp(&b.end()));
+        match self {
+            Self::Inside => b.covers(a),
+            Self::NotInside => !b.covers(a),
+            Self::Overlaps => a.overlaps(b),
+            Self::NotOverlaps => !a.overlaps(b),
+            Self::OverlapsBegin => start.is_lt() && end.is_lt() && a.overlaps(b),
+            Self::OverlapsEnd => start.is_gt() && end.is_gt() && a.overlaps(b),
+            Self::Around(reach) => widened(b.start(), b.end(), reach).covers(a),
+            Self::OfBegin(reach) => widened(b.start(), b.start(), reach).covers(a),
+            Self::OfEnd(reach) => widened(b.end(), b.end(), reach).covers(a),
+            Self::Before => a.end() <= b.start(),
+            Self::After => b.end() <= a.start(),
+            Self::Equals => a == b,
+            Self::Meets => a.end() == b.start(),
+            Self::MetBy => a.start() == b.end(),
+            Self::Starts => start.is_eq() && end.is_lt(),
+            Self::StartedBy => start.is_eq() && end.is_gt(),
+            Self::Finishes => start.is_gt() && end.is_eq(),
+            Self::FinishedBy => start.is_lt() && end.is_eq(),
+            Self::Covers => a.covers(b),
+        }
+    }
+
+    /// Returns the relation in which `b` stands to `a` when `a` stands to `b` in this one, or
+    /// nothing where that has no name.
+    #[must_use]
+    pub fn inverse(self) -> Option<Self> {
+        Some(match self {
+            Self::Inside => Self::Covers,
+            Self::Covers => Self::Inside,
+            Self::Overlaps | Self::NotOverlaps | Self::Equals => self,
+            Self::OverlapsBegin => Self::OverlapsEnd,
+            Self::OverlapsEnd => Self::OverlapsBegin,
+            Self::Before => Self::After,
+            Self::After => Self::Before,
+            Self::Meets => Self::MetBy,
+            Self::MetBy => Self::Meets,
+            Self::Starts => Self::StartedBy,
+            Self::StartedBy => Self::Starts,
+            Self::Finishes => Self::FinishedBy,
+            Self::FinishedBy => Self::Finishes,
+            Self::NotInside | Self::Around(_) | Self::OfBegin(_) | Self::OfEnd(_) => return None,
+        })
+    }
+}
+
+fn widened(start: Instant, end: Instant, reach: i64) -> Span {
+    let reach = reach.max(0);
+    Span::between(start.shifted(-reach), end.shifted(reach))
+}
+
+impl fmt::Display for Relation {
+    /// Writes the name that queries use, such as `overlaps-begin` or `within 0.2s of-end`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (reach, kind) = match self {
+            Self::Around(reach) => (reach, "around"),
+            Self::OfBegin(reach) => (reach, "of-begin"),
+            Self::OfEnd(reach) => (reach, "of-end"),
+            plain => {
+                let named = Self::PLAIN.iter().find(|(_, relation)| relation == plain);
+                return f.write_str(named.map_or("overlaps", |(name, _)| name));
+            }
+        };
+        let reach = (*reach).max(0);
+        let fraction = format!("{:06}", reach % 1_000_000);
+        let fraction = fraction.trim_end_matches('0');
+        let point = if fraction.is_empty() { "" } else { "." };
+        write!(f, "within {}{point}{fraction}s {kind}", reach / 1_000_000)
+    }
+}
+
+impl FromStr for Relation {
+    type Err = RelationError;
+
+    /// Reads a relation as queries and as ELAN name it: `overlaps-begin`, `overlaps only begin`,
+    /// `no overlap`, `within 0.2s around`, `within 200 ms of begin`.
+    fn from_str(text: &str) -> Result<Self, RelationError> {
+        let words = fold(text).replace(['-', '_'], " ");
+        let words: Vec<&str> = words.split_whitespace().collect();
+        if let ["within", rest @ ..] = &words[..] {
+            return within(rest, text);
+        }
+        let name: Vec<&str> = words
+            .into_iter()
+            .filter(|word| !["is", "only", "time"].contains(word))
+            .map(|word| match word {
+                "no" => "not",
+                "overlap" => "overlaps",
+                "equal" => "equals",
+                word => word,
+            })
+            .collect();
+        let name = name.join("-");
+        let found = Self::PLAIN.iter().find(|(plain, _)| *plain == name);
+        found
+            .map(|(_, relation)| *relation)
+            .ok_or_else(|| RelationError::Unknown {
+                text: text.to_owned(),
+                nearest: nearest(&name, Self::PLAIN.map(|(name, _)| name)).map(str::to_owned),
+            })
+    }
+}
+
+fn within(words: &[&str], text: &str) -> Result<Relation, RelationError> {
+    let written = || RelationError::Distance {
+        text: text.to_owned(),
+    };
+    let kind = words
+        .iter()
+        .position(|word| ["of", "around"].contains(word))
+        .ok_or_else(written)?;
+    let reach = micros(&words[..kind].concat()).ok_or_else(written)?;
+    match &words[kind..] {
+        ["around"] => Ok(Relation::Around(reach)),
+        ["of", "begin" | "start", ..] => Ok(Relation::OfBegin(reach)),
+        ["of", "end", ..] => Ok(Relation::OfEnd(reach)),
+        _ => Err(written()),
+    }
+}
+
+fn micros(text: &str) -> Option<i64> {
+    let (number, unit) = match text.strip_suffix("ms") {
+        Some(number) => (number, 1e3),
+        None => (text.strip_suffix('s')?, 1e6),
+    };
+    let micros = number.parse::<f64>().ok()? * unit;
+    (0.0..9e18)
+        .contains(&micros)
+        .then_some(micros.round() as i64)
+}
+
+/// A text that names no relation.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum RelationError {
+    /// There is no such relation.
+    #[error("there is no relation {text:?}{}", did_you_mean(nearest.as_deref()))]
+    Unknown {
+        /// What was written.
+        text: String,
+        /// The relation nearest to it.
+        nearest: Option<String>,
+    },
+    /// What follows `within` is no distance and place.
+    #[error(
+        "{text:?}: after \"within\" stand a time and a place, such as 0.2s around, 200ms of begin or 1s of end"
+    )]
+    Distance {
+        /// What was written.
+        text: String,
+    },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn span(start: i64, end: i64) -> Span {
+        Span::between(Instant::from_micros(start), Instant::from_micros(end))
+    }
+
+    /// Every relation in the order of the table's columns; the distances are 5 microseconds.
+    fn columns() -> Vec<Relation> {
+        let mut all: Vec<Relation> = Relation::PLAIN
+            .iter()
+            .map(|(_, relation)| *relation)
+            .collect();
+        all.extend([
+            Relation::Around(5),
+            Relation::OfBegin(5),
+            Relation::OfEnd(5),
+        ]);
+        all
+    }
+
+    #[test]
+    fn every_relation_over_every_kind_of_pair() {
+        let b = span(100, 200);
+        for (a, holds) in [
+            (span(50, 80), "not-overlaps not-inside before"),
+            (span(50, 100), "not-overlaps not-inside before meets"),
+            (span(96, 98), "not-overlaps not-inside before around begin"),
+            (span(50, 150), "overlaps not-inside overlaps-begin"),
+            (
+                span(96, 104),
+                "overlaps not-inside overlaps-begin around begin",
+            ),
+            (span(100, 150), "overlaps inside starts around"),
+            (span(101, 104), "overlaps inside around begin"),
+            (span(120, 150), "overlaps inside around"),
+            (span(150, 200), "overlaps inside finishes around"),
+            (span(197, 199), "overlaps inside around end"),
+            (span(100, 200), "overlaps inside equals covers around"),
+            (span(50, 200), "overlaps not-inside finished-by covers"),
+            (span(100, 250), "overlaps not-inside started-by covers"),
+            (span(98, 203), "overlaps not-inside covers around"),
+            (span(50, 250), "overlaps not-inside covers"),
+            (span(150, 250), "overlaps not-inside overlaps-end"),
+            (
+                span(198, 204),
+                "overlaps not-inside overlaps-end around end",
+            ),
+            (span(200, 250), "not-overlaps not-inside after met-by"),
+            (span(202, 204), "not-overlaps not-inside after around end"),
+            (span(250, 280), "not-overlaps not-inside after"),
+        ] {
+            let mut wanted: Vec<&str> = holds.split(' ').collect();
+            wanted.sort_unstable();
+            let name = |relation: &Relation| match relation {
+                Relation::Around(_) => "around".to_owned(),
+                Relation::OfBegin(_) => "begin".to_owned(),
+                Relation::OfEnd(_) => "end".to_owned(),
+                plain => plain.to_string(),
+            };
+            let found = columns()
+                .into_iter()
+                .filter(|relation| relation.holds(a, b));
+            let mut found: Vec<String> = found.map(|relation| name(&relation)).collect();
+            found.sort_unstable();
+            assert_eq!(found, wanted, "{a:?}");
+        }
+    }
+
+    #[test]
+    fn names_of_queries_and_of_elan_are_read() {
+        for (text, relation) in [
+            ("Inside", Relation::Inside),
+            ("is inside", Relation::Inside),
+            ("not inside", Relation::NotInside),
+            ("overlaps only begin time", Relation::OverlapsBegin),
+            ("overlaps_only_end", Relation::OverlapsEnd),
+            ("no overlap", Relation::NotOverlaps),
+            ("before", Relation::Before),
+            ("within 0.2s around", Relation::Around(200_000)),
+            ("within 200 ms of begin time", Relation::OfBegin(200_000)),
+            ("within 1.5s of-end", Relation::OfEnd(1_500_000)),
+        ] {
+            assert_eq!(text.parse(), Ok(relation), "{text}");
+        }
+        for relation in columns() {
+            assert_eq!(relation.to_string().parse(), Ok(relation));
+        }
+        for (text, message) in [
+            (
+                "overlpas",
+                r#"there is no relation "overlpas"; did you mean "overlaps"?"#,
+            ),
+            ("", r#"there is no relation """#),
+            (
+                "within of begin",
+                r#""within of begin": after "within" stand a time and a place, such as 0.2s around, 200ms of begin or 1s of end"#,
+            ),
+            (
+                "within NaNs around",
+                r#""within NaNs around": after "within" stand a time and a place, such as 0.2s around, 200ms of begin or 1s of end"#,
+            ),
+        ] {
+            assert_eq!(
+                text.parse::<Relation>().expect_err(text).to_string(),
+                message
+            );
+        }
+    }
+
+    fn any_span() -> impl Strategy<Value = Span> {
+        (0i64..12, 0i64..12).prop_map(|(a, b)| span(a, b))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn an_inverse_holds_the_other_way_round(a in any_span(), b in any_span()) {
+            for relation in columns() {
+                if let Some(inverse) = relation.inverse() {
+                    prop_assert_eq!(relation.holds(a, b), inverse.holds(b, a), "{}", relation);
+                }
+            }
+        }
+
+        #[test]
+        fn around_no_distance_is_inside(a in any_span(), b in any_span()) {
+            prop_assert_eq!(Relation::Around(-1).holds(a, b), Relation::Inside.holds(a, b));
+        }
+    }
+}
