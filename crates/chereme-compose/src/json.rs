@@ -1,0 +1,61 @@
+//! The JSON spelling of a recipe: a version and the tree.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use crate::error::RecipeError;
+use crate::recipe::{Node, Recipe};
+
+/// The version of the tree that this engine reads and writes.
+pub const VERSION: u64 = 1;
+
+/// A recipe's JSON object before its version is known to be ours.
+#[derive(Serialize, Deserialize)]
+#[serde(transparent)]
+pub(crate) struct Versioned(Map<String, Value>);
+
+impl TryFrom<Versioned> for Recipe {
+    type Error = RecipeError;
+
+    fn try_from(Versioned(mut fields): Versioned) -> Result<Self, RecipeError> {
+        match fields.remove("version") {
+            Some(Value::Number(found)) if found.as_u64() == Some(VERSION) => {}
+            Some(found) => {
+                return Err(RecipeError::Version {
+                    found: found.to_string(),
+                });
+            }
+            None => {
+                return Err(RecipeError::Field {
+                    message: "a recipe needs \"version\"".into(),
+                });
+            }
+        }
+        let make = fields.remove("make").ok_or_else(|| RecipeError::Field {
+            message: "a recipe needs \"make\", its tree".into(),
+        })?;
+        if let Some(unknown) = fields.keys().next() {
+            return Err(RecipeError::Field {
+                message: format!("unknown field {unknown:?}; a recipe has version and make"),
+            });
+        }
+        let root: Node = serde_json::from_value(make).map_err(|error| RecipeError::Field {
+            message: error.to_string(),
+        })?;
+        Self::new(root)
+    }
+}
+
+impl From<Recipe> for Versioned {
+    fn from(recipe: Recipe) -> Self {
+        let make = serde_json::to_value(&recipe.root)
+            .expect("a recipe's tree has only strings, lists and objects with string keys");
+        let fields = [("version", Value::from(VERSION)), ("make", make)];
+        Self(
+            fields
+                .map(|(key, value)| (key.to_owned(), value))
+                .into_iter()
+                .collect(),
+        )
+    }
+}

@@ -1,0 +1,104 @@
+//! What evaluating a recipe gives: movement, what is said about it, and how it came about.
+
+use chereme_motion::{Clip, Side, Span};
+use chereme_sign::{Component, Handedness, Reading};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+use chereme_motion::Anatomy;
+
+/// A made sign or utterance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Made {
+    /// The movement.
+    pub clip: Clip,
+    /// Which joint of its skeleton is what.
+    pub anatomy: Arc<Anatomy>,
+    /// Which hand the signer signs with.
+    pub handedness: Handedness,
+    /// Whose body moves, where known.
+    pub signer: Option<String>,
+    /// What is said about it.
+    pub notes: Vec<Note>,
+    /// How it came about.
+    pub report: Report,
+}
+
+/// Something said about a stretch of made movement; the corpus makes annotations of these.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Note {
+    /// The hand; nothing for glosses and non-manual components.
+    pub hand: Option<Side>,
+    /// What is said.
+    pub about: About,
+    /// The value.
+    pub value: Reading,
+    /// The time, from the first frame.
+    pub span: Span,
+    /// Where the movement of that stretch comes from.
+    pub origin: String,
+}
+
+/// What a note is about.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum About {
+    /// The gloss of the sign that the stretch was made from.
+    Gloss,
+    /// A component, and the part of it where it is not the whole.
+    Component(Component, Option<String>),
+    /// Movement synthesised between two pieces or values.
+    Transition,
+}
+
+/// How a made sign came about, for people and for `--explain`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Report {
+    /// The steps in the order in which they were taken.
+    pub steps: Vec<StepReport>,
+    /// For each channel of the body, where its movement comes from.
+    pub channels: Vec<ChannelReport>,
+    /// The places at which pieces of movement meet.
+    pub joins: Vec<JoinReport>,
+    /// What one should know before relying on the result.
+    pub warnings: Vec<String>,
+}
+
+/// One step that was taken.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StepReport {
+    /// Where it stands in the recipe's JSON, such as `/pipe/steps/0`.
+    pub path: String,
+    /// The source or operator as text.
+    pub step: String,
+    /// What it did, in a few words.
+    pub did: Vec<String>,
+    /// The largest distance in metres between where a wrist should have come and where it came.
+    pub residual: Option<f64>,
+}
+
+/// Where the movement of a channel comes from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ChannelReport {
+    /// The channel: `right fingers`, `left arm`, `head`, `trunk`.
+    pub channel: String,
+    /// The sources, then the operators that changed it, in order.
+    pub from: Vec<String>,
+}
+
+/// How well two pieces of movement meet at one end of a transition, at a wrist.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct JoinReport {
+    /// What is joined.
+    pub what: String,
+    /// The hand.
+    pub hand: Side,
+    /// The transition.
+    pub span: Span,
+    /// How far the wrist is from where its speed would have brought it, in metres; the larger of both ends.
+    pub position: f64,
+    /// The change of velocity in metres per second; the larger of both ends.
+    pub velocity: f64,
+    /// The change of acceleration in metres per second squared; the larger of both ends.
+    pub acceleration: f64,
+}

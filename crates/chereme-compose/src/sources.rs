@@ -1,0 +1,212 @@
+//! What the evaluator asks of the world outside: the one trait that a corpus implements.
+
+use std::sync::Arc;
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Anatomy, Clip, HandAngles, Side, Span};
+use chereme_sign::{Component, Handedness, Reading};
+use serde::{Deserialize, Serialize};
+
+/// Where recipes find movement, values and examples; a corpus implements it.
+///
+/// Every question is asked while a recipe is [resolved](crate::Recipe); evaluating asks nothing.
+/// Answers must not depend on anything but the corpus: the same question gives the same answer in
+/// the same order.
+pub trait Sources {
+    /// Returns the movement at an address as written: a gloss, `token:41`, `sign:LIMACE`.
+    ///
+    /// # Errors
+    /// [`SourceError::Missing`] where nothing has that address, [`SourceError::Ambiguous`] where
+    /// several things have it, [`SourceError::NoMovement`] where a lexicon entry is all there is.
+    fn material(&self, address: &str) -> Result<Material, SourceError>;
+
+    /// Returns a body at rest, for movement that comes from no recording: a frame or more of a
+    /// neutral posture of the signer (an address), or of one the corpus chooses.
+    ///
+    /// # Errors
+    /// [`SourceError`] where there is no such signer, or no movement at all.
+    fn stage(&self, signer: Option<&str>) -> Result<Material, SourceError>;
+
+    /// Returns the value of `component` that `text` names: by id, by a name in any language, or by
+    /// its notation.
+    ///
+    /// # Errors
+    /// [`SourceError::UnknownValue`] with what was probably meant.
+    fn value(&self, component: Component, text: &str) -> Result<Value, SourceError>;
+
+    /// Returns every value of `component` in the inventories, in their order.
+    fn values(&self, component: Component) -> Vec<Value>;
+
+    /// Returns the tokens with movement that hold the value with this id, best examples first.
+    ///
+    /// # Errors
+    /// [`SourceError`] where the corpus cannot be read.
+    fn holding(&self, component: Component, value: &str) -> Result<Vec<Example>, SourceError>;
+
+    /// Returns the tokens with movement that answer `query`, best first; `signer=same` in it means
+    /// the signer given here.
+    ///
+    /// # Errors
+    /// [`SourceError::Query`] where the query is not understood.
+    fn best(&self, query: &str, signer: Option<&str>) -> Result<Vec<Example>, SourceError>;
+
+    /// Returns the letters of `word` in an alphabet, or in the corpus's usual one.
+    ///
+    /// # Errors
+    /// [`SourceError::UnknownValue`] naming the first letter that the alphabet does not have.
+    fn letters(&self, alphabet: Option<&str>, word: &str) -> Result<Vec<Letter>, SourceError>;
+
+    /// Returns the mean course of the corpus's own transitions: shares of the way at equal steps of
+    /// time, from 0 to 1; nothing where the corpus has not learned one.
+    fn learned_profile(&self) -> Option<Vec<f64>> {
+        None
+    }
+}
+
+/// A piece of movement with what is said about it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// Its address without doubt, such as `token:41`.
+    pub address: String,
+    /// A hash of the movement, as the corpus makes it; the same movement always has the same.
+    pub hash: String,
+    /// What it is called.
+    pub gloss: String,
+    /// The address of the signer, where known.
+    pub signer: Option<String>,
+    /// Which hand the signer signs with.
+    pub handedness: Handedness,
+    /// The movement; times in `held` count from its first frame.
+    pub clip: Clip,
+    /// Which joint is what.
+    pub anatomy: Arc<Anatomy>,
+    /// The component values it holds, in any order.
+    pub held: Vec<Held>,
+}
+
+/// A value of a component over a span of a piece of movement.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Held {
+    /// The hand; nothing for non-manual components.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hand: Option<Side>,
+    /// The component.
+    pub component: Component,
+    /// The part of the component, such as `brows` or `palm`; nothing for the whole.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub feature: Option<String>,
+    /// The value: an id of an inventory where there is one.
+    pub value: Reading,
+    /// The time, from the movement's first frame.
+    pub span: Span,
+}
+
+/// A value of an inventory with what it means for a body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Value {
+    /// The id under which annotations name it.
+    pub id: String,
+    /// The inventory.
+    pub inventory: String,
+    /// What it means, where the inventory says.
+    pub meaning: Option<Meaning>,
+}
+
+/// What a value means for a body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Meaning {
+    /// A posture of the hand.
+    Hand(HandAngles),
+    /// A place.
+    Place(Spatial),
+}
+
+/// A place relative to a signer's body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Spatial {
+    /// The landmark's name, as the anatomy spells it.
+    pub landmark: String,
+    /// From the landmark in body space (X to the signer's left, Y up, Z forward), in shares of the
+    /// arm's length.
+    pub offset: DVec3,
+}
+
+/// A token that shows something, and where in it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Example {
+    /// Its address.
+    pub address: String,
+    /// Its signer's address, where known.
+    pub signer: Option<String>,
+    /// The hand that shows it; nothing where that is not told.
+    pub hand: Option<Side>,
+    /// When, from the start of its movement; nothing for all of it.
+    pub span: Option<Span>,
+}
+
+/// A letter of a manual alphabet.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Letter {
+    /// The letter as written.
+    pub letter: String,
+    /// Its configuration's value.
+    pub value: Value,
+    /// The way the hand goes while it is shown, in body space of a right hand, in metres; empty for
+    /// a letter that is held still.
+    pub path: Vec<DVec3>,
+    /// How the hand is turned against the alphabet's usual palm forward, fingers up, in body space of
+    /// a right hand.
+    pub turn: DQuat,
+}
+
+/// Why the corpus has no answer.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum SourceError {
+    /// Nothing has this address.
+    #[error("{address:?} is not in the corpus{}", chereme_sign::text::did_you_mean(nearest.as_deref()))]
+    Missing {
+        /// The address as written.
+        address: String,
+        /// An address near to it.
+        nearest: Option<String>,
+    },
+    /// Several things have this address.
+    #[error("{address:?} could be any of {}; name one of them", candidates.join(", "))]
+    Ambiguous {
+        /// The address as written.
+        address: String,
+        /// Addresses without doubt.
+        candidates: Vec<String>,
+    },
+    /// The sign is a lexicon entry without movement.
+    #[error(
+        "{address:?} has no movement: it is an entry of a lexicon; name a sign that was captured or made"
+    )]
+    NoMovement {
+        /// The address as written.
+        address: String,
+    },
+    /// No inventory has this value.
+    #[error("{text:?} is no {component} of any inventory{}", chereme_sign::text::did_you_mean(nearest.as_deref()))]
+    UnknownValue {
+        /// The component.
+        component: Component,
+        /// The value as written.
+        text: String,
+        /// A value near to it.
+        nearest: Option<String>,
+    },
+    /// A query is not understood.
+    #[error("the query {query:?} is not understood: {message}")]
+    Query {
+        /// The query.
+        query: String,
+        /// What is wrong with it, and where.
+        message: String,
+    },
+    /// The corpus cannot be read.
+    #[error("the corpus cannot be read: {0}")]
+    Unreadable(String),
+}

@@ -1,0 +1,7 @@
+//! The text spelling of a recipe.
+
+mod lexer;
+mod parse;
+mod print;
+#[cfg(test)]
+mod tests;
