@@ -1,0 +1,402 @@
+//! The signer's body as a surface: what hangs on which joint, put together once per skeleton.
+
+mod hand;
+mod head;
+mod shape;
+
+use chereme_motion::{Anatomy, ModelPose, Side, Skeleton, anatomy::Part};
+use glam::{Mat3, Vec3};
+
+use crate::mesh::Mesh;
+use crate::palette::Palette;
+use head::Head;
+use shape::{Assembly, Element, Loft, Paint, Point, Rod, Section, place, rotation};
+
+/// A signer's body, made once for a skeleton and moved to any posture of it.
+///
+/// Limbs are rods between the joints, the torso a rounded slab from hips to shoulders, hands have
+/// palms, fingers and nails, the head a face. Parts that the anatomy lacks are left out; a hand
+/// without fingers is a mitten; a skeleton without arms is drawn bone by bone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Body {
+    template: Mesh,
+    elements: Vec<Element>,
+}
+
+/// Numbers of the parts between which lines are drawn; 0 is the paper.
+pub mod group {
+    use chereme_motion::Side;
+
+    /// Torso, shoulders and neck.
+    pub const TORSO: u8 = 1;
+    /// The head.
+    pub const HEAD: u8 = 2;
+    /// Legs, and the bones of a skeleton that is no body.
+    pub const REST: u8 = 3;
+
+    /// Returns the number of an arm.
+    #[must_use]
+    pub const fn arm(side: Side) -> u8 {
+        side_base(side)
+    }
+
+    /// Returns the number of a palm.
+    #[must_use]
+    pub const fn palm(side: Side) -> u8 {
+        side_base(side) + 1
+    }
+
+    /// Returns the number of a finger: 0 the thumb, 1 the index, to 4 the little finger.
+    #[must_use]
+    pub const fn digit(side: Side, number: usize) -> u8 {
+        side_base(side) + 2 + number as u8
+    }
+
+    const fn side_base(side: Side) -> u8 {
+        match side {
+            Side::Right => 10,
+            Side::Left => 20,
+        }
+    }
+}
+
+/// The length of an adult's arm from shoulder to wrist that the measures below are meant for, in
+/// metres (ANSUR II, men and women together, about 0.53).
+const ARM: f32 = 0.53;
+
+impl Body {
+    /// Returns the body of `skeleton` in the usual colours.
+    #[must_use]
+    pub fn new(skeleton: &Skeleton, anatomy: &Anatomy) -> Self {
+        Self::with_palette(skeleton, anatomy, &Palette::default())
+    }
+
+    /// Returns the body of `skeleton` in colours of one's own.
+    #[must_use]
+    pub fn with_palette(skeleton: &Skeleton, anatomy: &Anatomy, palette: &Palette) -> Self {
+        let rest = skeleton.rest_model_pose();
+        let mut builder = Builder {
+            skeleton,
+            anatomy,
+            palette,
+            rest: &rest,
+            size: body_size(skeleton, anatomy),
+            out: Assembly::default(),
+        };
+        if Side::BOTH.iter().any(|&side| anatomy.arm(side).is_some()) {
+            builder.signer();
+        } else {
+            builder.bones();
+        }
+        builder.out.into_body(&rest)
+    }
+
+    /// Returns only the hand of `side`, forearm left out; empty where there is no wrist.
+    #[must_use]
+    pub fn hand(skeleton: &Skeleton, anatomy: &Anatomy, side: Side, palette: &Palette) -> Self {
+        let rest = skeleton.rest_model_pose();
+        let mut out = Assembly::default();
+        if let Some(joints) = hand::HandJoints::of(anatomy, side) {
+            hand::add(&mut out, skeleton, &rest, &joints, colours(palette, side));
+        }
+        out.into_body(&rest)
+    }
+
+    /// Returns the surface in `pose`, a posture of the skeleton the body was made for.
+    ///
+    /// # Panics
+    /// Where `pose` has fewer joints than that skeleton.
+    #[must_use]
+    pub fn mesh(&self, pose: &ModelPose) -> Mesh {
+        let mut mesh = self.template.clone();
+        self.shape(pose, &mut mesh);
+        mesh
+    }
+
+    /// Moves `mesh`, which [`mesh`](Self::mesh) of this body made, to `pose` without allocating a
+    /// new one; triangles, colours and groups stay.
+    ///
+    /// # Panics
+    /// Where `mesh` is smaller than this body's or `pose` has fewer joints.
+    pub fn shape(&self, pose: &ModelPose, mesh: &mut Mesh) {
+        if mesh.vertices.len() != self.template.vertices.len() {
+            mesh.clone_from(&self.template);
+        }
+        for element in &self.elements {
+            element.pose(pose, mesh);
+        }
+    }
+}
+
+impl Assembly {
+    fn into_body(mut self, rest: &ModelPose) -> Body {
+        for element in &self.elements {
+            element.pose(rest, &mut self.mesh);
+        }
+        Body {
+            template: self.mesh,
+            elements: self.elements,
+        }
+    }
+}
+
+/// Returns the size of the body beside an adult's, measured by its arms, else by its height.
+fn body_size(skeleton: &Skeleton, anatomy: &Anatomy) -> f32 {
+    let reach = |from: usize, to: usize| -> f64 {
+        let chain = skeleton.ancestors(to).take_while(|&joint| joint != from);
+        chain
+            .map(|joint| skeleton.joint(joint).offset.length())
+            .sum()
+    };
+    let arms = Side::BOTH.iter().filter_map(|&side| anatomy.arm(side));
+    let arm = arms
+        .map(|arm| reach(arm.upper, arm.hand))
+        .fold(0.0, f64::max) as f32;
+    if arm > 1e-6 { arm / ARM } else { 1.0 }
+}
+
+fn colours(palette: &Palette, side: Side) -> crate::palette::HandColours {
+    match side {
+        Side::Right => palette.right,
+        Side::Left => palette.left,
+    }
+}
+
+struct Builder<'a> {
+    skeleton: &'a Skeleton,
+    anatomy: &'a Anatomy,
+    palette: &'a Palette,
+    rest: &'a ModelPose,
+    size: f32,
+    out: Assembly,
+}
+
+impl Builder<'_> {
+    fn joint(&self, part: Part) -> Option<usize> {
+        self.anatomy.joint(part)
+    }
+
+    fn signer(&mut self) {
+        self.torso();
+        self.head();
+        for side in Side::BOTH {
+            self.leg(side);
+            self.arm(side);
+            if let Some(joints) = hand::HandJoints::of(self.anatomy, side) {
+                let colours = colours(self.palette, side);
+                hand::add(&mut self.out, self.skeleton, self.rest, &joints, colours);
+            }
+        }
+    }
+
+    /// Adds a rod between two joints; radii are an adult's.
+    fn limb(&mut self, from: usize, to: usize, radii: [f32; 3], paint: Paint) {
+        let rod = Rod {
+            ends: [Point::at(from), Point::at(to)],
+            radii: radii.map(|radius| radius * self.size),
+            facing: (from, Vec3::Z),
+            columns: 16,
+        };
+        self.out.rod(rod, paint);
+    }
+
+    fn arm(&mut self, side: Side) {
+        let parts = [Part::UpperArm(side), Part::Forearm(side), Part::Hand(side)];
+        let paint = Paint::plain(self.palette.sleeves, group::arm(side));
+        let [Some(upper), Some(forearm), Some(hand)] = parts.map(|part| self.joint(part)) else {
+            return;
+        };
+        self.limb(upper, forearm, [0.058, 0.050, 0.043], paint);
+        self.limb(forearm, hand, [0.043, 0.038, 0.026], paint);
+    }
+
+    fn leg(&mut self, side: Side) {
+        let paint = Paint::plain(self.palette.legs, group::REST);
+        let parts = [
+            Part::Thigh(side),
+            Part::Shin(side),
+            Part::Foot(side),
+            Part::Toes(side),
+        ];
+        let radii = [
+            [0.085, 0.075, 0.055],
+            [0.055, 0.052, 0.038],
+            [0.038, 0.035, 0.030],
+        ];
+        for (pair, radii) in parts.windows(2).zip(radii) {
+            if let (Some(from), Some(to)) = (self.joint(pair[0]), self.joint(pair[1])) {
+                self.limb(from, to, radii, paint);
+            }
+        }
+    }
+
+    fn torso(&mut self) {
+        let paint = Paint::plain(self.palette.torso, group::TORSO);
+        let upper = Side::BOTH.map(|side| self.joint(Part::UpperArm(side)));
+        let neck = self.joint(Part::Neck).or(self.joint(Part::Head));
+        let ([Some(right), Some(left)], Some(neck)) = (upper, neck) else {
+            return;
+        };
+        let hips = self.joint(Part::Hips).unwrap_or(0);
+        let middle = self.spine_middle(hips, neck);
+        let size = self.size;
+        let section = |middle: &[(usize, f32)], half: f32, measures: [f32; 4]| {
+            let [beyond, front, back, shift] = measures.map(|measure| measure * size);
+            let point = |sign: f32| {
+                let mut mix: Vec<(Point, f32)> = middle
+                    .iter()
+                    .map(|&(j, weight)| (Point::at(j), weight))
+                    .collect();
+                mix.push((Point::at(left), sign * half));
+                mix.push((Point::at(right), -sign * half));
+                mix
+            };
+            Section {
+                spine: vec![point(-1.0), point(0.0), point(1.0)],
+                beyond,
+                thickness: [front, back],
+                shift,
+            }
+        };
+        let thighs = Side::BOTH.map(|side| self.joint(Part::Thigh(side)));
+        let seat = match thighs {
+            [Some(r), Some(l)] => vec![(r, 0.5), (l, 0.5)],
+            _ => vec![(hips, 1.0)],
+        };
+        let between = |share: f32| {
+            vec![
+                (middle, 1.0 - share),
+                (left, share / 2.0),
+                (right, share / 2.0),
+            ]
+        };
+        let sections = vec![
+            section(&seat, 0.26, [0.050, 0.080, 0.085, -0.075]),
+            section(&seat, 0.32, [0.070, 0.110, 0.115, 0.0]),
+            section(&seat, 0.29, [0.070, 0.110, 0.110, 0.09]),
+            section(&between(0.0), 0.26, [0.055, 0.105, 0.095, 0.0]),
+            section(&between(0.5), 0.33, [0.050, 0.115, 0.105, 0.0]),
+            section(&between(0.85), 0.38, [0.030, 0.100, 0.098, 0.0]),
+            section(&between(1.0), 0.34, [0.020, 0.068, 0.078, 0.03]),
+            section(
+                &[(left, 0.3), (right, 0.3), (neck, 0.4)],
+                0.18,
+                [0.045, 0.048, 0.06, 0.025],
+            ),
+        ];
+        self.out.loft(
+            Loft {
+                sections,
+                columns: 32,
+            },
+            paint,
+        );
+        for shoulder in [left, right] {
+            let rod = Rod {
+                ends: [Point::at(shoulder), Point::at(neck)],
+                radii: [0.056 * size, 0.050 * size, 0.040 * size],
+                facing: (shoulder, Vec3::Z),
+                columns: 16,
+            };
+            self.out.rod(rod, paint);
+        }
+    }
+
+    /// Returns the joint of the spine nearest the middle between hips and neck at rest.
+    fn spine_middle(&self, hips: usize, neck: usize) -> usize {
+        let target = (place(self.rest, hips) + place(self.rest, neck)) * 0.5;
+        let distance = |joint: usize| place(self.rest, joint).distance_squared(target);
+        let chain = self.skeleton.ancestors(neck).skip(1);
+        chain
+            .take_while(|&joint| joint != hips)
+            .min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
+            .unwrap_or(hips)
+    }
+
+    fn head(&mut self) {
+        let Some(joint) = self.joint(Part::Head) else {
+            return;
+        };
+        if let Some(neck) = self.joint(Part::Neck) {
+            let paint = Paint::plain(self.palette.face.scaled(0.9), group::HEAD);
+            self.limb(neck, joint, [0.050, 0.047, 0.046], paint);
+        }
+        let height = 0.225 * self.size;
+        let turn = rotation(self.rest, joint).inverse();
+        let axes = self.rest_axes();
+        let top = self
+            .skeleton
+            .children(joint)
+            .iter()
+            .map(|&child| self.skeleton.joint(child).offset)
+            .chain(self.skeleton.joint(joint).tip)
+            .map(|tip| axes.y_axis.dot(rotation(self.rest, joint) * tip.as_vec3()))
+            .fold(0.0, f32::max);
+        let crown = if (0.6..1.2).contains(&(top / height)) {
+            top
+        } else {
+            height * 0.8
+        };
+        let centre = axes.y_axis * (crown - height * 0.5) + axes.z_axis * height * 0.10;
+        let head = Head {
+            centre: turn * centre,
+            height,
+            axes: Mat3::from_quat(turn) * axes,
+        };
+        self.out.rigid(joint, &head.mesh(self.palette));
+    }
+
+    /// Returns the signer's left, up and forwards at rest, in model space.
+    fn rest_axes(&self) -> Mat3 {
+        let across = |part: fn(Side) -> Part| {
+            let [right, left] = Side::BOTH.map(|side| self.joint(part(side)));
+            Some(place(self.rest, left?) - place(self.rest, right?))
+        };
+        let left = across(Part::Thigh).or_else(|| across(Part::Clavicle));
+        let left = left.or_else(|| across(Part::UpperArm)).unwrap_or(Vec3::X);
+        let flat = Vec3::new(left.x, 0.0, left.z).normalize_or(Vec3::X);
+        Mat3::from_cols(flat, Vec3::Y, flat.cross(Vec3::Y))
+    }
+
+    /// Adds every bone of a skeleton that is not known as a body.
+    fn bones(&mut self) {
+        let paint = Paint::plain(self.palette.face, group::REST);
+        let places: Vec<Vec3> = (0..self.skeleton.len())
+            .map(|j| place(self.rest, j))
+            .collect();
+        let box_ = places
+            .iter()
+            .fold((places[0], places[0]), |(low, high), &at| {
+                (low.min(at), high.max(at))
+            });
+        let thick = (box_.1 - box_.0).length().max(1e-3) * 0.03;
+        let rod = |ends: [Point; 2], length: f32| {
+            let radius = (length * 0.14).clamp(thick * 0.15, thick);
+            Rod {
+                ends,
+                radii: [radius, radius * 0.85, radius * 0.7],
+                facing: (ends[0].joint, Vec3::Z),
+                columns: 12,
+            }
+        };
+        for (index, joint) in self.skeleton.joints().iter().enumerate() {
+            if let Some(parent) = joint.parent {
+                let ends = [Point::at(parent), Point::at(index)];
+                self.out.rod(rod(ends, joint.offset.length() as f32), paint);
+            }
+            if let Some(tip) = joint.tip {
+                let local = tip.as_vec3();
+                let end = Point {
+                    joint: index,
+                    local,
+                };
+                self.out
+                    .rod(rod([Point::at(index), end], local.length()), paint);
+            }
+            if self.skeleton.len() == 1 && joint.tip.is_none() {
+                let ends = [Point::at(0), Point::at(0)];
+                self.out.rod(rod(ends, 0.1), paint);
+            }
+        }
+    }
+}

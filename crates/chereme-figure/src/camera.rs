@@ -1,0 +1,83 @@
+//! Where the eye stands, and how much of the signer it sees.
+
+use glam::Vec3;
+
+/// An eye that looks at a point; the picture's middle is that point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// Where the eye is, in model space, in metres.
+    pub eye: Vec3,
+    /// Where it looks, in model space, in metres.
+    pub target: Vec3,
+    /// Which way is up in the picture; not along the line of sight.
+    pub up: Vec3,
+    /// Half the height of what is seen at the target's distance, in metres.
+    pub half_height: f32,
+}
+
+/// A place in the picture and how far it is from the eye.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Projected {
+    /// Columns from the left edge, in pixels.
+    pub x: f32,
+    /// Rows from the upper edge, in pixels.
+    pub y: f32,
+    /// Distance along the line of sight, in metres; what is behind the eye is not positive.
+    pub depth: f32,
+}
+
+/// A camera with its axes worked out for a picture of some size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Projection {
+    eye: Vec3,
+    /// The picture's right, its up, and from the eye towards the target.
+    axes: [Vec3; 3],
+    /// Pixels a metre at a distance of one metre.
+    scale: f32,
+    centre: [f32; 2],
+}
+
+impl Camera {
+    /// Returns the projection onto a picture of `width` by `height` pixels.
+    #[must_use]
+    pub fn projection(&self, width: usize, height: usize) -> Projection {
+        let sight = self.target - self.eye;
+        let forward = sight.normalize_or(Vec3::NEG_Z);
+        let right = forward.cross(self.up).normalize_or(Vec3::X);
+        let up = right.cross(forward);
+        let centre = [width as f32 / 2.0, height as f32 / 2.0];
+        Projection {
+            eye: self.eye,
+            axes: [right, up, forward],
+            scale: centre[1] * sight.length() / self.half_height,
+            centre,
+        }
+    }
+}
+
+impl Projection {
+    /// Returns where `point` is in the picture.
+    #[must_use]
+    pub fn project(&self, point: Vec3) -> Projected {
+        let [right, up, forward] = self.axes;
+        let from_eye = point - self.eye;
+        let depth = forward.dot(from_eye);
+        let scale = self.scale / depth;
+        Projected {
+            x: self.centre[0] + right.dot(from_eye) * scale,
+            y: self.centre[1] - up.dot(from_eye) * scale,
+            depth,
+        }
+    }
+
+    /// Returns `direction` as the picture's right, up and towards the eye.
+    #[must_use]
+    pub fn turned(&self, direction: Vec3) -> Vec3 {
+        let [right, up, forward] = self.axes;
+        Vec3::new(
+            right.dot(direction),
+            up.dot(direction),
+            -forward.dot(direction),
+        )
+    }
+}

@@ -1,0 +1,61 @@
+//! What keeps a picture from being made.
+
+/// The largest side of a picture, in pixels.
+pub const MAX_SIDE: usize = 16_384;
+/// The most pixels of a picture.
+pub const MAX_PIXELS: usize = 64_000_000;
+
+/// What keeps a picture from being made.
+#[derive(Debug, thiserror::Error)]
+pub enum FigureError {
+    /// The clip has no frame.
+    #[error("the clip is empty: it has no frame to draw")]
+    Empty,
+    /// A frame was asked for that the clip does not have.
+    #[error("there is no frame {frame}; the clip's frames are 0 to {last}")]
+    Frame {
+        /// The frame.
+        frame: usize,
+        /// The clip's last frame.
+        last: usize,
+    },
+    /// No view or no column was asked for.
+    #[error("nothing to draw: at least one {what} is needed")]
+    Nothing {
+        /// What is lacking, in the singular.
+        what: &'static str,
+    },
+    /// The picture would be too small to show anything or larger than is sensible.
+    #[error(
+        "a picture of {width} by {height} pixels cannot be made; sides are from 16 to \
+         {MAX_SIDE} and the whole at most {MAX_PIXELS} pixels; ask for fewer or smaller cells"
+    )]
+    Size {
+        /// The width in pixels.
+        width: usize,
+        /// The height in pixels.
+        height: usize,
+    },
+    /// The caller's progress function said to stop.
+    #[error("stopped after {done} of {total} pictures")]
+    Stopped {
+        /// Pictures that were finished.
+        done: usize,
+        /// Pictures there would have been.
+        total: usize,
+    },
+    /// A PNG could not be written.
+    #[error("the PNG could not be written")]
+    Png(#[from] png::EncodingError),
+    /// A GIF could not be written.
+    #[error("the GIF could not be written")]
+    Gif(#[from] gif::EncodingError),
+}
+
+/// Returns the size where a picture of it can be made.
+pub(crate) fn checked_size(width: usize, height: usize) -> Result<[usize; 2], FigureError> {
+    let sides = 16..=MAX_SIDE;
+    let fits = sides.contains(&width) && sides.contains(&height) && width * height <= MAX_PIXELS;
+    let error = FigureError::Size { width, height };
+    fits.then_some([width, height]).ok_or(error)
+}

@@ -1,0 +1,119 @@
+//! A picture of pixels, and the few marks that sheets and charts need.
+
+use crate::font;
+use crate::palette::Colour;
+
+/// A picture, row by row from the top left, without transparency.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Image {
+    width: usize,
+    height: usize,
+    pixels: Vec<Colour>,
+}
+
+impl Image {
+    /// Returns a picture of one colour.
+    #[must_use]
+    pub fn new(width: usize, height: usize, colour: Colour) -> Self {
+        Self {
+            width,
+            height,
+            pixels: vec![colour; width * height],
+        }
+    }
+
+    /// Returns the width in pixels.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Returns the height in pixels.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// Returns all pixels, row by row.
+    #[must_use]
+    pub fn pixels(&self) -> &[Colour] {
+        &self.pixels
+    }
+
+    /// Returns the bytes red, green, blue of every pixel, row by row.
+    #[must_use]
+    pub fn to_rgb(&self) -> Vec<u8> {
+        self.pixels.iter().flat_map(|colour| colour.0).collect()
+    }
+
+    /// Returns the colour at column `x` of row `y`.
+    ///
+    /// # Panics
+    /// Where the place is outside.
+    #[must_use]
+    pub fn pixel(&self, x: usize, y: usize) -> Colour {
+        assert!(x < self.width && y < self.height, "the pixel is inside");
+        self.pixels[y * self.width + x]
+    }
+
+    /// Returns the picture with left and right exchanged.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let rows = self.pixels.chunks(self.width.max(1));
+        Self {
+            pixels: rows.flat_map(|row| row.iter().rev().copied()).collect(),
+            ..*self
+        }
+    }
+
+    pub(crate) fn pixels_mut(&mut self) -> &mut [Colour] {
+        &mut self.pixels
+    }
+
+    /// Sets one pixel; outside nothing happens.
+    pub(crate) fn set(&mut self, x: i64, y: i64, colour: Colour) {
+        if (0..self.width as i64).contains(&x) && (0..self.height as i64).contains(&y) {
+            self.pixels[y as usize * self.width + x as usize] = colour;
+        }
+    }
+
+    /// Fills a rectangle, as far as it is inside.
+    pub(crate) fn fill(&mut self, at: [i64; 2], size: [i64; 2], colour: Colour) {
+        for y in at[1]..at[1] + size[1] {
+            for x in at[0]..at[0] + size[0] {
+                self.set(x, y, colour);
+            }
+        }
+    }
+
+    /// Draws a straight line between two pixels, both included.
+    pub(crate) fn line(&mut self, from: [i64; 2], to: [i64; 2], colour: Colour) {
+        let steps = (to[0] - from[0]).abs().max((to[1] - from[1]).abs()).max(1);
+        for step in 0..=steps {
+            let along = |axis: usize| {
+                let twice = 2 * (to[axis] - from[axis]) * step + steps;
+                from[axis] + twice.div_euclid(2 * steps)
+            };
+            self.set(along(0), along(1), colour);
+        }
+    }
+
+    /// Draws `other` with its top left corner at `at`, as far as it is inside.
+    pub(crate) fn paste(&mut self, other: &Self, at: [usize; 2]) {
+        let width = other.width.min(self.width.saturating_sub(at[0]));
+        for row in 0..other.height.min(self.height.saturating_sub(at[1])) {
+            let to = (at[1] + row) * self.width + at[0];
+            let from = row * other.width;
+            self.pixels[to..to + width].copy_from_slice(&other.pixels[from..from + width]);
+        }
+    }
+
+    /// Writes one line of text whose cells have their top left corner at `at`.
+    pub(crate) fn text(&mut self, text: &str, at: [i64; 2], scale: usize, colour: Colour) {
+        let scale = scale as i64;
+        font::draw(text, |x, y| {
+            let corner = [at[0] + x as i64 * scale, at[1] + y as i64 * scale];
+            self.fill(corner, [scale, scale], colour);
+        });
+    }
+}

@@ -1,0 +1,128 @@
+//! Triangles with normals, colours and outline groups, and the closed forms they are built from.
+
+use glam::{Vec2, Vec3};
+
+use crate::palette::Colour;
+
+/// One corner of the triangles of a [`Mesh`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Vertex {
+    /// The place in model space, in metres.
+    pub position: Vec3,
+    /// The outward direction of the surface, of length one.
+    pub normal: Vec3,
+    /// The colour of the surface before light falls on it.
+    pub colour: Colour,
+    /// The part of the body it belongs to; lines are drawn where two groups meet.
+    pub group: u8,
+}
+
+/// A surface of triangles, each anticlockwise seen from outside.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Mesh {
+    /// The corners.
+    pub vertices: Vec<Vertex>,
+    /// The corners of each triangle, as indices into `vertices`.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl Mesh {
+    /// Adds everything `other` holds.
+    pub fn append(&mut self, other: &Self) {
+        let base = self.vertices.len() as u32;
+        self.vertices.extend_from_slice(&other.vertices);
+        let moved = other.triangles.iter().map(|t| t.map(|i| i + base));
+        self.triangles.extend(moved);
+    }
+
+    /// Returns the smallest and the largest corner of the axis-aligned box around it, or nothing
+    /// where it is empty.
+    #[must_use]
+    pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        let mut places = self.vertices.iter().map(|vertex| vertex.position);
+        let first = places.next()?;
+        Some(places.fold((first, first), |(low, high), at| {
+            (low.min(at), high.max(at))
+        }))
+    }
+}
+
+/// A closed surface of rings from a first pole to a last one, described in its own space.
+///
+/// The rings lie across the Z axis. `X` of the ring is the direction that [`Grid::facing`] counts
+/// as towards, so that one side of a finger can have another colour than the other.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Grid {
+    /// Points on the unit circle, one a column, from +X towards +Y.
+    pub(crate) circle: Vec<Vec2>,
+    /// How many rings there are, each of `circle.len()` points, poles not counted.
+    pub(crate) rings: usize,
+}
+
+impl Grid {
+    pub(crate) fn new(columns: usize, rings: usize) -> Self {
+        let circle = (0..columns)
+            .map(|i| {
+                let angle = std::f64::consts::TAU * i as f64 / columns as f64;
+                Vec2::new(angle.cos() as f32, angle.sin() as f32)
+            })
+            .collect();
+        Self { circle, rings }
+    }
+
+    /// Returns how many vertices the surface has: the first pole, the rings, the last pole.
+    pub(crate) fn len(&self) -> usize {
+        self.rings * self.circle.len() + 2
+    }
+
+    /// Returns the triangles, anticlockwise from outside where the rings go along +Z.
+    pub(crate) fn triangles(&self, base: u32) -> Vec<[u32; 3]> {
+        let columns = self.circle.len() as u32;
+        let at = |ring: u32, column: u32| base + 1 + ring * columns + column % columns;
+        let last = base + self.len() as u32 - 1;
+        let mut triangles = Vec::with_capacity(self.rings * self.circle.len() * 2);
+        for column in 0..columns {
+            triangles.push([base, at(0, column + 1), at(0, column)]);
+        }
+        for ring in 1..self.rings as u32 {
+            for column in 0..columns {
+                let (a, b) = (at(ring - 1, column), at(ring - 1, column + 1));
+                let (c, d) = (at(ring, column), at(ring, column + 1));
+                triangles.push([a, b, d]);
+                triangles.push([a, d, c]);
+            }
+        }
+        let ring = self.rings as u32 - 1;
+        for column in 0..columns {
+            triangles.push([last, at(ring, column), at(ring, column + 1)]);
+        }
+        triangles
+    }
+
+    /// Returns for every vertex how far it lies towards the ring's +X, from -1 to 1.
+    pub(crate) fn facing(&self) -> Vec<f32> {
+        let ring = self.circle.iter().map(|point| point.x);
+        std::iter::once(0.0)
+            .chain((0..self.rings).flat_map(|_| ring.clone()))
+            .chain(std::iter::once(0.0))
+            .collect()
+    }
+}
+
+/// Replaces the normals of `vertices` by the area-weighted means of those of the triangles around.
+pub(crate) fn smooth(vertices: &mut [Vertex], triangles: &[[u32; 3]], base: u32) {
+    for vertex in vertices.iter_mut() {
+        vertex.normal = Vec3::ZERO;
+    }
+    for triangle in triangles {
+        let [a, b, c] = triangle.map(|index| (index - base) as usize);
+        let origin = vertices[a].position;
+        let normal = (vertices[b].position - origin).cross(vertices[c].position - origin);
+        for index in [a, b, c] {
+            vertices[index].normal += normal;
+        }
+    }
+    for vertex in vertices.iter_mut() {
+        vertex.normal = vertex.normal.normalize_or(Vec3::Y);
+    }
+}

@@ -1,0 +1,136 @@
+//! Few colours for many: median cut (Heckbert 1982, doi:10.1145/965145.801294) over six bits a part.
+
+use crate::palette::Colour;
+
+const BITS: u32 = 6;
+const CELLS: usize = 1 << (3 * BITS);
+const UNKNOWN: u16 = u16::MAX;
+
+/// Counts colours, chooses a palette of them, and finds the nearest of it for any colour.
+pub(crate) struct Quantizer {
+    counts: Vec<u32>,
+    palette: Vec<Colour>,
+    nearest: Vec<u16>,
+}
+
+impl Default for Quantizer {
+    fn default() -> Self {
+        Self {
+            counts: vec![0; CELLS],
+            palette: Vec::new(),
+            nearest: vec![UNKNOWN; CELLS],
+        }
+    }
+}
+
+fn cell(colour: Colour) -> usize {
+    let [r, g, b] = colour.0.map(|part| usize::from(part >> (8 - BITS)));
+    (r << (2 * BITS)) | (g << BITS) | b
+}
+
+/// Returns the colour in the middle of a cell, white and black being themselves.
+fn middle(cell: usize) -> Colour {
+    let part = |shift: u32| ((cell >> shift) & ((1 << BITS) - 1)) as u8;
+    Colour([part(2 * BITS), part(BITS), part(0)].map(|v| (v << 2) | (v >> 4)))
+}
+
+/// A box of colours: each with how often it was met.
+struct Box6 {
+    colours: Vec<(Colour, u32)>,
+}
+
+impl Box6 {
+    /// Returns the axis along which the colours lie farthest apart, and how far, weighted so that
+    /// boxes of many pixels are cut first.
+    fn widest(&self) -> (usize, f64) {
+        let mut best = (0, -1.0);
+        for axis in 0..3 {
+            let parts = self.colours.iter().map(|entry| entry.0.0[axis]);
+            let low = parts.clone().min().unwrap_or(0);
+            let spread = f64::from(parts.max().unwrap_or(0) - low);
+            if spread > best.1 {
+                best = (axis, spread);
+            }
+        }
+        let pixels: f64 = self.colours.iter().map(|entry| f64::from(entry.1)).sum();
+        (best.0, best.1 * pixels.powf(0.3))
+    }
+
+    fn cut(mut self, axis: usize) -> [Self; 2] {
+        self.colours
+            .sort_unstable_by_key(|entry| (entry.0.0[axis], entry.0));
+        let total: u64 = self.colours.iter().map(|entry| u64::from(entry.1)).sum();
+        let mut below = 0;
+        let at = self.colours.iter().position(|entry| {
+            below += u64::from(entry.1);
+            below * 2 >= total
+        });
+        let at = (at.unwrap_or(0) + 1).clamp(1, self.colours.len() - 1);
+        let upper = self.colours.split_off(at);
+        [self, Self { colours: upper }]
+    }
+
+    fn mean(&self) -> Colour {
+        let total: u64 = self.colours.iter().map(|entry| u64::from(entry.1)).sum();
+        Colour(std::array::from_fn(|axis| {
+            let sum: u64 = self
+                .colours
+                .iter()
+                .map(|entry| u64::from(entry.0.0[axis]) * u64::from(entry.1))
+                .sum();
+            ((sum + total / 2) / total.max(1)) as u8
+        }))
+    }
+}
+
+impl Quantizer {
+    /// Counts the colours of a picture.
+    pub(crate) fn add(&mut self, pixels: &[Colour]) {
+        for &pixel in pixels {
+            let count = &mut self.counts[cell(pixel)];
+            *count = count.saturating_add(1);
+        }
+    }
+
+    /// Chooses at most `most` colours.
+    pub(crate) fn choose(&mut self, most: usize) {
+        let met = (0..CELLS).filter(|&i| self.counts[i] > 0);
+        let colours: Vec<(Colour, u32)> = met.map(|i| (middle(i), self.counts[i])).collect();
+        let mut boxes = vec![Box6 { colours }];
+        while boxes.len() < most {
+            let cuttable = (0..boxes.len()).filter(|&i| boxes[i].colours.len() > 1);
+            let Some((index, (axis, _))) = cuttable
+                .map(|i| (i, boxes[i].widest()))
+                .max_by(|a, b| a.1.1.total_cmp(&b.1.1))
+            else {
+                break;
+            };
+            let halves = boxes.swap_remove(index).cut(axis);
+            boxes.extend(halves);
+        }
+        self.palette = boxes.iter().map(Box6::mean).collect();
+        self.palette.sort_unstable();
+        self.nearest.fill(UNKNOWN);
+    }
+
+    /// Returns red, green and blue of every colour of the palette.
+    pub(crate) fn palette_bytes(&self) -> Vec<u8> {
+        self.palette.iter().flat_map(|colour| colour.0).collect()
+    }
+
+    /// Returns the place in the palette of the colour nearest `colour`.
+    pub(crate) fn index(&mut self, colour: Colour) -> u8 {
+        let cell = cell(colour);
+        if self.nearest[cell] == UNKNOWN {
+            let wanted = middle(cell);
+            let distance = |other: &Colour| -> i32 {
+                let part = |i: usize| i32::from(other.0[i]) - i32::from(wanted.0[i]);
+                2 * part(0) * part(0) + 4 * part(1) * part(1) + 3 * part(2) * part(2)
+            };
+            let all = self.palette.iter().enumerate();
+            let best = all.min_by_key(|entry| distance(entry.1));
+            self.nearest[cell] = best.map_or(0, |entry| entry.0 as u16);
+        }
+        self.nearest[cell] as u8
+    }
+}

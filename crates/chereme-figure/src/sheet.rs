@@ -1,0 +1,168 @@
+//! Contact sheets: a clip at a glance, frames from left to right, views from top to bottom.
+
+use std::ops::ControlFlow;
+
+use chereme_motion::{Anatomy, Clip, Side};
+
+use crate::body::Body;
+use crate::error::{FigureError, checked_size};
+use crate::font;
+use crate::image::Image;
+use crate::mesh::Mesh;
+use crate::palette::Palette;
+use crate::raster::{Raster, Style};
+use crate::view::{Framing, View};
+
+/// Which frames of a clip are shown.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Frames {
+    /// So many, evenly spaced from the first to the last; all there are where that is fewer.
+    Spaced(usize),
+    /// Exactly these.
+    At(Vec<usize>),
+}
+
+/// How a contact sheet looks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SheetOptions {
+    /// The line above the pictures; none where it is empty.
+    pub title: String,
+    /// The columns.
+    pub frames: Frames,
+    /// The rows.
+    pub views: Vec<View>,
+    /// The height of a cell in pixels, its label not counted.
+    pub cell_height: usize,
+    /// The colours of the body.
+    pub palette: Palette,
+    /// Paper, light and lines.
+    pub style: Style,
+}
+
+impl Default for SheetOptions {
+    fn default() -> Self {
+        Self {
+            title: String::new(),
+            frames: Frames::Spaced(8),
+            views: vec![View::Addressee, View::Right],
+            cell_height: 260,
+            palette: Palette::default(),
+            style: Style::default(),
+        }
+    }
+}
+
+impl SheetOptions {
+    /// Returns the options with a row for each hand from near.
+    #[must_use]
+    pub fn with_hands(mut self) -> Self {
+        self.views.extend(Side::BOTH.map(View::Hand));
+        self
+    }
+}
+
+/// What a caller is told between pictures: how many are done, and how many there will be.
+pub type Progress<'a> = &'a mut dyn FnMut(usize, usize) -> ControlFlow<()>;
+
+/// Height of a line of labels, and the gap between cells, in pixels.
+const LABEL: usize = 18;
+const GAP: usize = 6;
+
+/// Draws the contact sheet of `clip`: a row a view, a column a frame, each with its time.
+///
+/// # Errors
+/// [`FigureError`] where the clip is empty, a frame is not in it, the sheet would be too large, or
+/// `progress` says to stop.
+pub fn contact_sheet(
+    clip: &Clip,
+    anatomy: &Anatomy,
+    options: &SheetOptions,
+    progress: Progress<'_>,
+) -> Result<Image, FigureError> {
+    let framing = Framing::of(clip, anatomy).ok_or(FigureError::Empty)?;
+    let frames = chosen(&options.frames, clip.frames())?;
+    if options.views.is_empty() {
+        return Err(FigureError::Nothing { what: "view" });
+    }
+    let wide = options
+        .views
+        .iter()
+        .map(|&view| framing.aspect(view))
+        .fold(0.45, f32::max);
+    let cell = [
+        (options.cell_height as f32 * wide.min(1.6)) as usize,
+        options.cell_height,
+    ];
+    let head = if options.title.is_empty() {
+        GAP
+    } else {
+        2 * font::HEIGHT + 2 * GAP
+    };
+    let size = checked_size(
+        frames.len() * (cell[0] + GAP) + GAP,
+        head + options.views.len() * (cell[1] + GAP) + LABEL,
+    )?;
+    let theme = options.style.theme;
+    let mut sheet = Image::new(size[0], size[1], theme.rule());
+    sheet.fill([0, 0], [size[0] as i64, head as i64], theme.background());
+    let title = font::fitted(&options.title, (size[0] - 2 * GAP) / 2);
+    sheet.text(&title, [GAP as i64, GAP as i64], 2, theme.text());
+
+    let body = Body::with_palette(clip.skeleton(), anatomy, &options.palette);
+    let mut mesh = Mesh::default();
+    let mut raster = Raster::default();
+    let total = frames.len() * options.views.len();
+    for (column, &frame) in frames.iter().enumerate() {
+        let pose = clip.model_pose(frame);
+        body.shape(&pose, &mut mesh);
+        let x = GAP + column * (cell[0] + GAP);
+        for (row, &view) in options.views.iter().enumerate() {
+            let done = column * options.views.len() + row;
+            if progress(done, total).is_break() {
+                return Err(FigureError::Stopped { done, total });
+            }
+            let aspect = cell[0] as f32 / cell[1] as f32;
+            let camera = framing.camera(view, aspect, &pose, anatomy);
+            let mut picture = raster.draw(&mesh, &camera, cell, &options.style);
+            if column == 0 {
+                let chip = [font::width(view.name()) as i64 + 8, font::HEIGHT as i64 + 3];
+                picture.fill([0, 0], chip, theme.background());
+                picture.text(view.name(), [4, 0], 1, theme.text());
+            }
+            sheet.paste(&picture, [x, head + row * (cell[1] + GAP)]);
+        }
+        let label = label(clip, frame);
+        let label = font::fitted(&label, cell[0]);
+        let y = head + options.views.len() * (cell[1] + GAP);
+        let inset = (cell[0] - font::width(&label).min(cell[0])) / 2;
+        sheet.text(&label, [(x + inset) as i64, y as i64], 1, theme.text());
+    }
+    Ok(sheet)
+}
+
+/// Returns time and number of a frame, as labels have it.
+fn label(clip: &Clip, frame: usize) -> String {
+    let seconds = clip.rate().instant(frame).seconds();
+    format!("{seconds:.2} s  #{frame}")
+}
+
+/// Returns the frames that are chosen of `count`.
+fn chosen(frames: &Frames, count: usize) -> Result<Vec<usize>, FigureError> {
+    let last = count.checked_sub(1).ok_or(FigureError::Empty)?;
+    let chosen = match frames {
+        Frames::Spaced(wanted) => {
+            let wanted = (*wanted).min(count);
+            (0..wanted)
+                .map(|i| (2 * last * i + (wanted - 1)) / (2 * (wanted - 1).max(1)))
+                .collect()
+        }
+        Frames::At(frames) => frames.clone(),
+    };
+    if let Some(&frame) = chosen.iter().find(|&&frame| frame > last) {
+        return Err(FigureError::Frame { frame, last });
+    }
+    if chosen.is_empty() {
+        return Err(FigureError::Nothing { what: "frame" });
+    }
+    Ok(chosen)
+}

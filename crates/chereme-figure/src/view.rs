@@ -1,0 +1,234 @@
+//! Presets of the camera, and the part of space a clip's signing takes.
+
+use chereme_motion::{Anatomy, Clip, ModelPose, Part, Side};
+use glam::{Mat3, Vec3};
+
+use crate::camera::Camera;
+
+/// A place to look at the signer from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum View {
+    /// From the front, as the person signed to sees it.
+    Addressee,
+    /// From above and behind the signer's head.
+    Signer,
+    /// From the signer's left.
+    Left,
+    /// From the signer's right.
+    Right,
+    /// From above, the signer's front towards the upper edge.
+    Top,
+    /// A hand from the front and near, followed as it moves.
+    Hand(Side),
+}
+
+impl View {
+    /// Every view.
+    pub const ALL: [Self; 7] = [
+        Self::Addressee,
+        Self::Signer,
+        Self::Left,
+        Self::Right,
+        Self::Top,
+        Self::Hand(Side::Right),
+        Self::Hand(Side::Left),
+    ];
+
+    /// Returns the name that labels and commands use.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Addressee => "front",
+            Self::Signer => "signer",
+            Self::Left => "left",
+            Self::Right => "right",
+            Self::Top => "top",
+            Self::Hand(Side::Right) => "right hand",
+            Self::Hand(Side::Left) => "left hand",
+        }
+    }
+
+    /// Returns the direction towards the eye and the picture's up, as left, up and forwards.
+    const fn axes(self) -> [Vec3; 2] {
+        match self {
+            Self::Addressee | Self::Hand(_) => [Vec3::Z, Vec3::Y],
+            Self::Signer => [Vec3::new(0.0, 0.62, -0.78), Vec3::Y],
+            Self::Left => [Vec3::X, Vec3::Y],
+            Self::Right => [Vec3::NEG_X, Vec3::Y],
+            Self::Top => [Vec3::Y, Vec3::Z],
+        }
+    }
+}
+
+/// The space that a clip's signing takes, so that one camera serves every frame of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Framing {
+    /// The signer's left, up and forwards.
+    axes: Mat3,
+    /// The least and the greatest corner along those axes, in metres.
+    low: Vec3,
+    high: Vec3,
+    /// The length of a hand from wrist to fingertip, in metres.
+    hand: f32,
+}
+
+/// How many frames of a clip are looked at to find what it takes.
+const LOOKS: usize = 400;
+/// The eye's distance beside half the height of what it sees: a long lens.
+const DISTANCE: f32 = 7.0;
+
+impl Framing {
+    /// Returns the space of `clip`, or nothing where it has no frame: from the hips to above the
+    /// head with both arms wherever they go; all joints where the skeleton is no known body.
+    #[must_use]
+    pub fn of(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
+        let last = clip.frames().checked_sub(1)?;
+        let count = clip.frames().min(LOOKS);
+        let frames = (0..count).map(|i| last * i / (count - 1).max(1));
+        let poses: Vec<ModelPose> = frames.map(|frame| clip.model_pose(frame)).collect();
+        Some(Self::around(&poses, anatomy))
+    }
+
+    /// Returns the space that `poses` take together, at least one posture.
+    #[must_use]
+    pub fn around(poses: &[ModelPose], anatomy: &Anatomy) -> Self {
+        let axes = facing(poses, anatomy);
+        let to_own = axes.transpose();
+        let mut found = Bounds::default();
+        let arms = Side::BOTH.map(|side| anatomy.arm(side));
+        let known = arms.iter().flatten().next().is_some();
+        let arm = |side: usize| arms[side].map_or(0.0, |arm| arm_length(&poses[0], arm));
+        let size = arm(0).max(arm(1)) / 0.53;
+        for pose in poses {
+            let mut add = |joint: usize, margin: Vec3| {
+                let at = to_own * pose.position(joint).as_vec3();
+                found.add(at - margin);
+                found.add(at + margin);
+            };
+            if !known {
+                (0..pose.positions().len()).for_each(|joint| add(joint, Vec3::ZERO));
+                continue;
+            }
+            let body = Vec3::new(0.13, 0.05, 0.14) * size;
+            for joint in [anatomy.joint(Part::Hips), anatomy.joint(Part::Chest)]
+                .into_iter()
+                .flatten()
+            {
+                add(joint, body);
+            }
+            if let Some(head) = anatomy.joint(Part::Head) {
+                add(head, Vec3::new(0.1, 0.235, 0.14) * size);
+            }
+            for (side, arm) in Side::BOTH.into_iter().zip(arms) {
+                let Some(arm) = arm else { continue };
+                add(arm.upper, Vec3::splat(0.065) * size);
+                add(arm.forearm, Vec3::splat(0.055) * size);
+                add(arm.hand, Vec3::splat(0.05) * size);
+                let fingers = anatomy.fingers(side);
+                let tips = fingers.iter().copied();
+                tips.for_each(|joint| add(joint, Vec3::splat(0.035) * size));
+                if fingers.is_empty() {
+                    add(arm.hand, Vec3::splat(0.16) * size);
+                }
+            }
+        }
+        let (low, high) = found.0.unwrap_or((Vec3::NEG_ONE, Vec3::ONE));
+        let least = Vec3::splat((0.02 * size).max(1e-3));
+        Self {
+            axes,
+            low: low - least,
+            high: high + least,
+            hand: if known {
+                0.19 * size
+            } else {
+                (high - low).max_element() * 0.2
+            },
+        }
+    }
+
+    /// Returns the camera of a view for a picture whose width is `aspect` times its height; the
+    /// hand views look where `pose` has that hand.
+    #[must_use]
+    pub fn camera(&self, view: View, aspect: f32, pose: &ModelPose, anatomy: &Anatomy) -> Camera {
+        let [towards, up] = view.axes();
+        if let View::Hand(side) = view
+            && let Some(target) = hand_middle(pose, anatomy, side)
+        {
+            let half_height = self.hand * 0.66 / aspect.min(1.0);
+            return self.place(target, [towards, up], half_height);
+        }
+        let half = (self.high - self.low) * 0.5;
+        let middle = self.axes * ((self.high + self.low) * 0.5);
+        let right = up.cross(towards).normalize_or(Vec3::X);
+        let tall = half.dot(right.cross(towards).abs());
+        let wide = half.dot(right.abs());
+        let deep = half.dot(towards.abs());
+        let half_height = tall.max(wide / aspect.max(1e-3)) * 1.02 + deep / DISTANCE * 0.5;
+        self.place(middle, [towards, up], half_height)
+    }
+
+    fn place(&self, target: Vec3, [towards, up]: [Vec3; 2], half_height: f32) -> Camera {
+        Camera {
+            eye: target + self.axes * towards.normalize_or(Vec3::Z) * (half_height * DISTANCE),
+            target,
+            up: self.axes * up,
+            half_height,
+        }
+    }
+
+    /// Returns how wide beside its height what a view sees is.
+    #[must_use]
+    pub fn aspect(&self, view: View) -> f32 {
+        let [towards, up] = view.axes();
+        if matches!(view, View::Hand(_)) {
+            return 1.0;
+        }
+        let half = (self.high - self.low) * 0.5;
+        let right = up.cross(towards).normalize_or(Vec3::X);
+        half.dot(right.abs()) / half.dot(right.cross(towards).abs()).max(1e-6)
+    }
+}
+
+/// Returns the middle of a hand: between wrist and the joints of the fingers.
+fn hand_middle(pose: &ModelPose, anatomy: &Anatomy, side: Side) -> Option<Vec3> {
+    let wrist = anatomy.joint(Part::Hand(side))?;
+    let fingers = anatomy.fingers(side);
+    let wrist = pose.position(wrist).as_vec3();
+    if fingers.is_empty() {
+        return Some(wrist);
+    }
+    let sum: Vec3 = fingers
+        .iter()
+        .map(|&joint| pose.position(joint).as_vec3())
+        .sum();
+    Some(wrist.lerp(sum / fingers.len() as f32, 0.85))
+}
+
+fn arm_length(pose: &ModelPose, arm: chereme_motion::ArmChain) -> f32 {
+    let at = |joint: usize| pose.position(joint);
+    let upper = (at(arm.forearm) - at(arm.upper)).length();
+    (upper + (at(arm.hand) - at(arm.forearm)).length()) as f32
+}
+
+/// Returns the signer's left, up and forwards over all postures, up being that of model space.
+fn facing(poses: &[ModelPose], anatomy: &Anatomy) -> Mat3 {
+    let mut left = Vec3::ZERO;
+    for part in [Part::Thigh as fn(Side) -> Part, Part::UpperArm] {
+        if let [Some(r), Some(l)] = Side::BOTH.map(|side| anatomy.joint(part(side))) {
+            let across = |pose: &ModelPose| (pose.position(l) - pose.position(r)).as_vec3();
+            left += poses.iter().map(across).sum::<Vec3>() / poses.len() as f32;
+        }
+    }
+    let flat = Vec3::new(left.x, 0.0, left.z).normalize_or(Vec3::X);
+    Mat3::from_cols(flat, Vec3::Y, flat.cross(Vec3::Y))
+}
+
+#[derive(Default)]
+struct Bounds(Option<(Vec3, Vec3)>);
+
+impl Bounds {
+    fn add(&mut self, at: Vec3) {
+        let (low, high) = self.0.unwrap_or((at, at));
+        self.0 = Some((low.min(at), high.max(at)));
+    }
+}

@@ -1,0 +1,21 @@
+//! Pictures as files: PNG, byte for byte the same for the same picture.
+
+use std::io::Write;
+
+use crate::error::FigureError;
+use crate::image::Image;
+
+/// Writes a picture as PNG, eight bits each of red, green and blue.
+///
+/// # Errors
+/// [`FigureError::Png`] where `out` cannot be written.
+pub fn write_png(image: &Image, out: impl Write) -> Result<(), FigureError> {
+    let mut encoder = png::Encoder::new(out, image.width() as u32, image.height() as u32);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&image.to_rgb())?;
+    writer.finish()?;
+    Ok(())
+}
