@@ -1,1 +1,75 @@
 //! A corpus opened for work: SQLite, search index, history, every use case.
+//!
+//! [`Corpus`] is the single door for every skin. Each change is one named operation in one
+//! transaction, with its changeset. Nothing here prints, prompts, or reads the environment.
+
+pub(crate) mod codec;
+pub(crate) mod db;
+mod error;
+mod progress;
+pub(crate) mod search;
+
+use std::path::Path;
+
+use db::Store;
+
+pub use db::{OperationKind, OperationRow};
+pub use error::{Error, Result};
+pub use progress::{Progress, Step, Unit, unheard};
+
+/// An open corpus.
+pub struct Corpus {
+    store: Store,
+}
+
+impl Corpus {
+    /// Makes an empty corpus at `path` for `author` to work with.
+    ///
+    /// # Errors
+    /// [`Error::File`] where something is there already or the folder is missing.
+    pub fn create(path: &Path, author: &str) -> Result<Self> {
+        Ok(Self {
+            store: Store::create(path, author)?,
+        })
+    }
+
+    /// Opens the corpus at `path` for `author` to work with.
+    ///
+    /// # Errors
+    /// [`Error::File`] where there is no such file, [`Error::NotACorpus`] where it is something else.
+    pub fn open(path: &Path, author: &str) -> Result<Self> {
+        Ok(Self {
+            store: Store::open(path, author)?,
+        })
+    }
+
+    /// Returns the file.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        self.store.path()
+    }
+
+    /// Takes the newest operation back that stands, and returns the operation that did so.
+    ///
+    /// # Errors
+    /// Where nothing is left to undo, or a row was changed behind the operation's back.
+    pub fn undo(&mut self) -> Result<OperationRow> {
+        self.store.undo()
+    }
+
+    /// Does the operation again that was undone last, and returns the operation that did so.
+    ///
+    /// # Errors
+    /// Where nothing is left to redo.
+    pub fn redo(&mut self) -> Result<OperationRow> {
+        self.store.redo()
+    }
+
+    /// Returns the newest operations first, at most `limit` of them.
+    ///
+    /// # Errors
+    /// Where the database fails.
+    pub fn log(&self, limit: usize) -> Result<Vec<OperationRow>> {
+        self.store.log(limit)
+    }
+}

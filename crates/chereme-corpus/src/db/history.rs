@@ -1,0 +1,560 @@
+//! Operations and their changesets: who did what, when, and the rows before and after.
+//!
+//! Temporary triggers copy every changed row of the tracked tables into `temp.change`; when an
+//! operation ends they are packed, in order, into parts of `changeset`: JSON lines under zstd,
+//! `[table, kind, before, after, uids of the rows referred to]`. Undo applies the inverse as a new
+//! operation, redo the inverse of that.
+
+use rusqlite::{Connection, OptionalExtension, params};
+use serde::Serialize;
+use serde_json::Value;
+
+use super::damaged;
+use crate::error::{Error, Result};
+
+/// The tables whose rows are recorded, and for each the columns that refer to a row with a uid.
+const TRACKED: [(&str, &[(&str, &str)]); 16] = [
+    ("meta", &[]),
+    ("signer", &[]),
+    ("skeleton", &[]),
+    ("recording", &[("signer_id", "signer")]),
+    (
+        "track",
+        &[("recording_id", "recording"), ("skeleton_id", "skeleton")],
+    ),
+    ("track_block", &[("track_id", "track")]),
+    ("inventory", &[]),
+    ("inventory_value", &[("inventory_id", "inventory")]),
+    (
+        "tier",
+        &[
+            ("recording_id", "recording"),
+            ("parent_id", "tier"),
+            ("inventory_id", "inventory"),
+        ],
+    ),
+    (
+        "annotation",
+        &[
+            ("tier_id", "tier"),
+            ("parent_id", "annotation"),
+            ("previous_id", "annotation"),
+        ],
+    ),
+    ("sign", &[]),
+    ("sign_text", &[("sign_id", "sign")]),
+    (
+        "token",
+        &[
+            ("sign_id", "sign"),
+            ("recording_id", "recording"),
+            ("annotation_id", "annotation"),
+        ],
+    ),
+    (
+        "token_value",
+        &[
+            ("token_id", "token"),
+            ("inventory_id", "inventory"),
+            ("annotation_id", "annotation"),
+        ],
+    ),
+    ("recipe", &[("recording_id", "recording")]),
+    (
+        "recipe_input",
+        &[
+            ("recipe_id", "recipe"),
+            ("recording_id", "recording"),
+            ("token_id", "token"),
+        ],
+    ),
+];
+
+/// Changes that alter what the search index holds of tokens: table, event, and which tokens.
+const TOUCHING: [(&str, &str, &str); 10] = [
+    ("sign", "UPDATE", "WHERE t.sign_id = NEW.id"),
+    ("sign_text", "INSERT", "WHERE t.sign_id = NEW.sign_id"),
+    ("sign_text", "UPDATE", "WHERE t.sign_id = NEW.sign_id"),
+    ("sign_text", "DELETE", "WHERE t.sign_id = OLD.sign_id"),
+    ("recording", "UPDATE", "WHERE t.recording_id = NEW.id"),
+    ("signer", "UPDATE", "JOIN main.recording r ON r.id = t.recording_id WHERE r.signer_id = NEW.id"),
+    ("tier", "UPDATE", "WHERE t.recording_id = NEW.recording_id"),
+    (
+        "annotation",
+        "INSERT",
+        "JOIN main.tier i ON i.recording_id = t.recording_id WHERE i.id = NEW.tier_id
+         AND i.role IN ('translation', 'comment') AND t.start_us < NEW.end_us AND t.end_us > NEW.start_us",
+    ),
+    (
+        "annotation",
+        "UPDATE",
+        "JOIN main.tier i ON i.recording_id = t.recording_id WHERE i.id = NEW.tier_id
+         AND i.role IN ('translation', 'comment')
+         AND t.start_us < max(OLD.end_us, NEW.end_us) AND t.end_us > min(OLD.start_us, NEW.start_us)",
+    ),
+    (
+        "annotation",
+        "DELETE",
+        "JOIN main.tier i ON i.recording_id = t.recording_id WHERE i.id = OLD.tier_id
+         AND i.role IN ('translation', 'comment') AND t.start_us < OLD.end_us AND t.end_us > OLD.start_us",
+    ),
+];
+
+const PART_BYTES: usize = 4 << 20;
+
+/// What an operation is to history.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum OperationKind {
+    /// Work of its own.
+    Do,
+    /// It takes another back.
+    Undo,
+    /// It does one again that was taken back.
+    Redo,
+}
+
+impl OperationKind {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Do => "do",
+            Self::Undo => "undo",
+            Self::Redo => "redo",
+        }
+    }
+}
+
+/// One operation as the log shows it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct OperationRow {
+    /// Its number, counted up from 1.
+    pub id: i64,
+    /// When, as `YYYY-MM-DDTHH:MM:SSZ`.
+    pub at: String,
+    /// Who.
+    pub author: String,
+    /// Whether it was work of its own, an undo or a redo.
+    pub kind: OperationKind,
+    /// The operation that an undo or redo is about.
+    pub target: Option<i64>,
+    /// The kind of work, such as `import`.
+    pub name: String,
+    /// What was done, for people.
+    pub summary: String,
+    /// How many rows changed.
+    pub changes: i64,
+    /// Whether it stands: it is not taken back at this time.
+    pub stands: bool,
+}
+
+/// Sets up this connection's triggers that record every change of a tracked table.
+pub(super) fn record_changes(connection: &Connection) -> Result<()> {
+    let mut sql = String::from(
+        "CREATE TEMP TABLE change (
+             seq INTEGER PRIMARY KEY, tbl TEXT NOT NULL, kind TEXT NOT NULL,
+             before TEXT, after TEXT, refs TEXT NOT NULL);
+         CREATE TEMP TABLE touched (token_id INTEGER PRIMARY KEY);",
+    );
+    for (table, references) in TRACKED {
+        let columns = columns(connection, table)?;
+        for (kind, event) in [("i", "INSERT"), ("u", "UPDATE"), ("d", "DELETE")] {
+            let image = |row: &str| row_image(&columns, row);
+            let (before, after) = match kind {
+                "i" => ("NULL".to_owned(), image("NEW")),
+                "u" => (image("OLD"), image("NEW")),
+                _ => (image("OLD"), "NULL".to_owned()),
+            };
+            let row = if kind == "d" { "OLD" } else { "NEW" };
+            let refs: Vec<String> = references
+                .iter()
+                .map(|(column, other)| {
+                    format!(
+                        "'{column}',(SELECT hex(uid) FROM main.{other} WHERE id={row}.{column})"
+                    )
+                })
+                .collect();
+            let refs = refs.join(",");
+            sql.push_str(&format!(
+                "CREATE TEMP TRIGGER record_{table}_{kind} AFTER {event} ON main.{table} BEGIN
+                 INSERT INTO temp.change (tbl, kind, before, after, refs)
+                 VALUES ('{table}', '{kind}', {before}, {after}, json_object({refs})); END;"
+            ));
+        }
+    }
+    for (table, column) in [("token", "id"), ("token_value", "token_id")] {
+        for (event, row) in [("INSERT", "NEW"), ("UPDATE", "NEW"), ("DELETE", "OLD")] {
+            sql.push_str(&format!(
+                "CREATE TEMP TRIGGER touch_{table}_{event} AFTER {event} ON main.{table} BEGIN
+                 INSERT OR IGNORE INTO temp.touched VALUES ({row}.{column}); END;"
+            ));
+        }
+    }
+    for (table, event, tokens) in TOUCHING {
+        sql.push_str(&format!(
+            "CREATE TEMP TRIGGER touch_{table}_{event} AFTER {event} ON main.{table} BEGIN
+             INSERT OR IGNORE INTO temp.touched SELECT t.id FROM main.token t {tokens}; END;"
+        ));
+    }
+    connection.execute_batch(&sql)?;
+    Ok(())
+}
+
+struct Column {
+    name: String,
+    blob: bool,
+}
+
+fn columns(connection: &Connection, table: &str) -> Result<Vec<Column>> {
+    let mut statement =
+        connection.prepare_cached("SELECT name, type FROM pragma_table_info(?1) ORDER BY cid")?;
+    let columns = statement
+        .query_map([table], |row| {
+            Ok(Column {
+                name: row.get(0)?,
+                blob: row.get::<_, String>(1)? == "BLOB",
+            })
+        })?
+        .collect::<rusqlite::Result<Vec<_>>>()?;
+    Ok(columns)
+}
+
+fn row_image(columns: &[Column], row: &str) -> String {
+    let fields: Vec<String> = columns
+        .iter()
+        .map(|Column { name, blob }| {
+            if *blob {
+                format!("'{name}',hex({row}.{name})")
+            } else {
+                format!("'{name}',{row}.{name}")
+            }
+        })
+        .collect();
+    format!("json_object({})", fields.join(","))
+}
+
+/// Writes the operation's row, whose number the changeset will carry.
+pub(super) fn begin(connection: &Connection, author: &str, name: &str) -> Result<i64> {
+    insert_operation(connection, author, OperationKind::Do, None, name)
+}
+
+fn insert_operation(
+    connection: &Connection,
+    author: &str,
+    kind: OperationKind,
+    target: Option<i64>,
+    name: &str,
+) -> Result<i64> {
+    connection.execute(
+        "INSERT INTO operation (at, author, kind, target, name, summary, changes)
+         VALUES (strftime('%Y-%m-%dT%H:%M:%SZ', 'now'), ?1, ?2, ?3, ?4, '', 0)",
+        params![author, kind.name(), target, name],
+    )?;
+    Ok(connection.last_insert_rowid())
+}
+
+/// Packs the recorded changes into the operation's changeset; without any the operation is no more.
+pub(super) fn finish(connection: &Connection, operation: i64, summary: &str) -> Result<()> {
+    let mut changes = 0i64;
+    let (mut part, mut lines) = (0i64, Vec::new());
+    let mut statement = connection
+        .prepare_cached("SELECT tbl, kind, before, after, refs FROM temp.change ORDER BY seq")?;
+    let mut rows = statement.query([])?;
+    while let Some(row) = rows.next()? {
+        let text = |i: usize| -> rusqlite::Result<String> {
+            Ok(row
+                .get::<_, Option<String>>(i)?
+                .unwrap_or_else(|| "null".to_owned()))
+        };
+        let line = format!(
+            "[\"{}\",\"{}\",{},{},{}]\n",
+            row.get::<_, String>(0)?,
+            row.get::<_, String>(1)?,
+            text(2)?,
+            text(3)?,
+            text(4)?
+        );
+        lines.extend_from_slice(line.as_bytes());
+        changes += 1;
+        if lines.len() >= PART_BYTES {
+            write_part(connection, operation, part, &lines)?;
+            part += 1;
+            lines.clear();
+        }
+    }
+    if !lines.is_empty() {
+        write_part(connection, operation, part, &lines)?;
+    }
+    if changes == 0 {
+        connection.execute("DELETE FROM operation WHERE id = ?1", [operation])?;
+    } else {
+        connection.execute(
+            "UPDATE operation SET summary = ?2, changes = ?3 WHERE id = ?1",
+            params![operation, summary, changes],
+        )?;
+    }
+    Ok(())
+}
+
+fn write_part(connection: &Connection, operation: i64, part: i64, lines: &[u8]) -> Result<()> {
+    let data = zstd::encode_all(lines, 3)
+        .map_err(|error| damaged(format!("changeset {operation}"), error.to_string()))?;
+    connection.execute(
+        "INSERT INTO changeset (operation_id, part, data) VALUES (?1, ?2, ?3)",
+        params![operation, part, data],
+    )?;
+    Ok(())
+}
+
+pub(super) fn undo(connection: &Connection, author: &str) -> Result<OperationRow> {
+    let target = stacks(connection)?.0.pop().ok_or_else(|| {
+        Error::wrong("there is nothing to undo").advise("`chereme log` lists what was done")
+    })?;
+    invert(connection, author, OperationKind::Undo, target, target)
+}
+
+pub(super) fn redo(connection: &Connection, author: &str) -> Result<OperationRow> {
+    let target = stacks(connection)?.1.pop().ok_or_else(|| {
+        Error::wrong("there is nothing to redo")
+            .advise("only what was undone last, with no other work since, can be done again")
+    })?;
+    let undone_by = connection.query_row(
+        "SELECT max(id) FROM operation WHERE kind = 'undo' AND target = ?1",
+        [target],
+        |row| row.get(0),
+    )?;
+    invert(connection, author, OperationKind::Redo, target, undone_by)
+}
+
+/// The operations that stand and can be undone, and those that can be redone, oldest first.
+fn stacks(connection: &Connection) -> Result<(Vec<i64>, Vec<i64>)> {
+    let mut statement =
+        connection.prepare_cached("SELECT id, kind, target FROM operation ORDER BY id")?;
+    let mut rows = statement.query([])?;
+    let (mut done, mut undone) = (Vec::new(), Vec::new());
+    while let Some(row) = rows.next()? {
+        let target: Option<i64> = row.get(2)?;
+        match (row.get::<_, String>(1)?.as_str(), target) {
+            ("undo", Some(target)) => {
+                done.retain(|&id| id != target);
+                undone.push(target);
+            }
+            ("redo", Some(target)) => {
+                undone.retain(|&id| id != target);
+                done.push(target);
+            }
+            _ => {
+                done.push(row.get(0)?);
+                undone.clear();
+            }
+        }
+    }
+    Ok((done, undone))
+}
+
+/// Applies the inverse of `source`'s changeset as an operation of `kind` about `target`.
+fn invert(
+    connection: &Connection,
+    author: &str,
+    kind: OperationKind,
+    target: i64,
+    source: i64,
+) -> Result<OperationRow> {
+    let (name, summary): (String, String) = connection.query_row(
+        "SELECT name, summary FROM operation WHERE id = ?1",
+        [target],
+        |row| Ok((row.get(0)?, row.get(1)?)),
+    )?;
+    connection.execute_batch("PRAGMA defer_foreign_keys = ON;")?;
+    let parts: i64 = connection.query_row(
+        "SELECT count(*) FROM changeset WHERE operation_id = ?1",
+        [source],
+        |row| row.get(0),
+    )?;
+    let operation = insert_operation(connection, author, kind, Some(target), &name)?;
+    for part in (0..parts).rev() {
+        let lines = read_part(connection, source, part)?;
+        let lines: Vec<&str> = lines.lines().collect();
+        for line in lines.into_iter().rev() {
+            invert_change(connection, source, line)?;
+        }
+    }
+    finish(connection, operation, &summary)?;
+    log(connection, usize::MAX)?
+        .into_iter()
+        .find(|row| row.id == operation)
+        .ok_or_else(|| damaged(format!("operation {source}"), "its changeset is empty"))
+}
+
+fn read_part(connection: &Connection, operation: i64, part: i64) -> Result<String> {
+    let place = || format!("changeset {operation}, part {part}");
+    let data: Vec<u8> = connection
+        .query_row(
+            "SELECT data FROM changeset WHERE operation_id = ?1 AND part = ?2",
+            params![operation, part],
+            |row| row.get(0),
+        )
+        .optional()?
+        .ok_or_else(|| damaged(place(), "it is missing"))?;
+    let mut lines = Vec::new();
+    let reader =
+        zstd::Decoder::new(data.as_slice()).map_err(|e| damaged(place(), e.to_string()))?;
+    std::io::Read::read_to_end(
+        &mut std::io::Read::take(reader, 64 * PART_BYTES as u64),
+        &mut lines,
+    )
+    .map_err(|error| damaged(place(), error.to_string()))?;
+    String::from_utf8(lines).map_err(|_| damaged(place(), "it is no text"))
+}
+
+fn invert_change(connection: &Connection, operation: i64, line: &str) -> Result<()> {
+    let place = || format!("changeset {operation}");
+    let change: (String, String, Value, Value, Value) =
+        serde_json::from_str(line).map_err(|error| damaged(place(), error.to_string()))?;
+    let (table, kind, before, after, _) = change;
+    let Some((table, _)) = TRACKED.iter().find(|(name, _)| *name == table) else {
+        return Err(damaged(
+            place(),
+            format!("it names the unknown table {table:?}"),
+        ));
+    };
+    let columns = columns(connection, table)?;
+    let key = columns[0].name.as_str();
+    match kind.as_str() {
+        "i" => {
+            expect_row(connection, table, &columns, &after)?;
+            let sql = format!("DELETE FROM main.{table} WHERE {key} = json_extract(?1, '$.{key}')");
+            connection
+                .prepare_cached(&sql)?
+                .execute([after.to_string()])?;
+        }
+        "d" => {
+            let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
+            let values: Vec<String> = columns.iter().map(from_image).collect();
+            let sql = format!(
+                "INSERT INTO main.{table} ({}) VALUES ({})",
+                names.join(","),
+                values.join(",")
+            );
+            connection
+                .prepare_cached(&sql)?
+                .execute([before.to_string()])?;
+        }
+        "u" => {
+            expect_row(connection, table, &columns, &after)?;
+            let settings: Vec<String> = columns
+                .iter()
+                .map(|column| format!("{} = {}", column.name, from_image(column)))
+                .collect();
+            let sql = format!(
+                "UPDATE main.{table} SET {} WHERE {key} = json_extract(?2, '$.{key}')",
+                settings.join(",")
+            );
+            connection
+                .prepare_cached(&sql)?
+                .execute([before.to_string(), after.to_string()])?;
+        }
+        other => {
+            return Err(damaged(
+                place(),
+                format!("it holds the unknown change {other:?}"),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn from_image(column: &Column) -> String {
+    let name = &column.name;
+    if column.blob {
+        format!("unhex(json_extract(?1, '$.{name}'))")
+    } else {
+        format!("json_extract(?1, '$.{name}')")
+    }
+}
+
+/// Refuses to take back a change whose row something else has changed since.
+fn expect_row(
+    connection: &Connection,
+    table: &str,
+    columns: &[Column],
+    want: &Value,
+) -> Result<()> {
+    let key = columns[0].name.as_str();
+    let sql = format!(
+        "SELECT {} FROM main.{table} AS r WHERE {key} = json_extract(?1, '$.{key}')",
+        row_image(columns, "r")
+    );
+    let found: Option<String> = connection
+        .prepare_cached(&sql)?
+        .query_row([want.to_string()], |row| row.get(0))
+        .optional()?;
+    let same =
+        found.is_some_and(|text| serde_json::from_str::<Value>(&text).is_ok_and(|v| v == *want));
+    if same {
+        return Ok(());
+    }
+    Err(Error::wrong(format!(
+        "the row {} of {table} was changed by something else since, so this cannot be taken back",
+        want.get(key).unwrap_or(&Value::Null)
+    ))
+    .advise("`chereme log` shows what was done; `chereme check` looks for damage"))
+}
+
+/// Returns the newest operations first.
+pub(super) fn log(connection: &Connection, limit: usize) -> Result<Vec<OperationRow>> {
+    let (done, _) = stacks(connection)?;
+    let mut statement = connection.prepare_cached(
+        "SELECT id, at, author, kind, target, name, summary, changes
+         FROM operation ORDER BY id DESC LIMIT ?1",
+    )?;
+    let rows = statement
+        .query_map([i64::try_from(limit).unwrap_or(i64::MAX)], |row| {
+            let id = row.get(0)?;
+            let kind = match row.get::<_, String>(3)?.as_str() {
+                "undo" => OperationKind::Undo,
+                "redo" => OperationKind::Redo,
+                _ => OperationKind::Do,
+            };
+            Ok(OperationRow {
+                id,
+                at: row.get(1)?,
+                author: row.get(2)?,
+                kind,
+                target: row.get(4)?,
+                name: row.get(5)?,
+                summary: row.get(6)?,
+                changes: row.get(7)?,
+                stands: kind != OperationKind::Do
+                    || done.binary_search(&id).is_ok()
+                    || done.contains(&id),
+            })
+        })?
+        .collect::<rusqlite::Result<Vec<_>>>()?;
+    Ok(rows)
+}
+
+/// Reports changesets that are missing or cannot be read.
+pub(super) fn check(connection: &Connection) -> Result<Vec<String>> {
+    let mut faults = Vec::new();
+    let mut statement = connection.prepare(
+        "SELECT o.id, o.changes, (SELECT count(*) FROM changeset c WHERE c.operation_id = o.id)
+         FROM operation o ORDER BY o.id",
+    )?;
+    let mut rows = statement.query([])?;
+    while let Some(row) = rows.next()? {
+        let (id, changes, parts): (i64, i64, i64) = (row.get(0)?, row.get(1)?, row.get(2)?);
+        let mut found = 0i64;
+        for part in 0..parts {
+            match read_part(connection, id, part) {
+                Ok(lines) => found += lines.lines().count() as i64,
+                Err(error) => faults.push(error.to_string()),
+            }
+        }
+        if found != changes {
+            faults.push(format!(
+                "operation {id} holds {found} of its {changes} changes"
+            ));
+        }
+    }
+    Ok(faults)
+}

@@ -1,0 +1,83 @@
+//! Rows of inventories and their values.
+
+use rusqlite::{Connection, OptionalExtension, params};
+
+use crate::error::Result;
+
+/// An inventory as stored: its own document, without its values.
+pub(crate) struct InventoryRow {
+    pub(crate) id: i64,
+    pub(crate) key: String,
+    pub(crate) component: String,
+    pub(crate) feature: Option<String>,
+    pub(crate) document: String,
+    /// Key and document of each value, in order.
+    pub(crate) values: Vec<(String, String)>,
+}
+
+/// Returns all inventories with their values, oldest first.
+pub(crate) fn inventories(connection: &Connection) -> Result<Vec<InventoryRow>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT id, key, component, feature, document FROM inventory ORDER BY id",
+    )?;
+    let mut inventories = statement
+        .query_map([], |row| {
+            Ok(InventoryRow {
+                id: row.get(0)?,
+                key: row.get(1)?,
+                component: row.get(2)?,
+                feature: row.get(3)?,
+                document: row.get(4)?,
+                values: Vec::new(),
+            })
+        })?
+        .collect::<rusqlite::Result<Vec<_>>>()?;
+    let mut statement = connection.prepare_cached(
+        "SELECT key, document FROM inventory_value WHERE inventory_id = ?1 ORDER BY position, id",
+    )?;
+    for inventory in &mut inventories {
+        inventory.values = statement
+            .query_map([inventory.id], |row| Ok((row.get(0)?, row.get(1)?)))?
+            .collect::<rusqlite::Result<_>>()?;
+    }
+    Ok(inventories)
+}
+
+/// Returns the row of the inventory with this key.
+pub(crate) fn find(connection: &Connection, key: &str) -> Result<Option<i64>> {
+    Ok(connection
+        .prepare_cached("SELECT id FROM inventory WHERE key = ?1")?
+        .query_row([key], |row| row.get(0))
+        .optional()?)
+}
+
+/// Writes an inventory, or its document anew, and returns its row; `id` and `values` are not looked at.
+pub(crate) fn store(connection: &Connection, row: &InventoryRow) -> Result<i64> {
+    connection
+        .prepare_cached(
+            "INSERT INTO inventory (key, component, feature, document) VALUES (?1, ?2, ?3, ?4)
+             ON CONFLICT (key) DO UPDATE SET document = excluded.document
+             WHERE document <> excluded.document",
+        )?
+        .execute(params![row.key, row.component, row.feature, row.document])?;
+    Ok(find(connection, &row.key)?.unwrap_or_default())
+}
+
+/// Writes a value of an inventory, or its document anew.
+pub(crate) fn store_value(
+    connection: &Connection,
+    inventory: i64,
+    position: usize,
+    key: &str,
+    document: &str,
+) -> Result<()> {
+    connection
+        .prepare_cached(
+            "INSERT INTO inventory_value (inventory_id, key, position, document)
+             VALUES (?1, ?2, ?3, ?4)
+             ON CONFLICT (inventory_id, key) DO UPDATE SET document = excluded.document
+             WHERE document <> excluded.document",
+        )?
+        .execute(params![inventory, key, position as i64, document])?;
+    Ok(())
+}

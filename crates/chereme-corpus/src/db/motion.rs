@@ -1,0 +1,99 @@
+//! Rows of motion: blocks named by their content, and which frames of which track they are.
+
+use std::ops::Range;
+
+use rusqlite::{Connection, params};
+use sha2::{Digest, Sha256};
+
+use crate::error::Result;
+
+/// One stored block of a track.
+pub(crate) struct BlockRow {
+    pub(crate) first_frame: usize,
+    pub(crate) frames: usize,
+    pub(crate) hash: Vec<u8>,
+    pub(crate) data: Vec<u8>,
+}
+
+/// Stores `data` as `frames` frames from `first_frame` on of one channel group of a track.
+pub(crate) fn insert_block(
+    connection: &Connection,
+    track: i64,
+    group: &str,
+    first_frame: usize,
+    frames: usize,
+    data: &[u8],
+) -> Result<()> {
+    let hash = Sha256::digest(data);
+    connection
+        .prepare_cached("INSERT OR IGNORE INTO block (hash, data) VALUES (?1, ?2)")?
+        .execute(params![hash.as_slice(), data])?;
+    connection
+        .prepare_cached(
+            "INSERT INTO track_block (track_id, channel_group, first_frame, frames, hash)
+             VALUES (?1, ?2, ?3, ?4, ?5)",
+        )?
+        .execute(params![
+            track,
+            group,
+            first_frame as i64,
+            frames as i64,
+            hash.as_slice()
+        ])?;
+    Ok(())
+}
+
+/// Calls `take` with the blocks of one channel group that hold any of `frames`, in order.
+pub(crate) fn blocks(
+    connection: &Connection,
+    track: i64,
+    group: &str,
+    frames: &Range<usize>,
+    mut take: impl FnMut(BlockRow) -> Result<()>,
+) -> Result<()> {
+    let mut statement = connection.prepare_cached(
+        "SELECT t.first_frame, t.frames, t.hash, b.data
+         FROM track_block t JOIN block b ON b.hash = t.hash
+         WHERE t.track_id = ?1 AND t.channel_group = ?2 AND t.first_frame < ?4
+           AND t.first_frame >= coalesce((
+               SELECT max(first_frame) FROM track_block
+               WHERE track_id = ?1 AND channel_group = ?2 AND first_frame <= ?3), 0)
+         ORDER BY t.first_frame",
+    )?;
+    let mut rows = statement.query(params![
+        track,
+        group,
+        frames.start as i64,
+        frames.end as i64
+    ])?;
+    while let Some(row) = rows.next()? {
+        take(BlockRow {
+            first_frame: usize::try_from(row.get::<_, i64>(0)?).unwrap_or(usize::MAX),
+            frames: usize::try_from(row.get::<_, i64>(1)?).unwrap_or(usize::MAX),
+            hash: row.get(2)?,
+            data: row.get(3)?,
+        })?;
+    }
+    Ok(())
+}
+
+/// Returns the SHA-256 over the names of a track's blocks: the name of its movement.
+pub(crate) fn content_hash(connection: &Connection, track: i64) -> Result<String> {
+    let mut statement = connection.prepare_cached(
+        "SELECT channel_group, first_frame, hash FROM track_block WHERE track_id = ?1
+         ORDER BY channel_group, first_frame",
+    )?;
+    let mut rows = statement.query([track])?;
+    let mut digest = Sha256::new();
+    while let Some(row) = rows.next()? {
+        digest.update(row.get_ref(0)?.as_bytes().unwrap_or_default());
+        digest.update(row.get::<_, i64>(1)?.to_le_bytes());
+        digest.update(row.get_ref(2)?.as_blob().unwrap_or_default());
+    }
+    Ok(hex(&digest.finalize()))
+}
+
+/// Returns bytes in hexadecimal.
+pub(crate) fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
+}

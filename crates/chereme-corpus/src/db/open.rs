@@ -1,0 +1,127 @@
+//! Making, opening and raising a corpus file.
+
+use std::path::Path;
+use std::time::Duration;
+
+use rusqlite::config::DbConfig;
+use rusqlite::limits::Limit;
+use rusqlite::{Connection, OpenFlags};
+
+use crate::error::{Error, Result};
+
+/// Marks the file as a corpus: the letters `Cher`.
+pub(crate) const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");
+
+/// The schema's steps; a file's `user_version` is how many of them it has taken.
+const STEPS: [&str; 1] = [include_str!("../../../../schema/sql/0001_corpus.sql")];
+
+/// The schema version that this code writes.
+pub(crate) const SCHEMA_VERSION: i32 = STEPS.len() as i32;
+
+/// A value larger than this is not read: no block, changeset part or index file comes near it.
+const LARGEST_VALUE: i32 = 512 << 20;
+
+pub(super) fn create(path: &Path) -> Result<Connection> {
+    if path.exists() {
+        return Err(Error::file(path, std::io::ErrorKind::AlreadyExists.into()));
+    }
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+        return Err(Error::file(folder, std::io::ErrorKind::NotFound.into()));
+    }
+    let flags = OpenFlags::SQLITE_OPEN_READ_WRITE
+        | OpenFlags::SQLITE_OPEN_CREATE
+        | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    let mut connection = Connection::open_with_flags(path, flags)?;
+    connection.execute_batch("PRAGMA page_size = 16384; PRAGMA journal_mode = WAL;")?;
+    configure(&connection)?;
+    connection.pragma_update(None, "application_id", APPLICATION_ID)?;
+    raise(&mut connection)?;
+    Ok(connection)
+}
+
+pub(super) fn open(path: &Path) -> Result<Connection> {
+    if !path.is_file() {
+        return Err(Error::file(path, std::io::ErrorKind::NotFound.into()));
+    }
+    let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    let mut connection = Connection::open_with_flags(path, flags)?;
+    configure(&connection)?;
+    let refuse = |reason: String, remedy: &str| Error::NotACorpus {
+        path: path.to_owned(),
+        reason,
+        remedy: remedy.to_owned(),
+    };
+    let pragma = |name: &str| connection.pragma_query_value(None, name, |row| row.get::<_, i32>(0));
+    let application = pragma("application_id").map_err(|error| {
+        refuse(
+            error.to_string(),
+            "choose a file that `chereme new` or `chereme import` made",
+        )
+    })?;
+    if application != APPLICATION_ID {
+        return Err(refuse(
+            "it is a database of another program".into(),
+            "choose a file that `chereme new` or `chereme import` made",
+        ));
+    }
+    let version = pragma("user_version")?;
+    if version > SCHEMA_VERSION {
+        return Err(refuse(
+            format!(
+                "its schema is version {version}, and this program knows up to {SCHEMA_VERSION}"
+            ),
+            "open it with a newer version of Chereme",
+        ));
+    }
+    if version < 1 {
+        return Err(refuse(
+            "its making was cut short".into(),
+            "delete it and make it anew",
+        ));
+    }
+    let foreign: i64 = connection.query_row(
+        "SELECT count(*) FROM sqlite_schema WHERE type = 'view'
+            OR (type = 'trigger' AND name NOT LIKE 'search\\_%' ESCAPE '\\')
+            OR (type = 'table' AND sql LIKE 'CREATE VIRTUAL%')",
+        [],
+        |row| row.get(0),
+    )?;
+    if foreign > 0 {
+        return Err(refuse(
+            format!(
+                "it holds {foreign} views, triggers or virtual tables that are none of Chereme's"
+            ),
+            "take the file as untrusted: somebody has put code into it",
+        ));
+    }
+    raise(&mut connection)?;
+    Ok(connection)
+}
+
+fn configure(connection: &Connection) -> Result<()> {
+    connection.busy_timeout(Duration::from_secs(20))?;
+    connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true)?;
+    connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
+    connection.set_limit(Limit::SQLITE_LIMIT_LENGTH, LARGEST_VALUE)?;
+    connection.set_prepared_statement_cache_capacity(128);
+    connection.execute_batch(
+        "PRAGMA foreign_keys = ON; PRAGMA cell_size_check = ON; PRAGMA synchronous = FULL;
+         PRAGMA cache_size = -32768; PRAGMA temp_store = FILE;",
+    )?;
+    Ok(())
+}
+
+fn raise(connection: &mut Connection) -> Result<()> {
+    let transaction =
+        connection.transaction_with_behavior(rusqlite::TransactionBehavior::Immediate)?;
+    let version: i32 = transaction.pragma_query_value(None, "user_version", |row| row.get(0))?;
+    for step in STEPS.iter().skip(usize::try_from(version).unwrap_or(0)) {
+        transaction.execute_batch(step)?;
+    }
+    transaction.pragma_update(None, "user_version", SCHEMA_VERSION)?;
+    transaction.commit()?;
+    Ok(())
+}

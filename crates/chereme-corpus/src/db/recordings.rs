@@ -1,0 +1,368 @@
+//! Rows of signers, skeletons, recordings and their tracks.
+
+use rusqlite::{Connection, OptionalExtension, Row, params};
+use serde::Serialize;
+
+use crate::error::{Error, Result};
+
+/// A signer.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct SignerRow {
+    /// The row.
+    pub id: i64,
+    /// The name.
+    pub name: String,
+    /// `right`, `left`, or nothing where it is not known.
+    pub handedness: Option<String>,
+    /// Remarks.
+    pub notes: Option<String>,
+}
+
+/// A recording: one captured, made or generated take.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct RecordingRow {
+    /// The row.
+    pub id: i64,
+    /// The name, which no other recording of the corpus has.
+    pub name: String,
+    /// The signer's row.
+    pub signer_id: Option<i64>,
+    /// The signer's name.
+    pub signer: Option<String>,
+    /// `captured`, `made` or `generated`.
+    pub origin: String,
+    /// The length in microseconds.
+    pub duration_us: i64,
+    /// The name of the file it came from.
+    pub source_name: Option<String>,
+    /// The SHA-256 of that file, in hexadecimal.
+    pub source_hash: Option<String>,
+    /// The terms under which it may be used.
+    pub licence: Option<String>,
+    /// Remarks.
+    pub notes: Option<String>,
+}
+
+/// A track of a recording that holds a skeleton's movement.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MotionTrackRow {
+    /// The row.
+    pub id: i64,
+    /// The recording's row.
+    pub recording_id: i64,
+    /// The name within the recording.
+    pub name: String,
+    /// Where it starts on the recording's clock, in microseconds.
+    pub offset_us: i64,
+    /// The skeleton's row.
+    pub skeleton_id: i64,
+    /// How many frames it has.
+    pub frames: i64,
+    /// Frames in [`rate_seconds`](Self::rate_seconds).
+    pub rate_frames: u32,
+    /// Seconds that [`rate_frames`](Self::rate_frames) take.
+    pub rate_seconds: u32,
+    /// The frame time as the file writes it.
+    pub frame_time: Option<String>,
+    /// How many metres one unit of the file is.
+    pub metres_per_unit: f64,
+    /// The file's axes, as `up,left`.
+    pub axes: String,
+    /// The order in which the root's columns are meant, where the header has it wrong.
+    pub root_order: Option<String>,
+    /// Joint roles that a person set, as JSON.
+    pub roles: Option<String>,
+    /// Which joints lie in which channel group, as JSON.
+    pub channel_groups: String,
+}
+
+/// A track of a recording that is a file beside it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct MediaTrackRow {
+    /// The row.
+    pub id: i64,
+    /// The recording's row.
+    pub recording_id: i64,
+    /// The name within the recording.
+    pub name: String,
+    /// Where it starts on the recording's clock, in microseconds.
+    pub offset_us: i64,
+    /// Where the file lies, as the annotation file says.
+    pub url: String,
+    /// Its media type.
+    pub media_type: Option<String>,
+}
+
+/// Returns the row of the signer called `name`, made where there is none.
+pub(crate) fn signer_named(
+    connection: &Connection,
+    name: &str,
+    handedness: Option<&str>,
+) -> Result<i64> {
+    if let Some(signer) = find_signer(connection, name)? {
+        return Ok(signer.id);
+    }
+    connection
+        .prepare_cached("INSERT INTO signer (name, handedness) VALUES (?1, ?2)")?
+        .execute(params![name, handedness])?;
+    Ok(connection.last_insert_rowid())
+}
+
+/// Returns the signer called `name`.
+pub(crate) fn find_signer(connection: &Connection, name: &str) -> Result<Option<SignerRow>> {
+    let sql = "SELECT id, name, handedness, notes FROM signer WHERE name = ?1";
+    Ok(connection
+        .prepare_cached(sql)?
+        .query_row([name], signer_row)
+        .optional()?)
+}
+
+/// Returns the signer of that row.
+pub(crate) fn signer(connection: &Connection, id: i64) -> Result<Option<SignerRow>> {
+    let sql = "SELECT id, name, handedness, notes FROM signer WHERE id = ?1";
+    Ok(connection
+        .prepare_cached(sql)?
+        .query_row([id], signer_row)
+        .optional()?)
+}
+
+/// Returns all signers by name.
+pub(crate) fn signers(connection: &Connection) -> Result<Vec<SignerRow>> {
+    let sql = "SELECT id, name, handedness, notes FROM signer ORDER BY name";
+    let mut statement = connection.prepare_cached(sql)?;
+    let rows = statement
+        .query_map([], signer_row)?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+fn signer_row(row: &Row<'_>) -> rusqlite::Result<SignerRow> {
+    Ok(SignerRow {
+        id: row.get(0)?,
+        name: row.get(1)?,
+        handedness: row.get(2)?,
+        notes: row.get(3)?,
+    })
+}
+
+/// Returns the row of the skeleton with this content hash, made of `document` where there is none.
+pub(crate) fn skeleton_stored(
+    connection: &Connection,
+    hash: &str,
+    joints: usize,
+    document: &str,
+) -> Result<i64> {
+    let found = connection
+        .prepare_cached("SELECT id FROM skeleton WHERE hash = ?1")?
+        .query_row([hash], |row| row.get(0))
+        .optional()?;
+    if let Some(id) = found {
+        return Ok(id);
+    }
+    connection
+        .prepare_cached("INSERT INTO skeleton (hash, joints, document) VALUES (?1, ?2, ?3)")?
+        .execute(params![hash, joints as i64, document])?;
+    Ok(connection.last_insert_rowid())
+}
+
+/// Returns the document of a skeleton.
+pub(crate) fn skeleton_document(connection: &Connection, id: i64) -> Result<String> {
+    Ok(connection
+        .prepare_cached("SELECT document FROM skeleton WHERE id = ?1")?
+        .query_row([id], |row| row.get(0))?)
+}
+
+/// Writes a recording and returns its row; its `id` and `signer` are not looked at.
+pub(crate) fn insert_recording(connection: &Connection, row: &RecordingRow) -> Result<i64> {
+    connection
+        .prepare_cached(
+            "INSERT INTO recording (name, signer_id, origin, duration_us, source_name, source_hash,
+                                    licence, notes)
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)",
+        )?
+        .execute(params![
+            row.name,
+            row.signer_id,
+            row.origin,
+            row.duration_us,
+            row.source_name,
+            row.source_hash,
+            row.licence,
+            row.notes
+        ])?;
+    Ok(connection.last_insert_rowid())
+}
+
+const RECORDING: &str = "
+    SELECT r.id, r.name, r.signer_id, s.name, r.origin, r.duration_us, r.source_name, r.source_hash,
+           r.licence, r.notes
+    FROM recording r LEFT JOIN signer s ON s.id = r.signer_id";
+
+fn recording_row(row: &Row<'_>) -> rusqlite::Result<RecordingRow> {
+    Ok(RecordingRow {
+        id: row.get(0)?,
+        name: row.get(1)?,
+        signer_id: row.get(2)?,
+        signer: row.get(3)?,
+        origin: row.get(4)?,
+        duration_us: row.get(5)?,
+        source_name: row.get(6)?,
+        source_hash: row.get(7)?,
+        licence: row.get(8)?,
+        notes: row.get(9)?,
+    })
+}
+
+/// Returns the recording of that row.
+pub(crate) fn recording(connection: &Connection, id: i64) -> Result<RecordingRow> {
+    connection
+        .prepare_cached(&format!("{RECORDING} WHERE r.id = ?1"))?
+        .query_row([id], recording_row)
+        .optional()?
+        .ok_or_else(|| {
+            Error::wrong(format!("there is no recording:{id}"))
+                .at(format!("recording:{id}"))
+                .advise("`chereme list CORPUS recordings` lists them")
+        })
+}
+
+/// Returns the recording of that name.
+pub(crate) fn recording_named(connection: &Connection, name: &str) -> Result<Option<RecordingRow>> {
+    Ok(connection
+        .prepare_cached(&format!("{RECORDING} WHERE r.name = ?1"))?
+        .query_row([name], recording_row)
+        .optional()?)
+}
+
+/// Returns the recording that came from a file with this hash.
+pub(crate) fn recording_from(connection: &Connection, hash: &str) -> Result<Option<RecordingRow>> {
+    Ok(connection
+        .prepare_cached(&format!(
+            "{RECORDING} WHERE r.source_hash = ?1 ORDER BY r.id LIMIT 1"
+        ))?
+        .query_row([hash], recording_row)
+        .optional()?)
+}
+
+/// Returns all recordings, oldest first.
+pub(crate) fn recordings(connection: &Connection) -> Result<Vec<RecordingRow>> {
+    let mut statement = connection.prepare_cached(&format!("{RECORDING} ORDER BY r.id"))?;
+    let rows = statement
+        .query_map([], recording_row)?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Makes the recording at least `micros` long.
+pub(crate) fn lengthen(connection: &Connection, recording: i64, micros: i64) -> Result<()> {
+    connection
+        .prepare_cached("UPDATE recording SET duration_us = ?2 WHERE id = ?1 AND duration_us < ?2")?
+        .execute([recording, micros])?;
+    Ok(())
+}
+
+/// Writes a motion track and returns its row; its `id` is not looked at.
+pub(crate) fn insert_motion_track(connection: &Connection, row: &MotionTrackRow) -> Result<i64> {
+    connection
+        .prepare_cached(
+            "INSERT INTO track (recording_id, kind, name, offset_us, skeleton_id, frames,
+                 rate_frames, rate_seconds, frame_time, metres_per_unit, axes, root_order, roles,
+                 channel_groups)
+             VALUES (?1, 'skeleton', ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13)",
+        )?
+        .execute(params![
+            row.recording_id,
+            row.name,
+            row.offset_us,
+            row.skeleton_id,
+            row.frames,
+            row.rate_frames,
+            row.rate_seconds,
+            row.frame_time,
+            row.metres_per_unit,
+            row.axes,
+            row.root_order,
+            row.roles,
+            row.channel_groups
+        ])?;
+    Ok(connection.last_insert_rowid())
+}
+
+/// Writes down how many frames a track has.
+pub(crate) fn set_frames(connection: &Connection, track: i64, frames: i64) -> Result<()> {
+    connection
+        .prepare_cached("UPDATE track SET frames = ?2 WHERE id = ?1")?
+        .execute([track, frames])?;
+    Ok(())
+}
+
+/// Returns the first motion track of a recording.
+pub(crate) fn motion_track(
+    connection: &Connection,
+    recording: i64,
+) -> Result<Option<MotionTrackRow>> {
+    Ok(connection
+        .prepare_cached(
+            "SELECT id, recording_id, name, offset_us, skeleton_id, frames, rate_frames,
+                    rate_seconds, frame_time, metres_per_unit, axes, root_order, roles,
+                    channel_groups
+             FROM track WHERE recording_id = ?1 AND kind = 'skeleton' ORDER BY id LIMIT 1",
+        )?
+        .query_row([recording], |row| {
+            Ok(MotionTrackRow {
+                id: row.get(0)?,
+                recording_id: row.get(1)?,
+                name: row.get(2)?,
+                offset_us: row.get(3)?,
+                skeleton_id: row.get(4)?,
+                frames: row.get(5)?,
+                rate_frames: row.get(6)?,
+                rate_seconds: row.get(7)?,
+                frame_time: row.get(8)?,
+                metres_per_unit: row.get(9)?,
+                axes: row.get(10)?,
+                root_order: row.get(11)?,
+                roles: row.get(12)?,
+                channel_groups: row.get(13)?,
+            })
+        })
+        .optional()?)
+}
+
+/// Writes a media track; its `id` is not looked at.
+pub(crate) fn insert_media_track(connection: &Connection, row: &MediaTrackRow) -> Result<()> {
+    connection
+        .prepare_cached(
+            "INSERT INTO track (recording_id, kind, name, offset_us, media_url, media_type)
+             VALUES (?1, 'media', ?2, ?3, ?4, ?5)",
+        )?
+        .execute(params![
+            row.recording_id,
+            row.name,
+            row.offset_us,
+            row.url,
+            row.media_type
+        ])?;
+    Ok(())
+}
+
+/// Returns the media tracks of a recording.
+pub(crate) fn media_tracks(connection: &Connection, recording: i64) -> Result<Vec<MediaTrackRow>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT id, recording_id, name, offset_us, media_url, media_type
+         FROM track WHERE recording_id = ?1 AND kind = 'media' ORDER BY id",
+    )?;
+    let rows = statement
+        .query_map([recording], |row| {
+            Ok(MediaTrackRow {
+                id: row.get(0)?,
+                recording_id: row.get(1)?,
+                name: row.get(2)?,
+                offset_us: row.get(3)?,
+                url: row.get(4)?,
+                media_type: row.get(5)?,
+            })
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}

@@ -1,0 +1,341 @@
+//! Rows of signs, their texts, tokens and token values.
+
+use rusqlite::{Connection, OptionalExtension, Row, params};
+use serde::Serialize;
+
+use crate::error::{Error, Result};
+
+/// A sign: a lexical entry.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct SignRow {
+    /// The row.
+    pub id: i64,
+    /// The gloss, which no other sign of the corpus has.
+    pub gloss: String,
+    /// Remarks.
+    pub notes: Option<String>,
+    /// Translations as language and text.
+    pub texts: Vec<(String, String)>,
+    /// How many tokens it has.
+    pub tokens: i64,
+}
+
+/// A token: one realisation of a sign.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+pub struct TokenRow {
+    /// The row.
+    pub id: i64,
+    /// The sign's row.
+    pub sign_id: i64,
+    /// The sign's gloss.
+    pub gloss: String,
+    /// The recording's row; a lexicon entry has none.
+    pub recording_id: Option<i64>,
+    /// The recording's name.
+    pub recording: Option<String>,
+    /// The annotation on a gloss tier that it is.
+    pub annotation_id: Option<i64>,
+    /// Where it starts, in microseconds.
+    pub start_us: Option<i64>,
+    /// The first microsecond after it.
+    pub end_us: Option<i64>,
+    /// The hand that makes it.
+    pub hand: Option<String>,
+    /// `captured`, `made`, `generated` or `lexicon`.
+    pub origin: String,
+    /// Whether it is the sign's citation form.
+    pub citation: bool,
+    /// What its file said beyond this, as JSON.
+    pub source: Option<String>,
+}
+
+/// What a token's component is.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+pub struct TokenValueRow {
+    /// The hand, or nothing where the component belongs to none or the whole sign.
+    pub hand: Option<String>,
+    /// The component.
+    pub component: String,
+    /// The feature of the component.
+    pub feature: Option<String>,
+    /// `initial`, `middle` or `final` where the sign has more values than one.
+    pub phase: Option<String>,
+    /// Its place among several values of the same phase.
+    pub position: i64,
+    /// `value`, `not-applicable` or `unclear`.
+    pub state: String,
+    /// The value.
+    pub value: Option<String>,
+    /// The inventory it comes from.
+    pub inventory_id: Option<i64>,
+    /// The annotation that says so.
+    pub annotation_id: Option<i64>,
+}
+
+/// Returns the row of the sign with this gloss, made where there is none.
+pub(crate) fn sign_glossed(connection: &Connection, gloss: &str) -> Result<i64> {
+    if let Some(id) = find_sign(connection, gloss)? {
+        return Ok(id);
+    }
+    connection
+        .prepare_cached("INSERT INTO sign (gloss) VALUES (?1)")?
+        .execute([gloss])?;
+    Ok(connection.last_insert_rowid())
+}
+
+/// Returns the row of the sign with this gloss, letter by letter.
+pub(crate) fn find_sign(connection: &Connection, gloss: &str) -> Result<Option<i64>> {
+    Ok(connection
+        .prepare_cached("SELECT id FROM sign WHERE gloss = ?1")?
+        .query_row([gloss], |row| row.get(0))
+        .optional()?)
+}
+
+/// Returns all signs by gloss.
+pub(crate) fn signs(connection: &Connection) -> Result<Vec<SignRow>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT id, gloss, notes, (SELECT count(*) FROM token t WHERE t.sign_id = s.id)
+         FROM sign s ORDER BY gloss",
+    )?;
+    let mut signs = statement
+        .query_map([], |row| {
+            Ok(SignRow {
+                id: row.get(0)?,
+                gloss: row.get(1)?,
+                notes: row.get(2)?,
+                tokens: row.get(3)?,
+                texts: Vec::new(),
+            })
+        })?
+        .collect::<rusqlite::Result<Vec<_>>>()?;
+    for sign in &mut signs {
+        sign.texts = texts(connection, sign.id)?;
+    }
+    Ok(signs)
+}
+
+/// Returns every gloss, in order.
+pub(crate) fn glosses(connection: &Connection) -> Result<Vec<String>> {
+    let mut statement = connection.prepare_cached("SELECT gloss FROM sign ORDER BY gloss")?;
+    let glosses = statement
+        .query_map([], |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(glosses)
+}
+
+/// Returns the translations of a sign as language and text.
+pub(crate) fn texts(connection: &Connection, sign: i64) -> Result<Vec<(String, String)>> {
+    let sql = "SELECT language, text FROM sign_text WHERE sign_id = ?1 ORDER BY id";
+    let mut statement = connection.prepare_cached(sql)?;
+    let texts = statement
+        .query_map([sign], |row| Ok((row.get(0)?, row.get(1)?)))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(texts)
+}
+
+/// Adds a translation of a sign, where it is not there yet.
+pub(crate) fn add_text(
+    connection: &Connection,
+    sign: i64,
+    language: &str,
+    text: &str,
+) -> Result<()> {
+    connection
+        .prepare_cached(
+            "INSERT OR IGNORE INTO sign_text (sign_id, language, text) VALUES (?1, ?2, ?3)",
+        )?
+        .execute(params![sign, language, text])?;
+    Ok(())
+}
+
+/// Writes a token and returns its row; its `id`, `gloss` and `recording` are not looked at.
+pub(crate) fn insert_token(connection: &Connection, row: &TokenRow) -> Result<i64> {
+    connection
+        .prepare_cached(
+            "INSERT INTO token (sign_id, recording_id, annotation_id, start_us, end_us, hand, origin,
+                 citation, source) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9)",
+        )?
+        .execute(params![
+            row.sign_id,
+            row.recording_id,
+            row.annotation_id,
+            row.start_us,
+            row.end_us,
+            row.hand,
+            row.origin,
+            row.citation,
+            row.source
+        ])?;
+    Ok(connection.last_insert_rowid())
+}
+
+/// Writes a token anew.
+pub(crate) fn update_token(connection: &Connection, row: &TokenRow) -> Result<()> {
+    connection
+        .prepare_cached(
+            "UPDATE token SET sign_id = ?2, start_us = ?3, end_us = ?4, hand = ?5, origin = ?6,
+                 citation = ?7, source = ?8 WHERE id = ?1",
+        )?
+        .execute(params![
+            row.id,
+            row.sign_id,
+            row.start_us,
+            row.end_us,
+            row.hand,
+            row.origin,
+            row.citation,
+            row.source
+        ])?;
+    Ok(())
+}
+
+/// Deletes a token with its values.
+pub(crate) fn delete_token(connection: &Connection, id: i64) -> Result<()> {
+    connection
+        .prepare_cached("DELETE FROM token_value WHERE token_id = ?1")?
+        .execute([id])?;
+    connection
+        .prepare_cached("DELETE FROM token WHERE id = ?1")?
+        .execute([id])?;
+    Ok(())
+}
+
+/// Deletes signs that have no token and no translation left.
+pub(crate) fn delete_empty_sign(connection: &Connection, sign: i64) -> Result<()> {
+    connection
+        .prepare_cached(
+            "DELETE FROM sign WHERE id = ?1 AND notes IS NULL
+                AND NOT EXISTS (SELECT 1 FROM token WHERE sign_id = ?1)
+                AND NOT EXISTS (SELECT 1 FROM sign_text WHERE sign_id = ?1)",
+        )?
+        .execute([sign])?;
+    Ok(())
+}
+
+/// Makes these the values of a token; rows that stay as they are are not touched.
+pub(crate) fn set_values(
+    connection: &Connection,
+    token: i64,
+    rows: &[TokenValueRow],
+) -> Result<()> {
+    if values(connection, token)? == rows {
+        return Ok(());
+    }
+    connection
+        .prepare_cached("DELETE FROM token_value WHERE token_id = ?1")?
+        .execute([token])?;
+    let mut statement = connection.prepare_cached(
+        "INSERT INTO token_value (token_id, hand, component, feature, phase, position, state, value,
+             inventory_id, annotation_id) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10)",
+    )?;
+    for row in rows {
+        statement.execute(params![
+            token,
+            row.hand,
+            row.component,
+            row.feature,
+            row.phase,
+            row.position,
+            row.state,
+            row.value,
+            row.inventory_id,
+            row.annotation_id
+        ])?;
+    }
+    Ok(())
+}
+
+/// Returns the values of a token, in the order in which they were written.
+pub(crate) fn values(connection: &Connection, token: i64) -> Result<Vec<TokenValueRow>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT hand, component, feature, phase, position, state, value, inventory_id, annotation_id
+         FROM token_value WHERE token_id = ?1 ORDER BY id",
+    )?;
+    let rows = statement
+        .query_map([token], |row| {
+            Ok(TokenValueRow {
+                hand: row.get(0)?,
+                component: row.get(1)?,
+                feature: row.get(2)?,
+                phase: row.get(3)?,
+                position: row.get(4)?,
+                state: row.get(5)?,
+                value: row.get(6)?,
+                inventory_id: row.get(7)?,
+                annotation_id: row.get(8)?,
+            })
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+const TOKEN: &str = "
+    SELECT t.id, t.sign_id, s.gloss, t.recording_id, r.name, t.annotation_id, t.start_us, t.end_us,
+           t.hand, t.origin, t.citation, t.source
+    FROM token t JOIN sign s ON s.id = t.sign_id LEFT JOIN recording r ON r.id = t.recording_id";
+
+fn token_row(row: &Row<'_>) -> rusqlite::Result<TokenRow> {
+    Ok(TokenRow {
+        id: row.get(0)?,
+        sign_id: row.get(1)?,
+        gloss: row.get(2)?,
+        recording_id: row.get(3)?,
+        recording: row.get(4)?,
+        annotation_id: row.get(5)?,
+        start_us: row.get(6)?,
+        end_us: row.get(7)?,
+        hand: row.get(8)?,
+        origin: row.get(9)?,
+        citation: row.get(10)?,
+        source: row.get(11)?,
+    })
+}
+
+/// Returns the token of that row.
+pub(crate) fn token(connection: &Connection, id: i64) -> Result<TokenRow> {
+    connection
+        .prepare_cached(&format!("{TOKEN} WHERE t.id = ?1"))?
+        .query_row([id], token_row)
+        .optional()?
+        .ok_or_else(|| {
+            Error::wrong(format!("there is no token:{id}"))
+                .at(format!("token:{id}"))
+                .advise("`chereme list CORPUS tokens` lists them")
+        })
+}
+
+/// Returns the tokens of a recording by time.
+pub(crate) fn tokens_of_recording(
+    connection: &Connection,
+    recording: i64,
+) -> Result<Vec<TokenRow>> {
+    let sql = format!("{TOKEN} WHERE t.recording_id = ?1 ORDER BY t.start_us, t.id");
+    let mut statement = connection.prepare_cached(&sql)?;
+    let rows = statement
+        .query_map([recording], token_row)?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Returns the tokens of a sign, citation forms first.
+pub(crate) fn tokens_of_sign(connection: &Connection, sign: i64) -> Result<Vec<TokenRow>> {
+    let sql = format!("{TOKEN} WHERE t.sign_id = ?1 ORDER BY t.citation DESC, t.id");
+    let mut statement = connection.prepare_cached(&sql)?;
+    let rows = statement
+        .query_map([sign], token_row)?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Calls `take` with every token, oldest first.
+pub(crate) fn each_token(
+    connection: &Connection,
+    mut take: impl FnMut(TokenRow) -> Result<()>,
+) -> Result<()> {
+    let mut statement = connection.prepare(&format!("{TOKEN} ORDER BY t.id"))?;
+    let mut rows = statement.query([])?;
+    while let Some(row) = rows.next()? {
+        take(token_row(row)?)?;
+    }
+    Ok(())
+}

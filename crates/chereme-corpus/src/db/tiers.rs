@@ -1,0 +1,319 @@
+//! Rows of tiers and annotations.
+
+use rusqlite::{Connection, OptionalExtension, Row, params};
+use serde::Serialize;
+
+use crate::error::{Error, Result};
+
+/// A tier of a recording.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+pub struct TierRow {
+    /// The row.
+    pub id: i64,
+    /// The recording's row.
+    pub recording_id: i64,
+    /// The name, which no other tier of the recording has.
+    pub name: String,
+    /// Its place among the recording's tiers.
+    pub position: i64,
+    /// The tier above.
+    pub parent_id: Option<i64>,
+    /// How it hangs below it, in ELAN's words.
+    pub stereotype: Option<String>,
+    /// `gloss`, `component`, `translation`, `comment` or `free`.
+    pub role: String,
+    /// The component, where that is the role.
+    pub component: Option<String>,
+    /// The feature of the component, such as `brows`.
+    pub feature: Option<String>,
+    /// The hand it is about.
+    pub hand: Option<String>,
+    /// Who is annotated.
+    pub participant: Option<String>,
+    /// Who annotates.
+    pub annotator: Option<String>,
+    /// The language of its values.
+    pub language: Option<String>,
+    /// The inventory its values come from.
+    pub inventory_id: Option<i64>,
+    /// What its file said beyond this, as JSON.
+    pub source: Option<String>,
+}
+
+/// An annotation.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct AnnotationRow {
+    /// The row.
+    pub id: i64,
+    /// The tier's row.
+    pub tier_id: i64,
+    /// Where it starts, in microseconds.
+    pub start_us: i64,
+    /// The first microsecond after it.
+    pub end_us: i64,
+    /// `value`, `unset`, `not-applicable` or `unclear`.
+    pub state: String,
+    /// What it says.
+    pub value: String,
+    /// The annotation above.
+    pub parent_id: Option<i64>,
+    /// The annotation before it in a symbolic subdivision.
+    pub previous_id: Option<i64>,
+    /// `file`, `human`, `detector` or `made`.
+    pub origin: String,
+    /// How sure its origin is, from 0 to 1.
+    pub confidence: Option<f64>,
+    /// Its name in the file it came from.
+    pub external_id: Option<String>,
+    /// Its start in that file, in milliseconds, while it has not moved.
+    pub file_start_ms: Option<i64>,
+    /// Its end in that file, in milliseconds, while it has not moved.
+    pub file_end_ms: Option<i64>,
+    /// What its file said beyond this, as JSON.
+    pub source: Option<String>,
+}
+
+const TIER: &str =
+    "SELECT id, recording_id, name, position, parent_id, stereotype, role, component,
+    feature, hand, participant, annotator, language, inventory_id, source FROM tier";
+
+fn tier_row(row: &Row<'_>) -> rusqlite::Result<TierRow> {
+    Ok(TierRow {
+        id: row.get(0)?,
+        recording_id: row.get(1)?,
+        name: row.get(2)?,
+        position: row.get(3)?,
+        parent_id: row.get(4)?,
+        stereotype: row.get(5)?,
+        role: row.get(6)?,
+        component: row.get(7)?,
+        feature: row.get(8)?,
+        hand: row.get(9)?,
+        participant: row.get(10)?,
+        annotator: row.get(11)?,
+        language: row.get(12)?,
+        inventory_id: row.get(13)?,
+        source: row.get(14)?,
+    })
+}
+
+const ANNOTATION: &str =
+    "SELECT id, tier_id, start_us, end_us, state, value, parent_id, previous_id,
+    origin, confidence, external_id, file_start_ms, file_end_ms, source FROM annotation";
+
+fn annotation_row(row: &Row<'_>) -> rusqlite::Result<AnnotationRow> {
+    Ok(AnnotationRow {
+        id: row.get(0)?,
+        tier_id: row.get(1)?,
+        start_us: row.get(2)?,
+        end_us: row.get(3)?,
+        state: row.get(4)?,
+        value: row.get(5)?,
+        parent_id: row.get(6)?,
+        previous_id: row.get(7)?,
+        origin: row.get(8)?,
+        confidence: row.get(9)?,
+        external_id: row.get(10)?,
+        file_start_ms: row.get(11)?,
+        file_end_ms: row.get(12)?,
+        source: row.get(13)?,
+    })
+}
+
+/// Writes a tier and returns its row; its `id` is not looked at.
+pub(crate) fn insert_tier(connection: &Connection, row: &TierRow) -> Result<i64> {
+    connection
+        .prepare_cached(
+            "INSERT INTO tier (recording_id, name, position, parent_id, stereotype, role, component,
+                 feature, hand, participant, annotator, language, inventory_id, source)
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)",
+        )?
+        .execute(params![
+            row.recording_id,
+            row.name,
+            row.position,
+            row.parent_id,
+            row.stereotype,
+            row.role,
+            row.component,
+            row.feature,
+            row.hand,
+            row.participant,
+            row.annotator,
+            row.language,
+            row.inventory_id,
+            row.source
+        ])?;
+    Ok(connection.last_insert_rowid())
+}
+
+/// Writes what a tier is anew.
+pub(crate) fn update_tier(connection: &Connection, row: &TierRow) -> Result<()> {
+    connection
+        .prepare_cached(
+            "UPDATE tier SET name = ?2, position = ?3, parent_id = ?4, stereotype = ?5, role = ?6,
+                 component = ?7, feature = ?8, hand = ?9, participant = ?10, annotator = ?11,
+                 language = ?12, inventory_id = ?13, source = ?14 WHERE id = ?1",
+        )?
+        .execute(params![
+            row.id,
+            row.name,
+            row.position,
+            row.parent_id,
+            row.stereotype,
+            row.role,
+            row.component,
+            row.feature,
+            row.hand,
+            row.participant,
+            row.annotator,
+            row.language,
+            row.inventory_id,
+            row.source
+        ])?;
+    Ok(())
+}
+
+/// Deletes a tier that holds no annotations any more.
+pub(crate) fn delete_tier(connection: &Connection, id: i64) -> Result<()> {
+    connection
+        .prepare_cached("DELETE FROM tier WHERE id = ?1")?
+        .execute([id])?;
+    Ok(())
+}
+
+/// Returns the tier of that row.
+pub(crate) fn tier(connection: &Connection, id: i64) -> Result<TierRow> {
+    connection
+        .prepare_cached(&format!("{TIER} WHERE id = ?1"))?
+        .query_row([id], tier_row)
+        .optional()?
+        .ok_or_else(|| {
+            Error::wrong(format!("there is no tier:{id}"))
+                .at(format!("tier:{id}"))
+                .advise("`chereme list CORPUS tiers` lists them")
+        })
+}
+
+/// Returns the tiers of a recording in their order.
+pub(crate) fn tiers(connection: &Connection, recording: i64) -> Result<Vec<TierRow>> {
+    let mut statement = connection.prepare_cached(&format!(
+        "{TIER} WHERE recording_id = ?1 ORDER BY position, id"
+    ))?;
+    let rows = statement
+        .query_map([recording], tier_row)?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Writes an annotation and returns its row; its `id` is not looked at.
+pub(crate) fn insert_annotation(connection: &Connection, row: &AnnotationRow) -> Result<i64> {
+    connection
+        .prepare_cached(
+            "INSERT INTO annotation (tier_id, start_us, end_us, state, value, parent_id, previous_id,
+                 origin, confidence, external_id, file_start_ms, file_end_ms, source)
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13)",
+        )?
+        .execute(params![
+            row.tier_id,
+            row.start_us,
+            row.end_us,
+            row.state,
+            row.value,
+            row.parent_id,
+            row.previous_id,
+            row.origin,
+            row.confidence,
+            row.external_id,
+            row.file_start_ms,
+            row.file_end_ms,
+            row.source
+        ])?;
+    Ok(connection.last_insert_rowid())
+}
+
+/// Writes an annotation anew.
+pub(crate) fn update_annotation(connection: &Connection, row: &AnnotationRow) -> Result<()> {
+    connection
+        .prepare_cached(
+            "UPDATE annotation SET tier_id = ?2, start_us = ?3, end_us = ?4, state = ?5, value = ?6,
+                 parent_id = ?7, previous_id = ?8, origin = ?9, confidence = ?10, external_id = ?11,
+                 file_start_ms = ?12, file_end_ms = ?13, source = ?14 WHERE id = ?1",
+        )?
+        .execute(params![
+            row.id,
+            row.tier_id,
+            row.start_us,
+            row.end_us,
+            row.state,
+            row.value,
+            row.parent_id,
+            row.previous_id,
+            row.origin,
+            row.confidence,
+            row.external_id,
+            row.file_start_ms,
+            row.file_end_ms,
+            row.source
+        ])?;
+    Ok(())
+}
+
+/// Deletes an annotation that nothing refers to any more.
+pub(crate) fn delete_annotation(connection: &Connection, id: i64) -> Result<()> {
+    connection
+        .prepare_cached("DELETE FROM annotation WHERE id = ?1")?
+        .execute([id])?;
+    Ok(())
+}
+
+/// Returns the annotation of that row.
+pub(crate) fn annotation(connection: &Connection, id: i64) -> Result<AnnotationRow> {
+    connection
+        .prepare_cached(&format!("{ANNOTATION} WHERE id = ?1"))?
+        .query_row([id], annotation_row)
+        .optional()?
+        .ok_or_else(|| {
+            Error::wrong(format!("there is no annotation:{id}"))
+                .at(format!("annotation:{id}"))
+                .advise("`chereme list CORPUS annotations` lists them")
+        })
+}
+
+/// Returns the annotations of a tier, by time.
+pub(crate) fn annotations(connection: &Connection, tier: i64) -> Result<Vec<AnnotationRow>> {
+    let sql = format!("{ANNOTATION} WHERE tier_id = ?1 ORDER BY start_us, end_us, id");
+    collect(connection, &sql, params![tier])
+}
+
+/// Returns the annotations of a tier that share time with a span or touch it, by time.
+pub(crate) fn annotations_near(
+    connection: &Connection,
+    tier: i64,
+    start_us: i64,
+    end_us: i64,
+) -> Result<Vec<AnnotationRow>> {
+    let sql = format!(
+        "{ANNOTATION} WHERE tier_id = ?1 AND start_us <= ?3 AND end_us >= ?2
+         ORDER BY start_us, end_us, id"
+    );
+    collect(connection, &sql, params![tier, start_us, end_us])
+}
+
+/// Returns the annotations that hang below one, by tier and time.
+pub(crate) fn children(connection: &Connection, parent: i64) -> Result<Vec<AnnotationRow>> {
+    let sql = format!("{ANNOTATION} WHERE parent_id = ?1 ORDER BY tier_id, start_us, id");
+    collect(connection, &sql, params![parent])
+}
+
+fn collect(
+    connection: &Connection,
+    sql: &str,
+    params: impl rusqlite::Params,
+) -> Result<Vec<AnnotationRow>> {
+    let mut statement = connection.prepare_cached(sql)?;
+    let rows = statement
+        .query_map(params, annotation_row)?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}

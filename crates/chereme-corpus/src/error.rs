@@ -1,0 +1,160 @@
+//! What can go wrong with a corpus, where, and what would be right.
+
+use std::path::PathBuf;
+
+/// A failure of work on a corpus.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A file could not be read or written.
+    #[error("{path}: {source}")]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// The file is there but is no corpus, or one that this version cannot open.
+    #[error("{path} cannot be opened as a corpus: {reason}")]
+    NotACorpus {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        reason: String,
+        /// What would be right.
+        remedy: String,
+    },
+    /// The database refused or failed.
+    #[error("the corpus database says: {0}")]
+    Database(#[from] rusqlite::Error),
+    /// The search index failed.
+    #[error("the search index says: {0}")]
+    Index(#[from] tantivy::TantivyError),
+    /// A stored row or block cannot be what it is.
+    #[error("{place} is damaged: {reason}")]
+    Damaged {
+        /// The row or block.
+        place: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// Words of the caller that mean nothing here.
+    #[error("{message}")]
+    Wrong {
+        /// What is wrong.
+        message: String,
+        /// The words, file, line or row it is about.
+        place: Option<String>,
+        /// What would be right.
+        remedy: Option<String>,
+    },
+    /// The caller asked to stop; nothing was changed.
+    #[error("stopped; the corpus is as it was before")]
+    Stopped,
+}
+
+impl Error {
+    /// Returns the failure with that message, about nothing in particular.
+    pub fn wrong(message: impl Into<String>) -> Self {
+        Self::Wrong {
+            message: message.into(),
+            place: None,
+            remedy: None,
+        }
+    }
+
+    /// Returns the failure to read or write `path`.
+    pub fn file(path: impl Into<PathBuf>, source: std::io::Error) -> Self {
+        Self::File {
+            path: path.into(),
+            source,
+        }
+    }
+
+    /// Returns the failure about `place`.
+    #[must_use]
+    pub fn at(self, place: impl Into<String>) -> Self {
+        match self {
+            Self::Wrong {
+                message, remedy, ..
+            } => Self::Wrong {
+                message,
+                remedy,
+                place: Some(place.into()),
+            },
+            other => other,
+        }
+    }
+
+    /// Returns the failure with advice.
+    #[must_use]
+    pub fn advise(self, remedy: impl Into<String>) -> Self {
+        match self {
+            Self::Wrong { message, place, .. } => Self::Wrong {
+                message,
+                place,
+                remedy: Some(remedy.into()),
+            },
+            other => other,
+        }
+    }
+
+    /// Returns what the failure is about: a file, line, row or the caller's words.
+    #[must_use]
+    pub fn place(&self) -> Option<String> {
+        match self {
+            Self::File { path, .. } | Self::NotACorpus { path, .. } => {
+                Some(path.display().to_string())
+            }
+            Self::Damaged { place, .. } => Some(place.clone()),
+            Self::Wrong { place, .. } => place.clone(),
+            _ => None,
+        }
+    }
+
+    /// Returns what would be right, where that is known.
+    #[must_use]
+    pub fn remedy(&self) -> Option<String> {
+        match self {
+            Self::File { source, .. } => match source.kind() {
+                std::io::ErrorKind::NotFound => Some(
+                    "check the spelling of the path; `chereme new` makes an empty corpus".into(),
+                ),
+                std::io::ErrorKind::PermissionDenied => {
+                    Some("the file or its folder may not be read or written by you".into())
+                }
+                std::io::ErrorKind::AlreadyExists => {
+                    Some("choose another name, or move the existing one away".into())
+                }
+                _ => None,
+            },
+            Self::NotACorpus { remedy, .. } => Some(remedy.clone()),
+            Self::Damaged { .. } => {
+                Some("`chereme check` tells what else is wrong and how to mend it".into())
+            }
+            Self::Database(error) => database_remedy(error),
+            Self::Index(_) => Some("`chereme check --mend` makes the search index anew".into()),
+            Self::Wrong { remedy, .. } => remedy.clone(),
+            Self::Stopped => None,
+        }
+    }
+}
+
+fn database_remedy(error: &rusqlite::Error) -> Option<String> {
+    use rusqlite::ErrorCode;
+    let text = match error.sqlite_error_code()? {
+        ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked => {
+            "another program is writing to the corpus; try again when it is done"
+        }
+        ErrorCode::DiskFull => "the disk is full; make room and try again, nothing was lost",
+        ErrorCode::ReadOnly => "the file or its folder may not be written by you",
+        ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase => {
+            "the file is damaged; `chereme check` tells where, and a backup may be whole"
+        }
+        _ => return None,
+    };
+    Some(text.to_owned())
+}
+
+/// What work on a corpus gives.
+pub type Result<T> = std::result::Result<T, Error>;

@@ -1,0 +1,177 @@
+//! The files of the search index, in memory, so that they can be written with the rows.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, RwLock, RwLockReadGuard, RwLockWriteGuard};
+
+use tantivy::Directory;
+use tantivy::directory::error::{DeleteError, LockError, OpenReadError, OpenWriteError};
+use tantivy::directory::{
+    AntiCallToken, DirectoryLock, FileHandle, FileSlice, Lock, OwnedBytes, TerminatingWrite,
+    WatchCallback, WatchHandle, WritePtr,
+};
+
+/// A folder of files in memory that knows what has changed since it was last saved.
+#[derive(Clone, Default)]
+pub(super) struct MemoryFolder(Arc<RwLock<Files>>);
+
+#[derive(Default)]
+struct Files {
+    data: BTreeMap<PathBuf, OwnedBytes>,
+    written: BTreeSet<PathBuf>,
+    deleted: BTreeSet<PathBuf>,
+}
+
+/// What has changed in a [`MemoryFolder`]: files to write, and names to delete.
+pub(super) struct Changes {
+    pub(super) written: Vec<(String, OwnedBytes)>,
+    pub(super) deleted: Vec<String>,
+}
+
+impl MemoryFolder {
+    /// Returns a folder of these files, none of them changed.
+    pub(super) fn new(files: impl IntoIterator<Item = (String, Vec<u8>)>) -> Self {
+        let data = files
+            .into_iter()
+            .map(|(path, bytes)| (PathBuf::from(path), OwnedBytes::new(bytes)))
+            .collect();
+        Self(Arc::new(RwLock::new(Files {
+            data,
+            ..Files::default()
+        })))
+    }
+
+    /// Returns what has changed since the last call.
+    pub(super) fn take_changes(&self) -> Changes {
+        let mut files = self.write();
+        let written = std::mem::take(&mut files.written);
+        let deleted = std::mem::take(&mut files.deleted);
+        let name = |path: &PathBuf| path.to_string_lossy().into_owned();
+        Changes {
+            written: written
+                .iter()
+                .filter_map(|path| {
+                    files
+                        .data
+                        .get(path)
+                        .map(|bytes| (name(path), bytes.clone()))
+                })
+                .collect(),
+            deleted: deleted
+                .iter()
+                .filter(|path| !files.data.contains_key(*path))
+                .map(name)
+                .collect(),
+        }
+    }
+
+    fn read(&self) -> RwLockReadGuard<'_, Files> {
+        self.0
+            .read()
+            .unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+
+    fn write(&self) -> RwLockWriteGuard<'_, Files> {
+        self.0
+            .write()
+            .unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+
+    fn put(&self, path: &Path, bytes: Vec<u8>) {
+        let mut files = self.write();
+        files.data.insert(path.to_owned(), OwnedBytes::new(bytes));
+        files.written.insert(path.to_owned());
+        files.deleted.remove(path);
+    }
+}
+
+impl std::fmt::Debug for MemoryFolder {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("MemoryFolder")
+    }
+}
+
+impl Directory for MemoryFolder {
+    fn get_file_handle(&self, path: &Path) -> Result<Arc<dyn FileHandle>, OpenReadError> {
+        let bytes = self.read().data.get(path).cloned();
+        let bytes = bytes.ok_or_else(|| OpenReadError::FileDoesNotExist(path.to_owned()))?;
+        Ok(Arc::new(FileSlice::new(Arc::new(bytes))))
+    }
+
+    fn delete(&self, path: &Path) -> Result<(), DeleteError> {
+        let mut files = self.write();
+        files.written.remove(path);
+        files.deleted.insert(path.to_owned());
+        match files.data.remove(path) {
+            Some(_) => Ok(()),
+            None => Err(DeleteError::FileDoesNotExist(path.to_owned())),
+        }
+    }
+
+    fn exists(&self, path: &Path) -> Result<bool, OpenReadError> {
+        Ok(self.read().data.contains_key(path))
+    }
+
+    fn open_write(&self, path: &Path) -> Result<WritePtr, OpenWriteError> {
+        if self.read().data.contains_key(path) {
+            return Err(OpenWriteError::FileAlreadyExists(path.to_owned()));
+        }
+        let file = NewFile {
+            folder: self.clone(),
+            path: path.to_owned(),
+            bytes: Vec::new(),
+        };
+        Ok(io::BufWriter::new(Box::new(file)))
+    }
+
+    fn atomic_read(&self, path: &Path) -> Result<Vec<u8>, OpenReadError> {
+        let files = self.read();
+        let bytes = files.data.get(path);
+        bytes
+            .map(|bytes| bytes.to_vec())
+            .ok_or_else(|| OpenReadError::FileDoesNotExist(path.to_owned()))
+    }
+
+    fn atomic_write(&self, path: &Path, data: &[u8]) -> io::Result<()> {
+        self.put(path, data.to_vec());
+        Ok(())
+    }
+
+    fn sync_directory(&self) -> io::Result<()> {
+        Ok(())
+    }
+
+    /// The database's own write lock keeps other writers out; none is needed here.
+    fn acquire_lock(&self, _: &Lock) -> Result<DirectoryLock, LockError> {
+        Ok(DirectoryLock::from(Box::new(())))
+    }
+
+    fn watch(&self, _: WatchCallback) -> tantivy::Result<WatchHandle> {
+        Ok(WatchHandle::empty())
+    }
+}
+
+struct NewFile {
+    folder: MemoryFolder,
+    path: PathBuf,
+    bytes: Vec<u8>,
+}
+
+impl Write for NewFile {
+    fn write(&mut self, data: &[u8]) -> io::Result<usize> {
+        self.bytes.extend_from_slice(data);
+        Ok(data.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+impl TerminatingWrite for NewFile {
+    fn terminate_ref(&mut self, _: AntiCallToken) -> io::Result<()> {
+        self.folder.put(&self.path, std::mem::take(&mut self.bytes));
+        Ok(())
+    }
+}
