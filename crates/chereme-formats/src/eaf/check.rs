@@ -1,0 +1,358 @@
+//! What refers to what in a raw document: ids to indices, once, with a finding for what points nowhere.
+
+use super::raw::{Anchor, Document};
+use crate::finding::Finding;
+use crate::tally::Findings;
+use chereme_sign::Stereotype;
+use std::collections::{HashMap, HashSet};
+
+/// An annotation by its number in the document, counted over all tiers from 0.
+pub(super) type Handle = u32;
+
+/// What an annotation hangs on; nothing where the reference points nowhere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Link {
+    /// Indices into the time order.
+    Slots(Option<u32>, Option<u32>),
+    /// The annotations above and before it.
+    Parent(Option<Handle>, Option<Handle>),
+}
+
+/// The references of a document as indices.
+#[derive(Debug, Default)]
+pub(super) struct Resolved {
+    /// Tiers above; cycles are cut.
+    pub(super) parents: Vec<Option<usize>>,
+    /// Linguistic types of the tiers.
+    pub(super) types: Vec<Option<usize>>,
+    /// Stereotypes of the tiers; a child tier whose type says none is Included_In.
+    pub(super) stereotypes: Vec<Option<Stereotype>>,
+    /// Tiers, parents before children.
+    pub(super) order: Vec<usize>,
+    /// The first annotation of each tier, and the number of all.
+    pub(super) first: Vec<Handle>,
+    /// One link an annotation.
+    pub(super) links: Vec<Link>,
+    /// Annotations whose id is empty or stood before.
+    pub(super) doubles: HashSet<Handle>,
+}
+
+/// Texts such as `ts12` to numbers, quickly where they are a prefix and a count.
+#[derive(Default)]
+struct Ids<'d> {
+    prefix: Option<&'d str>,
+    dense: Vec<u32>,
+    other: HashMap<&'d str, u32>,
+    limit: usize,
+}
+
+impl<'d> Ids<'d> {
+    fn new(count: usize) -> Self {
+        Self {
+            limit: count.saturating_mul(4).saturating_add(1024),
+            ..Self::default()
+        }
+    }
+
+    /// Stores `number` under `id` unless it is taken.
+    fn insert(&mut self, id: &'d str, number: u32) -> bool {
+        if let Some((prefix, at)) = counted(id).filter(|(_, at)| *at < self.limit)
+            && *self.prefix.get_or_insert(prefix) == prefix
+        {
+            if at >= self.dense.len() {
+                self.dense
+                    .resize((at + 1).next_power_of_two().max(256), u32::MAX);
+            }
+            let free = self.dense[at] == u32::MAX;
+            if free {
+                self.dense[at] = number;
+            }
+            return free;
+        }
+        let mut free = false;
+        self.other.entry(id).or_insert_with(|| {
+            free = true;
+            number
+        });
+        free
+    }
+
+    fn get(&self, id: &str) -> Option<u32> {
+        match counted(id) {
+            Some((prefix, at)) if at < self.limit && self.prefix == Some(prefix) => self
+                .dense
+                .get(at)
+                .copied()
+                .filter(|number| *number != u32::MAX),
+            _ => self.other.get(id).copied(),
+        }
+    }
+}
+
+/// Splits `ts12` into `ts` and 12; nothing for leading zeros and long numbers.
+fn counted(id: &str) -> Option<(&str, usize)> {
+    let digits = id
+        .bytes()
+        .rev()
+        .take(10)
+        .take_while(u8::is_ascii_digit)
+        .count();
+    let (prefix, number) = id.split_at(id.len() - digits);
+    let plain = (1..=9).contains(&digits) && (digits == 1 || !number.starts_with('0'));
+    plain
+        .then(|| Some((prefix, number.parse().ok()?)))
+        .flatten()
+}
+
+/// Resolves every reference of `doc`.
+pub(super) fn resolve(doc: &Document<'_>) -> (Resolved, Vec<Finding>) {
+    let mut findings = Findings::default();
+    let mut resolved = tiers(doc, &mut findings);
+    let slots = slots(doc, &mut findings);
+    let ids = annotations(doc, &mut resolved, &mut findings);
+    resolved
+        .links
+        .reserve(*resolved.first.last().unwrap_or(&0) as usize);
+    for (at, tier) in doc.tiers.iter().enumerate() {
+        let symbolic = resolved.stereotypes[at].is_some_and(|it| !it.is_alignable());
+        for annotation in &tier.annotations {
+            let id = &*annotation.id;
+            let line = || doc.line(annotation.at);
+            let link = match &annotation.anchor {
+                Anchor::Slots { start, end } => {
+                    let mut find = |name: &str| {
+                        let slot = slots.get(name);
+                        if slot.is_none() {
+                            findings.add("annotations on time slots that are not there", || {
+                                missing(line(), id, "the time slot", name)
+                            });
+                        }
+                        slot
+                    };
+                    Link::Slots(find(start), find(end))
+                }
+                Anchor::Parent { parent, previous } => {
+                    let above = ids.get(parent);
+                    if above.is_none() {
+                        findings.add("annotations below annotations that are not there", || {
+                            missing(line(), id, "the annotation above,", parent)
+                        });
+                    }
+                    let before = previous.as_deref().and_then(|previous| {
+                        let before = ids.get(previous);
+                        if before.is_none() {
+                            findings
+                                .add("annotations after annotations that are not there", || {
+                                    missing(line(), id, "the annotation before,", previous)
+                                });
+                        }
+                        before
+                    });
+                    Link::Parent(above, before)
+                }
+            };
+            if symbolic != matches!(link, Link::Parent(..)) {
+                findings.add("annotations of another kind than their tier's type", || {
+                    let kind = if symbolic {
+                        "time slots, and its tier's type is symbolic"
+                    } else {
+                        "a parent annotation, and its tier's type is alignable"
+                    };
+                    Finding::warning(line(), format!("annotation {id:?} has {kind}"))
+                });
+            }
+            resolved.links.push(link);
+        }
+    }
+    (resolved, findings.finish())
+}
+
+fn missing(line: Option<u64>, id: &str, what: &str, name: &str) -> Finding {
+    Finding::warning(
+        line,
+        format!("annotation {id:?} refers to {what} {name:?}, which is not in the file"),
+    )
+}
+
+fn slots<'d>(doc: &'d Document<'_>, findings: &mut Findings) -> Ids<'d> {
+    let mut ids = Ids::new(doc.time_order.len());
+    for (number, slot) in (0u32..).zip(&doc.time_order) {
+        if !ids.insert(&slot.id, number) {
+            findings.add("time slot ids given twice", || {
+                Finding::warning(
+                    doc.line(slot.at),
+                    format!(
+                        "the time slot id {:?} is given twice; the first counts",
+                        slot.id
+                    ),
+                )
+            });
+        }
+        if slot.value.is_some_and(|value| value < 0) {
+            findings.add("times before the start", || {
+                Finding::note(
+                    doc.line(slot.at),
+                    format!("the time slot {:?} lies before the start", slot.id),
+                )
+            });
+        }
+    }
+    ids
+}
+
+fn annotations<'d>(
+    doc: &'d Document<'_>,
+    resolved: &mut Resolved,
+    findings: &mut Findings,
+) -> Ids<'d> {
+    let count = doc.tiers.iter().map(|tier| tier.annotations.len()).sum();
+    let mut ids = Ids::new(count);
+    let mut handle: Handle = 0;
+    for tier in &doc.tiers {
+        resolved.first.push(handle);
+        for annotation in &tier.annotations {
+            if annotation.id.is_empty() || !ids.insert(&annotation.id, handle) {
+                resolved.doubles.insert(handle);
+                findings.add("annotation ids given twice", || {
+                    let id = &annotation.id;
+                    Finding::warning(doc.line(annotation.at), format!("the annotation id {id:?} is empty or given twice; this annotation gets a new one"))
+                });
+            }
+            handle += 1;
+        }
+    }
+    resolved.first.push(handle);
+    ids
+}
+
+fn tiers(doc: &Document<'_>, findings: &mut Findings) -> Resolved {
+    let mut names = HashMap::new();
+    for (at, tier) in doc.tiers.iter().enumerate() {
+        if *names.entry(&*tier.id).or_insert(at) != at {
+            findings.add("tier names given twice", || {
+                Finding::warning(
+                    doc.line(tier.at),
+                    format!(
+                        "the tier {:?} is there twice; this one gets a number",
+                        tier.id
+                    ),
+                )
+            });
+        }
+    }
+    let mut kinds = HashMap::new();
+    for (at, kind) in doc.linguistic_types.iter().enumerate() {
+        if *kinds.entry(&*kind.id).or_insert(at) != at {
+            findings.add("tier types given twice", || {
+                Finding::warning(
+                    doc.line(kind.at),
+                    format!(
+                        "the tier type {:?} is there twice; the first counts",
+                        kind.id
+                    ),
+                )
+            });
+        }
+    }
+    let mut resolved = Resolved::default();
+    for tier in &doc.tiers {
+        let kind = kinds.get(&*tier.linguistic_type).copied();
+        if kind.is_none() {
+            findings.add("tier types that are not there", || {
+                let (id, kind) = (&tier.id, &tier.linguistic_type);
+                Finding::warning(
+                    doc.line(tier.at),
+                    format!("the tier {id:?} has the type {kind:?}, which is not in the file"),
+                )
+            });
+        }
+        let parent = tier.parent.as_deref().and_then(|parent| {
+            let above = names.get(parent).copied();
+            if above.is_none() {
+                findings.add("parent tiers that are not there", || {
+                    let id = &tier.id;
+                    Finding::warning(doc.line(tier.at), format!("the tier {id:?} hangs below {parent:?}, which is not in the file; it becomes a root tier"))
+                });
+            }
+            above
+        });
+        resolved.types.push(kind);
+        resolved.parents.push(parent);
+    }
+    order(doc, &mut resolved, findings);
+    stereotypes(doc, &mut resolved, findings);
+    resolved
+}
+
+/// Sorts the tiers parents first; a tier that hangs below itself becomes a root.
+fn order(doc: &Document<'_>, resolved: &mut Resolved, findings: &mut Findings) {
+    let count = doc.tiers.len();
+    let mut placed = vec![false; count];
+    let mut visiting = vec![false; count];
+    for start in 0..count {
+        let mut path = Vec::new();
+        let mut at = start;
+        while !placed[at] && !visiting[at] {
+            visiting[at] = true;
+            path.push(at);
+            match resolved.parents[at] {
+                Some(above) if visiting[above] && !placed[above] => {
+                    findings.add("tiers below themselves", || {
+                        let tier = &doc.tiers[at];
+                        Finding::warning(
+                            doc.line(tier.at),
+                            format!(
+                                "the tier {:?} hangs below itself; it becomes a root tier",
+                                tier.id
+                            ),
+                        )
+                    });
+                    resolved.parents[at] = None;
+                }
+                Some(above) => at = above,
+                None => {}
+            }
+        }
+        for tier in path.into_iter().rev() {
+            placed[tier] = true;
+            resolved.order.push(tier);
+        }
+    }
+}
+
+fn stereotypes(doc: &Document<'_>, resolved: &mut Resolved, findings: &mut Findings) {
+    for (at, tier) in doc.tiers.iter().enumerate() {
+        let kind = resolved.types[at].map(|kind| &doc.linguistic_types[kind]);
+        let named = kind
+            .and_then(|kind| kind.constraints.as_deref())
+            .filter(|name| !name.is_empty());
+        let stereotype = named.and_then(Stereotype::from_elan_name);
+        if let (Some(name), None) = (named, stereotype) {
+            findings.add("unknown stereotypes", || {
+                Finding::warning(doc.line(tier.at), format!("the type of tier {:?} has the stereotype {name:?}, which is none of ELAN's four", tier.id))
+            });
+        }
+        let child = resolved.parents[at].is_some();
+        if child != stereotype.is_some() {
+            findings.add("tiers whose place does not fit their type", || {
+                let what = if child {
+                    "hangs below another, and its type has no stereotype"
+                } else {
+                    "hangs below none, and its type has a stereotype"
+                };
+                Finding::warning(doc.line(tier.at), format!("the tier {:?} {what}", tier.id))
+            });
+        }
+        let has_parents = || {
+            tier.annotations
+                .iter()
+                .any(|it| matches!(it.anchor, Anchor::Parent { .. }))
+        };
+        resolved.stereotypes.push(match stereotype {
+            None if child && has_parents() => Some(Stereotype::SymbolicSubdivision),
+            None if child => Some(Stereotype::IncludedIn),
+            Some(_) if !child => None,
+            known => known,
+        });
+    }
+}

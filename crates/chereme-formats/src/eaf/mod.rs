@@ -1,0 +1,46 @@
+//! ELAN's annotation files: `.eaf`, templates `.etf`, external vocabularies `.ecv`.
+//!
+//! [`raw`] mirrors the file, [`convert`] says what it means: tiers, annotations with spans, and
+//! vocabularies.
+//!
+//! ```
+//! let text = br#"<ANNOTATION_DOCUMENT AUTHOR="" DATE="2024-01-01T00:00:00Z" VERSION="3.0">
+//!   <TIME_ORDER><TIME_SLOT TIME_SLOT_ID="ts1" TIME_VALUE="0"/><TIME_SLOT TIME_SLOT_ID="ts2" TIME_VALUE="500"/></TIME_ORDER>
+//!   <TIER TIER_ID="Gloss RH" LINGUISTIC_TYPE_REF="gloss"><ANNOTATION>
+//!     <ALIGNABLE_ANNOTATION ANNOTATION_ID="a1" TIME_SLOT_REF1="ts1" TIME_SLOT_REF2="ts2">
+//!       <ANNOTATION_VALUE>CHIEN</ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION></TIER>
+//!   <LINGUISTIC_TYPE LINGUISTIC_TYPE_ID="gloss" TIME_ALIGNABLE="true"/>
+//! </ANNOTATION_DOCUMENT>"#;
+//! let (transcript, findings) = chereme_formats::eaf::read(text)?;
+//! assert_eq!(transcript.tiers[0].annotations[0].value, "CHIEN");
+//! assert!(findings.is_empty());
+//! # Ok::<(), chereme_formats::eaf::Error>(())
+//! ```
+
+mod back;
+mod check;
+mod error;
+mod fields;
+mod model;
+mod read;
+mod write;
+mod xml;
+
+pub mod convert;
+pub mod raw;
+
+pub use convert::{Transcript, from_raw, to_raw};
+pub use error::Error;
+
+use crate::finding::Finding;
+
+/// Reads an EAF document for what it means: [`raw::read`], then [`from_raw`].
+///
+/// # Errors
+/// Those of [`raw::read`].
+pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
+    let (document, mut findings) = raw::read(bytes)?;
+    let (transcript, more) = from_raw(&document);
+    findings.extend(more);
+    Ok((transcript, findings))
+}

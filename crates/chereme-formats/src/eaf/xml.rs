@@ -1,0 +1,553 @@
+//! A cursor over the elements of a hostile XML text, built on quick-xml's pull parser.
+
+use super::error::Error;
+use super::raw::{At, Source};
+use crate::finding::Finding;
+use crate::tally::Findings;
+use quick_xml::Reader;
+use quick_xml::errors::{Error as XmlError, IllFormedError, SyntaxError};
+use quick_xml::events::Event;
+use std::borrow::Cow;
+
+/// The most elements open at once; EAF needs 6.
+const DEPTH: usize = 64;
+/// The most attributes of one element; EAF needs 10.
+const ATTRIBUTES: usize = 64;
+/// The longest text that is read, in bytes.
+const BYTES: usize = 1 << 30;
+/// The start tag of an element.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Tag<'a> {
+    pub(super) name: &'a str,
+    attributes: &'a str,
+    empty: bool,
+    start: usize,
+    text: &'a str,
+}
+
+impl<'a> Tag<'a> {
+    /// Returns the line of the tag, counted from 1; it takes time to count.
+    pub(super) fn line(&self) -> u64 {
+        line_of(self.text.as_bytes(), self.start)
+    }
+
+    /// Returns where the tag starts.
+    pub(super) fn at(&self) -> At {
+        At(u32::try_from(self.start).unwrap_or(u32::MAX))
+    }
+
+    /// Returns the whole text that the tag stands in.
+    pub(super) fn source(&self) -> Source<'a> {
+        Source(self.text)
+    }
+}
+
+/// Walks through the elements of a text.
+pub(super) struct Cursor<'a> {
+    text: &'a str,
+    reader: Reader<&'a [u8]>,
+    open: Vec<&'a str>,
+    pub(super) findings: Findings,
+}
+
+impl<'a> Cursor<'a> {
+    /// Returns a cursor before the root element of `bytes`.
+    pub(super) fn new(bytes: &'a [u8]) -> Result<Self, Error> {
+        let text = decode(bytes)?;
+        if let Some(at) = control_character(text.as_bytes()) {
+            return Err(Error::NotXml {
+                line: line_of(text.as_bytes(), at),
+            });
+        }
+        let mut reader = Reader::from_str(text);
+        let config = reader.config_mut();
+        config.trim_text_start = true;
+        config.allow_dangling_amp = true;
+        config.check_end_names = false;
+        Ok(Self {
+            text,
+            reader,
+            open: Vec::new(),
+            findings: Findings::default(),
+        })
+    }
+
+    /// Returns the root element, which has to be `expected`.
+    pub(super) fn root(&mut self, expected: &'static str) -> Result<Tag<'a>, Error> {
+        loop {
+            match self.event()? {
+                Event::Decl(decl) => {
+                    let encoding = decl
+                        .encoding()
+                        .and_then(Result::ok)
+                        .unwrap_or("UTF-8".into());
+                    if !["utf-8", "us-ascii", "utf8"].contains(&&*encoding.to_ascii_lowercase()) {
+                        return Err(Error::Encoding {
+                            encoding: encoding.into(),
+                            line: self.here(),
+                        });
+                    }
+                }
+                Event::Comment(_) | Event::PI(_) => self.lost_comment(),
+                Event::Start(tag) => {
+                    let tag = self.tag(tag.name().0.len(), tag.len(), false)?;
+                    return self.checked_root(tag, expected);
+                }
+                Event::Empty(tag) => {
+                    let tag = self.tag(tag.name().0.len(), tag.len(), true)?;
+                    return self.checked_root(tag, expected);
+                }
+                _ => return Err(Error::NotXml { line: self.here() }),
+            }
+        }
+    }
+
+    fn checked_root(&self, tag: Tag<'a>, expected: &'static str) -> Result<Tag<'a>, Error> {
+        if tag.name == expected {
+            return Ok(tag);
+        }
+        Err(Error::Root {
+            line: tag.line(),
+            found: shown(tag.name),
+            expected,
+        })
+    }
+
+    /// Returns the next child of `parent`, or nothing at its end; each child has to be walked to
+    /// its own end before.
+    pub(super) fn child(&mut self, parent: &Tag<'a>) -> Result<Option<Tag<'a>>, Error> {
+        if parent.empty {
+            return Ok(None);
+        }
+        loop {
+            match self.event()? {
+                Event::Start(tag) => {
+                    return self.tag(tag.name().0.len(), tag.len(), false).map(Some);
+                }
+                Event::Empty(tag) => {
+                    return self.tag(tag.name().0.len(), tag.len(), true).map(Some);
+                }
+                Event::End(tag) => return self.close(tag.name().0).map(|()| None),
+                Event::Comment(_) | Event::PI(_) => self.lost_comment(),
+                Event::Eof => return Err(self.truncated()),
+                Event::Text(text) if text.trim().is_empty() => {}
+                _ => {
+                    let message = format!(
+                        "the text in <{}> stands outside any value; it was left out",
+                        parent.name
+                    );
+                    self.find("text between elements", |line| {
+                        Finding::warning(line, message)
+                    });
+                }
+            }
+        }
+    }
+
+    /// Returns the text of `tag` and goes to its end.
+    pub(super) fn text(&mut self, tag: &Tag<'a>) -> Result<Cow<'a, str>, Error> {
+        if tag.empty {
+            return Ok(Cow::Borrowed(""));
+        }
+        self.reader.config_mut().trim_text_start = false;
+        let text = self.pieces(tag);
+        self.reader.config_mut().trim_text_start = true;
+        text
+    }
+
+    fn pieces(&mut self, tag: &Tag<'a>) -> Result<Cow<'a, str>, Error> {
+        let mut whole: Cow<'a, str> = Cow::Borrowed("");
+        loop {
+            match self.event()? {
+                Event::End(end) => return self.close(end.name().0).map(|()| whole),
+                Event::Text(piece) => {
+                    let piece = piece.into_inner();
+                    if memchr::memchr(b'&', piece.as_bytes()).is_some() {
+                        self.entity("");
+                    }
+                    append(&mut whole, line_ends(piece));
+                }
+                Event::CData(piece) => append(&mut whole, line_ends(piece.into_inner())),
+                Event::GeneralRef(name) => {
+                    let name = name.into_inner();
+                    let value = self.entity(&name);
+                    append(&mut whole, value);
+                }
+                Event::Comment(_) | Event::PI(_) => self.lost_comment(),
+                Event::Eof => return Err(self.truncated()),
+                Event::Start(inner) => {
+                    let inner = self.tag(inner.name().0.len(), inner.len(), false)?;
+                    self.unexpected(&inner, tag);
+                    self.skip(&inner)?;
+                    self.reader.config_mut().trim_text_start = false;
+                }
+                Event::Empty(inner) => {
+                    let inner = self.tag(inner.name().0.len(), inner.len(), true)?;
+                    self.unexpected(&inner, tag);
+                }
+                Event::Decl(_) | Event::DocType(_) => {}
+            }
+        }
+    }
+
+    fn unexpected(&mut self, inner: &Tag<'a>, outer: &Tag<'a>) {
+        self.findings.add("elements inside a text", || {
+            let (inner_name, outer) = (shown(inner.name), outer.name);
+            let message =
+                format!("<{inner_name}> stands inside the text of <{outer}>; it was left out");
+            Finding::warning(inner.line(), message)
+        });
+    }
+
+    /// Goes to the end of `tag` and returns its source text, its tags included.
+    pub(super) fn skip(&mut self, tag: &Tag<'a>) -> Result<&'a str, Error> {
+        self.reader.config_mut().trim_text_start = true;
+        let depth = self.open.len();
+        while !tag.empty && self.open.len() >= depth {
+            match self.event()? {
+                Event::Start(inner) => {
+                    self.tag(inner.name().0.len(), inner.len(), false)?;
+                }
+                Event::End(end) => self.close(end.name().0)?,
+                Event::Eof => return Err(self.truncated()),
+                _ => {}
+            }
+        }
+        Ok(&self.text[tag.start..self.position()])
+    }
+
+    /// Checks that nothing but comments and blanks follows the root element.
+    pub(super) fn finish(&mut self) -> Result<(), Error> {
+        loop {
+            match self.event()? {
+                Event::Eof => return Ok(()),
+                Event::Text(text) if text.trim().is_empty() => {}
+                Event::Comment(_) | Event::PI(_) => self.lost_comment(),
+                _ => {
+                    let message = "there is more after the end of the document; it was left out";
+                    self.find("text after the end", |line| Finding::warning(line, message));
+                    return Ok(());
+                }
+            }
+        }
+    }
+
+    /// Gives every attribute of `tag`, its references resolved, to `take`.
+    pub(super) fn attributes(
+        &mut self,
+        tag: &Tag<'a>,
+        mut take: impl FnMut(&'a str, Cow<'a, str>),
+    ) -> Result<(), Error> {
+        let mut rest = tag.attributes;
+        let mut count = 0;
+        loop {
+            rest = rest.trim_ascii_start();
+            if rest.is_empty() {
+                return Ok(());
+            }
+            count += 1;
+            if count > ATTRIBUTES {
+                return Err(Error::Limit {
+                    line: tag.line(),
+                    what: "the element has too many attributes",
+                    limit: ATTRIBUTES,
+                });
+            }
+            let written = attribute(rest).ok_or_else(|| Error::Syntax {
+                line: tag.line(),
+                message: format!(
+                    "<{}> has a broken attribute; write NAME=\"value\"",
+                    shown(tag.name)
+                ),
+            })?;
+            let value = if written.special {
+                self.value(written.value)
+            } else {
+                Cow::Borrowed(written.value)
+            };
+            take(written.name, value);
+            rest = written.rest;
+        }
+    }
+
+    fn value(&mut self, raw: &'a str) -> Cow<'a, str> {
+        let blank = raw.replace("\r\n", " ").replace(['\n', '\t', '\r'], " ");
+        let mut whole = String::with_capacity(blank.len());
+        let mut rest = &*blank;
+        while let Some((before, after)) = rest.split_once('&') {
+            whole.push_str(before);
+            rest = match after.bytes().take(32).position(|b| b == b';') {
+                Some(end) => {
+                    whole.push_str(&self.entity(&after[..end]));
+                    &after[end + 1..]
+                }
+                None => {
+                    whole.push_str(&self.entity(""));
+                    after
+                }
+            };
+        }
+        whole.push_str(rest);
+        Cow::Owned(whole)
+    }
+
+    /// Returns what `&name;` stands for; an unknown one stays as it is written.
+    fn entity(&mut self, name: &str) -> Cow<'a, str> {
+        let character = match name.strip_prefix('#') {
+            None => quick_xml::escape::resolve_xml_entity(name).map(Cow::Borrowed),
+            Some(number) => match number.strip_prefix(['x', 'X']) {
+                Some(hex) => u32::from_str_radix(hex, 16).ok(),
+                None => number.parse().ok(),
+            }
+            .and_then(char::from_u32)
+            .filter(|c| is_xml(*c))
+            .map(|c| Cow::Owned(c.to_string())),
+        };
+        character.unwrap_or_else(|| {
+            let written = if name.is_empty() {
+                "&".to_owned()
+            } else {
+                format!("&{name};")
+            };
+            let told = shown(&written);
+            self.find("unknown references", |line| {
+                Finding::warning(
+                    line,
+                    format!("{told} stands for nothing known; it was kept as it is written"),
+                )
+                .with_remedy("write &amp; for an ampersand")
+            });
+            Cow::Owned(written)
+        })
+    }
+
+    fn event(&mut self) -> Result<Event<'a>, Error> {
+        match self.reader.read_event() {
+            Ok(Event::DocType(_)) => Err(Error::Doctype { line: self.here() }),
+            Ok(event) => Ok(event),
+            Err(error) => Err(self.broken(&error)),
+        }
+    }
+
+    fn tag(&mut self, name: usize, len: usize, empty: bool) -> Result<Tag<'a>, Error> {
+        let end = self.position() - if empty { 2 } else { 1 };
+        let start = end - len - 1;
+        let (name, attributes) = self.text[start + 1..end].split_at(name);
+        let tag = Tag {
+            name,
+            attributes,
+            empty,
+            start,
+            text: self.text,
+        };
+        if !empty {
+            if self.open.len() >= DEPTH {
+                let what = "elements are nested too deep";
+                return Err(Error::Limit {
+                    line: tag.line(),
+                    what,
+                    limit: DEPTH,
+                });
+            }
+            self.open.push(name);
+        }
+        Ok(tag)
+    }
+
+    fn close(&mut self, name: &str) -> Result<(), Error> {
+        let open = self.open.pop().unwrap_or_default();
+        if open == name {
+            return Ok(());
+        }
+        let message = format!(
+            "</{}> closes <{}>; write </{}>",
+            shown(name),
+            shown(open),
+            shown(open)
+        );
+        Err(Error::Syntax {
+            line: self.here(),
+            message,
+        })
+    }
+
+    fn lost_comment(&mut self) {
+        self.find("comments", |line| {
+            Finding::note(line, "an XML comment or instruction is not kept")
+        });
+    }
+
+    fn find(&mut self, kind: &'static str, make: impl FnOnce(u64) -> Finding) {
+        if self.findings.counts(kind) {
+            let finding = make(self.here());
+            self.findings.push(finding);
+        }
+    }
+
+    fn broken(&self, error: &XmlError) -> Error {
+        let at = usize::try_from(self.reader.error_position()).unwrap_or(usize::MAX);
+        let line = line_of(self.text.as_bytes(), at.min(self.text.len()));
+        match error {
+            XmlError::Syntax(SyntaxError::InvalidBangMarkup)
+            | XmlError::IllFormed(IllFormedError::UnmatchedEndTag(_)) => Error::Syntax {
+                line,
+                message: format!("{error}; the element is not well-formed XML"),
+            },
+            XmlError::Syntax(_) if self.open.is_empty() => Error::NotXml { line },
+            XmlError::Syntax(_) => self.truncated(),
+            _ => Error::Syntax {
+                line,
+                message: format!("{error}; the element is not well-formed XML"),
+            },
+        }
+    }
+
+    fn truncated(&self) -> Error {
+        let text = self.text.as_bytes();
+        match self.open.last() {
+            Some(open) => Error::Truncated {
+                line: line_of(text, text.len()),
+                open: shown(open),
+            },
+            None => Error::NotXml {
+                line: line_of(text, text.len()),
+            },
+        }
+    }
+
+    fn position(&self) -> usize {
+        usize::try_from(self.reader.buffer_position()).unwrap_or(usize::MAX)
+    }
+
+    fn here(&self) -> u64 {
+        line_of(self.text.as_bytes(), self.position())
+    }
+}
+
+/// Tells whether XML 1.0 allows the character (section 2.2).
+pub(super) fn is_xml(c: char) -> bool {
+    matches!(c, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
+}
+
+/// One attribute of a start tag: its name, its value as written, whether the value needs
+/// resolving, and what follows.
+struct Written<'a> {
+    name: &'a str,
+    value: &'a str,
+    special: bool,
+    rest: &'a str,
+}
+
+fn attribute(text: &str) -> Option<Written<'_>> {
+    let bytes = text.as_bytes();
+    let stop = |b: &u8| matches!(b, b'=' | b' ' | b'\n' | b'\t' | b'\r' | b'"' | b'\'' | b'<');
+    let name = bytes.iter().position(stop)?;
+    let mut at = name;
+    while bytes.get(at).is_some_and(u8::is_ascii_whitespace) {
+        at += 1;
+    }
+    if name == 0 || bytes.get(at) != Some(&b'=') {
+        return None;
+    }
+    at += 1;
+    while bytes.get(at).is_some_and(u8::is_ascii_whitespace) {
+        at += 1;
+    }
+    let quote = *bytes.get(at).filter(|b| matches!(b, b'"' | b'\''))?;
+    let start = at + 1;
+    let mut special = false;
+    for (end, b) in (start..).zip(&bytes[start..]) {
+        if *b == quote {
+            let (name, value, rest) = (&text[..name], &text[start..end], &text[end + 1..]);
+            return Some(Written {
+                name,
+                value,
+                special,
+                rest,
+            });
+        }
+        special |= matches!(b, b'&' | b'\n' | b'\t' | b'\r');
+    }
+    None
+}
+
+fn append<'a>(whole: &mut Cow<'a, str>, piece: Cow<'a, str>) {
+    if whole.is_empty() {
+        *whole = piece;
+    } else {
+        whole.to_mut().push_str(&piece);
+    }
+}
+
+fn line_ends(text: Cow<'_, str>) -> Cow<'_, str> {
+    if memchr::memchr(b'\r', text.as_bytes()).is_none() {
+        return text;
+    }
+    Cow::Owned(text.replace("\r\n", "\n").replace('\r', "\n"))
+}
+
+fn shown(text: &str) -> String {
+    if text.chars().count() <= 40 {
+        text.to_owned()
+    } else {
+        text.chars().take(40).chain(['…']).collect()
+    }
+}
+
+fn decode(bytes: &[u8]) -> Result<&str, Error> {
+    if bytes.len() > BYTES {
+        return Err(Error::Limit {
+            line: 1,
+            what: "the file has too many bytes",
+            limit: BYTES,
+        });
+    }
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    for (mark, encoding) in [
+        (&b"\xff\xfe"[..], "UTF-16"),
+        (b"\xfe\xff", "UTF-16"),
+        (b"<\0", "UTF-16"),
+        (b"\0<", "UTF-16"),
+        (b"\0\0\xfe\xff", "UTF-32"),
+    ] {
+        if bytes.starts_with(mark) {
+            return Err(Error::Encoding {
+                encoding: encoding.into(),
+                line: 1,
+            });
+        }
+    }
+    str::from_utf8(bytes).map_err(|error| {
+        let line = line_of(bytes, error.valid_up_to());
+        if memchr::memchr(0, bytes).is_some() {
+            return Error::NotXml { line };
+        }
+        let head = String::from_utf8_lossy(&bytes[..bytes.len().min(200)]);
+        let declared = head
+            .split_once("encoding=")
+            .and_then(|(_, rest)| rest.get(1..)?.split(['"', '\'']).next().map(str::to_owned));
+        let utf8 = |name: &String| name.eq_ignore_ascii_case("utf-8");
+        let encoding = declared
+            .filter(|name| !utf8(name))
+            .unwrap_or_else(|| "an unknown encoding".into());
+        Error::Encoding {
+            encoding: shown(&encoding),
+            line,
+        }
+    })
+}
+
+fn control_character(bytes: &[u8]) -> Option<usize> {
+    let bad = |b: u8| b < 0x20 && b != b'\t' && b != b'\n' && b != b'\r';
+    let chunk = bytes
+        .chunks(4096)
+        .position(|c| c.iter().fold(false, |any, b| any | bad(*b)))?;
+    bytes[chunk * 4096..]
+        .iter()
+        .position(|b| bad(*b))
+        .map(|at| chunk * 4096 + at)
+}
+
+pub(super) fn line_of(bytes: &[u8], at: usize) -> u64 {
+    memchr::memchr_iter(b'\n', &bytes[..at.min(bytes.len())]).count() as u64 + 1
+}
