@@ -21,13 +21,23 @@ impl Finding {
     /// Returns a note: odd, understood, and nothing was lost.
     #[must_use]
     pub fn note(line: impl Into<Option<u64>>, message: impl Into<String>) -> Self {
-        Self { severity: Severity::Note, line: line.into(), message: message.into(), remedy: None }
+        Self {
+            severity: Severity::Note,
+            line: line.into(),
+            message: message.into(),
+            remedy: None,
+        }
     }
 
     /// Returns a warning: something may be lost or mean another thing than it says.
     #[must_use]
     pub fn warning(line: impl Into<Option<u64>>, message: impl Into<String>) -> Self {
-        Self { severity: Severity::Warning, line: line.into(), message: message.into(), remedy: None }
+        Self {
+            severity: Severity::Warning,
+            line: line.into(),
+            message: message.into(),
+            remedy: None,
+        }
     }
 
     /// Returns the finding with what would set it right.

@@ -1,5 +1,6 @@
 //! Foreign files to and from the movement and sign models.
 
+pub mod bvh;
 pub mod eaf;
 mod finding;
 mod tally;

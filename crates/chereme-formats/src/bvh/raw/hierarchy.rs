@@ -1,0 +1,140 @@
+//! The HIERARCHY section as values.
+
+use std::fmt;
+use std::ops::Range;
+
+use serde::{Deserialize, Serialize};
+
+use super::Number;
+
+/// The joints of a file in its own order, parents before their children.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Hierarchy {
+    /// The joints; the first is the root.
+    pub joints: Vec<RawJoint>,
+}
+
+impl Hierarchy {
+    /// Returns the number of channels of all joints: the columns of the motion.
+    #[must_use]
+    pub fn channel_count(&self) -> usize {
+        self.joints.iter().map(|joint| joint.channels.len()).sum()
+    }
+
+    /// Returns, joint by joint, which columns of the motion are its channels.
+    #[must_use]
+    pub fn columns(&self) -> Vec<Range<usize>> {
+        let mut next = 0;
+        let ranges = self.joints.iter().map(|joint| {
+            let first = next;
+            next += joint.channels.len();
+            first..next
+        });
+        ranges.collect()
+    }
+
+    /// Returns the joint and the channel that a column of the motion belongs to.
+    #[must_use]
+    pub fn channel_at(&self, column: usize) -> Option<(&RawJoint, Channel)> {
+        let mut rest = column;
+        for joint in &self.joints {
+            match joint.channels.get(rest) {
+                Some(&channel) => return Some((joint, channel)),
+                None => rest -= joint.channels.len(),
+            }
+        }
+        None
+    }
+}
+
+/// One joint as the file writes it.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RawJoint {
+    /// The name: the rest of the line after `ROOT` or `JOINT`, blanks inside kept.
+    pub name: String,
+    /// The index of the parent; none for the root.
+    pub parent: Option<usize>,
+    /// The place in the parent's frame, in the file's unit and axes.
+    pub offset: [Number; 3],
+    /// The channels in the order written, which is the order of the columns and of the rotations.
+    pub channels: Vec<Channel>,
+    /// The offsets of the End Sites: one on a leaf as a rule, but files have none, or have them beside children.
+    pub end_sites: Vec<[Number; 3]>,
+}
+
+/// What a column of the motion holds; positions in the file's unit, rotations in degrees, scales as factors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub enum Channel {
+    /// Translation along X.
+    Xposition,
+    /// Translation along Y.
+    Yposition,
+    /// Translation along Z.
+    Zposition,
+    /// Rotation about X.
+    Xrotation,
+    /// Rotation about Y.
+    Yrotation,
+    /// Rotation about Z.
+    Zrotation,
+    /// Scale along X: an extension of some exporters.
+    Xscale,
+    /// Scale along Y: an extension of some exporters.
+    Yscale,
+    /// Scale along Z: an extension of some exporters.
+    Zscale,
+}
+
+impl Channel {
+    /// Every channel with the word that files have for it.
+    pub const WORDS: [(Self, &'static str); 9] = [
+        (Self::Xposition, "Xposition"),
+        (Self::Yposition, "Yposition"),
+        (Self::Zposition, "Zposition"),
+        (Self::Xrotation, "Xrotation"),
+        (Self::Yrotation, "Yrotation"),
+        (Self::Zrotation, "Zrotation"),
+        (Self::Xscale, "Xscale"),
+        (Self::Yscale, "Yscale"),
+        (Self::Zscale, "Zscale"),
+    ];
+
+    /// Returns the channel that a word names, upper and lower case alike.
+    #[must_use]
+    pub fn from_word(word: &str) -> Option<Self> {
+        Self::WORDS
+            .iter()
+            .find(|(_, known)| known.eq_ignore_ascii_case(word))
+            .map(|&(channel, _)| channel)
+    }
+
+    /// Returns the word that files have for the channel.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        Self::WORDS[self as usize].1
+    }
+
+    /// Returns the axis: 0 for X, 1 for Y, 2 for Z.
+    #[must_use]
+    pub fn axis(self) -> usize {
+        self as usize % 3
+    }
+
+    /// Tells whether the channel is a translation.
+    #[must_use]
+    pub fn is_position(self) -> bool {
+        matches!(self, Self::Xposition | Self::Yposition | Self::Zposition)
+    }
+
+    /// Tells whether the channel is a rotation.
+    #[must_use]
+    pub fn is_rotation(self) -> bool {
+        matches!(self, Self::Xrotation | Self::Yrotation | Self::Zrotation)
+    }
+}
+
+impl fmt::Display for Channel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.word())
+    }
+}

@@ -1,0 +1,44 @@
+//! What a BVH file says: its hierarchy, and its motion in blocks of frames, every number an exact decimal.
+//!
+//! ```
+//! use chereme_formats::bvh::raw::{Block, Reader, Writer};
+//!
+//! let text = "HIERARCHY\nROOT Hips\n{\n\tOFFSET 0 95.5 0\n\tCHANNELS 3 Zrotation Xrotation Yrotation\n\
+//!             \tEnd Site\n\t{\n\t\tOFFSET 0 10 0\n\t}\n}\nMOTION\nFrames: 2\nFrame Time: 0.008333\n\
+//!             1.50 -2 3e-3\n1.25 -2 0\n";
+//! let mut reader = Reader::open(text.as_bytes())?;
+//! assert_eq!(reader.hierarchy().joints[0].name, "Hips");
+//! let mut copy = Vec::new();
+//! let mut writer = Writer::new(&mut copy, reader.hierarchy(), Some((reader.header().frame_time.as_ref(), 2)))?;
+//! let mut block = Block::default();
+//! while reader.next_block(&mut block)? {
+//!     assert_eq!((block.columns[0].value(0), block.columns[2].value(0)), (1.5, 0.003));
+//!     writer.block(&block)?;
+//! }
+//! writer.finish()?;
+//! assert_eq!(reader.finish().frames, 2);
+//! assert!(String::from_utf8_lossy(&copy).ends_with("1.50 -2 0.003\n1.25 -2 0.000\n"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod block;
+mod digits;
+mod error;
+mod header;
+mod hierarchy;
+mod number;
+mod oddity;
+mod parse;
+mod reader;
+mod root_order;
+mod source;
+mod writer;
+
+pub use block::{Block, Column};
+pub use error::{BvhError, BvhErrorKind};
+pub use header::Header;
+pub use hierarchy::{Channel, Hierarchy, RawJoint};
+pub use number::{Decimal, NotANumber, Number};
+pub use reader::{Options, Reader, Summary};
+pub use root_order::ChannelFix;
+pub use writer::{WriteError, Writer};

@@ -1,0 +1,485 @@
+//! Numbers as a text file writes them: exact decimals.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+/// The largest mantissa kept as an integer: eighteen digits.
+pub(super) const MANTISSA_LIMIT: i64 = 1_000_000_000_000_000_000;
+
+/// Powers of ten that an `i64` holds.
+pub(super) const POW10: [i64; 19] = {
+    let mut table = [1i64; 19];
+    let mut i = 1;
+    while i < 19 {
+        table[i] = table[i - 1] * 10;
+        i += 1;
+    }
+    table
+};
+
+/// Powers of ten that an `f64` holds exactly.
+const POW10_F64: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+    1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
+];
+
+/// An exact decimal of at most eighteen digits: `mantissa / 10^scale`.
+///
+/// The scale is the number of digits after the point as written, so `1.50` keeps its look; equality compares
+/// values: `1.50 == 1.5`, `-0 == 0`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Decimal {
+    /// The digits without the point, |mantissa| < 10^18.
+    pub mantissa: i64,
+    /// How many of the digits stand after the point.
+    pub scale: u8,
+}
+
+impl Decimal {
+    /// Returns the correctly rounded `f64` of the decimal.
+    #[must_use]
+    pub fn to_f64(self) -> f64 {
+        let exact_in_f64 = self.mantissa.unsigned_abs() <= 1 << 53;
+        match POW10_F64.get(usize::from(self.scale)) {
+            Some(power) if exact_in_f64 => self.mantissa as f64 / power,
+            _ => format!("{}e-{}", self.mantissa, self.scale)
+                .parse()
+                .unwrap_or(f64::NAN),
+        }
+    }
+
+    /// Returns the `f64` rounded to `decimals` digits after the point.
+    ///
+    /// `None` if it is not finite or does not fit eighteen digits.
+    #[must_use]
+    pub fn rounded(value: f64, decimals: u8) -> Option<Self> {
+        let scaled = (value * POW10_F64.get(usize::from(decimals))?).round();
+        (scaled.abs() < MANTISSA_LIMIT as f64).then_some(Self {
+            mantissa: scaled as i64,
+            scale: decimals,
+        })
+    }
+
+    /// Returns the same value with the scale given, `None` where digits would be lost or added beyond eighteen.
+    pub(super) fn at_scale(self, scale: u8) -> Option<i64> {
+        if scale >= self.scale {
+            let factor = *POW10.get(usize::from(scale - self.scale))?;
+            self.mantissa
+                .checked_mul(factor)
+                .filter(|m| m.abs() < MANTISSA_LIMIT)
+        } else {
+            let divisor = *POW10.get(usize::from(self.scale - scale))?;
+            (self.mantissa % divisor == 0).then(|| self.mantissa / divisor)
+        }
+    }
+
+    /// Returns the same value without zeros at the end.
+    pub(super) fn trimmed(mut self) -> Self {
+        while self.scale > 0 && self.mantissa % 10 == 0 {
+            self.mantissa /= 10;
+            self.scale -= 1;
+        }
+        self
+    }
+}
+
+impl PartialEq for Decimal {
+    fn eq(&self, other: &Self) -> bool {
+        let (a, b) = (self.trimmed(), other.trimmed());
+        (a.mantissa, a.scale) == (b.mantissa, b.scale)
+    }
+}
+
+impl Eq for Decimal {}
+
+impl fmt::Display for Decimal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut text = Vec::with_capacity(24);
+        push_decimal(&mut text, *self);
+        f.write_str(&String::from_utf8_lossy(&text))
+    }
+}
+
+/// Appends the decimal to the text, with exactly `scale` digits after the point.
+pub(super) fn push_decimal(text: &mut Vec<u8>, Decimal { mantissa, scale }: Decimal) {
+    const PAIRS: &[u8; 200] = b"0001020304050607080910111213141516171819\
+2021222324252627282930313233343536373839\
+4041424344454647484950515253545556575859\
+6061626364656667686970717273747576777879\
+8081828384858687888990919293949596979899";
+    let mut digits = [b'0'; 20];
+    let mut start = digits.len();
+    let mut rest = mantissa.unsigned_abs();
+    while rest >= 10 {
+        let pair = (rest % 100) as usize * 2;
+        rest /= 100;
+        start -= 2;
+        digits[start..start + 2].copy_from_slice(&PAIRS[pair..pair + 2]);
+    }
+    if rest > 0 {
+        start -= 1;
+        digits[start] = b'0' + rest as u8;
+    }
+    if mantissa < 0 {
+        text.push(b'-');
+    }
+    let (scale, count) = (usize::from(scale), digits.len() - start);
+    if count > scale {
+        text.extend_from_slice(&digits[start..digits.len() - scale]);
+    } else {
+        text.push(b'0');
+    }
+    if scale > 0 {
+        text.push(b'.');
+        text.extend(std::iter::repeat_n(b'0', scale.saturating_sub(count)));
+        text.extend_from_slice(&digits[digits.len() - scale.min(count)..]);
+    }
+}
+
+/// A number as a file gives it: a [`Decimal`], or the original text where that has too many digits.
+///
+/// Equality is that of decimals whatever the form: `1e-3 == 0.001`, `-0 == 0`.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
+pub enum Number {
+    /// A number of at most eighteen digits.
+    Decimal(Decimal),
+    /// The original text of a number with more digits than a [`Decimal`] holds; it parses and is finite.
+    Text(Box<str>),
+}
+
+impl Number {
+    /// The number nought.
+    pub const ZERO: Self = Self::Decimal(Decimal {
+        mantissa: 0,
+        scale: 0,
+    });
+
+    /// Returns the correctly rounded `f64` of the number.
+    #[must_use]
+    pub fn to_f64(&self) -> f64 {
+        match self {
+            Self::Decimal(decimal) => decimal.to_f64(),
+            Self::Text(text) => text.parse().unwrap_or(f64::NAN),
+        }
+    }
+
+    /// Appends the number's text.
+    pub(super) fn push_to(&self, text: &mut Vec<u8>) {
+        match self {
+            Self::Decimal(decimal) => push_decimal(text, *decimal),
+            Self::Text(original) => text.extend_from_slice(original.as_bytes()),
+        }
+    }
+
+    /// Returns sign, digits without zeros at either end, and the power of ten of the last digit.
+    fn canonical(&self) -> (bool, String, i64) {
+        let text = self.to_string();
+        let parts = Parts::of(text.as_bytes()).unwrap_or_default();
+        let digits: String = parts
+            .whole
+            .iter()
+            .chain(parts.fraction)
+            .map(|&b| char::from(b))
+            .collect();
+        let trimmed = digits.trim_end_matches('0');
+        let dropped = (digits.len() - trimmed.len()) as i64;
+        let significant = trimmed.trim_start_matches('0').to_owned();
+        if significant.is_empty() {
+            return (false, significant, 0);
+        }
+        let exponent = parts
+            .exponent
+            .saturating_sub(parts.fraction.len() as i64)
+            .saturating_add(dropped);
+        (parts.negative, significant, exponent)
+    }
+}
+
+impl Default for Number {
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
+
+impl PartialEq for Number {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Decimal(a), Self::Decimal(b)) => a == b,
+            (a, b) => a.canonical() == b.canonical(),
+        }
+    }
+}
+
+impl Eq for Number {}
+
+impl From<Decimal> for Number {
+    fn from(decimal: Decimal) -> Self {
+        Self::Decimal(decimal)
+    }
+}
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Decimal(decimal) => decimal.fmt(f),
+            Self::Text(text) => f.write_str(text),
+        }
+    }
+}
+
+impl From<Number> for String {
+    fn from(number: Number) -> Self {
+        number.to_string()
+    }
+}
+
+impl TryFrom<String> for Number {
+    type Error = NotANumber;
+
+    fn try_from(text: String) -> Result<Self, NotANumber> {
+        text.parse()
+    }
+}
+
+impl FromStr for Number {
+    type Err = NotANumber;
+
+    fn from_str(text: &str) -> Result<Self, NotANumber> {
+        parse_number(text.as_bytes())
+    }
+}
+
+/// Why a token is no number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NotANumber {
+    /// `nan`, `inf` and their like.
+    #[error("is not a finite number")]
+    NotFinite,
+    /// A number with a comma where the point belongs.
+    #[error("has a decimal comma")]
+    Comma,
+    /// A number beyond the largest `f64`.
+    #[error("is larger than any number a program can hold")]
+    TooLarge,
+    /// Any other text.
+    #[error("is not a number")]
+    Garbage,
+}
+
+/// Returns the number that the token says.
+pub(super) fn parse_number(token: &[u8]) -> Result<Number, NotANumber> {
+    let parts = Parts::of(token).ok_or_else(|| why_not(token))?;
+    if let Some(decimal) = parts.decimal() {
+        return Ok(Number::Decimal(decimal));
+    }
+    let text = std::str::from_utf8(token).map_err(|_| NotANumber::Garbage)?;
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(Number::Text(text.into())),
+        Ok(_) => Err(NotANumber::TooLarge),
+        Err(_) => Err(NotANumber::Garbage),
+    }
+}
+
+fn why_not(token: &[u8]) -> NotANumber {
+    let bare = token
+        .strip_prefix(b"-")
+        .or(token.strip_prefix(b"+"))
+        .unwrap_or(token)
+        .to_ascii_lowercase();
+    let dotted: Vec<u8> = token
+        .iter()
+        .map(|&b| if b == b',' { b'.' } else { b })
+        .collect();
+    let not_finite = [&b"nan"[..], b"inf", b"1.#", b"-1.#"]
+        .iter()
+        .any(|word| bare.starts_with(word));
+    if not_finite {
+        NotANumber::NotFinite
+    } else if token.contains(&b',') && Parts::of(&dotted).is_some() {
+        NotANumber::Comma
+    } else {
+        NotANumber::Garbage
+    }
+}
+
+/// The parts of a number's text.
+#[derive(Default)]
+struct Parts<'a> {
+    negative: bool,
+    whole: &'a [u8],
+    fraction: &'a [u8],
+    exponent: i64,
+}
+
+impl<'a> Parts<'a> {
+    /// Returns the parts of `[+-]digits[.digits][e[+-]digits]`, `None` for anything else.
+    fn of(token: &'a [u8]) -> Option<Self> {
+        let (negative, rest) = signed(token);
+        let (whole, rest) = rest.split_at(leading_digits(rest));
+        let (fraction, rest) = match rest.strip_prefix(b".") {
+            Some(after) => after.split_at(leading_digits(after)),
+            None => (&rest[..0], rest),
+        };
+        if whole.is_empty() && fraction.is_empty() {
+            return None;
+        }
+        let exponent = match rest {
+            [] => 0,
+            [b'e' | b'E', digits @ ..] => exponent(digits)?,
+            _ => return None,
+        };
+        Some(Self {
+            negative,
+            whole,
+            fraction,
+            exponent,
+        })
+    }
+
+    fn decimal(&self) -> Option<Decimal> {
+        let mut mantissa = 0i64;
+        for &digit in self.whole.iter().chain(self.fraction) {
+            mantissa = mantissa * 10 + i64::from(digit - b'0');
+            if mantissa >= MANTISSA_LIMIT {
+                return None;
+            }
+        }
+        let mut scale = (self.fraction.len() as i64).saturating_sub(self.exponent);
+        if scale < 0 && mantissa != 0 {
+            let factor = POW10.get(usize::try_from(-scale).ok()?)?;
+            mantissa = mantissa
+                .checked_mul(*factor)
+                .filter(|&m| m < MANTISSA_LIMIT)?;
+        }
+        if mantissa == 0 {
+            scale = scale.clamp(0, 18);
+        }
+        let signed = if self.negative { -mantissa } else { mantissa };
+        Some(Decimal {
+            mantissa: signed,
+            scale: u8::try_from(scale.max(0)).ok()?,
+        })
+    }
+}
+
+fn signed(token: &[u8]) -> (bool, &[u8]) {
+    match token {
+        [b'-', rest @ ..] => (true, rest),
+        [b'+', rest @ ..] => (false, rest),
+        rest => (false, rest),
+    }
+}
+
+fn leading_digits(text: &[u8]) -> usize {
+    text.iter().take_while(|b| b.is_ascii_digit()).count()
+}
+
+/// Returns the exponent; one beyond a thousand million is held there, since no number is that fine.
+fn exponent(text: &[u8]) -> Option<i64> {
+    let (negative, digits) = signed(text);
+    if digits.is_empty() || leading_digits(digits) < digits.len() {
+        return None;
+    }
+    let size = digits.iter().fold(0i64, |size, &b| {
+        (size * 10 + i64::from(b - b'0')).min(1_000_000_000)
+    });
+    Some(if negative { -size } else { size })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn number(text: &str) -> Number {
+        text.parse().unwrap_or_else(|why| panic!("{text:?} {why}"))
+    }
+
+    #[test]
+    fn equal_as_decimals() {
+        let equal = [
+            ("1.50", "1.5"),
+            ("-0", "0"),
+            ("-0.000", "0"),
+            ("1e-3", "0.001"),
+            ("1.5E+2", "150"),
+            (".5", "0.5"),
+            ("5.", "5"),
+            ("+5", "5"),
+            ("0e-400", "0"),
+            ("12345678901234567890.5", "12345678901234567890.50"),
+            ("1e18", "1000000000000000000.0"),
+            ("0.1490116119384765625", "1490116119384765625e-19"),
+            ("1e-300", "0.1e-299"),
+        ];
+        for (a, b) in equal {
+            assert_eq!(number(a), number(b), "{a} {b}");
+        }
+        for (a, b) in [
+            ("1.5", "1.50001"),
+            ("1", "-1"),
+            ("1e-300", "1e-301"),
+            ("1e-300", "0"),
+        ] {
+            assert_ne!(number(a), number(b), "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn text_keeps_its_look() {
+        for text in [
+            "1.50",
+            "0",
+            "0.000001",
+            "-0.5",
+            "10",
+            "100.00",
+            "7",
+            "-123456789.012345678",
+            "99",
+            "1000000",
+        ] {
+            assert_eq!(number(text).to_string(), text);
+        }
+        assert_eq!(number("-9.23872e-007").to_string(), "-0.000000923872");
+    }
+
+    #[test]
+    fn refusals_say_why() {
+        let cases = [
+            ("nan", NotANumber::NotFinite),
+            ("-NaN", NotANumber::NotFinite),
+            ("Infinity", NotANumber::NotFinite),
+            ("-1.#IND", NotANumber::NotFinite),
+            ("1,5", NotANumber::Comma),
+            ("1e400", NotANumber::TooLarge),
+            ("1e99999999999999999999", NotANumber::TooLarge),
+            ("--1", NotANumber::Garbage),
+            ("1.2.3", NotANumber::Garbage),
+            (".", NotANumber::Garbage),
+            ("-", NotANumber::Garbage),
+            ("1e", NotANumber::Garbage),
+            ("0x1F", NotANumber::Garbage),
+            ("", NotANumber::Garbage),
+        ];
+        for (text, why) in cases {
+            assert_eq!(text.parse::<Number>(), Err(why), "{text:?}");
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn value_is_that_of_the_standard_library(mantissa in -MANTISSA_LIMIT + 1..MANTISSA_LIMIT, scale in 0u8..40) {
+            let text = format!("{mantissa}e-{scale}");
+            let decimal = Decimal { mantissa, scale };
+            prop_assert_eq!(decimal.to_f64(), text.parse::<f64>().unwrap());
+            prop_assert_eq!(number(&decimal.to_string()), number(&text));
+            prop_assert_eq!(number(&text), Number::from(decimal));
+        }
+    }
+}

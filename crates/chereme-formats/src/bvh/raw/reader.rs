@@ -1,0 +1,395 @@
+//! Hierarchy first, then the motion in blocks of frames, in bounded memory.
+
+use std::io::Read;
+
+use super::digits::{ColumnState, read_numbers};
+use super::number::parse_number;
+use super::oddity::{Oddities, Oddity};
+use super::parse::read_head;
+use super::root_order::RootOrder;
+use super::source::{Source, is_blank, shown};
+use super::{
+    Block, BvhError, BvhErrorKind, ChannelFix, Column, Header, Hierarchy, NotANumber, Number,
+};
+use crate::Finding;
+
+/// Rows gathered before they are spread over the columns: eight make a cache line of each column.
+const TILE: usize = 8;
+
+/// How to read.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// The frames per block, at least 1.
+    pub block_frames: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { block_frames: 256 }
+    }
+}
+
+/// Reads a BVH file: opened, the hierarchy is there; the motion is pulled block by block.
+///
+/// Memory is bounded by the hierarchy and one block, whatever the file's size and whatever its header claims.
+pub struct Reader<R> {
+    source: Source<R>,
+    oddities: Oddities,
+    hierarchy: Hierarchy,
+    header: Header,
+    root_order: RootOrder,
+    options: Options,
+    /// The full rows read so far.
+    rows: u64,
+    ended: bool,
+    columns: Vec<ColumnState>,
+    tile: Vec<i64>,
+    /// The full rows in the tile.
+    tile_rows: usize,
+    /// The columns already read of the row after those.
+    column: usize,
+    /// The numbers already read on this line.
+    on_line: u64,
+    motion_line: u64,
+    /// The line and width of a row that ended before its last column.
+    short: Option<(u64, u64)>,
+}
+
+/// What a whole file was found to be.
+#[derive(Clone, Debug)]
+pub struct Summary {
+    /// The frames read.
+    pub frames: u64,
+    /// What was odd, in the order of the lines.
+    pub findings: Vec<Finding>,
+    /// How the root's columns are to be read, if not as CHANNELS says.
+    pub root_fix: Option<ChannelFix>,
+}
+
+impl<R: Read> Reader<R> {
+    /// Reads the hierarchy and the header of the motion.
+    ///
+    /// # Errors
+    /// The bytes are no BVH file, or its hierarchy or header has no clear meaning; nothing is printed or guessed.
+    pub fn open(read: R) -> Result<Self, BvhError> {
+        Self::open_with(read, Options::default())
+    }
+
+    /// Reads the hierarchy and the header of the motion, with options.
+    ///
+    /// # Errors
+    /// As for [`Reader::open`].
+    pub fn open_with(read: R, options: Options) -> Result<Self, BvhError> {
+        let mut source = Source::new(read);
+        let mut oddities = Oddities::default();
+        let (hierarchy, header) = read_head(&mut source, &mut oddities)?;
+        let channels = hierarchy.channel_count();
+        Ok(Self {
+            root_order: RootOrder::new(&hierarchy),
+            motion_line: source.line(),
+            ended: !header.has_motion,
+            source,
+            oddities,
+            hierarchy,
+            header,
+            options: Options {
+                block_frames: options.block_frames.max(1),
+            },
+            rows: 0,
+            columns: vec![ColumnState::default(); channels],
+            tile: vec![0; channels * TILE],
+            tile_rows: 0,
+            column: 0,
+            on_line: 0,
+            short: None,
+        })
+    }
+
+    /// Returns the joints.
+    #[must_use]
+    pub fn hierarchy(&self) -> &Hierarchy {
+        &self.hierarchy
+    }
+
+    /// Returns what the header of the motion says.
+    #[must_use]
+    pub fn header(&self) -> &Header {
+        &self.header
+    }
+
+    /// Returns how many bytes of the file have been taken so far, for a progress bar.
+    #[must_use]
+    pub fn bytes_read(&self) -> u64 {
+        self.source.bytes_read()
+    }
+
+    /// Reads the next frames into the block, whose buffers are used again; false where there are no more.
+    ///
+    /// # Errors
+    /// A number or a row that has no clear meaning, with its line. The reader is of no use afterwards.
+    pub fn next_block(&mut self, block: &mut Block) -> Result<bool, BvhError> {
+        self.begin(block);
+        while !self.ended && block.frames + self.tile_rows < self.options.block_frames {
+            self.step(block)?;
+        }
+        self.spread_tile(block);
+        for (column, state) in block.columns.iter_mut().zip(&mut self.columns) {
+            let scale = column.settle(*state);
+            *state = ColumnState {
+                scale,
+                most: 0,
+                fewer: 0,
+            };
+        }
+        self.root_order.watch(block);
+        Ok(block.frames > 0)
+    }
+
+    /// Returns what the file was found to be; of the frames read so far, if there are more.
+    #[must_use]
+    pub fn finish(mut self) -> Summary {
+        let root_fix = self.root_order.fix();
+        self.note_ending(root_fix);
+        Summary {
+            frames: self.rows,
+            findings: self.oddities.findings(),
+            root_fix,
+        }
+    }
+
+    fn begin(&self, block: &mut Block) {
+        block.first_frame = self.rows;
+        block.frames = 0;
+        block
+            .columns
+            .resize_with(self.columns.len(), Column::default);
+        for (column, state) in block.columns.iter_mut().zip(&self.columns) {
+            column.scale = state.scale;
+            column.mantissas.clear();
+            column.exceptions.clear();
+        }
+    }
+
+    /// Reads numbers up to the end of a row, or one number, or the end.
+    fn step(&mut self, block: &mut Block) -> Result<(), BvhError> {
+        if self.next_is_number(block)? {
+            let (row, width) = (self.tile_rows * self.columns.len(), self.columns.len());
+            if self.short.is_none() {
+                let slots = &mut self.tile[row + self.column..row + width];
+                let states = &mut self.columns[self.column..];
+                let (done, at) =
+                    read_numbers(self.source.whole_tokens(), self.source.at, slots, states);
+                self.source.advance_to(at);
+                self.column += done;
+                self.on_line += done as u64;
+                if done > 0 {
+                    return self.end_row(block);
+                }
+            }
+            self.slow_number(block)?;
+        }
+        Ok(())
+    }
+
+    /// Takes blanks; tells whether a token follows on, and closes lines on the way.
+    fn next_is_number(&mut self, block: &mut Block) -> Result<bool, BvhError> {
+        loop {
+            match self.source.peek()? {
+                None => {
+                    self.end_motion(block)?;
+                    return Ok(false);
+                }
+                Some(b'\n' | b'\r') => self.end_line(),
+                Some(byte) if is_blank(byte) => {}
+                Some(_) => return Ok(true),
+            }
+            self.source.take();
+        }
+    }
+
+    fn end_line(&mut self) {
+        if self.column != 0 && self.short.is_none() {
+            self.short = Some((self.source.line(), self.on_line));
+        } else if self.on_line > self.columns.len() as u64 {
+            self.oddities
+                .note(Oddity::SeveralFramesOnLine, self.source.line(), "");
+        }
+        self.on_line = 0;
+    }
+
+    /// Reads one token whatever it is.
+    fn slow_number(&mut self, block: &mut Block) -> Result<(), BvhError> {
+        let line = self.source.line();
+        let token = self.source.take_until(is_blank)?.to_vec();
+        let number = match parse_number(&token) {
+            Err(why) => return self.no_number(&token, why, line),
+            Ok(number) => number,
+        };
+        if let Some((line, found)) = self.short {
+            return Err(self.width_error(line, found));
+        }
+        if self.columns.is_empty() {
+            return Err(self.width_error(line, 1));
+        }
+        self.put(number, block);
+        self.column += 1;
+        self.on_line += 1;
+        self.end_row(block)
+    }
+
+    fn no_number(&mut self, token: &[u8], why: NotANumber, line: u64) -> Result<(), BvhError> {
+        let all_frames = self
+            .header
+            .declared_frames
+            .is_some_and(|all| self.rows >= all);
+        let between_rows = self.column == 0 && self.on_line == 0 && self.short.is_none();
+        if why == NotANumber::Garbage && all_frames && between_rows {
+            self.oddities
+                .note(Oddity::TextAfterMotion, line, format!("{:?}", shown(token)));
+            self.ended = true;
+            return Ok(());
+        }
+        if let Some((line, found)) = self.short {
+            return Err(self.width_error(line, found));
+        }
+        if self.source.peek()?.is_none() && parse_number(&[token, b"0"].concat()).is_ok() {
+            self.column_cut(line);
+            return Ok(());
+        }
+        let at = self.hierarchy.channel_at(self.column);
+        let (joint, channel) = at.map_or((String::new(), "no channel"), |(joint, c)| {
+            (joint.name.clone(), c.word())
+        });
+        Err(BvhErrorKind::BadValue {
+            column: self.column + 1,
+            joint,
+            channel,
+            found: shown(token),
+            why,
+        }
+        .at(line))
+    }
+
+    /// Notes that the file ends inside a number, such as `-` or `1e`.
+    fn column_cut(&mut self, line: u64) {
+        if self.column == 0 {
+            let detail = format!("0 numbers of {}", self.columns.len());
+            self.oddities.note(Oddity::Truncated, line, detail);
+        }
+    }
+
+    /// Puts a number into the row being read, raising its column's scale where that is needed and possible.
+    fn put(&mut self, number: Number, block: &mut Block) {
+        let (width, index) = (self.columns.len(), self.column);
+        let frame = (block.frames + self.tile_rows) as u32;
+        let (column, state) = (&mut block.columns[index], &mut self.columns[index]);
+        let (above, below) = self.tile.split_at_mut(self.tile_rows * width);
+        let slot = &mut below[index];
+        *slot = 0;
+        if let Number::Decimal(decimal) = number {
+            if let Some(fitted) = state.fit(decimal.mantissa, decimal.scale) {
+                *slot = fitted;
+                return;
+            }
+            let mut pending: Vec<&mut i64> = above.iter_mut().skip(index).step_by(width).collect();
+            if decimal.scale > state.scale && column.raise(decimal.scale, &mut pending) {
+                state.scale = decimal.scale;
+                *slot = decimal.mantissa;
+                return;
+            }
+        }
+        column.exceptions.push((frame, number));
+    }
+
+    /// Closes the row if it is full.
+    fn end_row(&mut self, block: &mut Block) -> Result<(), BvhError> {
+        if self.column == self.columns.len() {
+            self.column = 0;
+            self.tile_rows += 1;
+            self.rows += 1;
+            if self.rows == 2 {
+                self.header.check_timed()?;
+            }
+            if self.tile_rows == TILE {
+                self.spread_tile(block);
+            }
+        }
+        Ok(())
+    }
+
+    /// Moves the rows of the tile to the columns; called between rows only.
+    fn spread_tile(&mut self, block: &mut Block) {
+        let (width, rows) = (self.columns.len(), self.tile_rows);
+        for (index, column) in block.columns.iter_mut().enumerate() {
+            column
+                .mantissas
+                .extend(self.tile.iter().skip(index).step_by(width).take(rows));
+        }
+        block.frames += rows;
+        self.tile_rows = 0;
+    }
+
+    /// Closes the motion: a row that breaks off is dropped where the file ends with it.
+    fn end_motion(&mut self, block: &mut Block) -> Result<(), BvhError> {
+        self.end_line();
+        self.ended = true;
+        let Some((line, found)) = self.short else {
+            return Ok(());
+        };
+        let expected = self.columns.len();
+        let many_per_line =
+            line == self.motion_line || self.oddities.has(Oddity::SeveralFramesOnLine);
+        if found > expected as u64 && !many_per_line {
+            return Err(self.width_error(line, found));
+        }
+        let detail = format!("{} numbers of {expected}", self.column);
+        self.oddities.note(Oddity::Truncated, line, detail);
+        let frame = (block.frames + self.tile_rows) as u32;
+        for (column, state) in block
+            .columns
+            .iter_mut()
+            .zip(&mut self.columns)
+            .take(self.column)
+        {
+            column.exceptions.retain(|(at, _)| *at != frame);
+            state.fewer = 0;
+        }
+        self.column = 0;
+        Ok(())
+    }
+
+    fn width_error(&self, line: u64, found: u64) -> BvhError {
+        BvhErrorKind::RowWidth {
+            found,
+            expected: self.columns.len(),
+        }
+        .at(line)
+    }
+
+    fn note_ending(&mut self, root_fix: Option<ChannelFix>) {
+        for (kind, line) in [
+            (Oddity::CrLf, self.source.cr_lf),
+            (Oddity::CrOnly, self.source.cr),
+        ] {
+            line.into_iter()
+                .for_each(|line| self.oddities.note(kind, line, ""));
+        }
+        if root_fix.is_some() {
+            let detail = "columns 4 to 6 stay at the root's OFFSET";
+            self.oddities
+                .note(Oddity::SwappedRoot, self.motion_line, detail);
+        }
+        if !self.ended || !self.header.has_motion {
+            return;
+        }
+        match self.header.declared_frames {
+            Some(declared) if declared != self.rows => {
+                let detail = format!("{declared} frames, but there are {}", self.rows);
+                self.oddities
+                    .note(Oddity::FrameCountDiffers, self.motion_line, detail);
+            }
+            _ if self.rows == 0 => self.oddities.note(Oddity::NoFrames, self.motion_line, ""),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Files whose root columns stand in another order than CHANNELS says.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Block, Channel, Hierarchy};
+
+/// How the root's columns are to be read where they are not in the order that CHANNELS says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ChannelFix {
+    /// The three rotations stand before the three positions.
+    RotationBeforePosition,
+}
+
+impl ChannelFix {
+    /// Returns the root's channels in the order that the columns really have.
+    ///
+    /// The order among the rotations, and among the positions, is that of the file.
+    #[must_use]
+    pub fn apply(self, channels: &[Channel]) -> Vec<Channel> {
+        match self {
+            Self::RotationBeforePosition => {
+                let mut fixed = channels.to_vec();
+                fixed.sort_by_key(|channel| channel.is_position());
+                fixed
+            }
+        }
+    }
+}
+
+/// Watches whether the columns that should be the root's rotation stay at the root's OFFSET.
+#[derive(Debug)]
+pub(super) struct RootOrder {
+    /// The OFFSET in the order of the position channels.
+    offset: [f64; 3],
+    tolerance: f64,
+    suspect: bool,
+    frames: u64,
+}
+
+impl RootOrder {
+    pub(super) fn new(hierarchy: &Hierarchy) -> Self {
+        let mut offset = [0.0; 3];
+        let mut suspect = false;
+        if let Some(root) = hierarchy
+            .joints
+            .first()
+            .filter(|root| root.channels.len() == 6)
+        {
+            let (first, last) = root.channels.split_at(3);
+            suspect = first.iter().all(|c| c.is_position()) && last.iter().all(|c| c.is_rotation());
+            for (value, channel) in offset.iter_mut().zip(first) {
+                *value = root.offset[channel.axis()].to_f64();
+            }
+        }
+        let length = offset.iter().map(|v| v * v).sum::<f64>().sqrt();
+        Self {
+            offset,
+            tolerance: 0.1 * length,
+            suspect: suspect && length > 0.0,
+            frames: 0,
+        }
+    }
+
+    pub(super) fn watch(&mut self, block: &Block) {
+        if !self.suspect {
+            return;
+        }
+        self.frames += block.frames as u64;
+        let near = |first: usize, frame: usize| {
+            let place = self.offset.iter().zip(block.columns.iter().skip(first));
+            let far = place
+                .map(|(offset, column)| (column.value(frame) - offset).powi(2))
+                .sum::<f64>()
+                .sqrt();
+            far <= self.tolerance
+        };
+        self.suspect = (0..block.frames).all(|frame| near(3, frame) && !near(0, frame));
+    }
+
+    /// Returns the fix, if all frames speak for it.
+    pub(super) fn fix(&self) -> Option<ChannelFix> {
+        (self.suspect && self.frames > 0).then_some(ChannelFix::RotationBeforePosition)
+    }
+}

@@ -1,0 +1,214 @@
+//! A hierarchy and blocks of frames as BVH text.
+
+use std::io::{self, Write};
+
+use super::number::{Decimal, push_decimal};
+use super::{Block, Hierarchy, Number};
+
+/// Columns of up to this many digits after the point are written with all of them, as exporters do; finer ones, which
+/// come from scientific notation or full precision, without zeros at the end.
+const FIXED_DIGITS: u8 = 8;
+/// The text gathered before it is handed on.
+const CHUNK: usize = 64 * 1024;
+
+/// Why a hierarchy or its motion can't be written as BVH.
+#[derive(Debug, thiserror::Error)]
+pub enum WriteError {
+    /// The bytes could not be put.
+    #[error("the file can't be written: {0}")]
+    Io(#[from] io::Error),
+    /// A name that would be read as something else.
+    #[error(
+        "the joint name {0:?} has braces, line ends or blanks at its ends, which BVH can't hold; rename the joint"
+    )]
+    Name(String),
+    /// A parent that does not come before its child, or a second root.
+    #[error("joint {0:?} does not come after its parent, depth first; BVH holds one tree")]
+    Order(String),
+    /// A block with another number of columns than the hierarchy has channels, or columns of another length.
+    #[error("the block at frame {frame} has not {channels} columns of {rows} rows")]
+    Shape {
+        /// The first frame of the block.
+        frame: u64,
+        /// The channels of the hierarchy.
+        channels: usize,
+        /// The frames of the block.
+        rows: usize,
+    },
+    /// Not as many frames as the header says.
+    #[error("the header says {declared} frames, but {written} were given")]
+    FrameCount {
+        /// The frames that the header says.
+        declared: u64,
+        /// The frames that were given.
+        written: u64,
+    },
+}
+
+/// Writes a BVH file piece by piece; what it writes reads back equal, number by number.
+pub struct Writer<W> {
+    out: W,
+    text: Vec<u8>,
+    channels: usize,
+    declared: Option<u64>,
+    written: u64,
+}
+
+impl<W: Write> Writer<W> {
+    /// Writes the hierarchy and, with frame time and frame count, the header of the motion; without, no MOTION section.
+    ///
+    /// # Errors
+    /// The names or the order of the joints can't be written as BVH, or the bytes can't be put.
+    pub fn new(
+        out: W,
+        hierarchy: &Hierarchy,
+        motion: Option<(Option<&Number>, u64)>,
+    ) -> Result<Self, WriteError> {
+        let mut text = Vec::with_capacity(CHUNK * 2);
+        push_hierarchy(&mut text, hierarchy)?;
+        if let Some((frame_time, frames)) = motion {
+            text.extend_from_slice(format!("MOTION\nFrames: {frames}\n").as_bytes());
+            if let Some(frame_time) = frame_time {
+                text.extend_from_slice(format!("Frame Time: {frame_time}\n").as_bytes());
+            }
+        }
+        let declared = motion.map(|(_, frames)| frames);
+        let mut writer = Self {
+            out,
+            text,
+            channels: hierarchy.channel_count(),
+            declared,
+            written: 0,
+        };
+        writer.flush_text(0)?;
+        Ok(writer)
+    }
+
+    /// Writes the frames of a block after those before.
+    ///
+    /// # Errors
+    /// The block does not fit the hierarchy, or the bytes can't be put.
+    pub fn block(&mut self, block: &Block) -> Result<(), WriteError> {
+        let rows = block.frames;
+        let fits = block.columns.len() == self.channels
+            && block.columns.iter().all(|c| c.mantissas.len() == rows);
+        if !fits {
+            return Err(WriteError::Shape {
+                frame: block.first_frame,
+                channels: self.channels,
+                rows,
+            });
+        }
+        for frame in 0..rows {
+            self.row(block, frame);
+            self.flush_text(CHUNK)?;
+        }
+        self.written += rows as u64;
+        Ok(())
+    }
+
+    /// Writes what is left, and returns the output.
+    ///
+    /// # Errors
+    /// There were not as many frames as announced, or the bytes can't be put.
+    pub fn finish(mut self) -> Result<W, WriteError> {
+        let declared = self.declared.unwrap_or(0);
+        if declared != self.written {
+            return Err(WriteError::FrameCount {
+                declared,
+                written: self.written,
+            });
+        }
+        self.flush_text(0)?;
+        self.out.flush()?;
+        Ok(self.out)
+    }
+
+    fn row(&mut self, block: &Block, frame: usize) {
+        for column in &block.columns {
+            match column.exception(frame) {
+                Some(number) => number.push_to(&mut self.text),
+                None => {
+                    let decimal = Decimal {
+                        mantissa: column.mantissas[frame],
+                        scale: column.scale,
+                    };
+                    let is_fixed = column.scale <= FIXED_DIGITS;
+                    push_decimal(
+                        &mut self.text,
+                        if is_fixed { decimal } else { decimal.trimmed() },
+                    );
+                }
+            }
+            self.text.push(b' ');
+        }
+        self.text.pop();
+        self.text.push(b'\n');
+    }
+
+    fn flush_text(&mut self, beyond: usize) -> Result<(), WriteError> {
+        if self.text.len() > beyond {
+            self.out.write_all(&self.text)?;
+            self.text.clear();
+        }
+        Ok(())
+    }
+}
+
+/// Appends the hierarchy; a joint's End Sites come before its children.
+fn push_hierarchy(text: &mut Vec<u8>, hierarchy: &Hierarchy) -> Result<(), WriteError> {
+    text.extend_from_slice(b"HIERARCHY\n");
+    let mut open: Vec<usize> = Vec::new();
+    for (index, joint) in hierarchy.joints.iter().enumerate() {
+        let name = &joint.name;
+        if name.contains(['{', '}', '\n', '\r']) || name.trim_ascii() != name {
+            return Err(WriteError::Name(name.clone()));
+        }
+        while open.last().copied() != joint.parent {
+            open.pop().ok_or_else(|| WriteError::Order(name.clone()))?;
+            push_line(text, open.len(), "}");
+        }
+        if joint.parent.is_none() != (index == 0) {
+            return Err(WriteError::Order(name.clone()));
+        }
+        let depth = open.len();
+        push_line(
+            text,
+            depth,
+            &format!("{} {name}", if index == 0 { "ROOT" } else { "JOINT" }),
+        );
+        push_line(text, depth, "{");
+        push_line(text, depth + 1, &offset_line(&joint.offset));
+        let words: String = joint
+            .channels
+            .iter()
+            .map(|channel| format!(" {channel}"))
+            .collect();
+        push_line(
+            text,
+            depth + 1,
+            &format!("CHANNELS {}{words}", joint.channels.len()),
+        );
+        for end in &joint.end_sites {
+            push_line(text, depth + 1, "End Site");
+            push_line(text, depth + 1, "{");
+            push_line(text, depth + 2, &offset_line(end));
+            push_line(text, depth + 1, "}");
+        }
+        open.push(index);
+    }
+    for depth in (0..open.len()).rev() {
+        push_line(text, depth, "}");
+    }
+    Ok(())
+}
+
+fn offset_line([x, y, z]: &[Number; 3]) -> String {
+    format!("OFFSET {x} {y} {z}")
+}
+
+fn push_line(text: &mut Vec<u8>, depth: usize, line: &str) {
+    text.extend(std::iter::repeat_n(b'\t', depth));
+    text.extend_from_slice(line.as_bytes());
+    text.push(b'\n');
+}
