@@ -1,6 +1,7 @@
 //! What is said about movement: tiers, component inventories, notation, keys.
 
 pub mod component;
+pub mod query;
 pub mod relation;
 pub mod text;
 pub mod tier;

@@ -166,7 +166,7 @@ mod tests {
 
     #[test]
     fn folding_every_character_twice_changes_nothing() {
-        for c in '\0'..=char::MAX {
+        for c in '\0'..='\u{2FFFF}' {
             let once = fold(&c.to_string());
             assert_eq!(fold(&once), once, "{:x}", u32::from(c));
         }

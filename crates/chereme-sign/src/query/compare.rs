@@ -1,0 +1,697 @@
+//! Reading comparisons: `right.configuration=U`, `gloss:BO*`, `duration<0.8s`, `tier("Gaze")=*`.
+
+use super::lex::{Cursor, Place, Word, is_quote};
+use super::tree::{
+    At, Comparison, Feature, Operator, Property, Test, TextField, TimeField, TimeTest, Value,
+    Wanted, What,
+};
+use super::words::{self, Simple};
+use super::{Pattern, QueryError, parse};
+use crate::component::{Component, Field, HandRef, Phase};
+use crate::text::nearest;
+use std::str::FromStr;
+
+/// Reads a comparison whose field is next; an operator is known to follow it.
+pub(super) fn test(cursor: &mut Cursor<'_>) -> Result<Test, QueryError> {
+    let subject_at = cursor.bare(Place::Term);
+    let name = cursor.text(subject_at);
+    let what = match words::simple_field(&name) {
+        Some(Simple::Text(field)) => text_test(cursor, field)?,
+        Some(Simple::Property(property)) => property_test(cursor, property)?,
+        Some(Simple::Time(field)) => What::Time(field, time_test(cursor, field)?),
+        None => {
+            let field = component(cursor, subject_at)?;
+            What::Component(field, comparison(cursor, Colon::Refused)?)
+        }
+    };
+    Ok(Test {
+        at: cursor.at(subject_at.start),
+        subject_at,
+        what,
+    })
+}
+
+/// Reads `("name")` and the comparison after the word `tier`, which stands at `at`.
+pub(super) fn tier_test(cursor: &mut Cursor<'_>, at: At) -> Result<Test, QueryError> {
+    const REMEDY: &str = r#"write for example tier("Mouthing")=ma* or tier("Mouthing")=*"#;
+    cursor.skip_blanks();
+    let open = cursor.next(1);
+    cursor.pos = open.end;
+    cursor.skip_blanks();
+    let name = cursor.word(Place::Value)?;
+    if name.at.start == name.at.end || name.pattern.as_literal().is_some_and(str::is_empty) {
+        return Err(QueryError::new(
+            name.at,
+            "the tier's name is missing",
+            REMEDY,
+        ));
+    }
+    cursor.skip_blanks();
+    if !cursor.eat(')') {
+        let remedy = "write ) after the tier's name; a name with blanks needs quotes";
+        return Err(QueryError::new(
+            open,
+            "this parenthesis is not closed",
+            remedy,
+        ));
+    }
+    let subject_at = cursor.at(at.start);
+    cursor.skip_blanks();
+    if cursor.operator().is_none() {
+        return Err(QueryError::new(
+            cursor.next(0),
+            "a comparison should follow the tier",
+            REMEDY,
+        ));
+    }
+    let what = What::Tier(name.pattern, comparison(cursor, Colon::Refused)?);
+    Ok(Test {
+        at: cursor.at(at.start),
+        subject_at,
+        what,
+    })
+}
+
+/// Returns the error for an operator that has nothing on its left.
+pub(super) fn stray_operator(cursor: &Cursor<'_>) -> QueryError {
+    let operator = cursor.operator().unwrap_or_default();
+    QueryError::new(
+        cursor.next(operator.chars().count()),
+        format!("`{operator}` has no field on its left"),
+        "write a field before it, such as placement=chin; text with such signs is searched in quotes",
+    )
+}
+
+/// Checks that a text to search for holds something that can be found.
+pub(super) fn check_searchable(pattern: &Pattern, at: At) -> Result<(), QueryError> {
+    let text: String = pattern.segments().concat();
+    if text.chars().any(|c| c.is_alphanumeric() || !c.is_ascii()) {
+        return Ok(());
+    }
+    let remedy = "write a word or part of one; the empty query finds everything";
+    Err(QueryError::new(
+        at,
+        "there is nothing to search for in this",
+        remedy,
+    ))
+}
+
+/// Checks that a free text can be searched for and is no joint of another language.
+pub(super) fn check_term(pattern: &Pattern, at: At) -> Result<(), QueryError> {
+    let (remedy, suggestion) = match pattern.as_literal().unwrap_or_default() {
+        "|" | "||" => ("one or the other is written with `or`", "or"),
+        "&" | "&&" | "+" => ("terms side by side must all hold already", "and"),
+        "!" | "-" => ("what must not hold is written with `not`", "not"),
+        _ => return check_searchable(pattern, at),
+    };
+    let error = QueryError::new(at, "this sign joins nothing here", remedy);
+    Err(error.suggest(Some(suggestion)))
+}
+
+/// Returns the component that the word at `at` names.
+pub(super) fn component(cursor: &Cursor<'_>, at: At) -> Result<Field, QueryError> {
+    let name = cursor.text(at);
+    let (mut hand, mut phase, mut start) = (None, None, at.start);
+    let mut parts = name.split('.');
+    let component = loop {
+        let Some(part) = parts.next() else {
+            return Err(
+                QueryError::new(at, format!("{name:?} names no component"), "")
+                    .suggest(Some(format!("{name}.configuration"))),
+            );
+        };
+        let part_at = At {
+            start,
+            end: start + part.chars().count(),
+        };
+        start = part_at.end + 1;
+        let known = words::part(part);
+        if let Ok(component) = Component::from_str(&known) {
+            break component;
+        }
+        let twice = if let Ok(found) = HandRef::from_str(&known) {
+            hand.replace((found, part_at)).is_some()
+        } else if let Ok(found) = Phase::from_str(&known) {
+            phase.replace(found).is_some()
+        } else {
+            return Err(unknown_field(cursor, part, part_at, at));
+        };
+        if twice {
+            let remedy = "a component has at most one hand and one phase before it";
+            return Err(QueryError::new(
+                part_at,
+                format!("{part:?} is one too many"),
+                remedy,
+            ));
+        }
+    };
+    let rest = At {
+        start: start.min(at.end),
+        end: at.end,
+    };
+    let feature = feature_name(parts.collect(), rest)?;
+    if let Some((_, hand_at)) = hand.filter(|_| !component.is_manual()) {
+        let remedy = "leave the hand out";
+        return Err(QueryError::new(
+            hand_at,
+            "non-manual components belong to no hand",
+            remedy,
+        ));
+    }
+    Ok(Field {
+        hand: hand.map(|(hand, _)| hand),
+        component,
+        feature,
+        phase,
+    })
+}
+
+fn feature_name(parts: Vec<&str>, at: At) -> Result<Option<String>, QueryError> {
+    let legal = |name: &str| {
+        !name.is_empty()
+            && name
+                .chars()
+                .all(|c| c.is_alphanumeric() || "-_".contains(c))
+    };
+    match &parts[..] {
+        [] => Ok(None),
+        [feature] if legal(feature) => Ok(Some(feature.to_lowercase())),
+        _ => Err(QueryError::new(
+            at,
+            "after a component stands at most one part of it",
+            "write for example orientation.palm or nonmanual.brows",
+        )),
+    }
+}
+
+fn unknown_field(cursor: &Cursor<'_>, part: &str, at: At, whole: At) -> QueryError {
+    if words::simple_field(part).is_some() {
+        let remedy = "write configuration, placement, movement, orientation or nonmanual here";
+        return QueryError::new(at, format!("{part:?} is no component"), remedy);
+    }
+    let single = at.range() == whole.range();
+    let simple = words::simple_names().filter(|_| single);
+    let meant = nearest(&words::part(part), words::part_names().chain(simple));
+    let error = QueryError::new(at, format!("there is no field {part:?}"), "");
+    let mut ahead = cursor.clone();
+    ahead.skip_blanks();
+    if meant.is_none()
+        && single
+        && ahead.operator() == Some(":")
+        && part.chars().any(char::is_uppercase)
+    {
+        let remedy = "a gloss with a colon stands after gloss= or in quotes".to_owned();
+        return QueryError { remedy, ..error }.suggest(Some(format!("gloss={part}")));
+    }
+    let remedy = if meant.is_some() {
+        String::new()
+    } else {
+        let names: Vec<&str> = Component::ALL
+            .into_iter()
+            .map(Component::name)
+            .chain(words::simple_names())
+            .collect();
+        format!(
+            "fields are {}; text with such signs is searched in quotes",
+            names.join(", ")
+        )
+    };
+    QueryError { remedy, ..error }.suggest(meant)
+}
+
+/// Whether `field:value` means `field=value`, as in addresses.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Colon {
+    Equals,
+    Refused,
+}
+
+fn comparison(cursor: &mut Cursor<'_>, colon: Colon) -> Result<Comparison, QueryError> {
+    let at = operator_place(cursor);
+    let operator = match &cursor.text(at)[..] {
+        "=" => Operator::Is,
+        "==" => Operator::Exactly,
+        "!=" | "≠" => Operator::IsNot,
+        ":" if colon == Colon::Equals => Operator::Is,
+        found => {
+            let meant = if found == "<>" { "!=" } else { "=" };
+            let message = format!("`{found}` does not compare values");
+            let remedy = "values are compared with =, != or == (this value and none narrower)";
+            return Err(QueryError::new(at, message, remedy).suggest(Some(meant)));
+        }
+    };
+    Ok(Comparison {
+        operator,
+        values: list(cursor, value)?,
+    })
+}
+
+/// Steps over the operator that is next and returns where it stands.
+fn operator_place(cursor: &mut Cursor<'_>) -> At {
+    cursor.skip_blanks();
+    let count = cursor
+        .operator()
+        .map_or(0, |operator| operator.chars().count());
+    let at = cursor.next(count);
+    cursor.pos = at.end;
+    at
+}
+
+fn list<T>(
+    cursor: &mut Cursor<'_>,
+    item: impl Fn(&mut Cursor<'_>) -> Result<T, QueryError>,
+) -> Result<Vec<T>, QueryError> {
+    let mut items = Vec::new();
+    loop {
+        let start = cursor.pos;
+        cursor.skip_blanks();
+        if cursor.pos > start && parse::next_joint(cursor).is_some() {
+            return Err(missing_value(cursor));
+        }
+        items.push(item(cursor)?);
+        cursor.boundary()?;
+        let mut ahead = cursor.clone();
+        ahead.skip_blanks();
+        if !ahead.eat(',') {
+            return Ok(items);
+        }
+        *cursor = ahead;
+    }
+}
+
+fn missing_value(cursor: &Cursor<'_>) -> QueryError {
+    let (count, remedy) = match cursor.peek() {
+        Some('(') => (
+            1,
+            "one of several values is written with commas: placement=chest,chin",
+        ),
+        Some('=') => (1, "a value with = in it is written in quotes"),
+        _ if parse::next_joint(cursor).is_some() => (
+            cursor.clone().bare(Place::Term).range().len(),
+            "a value that is a joint is written in quotes",
+        ),
+        _ => (0, "write a value, * for any, or unset, n/a or unclear"),
+    };
+    QueryError::new(cursor.next(count), "a value should stand here", remedy)
+}
+
+/// Reads a bare or quoted word that is not empty.
+fn filled_word(cursor: &mut Cursor<'_>) -> Result<Word, QueryError> {
+    let word = cursor.word(Place::Value)?;
+    if word.at.start == word.at.end {
+        return Err(missing_value(cursor));
+    }
+    if word
+        .pattern
+        .as_literal()
+        .is_some_and(|text| text.trim().is_empty())
+    {
+        let remedy = "a field without a value is written =unset, =n/a or =unclear";
+        return Err(QueryError::new(word.at, "this value is empty", remedy));
+    }
+    Ok(word)
+}
+
+fn value(cursor: &mut Cursor<'_>) -> Result<Value, QueryError> {
+    if cursor.peek() == Some('[') {
+        return features(cursor);
+    }
+    let word = filled_word(cursor)?;
+    let missing = word
+        .pattern
+        .as_literal()
+        .filter(|_| !word.quoted)
+        .and_then(words::missing);
+    let wanted = match missing {
+        Some(missing) => Wanted::Missing(missing),
+        None if word.pattern.matches_everything() => Wanted::Present,
+        None => Wanted::Named(word.pattern),
+    };
+    Ok(Value {
+        at: word.at,
+        wanted,
+    })
+}
+
+/// Reads `[index -thumb]`.
+fn features(cursor: &mut Cursor<'_>) -> Result<Value, QueryError> {
+    let open = cursor.next(1);
+    cursor.pos = open.end;
+    let mut found = Vec::new();
+    let mut not: Option<At> = None;
+    loop {
+        while cursor.peek().is_some_and(|c| c.is_whitespace() || c == ',') {
+            cursor.pos += 1;
+        }
+        match cursor.peek() {
+            None => {
+                let remedy = "write ] after the last feature";
+                return Err(QueryError::new(open, "this bracket is not closed", remedy));
+            }
+            Some(']') => break,
+            Some(_) => {}
+        }
+        let feature = feature(cursor)?;
+        if feature.name == "not" && !feature.absent && not.is_none() {
+            not = Some(feature.at);
+        } else if let Some(at) = not.take() {
+            found.push(Feature {
+                at: at.to(feature.at),
+                absent: !feature.absent,
+                ..feature
+            });
+        } else {
+            found.push(feature);
+        }
+    }
+    cursor.pos += 1;
+    let at = cursor.at(open.start);
+    if found.is_empty() || not.is_some() {
+        let remedy = "write for example configuration=[index middle -thumb]";
+        return Err(QueryError::new(
+            at,
+            "a feature is missing between the brackets",
+            remedy,
+        ));
+    }
+    Ok(Value {
+        at,
+        wanted: Wanted::Features(found),
+    })
+}
+
+fn feature(cursor: &mut Cursor<'_>) -> Result<Feature, QueryError> {
+    let start = cursor.pos;
+    let absent = matches!(cursor.peek(), Some('-' | '−' | '–'));
+    cursor.pos += usize::from(absent);
+    if !absent {
+        cursor.eat('+');
+    }
+    let name_start = cursor.pos;
+    while cursor.peek().is_some_and(is_feature_char) {
+        cursor.pos += 1;
+    }
+    let name = cursor.text(cursor.at(name_start));
+    if name.is_empty() || name.starts_with(['-', '−', '–', '+']) {
+        let remedy = "features are names between blanks, those that must be absent with a minus: [index -thumb]";
+        return Err(QueryError::new(
+            cursor.next(1),
+            "this is no feature",
+            remedy,
+        ));
+    }
+    Ok(Feature {
+        at: cursor.at(start),
+        name,
+        absent,
+    })
+}
+
+/// Tells whether a feature's name may hold this character.
+pub(super) fn is_feature_char(c: char) -> bool {
+    !c.is_whitespace() && !is_quote(c) && !matches!(c, ',' | '[' | ']' | '(' | ')' | '*')
+}
+
+fn property_test(cursor: &mut Cursor<'_>, property: Property) -> Result<What, QueryError> {
+    let mut comparison = comparison(cursor, Colon::Equals)?;
+    for value in &mut comparison.values {
+        if matches!(value.wanted, Wanted::Features(_)) {
+            return Err(no_features(value.at));
+        }
+        if let Some(fixed) = property.fixed_values() {
+            fix(value, property, fixed)?;
+        }
+    }
+    Ok(What::Property(property, comparison))
+}
+
+fn no_features(at: At) -> QueryError {
+    QueryError::new(at, "only components have features", "write a name here")
+}
+
+/// Turns a value of a property that has few into its house spelling.
+fn fix(value: &mut Value, property: Property, fixed: &[&str]) -> Result<(), QueryError> {
+    let Wanted::Named(pattern) = &value.wanted else {
+        return Ok(());
+    };
+    let text = pattern
+        .as_literal()
+        .map_or_else(|| pattern.to_string(), str::to_lowercase);
+    let hand = HandRef::from_str(&words::part(&text))
+        .ok()
+        .filter(|_| property == Property::Hand);
+    let house = hand
+        .map(HandRef::name)
+        .or_else(|| fixed.iter().copied().find(|name| *name == text));
+    let Some(house) = house else {
+        let message = format!("{text:?} is no {}", property.name());
+        let remedy = format!("known values: {}", fixed.join(", "));
+        return Err(QueryError::new(value.at, message, remedy)
+            .suggest(nearest(&text, fixed.iter().copied())));
+    };
+    value.wanted = Wanted::Named(Pattern::literal(house));
+    Ok(())
+}
+
+fn text_test(cursor: &mut Cursor<'_>, field: TextField) -> Result<What, QueryError> {
+    cursor.skip_blanks();
+    match cursor.operator() {
+        Some(":") => {
+            operator_place(cursor);
+            let words = list(cursor, |cursor| {
+                let word = filled_word(cursor)?;
+                check_searchable(&word.pattern, word.at)?;
+                Ok(word.pattern)
+            })?;
+            Ok(What::Words(field, words))
+        }
+        Some("~") => fuzzy(cursor, field),
+        Some(operator @ ("<" | ">" | "<=" | ">=" | "=<" | "=>" | "≤" | "≥")) => {
+            Err(QueryError::new(
+                cursor.next(operator.chars().count()),
+                format!("`{operator}` does not compare texts"),
+                "texts are compared with = (whole), : (words in it) or ~ (up to a slip)",
+            )
+            .suggest(Some("=")))
+        }
+        _ => {
+            let comparison = comparison(cursor, Colon::Refused)?;
+            let features = comparison
+                .values
+                .iter()
+                .find(|v| matches!(v.wanted, Wanted::Features(_)));
+            features.map_or(Ok(()), |value| Err(no_features(value.at)))?;
+            Ok(What::Whole(field, comparison))
+        }
+    }
+}
+
+/// Reads `~ESCARGO` or `~ESCARG~2`.
+fn fuzzy(cursor: &mut Cursor<'_>, field: TextField) -> Result<What, QueryError> {
+    operator_place(cursor);
+    cursor.skip_blanks();
+    let word = filled_word(cursor)?;
+    let Some(text) = word.pattern.as_literal().map(str::to_owned) else {
+        let remedy = "write either field:BO* or field~BOL";
+        return Err(QueryError::new(
+            word.at,
+            "wildcards do not go with ~",
+            remedy,
+        ));
+    };
+    let (text, count, count_at) = if word.quoted {
+        let rest = if cursor.peek() == Some('~') {
+            cursor.chunk()
+        } else {
+            cursor.next(0)
+        };
+        (
+            text,
+            cursor.text(rest).strip_prefix('~').map(str::to_owned),
+            rest,
+        )
+    } else {
+        match text.rsplit_once('~') {
+            Some((name, count)) => {
+                let start = word.at.end - count.chars().count() - 1;
+                (
+                    name.to_owned(),
+                    Some(count.to_owned()),
+                    At {
+                        start,
+                        end: word.at.end,
+                    },
+                )
+            }
+            None => (text, None, word.at),
+        }
+    };
+    let slips = match count.as_deref() {
+        None | Some("1") => 1,
+        Some("2") => 2,
+        Some(_) => {
+            let remedy = "one slip is ~1 or nothing, two are ~2; a ~ inside a text needs quotes";
+            return Err(QueryError::new(
+                count_at,
+                "a text is searched up to one or two slips",
+                remedy,
+            ));
+        }
+    };
+    check_searchable(&Pattern::literal(&text[..]), word.at)?;
+    cursor.boundary()?;
+    Ok(What::Fuzzy { field, text, slips })
+}
+
+fn time_test(cursor: &mut Cursor<'_>, field: TimeField) -> Result<TimeTest, QueryError> {
+    let at = operator_place(cursor);
+    let operator = cursor.text(at);
+    cursor.skip_blanks();
+    let value_start = cursor.pos;
+    match &operator[..] {
+        "<" => Ok(TimeTest::Below(time(cursor)?)),
+        "<=" | "=<" | "≤" => Ok(TimeTest::AtMost(time(cursor)?)),
+        ">" => Ok(TimeTest::Above(time(cursor)?)),
+        ">=" | "=>" | "≥" => Ok(TimeTest::AtLeast(time(cursor)?)),
+        "=" | "==" => times(cursor, value_start),
+        _ => {
+            let name = field.name();
+            let message = format!("`{operator}` does not compare times");
+            let remedy = format!(
+                "write {name}<0.8s, {name}>=1s or {name}=0.5s..1s; `not` before it for the opposite"
+            );
+            Err(QueryError::new(at, message, remedy).suggest((operator == ":").then_some("=")))
+        }
+    }
+}
+
+/// Reads `0.5s`, `0.5s..1s`, `0.5s..` or `..1s`.
+fn times(cursor: &mut Cursor<'_>, start: usize) -> Result<TimeTest, QueryError> {
+    let range_at = cursor.chunk();
+    let text = cursor.text(range_at);
+    cursor.pos = start;
+    let Some((from, to)) = text.split_once("..") else {
+        let time = time(cursor)?;
+        return Ok(TimeTest::Between(time, time));
+    };
+    cursor.pos = range_at.end;
+    let to_start = range_at.end - to.chars().count();
+    let from_at = At {
+        start,
+        end: to_start - 2,
+    };
+    // `0.5..1s` counts both ends in seconds.
+    let unit: String = to
+        .chars()
+        .skip_while(|c| !c.is_alphabetic() && *c != 'µ')
+        .collect();
+    let needs_unit = !unit.is_empty() && from.ends_with(|c: char| c.is_ascii_digit());
+    let from = if needs_unit {
+        format!("{from}{unit}")
+    } else {
+        from.to_owned()
+    };
+    let to_at = At {
+        start: to_start,
+        end: range_at.end,
+    };
+    match (&from[..], to) {
+        ("", "") => Err(missing_time(range_at)),
+        ("", to) => Ok(TimeTest::AtMost(parse_time(to, to_at)?)),
+        (from, "") => Ok(TimeTest::AtLeast(parse_time(from, from_at)?)),
+        (from, to) => match (parse_time(from, from_at)?, parse_time(to, to_at)?) {
+            (least, most) if least <= most => Ok(TimeTest::Between(least, most)),
+            _ => Err(QueryError::new(
+                range_at,
+                "this range ends before it starts",
+                "the shorter time stands first",
+            )
+            .suggest(Some(format!("{to}..{from}")))),
+        },
+    }
+}
+
+fn missing_time(at: At) -> QueryError {
+    QueryError::new(
+        at,
+        "a time should stand here",
+        "write a number with its unit: 0.8s, 800ms or 2min",
+    )
+}
+
+/// Reads a time with its unit, in microseconds; one blank may stand before the unit.
+pub(super) fn time(cursor: &mut Cursor<'_>) -> Result<i64, QueryError> {
+    let mut at = cursor.chunk();
+    let mut text = cursor.text(at);
+    if text.is_empty() {
+        return Err(missing_time(at));
+    }
+    if text.contains("..") {
+        let remedy = "a range stands after =, as in duration=0.5s..1s";
+        return Err(QueryError::new(at, "one time should stand here", remedy));
+    }
+    if text.ends_with(|c: char| c.is_ascii_digit()) {
+        let mut ahead = cursor.clone();
+        ahead.skip_blanks();
+        let unit_at = ahead.chunk();
+        let unit = ahead.text(unit_at);
+        if words::UNITS.iter().any(|(name, _)| *name == unit) {
+            *cursor = ahead;
+            at = at.to(unit_at);
+            text.push_str(&unit);
+        }
+    }
+    parse_time(&text, at)
+}
+
+fn parse_time(text: &str, at: At) -> Result<i64, QueryError> {
+    const REMEDY: &str = "times are counted in s, ms or min";
+    let digits = text
+        .chars()
+        .take_while(|c| c.is_ascii_digit() || *c == '.' || *c == ',')
+        .count();
+    let (number, unit) = text.split_at(digits);
+    let (whole, part) = number.split_once(['.', ',']).unwrap_or((number, ""));
+    let numeral = |text: &str| text.chars().all(|c| c.is_ascii_digit());
+    if !numeral(whole) || !numeral(part) || whole.len() + part.len() == 0 {
+        let message = format!("{text:?} is no time");
+        return Err(QueryError::new(
+            at,
+            message,
+            "write a number with its unit: 0.8s, 800ms or 2min",
+        ));
+    }
+    if unit.is_empty() {
+        let message = format!("{text:?} has no unit");
+        return Err(QueryError::new(at, message, REMEDY).suggest(Some(format!("{text}s"))));
+    }
+    let Some((_, micros)) = words::UNITS.iter().find(|(name, _)| *name == unit) else {
+        let unit_at = At {
+            start: at.end - unit.chars().count(),
+            end: at.end,
+        };
+        let near = nearest(unit, words::UNITS.iter().map(|(name, _)| *name));
+        return Err(QueryError::new(
+            unit_at,
+            format!("there is no unit of time {unit:?}"),
+            REMEDY,
+        )
+        .suggest(near));
+    };
+    if whole.len() > 9 {
+        return Err(QueryError::new(
+            at,
+            "this time is too long",
+            "recordings last hours, not years",
+        ));
+    }
+    // At most nine digits of either part fit, times sixty million, with room to spare.
+    let part = &part[..part.len().min(9)];
+    let value = |digits: &str| {
+        digits
+            .bytes()
+            .fold(0, |value, digit| value * 10 + i64::from(digit - b'0'))
+    };
+    let scale = 10_i64.pow(part.len() as u32);
+    Ok(value(whole) * micros + (value(part) * micros + scale / 2) / scale)
+}

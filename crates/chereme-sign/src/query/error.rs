@@ -1,0 +1,166 @@
+//! What is wrong with a query, and where.
+
+use super::print::write_value;
+use super::tree::At;
+use crate::text::nearest;
+use std::fmt;
+use std::ops::Range;
+
+/// How many characters of a long query are drawn before the place of the error.
+const LEAD: usize = 50;
+/// How many characters of a query are drawn at most.
+const WIDTH: usize = 100;
+
+/// A query that cannot be understood or answered, with the place and what would be right.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub struct QueryError {
+    /// The characters (not bytes) of the query that are wrong; empty where something is missing.
+    pub at: Range<usize>,
+    /// What is wrong, in one sentence without a full stop.
+    pub message: String,
+    /// What would be right; may be empty where the suggestion says it all.
+    pub remedy: String,
+    /// What to write in place of [`at`](Self::at), where one thing was most likely meant.
+    pub suggestion: Option<String>,
+}
+
+impl QueryError {
+    pub(super) fn new(at: At, message: impl Into<String>, remedy: impl Into<String>) -> Self {
+        let (message, remedy) = (message.into(), remedy.into());
+        Self {
+            at: at.range(),
+            message,
+            remedy,
+            suggestion: None,
+        }
+    }
+
+    pub(super) fn suggest(mut self, replacement: Option<impl Into<String>>) -> Self {
+        self.suggestion = replacement.map(Into::into);
+        self
+    }
+
+    /// Returns the error as lines of text: the query, carets under the place, the message, the
+    /// remedy. Of a long query only the part around the place is drawn.
+    ///
+    /// `query` is the text that was parsed.
+    #[must_use]
+    pub fn render(&self, query: &str) -> String {
+        let chars: Vec<char> = query.chars().collect();
+        let from = if self.at.start > LEAD + 10 {
+            self.at.start.min(chars.len()) - LEAD
+        } else {
+            0
+        };
+        let to = chars.len().min(from + WIDTH);
+        let mut line = String::new();
+        if from > 0 {
+            line.push('…');
+        }
+        line.extend(
+            chars[from..to]
+                .iter()
+                .map(|c| if c.is_control() { ' ' } else { *c }),
+        );
+        if to < chars.len() {
+            line.push('…');
+        }
+        let columns = |range: &[char]| range.iter().map(|c| columns_of(*c)).sum::<usize>();
+        let start = self.at.start.clamp(from, to);
+        let end = self.at.end.clamp(start, to);
+        let indent = columns(&chars[from..start]) + usize::from(from > 0);
+        let carets = columns(&chars[start..end]).max(1);
+        let mut text = format!(
+            "{line}\n{}{}\n{}",
+            " ".repeat(indent),
+            "^".repeat(carets),
+            self.message
+        );
+        if let Some(suggestion) = &self.suggestion {
+            text.push_str(&format!("; did you mean {suggestion}?"));
+        }
+        if !self.remedy.is_empty() {
+            text.push('\n');
+            text.push_str(&self.remedy);
+        }
+        text
+    }
+
+    /// Returns the query with the suggestion in the place of what is wrong, where there is one.
+    #[must_use]
+    pub fn corrected(&self, query: &str) -> Option<String> {
+        let suggestion = self.suggestion.as_deref()?;
+        let before = query.chars().take(self.at.start);
+        let after = query.chars().skip(self.at.end);
+        Some(before.chain(suggestion.chars()).chain(after).collect())
+    }
+}
+
+impl fmt::Display for QueryError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "character {}: {}", self.at.start + 1, self.message)?;
+        if let Some(suggestion) = &self.suggestion {
+            write!(f, "; did you mean {suggestion}?")?;
+        }
+        if !self.remedy.is_empty() {
+            write!(f, " ({})", self.remedy)?;
+        }
+        Ok(())
+    }
+}
+
+/// Returns the error for a value that stands at `at` in a query and is in no inventory.
+///
+/// `candidates` are the names that would have been understood, in the order in which they are to
+/// be offered; the nearest becomes the suggestion and the first few are named.
+#[must_use]
+pub fn unknown_value<'a>(
+    at: At,
+    value: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> QueryError {
+    const NAMED: usize = 8;
+    let candidates: Vec<&str> = candidates.into_iter().collect();
+    let shown = candidates
+        .iter()
+        .take(NAMED)
+        .map(|name| written(name))
+        .collect::<Vec<_>>()
+        .join(", ");
+    let remedy = match candidates.len() {
+        0 => "no values are known for this field".to_owned(),
+        1..=NAMED => format!("known values: {shown}"),
+        count => format!("known values: {shown} and {} more", count - NAMED),
+    };
+    let near = nearest(value, candidates).map(written);
+    QueryError::new(
+        at,
+        format!("the value {value:?} is in no inventory"),
+        remedy,
+    )
+    .suggest(near)
+}
+
+/// Returns a value as it is written in a query, in quotes where it needs them.
+fn written(value: &str) -> String {
+    let mut text = String::new();
+    match write_value(&mut text, &super::Pattern::literal(value)) {
+        Ok(()) => text,
+        Err(_) => value.to_owned(),
+    }
+}
+
+/// Returns how many columns of a terminal a character takes, well enough to place a caret.
+fn columns_of(c: char) -> usize {
+    match c {
+        '\u{0300}'..='\u{036F}' | '\u{200B}'..='\u{200F}' | '\u{FE00}'..='\u{FE0F}' => 0,
+        '\u{1100}'..='\u{115F}'
+        | '\u{2E80}'..='\u{A4CF}'
+        | '\u{AC00}'..='\u{D7A3}'
+        | '\u{F900}'..='\u{FAFF}'
+        | '\u{FF00}'..='\u{FF60}'
+        | '\u{1F300}'..='\u{1FAFF}'
+        | '\u{20000}'..='\u{3FFFD}' => 2,
+        _ => 1,
+    }
+}

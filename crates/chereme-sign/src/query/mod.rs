@@ -1,0 +1,137 @@
+//! The query language: which tokens are like this?
+//!
+//! A query is parsed into a tree ([`Query`]), every part of which knows where it was written, so
+//! that whoever answers it can point at a value nobody knows ([`unknown_value`]). Printing a
+//! query gives its canonical text. [`complete`] tells what could be written at a cursor.
+//!
+//! ```
+//! use chereme_sign::query::Query;
+//!
+//! let query: Query = r#"right.handshape=U  placement="chin""#.parse()?;
+//! assert_eq!(query.to_string(), "right.configuration=U placement=chin");
+//!
+//! let error = "right.confguration=U".parse::<Query>().unwrap_err();
+//! assert_eq!(error.at, 6..18);
+//! assert_eq!(error.suggestion.as_deref(), Some("configuration"));
+//! # Ok::<(), chereme_sign::query::QueryError>(())
+//! ```
+//!
+//! # Grammar
+//!
+//! | rule | is |
+//! |---|---|
+//! | query | nothing (every token), or *alternatives* |
+//! | alternatives | *terms* { `or` *terms* } |
+//! | terms | *term* { [`and`] *term* } |
+//! | term | `not` *term*, `(` *alternatives* `)`, *comparison*, *relation comparison*, *example*, *text* |
+//! | comparison | *component* (`=` `!=` `==`) *values*; *property* (`=` `:` `!=` `==`) *values*; *textfield* (`=` `!=` `==`) *values*; *textfield* `:` *text* { `,` *text* }; *textfield* `~` *text* [`~1` `~2`]; *timefield* (`<` `<=` `>` `>=` `=`) *time*; *timefield* `=` [*time*]`..`[*time*]; `tier(`*text*`)` (`=` `!=` `==`) *values* |
+//! | component | [*phase*`.`] [*hand*`.`] (`configuration` `placement` `movement` `orientation` `nonmanual`) [`.`*part*] |
+//! | phase, hand | `initial` `middle` `final`; `right` `left` `dominant` `weak` |
+//! | property | `origin` `signer` `recording` `sign` `token` `tier` `inventory` `hand` |
+//! | textfield | `gloss` `translation` `comment` `text` |
+//! | timefield | `duration` `start` `end` |
+//! | values | *value* { `,` *value* } |
+//! | value | *text*, `*`, `unset`, `n/a`, `unclear`, `[` { [`-`] *feature* } `]` |
+//! | relation | `overlaps` `not-overlaps` `inside` `not-inside` `overlaps-begin` `overlaps-end` `before` `after` `equals` `meets` `met-by` `starts` `started-by` `finishes` `finished-by` `covers`, `within` *time* (`around` `of-begin` `of-end`) |
+//! | example | `like` (`token:`*text*, `sign:`*text*, *text*) [`on` *component*[`:`*weight*] { `,` *component*[`:`*weight*] }] |
+//! | time | *number* (`s` `ms` `min`) |
+//! | text | a bare word or `"…"`, with `*` for any characters |
+//!
+//! Notes: a bare word ends at a blank, a comma, a quote or a closing parenthesis; a balanced group
+//! such as `X(1)` belongs to it. After an operator only `=` ends it besides, so that `INDEX:1`
+//! stays whole. Curly quotes are quotes. Joints are understood in any case; relations and `like`
+//! only in lower case, because glosses are written in capitals. A relation is said of the token
+//! itself: `gloss=CHAT overlaps nonmanual.brows=raised` is two terms, both of which must hold.
+
+mod compare;
+mod complete;
+mod error;
+mod lex;
+mod parse;
+mod pattern;
+mod print;
+#[cfg(test)]
+mod tests;
+mod tree;
+mod words;
+
+pub use complete::{Completion, Expected, complete};
+pub use error::{QueryError, unknown_value};
+pub use pattern::Pattern;
+pub use tree::{
+    At, Comparison, Example, Expr, Feature, Like, Missing, Operator, Property, Query, Related,
+    Test, TextField, TimeField, TimeTest, Value, Wanted, Weighted, What,
+};
+
+use std::str::FromStr;
+
+/// How many characters a query may have.
+pub const MAX_CHARS: usize = 10_000;
+
+/// How deep parentheses and negations may stand inside each other.
+pub const MAX_DEPTH: usize = 64;
+
+/// What a person needs to know to write a query, in plain text of at most 80 columns.
+pub const HELP: &str = r#"A query is a row of terms that must all hold of a token:
+
+  right.configuration=U placement=chin    U on the right hand, near the chin
+  gloss:BO* not weak.configuration=S      a gloss in BO..., the weak hand no S
+  movement=arc or movement=circle         one or the other; parentheses group
+
+Components, on either hand unless one is named
+  configuration  placement  movement  orientation  nonmanual
+  right. left. dominant. weak.            before it: which hand
+  initial. middle. final.                 before it: which of several values
+  .palm .brows ...                        after it: one part of it
+  also: handshape, location, emplacement, mouvement
+
+Values
+  placement=chest,chin                    one of these, or narrower
+  placement==head                         this one, nothing narrower
+  placement!=chest                        coded, and not this
+  placement="neutral space"               with blanks: in quotes
+  configuration=B*                        * stands for any characters
+  configuration=[index middle -thumb]     features, and one that is absent
+  placement=*                             has a value
+  placement=unset   =n/a   =unclear       has none, and why
+
+Texts: gloss, translation, comment, text (all three)
+  slow animal "slow animal"               words anywhere; a phrase
+  gloss=CHAT   gloss=INDEX:1              the whole text
+  gloss:BO*    gloss:MA*SON               words in it
+  gloss~ESCARGO   gloss~ESCRGO~2          up to one slip, or two
+
+Times: duration, start, end, in s, ms or min
+  duration<0.8s   duration=0.5s..1s   start>=2min
+
+The token as a whole
+  origin=captured,made,lexicon,generated  hand=right,left,both
+  signer=  recording=  sign=  token=  tier=  inventory=
+
+Beside another annotation of the recording
+  gloss=CHAT overlaps nonmanual.brows=raised
+  before gloss=CHIEN   not overlaps tier("Mouthing")=ma*
+  overlaps  not-overlaps  inside  not-inside  overlaps-begin  overlaps-end
+  before  after  within 0.5s around  within 0.5s of-begin  within 0.5s of-end
+  equals  meets  met-by  starts  started-by  finishes  finished-by  covers
+
+By example
+  like token:41   like CHAT on configuration:2, placement
+"#;
+
+impl Query {
+    /// Reads a query as people write it; nothing but blanks asks for every token.
+    ///
+    /// # Errors
+    /// [`QueryError`] with the place of the first thing that cannot be understood.
+    pub fn parse(text: &str) -> Result<Self, QueryError> {
+        parse::query(text)
+    }
+}
+
+impl FromStr for Query {
+    type Err = QueryError;
+    fn from_str(text: &str) -> Result<Self, QueryError> {
+        Self::parse(text)
+    }
+}

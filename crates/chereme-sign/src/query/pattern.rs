@@ -1,0 +1,140 @@
+//! Words with `*` in them.
+
+use crate::text::fold;
+
+/// A text in which `*` stands for any characters, none included: `MA*SON`, `BO*`, or just `CHAT`.
+///
+/// It is kept as the stretches between the wildcards, as written.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Pattern {
+    /// At least one; only the first and the last may be empty where there are several.
+    segments: Vec<String>,
+}
+
+impl Pattern {
+    /// Returns the pattern that only `text` itself matches; a `*` in it is a plain character.
+    #[must_use]
+    pub fn literal(text: impl Into<String>) -> Self {
+        Self {
+            segments: vec![text.into()],
+        }
+    }
+
+    /// Returns the pattern written as `text`, where `*` is a wildcard and `\*` a plain star.
+    #[must_use]
+    pub fn from_glob(text: &str) -> Self {
+        let mut marks = Vec::with_capacity(text.len());
+        let mut chars = text.chars().peekable();
+        while let Some(c) = chars.next() {
+            marks.push(match c {
+                '\\' if chars.peek() == Some(&'*') => chars.next(),
+                '*' => None,
+                _ => Some(c),
+            });
+        }
+        Self::from_marks(marks)
+    }
+
+    /// Returns the pattern of characters, where nothing stands for a wildcard.
+    pub(super) fn from_marks(marks: impl IntoIterator<Item = Option<char>>) -> Self {
+        let mut segments = vec![String::new()];
+        let mut after_wildcard = false;
+        for mark in marks {
+            match (mark, segments.last_mut()) {
+                (Some(c), Some(last)) => last.push(c),
+                (None, _) if !after_wildcard => segments.push(String::new()),
+                _ => {}
+            }
+            after_wildcard = mark.is_none();
+        }
+        Self { segments }
+    }
+
+    /// Returns the stretches between the wildcards: `["MA", "SON"]` for `MA*SON`, `["BO", ""]`
+    /// for `BO*`, one stretch where there is no wildcard.
+    #[must_use]
+    pub fn segments(&self) -> &[String] {
+        &self.segments
+    }
+
+    /// Returns the text where there is no wildcard.
+    #[must_use]
+    pub fn as_literal(&self) -> Option<&str> {
+        match &self.segments[..] {
+            [text] => Some(text),
+            _ => None,
+        }
+    }
+
+    /// Returns the text before the wildcard where the only wildcard is at the end.
+    #[must_use]
+    pub fn as_prefix(&self) -> Option<&str> {
+        match &self.segments[..] {
+            [prefix, end] if end.is_empty() => Some(prefix),
+            _ => None,
+        }
+    }
+
+    /// Tells whether every text matches: the pattern is `*` alone.
+    #[must_use]
+    pub fn matches_everything(&self) -> bool {
+        self.as_prefix() == Some("")
+    }
+
+    /// Tells whether the whole of `text` fits, without regard to case and accents.
+    #[must_use]
+    pub fn matches(&self, text: &str) -> bool {
+        let text = fold(text);
+        let Some((last, others)) = self.segments.split_last() else {
+            return false;
+        };
+        let Some((first, middle)) = others.split_first() else {
+            return fold(last) == text;
+        };
+        let Some(mut rest) = text.strip_prefix(&fold(first)) else {
+            return false;
+        };
+        for segment in middle {
+            let segment = fold(segment);
+            match rest.find(&segment) {
+                Some(found) => rest = &rest[found + segment.len()..],
+                None => return false,
+            }
+        }
+        rest.ends_with(&fold(last))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stars_stand_for_any_characters() {
+        for (pattern, text, fits) in [
+            ("BO*", "BOL", true),
+            ("BO*", "bo", true),
+            ("BO*", "ABOL", false),
+            ("MA*SON", "Maison", true),
+            ("MA*SON", "MAISONS", false),
+            ("*ais*", "MAISON", true),
+            ("a*b*c", "aXXbYYc", true),
+            ("a*ab", "ab", false),
+            ("É*", "école", true),
+            ("CHAT", "chat", true),
+            (r"A\*", "A*", true),
+            (r"A\*", "AB", false),
+            ("*", "", true),
+            ("**", "x", true),
+        ] {
+            assert_eq!(
+                Pattern::from_glob(pattern).matches(text),
+                fits,
+                "{pattern} {text}"
+            );
+        }
+        assert_eq!(Pattern::from_glob("a**b"), Pattern::from_glob("a*b"));
+        assert_eq!(Pattern::from_glob("BO*").as_prefix(), Some("BO"));
+        assert!(Pattern::from_glob("***").matches_everything());
+    }
+}

@@ -1,0 +1,1061 @@
+use super::*;
+use crate::component::{Component, Field, HandRef, Phase};
+use crate::relation::Relation;
+use proptest::prelude::*;
+
+/// Queries that print as they are written.
+const CANONICAL: &[&str] = &[
+    "",
+    "right.configuration=U placement=chin",
+    "gloss:BO* not weak.configuration=S",
+    "movement=arc duration<0.8s",
+    "configuration=[index middle spread]",
+    r#""slow animal""#,
+    "slow animal",
+    "origin=made",
+    "gloss=CHAT overlaps nonmanual.brows=raised",
+    "final.placement=chest",
+    "like token:41 on configuration",
+    "like token:41 on configuration:2, right.placement:0.5 gloss=X",
+    r#"placement="neutral space""#,
+    "weak.configuration=S",
+    "placement==chest",
+    "placement!=chest",
+    "configuration=B*",
+    "placement=*",
+    "placement=unset",
+    "placement=n/a,unclear",
+    r#"placement="unset""#,
+    "gloss=CHAT",
+    "gloss=INDEX:1",
+    "gloss=BOL-2H",
+    "gloss=X(1)",
+    "gloss:MA*SON",
+    r#"gloss:INDEX:1,"a b""#,
+    "gloss~ESCARGO",
+    "gloss~ESCRGO~2",
+    r#"gloss~"A~2"~2"#,
+    r#"gloss~"A B""#,
+    r#"gloss="a\"b\\c""#,
+    "duration=0.5s..1s",
+    "end>=2s",
+    "signer=Anna",
+    r#"tier="Gloss RH""#,
+    "inventory=NGT",
+    "hand=both,left",
+    r#"overlaps tier("Mouthing")=ma*"#,
+    "not-overlaps gloss=CHAT",
+    "within 0.5s around gloss=CHAT",
+    "before gloss=A after gloss=B",
+    "inside nonmanual.mouth=*",
+    "not-inside gloss=A",
+    "overlaps-begin gloss=A",
+    "overlaps-end gloss=A",
+    "a or b c or not d",
+    "(a or b) c",
+    "not (a b)",
+    "not not a",
+    "X(1) animal",
+    "BEFORE AFTER",
+    r#""before""#,
+    r#"snail "on""#,
+    "text:snail,slug",
+    r#"translation="The slow animal""#,
+    r#"comment:"to check""#,
+    "gloss==Chat",
+    "gloss!=unset",
+    "gloss=*",
+    "middle2.placement=chest",
+    "école gloss=ÉCOLE",
+    "slo*",
+    r#"placement="neutral space > head""#,
+    "placement=neutral>head",
+];
+
+/// Queries with their canonical text.
+const REWRITTEN: &[(&str, &str)] = &[
+    ("   ", ""),
+    (
+        "configuration=[index, -thumb,not spread +middle]",
+        "configuration=[index -thumb -spread middle]",
+    ),
+    ("origin=Made, captured", "origin=made,captured"),
+    ("right.final.location=chest", "final.right.placement=chest"),
+    ("like CHAT", "like sign:CHAT"),
+    ("like INDEX:1", "like sign:INDEX:1"),
+    (
+        r#"like sign:"A B" on handshape"#,
+        r#"like sign:"A B" on configuration"#,
+    ),
+    ("like CHAT duration<1s", "like sign:CHAT duration<1s"),
+    ("placement=“neutral space”", r#"placement="neutral space""#),
+    (
+        "placement=« neutral space »",
+        r#"placement="neutral space""#,
+    ),
+    ("placement≠chest,chin", "placement!=chest,chin"),
+    ("configuration=U, V , W", "configuration=U,V,W"),
+    ("placement=N/A", "placement=n/a"),
+    ("gloss~ESCRGO~1", "gloss~ESCRGO"),
+    (r#"gloss=A\*B"#, r#"gloss="A\*B""#),
+    ("duration=0.5..1s", "duration=0.5s..1s"),
+    ("duration=500ms..", "duration>=0.5s"),
+    ("duration=..1min", "duration<=60s"),
+    ("duration=500ms", "duration=0.5s"),
+    ("duration<0,8s", "duration<0.8s"),
+    ("duration < 0.8 s", "duration<0.8s"),
+    ("start>1.5min", "start>90s"),
+    ("duration≤1.0000005s", "duration<=1.000001s"),
+    ("durée<1s", "duration<1s"),
+    ("recording:3", "recording=3"),
+    ("token:41", "token=41"),
+    ("sign:LIMACE", "sign=LIMACE"),
+    ("hand=strong", "hand=dominant"),
+    ("tier(Mouthing)=ma*", r#"tier("Mouthing")=ma*"#),
+    (r#"tier ("Gaze *") = *"#, r#"tier("Gaze *")=*"#),
+    (
+        "within 500ms of begin gloss:CHAT",
+        "within 0.5s of-begin gloss:CHAT",
+    ),
+    (
+        "within 0 s of-end gloss:CHAT",
+        "within 0s of-end gloss:CHAT",
+    ),
+    ("not overlaps tier(X)=*", r#"not overlaps tier("X")=*"#),
+    ("((a b)) (c d)", "a b c d"),
+    ("(a or b) or c", "a or b or c"),
+    ("a AND b Or NOT c", "a b or not c"),
+    ("not(a)or(b)", "not a or b"),
+    (
+        "handshape=U emplacement=menton mouvement=arc nonmanuel.brows=x droite.configuration=S gauche.mouvement=y",
+        "configuration=U placement=menton movement=arc nonmanual.brows=x right.configuration=S left.movement=y",
+    ),
+    ("Orientation.Palm=up", "orientation.palm=up"),
+    ("nondominant.configuration=S", "weak.configuration=S"),
+    ("overlap", r#""overlap""#),
+];
+
+/// Queries with the place and the message of their error.
+const WRONG: &[(&str, &str)] = &[
+    (
+        "right.confguration=U",
+        r#"6..18 there is no field "confguration"; did you mean configuration?"#,
+    ),
+    (
+        "confguration=U",
+        r#"0..12 there is no field "confguration"; did you mean configuration?"#,
+    ),
+    (
+        "rihgt.configuration=U",
+        r#"0..5 there is no field "rihgt"; did you mean right?"#,
+    ),
+    (
+        "right=U",
+        r#"0..5 "right" names no component; did you mean right.configuration?"#,
+    ),
+    (
+        "right.left.configuration=U",
+        r#"6..10 "left" is one too many"#,
+    ),
+    (
+        "left.nonmanual.brows=x",
+        "0..4 non-manual components belong to no hand",
+    ),
+    (
+        "orientation.palm.x=up",
+        "12..18 after a component stands at most one part of it",
+    ),
+    (
+        "orientation.=up",
+        "12..12 after a component stands at most one part of it",
+    ),
+    ("elephant=U", r#"0..8 there is no field "elephant""#),
+    (
+        "INDEX:1",
+        r#"0..5 there is no field "INDEX"; did you mean gloss=INDEX?"#,
+    ),
+    ("GO~REPEAT", r#"0..2 there is no field "GO""#),
+    ("placement=", "10..10 a value should stand here"),
+    ("placement= )", "11..11 a value should stand here"),
+    ("placement=,x", "10..10 a value should stand here"),
+    ("placement=U,", "12..12 a value should stand here"),
+    (
+        "placement=(chest or chin)",
+        "10..11 a value should stand here",
+    ),
+    ("placement=a=b", "11..12 a value ends before this"),
+    (r#"placement="""#, "10..12 this value is empty"),
+    (r#"placement="chest"#, "10..11 this quote is not closed"),
+    (r#"placement="chest"x"#, "17..18 a blank is missing here"),
+    ("configuration=[index", "14..15 this bracket is not closed"),
+    (
+        "configuration=[]",
+        "14..16 a feature is missing between the brackets",
+    ),
+    (
+        "configuration=[index not]",
+        "14..25 a feature is missing between the brackets",
+    ),
+    ("configuration=[(a)]", "15..16 this is no feature"),
+    (
+        "[index]",
+        "0..1 features need a field before them; did you mean configuration=[?",
+    ),
+    ("origin=[x]", "7..10 only components have features"),
+    ("gloss=[x]", "6..9 only components have features"),
+    ("(a b", "0..1 this parenthesis is not closed"),
+    ("(a (b c)", "0..1 this parenthesis is not closed"),
+    ("(", "0..1 this parenthesis is not closed"),
+    ("()", "1..2 a term should stand before this parenthesis"),
+    (")", "0..1 a term should stand before this parenthesis"),
+    ("a)", "1..2 this parenthesis closes none"),
+    ("a or", "4..4 the query ends where a term should stand"),
+    ("or a", "0..2 `or` has nothing to join here"),
+    ("a or or b", "5..7 `or` has nothing to join here"),
+    ("a and", "5..5 the query ends where a term should stand"),
+    ("and a", "0..3 `and` has nothing to join here"),
+    ("a and or b", "6..8 `or` has nothing to join here"),
+    ("not", "3..3 the query ends where a term should stand"),
+    ("not or", "4..6 `or` has nothing to join here"),
+    ("(not )", "5..6 a term should stand before this parenthesis"),
+    (
+        "a, b",
+        "1..2 a comma stands only between the values of one field",
+    ),
+    ("= x", "0..1 `=` has no field on its left"),
+    ("< 0.8s", "0..1 `<` has no field on its left"),
+    (
+        "a || b",
+        "2..4 this sign joins nothing here; did you mean or?",
+    ),
+    (
+        "a && b",
+        "2..4 this sign joins nothing here; did you mean and?",
+    ),
+    ("!", "0..1 this sign joins nothing here; did you mean not?"),
+    ("*", "0..1 there is nothing to search for in this"),
+    ("---", "0..3 there is nothing to search for in this"),
+    (
+        "placement:chest",
+        "9..10 `:` does not compare values; did you mean =?",
+    ),
+    (
+        "placement<chest",
+        "9..10 `<` does not compare values; did you mean =?",
+    ),
+    (
+        "placement<>chest",
+        "9..11 `<>` does not compare values; did you mean !=?",
+    ),
+    (
+        "placement~chest",
+        "9..10 `~` does not compare values; did you mean =?",
+    ),
+    (
+        "gloss<A",
+        "5..6 `<` does not compare texts; did you mean =?",
+    ),
+    ("gloss~A*", "6..8 wildcards do not go with ~"),
+    (
+        "gloss~A~3",
+        "7..9 a text is searched up to one or two slips",
+    ),
+    (
+        r#"gloss~"A"~x"#,
+        "9..11 a text is searched up to one or two slips",
+    ),
+    ("gloss~~", "6..7 a text is searched up to one or two slips"),
+    ("origin=recorded", r#"7..15 "recorded" is no origin"#),
+    (
+        "origin=mad",
+        r#"7..10 "mad" is no origin; did you mean made?"#,
+    ),
+    ("origin=m*", r#"7..9 "m*" is no origin"#),
+    (
+        "hand=rigth",
+        r#"5..10 "rigth" is no hand; did you mean right?"#,
+    ),
+    (
+        "duration<0.8",
+        r#"9..12 "0.8" has no unit; did you mean 0.8s?"#,
+    ),
+    (
+        "duration<0.8sc",
+        r#"12..14 there is no unit of time "sc"; did you mean s?"#,
+    ),
+    ("duration<12f", r#"11..12 there is no unit of time "f""#),
+    ("duration<", "9..9 a time should stand here"),
+    ("duration<x", r#"9..10 "x" is no time"#),
+    ("duration<0.8s..1s", "9..17 one time should stand here"),
+    (
+        "duration=1s..0.5s",
+        "9..17 this range ends before it starts; did you mean 0.5s..1s?",
+    ),
+    ("duration=..", "9..11 a time should stand here"),
+    (
+        "duration:1s",
+        "8..9 `:` does not compare times; did you mean =?",
+    ),
+    ("duration!=1s", "8..10 `!=` does not compare times"),
+    (
+        "duration=1..2",
+        r#"9..10 "1" has no unit; did you mean 1s?"#,
+    ),
+    ("duration<9999999999s", "9..20 this time is too long"),
+    ("duration<-1s", r#"9..12 "-1s" is no time"#),
+    (r#"duration="1s""#, "9..9 a time should stand here"),
+    ("duration<1.2.3s", r#"9..15 "1.2.3s" is no time"#),
+    (
+        "gloss=CHAT ovrlaps nonmanual.brows=raised",
+        r#"11..18 there is no relation "ovrlaps"; did you mean overlaps?"#,
+    ),
+    (
+        "gloss=CHAT overlap gloss=X",
+        r#"11..18 there is no relation "overlap"; did you mean overlaps?"#,
+    ),
+    (
+        "overlaps",
+        "8..8 `overlaps` needs a comparison on its right",
+    ),
+    (
+        "overlaps CHAT",
+        "9..13 `overlaps` needs a comparison on its right; did you mean gloss=CHAT?",
+    ),
+    (
+        "overlaps (gloss=A)",
+        "9..9 `overlaps` needs a comparison on its right",
+    ),
+    (
+        "overlaps origin=made",
+        "9..15 this is no annotation that could stand in a relation of time",
+    ),
+    (
+        "overlaps duration<1s",
+        "9..17 this is no annotation that could stand in a relation of time",
+    ),
+    (
+        "overlaps not gloss=A",
+        "9..12 `overlaps` needs a comparison on its right",
+    ),
+    ("within", "0..6 `within` needs a distance"),
+    ("within gloss=A", r#"7..14 "gloss=A" is no time"#),
+    (
+        "within 0.5s gloss=A",
+        r#"12..17 "gloss" does not say what the distance is counted from"#,
+    ),
+    (
+        "within 0.5s arund gloss=A",
+        r#"12..17 "arund" does not say what the distance is counted from; did you mean around?"#,
+    ),
+    (
+        "within 0.5s of gloss=A",
+        r#"12..20 "of-gloss" does not say what the distance is counted from"#,
+    ),
+    (
+        "within 0.5s around",
+        "18..18 `within` needs a comparison on its right",
+    ),
+    ("tier()=x", "5..5 the tier's name is missing"),
+    (r#"tier("Mouthing""#, "4..5 this parenthesis is not closed"),
+    (
+        r#"tier("Mouthing")"#,
+        "16..16 a comparison should follow the tier",
+    ),
+    ("tier(a b)=x", "4..5 this parenthesis is not closed"),
+    (
+        "overlaps tier(x)",
+        "16..16 a comparison should follow the tier",
+    ),
+    ("like", "4..4 `like` needs an example"),
+    ("like on configuration", "5..7 `like` needs an example"),
+    ("like token:", "5..11 which token?"),
+    (
+        "like tokn:41",
+        r#"5..9 "tokn" is no example; did you mean token?"#,
+    ),
+    ("like recording:3", r#"5..14 "recording" is no example"#),
+    ("like A*", "5..7 an example is one token or one sign"),
+    (
+        "like token:41 in placement",
+        r#"14..16 "in" does not follow an example; did you mean on?"#,
+    ),
+    ("like token:41 on", "16..16 a component should stand here"),
+    (
+        "like token:41 on placment",
+        r#"17..25 there is no field "placment"; did you mean placement?"#,
+    ),
+    (
+        "like token:41 on gloss",
+        r#"17..22 "gloss" is no component"#,
+    ),
+    ("like token:41 on placement:x", r#"27..28 "x" is no weight"#),
+    ("like token:41 on placement:", r#"27..27 "" is no weight"#),
+    (
+        "like token:41 on placement,",
+        "27..27 a component should stand here",
+    ),
+    (
+        "like token:41 on right",
+        r#"17..22 "right" names no component; did you mean right.configuration?"#,
+    ),
+    (
+        "été confguration=U",
+        r#"4..16 there is no field "confguration"; did you mean configuration?"#,
+    ),
+    (
+        "手 confguration=U",
+        r#"2..14 there is no field "confguration"; did you mean configuration?"#,
+    ),
+    ("gloss:||", "6..8 there is nothing to search for in this"),
+    ("placement= or a", "11..13 a value should stand here"),
+    ("gloss=a, not b", "9..12 a value should stand here"),
+    ("not=x", r#"0..3 there is no field "not""#),
+];
+
+#[test]
+fn queries_print_canonically() {
+    let same = CANONICAL.iter().map(|query| (*query, *query));
+    for (text, printed) in same.chain(REWRITTEN.iter().copied()) {
+        let query = Query::parse(text).unwrap_or_else(|error| panic!("{}", error.render(text)));
+        assert_eq!(query.to_string(), printed, "{text}");
+        assert_eq!(Query::parse(printed), Ok(query), "{text}");
+    }
+}
+
+#[test]
+fn errors_point_at_the_place_and_suggest() {
+    for (text, wrong) in WRONG {
+        let error = Query::parse(text).expect_err(text);
+        let meant = error.suggestion.iter();
+        let meant: String = meant
+            .map(|word| format!("; did you mean {word}?"))
+            .collect();
+        let found = format!(
+            "{}..{} {}{meant}",
+            error.at.start, error.at.end, error.message
+        );
+        assert_eq!(found, *wrong, "{text}");
+    }
+}
+
+#[test]
+fn errors_are_drawn_under_the_query() {
+    let long = format!("gloss=A right.confguration=U {}", "b ".repeat(60));
+    let late = format!("{}confguration=U", "a ".repeat(100));
+    for (text, drawn) in [
+        (
+            "right.confguration=U",
+            "right.confguration=U\n      ^^^^^^^^^^^^\nthere is no field \"confguration\"; did you mean configuration?",
+        ),
+        (
+            "placement=",
+            "placement=\n          ^\na value should stand here\nwrite a value, * for any, or unset, n/a or unclear",
+        ),
+        (
+            "手 a\tplace=(x",
+            "手 a place=(x\n           ^\na value should stand here\none of several values is written with commas: placement=chest,chin",
+        ),
+        (
+            "e\u{301} )",
+            "e\u{301} )\n  ^\nthis parenthesis closes none\nleave it out, or open one before it",
+        ),
+        (
+            &long,
+            "gloss=A right.confguration=U b b b b b b b b b b b b b b b b b b b b b b b b b b b b b b b b b b b b…\n              ^^^^^^^^^^^^\nthere is no field \"confguration\"; did you mean configuration?",
+        ),
+        (
+            &late,
+            "…a a a a a a a a a a a a a a a a a a a a a a a a a confguration=U\n                                                   ^^^^^^^^^^^^\nthere is no field \"confguration\"; did you mean configuration?",
+        ),
+    ] {
+        assert_eq!(Query::parse(text).expect_err(text).render(text), drawn);
+    }
+}
+
+#[test]
+fn suggestions_mend_the_query() {
+    for (text, mended) in [
+        ("right.confguration=U", "right.configuration=U"),
+        ("INDEX:1", "gloss=INDEX:1"),
+        ("[index -thumb]", "configuration=[index -thumb]"),
+        ("duration<0.8", "duration<0.8s"),
+        ("duration=1s..0.5s", "duration=0.5s..1s"),
+        ("gloss=A ovrlaps gloss=B", "gloss=A overlaps gloss=B"),
+        ("overlaps CHAT", "overlaps gloss=CHAT"),
+        ("a || b", "a or b"),
+        ("like token:41 in placement", "like token:41 on placement"),
+        ("placement:chin", "placement=chin"),
+    ] {
+        let error = Query::parse(text).expect_err(text);
+        let corrected = error.corrected(text).expect("a suggestion");
+        assert_eq!(corrected, mended);
+        assert!(Query::parse(&corrected).is_ok(), "{corrected}");
+    }
+}
+
+#[test]
+fn values_nobody_knows_are_pointed_at() {
+    let text = "placement=nutral";
+    let query = Query::parse(text).expect("a query");
+    let Expr::Test(Test {
+        what: What::Component(_, comparison),
+        ..
+    }) = &query.root
+    else {
+        panic!("one comparison");
+    };
+    let known = ["chest", "chin", "neutral space"];
+    let error = unknown_value(comparison.values[0].at, "nutral space", known);
+    assert_eq!(
+        error.render(text),
+        "placement=nutral\n          ^^^^^^\nthe value \"nutral space\" is in no inventory; \
+         did you mean \"neutral space\"?\nknown values: chest, chin, \"neutral space\""
+    );
+    let many: Vec<String> = (0..20).map(|n| format!("B{n}")).collect();
+    let error = unknown_value(At::default(), "qqq", many.iter().map(String::as_str));
+    assert_eq!(error.suggestion, None);
+    assert_eq!(
+        error.remedy,
+        "known values: B0, B1, B2, B3, B4, B5, B6, B7 and 12 more"
+    );
+    assert_eq!(
+        error.to_string(),
+        "character 1: the value \"qqq\" is in no inventory (known values: B0, B1, B2, B3, B4, B5, B6, B7 and 12 more)"
+    );
+}
+
+#[test]
+fn every_part_knows_its_place() {
+    let text = r#"é not (right.configuration=U,[index -thumb]) overlaps tier("Gaze")=left like token:4 on placement:2"#;
+    let cut = |at: At| {
+        text.chars()
+            .skip(at.start)
+            .take(at.end - at.start)
+            .collect::<String>()
+    };
+    let Expr::And(terms) = Query::parse(text).expect("a query").root else {
+        panic!("terms")
+    };
+    let places: Vec<String> = terms.iter().map(|term| cut(term.at())).collect();
+    assert_eq!(
+        places,
+        [
+            "é",
+            "right.configuration=U,[index -thumb]",
+            r#"overlaps tier("Gaze")=left"#,
+            "like token:4 on placement:2",
+        ]
+    );
+    let Expr::Not(inner) = &terms[1] else {
+        panic!("a negation")
+    };
+    let Expr::Test(Test {
+        subject_at,
+        what: What::Component(_, comparison),
+        ..
+    }) = &**inner
+    else {
+        panic!("a component");
+    };
+    assert_eq!(cut(*subject_at), "right.configuration");
+    assert_eq!(cut(comparison.values[1].at), "[index -thumb]");
+    let Wanted::Features(features) = &comparison.values[1].wanted else {
+        panic!("features")
+    };
+    assert_eq!(cut(features[1].at), "-thumb");
+    let Expr::Like(like) = &terms[3] else {
+        panic!("an example")
+    };
+    assert_eq!(
+        (cut(like.example_at), cut(like.on[0].at)),
+        ("token:4".into(), "placement:2".into())
+    );
+}
+
+#[test]
+fn long_and_deep_queries_are_refused() {
+    assert!(Query::parse(&"a ".repeat(MAX_CHARS / 2)).is_ok());
+    for (text, message) in [
+        (
+            "a".repeat(MAX_CHARS + 1),
+            "the query is longer than 10000 characters",
+        ),
+        (
+            "(".repeat(MAX_CHARS),
+            "more than 64 parentheses and negations inside each other",
+        ),
+        (
+            "not ".repeat(2000),
+            "more than 64 parentheses and negations inside each other",
+        ),
+        (
+            "x( ".repeat(3000),
+            "more than 64 parentheses and negations inside each other",
+        ),
+    ] {
+        assert_eq!(Query::parse(&text).expect_err("too much").message, message);
+    }
+    let deep = format!(
+        "{}a{}",
+        "(".repeat(MAX_DEPTH - 1),
+        ")".repeat(MAX_DEPTH - 1)
+    );
+    assert!(Query::parse(&deep).is_ok());
+}
+
+#[test]
+fn every_query_of_the_help_is_one() {
+    let examples = HELP
+        .lines()
+        .filter(|line| line.starts_with("  ") && line.contains(['=', ':', '~', '<']));
+    let mut count = 0;
+    for line in examples {
+        assert!(line.len() <= 80, "{line}");
+        for example in line
+            .trim()
+            .split("   ")
+            .filter(|part| part.contains(['=', ':', '~', '<']))
+        {
+            let example = example.trim();
+            let whole = if example.starts_with('=') {
+                format!("placement{example}")
+            } else {
+                example.to_owned()
+            };
+            if example.contains("captured,")
+                || example.starts_with("signer=")
+                || example.contains(": ")
+            {
+                continue;
+            }
+            if let Err(error) = Query::parse(&whole) {
+                panic!("{}", error.render(&whole));
+            }
+            count += 1;
+        }
+    }
+    assert!(count > 20, "{count}");
+}
+
+#[test]
+fn a_cursor_knows_what_could_stand_there() {
+    for (text, expected, prefix, replaced) in COMPLETIONS {
+        let cursor = text.chars().position(|c| c == '|').expect("a cursor");
+        let query = text.replace('|', "");
+        let found = complete(&query, cursor);
+        let chars: Vec<char> = query.chars().collect();
+        let old: String = chars[found.replace.clone()].iter().collect();
+        let shown = format!("{:?}", found.expected);
+        assert!(shown.starts_with(expected), "{text}: {shown}");
+        assert_eq!(
+            (&found.prefix[..], &old[..]),
+            (*prefix, *replaced),
+            "{text}"
+        );
+    }
+}
+
+/// Queries with a cursor, what is expected there, the prefix, and what would be replaced.
+const COMPLETIONS: &[(&str, &str, &str, &str)] = &[
+    ("|", "Term", "", ""),
+    ("conf|", "Term", "conf", "conf"),
+    ("co|nf x", "Term", "co", "conf"),
+    ("gloss=A |", "Term", "", ""),
+    ("not (pl|", "Term", "pl", "pl"),
+    ("right.conf|", "Term", "conf", "conf"),
+    ("final.right.|", "Term", "", ""),
+    ("nonmanual.br|", "Part(NonManual)", "br", "br"),
+    (
+        "placement=|",
+        "Value(Field { hand: None, component: Placement",
+        "",
+        "",
+    ),
+    ("placement=chi|", "Value", "chi", "chi"),
+    ("placement=ch|in gloss=A", "Value", "ch", "chin"),
+    ("placement=chest,ch|", "Value", "ch", "ch"),
+    ("placement = chest , |", "Value", "", ""),
+    (
+        "placement=\"neutral s|",
+        "Value",
+        "neutral s",
+        "\"neutral s",
+    ),
+    (
+        "placement=\"neutral s|\" x",
+        "Value",
+        "neutral s",
+        "\"neutral s\"",
+    ),
+    ("placement=\"neutral space\" gl|", "Term", "gl", "gl"),
+    ("confguration=U|", "Unknown", "U", "U"),
+    ("configuration=[|", "Feature", "", ""),
+    ("configuration=[index mi|", "Feature", "mi", "mi"),
+    ("configuration=[index -th|", "Feature", "th", "th"),
+    ("configuration=[index] gl|", "Term", "gl", "gl"),
+    ("origin=ma|", "Property(Origin)", "ma", "ma"),
+    ("signer=An|", "Property(Signer)", "An", "An"),
+    ("gloss:BO|", "Text(Gloss)", "BO", "BO"),
+    ("gloss=INDEX:|", "Text(Gloss)", "INDEX:", "INDEX:"),
+    ("gloss~A~|", "Text(Gloss)", "A~", "A~"),
+    ("duration<0.|", "Time(Duration)", "0.", "0."),
+    ("gloss=A overlaps |", "Annotation", "", ""),
+    ("gloss=A overlaps nonmanual.|", "Part(NonManual)", "", ""),
+    ("within |", "Distance", "", ""),
+    ("within 0.5s |", "Reference", "", ""),
+    ("within 0.5s ar|", "Reference", "ar", "ar"),
+    ("within 0.5s around gl|", "Annotation", "gl", "gl"),
+    ("within 0.5s of-begin gloss=|", "Text(Gloss)", "", ""),
+    ("overlaps tier(|", "TierName", "", ""),
+    ("overlaps tier(\"Mou|", "TierName", "Mou", "\"Mou"),
+    (
+        "overlaps tier(\"Mouthing\")=m|",
+        "TierValue(\"Mouthing\")",
+        "m",
+        "m",
+    ),
+    ("like |", "Example", "", ""),
+    ("like token:4|", "Example", "token:4", "token:4"),
+    ("like token:41 |", "AfterExample", "", ""),
+    ("like token:41 o|", "AfterExample", "o", "o"),
+    ("like token:41 on |", "Component", "", ""),
+    (
+        "like token:41 on configuration:2, pl|",
+        "Component",
+        "pl",
+        "pl",
+    ),
+    ("like token:41 on configuration gl|", "Term", "gl", "gl"),
+    ("\"slow an|", "Term", "slow an", "\"slow an"),
+];
+
+#[test]
+fn completions_offer_the_words_of_the_language() {
+    for (text, words) in [
+        ("conf", "configuration"),
+        ("du", "duration"),
+        ("origin=ma", "made"),
+        ("hand=", "right left dominant weak both"),
+        ("placement=u", "unset unclear"),
+        ("over", "overlaps overlaps-begin overlaps-end"),
+        ("within 1s ", "around of-begin of-end"),
+        ("like token:4 on", "on"),
+        (
+            "right.",
+            "configuration placement movement orientation nonmanual right left dominant weak initial middle final",
+        ),
+        ("\"conf", ""),
+        ("gloss=C", ""),
+    ] {
+        assert_eq!(
+            complete(text, text.chars().count()).words.join(" "),
+            words,
+            "{text}"
+        );
+    }
+}
+
+/// Checks what must hold of any text at all.
+fn check_any(text: &str) {
+    let count = text.chars().count();
+    match Query::parse(text) {
+        Ok(query) => assert_eq!(Query::parse(&query.to_string()), Ok(query), "{text:?}"),
+        Err(error) => {
+            assert!(
+                error.at.start <= error.at.end && error.at.end <= count,
+                "{text:?} {error:?}"
+            );
+            assert!(!error.message.is_empty() && !error.render(text).is_empty());
+            assert!(error.corrected(text).is_some() == error.suggestion.is_some());
+        }
+    }
+    for cursor in (0..=count + 1).step_by(1 + count / 3) {
+        let found = complete(text, cursor);
+        assert!(
+            found.replace.start <= found.replace.end && found.replace.end <= count,
+            "{text:?}"
+        );
+    }
+}
+
+#[test]
+fn no_soup_of_words_makes_it_panic() {
+    const SOUP: &[&str] = &[
+        " ",
+        " ",
+        " ",
+        "gloss",
+        "placement",
+        "right",
+        "left",
+        ".",
+        "=",
+        "==",
+        "!=",
+        ":",
+        "~",
+        "<",
+        ">=",
+        "(",
+        ")",
+        "[",
+        "]",
+        ",",
+        "*",
+        "-",
+        "\"",
+        "“",
+        "»",
+        "«",
+        "\\",
+        "not",
+        "or",
+        "and",
+        "like",
+        "token:4",
+        "on",
+        "in",
+        "within",
+        "0.5",
+        "s",
+        "ms",
+        "..",
+        "overlaps",
+        "before",
+        "ovrlaps",
+        "around",
+        "of",
+        "of-end",
+        "tier",
+        "origin",
+        "made",
+        "hand",
+        "duration",
+        "é",
+        "e\u{301}",
+        "手",
+        "CHAT",
+        "A1",
+        "unset",
+        "n/a",
+        "~2",
+        "\n",
+        "nonmanual",
+        "brows",
+        "final",
+    ];
+    let mut state = 0x9E37_79B9_7F4A_7C15_u64;
+    let mut random = |below: usize| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state % below as u64) as usize
+    };
+    let whole: Vec<&str> = CANONICAL
+        .iter()
+        .chain(REWRITTEN.iter().map(|(text, _)| text))
+        .copied()
+        .collect();
+    for round in 0..6000 {
+        let mut text: String = (0..random(14)).map(|_| SOUP[random(SOUP.len())]).collect();
+        if round % 2 == 0 {
+            let chars: Vec<char> = whole[random(whole.len())].chars().collect();
+            let at = random(chars.len() + 1);
+            let skip = random(3).min(chars.len() - at);
+            let middle = SOUP[random(SOUP.len())];
+            text = chars[..at]
+                .iter()
+                .copied()
+                .chain(middle.chars())
+                .chain(chars[at + skip..].iter().copied())
+                .collect();
+        }
+        check_any(&text);
+    }
+}
+
+fn name() -> impl Strategy<Value = String> {
+    prop_oneof![
+        "[A-Za-z0-9][A-Za-z0-9é:()' -]{0,7}",
+        "[a-z][ -~«»“”’手]{0,6}",
+        prop::sample::select(vec![
+            "unset", "n/a", "or", "NOT", "on", "in", "before", "tier", "like", "overlap"
+        ])
+        .prop_map(str::to_owned),
+    ]
+}
+
+fn pattern() -> impl Strategy<Value = Pattern> {
+    prop_oneof![
+        name().prop_map(Pattern::literal),
+        (name(), name()).prop_map(|(a, b)| Pattern::from_glob(&format!("{a}*{b}"))),
+        name().prop_map(|a| Pattern::from_glob(&format!("{a}*"))),
+    ]
+}
+
+fn field() -> impl Strategy<Value = Field> {
+    (
+        prop::option::of(prop::sample::select(HandRef::ALL.to_vec())),
+        prop::sample::select(Component::ALL.to_vec()),
+        prop::option::of("[a-z][a-z0-9_-]{0,4}"),
+        prop::option::of(prop::sample::select(vec![
+            Phase::Initial,
+            Phase::Middle(2),
+            Phase::Final,
+        ])),
+    )
+        .prop_map(|(hand, component, feature, phase)| Field {
+            hand: hand.filter(|_| component.is_manual()),
+            component,
+            feature,
+            phase,
+        })
+}
+
+fn comparison(features: bool) -> impl Strategy<Value = Comparison> {
+    let feature = ("[a-z_]{2,4}[a-z:-]{0,3}", any::<bool>())
+        .prop_filter("a word of its own", |(name, _)| name != "not")
+        .prop_map(|(name, absent)| Feature {
+            at: At::default(),
+            name,
+            absent,
+        });
+    let named = pattern().prop_map(Wanted::Named);
+    let wanted = prop_oneof![
+        Just(Wanted::Present),
+        prop::sample::select(Missing::ALL.to_vec()).prop_map(Wanted::Missing),
+        prop::collection::vec(feature, 1..3).prop_map(Wanted::Features),
+        named,
+    ]
+    .prop_filter("a component", move |wanted| {
+        features || !matches!(wanted, Wanted::Features(_))
+    });
+    let value = wanted.prop_map(|wanted| Value {
+        at: At::default(),
+        wanted,
+    });
+    let operator = prop::sample::select(vec![Operator::Is, Operator::Exactly, Operator::IsNot]);
+    (operator, prop::collection::vec(value, 1..3))
+        .prop_map(|(operator, values)| Comparison { operator, values })
+}
+
+/// A test whose thing compared is an annotation.
+fn annotation() -> impl Strategy<Value = Test> {
+    let text = || prop::sample::select(TextField::ALL.to_vec());
+    prop_oneof![
+        (field(), comparison(true))
+            .prop_map(|(field, comparison)| What::Component(field, comparison)),
+        (text(), comparison(false)).prop_map(|(field, comparison)| What::Whole(field, comparison)),
+        (pattern(), comparison(true)).prop_map(|(name, comparison)| What::Tier(name, comparison)),
+        (text(), name(), 1..3u8).prop_map(|(field, text, slips)| What::Fuzzy {
+            field,
+            text,
+            slips
+        }),
+        (
+            prop::sample::select(TextField::ALL[1..].to_vec()),
+            prop::collection::vec(pattern(), 1..3)
+        )
+            .prop_map(|(field, words)| What::Words(field, words)),
+    ]
+    .prop_map(|what| Test {
+        at: At::default(),
+        subject_at: At::default(),
+        what,
+    })
+}
+
+fn leaf() -> impl Strategy<Value = Expr> {
+    let micros = || prop_oneof![0..5_000_000_i64, 0..9_000_000_000_000_i64];
+    let time = prop_oneof![
+        micros().prop_map(TimeTest::Below),
+        micros().prop_map(TimeTest::AtMost),
+        micros().prop_map(TimeTest::Above),
+        micros().prop_map(TimeTest::AtLeast),
+        (micros(), micros()).prop_map(|(a, b)| TimeTest::Between(a.min(b), a.max(b))),
+    ];
+    let open = Property::ALL
+        .into_iter()
+        .filter(|property| property.fixed_values().is_none());
+    let what = prop_oneof![
+        (prop::sample::select(TimeField::ALL.to_vec()), time)
+            .prop_map(|(field, test)| What::Time(field, test)),
+        (
+            prop::sample::select(open.collect::<Vec<_>>()),
+            comparison(false)
+        )
+            .prop_map(|(property, comparison)| What::Property(property, comparison)),
+        pattern().prop_map(|word| What::Words(TextField::Any, vec![word])),
+    ];
+    let test = what.prop_map(|what| Test {
+        at: At::default(),
+        subject_at: At::default(),
+        what,
+    });
+    let plain: Vec<Relation> = Relation::PLAIN
+        .into_iter()
+        .map(|(_, relation)| relation)
+        .collect();
+    let relation = prop_oneof![
+        prop::sample::select(plain),
+        micros().prop_map(Relation::Around),
+        micros().prop_map(Relation::OfBegin),
+        micros().prop_map(Relation::OfEnd),
+    ];
+    let weighted = (
+        field(),
+        prop::sample::select(vec![1.0, 2.0, 0.5, 0.1 + 0.2, 1000.0]),
+    )
+        .prop_map(|(field, weight)| Weighted {
+            at: At::default(),
+            field,
+            weight,
+        });
+    let example = prop_oneof![
+        name().prop_map(Example::Token),
+        name().prop_map(Example::Sign)
+    ];
+    prop_oneof![
+        annotation().prop_map(Expr::Test),
+        test.prop_map(Expr::Test),
+        (relation, annotation()).prop_map(|(relation, other)| Expr::Relation(Related {
+            at: At::default(),
+            relation,
+            other
+        })),
+        (example, prop::collection::vec(weighted, 0..3)).prop_map(|(example, on)| Expr::Like(
+            Like {
+                at: At::default(),
+                example_at: At::default(),
+                example,
+                on,
+            }
+        )),
+    ]
+}
+
+fn expr() -> impl Strategy<Value = Expr> {
+    leaf().prop_recursive(4, 16, 3, |inner| {
+        prop_oneof![
+            prop::collection::vec(inner.clone(), 1..4).prop_map(Expr::all),
+            prop::collection::vec(inner.clone(), 1..4).prop_map(Expr::any),
+            inner.prop_map(|inner| Expr::Not(Box::new(inner))),
+        ]
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn parsing_what_was_printed_gives_the_query_back(root in expr()) {
+        let query = Query { root };
+        let printed = query.to_string();
+        prop_assert_eq!(Query::parse(&printed), Ok(query), "{}", printed);
+    }
+
+    #[test]
+    fn any_text_is_a_query_or_an_error(text in "\\PC{0,40}") {
+        check_any(&text);
+    }
+}

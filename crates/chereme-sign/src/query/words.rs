@@ -1,0 +1,262 @@
+//! The words that mean something in a query, with their synonyms.
+
+use super::tree::{Missing, Property, TextField, TimeField};
+use crate::component::{Component, HandRef};
+use crate::relation::Relation;
+use crate::text::{edit_distance, fold};
+
+impl TextField {
+    /// The texts, all together first.
+    pub const ALL: [Self; 4] = [Self::Any, Self::Gloss, Self::Translation, Self::Comment];
+
+    /// Returns the name in queries.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.names()[0]
+    }
+
+    /// Returns every spelling that is understood, the house name first.
+    #[must_use]
+    pub fn names(self) -> &'static [&'static str] {
+        match self {
+            Self::Any => &["text", "texte"],
+            Self::Gloss => &["gloss", "glose"],
+            Self::Translation => &["translation", "traduction"],
+            Self::Comment => &["comment", "commentaire", "note"],
+        }
+    }
+}
+
+impl Property {
+    /// Every property.
+    pub const ALL: [Self; 8] = [
+        Self::Origin,
+        Self::Signer,
+        Self::Recording,
+        Self::Sign,
+        Self::Token,
+        Self::Tier,
+        Self::Inventory,
+        Self::Hand,
+    ];
+
+    /// Returns the name in queries.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.names()[0]
+    }
+
+    /// Returns every spelling that is understood, the house name first.
+    #[must_use]
+    pub fn names(self) -> &'static [&'static str] {
+        match self {
+            Self::Origin => &["origin", "origine"],
+            Self::Signer => &["signer", "participant", "signeur"],
+            Self::Recording => &["recording", "enregistrement"],
+            Self::Sign => &["sign", "signe"],
+            Self::Token => &["token"],
+            Self::Tier => &["tier"],
+            Self::Inventory => &["inventory", "inventaire"],
+            Self::Hand => &["hand", "main"],
+        }
+    }
+
+    /// Returns the only values there are, where they are fixed.
+    #[must_use]
+    pub fn fixed_values(self) -> Option<&'static [&'static str]> {
+        match self {
+            Self::Origin => Some(&["captured", "made", "lexicon", "generated"]),
+            Self::Hand => Some(&["right", "left", "dominant", "weak", "both"]),
+            _ => None,
+        }
+    }
+}
+
+impl TimeField {
+    /// The three times.
+    pub const ALL: [Self; 3] = [Self::Duration, Self::Start, Self::End];
+
+    /// Returns the name in queries.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        self.names()[0]
+    }
+
+    /// Returns every spelling that is understood, the house name first.
+    #[must_use]
+    pub fn names(self) -> &'static [&'static str] {
+        match self {
+            Self::Duration => &["duration", "durée", "length"],
+            Self::Start => &["start", "début", "begin"],
+            Self::End => &["end", "fin"],
+        }
+    }
+}
+
+/// The word that opens a relation with a distance.
+pub(super) const WITHIN: &str = "within";
+/// What follows the distance after `within`.
+pub(super) const WITHIN_KINDS: [&str; 3] = ["around", "of-begin", "of-end"];
+/// The word that opens a search by example.
+pub(super) const LIKE: &str = "like";
+/// The word between an example and the components that count.
+pub(super) const ON: &str = "on";
+/// Words that people write in place of `on`.
+pub(super) const INSTEAD_OF_ON: [&str; 6] = ["in", "by", "with", "of", "for", "sur"];
+/// The word before a tier's name in parentheses.
+pub(super) const TIER: &str = "tier";
+
+/// French for the parts of a component's name.
+const FRENCH: [(&str, &str); 10] = [
+    ("emplacement", "placement"),
+    ("mouvement", "movement"),
+    ("nonmanuel", "nonmanual"),
+    ("non-manuel", "nonmanual"),
+    ("droite", "right"),
+    ("gauche", "left"),
+    ("dominante", "dominant"),
+    ("faible", "weak"),
+    ("initiale", "initial"),
+    ("finale", "final"),
+];
+
+/// Units of time with their length in microseconds, the first spelling of each the plainest.
+pub(super) const UNITS: [(&str, i64); 9] = [
+    ("s", 1_000_000),
+    ("sec", 1_000_000),
+    ("seconds", 1_000_000),
+    ("ms", 1000),
+    ("min", 60_000_000),
+    ("us", 1),
+    ("µs", 1),
+    ("μs", 1),
+    ("second", 1_000_000),
+];
+
+/// A word that joins or negates terms.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Joint {
+    And,
+    Or,
+    Not,
+}
+
+/// Returns the joint that a word is, in any case.
+pub(super) fn joint(word: &str) -> Option<Joint> {
+    [("and", Joint::And), ("or", Joint::Or), ("not", Joint::Not)]
+        .into_iter()
+        .find(|(name, _)| name.eq_ignore_ascii_case(word))
+        .map(|(_, joint)| joint)
+}
+
+/// Returns the relation without a distance that a word is; capitals are glosses.
+pub(super) fn plain_relation(word: &str) -> Option<Relation> {
+    Relation::PLAIN
+        .into_iter()
+        .find(|(name, _)| *name == word)
+        .map(|(_, relation)| relation)
+}
+
+/// Returns the missing state that an unquoted value is.
+pub(super) fn missing(word: &str) -> Option<Missing> {
+    let word = if word == "N/A" { "n/a" } else { word };
+    Missing::ALL
+        .into_iter()
+        .find(|missing| missing.name() == word)
+}
+
+/// Tells whether a bare word never is a word to search for.
+pub(super) fn is_reserved(word: &str) -> bool {
+    joint(word).is_some()
+        || plain_relation(word).is_some()
+        || [WITHIN, LIKE, ON, TIER].contains(&word)
+        || WITHIN_KINDS.contains(&word)
+        || INSTEAD_OF_ON.contains(&word)
+}
+
+/// Tells whether an opening parenthesis right after this word is not part of a word.
+pub(super) fn opens_group(word: &str) -> bool {
+    joint(word).is_some() || plain_relation(word).is_some() || word == TIER
+}
+
+/// Returns the relation that a lower-case word nearly is.
+pub(super) fn near_relation(word: &str) -> Option<&'static str> {
+    let length = word.chars().count();
+    let plausible = |c: char| c.is_lowercase() || c == '-' || c == '_';
+    if length < 5 || !word.chars().all(plausible) {
+        return None;
+    }
+    let most = if length <= 7 { 1 } else { 2 };
+    Relation::PLAIN
+        .iter()
+        .map(|(name, _)| *name)
+        .chain([WITHIN])
+        .filter_map(|name| Some((edit_distance(word, name, most)?, name)))
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, name)| name)
+}
+
+/// Returns the house spelling of a part of a field's name: lower case, French in English.
+pub(super) fn part(text: &str) -> String {
+    let text = text.to_lowercase();
+    let folded = fold(&text);
+    FRENCH
+        .iter()
+        .find(|(french, _)| *french == folded)
+        .map_or(text, |(_, english)| (*english).to_owned())
+}
+
+/// What stands on the left of a comparison when its name is one word and no component.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Simple {
+    Text(TextField),
+    Property(Property),
+    Time(TimeField),
+}
+
+/// Returns the field of this name that is no component.
+pub(super) fn simple_field(name: &str) -> Option<Simple> {
+    let name = fold(name);
+    let is = |names: &[&str]| names.iter().any(|known| fold(known) == name);
+    let text = TextField::ALL
+        .into_iter()
+        .find(|f| is(f.names()))
+        .map(Simple::Text);
+    let property = || {
+        Property::ALL
+            .into_iter()
+            .find(|f| is(f.names()))
+            .map(Simple::Property)
+    };
+    let time = || {
+        TimeField::ALL
+            .into_iter()
+            .find(|f| is(f.names()))
+            .map(Simple::Time)
+    };
+    text.or_else(property).or_else(time)
+}
+
+/// Returns the house names of the fields that are no components.
+pub(super) fn simple_names() -> impl Iterator<Item = &'static str> {
+    let texts = [
+        TextField::Gloss,
+        TextField::Translation,
+        TextField::Comment,
+        TextField::Any,
+    ];
+    let texts = texts.into_iter().map(TextField::name);
+    let properties = Property::ALL.into_iter().map(Property::name);
+    texts
+        .chain(properties)
+        .chain(TimeField::ALL.into_iter().map(TimeField::name))
+}
+
+/// Returns the house names of the parts of a component's name: components, hands, phases.
+pub(super) fn part_names() -> impl Iterator<Item = &'static str> {
+    let components = Component::ALL.into_iter().map(Component::name);
+    let hands = HandRef::ALL.into_iter().map(HandRef::name);
+    components
+        .chain(hands)
+        .chain(["initial", "middle", "final"])
+}
