@@ -1,12 +1,10 @@
 //! Reading comparisons: `right.configuration=U`, `gloss:BO*`, `duration<0.8s`, `tier("Gaze")=*`.
 
-use super::lex::{Cursor, Place, Word, is_quote};
-use super::tree::{
-    At, Comparison, Feature, Operator, Property, Test, TextField, TimeField, TimeTest, Value,
-    Wanted, What,
-};
+use super::lex::{Cursor, Place};
+use super::tree::{At, Comparison, Operator, Property, Test, TextField, Value, Wanted, What};
+use super::values::{filled_word, list, value};
 use super::words::{self, Simple};
-use super::{Pattern, QueryError, parse};
+use super::{Pattern, QueryError, times};
 use crate::component::{Component, Field, HandRef, Phase};
 use crate::text::nearest;
 use std::str::FromStr;
@@ -18,7 +16,7 @@ pub(super) fn test(cursor: &mut Cursor<'_>) -> Result<Test, QueryError> {
     let what = match words::simple_field(&name) {
         Some(Simple::Text(field)) => text_test(cursor, field)?,
         Some(Simple::Property(property)) => property_test(cursor, property)?,
-        Some(Simple::Time(field)) => What::Time(field, time_test(cursor, field)?),
+        Some(Simple::Time(field)) => What::Time(field, times::time_test(cursor, field)?),
         None => {
             let field = component(cursor, subject_at)?;
             What::Component(field, comparison(cursor, Colon::Refused)?)
@@ -247,7 +245,7 @@ fn comparison(cursor: &mut Cursor<'_>, colon: Colon) -> Result<Comparison, Query
 }
 
 /// Steps over the operator that is next and returns where it stands.
-fn operator_place(cursor: &mut Cursor<'_>) -> At {
+pub(super) fn operator_place(cursor: &mut Cursor<'_>) -> At {
     cursor.skip_blanks();
     let count = cursor
         .operator()
@@ -255,161 +253,6 @@ fn operator_place(cursor: &mut Cursor<'_>) -> At {
     let at = cursor.next(count);
     cursor.pos = at.end;
     at
-}
-
-fn list<T>(
-    cursor: &mut Cursor<'_>,
-    item: impl Fn(&mut Cursor<'_>) -> Result<T, QueryError>,
-) -> Result<Vec<T>, QueryError> {
-    let mut items = Vec::new();
-    loop {
-        let start = cursor.pos;
-        cursor.skip_blanks();
-        if cursor.pos > start && parse::next_joint(cursor).is_some() {
-            return Err(missing_value(cursor));
-        }
-        items.push(item(cursor)?);
-        cursor.boundary()?;
-        let mut ahead = cursor.clone();
-        ahead.skip_blanks();
-        if !ahead.eat(',') {
-            return Ok(items);
-        }
-        *cursor = ahead;
-    }
-}
-
-fn missing_value(cursor: &Cursor<'_>) -> QueryError {
-    let (count, remedy) = match cursor.peek() {
-        Some('(') => (
-            1,
-            "one of several values is written with commas: placement=chest,chin",
-        ),
-        Some('=') => (1, "a value with = in it is written in quotes"),
-        _ if parse::next_joint(cursor).is_some() => (
-            cursor.clone().bare(Place::Term).range().len(),
-            "a value that is a joint is written in quotes",
-        ),
-        _ => (0, "write a value, * for any, or unset, n/a or unclear"),
-    };
-    QueryError::new(cursor.next(count), "a value should stand here", remedy)
-}
-
-/// Reads a bare or quoted word that is not empty.
-fn filled_word(cursor: &mut Cursor<'_>) -> Result<Word, QueryError> {
-    let word = cursor.word(Place::Value)?;
-    if word.at.start == word.at.end {
-        return Err(missing_value(cursor));
-    }
-    if word
-        .pattern
-        .as_literal()
-        .is_some_and(|text| text.trim().is_empty())
-    {
-        let remedy = "a field without a value is written =unset, =n/a or =unclear";
-        return Err(QueryError::new(word.at, "this value is empty", remedy));
-    }
-    Ok(word)
-}
-
-fn value(cursor: &mut Cursor<'_>) -> Result<Value, QueryError> {
-    if cursor.peek() == Some('[') {
-        return features(cursor);
-    }
-    let word = filled_word(cursor)?;
-    let missing = word
-        .pattern
-        .as_literal()
-        .filter(|_| !word.quoted)
-        .and_then(words::missing);
-    let wanted = match missing {
-        Some(missing) => Wanted::Missing(missing),
-        None if word.pattern.matches_everything() => Wanted::Present,
-        None => Wanted::Named(word.pattern),
-    };
-    Ok(Value {
-        at: word.at,
-        wanted,
-    })
-}
-
-/// Reads `[index -thumb]`.
-fn features(cursor: &mut Cursor<'_>) -> Result<Value, QueryError> {
-    let open = cursor.next(1);
-    cursor.pos = open.end;
-    let mut found = Vec::new();
-    let mut not: Option<At> = None;
-    loop {
-        while cursor.peek().is_some_and(|c| c.is_whitespace() || c == ',') {
-            cursor.pos += 1;
-        }
-        match cursor.peek() {
-            None => {
-                let remedy = "write ] after the last feature";
-                return Err(QueryError::new(open, "this bracket is not closed", remedy));
-            }
-            Some(']') => break,
-            Some(_) => {}
-        }
-        let feature = feature(cursor)?;
-        if feature.name == "not" && !feature.absent && not.is_none() {
-            not = Some(feature.at);
-        } else if let Some(at) = not.take() {
-            found.push(Feature {
-                at: at.to(feature.at),
-                absent: !feature.absent,
-                ..feature
-            });
-        } else {
-            found.push(feature);
-        }
-    }
-    cursor.pos += 1;
-    let at = cursor.at(open.start);
-    if found.is_empty() || not.is_some() {
-        let remedy = "write for example configuration=[index middle -thumb]";
-        return Err(QueryError::new(
-            at,
-            "a feature is missing between the brackets",
-            remedy,
-        ));
-    }
-    Ok(Value {
-        at,
-        wanted: Wanted::Features(found),
-    })
-}
-
-fn feature(cursor: &mut Cursor<'_>) -> Result<Feature, QueryError> {
-    let start = cursor.pos;
-    let absent = matches!(cursor.peek(), Some('-' | '−' | '–'));
-    cursor.pos += usize::from(absent);
-    if !absent {
-        cursor.eat('+');
-    }
-    let name_start = cursor.pos;
-    while cursor.peek().is_some_and(is_feature_char) {
-        cursor.pos += 1;
-    }
-    let name = cursor.text(cursor.at(name_start));
-    if name.is_empty() || name.starts_with(['-', '−', '–', '+']) {
-        let remedy = "features are names between blanks, those that must be absent with a minus: [index -thumb]";
-        return Err(QueryError::new(
-            cursor.next(1),
-            "this is no feature",
-            remedy,
-        ));
-    }
-    Ok(Feature {
-        at: cursor.at(start),
-        name,
-        absent,
-    })
-}
-
-/// Tells whether a feature's name may hold this character.
-pub(super) fn is_feature_char(c: char) -> bool {
-    !c.is_whitespace() && !is_quote(c) && !matches!(c, ',' | '[' | ']' | '(' | ')' | '*')
 }
 
 fn property_test(cursor: &mut Cursor<'_>, property: Property) -> Result<What, QueryError> {
@@ -541,157 +384,4 @@ fn fuzzy(cursor: &mut Cursor<'_>, field: TextField) -> Result<What, QueryError> 
     check_searchable(&Pattern::literal(&text[..]), word.at)?;
     cursor.boundary()?;
     Ok(What::Fuzzy { field, text, slips })
-}
-
-fn time_test(cursor: &mut Cursor<'_>, field: TimeField) -> Result<TimeTest, QueryError> {
-    let at = operator_place(cursor);
-    let operator = cursor.text(at);
-    cursor.skip_blanks();
-    let value_start = cursor.pos;
-    match &operator[..] {
-        "<" => Ok(TimeTest::Below(time(cursor)?)),
-        "<=" | "=<" | "≤" => Ok(TimeTest::AtMost(time(cursor)?)),
-        ">" => Ok(TimeTest::Above(time(cursor)?)),
-        ">=" | "=>" | "≥" => Ok(TimeTest::AtLeast(time(cursor)?)),
-        "=" | "==" => times(cursor, value_start),
-        _ => {
-            let name = field.name();
-            let message = format!("`{operator}` does not compare times");
-            let remedy = format!(
-                "write {name}<0.8s, {name}>=1s or {name}=0.5s..1s; `not` before it for the opposite"
-            );
-            Err(QueryError::new(at, message, remedy).suggest((operator == ":").then_some("=")))
-        }
-    }
-}
-
-/// Reads `0.5s`, `0.5s..1s`, `0.5s..` or `..1s`.
-fn times(cursor: &mut Cursor<'_>, start: usize) -> Result<TimeTest, QueryError> {
-    let range_at = cursor.chunk();
-    let text = cursor.text(range_at);
-    cursor.pos = start;
-    let Some((from, to)) = text.split_once("..") else {
-        let time = time(cursor)?;
-        return Ok(TimeTest::Between(time, time));
-    };
-    cursor.pos = range_at.end;
-    let to_start = range_at.end - to.chars().count();
-    let from_at = At {
-        start,
-        end: to_start - 2,
-    };
-    // `0.5..1s` counts both ends in seconds.
-    let unit: String = to
-        .chars()
-        .skip_while(|c| !c.is_alphabetic() && *c != 'µ')
-        .collect();
-    let needs_unit = !unit.is_empty() && from.ends_with(|c: char| c.is_ascii_digit());
-    let from = if needs_unit {
-        format!("{from}{unit}")
-    } else {
-        from.to_owned()
-    };
-    let to_at = At {
-        start: to_start,
-        end: range_at.end,
-    };
-    match (&from[..], to) {
-        ("", "") => Err(missing_time(range_at)),
-        ("", to) => Ok(TimeTest::AtMost(parse_time(to, to_at)?)),
-        (from, "") => Ok(TimeTest::AtLeast(parse_time(from, from_at)?)),
-        (from, to) => match (parse_time(from, from_at)?, parse_time(to, to_at)?) {
-            (least, most) if least <= most => Ok(TimeTest::Between(least, most)),
-            _ => Err(QueryError::new(
-                range_at,
-                "this range ends before it starts",
-                "the shorter time stands first",
-            )
-            .suggest(Some(format!("{to}..{from}")))),
-        },
-    }
-}
-
-fn missing_time(at: At) -> QueryError {
-    QueryError::new(
-        at,
-        "a time should stand here",
-        "write a number with its unit: 0.8s, 800ms or 2min",
-    )
-}
-
-/// Reads a time with its unit, in microseconds; one blank may stand before the unit.
-pub(super) fn time(cursor: &mut Cursor<'_>) -> Result<i64, QueryError> {
-    let mut at = cursor.chunk();
-    let mut text = cursor.text(at);
-    if text.is_empty() {
-        return Err(missing_time(at));
-    }
-    if text.contains("..") {
-        let remedy = "a range stands after =, as in duration=0.5s..1s";
-        return Err(QueryError::new(at, "one time should stand here", remedy));
-    }
-    if text.ends_with(|c: char| c.is_ascii_digit()) {
-        let mut ahead = cursor.clone();
-        ahead.skip_blanks();
-        let unit_at = ahead.chunk();
-        let unit = ahead.text(unit_at);
-        if words::UNITS.iter().any(|(name, _)| *name == unit) {
-            *cursor = ahead;
-            at = at.to(unit_at);
-            text.push_str(&unit);
-        }
-    }
-    parse_time(&text, at)
-}
-
-fn parse_time(text: &str, at: At) -> Result<i64, QueryError> {
-    const REMEDY: &str = "times are counted in s, ms or min";
-    let digits = text
-        .chars()
-        .take_while(|c| c.is_ascii_digit() || *c == '.' || *c == ',')
-        .count();
-    let (number, unit) = text.split_at(digits);
-    let (whole, part) = number.split_once(['.', ',']).unwrap_or((number, ""));
-    let numeral = |text: &str| text.chars().all(|c| c.is_ascii_digit());
-    if !numeral(whole) || !numeral(part) || whole.len() + part.len() == 0 {
-        let message = format!("{text:?} is no time");
-        return Err(QueryError::new(
-            at,
-            message,
-            "write a number with its unit: 0.8s, 800ms or 2min",
-        ));
-    }
-    if unit.is_empty() {
-        let message = format!("{text:?} has no unit");
-        return Err(QueryError::new(at, message, REMEDY).suggest(Some(format!("{text}s"))));
-    }
-    let Some((_, micros)) = words::UNITS.iter().find(|(name, _)| *name == unit) else {
-        let unit_at = At {
-            start: at.end - unit.chars().count(),
-            end: at.end,
-        };
-        let near = nearest(unit, words::UNITS.iter().map(|(name, _)| *name));
-        return Err(QueryError::new(
-            unit_at,
-            format!("there is no unit of time {unit:?}"),
-            REMEDY,
-        )
-        .suggest(near));
-    };
-    if whole.len() > 9 {
-        return Err(QueryError::new(
-            at,
-            "this time is too long",
-            "recordings last hours, not years",
-        ));
-    }
-    // At most nine digits of either part fit, times sixty million, with room to spare.
-    let part = &part[..part.len().min(9)];
-    let value = |digits: &str| {
-        digits
-            .bytes()
-            .fold(0, |value, digit| value * 10 + i64::from(digit - b'0'))
-    };
-    let scale = 10_i64.pow(part.len() as u32);
-    Ok(value(whole) * micros + (value(part) * micros + scale / 2) / scale)
 }

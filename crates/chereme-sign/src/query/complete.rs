@@ -3,7 +3,7 @@
 use super::lex::{Cursor, Place, is_quote};
 use super::tree::{At, Missing, Property, TextField, TimeField};
 use super::words::{self, Simple};
-use super::{MAX_CHARS, compare};
+use super::{MAX_CHARS, compare, values};
 use crate::component::{Component, Field};
 use crate::relation::Relation;
 use crate::text::fold;
@@ -316,7 +316,7 @@ impl Scan<'_> {
                 None => return Err((Expected::Feature(field.clone()), self.cursor.at(start))),
                 Some(']') => break,
                 Some('-' | '−' | '–' | '+') if start == self.cursor.pos => start += 1,
-                Some(c) if !compare::is_feature_char(c) => start = self.cursor.pos + 1,
+                Some(c) if !values::is_feature_char(c) => start = self.cursor.pos + 1,
                 Some(_) => {}
             }
             self.cursor.pos += 1;

@@ -52,7 +52,9 @@ mod pattern;
 mod print;
 #[cfg(test)]
 mod tests;
+mod times;
 mod tree;
+mod values;
 mod words;
 
 pub use complete::{Completion, Expected, complete};

@@ -3,7 +3,7 @@
 use super::lex::{Cursor, Place, Word, is_quote};
 use super::tree::{At, Example, Expr, Like, Query, Related, Test, TextField, Weighted, What};
 use super::words::{self, Joint};
-use super::{MAX_CHARS, MAX_DEPTH, QueryError, compare};
+use super::{MAX_CHARS, MAX_DEPTH, QueryError, compare, times};
 use crate::relation::Relation;
 use crate::text::nearest;
 
@@ -263,7 +263,7 @@ fn within(cursor: &mut Cursor<'_>, at: At) -> Result<Relation, QueryError> {
     if matches!(cursor.peek(), None | Some(')')) {
         return Err(QueryError::new(at, "`within` needs a distance", REMEDY));
     }
-    let distance = compare::time(cursor)?;
+    let distance = times::time(cursor)?;
     cursor.skip_blanks();
     let mut kind_at = cursor.bare(Place::Term);
     let mut kind = cursor.text(kind_at);

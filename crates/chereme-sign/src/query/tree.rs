@@ -3,7 +3,7 @@
 use super::Pattern;
 use crate::component::{Field, Reading};
 use crate::relation::Relation;
-use std::ops::{Bound, Range};
+use std::ops::{Bound, Range, RangeBounds};
 
 /// A place in the text of a query, in characters (not bytes), half-open.
 ///
@@ -60,6 +60,17 @@ pub struct Query {
     pub root: Expr,
 }
 
+impl Query {
+    /// Returns every comparison of the query in the order in which they are written, those on the
+    /// right of relations too.
+    #[must_use]
+    pub fn tests(&self) -> Vec<&Test> {
+        let mut found = Vec::new();
+        self.root.collect_tests(&mut found);
+        found
+    }
+}
+
 /// Something that holds of a token or does not.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Expr {
@@ -114,6 +125,20 @@ impl Expr {
     }
 }
 
+impl Expr {
+    fn collect_tests<'a>(&'a self, found: &mut Vec<&'a Test>) {
+        match self {
+            Self::And(terms) | Self::Or(terms) => {
+                terms.iter().for_each(|term| term.collect_tests(found));
+            }
+            Self::Not(inner) => inner.collect_tests(found),
+            Self::Test(test) => found.push(test),
+            Self::Relation(related) => found.push(&related.other),
+            Self::Like(_) => {}
+        }
+    }
+}
+
 fn only(mut terms: Vec<Expr>) -> Result<Expr, Vec<Expr>> {
     match terms.pop() {
         Some(term) if terms.is_empty() => Ok(term),
@@ -139,7 +164,8 @@ pub struct Test {
 /// What a test compares.
 #[derive(Debug, Clone, PartialEq)]
 pub enum What {
-    /// A component of the token: `right.configuration=U`.
+    /// A component of the token: `right.configuration=U`. Where no hand or phase is named, it
+    /// holds when the reading of any hand or phase passes, for `!=` too.
     Component(Field, Comparison),
     /// Something known about the token as a whole: `origin=made`.
     Property(Property, Comparison),
@@ -170,6 +196,31 @@ pub struct Comparison {
     pub operator: Operator,
     /// At least one.
     pub values: Vec<Value>,
+}
+
+impl Comparison {
+    /// Tells whether a reading passes.
+    ///
+    /// `fits` tells whether a value is the [`Named`](Wanted::Named) one that is asked for, or has
+    /// the [`Features`](Wanted::Features); it is called with nothing else, and looks at the
+    /// operator to know whether narrower values count.
+    #[must_use]
+    pub fn accepts(&self, reading: &Reading, fits: impl Fn(&str, &Wanted) -> bool) -> bool {
+        let passes = |value: &Value| match (&value.wanted, reading) {
+            (Wanted::Missing(missing), reading) => missing.reading() == *reading,
+            (Wanted::Present, Reading::Value(_)) => true,
+            (wanted, Reading::Value(value)) => fits(value, wanted),
+            _ => false,
+        };
+        let one = self.values.iter().any(passes);
+        let names = |value: &Value| matches!(value.wanted, Wanted::Named(_) | Wanted::Features(_));
+        match self.operator {
+            Operator::Is | Operator::Exactly => one,
+            Operator::IsNot => {
+                !one && (reading.value().is_some() || !self.values.iter().any(names))
+            }
+        }
+    }
 }
 
 /// How a field is compared with values.
@@ -326,6 +377,12 @@ impl TimeTest {
             Self::AtLeast(least) => (Bound::Included(least), Bound::Unbounded),
             Self::Between(least, most) => (Bound::Included(least), Bound::Included(most)),
         }
+    }
+
+    /// Tells whether a time of this many microseconds passes.
+    #[must_use]
+    pub fn accepts(self, micros: i64) -> bool {
+        self.bounds().contains(&micros)
     }
 }
 

@@ -1,0 +1,312 @@
+//! What holds of any text and of any query.
+
+use super::super::*;
+use super::{CANONICAL, REWRITTEN};
+use crate::component::{Component, Field, HandRef, Phase};
+use crate::relation::Relation;
+use proptest::prelude::*;
+
+/// Checks what must hold of any text at all.
+fn check_any(text: &str) {
+    let count = text.chars().count();
+    match Query::parse(text) {
+        Ok(query) => assert_eq!(Query::parse(&query.to_string()), Ok(query), "{text:?}"),
+        Err(error) => {
+            assert!(
+                error.at.start <= error.at.end && error.at.end <= count,
+                "{text:?} {error:?}"
+            );
+            assert!(!error.message.is_empty() && !error.render(text).is_empty());
+            assert!(error.corrected(text).is_some() == error.suggestion.is_some());
+        }
+    }
+    for cursor in (0..=count + 1).step_by(1 + count / 3) {
+        let found = complete(text, cursor);
+        assert!(
+            found.replace.start <= found.replace.end && found.replace.end <= count,
+            "{text:?}"
+        );
+    }
+}
+
+#[test]
+fn no_soup_of_words_makes_it_panic() {
+    const SOUP: &[&str] = &[
+        " ",
+        " ",
+        " ",
+        "gloss",
+        "placement",
+        "right",
+        "left",
+        ".",
+        "=",
+        "==",
+        "!=",
+        ":",
+        "~",
+        "<",
+        ">=",
+        "(",
+        ")",
+        "[",
+        "]",
+        ",",
+        "*",
+        "-",
+        "\"",
+        "“",
+        "»",
+        "«",
+        "\\",
+        "not",
+        "or",
+        "and",
+        "like",
+        "token:4",
+        "on",
+        "in",
+        "within",
+        "0.5",
+        "s",
+        "ms",
+        "..",
+        "overlaps",
+        "before",
+        "ovrlaps",
+        "around",
+        "of",
+        "of-end",
+        "tier",
+        "origin",
+        "made",
+        "hand",
+        "duration",
+        "é",
+        "e\u{301}",
+        "手",
+        "CHAT",
+        "A1",
+        "unset",
+        "n/a",
+        "~2",
+        "\n",
+        "nonmanual",
+        "brows",
+        "final",
+    ];
+    let mut state = 0x9E37_79B9_7F4A_7C15_u64;
+    let mut random = |below: usize| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state % below as u64) as usize
+    };
+    let whole: Vec<&str> = CANONICAL
+        .iter()
+        .chain(REWRITTEN.iter().map(|(text, _)| text))
+        .copied()
+        .collect();
+    for round in 0..6000 {
+        let mut text: String = (0..random(14)).map(|_| SOUP[random(SOUP.len())]).collect();
+        if round % 2 == 0 {
+            let chars: Vec<char> = whole[random(whole.len())].chars().collect();
+            let at = random(chars.len() + 1);
+            let skip = random(3).min(chars.len() - at);
+            let middle = SOUP[random(SOUP.len())];
+            text = chars[..at]
+                .iter()
+                .copied()
+                .chain(middle.chars())
+                .chain(chars[at + skip..].iter().copied())
+                .collect();
+        }
+        check_any(&text);
+    }
+}
+
+fn name() -> impl Strategy<Value = String> {
+    prop_oneof![
+        "[A-Za-z0-9][A-Za-z0-9é:()' -]{0,7}",
+        "[a-z][ -~«»“”’手]{0,6}",
+        prop::sample::select(vec![
+            "unset", "n/a", "or", "NOT", "on", "in", "before", "tier", "like", "overlap"
+        ])
+        .prop_map(str::to_owned),
+    ]
+}
+
+fn pattern() -> impl Strategy<Value = Pattern> {
+    prop_oneof![
+        name().prop_map(Pattern::literal),
+        (name(), name()).prop_map(|(a, b)| Pattern::from_glob(&format!("{a}*{b}"))),
+        name().prop_map(|a| Pattern::from_glob(&format!("{a}*"))),
+    ]
+}
+
+fn field() -> impl Strategy<Value = Field> {
+    (
+        prop::option::of(prop::sample::select(HandRef::ALL.to_vec())),
+        prop::sample::select(Component::ALL.to_vec()),
+        prop::option::of("[a-z][a-z0-9_-]{0,4}"),
+        prop::option::of(prop::sample::select(vec![
+            Phase::Initial,
+            Phase::Middle(2),
+            Phase::Final,
+        ])),
+    )
+        .prop_map(|(hand, component, feature, phase)| Field {
+            hand: hand.filter(|_| component.is_manual()),
+            component,
+            feature,
+            phase,
+        })
+}
+
+fn comparison(features: bool) -> impl Strategy<Value = Comparison> {
+    let feature = ("[a-z_]{2,4}[a-z:-]{0,3}", any::<bool>())
+        .prop_filter("a word of its own", |(name, _)| name != "not")
+        .prop_map(|(name, absent)| Feature {
+            at: At::default(),
+            name,
+            absent,
+        });
+    let named = pattern().prop_map(Wanted::Named);
+    let wanted = prop_oneof![
+        Just(Wanted::Present),
+        prop::sample::select(Missing::ALL.to_vec()).prop_map(Wanted::Missing),
+        prop::collection::vec(feature, 1..3).prop_map(Wanted::Features),
+        named,
+    ]
+    .prop_filter("a component", move |wanted| {
+        features || !matches!(wanted, Wanted::Features(_))
+    });
+    let value = wanted.prop_map(|wanted| Value {
+        at: At::default(),
+        wanted,
+    });
+    let operator = prop::sample::select(vec![Operator::Is, Operator::Exactly, Operator::IsNot]);
+    (operator, prop::collection::vec(value, 1..3))
+        .prop_map(|(operator, values)| Comparison { operator, values })
+}
+
+/// A test whose thing compared is an annotation.
+fn annotation() -> impl Strategy<Value = Test> {
+    let text = || prop::sample::select(TextField::ALL.to_vec());
+    prop_oneof![
+        (field(), comparison(true))
+            .prop_map(|(field, comparison)| What::Component(field, comparison)),
+        (text(), comparison(false)).prop_map(|(field, comparison)| What::Whole(field, comparison)),
+        (pattern(), comparison(true)).prop_map(|(name, comparison)| What::Tier(name, comparison)),
+        (text(), name(), 1..3u8).prop_map(|(field, text, slips)| What::Fuzzy {
+            field,
+            text,
+            slips
+        }),
+        (
+            prop::sample::select(TextField::ALL[1..].to_vec()),
+            prop::collection::vec(pattern(), 1..3)
+        )
+            .prop_map(|(field, words)| What::Words(field, words)),
+    ]
+    .prop_map(|what| Test {
+        at: At::default(),
+        subject_at: At::default(),
+        what,
+    })
+}
+
+fn leaf() -> impl Strategy<Value = Expr> {
+    let micros = || prop_oneof![0..5_000_000_i64, 0..9_000_000_000_000_i64];
+    let time = prop_oneof![
+        micros().prop_map(TimeTest::Below),
+        micros().prop_map(TimeTest::AtMost),
+        micros().prop_map(TimeTest::Above),
+        micros().prop_map(TimeTest::AtLeast),
+        (micros(), micros()).prop_map(|(a, b)| TimeTest::Between(a.min(b), a.max(b))),
+    ];
+    let open = Property::ALL
+        .into_iter()
+        .filter(|property| property.fixed_values().is_none());
+    let what = prop_oneof![
+        (prop::sample::select(TimeField::ALL.to_vec()), time)
+            .prop_map(|(field, test)| What::Time(field, test)),
+        (
+            prop::sample::select(open.collect::<Vec<_>>()),
+            comparison(false)
+        )
+            .prop_map(|(property, comparison)| What::Property(property, comparison)),
+        pattern().prop_map(|word| What::Words(TextField::Any, vec![word])),
+    ];
+    let test = what.prop_map(|what| Test {
+        at: At::default(),
+        subject_at: At::default(),
+        what,
+    });
+    let plain: Vec<Relation> = Relation::PLAIN
+        .into_iter()
+        .map(|(_, relation)| relation)
+        .collect();
+    let relation = prop_oneof![
+        prop::sample::select(plain),
+        micros().prop_map(Relation::Around),
+        micros().prop_map(Relation::OfBegin),
+        micros().prop_map(Relation::OfEnd),
+    ];
+    let weighted = (
+        field(),
+        prop::sample::select(vec![1.0, 2.0, 0.5, 0.1 + 0.2, 1000.0]),
+    )
+        .prop_map(|(field, weight)| Weighted {
+            at: At::default(),
+            field,
+            weight,
+        });
+    let example = prop_oneof![
+        name().prop_map(Example::Token),
+        name().prop_map(Example::Sign)
+    ];
+    prop_oneof![
+        annotation().prop_map(Expr::Test),
+        test.prop_map(Expr::Test),
+        (relation, annotation()).prop_map(|(relation, other)| Expr::Relation(Related {
+            at: At::default(),
+            relation,
+            other
+        })),
+        (example, prop::collection::vec(weighted, 0..3)).prop_map(|(example, on)| Expr::Like(
+            Like {
+                at: At::default(),
+                example_at: At::default(),
+                example,
+                on,
+            }
+        )),
+    ]
+}
+
+fn expr() -> impl Strategy<Value = Expr> {
+    leaf().prop_recursive(4, 16, 3, |inner| {
+        prop_oneof![
+            prop::collection::vec(inner.clone(), 1..4).prop_map(Expr::all),
+            prop::collection::vec(inner.clone(), 1..4).prop_map(Expr::any),
+            inner.prop_map(|inner| Expr::Not(Box::new(inner))),
+        ]
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn parsing_what_was_printed_gives_the_query_back(root in expr()) {
+        let query = Query { root };
+        let printed = query.to_string();
+        prop_assert_eq!(Query::parse(&printed), Ok(query), "{}", printed);
+    }
+
+    #[test]
+    fn any_text_is_a_query_or_an_error(text in "\\PC{0,40}") {
+        check_any(&text);
+    }
+}

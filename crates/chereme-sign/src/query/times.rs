@@ -1,0 +1,162 @@
+//! Reading times: `0.8s`, `0.5s..1s`.
+
+use super::QueryError;
+use super::compare::operator_place;
+use super::lex::Cursor;
+use super::tree::{At, TimeField, TimeTest};
+use super::words;
+use crate::text::nearest;
+
+/// Reads the operator and the time after the name of a time.
+pub(super) fn time_test(cursor: &mut Cursor<'_>, field: TimeField) -> Result<TimeTest, QueryError> {
+    let at = operator_place(cursor);
+    let operator = cursor.text(at);
+    cursor.skip_blanks();
+    let value_start = cursor.pos;
+    match &operator[..] {
+        "<" => Ok(TimeTest::Below(time(cursor)?)),
+        "<=" | "=<" | "≤" => Ok(TimeTest::AtMost(time(cursor)?)),
+        ">" => Ok(TimeTest::Above(time(cursor)?)),
+        ">=" | "=>" | "≥" => Ok(TimeTest::AtLeast(time(cursor)?)),
+        "=" | "==" => times(cursor, value_start),
+        _ => {
+            let name = field.name();
+            let message = format!("`{operator}` does not compare times");
+            let remedy = format!(
+                "write {name}<0.8s, {name}>=1s or {name}=0.5s..1s; `not` before it for the opposite"
+            );
+            Err(QueryError::new(at, message, remedy).suggest((operator == ":").then_some("=")))
+        }
+    }
+}
+
+/// Reads `0.5s`, `0.5s..1s`, `0.5s..` or `..1s`.
+fn times(cursor: &mut Cursor<'_>, start: usize) -> Result<TimeTest, QueryError> {
+    let range_at = cursor.chunk();
+    let text = cursor.text(range_at);
+    cursor.pos = start;
+    let Some((from, to)) = text.split_once("..") else {
+        let time = time(cursor)?;
+        return Ok(TimeTest::Between(time, time));
+    };
+    cursor.pos = range_at.end;
+    let to_start = range_at.end - to.chars().count();
+    let from_at = At {
+        start,
+        end: to_start - 2,
+    };
+    // `0.5..1s` counts both ends in seconds.
+    let unit: String = to
+        .chars()
+        .skip_while(|c| !c.is_alphabetic() && *c != 'µ')
+        .collect();
+    let needs_unit = !unit.is_empty() && from.ends_with(|c: char| c.is_ascii_digit());
+    let from = if needs_unit {
+        format!("{from}{unit}")
+    } else {
+        from.to_owned()
+    };
+    let to_at = At {
+        start: to_start,
+        end: range_at.end,
+    };
+    match (&from[..], to) {
+        ("", "") => Err(missing_time(range_at)),
+        ("", to) => Ok(TimeTest::AtMost(parse_time(to, to_at)?)),
+        (from, "") => Ok(TimeTest::AtLeast(parse_time(from, from_at)?)),
+        (from, to) => match (parse_time(from, from_at)?, parse_time(to, to_at)?) {
+            (least, most) if least <= most => Ok(TimeTest::Between(least, most)),
+            _ => Err(QueryError::new(
+                range_at,
+                "this range ends before it starts",
+                "the shorter time stands first",
+            )
+            .suggest(Some(format!("{to}..{from}")))),
+        },
+    }
+}
+
+fn missing_time(at: At) -> QueryError {
+    QueryError::new(
+        at,
+        "a time should stand here",
+        "write a number with its unit: 0.8s, 800ms or 2min",
+    )
+}
+
+/// Reads a time with its unit, in microseconds; one blank may stand before the unit.
+pub(super) fn time(cursor: &mut Cursor<'_>) -> Result<i64, QueryError> {
+    let mut at = cursor.chunk();
+    let mut text = cursor.text(at);
+    if text.is_empty() {
+        return Err(missing_time(at));
+    }
+    if text.contains("..") {
+        let remedy = "a range stands after =, as in duration=0.5s..1s";
+        return Err(QueryError::new(at, "one time should stand here", remedy));
+    }
+    if text.ends_with(|c: char| c.is_ascii_digit()) {
+        let mut ahead = cursor.clone();
+        ahead.skip_blanks();
+        let unit_at = ahead.chunk();
+        let unit = ahead.text(unit_at);
+        if words::UNITS.iter().any(|(name, _)| *name == unit) {
+            *cursor = ahead;
+            at = at.to(unit_at);
+            text.push_str(&unit);
+        }
+    }
+    parse_time(&text, at)
+}
+
+fn parse_time(text: &str, at: At) -> Result<i64, QueryError> {
+    const REMEDY: &str = "times are counted in s, ms or min";
+    let digits = text
+        .chars()
+        .take_while(|c| c.is_ascii_digit() || *c == '.' || *c == ',')
+        .count();
+    let (number, unit) = text.split_at(digits);
+    let (whole, part) = number.split_once(['.', ',']).unwrap_or((number, ""));
+    let numeral = |text: &str| text.chars().all(|c| c.is_ascii_digit());
+    if !numeral(whole) || !numeral(part) || whole.len() + part.len() == 0 {
+        let message = format!("{text:?} is no time");
+        return Err(QueryError::new(
+            at,
+            message,
+            "write a number with its unit: 0.8s, 800ms or 2min",
+        ));
+    }
+    if unit.is_empty() {
+        let message = format!("{text:?} has no unit");
+        return Err(QueryError::new(at, message, REMEDY).suggest(Some(format!("{text}s"))));
+    }
+    let Some((_, micros)) = words::UNITS.iter().find(|(name, _)| *name == unit) else {
+        let unit_at = At {
+            start: at.end - unit.chars().count(),
+            end: at.end,
+        };
+        let near = nearest(unit, words::UNITS.iter().map(|(name, _)| *name));
+        return Err(QueryError::new(
+            unit_at,
+            format!("there is no unit of time {unit:?}"),
+            REMEDY,
+        )
+        .suggest(near));
+    };
+    if whole.len() > 9 {
+        return Err(QueryError::new(
+            at,
+            "this time is too long",
+            "recordings last hours, not years",
+        ));
+    }
+    // At most nine digits of either part fit, times sixty million, with room to spare.
+    let part = &part[..part.len().min(9)];
+    let value = |digits: &str| {
+        digits
+            .bytes()
+            .fold(0, |value, digit| value * 10 + i64::from(digit - b'0'))
+    };
+    let scale = 10_i64.pow(part.len() as u32);
+    Ok(value(whole) * micros + (value(part) * micros + scale / 2) / scale)
+}

@@ -1,0 +1,162 @@
+//! Reading the values on the right of an operator.
+
+use super::lex::{Cursor, Place, Word};
+use super::tree::{At, Feature, Value, Wanted};
+use super::{QueryError, lex, parse, words};
+
+/// Reads one or more of something, separated by commas.
+pub(super) fn list<T>(
+    cursor: &mut Cursor<'_>,
+    item: impl Fn(&mut Cursor<'_>) -> Result<T, QueryError>,
+) -> Result<Vec<T>, QueryError> {
+    let mut items = Vec::new();
+    loop {
+        let start = cursor.pos;
+        cursor.skip_blanks();
+        if cursor.pos > start && parse::next_joint(cursor).is_some() {
+            return Err(missing_value(cursor));
+        }
+        items.push(item(cursor)?);
+        cursor.boundary()?;
+        let mut ahead = cursor.clone();
+        ahead.skip_blanks();
+        if !ahead.eat(',') {
+            return Ok(items);
+        }
+        *cursor = ahead;
+    }
+}
+
+fn missing_value(cursor: &Cursor<'_>) -> QueryError {
+    let (count, remedy) = match cursor.peek() {
+        Some('(') => (
+            1,
+            "one of several values is written with commas: placement=chest,chin",
+        ),
+        Some('=') => (1, "a value with = in it is written in quotes"),
+        _ if parse::next_joint(cursor).is_some() => (
+            cursor.clone().bare(Place::Term).range().len(),
+            "a value that is a joint is written in quotes",
+        ),
+        _ => (0, "write a value, * for any, or unset, n/a or unclear"),
+    };
+    QueryError::new(cursor.next(count), "a value should stand here", remedy)
+}
+
+/// Reads a bare or quoted word that is not empty.
+pub(super) fn filled_word(cursor: &mut Cursor<'_>) -> Result<Word, QueryError> {
+    let word = cursor.word(Place::Value)?;
+    if word.at.start == word.at.end {
+        return Err(missing_value(cursor));
+    }
+    if word
+        .pattern
+        .as_literal()
+        .is_some_and(|text| text.trim().is_empty())
+    {
+        let remedy = "a field without a value is written =unset, =n/a or =unclear";
+        return Err(QueryError::new(word.at, "this value is empty", remedy));
+    }
+    Ok(word)
+}
+
+/// Reads one value of a field.
+pub(super) fn value(cursor: &mut Cursor<'_>) -> Result<Value, QueryError> {
+    if cursor.peek() == Some('[') {
+        return features(cursor);
+    }
+    let word = filled_word(cursor)?;
+    let missing = word
+        .pattern
+        .as_literal()
+        .filter(|_| !word.quoted)
+        .and_then(words::missing);
+    let wanted = match missing {
+        Some(missing) => Wanted::Missing(missing),
+        None if word.pattern.matches_everything() => Wanted::Present,
+        None => Wanted::Named(word.pattern),
+    };
+    Ok(Value {
+        at: word.at,
+        wanted,
+    })
+}
+
+/// Reads `[index -thumb]`.
+fn features(cursor: &mut Cursor<'_>) -> Result<Value, QueryError> {
+    let open = cursor.next(1);
+    cursor.pos = open.end;
+    let mut found = Vec::new();
+    let mut not: Option<At> = None;
+    loop {
+        while cursor.peek().is_some_and(|c| c.is_whitespace() || c == ',') {
+            cursor.pos += 1;
+        }
+        match cursor.peek() {
+            None => {
+                let remedy = "write ] after the last feature";
+                return Err(QueryError::new(open, "this bracket is not closed", remedy));
+            }
+            Some(']') => break,
+            Some(_) => {}
+        }
+        let feature = feature(cursor)?;
+        if feature.name == "not" && !feature.absent && not.is_none() {
+            not = Some(feature.at);
+        } else if let Some(at) = not.take() {
+            found.push(Feature {
+                at: at.to(feature.at),
+                absent: !feature.absent,
+                ..feature
+            });
+        } else {
+            found.push(feature);
+        }
+    }
+    cursor.pos += 1;
+    let at = cursor.at(open.start);
+    if found.is_empty() || not.is_some() {
+        let remedy = "write for example configuration=[index middle -thumb]";
+        return Err(QueryError::new(
+            at,
+            "a feature is missing between the brackets",
+            remedy,
+        ));
+    }
+    Ok(Value {
+        at,
+        wanted: Wanted::Features(found),
+    })
+}
+
+fn feature(cursor: &mut Cursor<'_>) -> Result<Feature, QueryError> {
+    let start = cursor.pos;
+    let absent = matches!(cursor.peek(), Some('-' | '−' | '–'));
+    cursor.pos += usize::from(absent);
+    if !absent {
+        cursor.eat('+');
+    }
+    let name_start = cursor.pos;
+    while cursor.peek().is_some_and(is_feature_char) {
+        cursor.pos += 1;
+    }
+    let name = cursor.text(cursor.at(name_start));
+    if name.is_empty() || name.starts_with(['-', '−', '–', '+']) {
+        let remedy = "features are names between blanks, those that must be absent with a minus: [index -thumb]";
+        return Err(QueryError::new(
+            cursor.next(1),
+            "this is no feature",
+            remedy,
+        ));
+    }
+    Ok(Feature {
+        at: cursor.at(start),
+        name,
+        absent,
+    })
+}
+
+/// Tells whether a feature's name may hold this character.
+pub(super) fn is_feature_char(c: char) -> bool {
+    !c.is_whitespace() && !lex::is_quote(c) && !matches!(c, ',' | '[' | ']' | '(' | ')' | '*')
+}
