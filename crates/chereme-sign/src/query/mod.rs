@@ -22,18 +22,18 @@
 //! |---|---|
 //! | query | nothing (every token), or *alternatives* |
 //! | alternatives | *terms* { `or` *terms* } |
-//! | terms | *term* { [`and`] *term* } |
+//! | terms | *term* { \[`and`\] *term* } |
 //! | term | `not` *term*, `(` *alternatives* `)`, *comparison*, *relation comparison*, *example*, *text* |
-//! | comparison | *component* (`=` `!=` `==`) *values*; *property* (`=` `:` `!=` `==`) *values*; *textfield* (`=` `!=` `==`) *values*; *textfield* `:` *text* { `,` *text* }; *textfield* `~` *text* [`~1` `~2`]; *timefield* (`<` `<=` `>` `>=` `=`) *time*; *timefield* `=` [*time*]`..`[*time*]; `tier(`*text*`)` (`=` `!=` `==`) *values* |
-//! | component | [*phase*`.`] [*hand*`.`] (`configuration` `placement` `movement` `orientation` `nonmanual`) [`.`*part*] |
+//! | comparison | *component* (`=` `!=` `==`) *values*; *property* (`=` `:` `!=` `==`) *values*; *textfield* (`=` `!=` `==`) *values*; *textfield* `:` *text* { `,` *text* }; *textfield* `~` *text* \[`~1` `~2`\]; *timefield* (`<` `<=` `>` `>=` `=`) *time*; *timefield* `=` \[*time*\]`..`\[*time*\]; `tier(`*text*`)` (`=` `!=` `==`) *values* |
+//! | component | \[*phase*`.`\] \[*hand*`.`\] (`configuration` `placement` `movement` `orientation` `nonmanual`) \[`.`*part*\] |
 //! | phase, hand | `initial` `middle` `final`; `right` `left` `dominant` `weak` |
 //! | property | `origin` `signer` `recording` `sign` `token` `tier` `inventory` `hand` |
 //! | textfield | `gloss` `translation` `comment` `text` |
 //! | timefield | `duration` `start` `end` |
 //! | values | *value* { `,` *value* } |
-//! | value | *text*, `*`, `unset`, `n/a`, `unclear`, `[` { [`-`] *feature* } `]` |
+//! | value | *text*, `*`, `unset`, `n/a`, `unclear`, `[` { \[`-`\] *feature* } `]` |
 //! | relation | `overlaps` `not-overlaps` `inside` `not-inside` `overlaps-begin` `overlaps-end` `before` `after` `equals` `meets` `met-by` `starts` `started-by` `finishes` `finished-by` `covers`, `within` *time* (`around` `of-begin` `of-end`) |
-//! | example | `like` (`token:`*text*, `sign:`*text*, *text*) [`on` *component*[`:`*weight*] { `,` *component*[`:`*weight*] }] |
+//! | example | `like` (`token:`*text*, `sign:`*text*, *text*) \[`on` *component*\[`:`*weight*\] { `,` *component*\[`:`*weight*\] }\] |
 //! | time | *number* (`s` `ms` `min`) |
 //! | text | a bare word or `"…"`, with `*` for any characters |
 //!
