@@ -159,10 +159,12 @@ impl Envelope {
 
     /// Writes for every frame of `candidate` how far it is at least from any it may meet.
     fn bounds(&self, candidate: &Series, local: Local, out: &mut Vec<f64>) {
-        pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || self.sums(candidate, local, out),
-        );
+        pulp::Arch::new().dispatch(Bounds {
+            envelope: self,
+            candidate,
+            local,
+            out,
+        });
     }
 
     #[inline(always)]
@@ -186,6 +188,23 @@ impl Envelope {
         if local == Local::Euclidean {
             out.iter_mut().for_each(|sum| *sum = sum.sqrt());
         }
+    }
+}
+
+/// A call of [`Envelope::sums`] that is compiled for each instruction set and chosen when run.
+struct Bounds<'a> {
+    envelope: &'a Envelope,
+    candidate: &'a Series,
+    local: Local,
+    out: &'a mut Vec<f64>,
+}
+
+impl pulp::NullaryFnOnce for Bounds<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        self.envelope.sums(self.candidate, self.local, self.out);
     }
 }
 

@@ -27,67 +27,84 @@ pub(super) fn fill(
     options: &Options,
     keep: bool,
 ) -> Table {
-    pulp::Arch::new().dispatch(
-        #[inline(always)]
-        || filled(query, reference, rows, options, keep),
-    )
+    pulp::Arch::new().dispatch(Fill {
+        query,
+        reference,
+        rows,
+        options,
+        keep,
+    })
 }
 
-#[inline(always)]
-fn filled(
-    query: &Series,
-    reference: &Series,
-    rows: &[Range<usize>],
-    options: &Options,
+/// A call that is compiled for each instruction set and chosen when run.
+struct Fill<'a> {
+    query: &'a Series,
+    reference: &'a Series,
+    rows: &'a [Range<usize>],
+    options: &'a Options,
     keep: bool,
-) -> Table {
-    let (n, m) = (query.frames(), reference.frames());
-    let mut costs = [(); 3].map(|()| vec![f64::INFINITY; m + PAD]);
-    let mut locals = [(); 2].map(|()| vec![f64::INFINITY; m + PAD]);
-    let mut steps = vec![
-        0;
-        if keep {
-            rows.iter().map(Range::len).sum()
-        } else {
-            m
-        }
-    ];
-    let mut used = 0;
-    if options.open_begin {
-        costs[0][PAD..].fill(0.0);
-    }
-    for i in 0..n {
-        let range = rows[i].clone();
-        let stale = if i >= 3 { rows[i - 3].clone() } else { 0..m };
-        let mut cost = std::mem::take(&mut costs[(i + 1) % 3]);
-        cost[stale.start + PAD..stale.end + PAD].fill(f64::INFINITY);
-        let ahead = rows.get(i + 1).map_or(0, |next| next.end).max(range.end);
-        let values: Vec<f64> = query.frame(i).collect();
-        local_row(
-            &values,
+}
+
+impl pulp::NullaryFnOnce for Fill<'_> {
+    type Output = Table;
+
+    #[inline(always)]
+    fn call(self) -> Table {
+        let Self {
+            query,
             reference,
-            range.start.saturating_sub(1)..ahead,
-            options.local,
-            &mut locals[i % 2][PAD..],
-        );
-        let back = |d: usize| costs[(i + 4 - d) % 3].as_slice();
-        let taken = if keep {
-            used..used + range.len()
-        } else {
-            0..range.len()
-        };
-        used += range.len();
-        let row = Row {
-            range,
-            start: i == 0 && !options.open_begin,
-            previous: [back(1), back(2)],
-            locals: [&locals[i % 2], &locals[(i + 1) % 2]],
-        };
-        row.fill(options.pattern, &mut cost, &mut steps[taken]);
-        costs[(i + 1) % 3] = cost;
+            rows,
+            options,
+            keep,
+        } = self;
+        let (n, m) = (query.frames(), reference.frames());
+        let mut costs = [(); 3].map(|()| vec![f64::INFINITY; m + PAD]);
+        let mut locals = [(); 2].map(|()| vec![f64::INFINITY; m + PAD]);
+        let mut steps = vec![
+            0;
+            if keep {
+                rows.iter().map(Range::len).sum()
+            } else {
+                m
+            }
+        ];
+        let mut used = 0;
+        if options.open_begin {
+            costs[0][PAD..].fill(0.0);
+        }
+        for i in 0..n {
+            let range = rows[i].clone();
+            let stale = if i >= 3 { rows[i - 3].clone() } else { 0..m };
+            let mut cost = std::mem::take(&mut costs[(i + 1) % 3]);
+            cost[stale.start + PAD..stale.end + PAD].fill(f64::INFINITY);
+            let ahead = rows.get(i + 1).map_or(0, |next| next.end).max(range.end);
+            let values: Vec<f64> = query.frame(i).collect();
+            local_row(
+                &values,
+                reference,
+                range.start.saturating_sub(1)..ahead,
+                options.local,
+                &mut locals[i % 2][PAD..],
+            );
+            let back = |d: usize| costs[(i + 4 - d) % 3].as_slice();
+            let taken = if keep {
+                used..used + range.len()
+            } else {
+                0..range.len()
+            };
+            used += range.len();
+            let row = Row {
+                range,
+                start: i == 0 && !options.open_begin,
+                previous: [back(1), back(2)],
+                locals: [&locals[i % 2], &locals[(i + 1) % 2]],
+            };
+            row.fill(options.pattern, &mut cost, &mut steps[taken]);
+            costs[(i + 1) % 3] = cost;
+        }
+        let last = costs[n % 3].split_off(PAD);
+        Table { last, steps }
     }
-    let last = costs[n % 3].split_off(PAD);
-    Table { last, steps }
 }
 
 /// One row of the table: what it is made from. Slices begin [`PAD`] columns early.

@@ -61,13 +61,27 @@ pub(super) struct Ask<'a> {
 /// Returns the least cost from the first to the last cell: infinite without a path, nothing where
 /// it was found to exceed the limit.
 pub(super) fn least_cost(rows: &Series, columns: &Reversed, ask: &Ask<'_>) -> Option<f64> {
-    pulp::Arch::new().dispatch(
-        #[inline(always)]
-        || match ask.diagonal > 1.0 {
-            true => blocks::<true>(rows, columns, ask),
-            false => blocks::<false>(rows, columns, ask),
-        },
-    )
+    if ask.diagonal > 1.0 {
+        pulp::Arch::new().dispatch(Run::<true> { rows, columns, ask })
+    } else {
+        pulp::Arch::new().dispatch(Run::<false> { rows, columns, ask })
+    }
+}
+
+/// A call of [`blocks`] that is compiled for each instruction set and chosen when run.
+struct Run<'a, const DOUBLE: bool> {
+    rows: &'a Series,
+    columns: &'a Reversed,
+    ask: &'a Ask<'a>,
+}
+
+impl<const DOUBLE: bool> pulp::NullaryFnOnce for Run<'_, DOUBLE> {
+    type Output = Option<f64>;
+
+    #[inline(always)]
+    fn call(self) -> Option<f64> {
+        blocks::<DOUBLE>(self.rows, self.columns, self.ask)
+    }
 }
 
 #[inline(always)]

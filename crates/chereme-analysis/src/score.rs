@@ -1,0 +1,453 @@
+//! How alike two performances are: their distance under the best alignment, component by component.
+//!
+//! Each frame of a clip becomes a point of up to 66 channels, per hand:
+//!
+//! | component | channels | counts as 1 ([`Scales`]) |
+//! |---|---|---|
+//! | placement | the wrist left, up and forward of the shoulders' middle, in shoulder widths | 0.2: a hand's breadth |
+//! | movement | the wrist's velocity along the same axes, in shoulder widths per second | 2: about 0.7 m/s |
+//! | orientation | unit vectors out of the palm and along the hand, in the trunk's axes | 0.73: both turned by 30 degrees |
+//! | configuration | the 21 angles of thumb and fingers, in radians | 1.6: all off by 20 degrees |
+//!
+//! The numbers are those of the body, not of the skeleton, so clips of different skeletons, sizes
+//! and places on the floor compare; what one of them lacks is left out and said. The points are
+//! aligned by [dynamic time warping](crate::dtw).
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use chereme_motion::anatomy::BodyFrame;
+use chereme_motion::{Anatomy, Clip, HandAngles, ModelPose, Part, Rate, Side};
+use chereme_sign::Component;
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
+
+use crate::dtw::{self, DtwError, Made, Series};
+
+/// Half the time over which a velocity is measured, in seconds: longer than the jitter of
+/// captured markers, shorter than a stroke.
+const VELOCITY_SECONDS: f64 = 0.025;
+
+/// The amount of each component that counts as 1, over all its channels of one hand.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Scales {
+    /// Distance of the wrists in shoulder widths.
+    pub placement: f64,
+    /// Difference of the wrists' velocities in shoulder widths per second.
+    pub movement: f64,
+    /// Root of the sum of squares of both unit vectors' differences.
+    pub orientation: f64,
+    /// Root of the sum of squares of the angles' differences in radians.
+    pub configuration: f64,
+}
+
+impl Default for Scales {
+    fn default() -> Self {
+        Self {
+            placement: 0.2,
+            movement: 2.0,
+            orientation: 0.73,
+            configuration: 1.6,
+        }
+    }
+}
+
+impl Scales {
+    fn of(&self, component: Component) -> f64 {
+        match component {
+            Component::Placement => self.placement,
+            Component::Movement => self.movement,
+            Component::Orientation => self.orientation,
+            Component::Configuration | Component::NonManual => self.configuration,
+        }
+    }
+}
+
+/// How two clips are scored.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ScoreOptions {
+    /// How they are aligned: by default symmetric2 without a window, for which a path always
+    /// exists. The first clip is the query.
+    pub dtw: dtw::Options,
+    /// What counts as 1.
+    pub scales: Scales,
+}
+
+/// How alike two clips are.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Score {
+    /// The cost of the best alignment, in units of [`Scales`] summed over time.
+    pub distance: f64,
+    /// The same by the path's weight; nothing where the step pattern has no norm.
+    pub normalized: Option<f64>,
+    /// For each component the mean over the aligned frames of its own distance (both hands
+    /// together), in its own unit.
+    pub components: BTreeMap<Component, f64>,
+    /// The largest model-space distance, in metres, of a joint or a bone's tip to its counterpart:
+    /// frame by frame where the clips have the same number of frames, else of aligned frames.
+    /// Nothing where the skeletons have no joint in common.
+    pub max_joint_error_m: Option<f64>,
+    /// Where that is.
+    pub worst: Option<Worst>,
+    /// Frames of the first and of the second clip that go together.
+    pub alignment: Vec<(usize, usize)>,
+    /// Whether the policy for missing paths was needed.
+    pub made: Made,
+    /// What could not be compared, because one or both of the skeletons do not show it.
+    pub left_out: Vec<LeftOut>,
+    /// Joints of the first clip without a counterpart in the second, by name.
+    pub only_in_first: Vec<String>,
+    /// Joints of the second clip without a counterpart in the first, by name.
+    pub only_in_second: Vec<String>,
+}
+
+/// The joint that is farthest from its counterpart, and when.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Worst {
+    /// Its name in the first clip.
+    pub joint: String,
+    /// The frame of the first and of the second clip.
+    pub frames: (usize, usize),
+}
+
+/// A component of one hand that was not compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub struct LeftOut {
+    /// The component.
+    pub component: Component,
+    /// The hand.
+    pub side: Side,
+    /// Whether the first and the second clip show it.
+    pub shown: (bool, bool),
+}
+
+/// Why two clips cannot be scored.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ScoreError {
+    /// A clip has no frame.
+    #[error("the {which} clip has no frames; score stretches of at least one frame")]
+    Empty {
+        /// `first` or `second`.
+        which: &'static str,
+    },
+    /// The two skeletons show no component in common.
+    #[error(
+        "the two skeletons have no arm or hand in common to compare; name their joints' roles if \
+         they have"
+    )]
+    NothingInCommon,
+    /// The alignment failed.
+    #[error(transparent)]
+    Dtw(#[from] DtwError),
+}
+
+/// Returns how alike two clips are, with the parts of their bodies found by joint names.
+///
+/// # Errors
+/// As [`score_as`].
+pub fn score(a: &Clip, b: &Clip, options: &ScoreOptions) -> Result<Score, ScoreError> {
+    let (first, second) = (Anatomy::detect(a.skeleton()), Anatomy::detect(b.skeleton()));
+    score_as((a, &first), (b, &second), options)
+}
+
+/// Returns how alike two clips are, given the anatomy of each.
+///
+/// # Errors
+/// [`ScoreError`]: an empty clip, nothing in common, scales that are not above zero, and what
+/// [`dtw::align`] refuses (no path under the asked pattern and window, too many cells).
+pub fn score_as(
+    a: (&Clip, &Anatomy),
+    b: (&Clip, &Anatomy),
+    options: &ScoreOptions,
+) -> Result<Score, ScoreError> {
+    for (clip, which) in [(a.0, "first"), (b.0, "second")] {
+        if clip.frames() == 0 {
+            return Err(ScoreError::Empty { which });
+        }
+    }
+    let (mut first, mut second) = (features(a), features(b));
+    let left_out = keep_common(&mut first, &mut second);
+    if first.is_empty() {
+        return Err(ScoreError::NothingInCommon);
+    }
+    let scales: Vec<f64> = first
+        .iter()
+        .flat_map(|(key, columns)| vec![options.scales.of(key.0); columns.len()])
+        .collect();
+    let series = |features: &Features| {
+        let columns: Vec<&Vec<f64>> = features.values().flatten().collect();
+        Series::from_columns(&columns)?.scaled(&scales)
+    };
+    let (query, reference) = (series(&first)?, series(&second)?);
+    let aligned = dtw::align(&query, &reference, &options.dtw)?;
+    let pairs = pairs_of(a, b);
+    let largest = largest_error(a.0, b.0, &pairs, &aligned.path);
+    let name = |clip: &Clip, joint: usize| clip.skeleton().joint(joint).name.clone();
+    let unpaired = |clip: &Clip, used: &dyn Fn(usize) -> bool| {
+        (0..clip.skeleton().len())
+            .filter(|&j| !used(j))
+            .map(|j| name(clip, j))
+            .collect()
+    };
+    Ok(Score {
+        distance: aligned.cost.distance,
+        normalized: aligned.cost.normalized,
+        components: component_parts(&first, &query, &reference, &aligned.path),
+        max_joint_error_m: largest.map(|(error, ..)| error),
+        worst: largest.map(|(_, joint, frames)| Worst {
+            joint: name(a.0, joint),
+            frames,
+        }),
+        alignment: aligned.path,
+        made: aligned.cost.made,
+        left_out,
+        only_in_first: unpaired(a.0, &|j| pairs.iter().any(|pair| pair.0 == j)),
+        only_in_second: unpaired(b.0, &|j| pairs.iter().any(|pair| pair.1 == j)),
+    })
+}
+
+/// The channels of each component and hand, a value per frame.
+type Features = BTreeMap<(Component, Side), Vec<Vec<f64>>>;
+
+const MANUAL: [Component; 4] = [
+    Component::Configuration,
+    Component::Placement,
+    Component::Movement,
+    Component::Orientation,
+];
+
+fn features((clip, anatomy): (&Clip, &Anatomy)) -> Features {
+    let mut features = Features::new();
+    let mut model = clip.model_pose(0);
+    let mut rows: BTreeMap<(Component, Side), Vec<Option<Vec<f64>>>> = BTreeMap::new();
+    for frame in 0..clip.frames() {
+        let pose = clip.pose(frame);
+        model.set(clip.skeleton(), &pose);
+        let body = anatomy.body_frame(&model);
+        for side in Side::BOTH {
+            let angles = anatomy.hand_angles(clip.skeleton(), side, &pose);
+            let mut put = |component, row| rows.entry((component, side)).or_default().push(row);
+            put(
+                Component::Configuration,
+                angles.map(|hand: HandAngles| hand.to_array().to_vec()),
+            );
+            put(
+                Component::Placement,
+                placement(anatomy, &model, body.as_ref(), side),
+            );
+            put(
+                Component::Orientation,
+                orientation(anatomy, &model, body.as_ref(), side),
+            );
+        }
+    }
+    for (key, rows) in rows {
+        if let Some(columns) = filled(rows) {
+            features.insert(key, columns);
+        }
+    }
+    for side in Side::BOTH {
+        if let Some(places) = features.get(&(Component::Placement, side)) {
+            let velocities = places
+                .iter()
+                .map(|column| velocity(column, clip.rate()))
+                .collect();
+            features.insert((Component::Movement, side), velocities);
+        }
+    }
+    features
+}
+
+fn placement(
+    anatomy: &Anatomy,
+    model: &ModelPose,
+    body: Option<&BodyFrame>,
+    side: Side,
+) -> Option<Vec<f64>> {
+    let wrist = model.position(anatomy.joint(Part::Hand(side))?);
+    Some(body?.to_body(wrist).to_array().to_vec())
+}
+
+fn orientation(
+    anatomy: &Anatomy,
+    model: &ModelPose,
+    body: Option<&BodyFrame>,
+    side: Side,
+) -> Option<Vec<f64>> {
+    let palm = body?.direction_to_body(anatomy.palm_normal(side, model)?);
+    let along = body?.direction_to_body(anatomy.hand_direction(side, model)?);
+    Some([palm.to_array(), along.to_array()].concat())
+}
+
+/// Turns rows into columns; a frame that shows nothing takes the last shown before it, else the
+/// first shown after it. Nothing where no frame shows anything.
+fn filled(rows: Vec<Option<Vec<f64>>>) -> Option<Vec<Vec<f64>>> {
+    let mut last = rows.iter().find_map(Clone::clone)?;
+    let mut columns = vec![Vec::with_capacity(rows.len()); last.len()];
+    for row in rows {
+        last = row.unwrap_or(last);
+        for (column, value) in columns.iter_mut().zip(&last) {
+            column.push(*value);
+        }
+    }
+    Some(columns)
+}
+
+/// Returns the rate of change per second, over neighbours on both sides where there are such.
+fn velocity(column: &[f64], rate: Rate) -> Vec<f64> {
+    let reach = (rate.per_second() * VELOCITY_SECONDS).round().max(1.0) as usize;
+    (0..column.len())
+        .map(|frame| {
+            let Range { start, end } =
+                frame.saturating_sub(reach)..(frame + reach).min(column.len() - 1);
+            let seconds = (end - start) as f64 * rate.frame_time();
+            if end > start {
+                (column[end] - column[start]) / seconds
+            } else {
+                0.0
+            }
+        })
+        .collect()
+}
+
+/// Drops what only one of the clips shows and says so.
+fn keep_common(first: &mut Features, second: &mut Features) -> Vec<LeftOut> {
+    let mut left_out = Vec::new();
+    for component in MANUAL {
+        for side in Side::BOTH {
+            let key = (component, side);
+            let shown = (first.contains_key(&key), second.contains_key(&key));
+            if shown != (true, true) {
+                first.remove(&key);
+                second.remove(&key);
+                left_out.push(LeftOut {
+                    component,
+                    side,
+                    shown,
+                });
+            }
+        }
+    }
+    left_out
+}
+
+fn component_parts(
+    features: &Features,
+    query: &Series,
+    reference: &Series,
+    path: &[(usize, usize)],
+) -> BTreeMap<Component, f64> {
+    let mut channels: BTreeMap<Component, Vec<usize>> = BTreeMap::new();
+    let mut next = 0;
+    for (key, columns) in features {
+        channels
+            .entry(key.0)
+            .or_default()
+            .extend(next..next + columns.len());
+        next += columns.len();
+    }
+    let part = |channels: &[usize]| {
+        let apart = |(i, j): &(usize, usize)| {
+            let difference = |c: &usize| query.column(*c)[*i] - reference.column(*c)[*j];
+            channels
+                .iter()
+                .map(|c| difference(c).powi(2))
+                .sum::<f64>()
+                .sqrt()
+        };
+        path.iter().map(apart).sum::<f64>() / path.len().max(1) as f64
+    };
+    channels
+        .iter()
+        .map(|(component, channels)| (*component, part(channels)))
+        .collect()
+}
+
+/// Returns the joints of both clips that stand for each other: all of them where the skeletons
+/// have the same joints, else those of the same part of the body, else of the same name.
+fn pairs_of(a: (&Clip, &Anatomy), b: (&Clip, &Anatomy)) -> Vec<(usize, usize)> {
+    let (first, second) = (a.0.skeleton().joints(), b.0.skeleton().joints());
+    let same = first.len() == second.len()
+        && first
+            .iter()
+            .zip(second)
+            .all(|(x, y)| x.name == y.name && x.parent == y.parent);
+    if same {
+        return (0..first.len()).map(|j| (j, j)).collect();
+    }
+    let names: BTreeMap<&str, usize> = second
+        .iter()
+        .enumerate()
+        .rev()
+        .map(|(j, joint)| (joint.name.as_str(), j))
+        .collect();
+    let counterpart = |j: usize| match a.1.part_of(j) {
+        Some(part) => b.1.joint(part),
+        None => {
+            let other = names.get(first[j].name.as_str()).copied();
+            other.filter(|&other| b.1.part_of(other).is_none())
+        }
+    };
+    (0..first.len())
+        .filter_map(|j| Some((j, counterpart(j)?)))
+        .collect()
+}
+
+/// Returns the largest distance of paired joints or tips, with the first clip's joint and frames.
+fn largest_error(
+    a: &Clip,
+    b: &Clip,
+    pairs: &[(usize, usize)],
+    path: &[(usize, usize)],
+) -> Option<(f64, usize, (usize, usize))> {
+    let frame_by_frame: Vec<(usize, usize)>;
+    let path = if a.frames() == b.frames() {
+        frame_by_frame = (0..a.frames()).map(|i| (i, i)).collect();
+        &frame_by_frame
+    } else {
+        path
+    };
+    let (mut first, mut second) = (Walker::new(a), Walker::new(b));
+    let mut largest: Option<(f64, usize, (usize, usize))> = None;
+    for &(i, j) in path {
+        let (x, y) = (first.at(i), second.at(j));
+        for &(left, right) in pairs {
+            let mut error = x.position(left).distance(y.position(right));
+            let tips = (x.tip(a.skeleton(), left), y.tip(b.skeleton(), right));
+            if let (Some(left), Some(right)) = tips {
+                error = error.max(DVec3::distance(left, right));
+            }
+            if largest.is_none_or(|(most, ..)| error > most) {
+                largest = Some((error, left, (i, j)));
+            }
+        }
+    }
+    largest
+}
+
+/// A clip's posture in model space at a frame that rarely changes between calls.
+struct Walker<'a> {
+    clip: &'a Clip,
+    frame: usize,
+    model: ModelPose,
+}
+
+impl<'a> Walker<'a> {
+    fn new(clip: &'a Clip) -> Self {
+        Self {
+            clip,
+            frame: 0,
+            model: clip.model_pose(0),
+        }
+    }
+
+    fn at(&mut self, frame: usize) -> &ModelPose {
+        if self.frame != frame {
+            self.model.set(self.clip.skeleton(), &self.clip.pose(frame));
+            self.frame = frame;
+        }
+        &self.model
+    }
+}

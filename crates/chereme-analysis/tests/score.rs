@@ -1,0 +1,319 @@
+//! Scores of performances whose likeness is known.
+
+use chereme_analysis::dtw::{self, StepPattern, Window};
+use chereme_analysis::score::LeftOut;
+use chereme_analysis::{Score, ScoreError, ScoreOptions, score};
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Anatomy, Clip, Instant, Joint, Part, Pose, Rate, Side, Skeleton};
+use chereme_sign::Component;
+
+const FINGERS: [&str; 4] = ["Index", "Middle", "Ring", "Pinky"];
+
+/// A standing signer in a T-pose; `size` scales it, `fingers` gives it hands that can be read.
+fn signer(size: f64, prefix: &str, fingers: bool) -> Skeleton {
+    let mut joints: Vec<Joint> = Vec::new();
+    let mut add = |name: &str, parent: Option<usize>, offset: [f64; 3]| {
+        let joint = Joint::new(
+            format!("{prefix}{name}"),
+            parent,
+            DVec3::from(offset) * size,
+        );
+        joints.push(joint);
+        joints.len() - 1
+    };
+    let hips = add("Hips", None, [0.0, 0.95, 0.0]);
+    let spine = add("Spine", Some(hips), [0.0, 0.15, 0.0]);
+    let chest = add("Spine1", Some(spine), [0.0, 0.25, 0.0]);
+    let neck = add("Neck", Some(chest), [0.0, 0.15, 0.0]);
+    add("Head", Some(neck), [0.0, 0.1, 0.02]);
+    for side in Side::BOTH {
+        let (x, s) = (
+            side.sign(),
+            if side == Side::Right { "Right" } else { "Left" },
+        );
+        let clavicle = add(&format!("{s}Shoulder"), Some(chest), [0.03 * x, 0.1, 0.0]);
+        let upper = add(&format!("{s}Arm"), Some(clavicle), [0.15 * x, 0.0, 0.0]);
+        let forearm = add(&format!("{s}ForeArm"), Some(upper), [0.28 * x, 0.0, -0.01]);
+        let hand = add(&format!("{s}Hand"), Some(forearm), [0.25 * x, 0.0, 0.01]);
+        if !fingers {
+            continue;
+        }
+        let mut at = add(
+            &format!("{s}HandThumb1"),
+            Some(hand),
+            [0.03 * x, -0.01, 0.03],
+        );
+        for n in 2..=3 {
+            at = add(&format!("{s}HandThumb{n}"), Some(at), [0.03 * x, 0.0, 0.02]);
+        }
+        for (k, finger) in (0..4).zip(FINGERS) {
+            let base = [0.09 * x, 0.0, 0.03 - 0.02 * f64::from(k)];
+            let mut at = add(&format!("{s}Hand{finger}1"), Some(hand), base);
+            for n in 2..=3 {
+                at = add(
+                    &format!("{s}Hand{finger}{n}"),
+                    Some(at),
+                    [0.03 * x, 0.0, 0.0],
+                );
+            }
+        }
+    }
+    Skeleton::new(joints).expect("a tree")
+}
+
+/// Both arms swing and the fingers close over a second and a half.
+fn performance(skeleton: Skeleton, frames: usize) -> Clip {
+    let anatomy = Anatomy::detect(&skeleton);
+    let poses: Vec<Pose> = (0..frames)
+        .map(|frame| {
+            let t = frame as f64 / (frames - 1).max(1) as f64 * 1.5;
+            let mut pose = skeleton.rest_pose();
+            let mut turn = |part, axis: DVec3, angle: f64| {
+                if let Some(joint) = anatomy.joint(part) {
+                    pose.rotations[joint] *= DQuat::from_axis_angle(axis, angle);
+                }
+            };
+            for side in Side::BOTH {
+                let x = side.sign();
+                turn(
+                    Part::UpperArm(side),
+                    DVec3::Z,
+                    x * (-0.9 + 0.5 * (3.0 * t).sin()),
+                );
+                turn(
+                    Part::Forearm(side),
+                    DVec3::Y,
+                    -x * (1.2 + 0.7 * (4.0 * t).sin()),
+                );
+                turn(Part::Hand(side), DVec3::X, 0.8 * (2.0 * t).sin());
+                for finger in chereme_motion::Finger::ALL {
+                    turn(Part::Finger(side, finger, 1), DVec3::Z, -x * t);
+                    turn(Part::Finger(side, finger, 2), DVec3::Z, -x * 0.8 * t);
+                }
+            }
+            pose
+        })
+        .collect();
+    Clip::from_poses(skeleton.into(), Rate::new(120, 1).expect("a rate"), &poses).expect("a clip")
+}
+
+fn scored(a: &Clip, b: &Clip) -> Score {
+    score(a, b, &ScoreOptions::default()).expect("comparable clips")
+}
+
+#[test]
+fn a_clip_is_like_itself() {
+    let clip = performance(signer(1.0, "", true), 180);
+    let found = scored(&clip, &clip);
+    assert_eq!(
+        (found.distance, found.normalized, found.max_joint_error_m),
+        (0.0, Some(0.0), Some(0.0))
+    );
+    assert_eq!(
+        found.alignment,
+        (0..180).map(|i| (i, i)).collect::<Vec<_>>()
+    );
+    let components: Vec<_> = found
+        .components
+        .iter()
+        .map(|(c, part)| (*c, *part))
+        .collect();
+    use Component::{Configuration, Movement, Orientation, Placement};
+    assert_eq!(
+        components,
+        [Configuration, Placement, Movement, Orientation].map(|c| (c, 0.0))
+    );
+    assert!(found.left_out.is_empty() && found.only_in_first.is_empty());
+}
+
+#[test]
+fn another_tempo_is_nearly_the_same_and_another_movement_is_not() {
+    let clip = performance(signer(1.0, "", true), 180);
+    let end = clip.rate().instant(179).seconds();
+    let warped = clip.retimed(clip.rate(), 180, |frame| {
+        let t = frame as f64 / 179.0;
+        Instant::from_seconds(end * (t + 0.12 * (std::f64::consts::TAU * t).sin() / 2.0))
+    });
+    let still = Clip::still(clip.skeleton().clone(), clip.rate(), 180);
+    let (near, far) = (scored(&clip, &warped), scored(&clip, &still));
+    let of = |score: &Score, component| score.components[&component];
+    for component in [
+        Component::Placement,
+        Component::Orientation,
+        Component::Configuration,
+    ] {
+        assert!(of(&near, component) < 0.1, "{near:?}");
+        assert!(of(&far, component) > 1.0, "{:?}", far.components);
+    }
+    assert!(near.normalized < far.normalized.map(|far| far / 10.0));
+    assert!(
+        near.max_joint_error_m > Some(0.02),
+        "frame by frame the tempo shows"
+    );
+    let slower = clip.retimed(clip.rate(), 270, |frame| clip.rate().instant(frame * 2 / 3));
+    assert!(
+        scored(&clip, &slower).max_joint_error_m < Some(0.02),
+        "aligned it does not"
+    );
+}
+
+#[test]
+fn a_moved_copy_is_as_far_as_it_was_moved_and_otherwise_the_same() {
+    let clip = performance(signer(1.0, "", true), 60);
+    let by = DVec3::new(0.3, 0.0, -0.4);
+    let poses: Vec<Pose> = (0..60)
+        .map(|frame| {
+            let mut pose = clip.pose(frame);
+            pose.translations[0] += by;
+            pose
+        })
+        .collect();
+    let moved = Clip::from_poses(clip.skeleton().clone(), clip.rate(), &poses).expect("a clip");
+    let found = scored(&clip, &moved);
+    assert!(found.distance < 1e-9);
+    assert!(
+        found
+            .max_joint_error_m
+            .is_some_and(|error| (error - 0.5).abs() < 1e-12)
+    );
+}
+
+#[test]
+fn only_the_changed_component_differs() {
+    let clip = performance(signer(1.0, "", true), 60);
+    let anatomy = Anatomy::detect(clip.skeleton());
+    let mut channels = clip.clone().into_channels();
+    for joint in anatomy.fingers(Side::Right) {
+        channels[joint].rotations.fill(DQuat::IDENTITY);
+    }
+    let open = Clip::new(clip.skeleton().clone(), clip.rate(), channels).expect("a clip");
+    let options = ScoreOptions {
+        dtw: dtw::Options {
+            window: Window::SakoeChiba(0),
+            ..dtw::Options::default()
+        },
+        ..ScoreOptions::default()
+    };
+    let found = score(&clip, &open, &options).expect("comparable");
+    for (component, part) in &found.components {
+        assert_eq!(
+            *part > 1e-9,
+            *component == Component::Configuration,
+            "{found:?}"
+        );
+    }
+    // The parts say how far each component is in its own unit: half the unit, twice the part.
+    let mut twice = options;
+    twice.scales.configuration /= 2.0;
+    let doubled = score(&clip, &open, &twice).expect("comparable");
+    let part = |score: &Score| score.components[&Component::Configuration];
+    assert!((part(&doubled) - 2.0 * part(&found)).abs() < 1e-9);
+}
+
+#[test]
+fn another_body_compares_by_the_parts_both_have() {
+    let clip = performance(signer(1.0, "", true), 90);
+    let child = performance(signer(0.7, "child:", true), 90);
+    let found = scored(&clip, &child);
+    assert!(found.normalized < Some(1e-6), "{:?}", found.components);
+    assert!(found.max_joint_error_m > Some(0.2) && found.only_in_first.is_empty());
+
+    let mittens = performance(signer(1.0, "", false), 90);
+    let found = scored(&clip, &mittens);
+    let left_out: Vec<(Component, Side, (bool, bool))> = found
+        .left_out
+        .iter()
+        .map(
+            |LeftOut {
+                 component,
+                 side,
+                 shown,
+             }| (*component, *side, *shown),
+        )
+        .collect();
+    for side in Side::BOTH {
+        for component in [Component::Configuration, Component::Orientation] {
+            assert!(
+                left_out.contains(&(component, side, (true, false))),
+                "{left_out:?}"
+            );
+        }
+    }
+    assert!(
+        found
+            .components
+            .keys()
+            .eq([&Component::Placement, &Component::Movement])
+    );
+    assert!(found.normalized < Some(1e-6) && found.max_joint_error_m < Some(1e-9));
+    assert_eq!(found.only_in_first.len(), 30, "{:?}", found.only_in_first);
+    assert!(found.only_in_second.is_empty());
+}
+
+#[test]
+fn symmetric_patterns_give_the_same_score_both_ways() {
+    let clip = performance(signer(1.0, "", true), 70);
+    let other = clip.slice(5..60);
+    for pattern in [
+        StepPattern::Symmetric1,
+        StepPattern::Symmetric2,
+        StepPattern::SymmetricP1,
+    ] {
+        let options = ScoreOptions {
+            dtw: dtw::Options {
+                pattern,
+                ..dtw::Options::default()
+            },
+            ..ScoreOptions::default()
+        };
+        let there = score(&clip, &other, &options).expect("a score");
+        let back = score(&other, &clip, &options).expect("a score");
+        assert!((there.distance - back.distance).abs() < 1e-9 * there.distance);
+    }
+}
+
+#[test]
+fn what_cannot_be_compared_is_an_error() {
+    let clip = performance(signer(1.0, "", true), 10);
+    let options = ScoreOptions::default();
+    let empty = score(&clip, &clip.slice(0..0), &options);
+    assert_eq!(empty, Err(ScoreError::Empty { which: "second" }));
+    let stick = Skeleton::new(vec![Joint::new("stick", None, DVec3::ZERO)]).expect("a joint");
+    let stick = Clip::still(stick.into(), clip.rate(), 10);
+    assert_eq!(
+        score(&clip, &stick, &options),
+        Err(ScoreError::NothingInCommon)
+    );
+    let narrow = ScoreOptions {
+        dtw: dtw::Options {
+            window: Window::SakoeChiba(2),
+            ..dtw::Options::default()
+        },
+        ..options
+    };
+    assert!(matches!(
+        score(&clip, &clip.slice(0..4), &narrow),
+        Err(ScoreError::Dtw(_))
+    ));
+    assert_eq!(scored(&clip.slice(3..4), &clip.slice(3..4)).distance, 0.0);
+}
+
+#[test]
+fn a_score_is_written_under_the_keys_that_scripts_rely_on() {
+    let clip = performance(signer(1.0, "", true), 3);
+    let json = serde_json::to_value(scored(&clip, &clip)).expect("JSON");
+    for key in [
+        "distance",
+        "normalized",
+        "components",
+        "max_joint_error_m",
+        "alignment",
+    ] {
+        assert!(json.get(key).is_some(), "{key}");
+    }
+    assert_eq!(json["components"]["configuration"], 0.0);
+    assert_eq!(
+        json["alignment"],
+        serde_json::json!([[0, 0], [1, 1], [2, 2]])
+    );
+}
