@@ -16,6 +16,8 @@ pub struct RotationOrder([Axis; 3]);
 impl RotationOrder {
     /// The order that most exporters write.
     pub const ZXY: Self = Self([Axis::Z, Axis::X, Axis::Y]);
+    /// The order about Y, then X, then Z.
+    pub const YXZ: Self = Self([Axis::Y, Axis::X, Axis::Z]);
     /// The order of the alphabet.
     pub const XYZ: Self = Self([Axis::X, Axis::Y, Axis::Z]);
 

@@ -25,7 +25,9 @@ pub(super) fn detect(skeleton: &Skeleton, said: &BTreeMap<Part, Option<usize>>) 
             finder.digit(side, digit);
         }
     }
+    finder.by_topology();
     finder.chest_and_spine();
+    finder.neck_and_head();
     finder.ambiguous.sort_by_key(|ambiguity| ambiguity.part);
     Detected {
         found: finder.found,
@@ -33,12 +35,12 @@ pub(super) fn detect(skeleton: &Skeleton, said: &BTreeMap<Part, Option<usize>>) 
     }
 }
 
-struct Finder<'a> {
-    skeleton: &'a Skeleton,
-    labels: Vec<Option<Label>>,
+pub(super) struct Finder<'a> {
+    pub(super) skeleton: &'a Skeleton,
+    pub(super) labels: Vec<Option<Label>>,
     said: &'a BTreeMap<Part, Option<usize>>,
-    found: BTreeMap<Part, (usize, Evidence)>,
-    ambiguous: Vec<Ambiguity>,
+    pub(super) found: BTreeMap<Part, (usize, Evidence)>,
+    pub(super) ambiguous: Vec<Ambiguity>,
 }
 
 impl<'a> Finder<'a> {
@@ -89,11 +91,11 @@ impl<'a> Finder<'a> {
         }
     }
 
-    fn joint(&self, part: Part) -> Option<usize> {
+    pub(super) fn joint(&self, part: Part) -> Option<usize> {
         self.found.get(&part).map(|&(joint, _)| joint)
     }
 
-    fn put(&mut self, part: Part, joint: usize, evidence: Evidence) {
+    pub(super) fn put(&mut self, part: Part, joint: usize, evidence: Evidence) {
         if !self.said.contains_key(&part) && !self.found.contains_key(&part) {
             self.found.insert(part, (joint, evidence));
         }
@@ -106,7 +108,7 @@ impl<'a> Finder<'a> {
             .collect()
     }
 
-    fn is_below(&self, joint: usize, above: usize) -> bool {
+    pub(super) fn is_below(&self, joint: usize, above: usize) -> bool {
         self.skeleton.ancestors(joint).any(|j| j == above)
     }
 
@@ -206,8 +208,20 @@ impl<'a> Finder<'a> {
         let joints: Vec<usize> = chain.iter().map(|&(joint, _)| joint).collect();
         let metacarpal = chain[0].1 == Segment::Metacarpal
             || (!chain.iter().any(|(_, s)| *s == Segment::Proximal) && self.starts_inside(&joints));
+        self.assign_digit(side, digit, &joints, metacarpal, Evidence::Name);
+    }
+
+    /// Gives the joints of a digit their parts, from the metacarpal or the base on.
+    pub(super) fn assign_digit(
+        &mut self,
+        side: Side,
+        digit: Digit,
+        joints: &[usize],
+        metacarpal: bool,
+        how: Evidence,
+    ) {
         let skip = u8::from(!metacarpal);
-        for (place, &joint) in (0u8..).zip(&joints) {
+        for (place, &joint) in (0u8..).zip(joints) {
             let part = match digit {
                 Digit::Thumb if place < 3 => Part::Thumb(side, place),
                 Digit::Finger(finger) if place + skip < 4 => {
@@ -215,13 +229,13 @@ impl<'a> Finder<'a> {
                 }
                 _ => break,
             };
-            self.put(part, joint, Evidence::Name);
+            self.put(part, joint, how);
         }
     }
 
     /// Whether the first joint of a finger of three or more lies inside the hand: nearer to the
     /// wrist than to its second joint, as a metacarpal does and a base joint does not.
-    fn starts_inside(&self, chain: &[usize]) -> bool {
+    pub(super) fn starts_inside(&self, chain: &[usize]) -> bool {
         let [first, second, _, ..] = *chain else {
             return false;
         };
@@ -269,7 +283,7 @@ impl<'a> Finder<'a> {
     }
 
     /// Returns the lowest joint above both.
-    fn common(&self, a: usize, b: usize) -> Option<usize> {
+    pub(super) fn common(&self, a: usize, b: usize) -> Option<usize> {
         let above: Vec<usize> = self.skeleton.ancestors(b).collect();
         self.skeleton
             .ancestors(a)
@@ -277,15 +291,68 @@ impl<'a> Finder<'a> {
     }
 }
 
-/// Pairs joints by part, then children of paired joints by what their names say.
+/// Pairs joints by part, then by name with the sides exchanged, then by their place below paired
+/// joints.
 pub(super) fn mirror_map(anatomy: &Anatomy, skeleton: &Skeleton) -> Vec<Option<usize>> {
     let mut map: Vec<Option<usize>> = Vec::with_capacity(skeleton.len());
     for joint in 0..skeleton.len() {
         let counterpart = match anatomy.part_of(joint) {
             Some(part) => anatomy.joint(part.mirrored()),
-            None => Some(joint),
+            None => {
+                let named = other_side(&skeleton.joint(joint).name);
+                let named = named.and_then(|name| skeleton.find(&name));
+                named.or_else(|| match skeleton.parent(joint) {
+                    Some(parent) => beside(anatomy, skeleton, joint, parent, map[parent]?),
+                    None => Some(joint),
+                })
+            }
         };
         map.push(counterpart);
     }
     map
+}
+
+/// Returns the joint that has the place of `joint` among those without a part below `other`.
+fn beside(
+    anatomy: &Anatomy,
+    skeleton: &Skeleton,
+    joint: usize,
+    parent: usize,
+    other: usize,
+) -> Option<usize> {
+    let free = |of: usize| -> Vec<usize> {
+        let all = skeleton.children(of).iter().copied();
+        all.filter(|&j| anatomy.part_of(j).is_none()).collect()
+    };
+    let (here, there) = (free(parent), free(other));
+    let place = here.iter().position(|&j| j == joint)?;
+    (here.len() == there.len()).then(|| there[place])
+}
+
+/// Returns the name with its word for a side exchanged.
+fn other_side(name: &str) -> Option<String> {
+    for (a, b) in [("Left", "Right"), ("left", "right"), ("LEFT", "RIGHT")] {
+        for (from, to) in [(a, b), (b, a)] {
+            if name.contains(from) {
+                return Some(name.replacen(from, to, 1));
+            }
+        }
+    }
+    let letters: Vec<char> = name.chars().collect();
+    let alone = |n: usize| {
+        let edge = |c: Option<&char>| c.is_none_or(|c| !c.is_alphanumeric());
+        let before = edge(n.checked_sub(1).and_then(|n| letters.get(n)));
+        let after = letters.get(n + 1);
+        before && (edge(after) || (n == 0 && after.is_some_and(|c| c.is_uppercase())))
+    };
+    let at = (0..letters.len()).find(|&n| "lrLR".contains(letters[n]) && alone(n))?;
+    let swapped = match letters[at] {
+        'l' => 'r',
+        'r' => 'l',
+        'L' => 'R',
+        _ => 'L',
+    };
+    let mut letters = letters;
+    letters[at] = swapped;
+    Some(letters.into_iter().collect())
 }

@@ -4,22 +4,42 @@
 //! |---|---|
 //! | `part` | the parts of the body and their names |
 //! | `names` | what joint names say, over the conventions people meet |
-//! | `detect` | parts found by name, then by topology and side |
+//! | `detect` | parts found by name |
+//! | `topology` | parts found by how joints hang together |
 //! | `roles` | the user's word on it |
+//! | `measures` | the size of the body, the frame of the trunk |
+//! | `convention` | the unit and axes a skeleton was written in |
+//! | `landmarks` | places on the body |
+//! | `fingers` | finger angles to local rotations and back, directions of the hand |
 
+mod convention;
 mod detect;
+mod fingers;
+mod landmarks;
+mod measures;
 mod names;
 mod part;
 mod roles;
+mod topology;
+
+#[cfg(test)]
+pub(crate) mod fixtures;
+#[cfg(test)]
+mod tests;
 
 use std::collections::BTreeMap;
 
+use glam::{DMat3, DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
+pub use convention::{ConventionGuess, detect_convention};
+pub use measures::{BodyFrame, Measures};
 pub use part::{Part, PartError};
 pub use roles::{Roles, RolesError};
 
+use crate::clip::Clip;
 use crate::hand::{Finger, Side};
+use crate::pose::ModelPose;
 use crate::skeleton::Skeleton;
 
 /// How a part's joint was found.
@@ -68,6 +88,17 @@ pub struct Anatomy {
     parts: Vec<Option<Part>>,
     ambiguous: Vec<Ambiguity>,
     parents: Vec<Option<usize>>,
+    hands: [Option<fingers::HandFrame>; 2],
+    hand_tips: [Option<DVec3>; 2],
+    measures: Option<Measures>,
+    head: Option<landmarks::HeadFrame>,
+    elbows: [Option<DVec3>; 2],
+    posed: bool,
+}
+
+/// The place of a side in pairs, right first.
+fn place(side: Side) -> usize {
+    usize::from(side == Side::Left)
 }
 
 impl Anatomy {
@@ -91,12 +122,108 @@ impl Anatomy {
         for (&part, &(joint, _)) in &detected.found {
             parts[joint] = Some(part);
         }
-        Self {
+        let mut anatomy = Self {
             parents: (0..skeleton.len()).map(|j| skeleton.parent(j)).collect(),
             found: detected.found,
             ambiguous: detected.ambiguous,
             parts,
+            hands: [None, None],
+            hand_tips: [None, None],
+            measures: None,
+            head: None,
+            elbows: [None, None],
+            posed: false,
+        };
+        for side in Side::BOTH {
+            anatomy.hands[place(side)] = fingers::HandFrame::of(&anatomy, skeleton, side);
+            let hand = anatomy.joint(Part::Hand(side));
+            anatomy.hand_tips[place(side)] = hand.and_then(|hand| skeleton.joint(hand).tip);
         }
+        anatomy.with_reference(skeleton, &skeleton.rest_model_pose())
+    }
+
+    /// Returns the same anatomy measured in the posture `model` in place of the rest pose.
+    ///
+    /// Give one where the signer stands upright, looking ahead, when
+    /// [`is_posed`](Self::is_posed) says that the rest pose does not tell: many files keep every
+    /// bone along one local axis and put the body together by rotations only. The hands' geometry is
+    /// always that of the rest pose.
+    #[must_use]
+    pub fn with_reference(mut self, skeleton: &Skeleton, model: &ModelPose) -> Self {
+        self.measures = Measures::of(&self, skeleton, model);
+        let axes = measures::trunk_axes(&self, model);
+        self.posed = axes.is_some_and(|[_, up, _]| !self.arms_stick_out(model, up));
+        let turned = axes.map(|[left, up, forward]| {
+            DQuat::from_mat3(&DMat3::from_cols(left, up, forward)).normalize()
+        });
+        self.head = turned
+            .zip(self.measures)
+            .and_then(|(axes, measures)| landmarks::HeadFrame::of(&self, model, axes, &measures));
+        self.elbows = Side::BOTH.map(|side| self.elbow_at(side, model, axes?[2]));
+        self
+    }
+
+    fn arms_stick_out(&self, model: &ModelPose, up: DVec3) -> bool {
+        let ways = Side::BOTH.map(|side| {
+            let arm = self.arm(side)?;
+            (model.position(arm.forearm) - model.position(arm.upper)).try_normalize()
+        });
+        let [Some(right), Some(left)] = ways else {
+            return false;
+        };
+        right.dot(left) > 0.9 && right.dot(up).abs() < 0.5
+    }
+
+    /// Returns which way the elbow points, in the upper arm's space: as it is bent in `model`, else
+    /// away from where the body faces. Nothing where the arm points along that line.
+    fn elbow_at(&self, side: Side, model: &ModelPose, forward: DVec3) -> Option<DVec3> {
+        let arm = self.arm(side)?;
+        let at = |joint| model.position(joint);
+        let line = (at(arm.hand) - at(arm.upper)).try_normalize()?;
+        let upper = at(arm.forearm) - at(arm.upper);
+        let bent = upper.reject_from_normalized(line);
+        let sine = bent.length() / upper.length().max(f64::MIN_POSITIVE);
+        let out = if sine > 0.09 {
+            bent
+        } else {
+            -forward.reject_from_normalized(line)
+        };
+        let out = (sine > 0.09 || out.length() > 0.3).then_some(out)?;
+        Some(model.rotation(arm.upper).inverse() * out.try_normalize()?)
+    }
+
+    /// Returns the same anatomy with the first frame of `clip` as its reference where the rest pose
+    /// is none that a body takes; the clip is of the same skeleton.
+    #[must_use]
+    pub fn with_clip(self, clip: &Clip) -> Self {
+        if self.posed || clip.frames() == 0 {
+            return self;
+        }
+        self.with_reference(clip.skeleton(), &clip.model_pose(0))
+    }
+
+    /// Returns whether the reference posture is one that a body takes: it tells up, left and
+    /// forward, and the arms do not both stick out the same way.
+    #[must_use]
+    pub fn is_posed(&self) -> bool {
+        self.posed
+    }
+
+    /// Returns the size of the body; nothing where the skeleton has no arm, leg or hand.
+    #[must_use]
+    pub fn measures(&self) -> Option<Measures> {
+        self.measures
+    }
+
+    /// Returns the unit vector that the elbow of `side` points to, in the space of the upper arm's
+    /// joint and across the arm: the opposite of where it bends. Nothing where it is not known.
+    #[must_use]
+    pub fn elbow(&self, side: Side) -> Option<DVec3> {
+        self.elbows[place(side)]
+    }
+
+    fn hand_frame(&self, side: Side) -> Option<&fingers::HandFrame> {
+        self.hands[place(side)].as_ref()
     }
 
     /// Returns the joint of `part`; spine and chest may be one joint.

@@ -1,0 +1,189 @@
+//! The unit and the axes in which a skeleton was written, from the body it describes.
+
+use glam::DVec3;
+
+use super::measures::{Measures, trunk_axes};
+use super::{Anatomy, Part};
+use crate::axes::{Axes, Convention, Direction};
+use crate::hand::Side;
+use crate::pose::ModelPose;
+use crate::skeleton::Skeleton;
+
+/// What a skeleton's unit and axes seem to be, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConventionGuess {
+    /// The unit and axes; those of model space where nothing tells.
+    pub convention: Convention,
+    /// `m`, `cm`, `mm`, `inch`, `acclaim` (1/0.45 inch) or `unknown`.
+    pub unit_name: &'static str,
+    /// How sure the guess is: 1 where everything fits, 0 where nothing tells.
+    pub confidence: f64,
+    /// What the guess rests on and what speaks against it, a sentence each.
+    pub reasons: Vec<String>,
+}
+
+/// The units files are written in: name, metres, and the least and greatest stature in the unit.
+/// Acclaim's unit is 1/0.45 inch, as CMU's skeletons state it.
+const UNITS: [(&str, f64); 5] = [
+    ("m", 1.0),
+    ("cm", 0.01),
+    ("mm", 0.001),
+    ("inch", 0.0254),
+    ("acclaim", 0.0254 / 0.45),
+];
+
+/// The statures, in metres, of a body that a unit must give; children are signers too.
+const STATURE: std::ops::Range<f64> = 1.2..2.3;
+
+/// Guesses the unit and axes of a skeleton as a file wrote it.
+///
+/// The unit follows from the stature, the axes from the way from hips to shoulders (up) and from
+/// right to left. Many files keep bones along one local axis and put the body together by rotations
+/// only, so give the posture of the first frame, in the file's own unit and axes, where there is
+/// one: it is asked where the rest pose does not tell, or stands or faces otherwise.
+#[must_use]
+pub fn detect_convention(skeleton: &Skeleton, first: Option<&ModelPose>) -> ConventionGuess {
+    Anatomy::detect(skeleton).convention(skeleton, first)
+}
+
+impl Anatomy {
+    /// Guesses the unit and axes as [`detect_convention`] does, with the parts already found.
+    #[must_use]
+    pub fn convention(&self, skeleton: &Skeleton, first: Option<&ModelPose>) -> ConventionGuess {
+        let mut reasons = Vec::new();
+        let rest = skeleton.rest_model_pose();
+        let measures = Measures::of(self, skeleton, &rest);
+        let (unit_name, metres_per_unit, sure) = unit(measures, skeleton, &rest, &mut reasons);
+        let (axes, sure_axes) = self.axes(&rest, first, &mut reasons);
+        ConventionGuess {
+            convention: Convention {
+                metres_per_unit,
+                axes,
+            },
+            unit_name,
+            confidence: sure.min(sure_axes),
+            reasons,
+        }
+    }
+
+    fn axes(
+        &self,
+        rest: &ModelPose,
+        first: Option<&ModelPose>,
+        reasons: &mut Vec<String>,
+    ) -> (Axes, f64) {
+        let still = trunk_axes(self, rest);
+        let posed = first.and_then(|pose| trunk_axes(self, pose));
+        let turned = |n: usize, least: f64| {
+            let pair = still.zip(posed);
+            pair.is_some_and(|(still, posed)| still[n].dot(posed[n]) < least)
+        };
+        let first_frame = |why: &str| format!("the first frame (the rest pose {why})");
+        let (chosen, why) = match (still, posed) {
+            (None, Some(posed)) => (posed, first_frame("does not show the trunk")),
+            (_, Some(posed)) if turned(1, 0.7) => (posed, first_frame("stands another way up")),
+            (_, Some(posed)) if turned(2, 0.5) => (posed, first_frame("faces another way")),
+            (Some(still), _) => (still, "the rest pose".to_owned()),
+            (None, None) => {
+                reasons.push(
+                    "neither the rest pose nor the first frame shows a trunk with two sides: \
+                     Y up and the left at +X are assumed; say the axes if that is wrong"
+                        .to_owned(),
+                );
+                return (Axes::MODEL, 0.0);
+            }
+        };
+        let [left, up, _] = chosen;
+        let up_axis = Direction::nearest(up);
+        let mut off = left;
+        off[up_axis.axis.index()] = 0.0;
+        let Some(axes) = Axes::new(up_axis, Direction::nearest(off)) else {
+            reasons.push("the trunk lies askew to all axes; Y up is assumed".to_owned());
+            return (Axes::MODEL, 0.0);
+        };
+        reasons.push(format!(
+            "up is {} and left is {} in {why}",
+            axes.up(),
+            axes.left()
+        ));
+        let mut sure = up
+            .dot(axes.up().vector())
+            .min(left.dot(axes.left().vector()));
+        if self.toes_point_back(first.unwrap_or(rest)) {
+            sure *= 0.5;
+            reasons.push(
+                "the toes point away from where the body would face: the file may have left and \
+                 right, or a left-handed space, exchanged"
+                    .to_owned(),
+            );
+        }
+        (axes, sure.clamp(0.0, 1.0))
+    }
+
+    fn toes_point_back(&self, pose: &ModelPose) -> bool {
+        let feet: Vec<DVec3> = Side::BOTH
+            .iter()
+            .filter_map(|&side| {
+                let toes = self.joint(Part::Toes(side))?;
+                let foot = self.joint(Part::Foot(side))?;
+                (pose.position(toes) - pose.position(foot)).try_normalize()
+            })
+            .collect();
+        let forward = trunk_axes(self, pose).map(|[_, _, forward]| forward);
+        !feet.is_empty()
+            && forward.is_some_and(|forward| feet.iter().all(|foot| foot.dot(forward) < -0.5))
+    }
+}
+
+fn unit(
+    measures: Option<Measures>,
+    skeleton: &Skeleton,
+    rest: &ModelPose,
+    reasons: &mut Vec<String>,
+) -> (&'static str, f64, f64) {
+    let Some(measures) = measures else {
+        let (metres, kept) = fallback_scale(skeleton, rest);
+        reasons.push(format!(
+            "no arm, leg or hand to tell the unit by: {kept}; say the unit if that is wrong"
+        ));
+        return ("unknown", metres, 0.0);
+    };
+    let middle = (STATURE.start * STATURE.end).sqrt();
+    let off = |metres: f64| (measures.stature * metres / middle).ln().abs();
+    let (name, metres) = UNITS
+        .into_iter()
+        .min_by(|a, b| off(a.1).total_cmp(&off(b.1)))
+        .unwrap_or(UNITS[0]);
+    let stature = measures.stature * metres;
+    let half = (STATURE.end / middle).ln();
+    if off(metres) > half * 1.7 {
+        let (metres, kept) = fallback_scale(skeleton, rest);
+        reasons.push(format!(
+            "a body {:.4} units tall is no person in metres, centimetres, millimetres, inches or \
+             Acclaim's unit: {kept}; say the unit if that is wrong",
+            measures.stature
+        ));
+        return ("unknown", metres, 0.0);
+    }
+    reasons.push(format!(
+        "a body {:.2} units tall is {stature:.2} m in {name}",
+        measures.stature
+    ));
+    let sure = if STATURE.contains(&stature) { 1.0 } else { 0.5 };
+    if sure < 1.0 {
+        reasons.push(format!("a stature of {stature:.2} m is unusual"));
+    }
+    (name, metres, sure)
+}
+
+/// Returns metres, or centimetres where the skeleton would be larger than three metres.
+fn fallback_scale(skeleton: &Skeleton, rest: &ModelPose) -> (f64, &'static str) {
+    let root = rest.position(0);
+    let ends = (0..skeleton.len()).map(|j| rest.tip(skeleton, j).unwrap_or(rest.position(j)));
+    let extent = ends.map(|at| at.distance(root)).fold(0.0, f64::max);
+    if extent > 3.0 {
+        (0.01, "it is taken for centimetres")
+    } else {
+        (1.0, "it is taken for metres")
+    }
+}

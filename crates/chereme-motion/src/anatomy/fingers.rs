@@ -1,0 +1,355 @@
+//! Finger and hand angles to local rotations and back, and the directions of the hand.
+//!
+//! All axes come from the rest geometry, so that the same angles look alike on any skeleton. With
+//! *along* from the wrist to the base of the middle finger, *radial* towards the thumb's side and
+//! *palm* out of the palm, all at right angles, a finger joint is turned in the hand's space by
+//!
+//! `D = B(flexion) · N(spread)` at the base, `· B(flexion)` at each joint further out,
+//!
+//! where B turns along → palm and N along → radial (flexion first, then the floating axis, as in
+//! the ISB's recommendation for fingers: Wu et al. 2005, J. Biomech. 38). The thumb's metacarpal is
+//! turned by `N(radial) · B(palmar) · O(opposition)`, O about its own length, and its joints by
+//! turns along → away from *radial*. D is relative to the straight finger along the hand.
+
+use glam::{DQuat, DVec3};
+
+use super::{Anatomy, Part};
+use crate::euler::RotationOrder;
+use crate::hand::{Finger, FingerAngles, HandAngles, Side, ThumbAngles};
+use crate::pose::{ModelPose, Pose};
+use crate::skeleton::Skeleton;
+
+/// The geometry of one hand at rest, in the space of its joint.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct HandFrame {
+    pub(super) along: DVec3,
+    pub(super) radial: DVec3,
+    pub(super) palm: DVec3,
+    /// Turns vectors from the frame's (B, N, third) axes to the hand's space.
+    basis: DQuat,
+    thumb: [Option<Zero>; 3],
+    fingers: [[Option<Zero>; 3]; 4],
+    metacarpals: Vec<usize>,
+}
+
+/// A joint and its rotation in the hand's space when the finger is straight along the hand.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Zero {
+    joint: usize,
+    rotation: DQuat,
+}
+
+impl HandFrame {
+    /// Returns the frame of a hand with at least one finger and a way to tell the thumb's side.
+    pub(super) fn of(anatomy: &Anatomy, skeleton: &Skeleton, side: Side) -> Option<Self> {
+        let hand = anatomy.joint(Part::Hand(side))?;
+        let at = |part| {
+            let joint = anatomy.joint(part)?;
+            Some(in_hand(skeleton, hand, joint).0)
+        };
+        let bases = Finger::ALL.map(|finger| at(Part::Finger(side, finger, 1)));
+        let known: Vec<DVec3> = bases.iter().copied().flatten().collect();
+        let mean = known.iter().sum::<DVec3>() / known.len().max(1) as f64;
+        let along = bases[1].unwrap_or(mean).try_normalize()?;
+        let thumb = at(Part::Thumb(side, 1)).or_else(|| {
+            let joint = anatomy.joint(Part::Thumb(side, 0))?;
+            let (place, turned) = in_hand(skeleton, hand, joint);
+            Some(place + turned * skeleton.joint(joint).tip?)
+        });
+        let across = match (known.first(), known.last()) {
+            (Some(&first), Some(&last)) if known.len() > 1 => first - last,
+            _ => thumb?,
+        };
+        let radial = across.reject_from_normalized(along).try_normalize()?;
+        let mut palm = radial.cross(along) * -side.sign();
+        if known.len() > 1 && is_inside_out(anatomy, skeleton, side, [along, radial, palm]) {
+            palm = -palm;
+        }
+        let (flex, spread) = (along.cross(palm), along.cross(radial));
+        let third = flex.cross(spread);
+        let basis = glam::DMat3::from_cols(flex, spread, third);
+        let mut frame = Self {
+            along,
+            radial,
+            palm,
+            basis: DQuat::from_mat3(&basis).normalize(),
+            thumb: [None; 3],
+            fingers: [[None; 3]; 4],
+            metacarpals: Vec::new(),
+        };
+        frame.thumb = frame.zeros(
+            skeleton,
+            hand,
+            [0, 1, 2].map(|n| anatomy.joint(Part::Thumb(side, n))),
+            true,
+        );
+        for finger in Finger::ALL {
+            let joints = [1, 2, 3].map(|n| anatomy.joint(Part::Finger(side, finger, n)));
+            frame.fingers[finger.index()] = frame.zeros(skeleton, hand, joints, false);
+            frame
+                .metacarpals
+                .extend(anatomy.joint(Part::Finger(side, finger, 0)));
+        }
+        Some(frame)
+    }
+
+    /// Returns the rotations that joints of one digit have when it is straight along the hand.
+    fn zeros(
+        &self,
+        skeleton: &Skeleton,
+        hand: usize,
+        joints: [Option<usize>; 3],
+        thumb: bool,
+    ) -> [Option<Zero>; 3] {
+        let mut before: Option<(DQuat, DVec3)> = None;
+        let mut zeros = [None; 3];
+        for place in 0..3 {
+            let Some(joint) = joints[place] else {
+                continue;
+            };
+            let (start, turned) = in_hand(skeleton, hand, joint);
+            let next = joints[place + 1..].iter().flatten().next();
+            let bone = bone_end(skeleton, hand, joint, next.copied())
+                .and_then(|end| (end - start).try_normalize())
+                .or(before.map(|(_, bone)| bone))
+                .unwrap_or(self.along);
+            let bent = match before {
+                None => self.base_turn(bone, thumb),
+                Some((bent, _)) => {
+                    bent * DQuat::from_rotation_arc(self.along, bent.inverse() * bone)
+                }
+            };
+            zeros[place] = Some(Zero {
+                joint,
+                rotation: (bent.inverse() * turned).normalize(),
+            });
+            before = Some((bent, bone));
+        }
+        zeros
+    }
+
+    /// Returns the turn from *along* to `bone` that has no turn about the bone's own length.
+    fn base_turn(&self, bone: DVec3, thumb: bool) -> DQuat {
+        let (a, r, p) = (
+            bone.dot(self.along),
+            bone.dot(self.radial),
+            bone.dot(self.palm),
+        );
+        if thumb {
+            self.turn(
+                RotationOrder::YXZ,
+                [r.atan2(a), p.clamp(-1.0, 1.0).asin(), 0.0],
+            )
+        } else {
+            self.turn(
+                RotationOrder::XYZ,
+                [p.atan2(a), r.clamp(-1.0, 1.0).asin(), 0.0],
+            )
+        }
+    }
+
+    fn turn(&self, order: RotationOrder, angles: [f64; 3]) -> DQuat {
+        self.basis * order.to_quat(angles) * self.basis.inverse()
+    }
+
+    fn angles(&self, order: RotationOrder, turn: DQuat) -> [f64; 3] {
+        order.angles(self.basis.inverse() * turn * self.basis, [0.0; 3])
+    }
+}
+
+/// Returns where `joint` is and how it is turned at rest in the space of `hand` above it.
+pub(super) fn in_hand(skeleton: &Skeleton, hand: usize, joint: usize) -> (DVec3, DQuat) {
+    let (mut place, mut turned) = (DVec3::ZERO, DQuat::IDENTITY);
+    for above in skeleton.ancestors(joint).take_while(|&j| j != hand) {
+        let at = skeleton.joint(above);
+        place = at.offset + at.rest * place;
+        turned = at.rest * turned;
+    }
+    (place, turned.normalize())
+}
+
+/// Returns where the bone of `joint` ends: at the digit's next joint, its tip, or its only child.
+fn bone_end(skeleton: &Skeleton, hand: usize, joint: usize, next: Option<usize>) -> Option<DVec3> {
+    let child = match *skeleton.children(joint) {
+        [child] => Some(child),
+        _ => None,
+    };
+    if let Some(next) = next.or(child) {
+        return Some(in_hand(skeleton, hand, next).0);
+    }
+    let (place, turned) = in_hand(skeleton, hand, joint);
+    skeleton.joint(joint).tip.map(|tip| place + turned * tip)
+}
+
+/// Whether thumb and fingers at rest lie and bend clearly away from the palm that the side tells:
+/// the skeleton was mirrored without its names. At least 0.3 rad for both, so that no hand at ease
+/// is taken for one.
+fn is_inside_out(anatomy: &Anatomy, skeleton: &Skeleton, side: Side, axes: [DVec3; 3]) -> bool {
+    let Some(hand) = anatomy.joint(Part::Hand(side)) else {
+        return false;
+    };
+    let [along, _, palm] = axes;
+    let bend = |from: Option<usize>, to: Option<usize>| {
+        let bone = in_hand(skeleton, hand, to?).0 - in_hand(skeleton, hand, from?).0;
+        Some(bone.dot(palm).atan2(bone.reject_from(palm).length()))
+    };
+    let joint = |part| anatomy.joint(part);
+    let thumb = bend(joint(Part::Thumb(side, 0)), joint(Part::Thumb(side, 1)));
+    let fingers: Vec<f64> = Finger::ALL
+        .iter()
+        .filter_map(|&finger| {
+            let from = joint(Part::Finger(side, finger, 1));
+            bend(from, joint(Part::Finger(side, finger, 3)))
+        })
+        .collect();
+    let mean = fingers.iter().sum::<f64>() / fingers.len().max(1) as f64;
+    along.is_finite() && thumb.is_some_and(|bend| bend < -0.3) && mean < -0.3
+}
+
+impl Anatomy {
+    /// Returns the posture of the hand of `side`; angles of joints that the skeleton lacks are zero.
+    ///
+    /// Nothing where the hand has no finger, or nothing tells which is the thumb's side. What the
+    /// angles cannot say (turns of a finger about its length, sideways bends of its outer joints) is
+    /// left out. The thumb's opposition is relative to the rest pose, where it is taken as zero.
+    ///
+    /// # Panics
+    /// Where `pose` has fewer joints than `skeleton`.
+    #[must_use]
+    pub fn hand_angles(&self, skeleton: &Skeleton, side: Side, pose: &Pose) -> Option<HandAngles> {
+        let frame = self.hand_frame(side)?;
+        let hand = self.joint(Part::Hand(side))?;
+        let turns = |zeros: &[Option<Zero>; 3]| {
+            let mut before = DQuat::IDENTITY;
+            zeros.map(|zero| {
+                let zero = zero?;
+                let now = below(skeleton, hand, zero.joint, pose) * zero.rotation.inverse();
+                let turn = before.inverse() * now;
+                before = now;
+                Some(turn)
+            })
+        };
+        let first =
+            |order, turn: Option<DQuat>| turn.map_or([0.0; 3], |turn| frame.angles(order, turn));
+        let [metacarpal, middle, end] = turns(&frame.thumb);
+        let [radial, palmar, opposition] = first(RotationOrder::YXZ, metacarpal);
+        let thumb = ThumbAngles {
+            radial,
+            palmar,
+            opposition: -opposition,
+            flexion: [middle, end].map(|turn| -first(RotationOrder::YXZ, turn)[0]),
+        };
+        let fingers = frame.fingers.map(|zeros| {
+            let [base, middle, end] = turns(&zeros);
+            let [flexion, spread, _] = first(RotationOrder::XYZ, base);
+            let outer = [middle, end].map(|turn| first(RotationOrder::XYZ, turn)[0]);
+            FingerAngles {
+                spread,
+                flexion: [flexion, outer[0], outer[1]],
+            }
+        });
+        Some(HandAngles { thumb, fingers })
+    }
+
+    /// Gives the hand of `side` in `pose` the posture `angles` and returns whether it has fingers.
+    ///
+    /// Only rotations below the wrist change: metacarpals go to rest, finger joints are set, angles
+    /// of joints that the skeleton lacks are left out, and everything else stays.
+    ///
+    /// # Panics
+    /// Where `pose` has fewer joints than `skeleton`.
+    pub fn set_hand_angles(
+        &self,
+        skeleton: &Skeleton,
+        side: Side,
+        angles: &HandAngles,
+        pose: &mut Pose,
+    ) -> bool {
+        let (Some(frame), Some(hand)) = (self.hand_frame(side), self.joint(Part::Hand(side)))
+        else {
+            return false;
+        };
+        for &joint in &frame.metacarpals {
+            pose.rotations[joint] = skeleton.joint(joint).rest;
+        }
+        let mut set = |zeros: &[Option<Zero>; 3], turns: [DQuat; 3]| {
+            let mut turned = DQuat::IDENTITY;
+            for (zero, turn) in zeros.iter().zip(turns) {
+                let Some(zero) = zero else { continue };
+                turned *= turn;
+                let parent = skeleton.parent(zero.joint).unwrap_or(hand);
+                let above = below(skeleton, hand, parent, pose);
+                let local = above.inverse() * turned * zero.rotation;
+                pose.rotations[zero.joint] = local.normalize();
+            }
+        };
+        let thumb = &angles.thumb;
+        let cross = |flexion: f64| frame.turn(RotationOrder::YXZ, [-flexion, 0.0, 0.0]);
+        let metacarpal = [thumb.radial, thumb.palmar, -thumb.opposition];
+        set(
+            &frame.thumb,
+            [
+                frame.turn(RotationOrder::YXZ, metacarpal),
+                cross(thumb.flexion[0]),
+                cross(thumb.flexion[1]),
+            ],
+        );
+        for (zeros, finger) in frame.fingers.iter().zip(&angles.fingers) {
+            let bend = |flexion, spread| frame.turn(RotationOrder::XYZ, [flexion, spread, 0.0]);
+            let [base, middle, end] = finger.flexion;
+            set(
+                zeros,
+                [bend(base, finger.spread), bend(middle, 0.0), bend(end, 0.0)],
+            );
+        }
+        true
+    }
+
+    /// Returns the unit vector out of the palm of `side` in model space.
+    ///
+    /// Nothing where the hand has too few fingers to tell.
+    #[must_use]
+    pub fn palm_normal(&self, side: Side, model: &ModelPose) -> Option<DVec3> {
+        let hand = self.joint(Part::Hand(side))?;
+        Some(model.rotation(hand) * self.hand_frame(side)?.palm)
+    }
+
+    /// Returns the unit vector from the wrist of `side` to the base of its middle finger in model
+    /// space; without fingers along the hand's bone, else along the forearm's.
+    #[must_use]
+    pub fn hand_direction(&self, side: Side, model: &ModelPose) -> Option<DVec3> {
+        let hand = self.joint(Part::Hand(side))?;
+        if let Some(frame) = self.hand_frame(side) {
+            return Some(model.rotation(hand) * frame.along);
+        }
+        let tip = self.hand_tips[super::place(side)];
+        let along = match tip {
+            Some(tip) => model.rotation(hand) * tip,
+            None => model.position(hand) - model.position(self.joint(Part::Forearm(side))?),
+        };
+        along.try_normalize()
+    }
+
+    /// Returns the rotation of the hand joint of `side` in model space for which
+    /// [`hand_direction`](Self::hand_direction) is `direction` and
+    /// [`palm_normal`](Self::palm_normal) as near to `palm` as the right angle between them lets it.
+    ///
+    /// Nothing where the hand has too few fingers to tell, or the two lie on one line.
+    #[must_use]
+    pub fn hand_rotation(&self, side: Side, direction: DVec3, palm: DVec3) -> Option<DQuat> {
+        let frame = self.hand_frame(side)?;
+        let along = direction.try_normalize()?;
+        let palm = palm.reject_from_normalized(along).try_normalize()?;
+        let columns = |a: DVec3, p: DVec3| glam::DMat3::from_cols(a, p, a.cross(p));
+        let turn = columns(along, palm) * columns(frame.along, frame.palm).transpose();
+        Some(DQuat::from_mat3(&turn).normalize())
+    }
+}
+
+/// Returns how `joint` is turned in the space of `hand`, which is it or above it.
+fn below(skeleton: &Skeleton, hand: usize, joint: usize, pose: &Pose) -> DQuat {
+    skeleton
+        .ancestors(joint)
+        .take_while(|&j| j != hand)
+        .fold(DQuat::IDENTITY, |turned, j| pose.rotations[j] * turned)
+}

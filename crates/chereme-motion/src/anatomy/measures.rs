@@ -1,0 +1,275 @@
+//! The size of a body and the directions of its trunk.
+
+use glam::{DMat3, DQuat, DVec3};
+
+use super::{Anatomy, Part};
+use crate::hand::{Finger, Side};
+use crate::pose::ModelPose;
+use crate::skeleton::Skeleton;
+
+/// Shares of stature after Drillis & Contini 1966, as in Winter, *Biomechanics and Motor Control
+/// of Human Movement*, fig. 4.1.
+pub(super) const ARM: f64 = 0.186 + 0.146;
+pub(super) const HAND: f64 = 0.108;
+const LEG: f64 = 0.245 + 0.246;
+const ANKLE: f64 = 0.039;
+const HEAD: f64 = 0.130;
+const TRUNK: f64 = 0.818 - 0.530;
+/// The distance of the shoulder joints' centres: the breadth of the shoulders there, 0.259, less
+/// some 5 cm of bone and flesh on either side at a stature of 1.7 m.
+const SHOULDERS: f64 = 0.200;
+
+/// The size of a body, in the unit of its skeleton: metres in model space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measures {
+    /// From the sole to the top of the head; from the whole body where the skeleton has it, else
+    /// from the arm's, the leg's or the hand's share of it.
+    pub stature: f64,
+    /// Between the two shoulder joints.
+    pub shoulder_width: f64,
+    /// From the height of the shoulder joints down to the hips.
+    pub trunk: f64,
+    /// From shoulder through elbow to wrist: the mean of both arms.
+    pub arm: f64,
+    /// From the wrist to the end of the middle finger: the mean of both hands.
+    pub hand: f64,
+    /// From the chin to the top of the head.
+    pub head: f64,
+    /// From the head's joint up to the top of the head.
+    pub head_top: f64,
+}
+
+impl Measures {
+    /// Measures bone lengths, and distances in the posture `model` where bones do not tell; nothing
+    /// where the skeleton has no arm, leg or hand to go by.
+    pub(super) fn of(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<Self> {
+        let arm = both(|side| {
+            let arm = anatomy.arm(side)?;
+            Some(length(skeleton, arm.hand, arm.upper))
+        });
+        let leg = both(|side| {
+            let (foot, thigh) = (
+                anatomy.joint(Part::Foot(side))?,
+                anatomy.joint(Part::Thigh(side))?,
+            );
+            anatomy
+                .is_below(foot, thigh)
+                .then(|| length(skeleton, foot, thigh))
+        });
+        let hand = both(|side| hand_length(anatomy, skeleton, side));
+        let sum = arm.map(|l| l / ARM).or(leg.map(|l| l / LEG));
+        let rough = sum.or(hand.map(|l| l / HAND)).filter(|&h| h > 0.0)?;
+        let head_top = head_top(anatomy, skeleton, rough);
+        let stature = match (leg, trunk_and_neck(anatomy, skeleton, model)) {
+            (Some(leg), Some(middle)) => leg * (1.0 + ANKLE / LEG) + middle + head_top,
+            _ => rough,
+        };
+        let head = if head_top <= 0.115 * stature {
+            HEAD * stature
+        } else {
+            head_top * HEAD / 0.115
+        };
+        let measured = trunk_length(anatomy, model).filter(|t| *t > 0.15 * stature);
+        Some(Self {
+            stature,
+            shoulder_width: shoulder_width(anatomy, skeleton, model, stature),
+            trunk: measured.unwrap_or(TRUNK * stature),
+            arm: arm.unwrap_or(ARM * stature),
+            hand: hand.unwrap_or(HAND * stature),
+            head,
+            head_top,
+        })
+    }
+}
+
+fn both(measure: impl Fn(Side) -> Option<f64>) -> Option<f64> {
+    let found: Vec<f64> = Side::BOTH
+        .iter()
+        .filter_map(|&side| measure(side))
+        .collect();
+    (!found.is_empty()).then(|| found.iter().sum::<f64>() / found.len() as f64)
+}
+
+/// Returns the lengths of the bones from `above` down to `joint`, one after the other.
+fn length(skeleton: &Skeleton, joint: usize, above: usize) -> f64 {
+    let path = skeleton.ancestors(joint).take_while(|&j| j != above);
+    path.map(|j| skeleton.joint(j).offset.length()).sum()
+}
+
+fn hand_length(anatomy: &Anatomy, skeleton: &Skeleton, side: Side) -> Option<f64> {
+    let hand = anatomy.joint(Part::Hand(side))?;
+    let middle = [3, 2, 1].map(|n| anatomy.joint(Part::Finger(side, Finger::Middle, n)));
+    let Some(last) = middle.into_iter().flatten().next() else {
+        return skeleton
+            .joint(hand)
+            .tip
+            .map(DVec3::length)
+            .filter(|&l| l > 0.0);
+    };
+    let tip = match (skeleton.joint(last).tip, skeleton.children(last)) {
+        (Some(tip), _) => tip.length(),
+        (None, [child, ..]) => skeleton.joint(*child).offset.length(),
+        (None, []) => 0.8 * skeleton.joint(last).offset.length(),
+    };
+    Some(length(skeleton, last, hand) + tip)
+}
+
+/// Returns the height of the head above its joint: from its tip or a child such as `HeadTop_End`,
+/// where that is long enough to be one; else two thirds of the head's height, which is where head
+/// joints usually are.
+fn head_top(anatomy: &Anatomy, skeleton: &Skeleton, stature: f64) -> f64 {
+    let usual = HEAD * stature * 2.0 / 3.0;
+    let Some(head) = anatomy.joint(Part::Head) else {
+        return usual;
+    };
+    let children = skeleton.children(head).iter();
+    let unknown = children.filter(|&&j| anatomy.part_of(j).is_none());
+    let ends = unknown.map(|&j| skeleton.joint(j).offset.length());
+    let tip = skeleton.joint(head).tip.map(DVec3::length);
+    let longest = ends.chain(tip).fold(0.0, f64::max);
+    if (0.08 * stature..0.25 * stature).contains(&longest) {
+        longest
+    } else {
+        usual
+    }
+}
+
+/// Returns the way from the hip joints up to the head's joint.
+fn trunk_and_neck(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<f64> {
+    let (head, hips) = (anatomy.joint(Part::Head)?, anatomy.joint(Part::Hips)?);
+    if !anatomy.is_below(head, hips) {
+        return None;
+    }
+    let way = length(skeleton, head, hips);
+    let below = middle(anatomy, model, Part::Thigh).map_or(0.0, |thighs| {
+        let up = (model.position(head) - model.position(hips)).normalize_or_zero();
+        (model.position(hips) - thighs).dot(up)
+    });
+    Some(way + below.clamp(0.0, 0.2 * way))
+}
+
+fn trunk_length(anatomy: &Anatomy, model: &ModelPose) -> Option<f64> {
+    let shoulders = middle(anatomy, model, Part::UpperArm)?;
+    let hips = model.position(anatomy.joint(Part::Hips)?);
+    Some(shoulders.distance(hips))
+}
+
+/// Returns the distance of the shoulders in the posture where it fits the stature; else that of
+/// shoulders whose bones lie in one line; else their share of the stature.
+fn shoulder_width(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose, stature: f64) -> f64 {
+    let joint = |side| anatomy.joint(Part::UpperArm(side));
+    let fits = |width: &f64| (0.12 * stature..0.35 * stature).contains(width);
+    let [Some(right), Some(left)] = Side::BOTH.map(joint) else {
+        return SHOULDERS * stature;
+    };
+    let posed = model.position(right).distance(model.position(left));
+    let chain = |joint: usize| {
+        let chest = anatomy.joint(Part::Chest);
+        let path = skeleton.ancestors(joint);
+        let bones =
+            path.take_while(|&j| Some(j) != chest && anatomy.part_of(j) != Some(Part::Hips));
+        bones
+            .map(|j| {
+                let offset = skeleton.joint(j).offset;
+                if j == joint {
+                    offset.length()
+                } else {
+                    offset.abs().min_element()
+                }
+            })
+            .sum::<f64>()
+    };
+    let line = chain(right) + chain(left);
+    Some(posed)
+        .filter(fits)
+        .or(Some(line).filter(fits))
+        .unwrap_or(SHOULDERS * stature)
+}
+
+/// Returns the middle between a part of the right and of the left, or the one there is.
+pub(super) fn middle(
+    anatomy: &Anatomy,
+    model: &ModelPose,
+    part: impl Fn(Side) -> Part,
+) -> Option<DVec3> {
+    let at = Side::BOTH.map(|side| anatomy.joint(part(side)).map(|j| model.position(j)));
+    match at {
+        [Some(right), Some(left)] => Some((right + left) / 2.0),
+        [one, other] => one.or(other),
+    }
+}
+
+/// The frame of a signer's trunk in a posture: a place, three directions, a size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyFrame {
+    /// The middle between the shoulder joints, in model space.
+    pub origin: DVec3,
+    /// The unit vector to the signer's left.
+    pub left: DVec3,
+    /// The unit vector up along the trunk, at right angles to `left`.
+    pub up: DVec3,
+    /// The unit vector that the chest faces.
+    pub forward: DVec3,
+    /// The distance of the shoulder joints in metres, the unit of body space.
+    pub scale: f64,
+}
+
+impl BodyFrame {
+    /// Returns the place `at` of model space in shoulder widths left, up and forward of the origin.
+    #[must_use]
+    pub fn to_body(&self, at: DVec3) -> DVec3 {
+        self.direction_to_body(at - self.origin) / self.scale
+    }
+
+    /// Returns the place in model space of shoulder widths left, up and forward of the origin.
+    #[must_use]
+    pub fn to_model(&self, at: DVec3) -> DVec3 {
+        self.origin + self.direction_to_model(at * self.scale)
+    }
+
+    /// Returns a direction or distance of model space along left, up and forward, in metres.
+    #[must_use]
+    pub fn direction_to_body(&self, v: DVec3) -> DVec3 {
+        DVec3::new(v.dot(self.left), v.dot(self.up), v.dot(self.forward))
+    }
+
+    /// Returns a direction or distance along left, up and forward in model space, in metres.
+    #[must_use]
+    pub fn direction_to_model(&self, v: DVec3) -> DVec3 {
+        self.left * v.x + self.up * v.y + self.forward * v.z
+    }
+
+    /// Returns the rotation that takes model axes to left, up and forward.
+    #[must_use]
+    pub fn rotation(&self) -> DQuat {
+        DQuat::from_mat3(&DMat3::from_cols(self.left, self.up, self.forward)).normalize()
+    }
+}
+
+/// Returns left, up and forward of the trunk; nothing where the joints do not span a plane.
+pub(super) fn trunk_axes(anatomy: &Anatomy, model: &ModelPose) -> Option<[DVec3; 3]> {
+    let at = |part| anatomy.joint(part).map(|j| model.position(j));
+    let low = at(Part::Hips)
+        .or_else(|| middle(anatomy, model, Part::Thigh))
+        .or_else(|| at(Part::Spine))
+        .or_else(|| at(Part::Chest))?;
+    let high = middle(anatomy, model, Part::UpperArm)
+        .filter(|_| at(Part::Hips).is_some())
+        .or_else(|| at(Part::Head))
+        .or_else(|| at(Part::Neck))?;
+    let up = (high - low).try_normalize()?;
+    let across = |part: fn(Side) -> Part| {
+        let [right, left] = Side::BOTH.map(|side| at(part(side)));
+        let line = left? - right?;
+        let left = line.reject_from_normalized(up);
+        (left.length() > 0.3 * line.length() && left.length() > 0.05 * high.distance(low))
+            .then_some(left)
+    };
+    let shoulders = across(Part::UpperArm);
+    let collars = across(Part::Clavicle)
+        .filter(|collars| shoulders.is_none_or(|line| collars.length() > 0.1 * line.length()));
+    let left = collars.or(shoulders).or_else(|| across(Part::Thigh))?;
+    let left = left.try_normalize()?;
+    let up = up.reject_from_normalized(left).try_normalize()?;
+    Some([left, up, left.cross(up)])
+}

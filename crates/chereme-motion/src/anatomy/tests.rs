@@ -1,0 +1,638 @@
+//! What anatomy finds and places, on made bodies and on real files.
+
+use std::path::{Path, PathBuf};
+
+use glam::{DQuat, DVec3};
+use proptest::prelude::*;
+
+use super::fixtures::conventions::{conventional, conventions};
+use super::fixtures::{PLAIN, Wear, any_turn, body, renamed, roles, wears};
+use super::*;
+use crate::axes::Axis;
+use crate::hand::HandAngles;
+use crate::pose::Pose;
+use crate::skeleton::Joint;
+
+fn worn(wear: Wear) -> (Skeleton, Anatomy) {
+    let skeleton = body(wear);
+    let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("its own names");
+    (skeleton, anatomy)
+}
+
+/// Angles that hands can take, by weights from 0 to 1.
+fn plausible(weights: [f64; HandAngles::LEN]) -> HandAngles {
+    let mut all = [0.0; HandAngles::LEN];
+    let thumb = [
+        (-0.2, 1.6),
+        (-0.3, 1.2),
+        (-0.3, 1.5),
+        (-0.3, 1.2),
+        (-0.4, 1.4),
+    ];
+    let finger = [(-0.4, 0.4), (-0.5, 1.7), (-0.1, 2.0), (-0.1, 1.6)];
+    for (n, (angle, weight)) in all.iter_mut().zip(weights).enumerate() {
+        let (low, high) = if n < 5 { thumb[n] } else { finger[(n - 5) % 4] };
+        *angle = low + (high - low) * weight;
+    }
+    HandAngles::from_array(all)
+}
+
+fn without_end_joints(mut angles: HandAngles) -> HandAngles {
+    for finger in &mut angles.fingers {
+        finger.flexion[2] = 0.0;
+    }
+    angles
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    #[test]
+    fn hand_angles_set_are_hand_angles_read(weights in proptest::array::uniform21(0.0f64..1.0)) {
+        for (name, wear) in wears() {
+            let (skeleton, anatomy) = worn(wear);
+            for side in Side::BOTH {
+                let mut want = plausible(weights);
+                if wear.joints == 2 {
+                    want = without_end_joints(want);
+                }
+                let mut pose = skeleton.rest_pose();
+                prop_assert!(anatomy.set_hand_angles(&skeleton, side, &want, &mut pose));
+                let got = anatomy.hand_angles(&skeleton, side, &pose).expect("a hand");
+                for (a, b) in want.to_array().into_iter().zip(got.to_array()) {
+                    prop_assert!((a - b).abs() < 1e-6, "{name} {side:?}\n{want:?}\n{got:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn equal_angles_look_alike_on_every_body(weights in proptest::array::uniform21(0.0f64..1.0)) {
+        let angles = without_end_joints(plausible(weights));
+        let bones = |wear: Wear, side: Side| {
+            let (skeleton, anatomy) = worn(wear);
+            let mut pose = skeleton.rest_pose();
+            anatomy.set_hand_angles(&skeleton, side, &angles, &mut pose);
+            let model = ModelPose::of(&skeleton, &pose);
+            let along = anatomy.hand_direction(side, &model).expect("a hand");
+            let palm = anatomy.palm_normal(side, &model).expect("a palm");
+            let radial = palm.cross(along) * -side.sign();
+            let bone = |a, b| {
+                let [a, b] = [a, b].map(|part| anatomy.joint(part).expect("a finger"));
+                let bone = (model.position(b) - model.position(a)).normalize();
+                DVec3::new(bone.dot(along), bone.dot(radial), bone.dot(palm))
+            };
+            let mut all: Vec<DVec3> = Finger::ALL
+                .iter()
+                .map(|&f| bone(Part::Finger(side, f, 1), Part::Finger(side, f, 2)))
+                .collect();
+            all.extend((0..2).map(|n| bone(Part::Thumb(side, n), Part::Thumb(side, n + 1))));
+            all
+        };
+        let want = bones(PLAIN, Side::Right);
+        for (name, wear) in wears() {
+            for side in Side::BOTH {
+                for (a, b) in want.iter().zip(bones(wear, side)) {
+                    prop_assert!(a.angle_between(b) < 0.02, "{name} {side:?}: {a} {b}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn angles_mean_what_the_hand_module_says() {
+    let (skeleton, anatomy) = worn(Wear {
+        frames: any_turn,
+        bent: 0.1,
+        ..PLAIN
+    });
+    for side in Side::BOTH {
+        let show = |change: fn(&mut HandAngles)| {
+            let mut angles = HandAngles::default();
+            change(&mut angles);
+            let mut pose = skeleton.rest_pose();
+            anatomy.set_hand_angles(&skeleton, side, &angles, &mut pose);
+            ModelPose::of(&skeleton, &pose)
+        };
+        let (out, palm, front) = (DVec3::X * side.sign(), DVec3::NEG_Y, DVec3::Z);
+        let bone = |model: &ModelPose, a, b| {
+            let [a, b] = [a, b].map(|part| anatomy.joint(part).expect("a finger"));
+            (model.position(b) - model.position(a)).normalize()
+        };
+        let index = |n| Part::Finger(side, Finger::Index, n);
+        let straight = show(|_| {});
+        let along = anatomy.hand_direction(side, &straight).expect("a hand");
+        assert!(along.dot(out) > 0.99);
+        assert!(
+            anatomy
+                .palm_normal(side, &straight)
+                .expect("a palm")
+                .dot(palm)
+                > 0.99
+        );
+        for n in 1..3 {
+            assert!(bone(&straight, index(n), index(n + 1)).dot(along) > 1.0 - 1e-9);
+        }
+        assert!(
+            bone(&straight, Part::Thumb(side, 0), Part::Thumb(side, 1)).dot(along) > 1.0 - 1e-9
+        );
+        let bent = show(|angles| angles.fingers[0].flexion = [1.5, 0.0, 0.0]);
+        assert!(bone(&bent, index(1), index(2)).dot(palm) > 0.98);
+        let spread = show(|angles| angles.fingers[0].spread = 0.5);
+        assert!(bone(&spread, index(1), index(2)).dot(front) > 0.4);
+        let thumb =
+            |model: &ModelPose, n| bone(model, Part::Thumb(side, n), Part::Thumb(side, n + 1));
+        let radial = show(|angles| angles.thumb.radial = 1.5);
+        assert!(thumb(&radial, 0).dot(front) > 0.98);
+        let palmar = show(|angles| angles.thumb.palmar = 1.0);
+        assert!(thumb(&palmar, 0).dot(palm) > 0.8);
+        let crossed = show(|angles| angles.thumb.flexion = [0.8, 0.0]);
+        assert!(thumb(&crossed, 1).dot(-front) > 0.6);
+        let opposed = show(|angles| {
+            angles.thumb.palmar = 1.5;
+            angles.thumb.opposition = 0.7;
+            angles.thumb.flexion = [0.8, 0.0];
+        });
+        assert!(
+            thumb(&opposed, 1).dot(along) > 0.3,
+            "towards the little finger's base"
+        );
+        assert!(thumb(&opposed, 1).dot(-front) > 0.3);
+    }
+}
+
+#[test]
+fn only_the_fingers_change_and_a_hand_without_any_is_refused() {
+    let (skeleton, anatomy) = worn(PLAIN);
+    let rest = skeleton.rest_pose();
+    let mut pose = rest.clone();
+    let angles = plausible([0.7; HandAngles::LEN]);
+    assert!(anatomy.set_hand_angles(&skeleton, Side::Left, &angles, &mut pose));
+    let channel = anatomy.fingers(Side::Left);
+    assert_eq!(channel.len(), 15);
+    for joint in 0..skeleton.len() {
+        let changed = pose.rotations[joint] != rest.rotations[joint];
+        assert_eq!(
+            changed,
+            channel.contains(&joint),
+            "{}",
+            skeleton.joint(joint).name
+        );
+    }
+    let bare = Skeleton::new(vec![Joint::new("LeftHand", None, DVec3::ZERO)]).expect("a tree");
+    let anatomy = Anatomy::detect(&bare);
+    let mut pose = bare.rest_pose();
+    assert!(!anatomy.set_hand_angles(&bare, Side::Left, &angles, &mut pose));
+    assert_eq!(anatomy.hand_angles(&bare, Side::Left, &pose), None);
+}
+
+#[test]
+fn every_part_is_found_in_every_convention_without_doubt() {
+    let plain = body(PLAIN);
+    let mut all = conventions();
+    let motion_builder = all[0].2.clone();
+    for prefix in [
+        "mixamorig:",
+        "mixamorig_",
+        "mixamorig",
+        "mixamorig7:",
+        "Anna_",
+        "Character1_",
+    ] {
+        let mut names = motion_builder.clone();
+        for (_, name) in &mut names {
+            *name = String::leak(format!("{prefix}{name}"));
+        }
+        all.push((prefix, ["Right", "Left"], names));
+    }
+    for (convention, sides, names) in all {
+        let skeleton = renamed(&plain, |_, name| {
+            conventional(name.parse().expect("a part"), sides, &names)
+        });
+        let anatomy = Anatomy::detect(&skeleton);
+        for joint in 0..skeleton.len() {
+            let part: Part = plain.joint(joint).name.parse().expect("a part");
+            let name = &skeleton.joint(joint).name;
+            assert_eq!(
+                anatomy.joint(part),
+                Some(joint),
+                "{convention}: {part} {name}"
+            );
+        }
+        assert_eq!(anatomy.ambiguous(), [], "{convention}");
+        assert_eq!(anatomy.missing(), [], "{convention}");
+    }
+}
+
+#[test]
+fn names_that_tell_nothing_leave_it_to_topology_and_sides() {
+    for (wear_name, wear) in wears() {
+        let plain = body(wear);
+        let skeleton = renamed(&plain, |n, _| format!("joint_{n}"));
+        let anatomy = Anatomy::detect(&skeleton);
+        for joint in 0..skeleton.len() {
+            let part: Part = plain.joint(joint).name.parse().expect("a part");
+            assert_eq!(anatomy.joint(part), Some(joint), "{wear_name}: {part}");
+            assert_eq!(
+                anatomy.evidence(part),
+                Some(Evidence::Topology),
+                "{wear_name}: {part}"
+            );
+        }
+    }
+}
+
+#[test]
+fn doubled_and_missing_parts_are_reported() {
+    let skeleton = Skeleton::new(vec![
+        Joint::new("Hips", None, DVec3::ZERO),
+        Joint::new("LeftHand", Some(0), DVec3::X),
+        Joint::new("left_hand", Some(0), DVec3::Y),
+    ])
+    .expect("a tree");
+    let anatomy = Anatomy::detect(&skeleton);
+    let hand = Part::Hand(Side::Left);
+    let [ambiguity] = anatomy.ambiguous() else {
+        panic!("{:?}", anatomy.ambiguous());
+    };
+    assert_eq!((ambiguity.part, ambiguity.taken), (hand, 1));
+    assert_eq!(ambiguity.others, [2]);
+    assert!(anatomy.missing().contains(&Part::Hand(Side::Right)));
+    assert!(!anatomy.missing().contains(&hand) && !anatomy.missing().contains(&Part::Jaw));
+}
+
+#[test]
+fn mirrored_joints_are_those_of_the_other_side_also_without_a_part() {
+    let skeleton = Skeleton::new(vec![
+        Joint::new("Hips", None, DVec3::ZERO),
+        Joint::new("LHipJoint", Some(0), DVec3::X),
+        Joint::new("LeftUpLeg", Some(1), DVec3::X),
+        Joint::new("RHipJoint", Some(0), DVec3::NEG_X),
+        Joint::new("RightUpLeg", Some(3), DVec3::NEG_X),
+        Joint::new("LeftHand", Some(0), DVec3::X),
+        Joint::new("strap", Some(5), DVec3::X),
+        Joint::new("belt", Some(0), DVec3::Z),
+    ])
+    .expect("a tree");
+    let anatomy = Anatomy::detect(&skeleton);
+    let map = anatomy.mirror_map(&skeleton);
+    let want = [
+        Some(0),
+        Some(3),
+        Some(4),
+        Some(1),
+        Some(2),
+        None,
+        None,
+        Some(7),
+    ];
+    assert_eq!(map, want);
+    let (skeleton, anatomy) = worn(PLAIN);
+    let map = anatomy.mirror_map(&skeleton);
+    for (joint, other) in map.iter().enumerate() {
+        let other = other.expect("both sides are there");
+        assert_eq!(map[other], Some(joint));
+        let at = |j| skeleton.rest_model_pose().position(j);
+        assert!(at(joint).abs_diff_eq(at(other) * DVec3::new(-1.0, 1.0, 1.0), 1e-9));
+    }
+}
+
+#[test]
+fn units_and_axes_are_found_whichever_way_the_body_is_written() {
+    for up in ["+X", "-X", "+Y", "-Y", "+Z", "-Z"] {
+        for left in ["+X", "-X", "+Y", "-Y", "+Z", "-Z"] {
+            let Ok(axes) = format!("{up},{left}").parse::<crate::Axes>() else {
+                continue;
+            };
+            for (name, metres) in [
+                ("m", 1.0),
+                ("cm", 0.01),
+                ("mm", 0.001),
+                ("inch", 0.0254),
+                ("acclaim", 0.0254 / 0.45),
+            ] {
+                let wear = Wear {
+                    axes: axes.to_model().inverse(),
+                    unit: 1.0 / metres,
+                    ..PLAIN
+                };
+                let (skeleton, anatomy) = worn(wear);
+                let guess = anatomy.convention(&skeleton, None);
+                assert_eq!(guess.unit_name, name);
+                assert!((guess.convention.metres_per_unit - metres).abs() < 1e-12);
+                assert_eq!(guess.convention.axes, axes);
+                assert!(guess.confidence > 0.9, "{guess:?}");
+            }
+        }
+    }
+    let chain = Skeleton::new(vec![
+        Joint::new("base", None, DVec3::ZERO),
+        Joint::new("child", Some(0), DVec3::Y * 8.0),
+    ])
+    .expect("a tree");
+    let guess = detect_convention(&chain, None);
+    assert_eq!((guess.unit_name, guess.confidence), ("unknown", 0.0));
+    assert!(
+        guess
+            .reasons
+            .iter()
+            .any(|reason| reason.contains("say the unit"))
+    );
+}
+
+#[test]
+fn measures_are_those_of_the_made_body_and_a_person_s() {
+    let (_, anatomy) = worn(PLAIN);
+    let m = anatomy.measures().expect("measures");
+    let near = |a: f64, b: f64, by: f64| assert!((a - b).abs() < by, "{a} {b}");
+    near(m.stature, 1.75, 0.05);
+    near(m.arm, 0.53, 1e-9);
+    near(m.shoulder_width, 0.36, 1e-9);
+    near(m.hand, 0.182, 0.005);
+    near(m.head, 0.226, 0.02);
+    near(m.trunk, 0.48, 1e-6);
+}
+
+#[test]
+fn every_landmark_is_placed_near_where_people_have_it_and_turns_with_body_and_head() {
+    for (wear_name, wear) in wears() {
+        let (skeleton, anatomy) = worn(wear);
+        let turn = DQuat::from_rotation_z(0.4) * any_turn(5);
+        let mut pose = skeleton.rest_pose();
+        pose.rotations[0] = turn * pose.rotations[0];
+        pose.translations[0] += DVec3::new(3.0, -1.0, 2.0);
+        let (rest, moved) = (skeleton.rest_model_pose(), ModelPose::of(&skeleton, &pose));
+        for name in Anatomy::landmarks() {
+            let at = anatomy
+                .landmark(&skeleton, &rest, &name)
+                .unwrap_or_else(|| panic!("{name}"));
+            let there = anatomy
+                .landmark(&skeleton, &moved, &name)
+                .expect("placed at rest");
+            let want = moved.position(0) + turn * (at - rest.position(0));
+            assert!(
+                there.abs_diff_eq(want, 1e-6 * wear.unit),
+                "{wear_name} {name}"
+            );
+        }
+    }
+    let (skeleton, anatomy) = worn(PLAIN);
+    let rest = skeleton.rest_model_pose();
+    for (name, want) in [
+        ("nose", [0.0, 1.61, 0.13]),
+        ("chin", [0.0, 1.54, 0.10]),
+        ("left-eye", [0.03, 1.64, 0.09]),
+        ("right ear", [-0.08, 1.63, 0.0]),
+        ("forehead", [0.0, 1.69, 0.1]),
+        ("chest", [0.0, 1.30, 0.12]),
+        ("belly", [0.0, 1.08, 0.12]),
+        ("left-shoulder", [0.18, 1.47, 0.0]),
+        ("index tip left", [0.89, 1.43, 0.03]),
+        ("left-palm", [0.76, 1.415, 0.0]),
+        ("neutral-space", [0.0, 1.19, 0.36]),
+    ] {
+        let at = anatomy.landmark(&skeleton, &rest, name).expect(name);
+        assert!(at.distance(want.into()) < 0.03, "{name}: {at}");
+    }
+    let mut nod = skeleton.rest_pose();
+    let head = anatomy.joint(Part::Head).expect("a head");
+    nod.rotations[head] = DQuat::from_rotation_y(1.0);
+    let nose = anatomy
+        .landmark(&skeleton, &ModelPose::of(&skeleton, &nod), "nose")
+        .expect("nose");
+    assert!(nose.x > 0.09);
+    assert_eq!(anatomy.landmark(&skeleton, &rest, "left-antler"), None);
+    assert_eq!(anatomy.landmark(&skeleton, &rest, "ear"), None);
+}
+
+#[test]
+fn body_space_goes_there_and_back_and_knows_left_from_right() {
+    let (skeleton, anatomy) = worn(PLAIN);
+    let mut pose = skeleton.rest_pose();
+    pose.rotations[0] = DQuat::from_rotation_y(std::f64::consts::PI);
+    let model = ModelPose::of(&skeleton, &pose);
+    let frame = anatomy.body_frame(&model).expect("a trunk");
+    assert!(frame.left.abs_diff_eq(DVec3::NEG_X, 1e-9));
+    assert!(frame.forward.abs_diff_eq(DVec3::NEG_Z, 1e-9));
+    let at = DVec3::new(0.3, 1.2, -0.4);
+    assert!(frame.to_model(frame.to_body(at)).abs_diff_eq(at, 1e-12));
+    assert!((frame.rotation() * DVec3::Z).abs_diff_eq(frame.forward, 1e-9));
+}
+
+#[test]
+fn a_hand_turned_by_direction_and_palm_has_them() {
+    let (skeleton, anatomy) = worn(Wear {
+        frames: any_turn,
+        ..PLAIN
+    });
+    for side in Side::BOTH {
+        let turn = anatomy
+            .hand_rotation(side, DVec3::Y, DVec3::Z)
+            .expect("a hand");
+        let hand = anatomy.joint(Part::Hand(side)).expect("a hand");
+        let mut pose = skeleton.rest_pose();
+        let above = skeleton.parent(hand).expect("a forearm");
+        pose.rotations[hand] = ModelPose::of(&skeleton, &pose).rotation(above).inverse() * turn;
+        let model = ModelPose::of(&skeleton, &pose);
+        let along = anatomy.hand_direction(side, &model).expect("a hand");
+        let palm = anatomy.palm_normal(side, &model).expect("a palm");
+        assert!(along.abs_diff_eq(DVec3::Y, 1e-9) && palm.abs_diff_eq(DVec3::Z, 1e-9));
+    }
+}
+
+/// Reads the hierarchy and the first frame of a BVH file, as little as these trials need.
+fn read_bvh(path: &Path) -> Option<(Skeleton, Option<Pose>)> {
+    let text = String::from_utf8_lossy(&std::fs::read(path).ok()?).into_owned();
+    let (hierarchy, motion) = text.split_once("MOTION").unwrap_or((&text, ""));
+    let mut words = hierarchy.split_whitespace();
+    let (mut joints, mut open, mut channels) = (Vec::<Joint>::new(), Vec::new(), Vec::new());
+    let mut next: Option<Option<String>> = None;
+    while let Some(word) = words.next() {
+        let number = |word: Option<&str>| word?.parse::<f64>().ok();
+        match word {
+            "ROOT" | "JOINT" => next = Some(Some(words.next()?.to_owned())),
+            "End" => next = Some(None),
+            "{" => open.push(next.take()?.map(|name| {
+                let parent = open.iter().rev().copied().flatten().next();
+                joints.push(Joint::new(name, parent, DVec3::ZERO));
+                joints.len() - 1
+            })),
+            "}" => drop(open.pop()),
+            "OFFSET" => {
+                let at = DVec3::new(
+                    number(words.next())?,
+                    number(words.next())?,
+                    number(words.next())?,
+                );
+                match open.last()? {
+                    Some(joint) => joints[*joint].offset = at,
+                    None => joints.last_mut()?.tip = Some(at),
+                }
+            }
+            "CHANNELS" => {
+                let joint = (*open.last()?)?;
+                let count = words.next()?.parse().ok()?;
+                channels.extend((0..count).filter_map(|_| Some((joint, words.next()?.to_owned()))));
+            }
+            _ => {}
+        }
+    }
+    let skeleton = Skeleton::new(joints).ok()?;
+    let row = motion
+        .lines()
+        .find(|line| line.split_whitespace().count() >= channels.len() && !channels.is_empty());
+    let pose = row.map(|row| {
+        let mut pose = skeleton.rest_pose();
+        for ((joint, channel), value) in channels.iter().zip(row.split_whitespace()) {
+            let value: f64 = value.parse().unwrap_or(0.0);
+            let axis = match channel.as_bytes()[0] {
+                b'X' => Axis::X,
+                b'Y' => Axis::Y,
+                _ => Axis::Z,
+            };
+            if channel.ends_with("rotation") {
+                pose.rotations[*joint] *= axis.rotation(value.to_radians());
+            } else {
+                pose.translations[*joint][axis.index()] = value;
+            }
+        }
+        pose
+    });
+    Some((skeleton, pose))
+}
+
+fn shared(folder: &str) -> Vec<PathBuf> {
+    let Some(root) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        eprintln!("CHEREME_SHARED_DATA is not set: real files are not tried");
+        return Vec::new();
+    };
+    let mut files = Vec::new();
+    let mut folders = vec![PathBuf::from(root).join(folder)];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).into_iter().flatten().flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|end| end == "bvh") {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    files
+}
+
+/// What the real files are: end of the path, unit, axes, usual parts missing besides digits, and
+/// whether both hands have fingers.
+const REAL: [(&str, &str, &str, &str, bool); 19] = [
+    ("test_freebvh.bvh", "cm", "+Y,+X", "", true),
+    (
+        "test_mocapbank.bvh",
+        "cm",
+        "+Y,+X",
+        "right toes, left toes",
+        false,
+    ),
+    ("rest.bvh", "acclaim", "+Y,+X", "", false),
+    ("01_01.bvh", "acclaim", "+Y,+X", "", false),
+    ("cmu_12_01_walk.bvh", "acclaim", "+Y,+X", "", false),
+    ("pfnn_hierarchy.bvh", "m", "+Y,+X", "", false),
+    ("walk01.bvh", "cm", "+Y,+X", "right toes, left toes", false),
+    ("bvh_example.bvh", "inch", "+Z,-X", "", false),
+    ("bvh_test2.bvh", "cm", "+Y,-X", "", false),
+    ("Boxing_Toes.bvh", "cm", "+Y,-X", "", false),
+    (
+        "bvhio/example.bvh",
+        "inch",
+        "+Y,-X",
+        "right toes, left toes",
+        false,
+    ),
+    ("Rep1.bvh", "inch", "+Y,+X", "neck", false),
+    ("abroad.bvh", "cm", "-Y,+X", "right toes, left toes", false),
+    (
+        "animics/test.bvh",
+        "m",
+        "-Y,+X",
+        "right toes, left toes",
+        false,
+    ),
+    ("victor.bvh", "cm", "-Y,+X", "right toes, left toes", false),
+    ("create_db_m.bvh", "m", "-Z,+X", "", true),
+    ("kateBVH.bvh", "cm", "+Y,+X", "", true),
+    (
+        "pirouette.bvh",
+        "cm",
+        "+Y,+X",
+        "right toes, left toes",
+        true,
+    ),
+    ("NGT Thanks.bvh", "cm", "+Y,+X", "", true),
+];
+
+#[test]
+fn real_files_have_bodies() {
+    for path in shared("motion/bvh") {
+        let shown = path.display();
+        let (skeleton, first) = read_bvh(&path).unwrap_or_else(|| panic!("{shown}"));
+        let first = first.map(|pose| ModelPose::of(&skeleton, &pose));
+        let anatomy = Anatomy::detect(&skeleton);
+        assert_eq!(anatomy.ambiguous(), [], "{shown}");
+        let guess = anatomy.convention(&skeleton, first.as_ref());
+        let Some(&(_, unit, axes, missing, fingers)) = REAL
+            .iter()
+            .find(|(end, ..)| shown.to_string().ends_with(end))
+        else {
+            continue;
+        };
+        assert_eq!(guess.unit_name, unit, "{shown} {guess:?}");
+        assert_eq!(guess.convention.axes.to_string(), axes, "{shown} {guess:?}");
+        assert!(guess.confidence > 0.9, "{shown} {guess:?}");
+        let lacks: Vec<String> = anatomy
+            .missing()
+            .iter()
+            .filter(|part| !matches!(part, Part::Finger(..) | Part::Thumb(..)))
+            .map(Part::to_string)
+            .collect();
+        assert_eq!(lacks.join(", "), missing, "{shown}");
+        let found = Side::BOTH.map(|side| anatomy.has_fingers(side));
+        assert_eq!(found, [fingers; 2], "{shown}");
+    }
+}
+
+#[test]
+fn real_hands_give_plausible_angles_that_set_them_again() {
+    for path in shared("motion/bvh") {
+        let shown = path.display();
+        let (skeleton, Some(first)) = read_bvh(&path).unwrap_or_else(|| panic!("{shown}")) else {
+            continue;
+        };
+        let anatomy = Anatomy::detect(&skeleton);
+        for side in Side::BOTH
+            .into_iter()
+            .filter(|&side| anatomy.has_fingers(side))
+        {
+            let angles = anatomy
+                .hand_angles(&skeleton, side, &first)
+                .expect("fingers");
+            let mut pose = first.clone();
+            anatomy.set_hand_angles(&skeleton, side, &angles, &mut pose);
+            let again = anatomy
+                .hand_angles(&skeleton, side, &pose)
+                .expect("fingers");
+            for (a, b) in angles.to_array().into_iter().zip(again.to_array()) {
+                assert!((a - b).abs() < 1e-6, "{shown} {side:?}");
+            }
+            for finger in angles.fingers {
+                assert!(
+                    finger.flexion.iter().all(|f| (-0.8..2.2).contains(f)),
+                    "{shown} {angles:?}"
+                );
+                assert!(finger.spread.abs() < 0.8, "{shown} {angles:?}");
+            }
+            let degrees = angles.map(f64::to_degrees);
+            eprintln!("{shown} {side:?} {:.0?}", degrees.to_array());
+        }
+    }
+}

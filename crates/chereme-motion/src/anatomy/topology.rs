@@ -1,0 +1,313 @@
+//! Finding parts by how joints hang together, where names do not tell.
+
+use glam::DVec3;
+
+use super::detect::Finder;
+use super::fingers::in_hand;
+use super::names::Digit;
+use super::part::Part;
+use super::{Ambiguity, Evidence};
+use crate::hand::Side;
+use crate::skeleton::Skeleton;
+
+impl Finder<'_> {
+    /// Finds arms and legs as pairs of like chains, fills gaps in chains, and finds digits.
+    pub(super) fn by_topology(&mut self) {
+        let unnamed = |finder: &Self, part: fn(Side) -> Part| {
+            Side::BOTH
+                .iter()
+                .all(|&side| finder.joint(part(side)).is_none())
+        };
+        if unnamed(self, Part::UpperArm) && unnamed(self, Part::Hand) {
+            self.limbs();
+        }
+        for side in Side::BOTH {
+            self.fill([Part::UpperArm(side), Part::Forearm(side), Part::Hand(side)]);
+            self.fill([Part::Thigh(side), Part::Shin(side), Part::Foot(side)]);
+            self.digits_by_shape(side);
+        }
+        self.hips();
+    }
+
+    /// The hips are where the thighs part.
+    fn hips(&mut self) {
+        let thighs = Side::BOTH.map(|side| self.joint(Part::Thigh(side)));
+        if let [Some(right), Some(left)] = thighs
+            && let Some(hips) = self.common(right, left)
+        {
+            self.put(Part::Hips, hips, Evidence::Topology);
+        }
+    }
+
+    /// Finds neck and head as the chain that goes on from the chest beside the arms.
+    pub(super) fn neck_and_head(&mut self) {
+        let Some(chest) = self.joint(Part::Chest) else {
+            return;
+        };
+        let arms: Vec<usize> = Side::BOTH
+            .iter()
+            .flat_map(|&side| [Part::Clavicle(side), Part::UpperArm(side)])
+            .filter_map(|part| self.joint(part))
+            .collect();
+        let children = self.skeleton.children(chest).iter().copied();
+        let free = children.filter(|&child| !arms.iter().any(|&arm| self.is_below(arm, child)));
+        let Some(neck) = free.max_by_key(|&child| (depth(self.skeleton, child), child)) else {
+            return;
+        };
+        let mut chain = vec![neck];
+        while let [child] = *self.skeleton.children(chain[chain.len() - 1]) {
+            chain.push(child);
+        }
+        match *chain {
+            [head] => self.put(Part::Head, head, Evidence::Topology),
+            [.., head] => {
+                self.put(Part::Head, head, Evidence::Topology);
+                if self.joint(Part::Head) != Some(neck) {
+                    self.put(Part::Neck, neck, Evidence::Topology);
+                }
+            }
+            [] => {}
+        }
+    }
+
+    /// Gives the middle or the last of three joints of a limb where its neighbours are found.
+    fn fill(&mut self, [first, second, third]: [Part; 3]) {
+        let joints = [first, second, third].map(|part| self.joint(part));
+        match joints {
+            [Some(upper), None, Some(lower)] if self.is_below(lower, upper) => {
+                let between = self.skeleton.parent(lower).filter(|&joint| joint != upper);
+                if let Some(joint) = between.filter(|&joint| self.is_free(joint)) {
+                    self.put(second, joint, Evidence::Topology);
+                }
+            }
+            [Some(_), Some(middle), None] => {
+                let mut free = self.skeleton.children(middle).iter().copied();
+                if let Some(joint) = free.find(|&joint| self.is_free(joint)) {
+                    self.put(third, joint, Evidence::Topology);
+                }
+            }
+            [None, Some(middle), Some(_)] => {
+                let above = self.skeleton.parent(middle);
+                if let Some(joint) = above.filter(|&joint| joint != 0 && self.is_free(joint)) {
+                    self.put(first, joint, Evidence::Topology);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn is_free(&self, joint: usize) -> bool {
+        self.labels[joint].is_none() && !self.found.values().any(|&(taken, _)| taken == joint)
+    }
+
+    /// Finds two pairs of like chains: the one nearer the root are the legs, the other the arms; a
+    /// single pair are the arms where something else, a neck, goes on beside them.
+    fn limbs(&mut self) {
+        let pairs = pairs(self.skeleton);
+        let rest = self.skeleton.rest_model_pose();
+        let (legs, arms) = match *pairs.as_slice() {
+            [legs, arms, ..] => (Some(legs), arms),
+            [arms] if self.skeleton.children(arms.fork).len() > 2 => (None, arms),
+            _ => return,
+        };
+        let at = |joint: usize| rest.position(joint);
+        let up = match legs {
+            Some(legs) => at(arms.fork) - at(legs.fork),
+            None => DVec3::Y,
+        };
+        let mut toes = DVec3::ZERO;
+        for limb in legs.iter().flat_map(|pair| pair.limbs) {
+            if let [.., foot, end] = *chain(self.skeleton, limb) {
+                toes += rest.tip(self.skeleton, end).unwrap_or(at(end)) - at(foot);
+            }
+        }
+        let up = up.normalize_or(DVec3::Y);
+        let facing = toes.reject_from_normalized(up);
+        let told = facing.length() > 0.01 * at(arms.fork).distance(at(0));
+        let left = if told { up.cross(facing) } else { DVec3::X };
+        for (pair, is_arm) in [(Some(arms), true), (legs, false)] {
+            let Some(pair) = pair else { continue };
+            let [a, b] = pair.limbs.map(|limb| end(self.skeleton, limb));
+            let across = (at(a) - at(b)).dot(left);
+            let order = if across > 0.0 { [1, 0] } else { [0, 1] };
+            for (side, which) in Side::BOTH.into_iter().zip(order) {
+                self.limb(side, pair.limbs[which], is_arm);
+                let part = if is_arm {
+                    Part::UpperArm(side)
+                } else {
+                    Part::Thigh(side)
+                };
+                if let Some(taken) = self.joint(part).filter(|_| !told) {
+                    self.ambiguous.push(Ambiguity {
+                        part,
+                        taken,
+                        others: Vec::new(),
+                    });
+                }
+            }
+        }
+    }
+
+    fn limb(&mut self, side: Side, first: usize, is_arm: bool) {
+        let joints = chain(self.skeleton, first);
+        let parts: &[Part] = match (is_arm, joints.len()) {
+            (true, 3) => &[Part::UpperArm(side), Part::Forearm(side), Part::Hand(side)],
+            (true, _) => &[
+                Part::Clavicle(side),
+                Part::UpperArm(side),
+                Part::Forearm(side),
+                Part::Hand(side),
+            ],
+            (false, _) => &[
+                Part::Thigh(side),
+                Part::Shin(side),
+                Part::Foot(side),
+                Part::Toes(side),
+            ],
+        };
+        for (&part, &joint) in parts.iter().zip(&joints) {
+            self.put(part, joint, Evidence::Topology);
+        }
+    }
+
+    /// Finds thumb and fingers of a hand that has five chains and none found by name: the thumb is
+    /// the one that points away from the rest and begins near the wrist, and the others follow from
+    /// it outwards.
+    fn digits_by_shape(&mut self, side: Side) {
+        let Some(hand) = self.joint(Part::Hand(side)) else {
+            return;
+        };
+        let known = self
+            .found
+            .keys()
+            .any(|part| matches!(part, Part::Thumb(s, _) | Part::Finger(s, _, _) if *s == side));
+        let mut chains: Vec<Vec<usize>> = self
+            .skeleton
+            .children(hand)
+            .iter()
+            .map(|&child| chain(self.skeleton, child))
+            .filter(|chain| chain.len() > 1)
+            .collect();
+        if known || chains.len() != 5 {
+            return;
+        }
+        let at = |joint| in_hand(self.skeleton, hand, joint).0;
+        let way = |chain: &[usize]| (at(chain[1]) - at(chain[0])).normalize_or_zero();
+        let mean = chains.iter().map(|chain| way(chain)).sum::<DVec3>();
+        let farthest = chains.iter().map(|c| at(c[1]).length()).fold(0.0, f64::max);
+        let apart = |chain: &[usize]| {
+            let near = 1.0 - at(chain[1]).length() / farthest.max(f64::MIN_POSITIVE);
+            1.0 - way(chain).dot(mean.normalize_or_zero()) + near
+        };
+        chains.sort_by(|a, b| apart(b).total_cmp(&apart(a)));
+        let thumb = at(end(self.skeleton, chains[0][0]));
+        let along = (mean - way(&chains[0])).normalize_or_zero();
+        let across = |chain: &[usize]| {
+            let start = if self.starts_inside(chain) {
+                chain[1]
+            } else {
+                chain[0]
+            };
+            (at(start) - thumb).reject_from(along).length()
+        };
+        chains[1..].sort_by(|a, b| across(a).total_cmp(&across(b)));
+        for (digit, chain) in Digit::ALL.into_iter().zip(&chains) {
+            let metacarpal = self.starts_inside(chain);
+            self.assign_digit(side, digit, chain, metacarpal, Evidence::Topology);
+        }
+    }
+}
+
+/// Two like chains that leave one joint.
+#[derive(Debug, Clone, Copy)]
+struct Pair {
+    fork: usize,
+    limbs: [usize; 2],
+}
+
+/// Returns the pairs of limbs, from the root outwards: two children of one joint below which hangs
+/// a like tree of at least three joints, whose bones are alike in length.
+fn pairs(skeleton: &Skeleton) -> Vec<Pair> {
+    let shapes = shapes(skeleton);
+    let reach = |joint: usize| -> f64 {
+        let joints = chain(skeleton, joint);
+        joints[1..]
+            .iter()
+            .map(|&j| skeleton.joint(j).offset.length())
+            .sum()
+    };
+    let mut pairs: Vec<Pair> = Vec::new();
+    for fork in 0..skeleton.len() {
+        let inside = |pair: &Pair| {
+            let mut above = skeleton.ancestors(fork);
+            above.any(|joint| pair.limbs.contains(&joint))
+        };
+        if pairs.iter().any(inside) {
+            continue;
+        }
+        let children = skeleton.children(fork);
+        for (n, &a) in children.iter().enumerate() {
+            let alike = |&&b: &&usize| {
+                let (x, y) = (reach(a), reach(b));
+                shapes[a] == shapes[b] && depth(skeleton, a) > 2 && (x - y).abs() <= 0.2 * x.max(y)
+            };
+            let taken = |joint: usize| pairs.iter().any(|pair| pair.limbs.contains(&joint));
+            if let Some(&b) = children[n + 1..].iter().find(alike)
+                && !taken(a)
+            {
+                pairs.push(Pair {
+                    fork,
+                    limbs: [a, b],
+                });
+            }
+        }
+    }
+    pairs
+}
+
+/// Returns for each joint a number that joints share below which like trees hang.
+fn shapes(skeleton: &Skeleton) -> Vec<usize> {
+    let mut known: std::collections::BTreeMap<Vec<usize>, usize> =
+        std::collections::BTreeMap::new();
+    let mut shapes = vec![0; skeleton.len()];
+    for joint in (0..skeleton.len()).rev() {
+        let mut below: Vec<usize> = skeleton
+            .children(joint)
+            .iter()
+            .map(|&child| shapes[child])
+            .collect();
+        below.sort_unstable();
+        let next = known.len();
+        shapes[joint] = *known.entry(below).or_insert(next);
+    }
+    shapes
+}
+
+/// Returns `joint` and what follows as long as there is one child; the joint that forks is the last.
+fn chain(skeleton: &Skeleton, joint: usize) -> Vec<usize> {
+    let mut joints = vec![joint];
+    while let [child] = *skeleton.children(joints[joints.len() - 1]) {
+        joints.push(child);
+    }
+    joints
+}
+
+fn end(skeleton: &Skeleton, joint: usize) -> usize {
+    chain(skeleton, joint).last().copied().unwrap_or(joint)
+}
+
+/// Returns how many joints the longest way down from `joint` has, itself included.
+fn depth(skeleton: &Skeleton, joint: usize) -> usize {
+    let mut deepest = 0;
+    let mut open = vec![(joint, 1)];
+    while let Some((joint, depth)) = open.pop() {
+        deepest = deepest.max(depth);
+        open.extend(
+            skeleton
+                .children(joint)
+                .iter()
+                .map(|&child| (child, depth + 1)),
+        );
+    }
+    deepest
+}
