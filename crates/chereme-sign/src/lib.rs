@@ -1,12 +1,52 @@
 //! What is said about movement: tiers, component inventories, notation, keys.
+//!
+//! A sign is told from others by its *components*: the hand's configuration, its placement,
+//! movement and orientation, and what face and body do. Annotators write them on tiers beside a
+//! recording, with values from inventories; searches ask for them by field. Everything here is
+//! plain data and pure functions on it.
+//!
+//! ```
+//! use chereme_motion::{Instant, Span};
+//! use chereme_sign::{AnnotationId, Change, Field, Tier, TierId, TierSet, inventory, plan};
+//!
+//! let shapes = inventory::builtin_for(&"right.handshape".parse::<Field>()?).expect("built in");
+//! assert_eq!(shapes.find("bent-B").map(|shape| shape.name("fr")), Some("main plate pliée à la base"));
+//!
+//! let mut tiers = TierSet::new([Tier::root(TierId(1), "gloss")], []);
+//! let span = |from, to| Span::between(Instant::from_millis(from), Instant::from_millis(to));
+//! let add = |from, to| Change::Add { tier: TierId(1), span: span(from, to), value: "BOL".into() };
+//! let mut ids = 0;
+//! let mut fresh = || {
+//!     ids += 1;
+//!     AnnotationId(ids)
+//! };
+//! let edits = plan(&tiers, &add(0, 400), &mut fresh)?;
+//! tiers.apply(edits);
+//! let error = plan(&tiers, &add(300, 700), &mut fresh).expect_err("annotations never overlap");
+//! assert!(error.to_string().contains("start it at 0.400s or after"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`component`] | components, hands, phases; fields as queries spell them; readings and how they are missing |
+//! | [`tier`] | tiers, annotations, and the rules of ELAN's stereotypes for every change |
+//! | [`relation`] | how spans stand to each other in time |
+//! | [`inventory`] | the values of components as data, and those that come with the program |
+//! | [`token`] | what the tiers around a gloss say about it |
+//! | [`query`] | the query language |
+//! | [`text`] | folding of case and accents, and what was probably meant |
 
 pub mod component;
+pub mod inventory;
 pub mod query;
 pub mod relation;
 pub mod text;
 pub mod tier;
+pub mod token;
 
 pub use component::{Component, Field, FieldError, HandRef, Handedness, Phase, Reading};
+pub use inventory::{Inventory, InventoryError, InventoryValue};
 pub use relation::{Relation, RelationError};
 pub use tier::{
     Annotation, AnnotationId, Change, Edit, EditError, Seam, Stereotype, Tier, TierId, TierRole,

@@ -1,0 +1,323 @@
+//! Inventories: the values that a component may have, as data.
+//!
+//! An [`Inventory`] belongs to one component, or to one feature of it (the palm's direction, the
+//! brows). The house's own are in `schema/inventories`, described by
+//! `schema/inventory.schema.json`, and come with the program: [`builtin`]. Others are read with
+//! [`Inventory::from_json`], in the same form.
+//!
+//! Directions and offsets are `[left, up, forward]` as the signer sees them, the axes of model
+//! space; angles are radians here and degrees in the files.
+
+mod json;
+#[cfg(test)]
+mod tests;
+
+pub use json::{InventoryError, Place};
+
+use crate::component::{Component, Field};
+use crate::text::{edit_distance, fold};
+use chereme_motion::{HandAngles, Side};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::LazyLock;
+
+/// The values that one component, or one feature of it, may have.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Inventory {
+    /// The name in files and queries, such as `configurations`.
+    pub id: String,
+    /// The component.
+    pub component: Component,
+    /// The feature of the component, such as `palm`, or nothing for the whole.
+    pub feature: Option<String>,
+    /// The version, raised whenever a value changes its meaning.
+    pub version: u32,
+    /// The sign language it was made for, as people write it (`LSF`), or nothing for any.
+    pub language: Option<String>,
+    /// What it is called, by the code of the spoken language (`en`, `fr`).
+    pub names: BTreeMap<String, String>,
+    /// What it is for and where it comes from.
+    pub description: String,
+    /// The values, in the order in which they are offered.
+    pub values: Vec<InventoryValue>,
+}
+
+/// One value of an inventory.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct InventoryValue {
+    /// The name in files and queries, short as linguists write it: `U`, `chin`.
+    pub id: String,
+    /// What it is called, by the code of the spoken language.
+    pub names: BTreeMap<String, String>,
+    /// Other spellings that mean the same.
+    pub aliases: Vec<String>,
+    /// The id of a value that holds this one: `chin` is part of `head`.
+    pub broader: Option<String>,
+    /// What it is made of, such as `index`, `spread` or `thumb-across`.
+    pub features: BTreeSet<String>,
+    /// The HamNoSys symbol names, in the order of the notation, separated by blanks.
+    pub hamnosys: Option<String>,
+    /// The value of the inventory `configurations` that gives the hand its shape.
+    pub configuration: Option<String>,
+    /// The shape of the hand itself.
+    pub pose: Option<HandAngles>,
+    /// The letter that the value spells.
+    pub letter: Option<String>,
+    /// Where palm and fingers point.
+    pub orientation: Option<HandOrientation>,
+    /// What the hand draws or does, stroke by stroke.
+    pub strokes: Vec<Stroke>,
+    /// Where it is.
+    pub landmark: Option<Landmark>,
+    /// A direction as a unit vector.
+    pub direction: Option<[f64; 3]>,
+    /// The turn of the palm about the hand's length in radians, as HamNoSys counts it: 0 is palm
+    /// down when the hand points out; growing, the palm turns to the right, up, and left.
+    pub roll: Option<f64>,
+    /// How large, in shoulder widths.
+    pub size: Option<f64>,
+    /// How often.
+    pub times: Option<u32>,
+    /// Anything else worth knowing.
+    pub notes: Option<String>,
+}
+
+/// Where palm and fingers point, as ids of the two orientation inventories.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct HandOrientation {
+    /// A value of `orientation.palm`.
+    pub palm: String,
+    /// A value of `orientation.fingers`.
+    pub fingers: String,
+}
+
+/// One stroke of a letter that moves.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stroke {
+    /// A value of `movement.direction`; nothing for a stroke that stays in place.
+    pub direction: Option<String>,
+    /// The length in shoulder widths.
+    pub size: f64,
+    /// The turn of the forearm meanwhile in radians, positive when the palm turns to face up.
+    pub turn: f64,
+}
+
+/// A place by a landmark of the signer's body and an offset from it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Landmark {
+    /// The landmark's name, such as `chin`; `ipsi-` and `contra-` at its start stand for the
+    /// acting hand's own and other side.
+    pub name: String,
+    /// The way from the landmark to the place in shoulder widths: left, up, forward; with `ipsi-`
+    /// and `contra-` names the first counts away from the body's middle.
+    pub offset: [f64; 3],
+}
+
+impl Landmark {
+    /// Returns the landmark's name and the offset `[left, up, forward]` for an acting hand.
+    #[must_use]
+    pub fn resolve(&self, hand: Side) -> (String, [f64; 3]) {
+        let (side, rest) = match self.name.split_once('-') {
+            Some(("ipsi", rest)) => (hand, rest),
+            Some(("contra", rest)) => (hand.other(), rest),
+            _ => return (self.name.clone(), self.offset),
+        };
+        let [out, up, forward] = self.offset;
+        (
+            format!("{}-{rest}", side.name()),
+            [out * side.sign(), up, forward],
+        )
+    }
+}
+
+impl Inventory {
+    /// Returns the field that the values belong to.
+    #[must_use]
+    pub fn field(&self) -> Field {
+        let field = Field::new(self.component);
+        self.feature
+            .iter()
+            .fold(field, |field, feature| field.of(feature))
+    }
+
+    /// Returns the value with this id, exactly as written.
+    #[must_use]
+    pub fn get(&self, id: &str) -> Option<&InventoryValue> {
+        self.values.iter().find(|value| value.id == id)
+    }
+
+    /// Returns the value that `text` means: by its id, or else by id, alias or name in any
+    /// language without regard to case and accents.
+    #[must_use]
+    pub fn find(&self, text: &str) -> Option<&InventoryValue> {
+        self.get(text).or_else(|| {
+            let wanted = key(text);
+            let ids = self.values.iter().find(|value| key(&value.id) == wanted);
+            ids.or_else(|| {
+                self.values
+                    .iter()
+                    .find(|value| value.spellings().any(|s| key(s) == wanted))
+            })
+        })
+    }
+
+    /// Returns the ids of up to five values that somebody who wrote `text` may have meant, the
+    /// likeliest first.
+    #[must_use]
+    pub fn suggest(&self, text: &str) -> Vec<&str> {
+        let wanted = key(text);
+        let most = (wanted.chars().count() / 3).max(1);
+        let mut near: Vec<(usize, &str)> = Vec::new();
+        for value in &self.values {
+            let slips = |spelling: &str| {
+                let spelling = key(spelling);
+                let part = wanted.len() >= 3 && spelling.contains(&wanted);
+                if part {
+                    Some(1)
+                } else {
+                    edit_distance(&wanted, &spelling, most)
+                }
+            };
+            if let Some(least) = value.spellings().filter_map(slips).min() {
+                near.push((least, &value.id));
+            }
+        }
+        near.sort_by_key(|(slips, _)| *slips);
+        near.into_iter().take(5).map(|(_, id)| id).collect()
+    }
+
+    /// Tells whether the value `id` is `broader` or lies within it at any depth.
+    #[must_use]
+    pub fn is_within(&self, id: &str, broader: &str) -> bool {
+        self.chain(id).any(|value| value.id == broader)
+    }
+
+    /// Returns the value `id` and the ones that hold it, the narrowest first.
+    pub fn chain<'a>(&'a self, id: &str) -> impl Iterator<Item = &'a InventoryValue> {
+        let up = |value: &&'a InventoryValue| {
+            value
+                .broader
+                .as_deref()
+                .and_then(|broader| self.get(broader))
+        };
+        std::iter::successors(self.get(id), up).take(self.values.len() + 1)
+    }
+
+    /// Returns the values that `matches` all the features wanted, in their order; see
+    /// [`InventoryValue::matches_features`].
+    pub fn with_features<'a>(
+        &'a self,
+        wanted: &'a [&'a str],
+    ) -> impl Iterator<Item = &'a InventoryValue> {
+        self.values
+            .iter()
+            .filter(|value| value.matches_features(wanted))
+    }
+
+    /// Returns every feature that any value has, in alphabetical order.
+    #[must_use]
+    pub fn features(&self) -> BTreeSet<&str> {
+        self.values
+            .iter()
+            .flat_map(|value| &value.features)
+            .map(String::as_str)
+            .collect()
+    }
+}
+
+impl InventoryValue {
+    /// Returns the name in `language`, or else in English, or else the id.
+    #[must_use]
+    pub fn name(&self, language: &str) -> &str {
+        let named = self.names.get(language).or_else(|| self.names.get("en"));
+        named.map_or(&self.id, String::as_str)
+    }
+
+    /// Returns the shape of the hand: the value's own, or the one of the value that it names in the
+    /// inventory of configurations given.
+    #[must_use]
+    pub fn hand_pose(&self, configurations: &Inventory) -> Option<HandAngles> {
+        let named = || configurations.get(self.configuration.as_deref()?)?.pose;
+        self.pose.or_else(named)
+    }
+
+    /// Tells whether the value has every feature wanted, and none of those that start with `-`;
+    /// case and accents do not count.
+    #[must_use]
+    pub fn matches_features(&self, wanted: &[&str]) -> bool {
+        wanted.iter().all(|wanted| {
+            let (absent, name) = match wanted.strip_prefix('-') {
+                Some(name) => (true, name),
+                None => (false, *wanted),
+            };
+            let name = key(name);
+            self.features.iter().any(|feature| key(feature) == name) != absent
+        })
+    }
+
+    /// Returns every spelling of the value: its id, its aliases, its names.
+    pub fn spellings(&self) -> impl Iterator<Item = &str> {
+        let others = self.aliases.iter().chain(self.names.values());
+        std::iter::once(&self.id).chain(others).map(String::as_str)
+    }
+}
+
+fn key(text: &str) -> String {
+    fold(text.trim())
+}
+
+/// The files of `schema/inventories` by name, as they come with the program.
+pub const BUILTIN_FILES: [(&str, &str); 6] = [
+    (
+        "configurations.json",
+        include_str!("../../../schema/inventories/configurations.json"),
+    ),
+    (
+        "lsf-alphabet.json",
+        include_str!("../../../schema/inventories/lsf-alphabet.json"),
+    ),
+    (
+        "placements.json",
+        include_str!("../../../schema/inventories/placements.json"),
+    ),
+    (
+        "movements.json",
+        include_str!("../../../schema/inventories/movements.json"),
+    ),
+    (
+        "orientations.json",
+        include_str!("../../../schema/inventories/orientations.json"),
+    ),
+    (
+        "nonmanuals.json",
+        include_str!("../../../schema/inventories/nonmanuals.json"),
+    ),
+];
+
+/// Returns the inventories that come with the program, in the order of their files.
+#[must_use]
+pub fn builtin() -> &'static [Inventory] {
+    static ALL: LazyLock<Vec<Inventory>> = LazyLock::new(|| {
+        let read = |(_, text): &(&str, &str)| Inventory::all_from_json(text);
+        let all: Result<Vec<_>, _> = BUILTIN_FILES.iter().map(read).collect();
+        all.expect("a test reads the built-in inventories")
+            .into_iter()
+            .flatten()
+            .collect()
+    });
+    &ALL
+}
+
+/// Returns the built-in inventory `id`, such as `configurations`.
+#[must_use]
+pub fn builtin_by_id(id: &str) -> Option<&'static Inventory> {
+    builtin().iter().find(|inventory| inventory.id == id)
+}
+
+/// Returns the first built-in inventory of the component and feature that `field` names,
+/// whatever its hand and phase.
+#[must_use]
+pub fn builtin_for(field: &Field) -> Option<&'static Inventory> {
+    builtin().iter().find(|inventory| {
+        inventory.component == field.component && inventory.feature == field.feature
+    })
+}

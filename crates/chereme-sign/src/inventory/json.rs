@@ -1,0 +1,546 @@
+//! Inventories as JSON: every fault is told with its value and field.
+
+use super::{HandOrientation, Inventory, InventoryValue, Landmark, Stroke, key};
+use crate::component::Component;
+use crate::text::{did_you_mean, nearest};
+use chereme_motion::{Finger, FingerAngles, HandAngles, ThumbAngles};
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt;
+
+/// Where in an inventory's file something is.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Place {
+    /// The inventory's id, or nothing where it is not known yet.
+    pub inventory: Option<String>,
+    /// The value's id, or its number from 1 where it has none.
+    pub value: Option<String>,
+    /// The field inside, such as `pose.index`.
+    pub field: Option<String>,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.inventory {
+            Some(id) => write!(f, "inventory {id:?}")?,
+            None => f.write_str("the inventory")?,
+        }
+        if let Some(value) = &self.value {
+            write!(f, ", value {value:?}")?;
+        }
+        match &self.field {
+            Some(field) => write!(f, ", field {field:?}"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A text that is no inventory.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum InventoryError {
+    /// The text is not JSON.
+    #[error("line {line}, column {column}: {message}")]
+    Syntax {
+        /// The line, from 1.
+        line: usize,
+        /// The column, from 1.
+        column: usize,
+        /// What the reader of JSON says.
+        message: String,
+    },
+    /// Something has another type than it must have.
+    #[error("{place}: {message}")]
+    Type {
+        /// Where.
+        place: Place,
+        /// What is there and what would be right.
+        message: String,
+    },
+    /// A field is not known.
+    #[error("{place}: there is no field {name:?}{}", did_you_mean(nearest.as_deref()))]
+    UnknownField {
+        /// Where.
+        place: Place,
+        /// The field.
+        name: String,
+        /// The known field nearest to it.
+        nearest: Option<String>,
+    },
+    /// A field is missing.
+    #[error("{place}: the field {name:?} is missing")]
+    MissingField {
+        /// Where.
+        place: Place,
+        /// The field.
+        name: &'static str,
+    },
+    /// Two values have one spelling.
+    #[error(
+        "{place}: {text:?} means {other:?} already; give each value its own ids, aliases and names"
+    )]
+    Duplicate {
+        /// The later value.
+        place: Place,
+        /// The spelling.
+        text: String,
+        /// The value that had it first.
+        other: String,
+    },
+    /// A broader value does not exist.
+    #[error("{place}: there is no value {id:?}{}", did_you_mean(nearest.as_deref()))]
+    UnknownBroader {
+        /// Where.
+        place: Place,
+        /// The id.
+        id: String,
+        /// The id nearest to it.
+        nearest: Option<String>,
+    },
+    /// A value lies within itself.
+    #[error("{place}: the value lies within itself; give it a broader one that is not part of it")]
+    BroaderCycle {
+        /// Where.
+        place: Place,
+    },
+}
+
+pub(super) const INVENTORY: &[&str] = &[
+    "id",
+    "component",
+    "feature",
+    "version",
+    "language",
+    "names",
+    "description",
+    "values",
+];
+pub(super) const VALUE: &[&str] = &[
+    "id",
+    "names",
+    "aliases",
+    "broader",
+    "features",
+    "hamnosys",
+    "configuration",
+    "pose",
+    "letter",
+    "orientation",
+    "strokes",
+    "landmark",
+    "offset",
+    "direction",
+    "roll",
+    "size",
+    "times",
+    "notes",
+];
+pub(super) const POSE: &[&str] = &["thumb", "index", "middle", "ring", "little"];
+const THUMB: &[&str] = &["radial", "palmar", "opposition", "flexion"];
+pub(super) const FINGER: &[&str] = &["spread", "flexion"];
+
+impl Inventory {
+    /// Reads one inventory from JSON, as `schema/inventory.schema.json` describes it.
+    ///
+    /// # Errors
+    /// [`InventoryError`], with the value and field where something is wrong.
+    pub fn from_json(text: &str) -> Result<Self, InventoryError> {
+        read_inventory(parse(text)?)
+    }
+
+    /// Reads one inventory, or a list of them, from JSON.
+    ///
+    /// # Errors
+    /// [`InventoryError`], with the value and field where something is wrong.
+    pub fn all_from_json(text: &str) -> Result<Vec<Self>, InventoryError> {
+        match parse(text)? {
+            Value::Array(list) => list.into_iter().map(read_inventory).collect(),
+            one => Ok(vec![read_inventory(one)?]),
+        }
+    }
+
+    /// Writes the inventory as JSON; reading it gives the inventory back, angles to within 1e-9
+    /// degrees.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        let mut map = Map::new();
+        map.insert("id".into(), json!(self.id));
+        map.insert("component".into(), json!(self.component));
+        insert(&mut map, "feature", &self.feature);
+        map.insert("version".into(), json!(self.version));
+        insert(&mut map, "language", &self.language);
+        map.insert("names".into(), json!(self.names));
+        map.insert("description".into(), json!(self.description));
+        map.insert(
+            "values".into(),
+            self.values.iter().map(write_value).collect(),
+        );
+        format!("{:#}\n", Value::Object(map))
+    }
+
+    /// Checks what [`from_json`](Self::from_json) checks beyond the form: that spellings are
+    /// unique and broader values exist.
+    ///
+    /// # Errors
+    /// The first [`InventoryError`] found.
+    pub fn check(&self) -> Result<(), InventoryError> {
+        let mut seen: BTreeMap<String, &str> = BTreeMap::new();
+        for value in &self.values {
+            let place = |field: &str| Place {
+                inventory: Some(self.id.clone()),
+                value: Some(value.id.clone()),
+                field: Some(field.to_owned()),
+            };
+            let own: BTreeSet<String> = value.spellings().map(key).collect();
+            for text in own {
+                if let Some(other) = seen.get(&text) {
+                    let other = (*other).to_owned();
+                    return Err(InventoryError::Duplicate {
+                        place: place("id"),
+                        text,
+                        other,
+                    });
+                }
+                seen.insert(text, &value.id);
+            }
+            let Some(broader) = &value.broader else {
+                continue;
+            };
+            if self.get(broader).is_none() {
+                let ids = self.values.iter().map(|value| value.id.as_str());
+                let nearest = nearest(broader, ids).map(str::to_owned);
+                let (place, id) = (place("broader"), broader.clone());
+                return Err(InventoryError::UnknownBroader { place, id, nearest });
+            }
+            if self
+                .chain(&value.id)
+                .skip(1)
+                .any(|above| above.id == value.id)
+            {
+                return Err(InventoryError::BroaderCycle {
+                    place: place("broader"),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn parse(text: &str) -> Result<Value, InventoryError> {
+    serde_json::from_str(text.trim_start_matches('\u{feff}')).map_err(|error| {
+        InventoryError::Syntax {
+            line: error.line(),
+            column: error.column(),
+            message: error.to_string(),
+        }
+    })
+}
+
+fn read_inventory(value: Value) -> Result<Inventory, InventoryError> {
+    let id = value.get("id").and_then(Value::as_str).map(str::to_owned);
+    let mut object = Object::new(
+        value,
+        Place {
+            inventory: id,
+            ..Place::default()
+        },
+        INVENTORY,
+    )?;
+    let inventory = Inventory {
+        id: object.need("id")?,
+        component: read_component(&mut object)?,
+        feature: object.take("feature")?,
+        version: object.need("version")?,
+        language: object.take("language")?,
+        names: object.need("names")?,
+        description: object.take("description")?.unwrap_or_default(),
+        values: {
+            let place = object.place.clone();
+            let values: Vec<Value> = object.need("values")?;
+            let numbered = values.into_iter().enumerate();
+            numbered
+                .map(|(n, value)| read_value(value, &place, n + 1))
+                .collect::<Result<_, _>>()?
+        },
+    };
+    inventory.check()?;
+    Ok(inventory)
+}
+
+fn read_component(object: &mut Object) -> Result<Component, InventoryError> {
+    let name: String = object.need("component")?;
+    name.parse()
+        .map_err(|error: crate::component::FieldError| InventoryError::Type {
+            place: object.at("component"),
+            message: error.to_string(),
+        })
+}
+
+fn read_value(
+    value: Value,
+    place: &Place,
+    number: usize,
+) -> Result<InventoryValue, InventoryError> {
+    let id = value.get("id").and_then(Value::as_str).map(str::to_owned);
+    let place = Place {
+        value: id.or(Some(number.to_string())),
+        ..place.clone()
+    };
+    let mut object = Object::new(value, place, VALUE)?;
+    let id: String = object.need("id")?;
+    if id.trim().is_empty() || id.trim() != id {
+        let (place, message) = (
+            object.at("id"),
+            "an id has no blanks around it and is not empty",
+        );
+        return Err(InventoryError::Type {
+            place,
+            message: message.to_owned(),
+        });
+    }
+    let landmark: Option<String> = object.take("landmark")?;
+    let offset: Option<[f64; 3]> = object.take("offset")?;
+    if landmark.is_none() && offset.is_some() {
+        return Err(InventoryError::MissingField {
+            place: object.place,
+            name: "landmark",
+        });
+    }
+    Ok(InventoryValue {
+        id,
+        names: object.take("names")?.unwrap_or_default(),
+        aliases: object.take("aliases")?.unwrap_or_default(),
+        broader: object.take("broader")?,
+        features: object.take("features")?.unwrap_or_default(),
+        hamnosys: object.take("hamnosys")?,
+        configuration: object.take("configuration")?,
+        pose: object
+            .take("pose")?
+            .map(|pose| read_pose(pose, object.at("pose")))
+            .transpose()?,
+        letter: object.take("letter")?,
+        orientation: match object.take("orientation")? {
+            Some(value) => {
+                let mut inner = Object::new(value, object.at("orientation"), &["palm", "fingers"])?;
+                Some(HandOrientation {
+                    palm: inner.need("palm")?,
+                    fingers: inner.need("fingers")?,
+                })
+            }
+            None => None,
+        },
+        strokes: {
+            let strokes: Vec<Value> = object.take("strokes")?.unwrap_or_default();
+            let place = object.at("strokes");
+            strokes
+                .into_iter()
+                .map(|stroke| read_stroke(stroke, &place))
+                .collect::<Result<_, _>>()?
+        },
+        landmark: landmark.map(|name| Landmark {
+            name,
+            offset: offset.unwrap_or_default(),
+        }),
+        direction: object.take("direction")?,
+        roll: object.take("roll")?.map(f64::to_radians),
+        size: object.take("size")?,
+        times: object.take("times")?,
+        notes: object.take("notes")?,
+    })
+}
+
+fn read_stroke(value: Value, place: &Place) -> Result<Stroke, InventoryError> {
+    let mut object = Object::new(value, place.clone(), &["direction", "size", "turn"])?;
+    Ok(Stroke {
+        direction: object.take("direction")?,
+        size: object.take("size")?.unwrap_or_default(),
+        turn: object
+            .take("turn")?
+            .map(f64::to_radians)
+            .unwrap_or_default(),
+    })
+}
+
+fn read_pose(value: Value, place: Place) -> Result<HandAngles, InventoryError> {
+    let mut object = Object::new(value, place, POSE)?;
+    let mut pose = HandAngles::default();
+    let mut thumb = Object::new(object.need("thumb")?, object.at("thumb"), THUMB)?;
+    pose.thumb = ThumbAngles {
+        radial: thumb.take("radial")?.unwrap_or_default(),
+        palmar: thumb.take("palmar")?.unwrap_or_default(),
+        opposition: thumb.take("opposition")?.unwrap_or_default(),
+        flexion: thumb.take("flexion")?.unwrap_or_default(),
+    };
+    for finger in Finger::ALL {
+        let (name, place) = (finger.name(), object.at(finger.name()));
+        let mut angles = Object::new(object.need(name)?, place, FINGER)?;
+        pose.fingers[finger.index()] = FingerAngles {
+            spread: angles.take("spread")?.unwrap_or_default(),
+            flexion: angles.take("flexion")?.unwrap_or_default(),
+        };
+    }
+    Ok(pose.map(f64::to_radians))
+}
+
+/// A JSON object with known fields, and where it stands.
+struct Object {
+    map: Map<String, Value>,
+    place: Place,
+}
+
+impl Object {
+    fn new(value: Value, place: Place, known: &[&str]) -> Result<Self, InventoryError> {
+        let Value::Object(map) = value else {
+            let message = format!("{} where an object with fields must be", kind(&value));
+            return Err(InventoryError::Type { place, message });
+        };
+        match map.keys().find(|name| !known.contains(&name.as_str())) {
+            Some(name) => Err(InventoryError::UnknownField {
+                place,
+                name: name.clone(),
+                nearest: nearest(name, known.iter().copied()).map(str::to_owned),
+            }),
+            None => Ok(Self { map, place }),
+        }
+    }
+
+    fn at(&self, field: &str) -> Place {
+        let inside = self
+            .place
+            .field
+            .iter()
+            .map(|outer| format!("{outer}.{field}"))
+            .next();
+        Place {
+            field: Some(inside.unwrap_or_else(|| field.to_owned())),
+            ..self.place.clone()
+        }
+    }
+
+    fn take<T: DeserializeOwned>(
+        &mut self,
+        name: &'static str,
+    ) -> Result<Option<T>, InventoryError> {
+        let Some(value) = self.map.remove(name) else {
+            return Ok(None);
+        };
+        serde_json::from_value(value).map(Some).map_err(|error| {
+            let message = error.to_string();
+            InventoryError::Type {
+                place: self.at(name),
+                message,
+            }
+        })
+    }
+
+    fn need<T: DeserializeOwned>(&mut self, name: &'static str) -> Result<T, InventoryError> {
+        let place = self.place.clone();
+        self.take(name)?
+            .ok_or(InventoryError::MissingField { place, name })
+    }
+}
+
+fn kind(value: &Value) -> &'static str {
+    match value {
+        Value::Null => "null",
+        Value::Bool(_) => "true or false",
+        Value::Number(_) => "a number",
+        Value::String(_) => "a text",
+        Value::Array(_) => "a list",
+        Value::Object(_) => "an object",
+    }
+}
+
+fn insert(map: &mut Map<String, Value>, name: &str, value: &Option<String>) {
+    if let Some(value) = value {
+        map.insert(name.to_owned(), json!(value));
+    }
+}
+
+fn write_value(value: &InventoryValue) -> Value {
+    let mut map = Map::new();
+    map.insert("id".into(), json!(value.id));
+    if !value.names.is_empty() {
+        map.insert("names".into(), json!(value.names));
+    }
+    if !value.aliases.is_empty() {
+        map.insert("aliases".into(), json!(value.aliases));
+    }
+    insert(&mut map, "broader", &value.broader);
+    if !value.features.is_empty() {
+        map.insert("features".into(), json!(value.features));
+    }
+    insert(&mut map, "hamnosys", &value.hamnosys);
+    insert(&mut map, "configuration", &value.configuration);
+    if let Some(pose) = &value.pose {
+        map.insert("pose".into(), write_pose(pose));
+    }
+    insert(&mut map, "letter", &value.letter);
+    if let Some(HandOrientation { palm, fingers }) = &value.orientation {
+        map.insert(
+            "orientation".into(),
+            json!({ "palm": palm, "fingers": fingers }),
+        );
+    }
+    if !value.strokes.is_empty() {
+        map.insert(
+            "strokes".into(),
+            value.strokes.iter().map(write_stroke).collect(),
+        );
+    }
+    if let Some(Landmark { name, offset }) = &value.landmark {
+        map.insert("landmark".into(), json!(name));
+        map.insert("offset".into(), json!(offset));
+    }
+    let numbers = [
+        (
+            "direction",
+            value.direction.map(|direction| json!(direction)),
+        ),
+        ("roll", value.roll.map(|roll| json!(degrees(roll)))),
+        ("size", value.size.map(|size| json!(size))),
+        ("times", value.times.map(|times| json!(times))),
+    ];
+    let given = numbers
+        .into_iter()
+        .filter_map(|(name, value)| Some((name.to_owned(), value?)));
+    map.extend(given);
+    insert(&mut map, "notes", &value.notes);
+    Value::Object(map)
+}
+
+fn write_stroke(stroke: &Stroke) -> Value {
+    let mut map = Map::new();
+    insert(&mut map, "direction", &stroke.direction);
+    map.insert("size".into(), json!(stroke.size));
+    map.insert("turn".into(), json!(degrees(stroke.turn)));
+    Value::Object(map)
+}
+
+fn write_pose(pose: &HandAngles) -> Value {
+    let pose = pose.map(degrees);
+    let ThumbAngles {
+        radial,
+        palmar,
+        opposition,
+        flexion,
+    } = pose.thumb;
+    let mut map = Map::new();
+    map.insert(
+        "thumb".into(),
+        json!({ "radial": radial, "palmar": palmar, "opposition": opposition, "flexion": flexion }),
+    );
+    for finger in Finger::ALL {
+        let FingerAngles { spread, flexion } = pose.fingers[finger.index()];
+        map.insert(
+            finger.name().into(),
+            json!({ "spread": spread, "flexion": flexion }),
+        );
+    }
+    Value::Object(map)
+}
+
+/// Returns an angle in degrees without the noise of the last binary places.
+fn degrees(radians: f64) -> f64 {
+    (radians.to_degrees() * 1e9).round() / 1e9
+}

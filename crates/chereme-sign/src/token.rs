@@ -1,0 +1,248 @@
+//! From tiers to tokens: what the component tiers say about one realisation of a sign.
+
+use crate::component::{Component, Field, HandRef, Phase, Reading};
+use chereme_motion::Span;
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+/// What a component tier says about a stretch of time.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ComponentSpan {
+    /// The tier's field, without a phase.
+    pub field: Field,
+    /// The time.
+    pub span: Span,
+    /// The value, or how it is missing.
+    pub reading: Reading,
+}
+
+/// Returns the place in `tokens` of the gloss to which an annotation of a component tier belongs.
+///
+/// It belongs to the one with which it shares the most time, provided that this is at least half
+/// of the shorter of the two; of equals to the one that starts first. An annotation without length
+/// belongs to none.
+#[must_use]
+pub fn owner(annotation: Span, tokens: &[Span]) -> Option<usize> {
+    let shared = |token: &Span| token.intersection(annotation).map_or(0, Span::micros);
+    let best = tokens
+        .iter()
+        .enumerate()
+        .max_by_key(|(n, token)| (shared(token), Reverse((token.start(), *n))));
+    let (place, token) = best?;
+    let shorter = annotation.micros().min(token.micros());
+    let enough = i128::from(shared(token)) * 2 >= i128::from(shorter);
+    (shared(token) > 0 && enough).then_some(place)
+}
+
+/// Returns what the component annotations around a gloss say about it, field by field.
+///
+/// `token` is the gloss's span and `others` are the spans of the glosses around it, of the same
+/// hand or signer: an annotation belongs to one gloss only, see [`owner`]. `hand` is the gloss's
+/// own hand, if its tier has one: annotations about another hand are then left out, and those of
+/// hand tiers that name none are taken to be about this one; non-manual components belong to no
+/// hand and always count. Hands are compared as they are: resolve `dominant` and `weak` first.
+///
+/// Of one field, a single value has no phase. Of several, in the order of their starts, the first
+/// is [`Phase::Initial`], the last [`Phase::Final`], and those between are [`Phase::Middle`] from 1
+/// on (beyond 255 they are left out). Neighbours that say the same value are one. The order of the
+/// result is that of the fields without their phases, then that of time.
+///
+/// ```
+/// use chereme_motion::{Instant, Span};
+/// use chereme_sign::token::{ComponentSpan, readings};
+///
+/// let span = |a, b| Span::between(Instant::from_millis(a), Instant::from_millis(b));
+/// let says = |field: &str, span, value: &str| ComponentSpan {
+///     field: field.parse().expect("a field"),
+///     span,
+///     reading: value.into(),
+/// };
+/// let around = [
+///     says("right.placement", span(0, 300), "chin"),
+///     says("right.placement", span(300, 620), "chest"),
+///     says("right.configuration", span(20, 610), "U"),
+///     says("right.configuration", span(600, 900), "S"),
+/// ];
+/// let found = readings(span(0, 600), &[span(620, 900)], None, &around);
+/// let found: Vec<String> = found.iter().map(|(field, value)| format!("{field}={value}")).collect();
+/// assert_eq!(
+///     found,
+///     ["right.configuration=U", "initial.right.placement=chin", "final.right.placement=chest"]
+/// );
+/// ```
+#[must_use]
+pub fn readings(
+    token: Span,
+    others: &[Span],
+    hand: Option<HandRef>,
+    around: &[ComponentSpan],
+) -> Vec<(Field, Reading)> {
+    let tokens: Vec<Span> = std::iter::once(token)
+        .chain(others.iter().copied())
+        .collect();
+    let mut fields: BTreeMap<Key, Vec<&ComponentSpan>> = BTreeMap::new();
+    for said in around {
+        let manual = said.field.component.is_manual();
+        let about = said.field.hand.or(hand.filter(|_| manual));
+        let ours = !manual || hand.is_none() || about == hand;
+        if ours && owner(said.span, &tokens) == Some(0) {
+            let key = (said.field.component, said.field.feature.as_deref(), about);
+            fields.entry(key).or_default().push(said);
+        }
+    }
+    fields
+        .into_iter()
+        .flat_map(|(key, said)| phased(key, said))
+        .collect()
+}
+
+type Key<'a> = (Component, Option<&'a str>, Option<HandRef>);
+
+fn phased((component, feature, hand): Key, mut said: Vec<&ComponentSpan>) -> Vec<(Field, Reading)> {
+    said.sort_by_key(|said| (said.span.start(), said.span.end()));
+    said.dedup_by(|later, earlier| later.reading == earlier.reading);
+    let last = said.len().saturating_sub(1);
+    let phase = |place: usize| match place {
+        _ if last == 0 => Some(None),
+        0 => Some(Some(Phase::Initial)),
+        place if place == last => Some(Some(Phase::Final)),
+        place => Some(Some(Phase::Middle(u8::try_from(place).ok()?))),
+    };
+    let field = |phase| Field {
+        hand,
+        component,
+        feature: feature.map(str::to_owned),
+        phase,
+    };
+    let numbered = said.into_iter().enumerate();
+    numbered
+        .filter_map(|(place, said)| Some((field(phase(place)?), said.reading.clone())))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_motion::Instant;
+    use proptest::prelude::*;
+
+    fn span(start: i64, end: i64) -> Span {
+        Span::between(Instant::from_micros(start), Instant::from_micros(end))
+    }
+
+    fn says(text: &str) -> ComponentSpan {
+        let (times, rest) = text.split_once(' ').expect("times");
+        let (start, end) = times.split_once('-').expect("two times");
+        let (field, value) = rest.split_once('=').expect("a value");
+        let number = |text: &str| text.parse().expect("a number");
+        ComponentSpan {
+            field: field.parse().expect("a field"),
+            span: span(number(start), number(end)),
+            reading: match value {
+                "?" => Reading::Unclear,
+                "n/a" => Reading::NotApplicable,
+                value => value.into(),
+            },
+        }
+    }
+
+    #[test]
+    fn annotations_belong_to_the_gloss_they_share_most_with() {
+        for (annotation, tokens, place) in [
+            (span(0, 10), &[span(0, 10)][..], Some(0)),
+            (span(5, 15), &[span(0, 10)], Some(0)),
+            (span(6, 16), &[span(0, 10)], None),
+            (span(6, 100), &[span(0, 10)], None),
+            (span(9, 10), &[span(0, 10)], Some(0)),
+            (span(0, 1000), &[span(10, 12), span(20, 29)], Some(1)),
+            (span(5, 15), &[span(0, 10), span(10, 20)], Some(0)),
+            (span(4, 15), &[span(0, 10), span(10, 20)], Some(0)),
+            (span(5, 16), &[span(0, 10), span(10, 20)], Some(1)),
+            (span(5, 5), &[span(0, 10)], None),
+            (span(0, 10), &[], None),
+        ] {
+            assert_eq!(
+                owner(annotation, tokens),
+                place,
+                "{annotation:?} {tokens:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn phases_follow_the_order_of_time() {
+        let right = Some(HandRef::Right);
+        for (hand, around, wanted) in [
+            (
+                right,
+                &["0-100 configuration=U"][..],
+                "right.configuration=U",
+            ),
+            (None, &["0-100 configuration=U"], "configuration=U"),
+            (
+                right,
+                &["50-100 right.placement=chest", "0-50 right.placement=chin"],
+                "initial.right.placement=chin final.right.placement=chest",
+            ),
+            (
+                None,
+                &[
+                    "0-30 movement=arc",
+                    "30-60 movement=?",
+                    "60-80 movement=arc",
+                    "80-100 movement=hold",
+                ],
+                "initial.movement=arc middle.movement=unclear middle2.movement=arc final.movement=hold",
+            ),
+            (
+                None,
+                &["0-50 movement=arc", "50-100 movement=arc"],
+                "movement=arc",
+            ),
+            (
+                right,
+                &[
+                    "0-99 left.configuration=5",
+                    "0-99 nonmanual.brows=raised",
+                    "0-99 orientation.palm=up",
+                ],
+                "right.orientation.palm=up nonmanual.brows=raised",
+            ),
+            (
+                None,
+                &[
+                    "0-99 left.configuration=5",
+                    "0-99 right.configuration=n/a",
+                    "70-200 right.configuration=S",
+                ],
+                "right.configuration=not applicable left.configuration=5",
+            ),
+            (right, &[], ""),
+        ] {
+            let around: Vec<ComponentSpan> = around.iter().map(|text| says(text)).collect();
+            let found = readings(span(0, 100), &[span(100, 200)], hand, &around);
+            let found: Vec<String> = found.iter().map(|(f, r)| format!("{f}={r}")).collect();
+            assert_eq!(found.join(" "), wanted);
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn an_annotation_is_read_by_one_gloss_at_most(
+            cuts in proptest::collection::btree_set(0i64..60, 2..6),
+            at in (0i64..60, 1i64..30),
+        ) {
+            let cuts: Vec<i64> = cuts.into_iter().collect();
+            let tokens: Vec<Span> = cuts.windows(2).map(|pair| span(pair[0], pair[1])).collect();
+            let around = [ComponentSpan { span: span(at.0, at.0 + at.1), ..says("0-1 movement=arc") }];
+            let readers = (0..tokens.len()).filter(|n| {
+                let others: Vec<Span> =
+                    tokens.iter().enumerate().filter(|(k, _)| k != n).map(|(_, span)| *span).collect();
+                !readings(tokens[*n], &others, None, &around).is_empty()
+            });
+            prop_assert!(readers.count() <= 1);
+        }
+    }
+}
