@@ -135,7 +135,7 @@ CREATE TABLE annotation (
                       CHECK (state IN ('value', 'unset', 'not-applicable', 'unclear')),
     value         TEXT NOT NULL DEFAULT '',
     parent_id     INTEGER REFERENCES annotation (id),
-    previous_id   INTEGER REFERENCES annotation (id),
+    position      INTEGER NOT NULL DEFAULT 0 CHECK (position >= 0),
     origin        TEXT NOT NULL CHECK (origin IN ('file', 'human', 'detector', 'made')),
     confidence    REAL CHECK (confidence BETWEEN 0 AND 1),
     external_id   TEXT,
@@ -146,7 +146,6 @@ CREATE TABLE annotation (
 ) STRICT;
 CREATE INDEX annotation_tier ON annotation (tier_id, start_us);
 CREATE INDEX annotation_parent ON annotation (parent_id) WHERE parent_id IS NOT NULL;
-CREATE INDEX annotation_previous ON annotation (previous_id) WHERE previous_id IS NOT NULL;
 
 CREATE TABLE sign (
     id    INTEGER PRIMARY KEY,

@@ -3,6 +3,7 @@
 //! [`Corpus`] is the single door for every skin. Each change is one named operation in one
 //! transaction, with its changeset. Nothing here prints, prompts, or reads the environment.
 
+mod address;
 pub(crate) mod codec;
 pub(crate) mod db;
 mod error;
@@ -13,6 +14,7 @@ use std::path::Path;
 
 use db::Store;
 
+pub use address::{Address, Name, Stretch};
 pub use db::{OperationKind, OperationRow};
 pub use error::{Error, Result};
 pub use progress::{Progress, Step, Unit, unheard};

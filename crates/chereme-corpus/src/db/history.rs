@@ -35,11 +35,7 @@ const TRACKED: [(&str, &[(&str, &str)]); 16] = [
     ),
     (
         "annotation",
-        &[
-            ("tier_id", "tier"),
-            ("parent_id", "annotation"),
-            ("previous_id", "annotation"),
-        ],
+        &[("tier_id", "tier"), ("parent_id", "annotation")],
     ),
     ("sign", &[]),
     ("sign_text", &[("sign_id", "sign")]),

@@ -48,24 +48,25 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
     }
     let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let mut connection = Connection::open_with_flags(path, flags)?;
-    configure(&connection)?;
     let refuse = |reason: String, remedy: &str| Error::NotACorpus {
         path: path.to_owned(),
         reason,
         remedy: remedy.to_owned(),
     };
     let pragma = |name: &str| connection.pragma_query_value(None, name, |row| row.get::<_, i32>(0));
-    let application = pragma("application_id").map_err(|error| {
-        refuse(
-            error.to_string(),
-            "choose a file that `chereme new` or `chereme import` made",
-        )
-    })?;
+    const CHOOSE: &str = "choose a file that `chereme new` or `chereme import` made";
+    let application = configure(&connection)
+        .and_then(|()| Ok(pragma("application_id")?))
+        .map_err(|error| match &error {
+            Error::Database(fault)
+                if fault.sqlite_error_code() == Some(rusqlite::ErrorCode::NotADatabase) =>
+            {
+                refuse("it is no database".into(), CHOOSE)
+            }
+            _ => error,
+        })?;
     if application != APPLICATION_ID {
-        return Err(refuse(
-            "it is a database of another program".into(),
-            "choose a file that `chereme new` or `chereme import` made",
-        ));
+        return Err(refuse("it is a database of another program".into(), CHOOSE));
     }
     let version = pragma("user_version")?;
     if version > SCHEMA_VERSION {

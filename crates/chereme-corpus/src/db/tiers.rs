@@ -57,8 +57,8 @@ pub struct AnnotationRow {
     pub value: String,
     /// The annotation above.
     pub parent_id: Option<i64>,
-    /// The annotation before it in a symbolic subdivision.
-    pub previous_id: Option<i64>,
+    /// Its place in a symbolic subdivision, from 0; 0 elsewhere.
+    pub position: i64,
     /// `file`, `human`, `detector` or `made`.
     pub origin: String,
     /// How sure its origin is, from 0 to 1.
@@ -97,8 +97,7 @@ fn tier_row(row: &Row<'_>) -> rusqlite::Result<TierRow> {
     })
 }
 
-const ANNOTATION: &str =
-    "SELECT id, tier_id, start_us, end_us, state, value, parent_id, previous_id,
+const ANNOTATION: &str = "SELECT id, tier_id, start_us, end_us, state, value, parent_id, position,
     origin, confidence, external_id, file_start_ms, file_end_ms, source FROM annotation";
 
 fn annotation_row(row: &Row<'_>) -> rusqlite::Result<AnnotationRow> {
@@ -110,7 +109,7 @@ fn annotation_row(row: &Row<'_>) -> rusqlite::Result<AnnotationRow> {
         state: row.get(4)?,
         value: row.get(5)?,
         parent_id: row.get(6)?,
-        previous_id: row.get(7)?,
+        position: row.get(7)?,
         origin: row.get(8)?,
         confidence: row.get(9)?,
         external_id: row.get(10)?,
@@ -210,7 +209,7 @@ pub(crate) fn tiers(connection: &Connection, recording: i64) -> Result<Vec<TierR
 pub(crate) fn insert_annotation(connection: &Connection, row: &AnnotationRow) -> Result<i64> {
     connection
         .prepare_cached(
-            "INSERT INTO annotation (tier_id, start_us, end_us, state, value, parent_id, previous_id,
+            "INSERT INTO annotation (tier_id, start_us, end_us, state, value, parent_id, position,
                  origin, confidence, external_id, file_start_ms, file_end_ms, source)
              VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13)",
         )?
@@ -221,7 +220,7 @@ pub(crate) fn insert_annotation(connection: &Connection, row: &AnnotationRow) ->
             row.state,
             row.value,
             row.parent_id,
-            row.previous_id,
+            row.position,
             row.origin,
             row.confidence,
             row.external_id,
@@ -237,7 +236,7 @@ pub(crate) fn update_annotation(connection: &Connection, row: &AnnotationRow) ->
     connection
         .prepare_cached(
             "UPDATE annotation SET tier_id = ?2, start_us = ?3, end_us = ?4, state = ?5, value = ?6,
-                 parent_id = ?7, previous_id = ?8, origin = ?9, confidence = ?10, external_id = ?11,
+                 parent_id = ?7, position = ?8, origin = ?9, confidence = ?10, external_id = ?11,
                  file_start_ms = ?12, file_end_ms = ?13, source = ?14 WHERE id = ?1",
         )?
         .execute(params![
@@ -248,7 +247,7 @@ pub(crate) fn update_annotation(connection: &Connection, row: &AnnotationRow) ->
             row.state,
             row.value,
             row.parent_id,
-            row.previous_id,
+            row.position,
             row.origin,
             row.confidence,
             row.external_id,
@@ -282,7 +281,7 @@ pub(crate) fn annotation(connection: &Connection, id: i64) -> Result<AnnotationR
 
 /// Returns the annotations of a tier, by time.
 pub(crate) fn annotations(connection: &Connection, tier: i64) -> Result<Vec<AnnotationRow>> {
-    let sql = format!("{ANNOTATION} WHERE tier_id = ?1 ORDER BY start_us, end_us, id");
+    let sql = format!("{ANNOTATION} WHERE tier_id = ?1 ORDER BY start_us, position, id");
     collect(connection, &sql, params![tier])
 }
 
@@ -295,14 +294,14 @@ pub(crate) fn annotations_near(
 ) -> Result<Vec<AnnotationRow>> {
     let sql = format!(
         "{ANNOTATION} WHERE tier_id = ?1 AND start_us <= ?3 AND end_us >= ?2
-         ORDER BY start_us, end_us, id"
+         ORDER BY start_us, position, id"
     );
     collect(connection, &sql, params![tier, start_us, end_us])
 }
 
 /// Returns the annotations that hang below one, by tier and time.
 pub(crate) fn children(connection: &Connection, parent: i64) -> Result<Vec<AnnotationRow>> {
-    let sql = format!("{ANNOTATION} WHERE parent_id = ?1 ORDER BY tier_id, start_us, id");
+    let sql = format!("{ANNOTATION} WHERE parent_id = ?1 ORDER BY tier_id, start_us, position, id");
     collect(connection, &sql, params![parent])
 }
 
