@@ -1,5 +1,8 @@
 //! What can be wrong with a recipe before anything is made of it.
 
+use chereme_motion::Side;
+
+use crate::sources::SourceError;
 use crate::units::UnitError;
 
 /// A recipe that cannot be read or held.
@@ -106,4 +109,109 @@ pub enum Problem {
     /// Parentheses are nested too deep.
     #[error("parentheses are nested deeper than {0}")]
     TooDeep(usize),
+}
+
+/// Why a recipe cannot be made: which step, why, and what would work.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{step}: {cause}")]
+pub struct MakeError {
+    /// Where the step stands in the recipe's JSON, such as `/pipe/steps/0`.
+    pub path: String,
+    /// The source or operator as text.
+    pub step: String,
+    /// Why it cannot be done.
+    #[source]
+    pub cause: Cause,
+}
+
+/// Why a step cannot be done.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Cause {
+    /// The corpus has no answer.
+    #[error(transparent)]
+    Source(#[from] SourceError),
+    /// The skeleton has no such arm.
+    #[error("there is no {} arm (shoulder, elbow, wrist) in this skeleton; name its joints in a roles file, or use a recording that has one", .0.name())]
+    NoArm(Side),
+    /// The hand has no fingers, or too few to tell its palm.
+    #[error("the {} hand has no fingers in this skeleton; use a recording of the hands, or name its joints in a roles file", .0.name())]
+    NoFingers(Side),
+    /// The skeleton has no head that hangs on a chest.
+    #[error("there is no head in this skeleton; name its joint in a roles file")]
+    NoHead,
+    /// A target is so far away that nothing like it can be made.
+    #[error("the target is {:.0} cm away from the {} shoulder, and the arm is {:.0} cm long; move it nearer by {:.0} cm or more", distance * 100.0, side.name(), arm * 100.0, (distance - arm) * 100.0)]
+    TooFar {
+        /// The arm.
+        side: Side,
+        /// From the shoulder to the target, in metres.
+        distance: f64,
+        /// The arm's length in metres.
+        arm: f64,
+    },
+    /// A list gives neither one value nor one for each span.
+    #[error("{given} values are given, but the {} hand holds {held} one after another; give 1 or {held}", side.name())]
+    Count {
+        /// The values given.
+        given: usize,
+        /// The spans that the sign holds.
+        held: usize,
+        /// The hand.
+        side: Side,
+    },
+    /// A list gives neither one pace nor one for each phase.
+    #[error("{given} paces are given, but the sign has {phases} phases; give 1 or {phases}")]
+    Phases {
+        /// The paces given.
+        given: usize,
+        /// The phases of the sign.
+        phases: usize,
+    },
+    /// A value means nothing for a body, and no token with movement holds it.
+    #[error(
+        "no sign with movement holds {value:?}, and its inventory gives no {what} for it; choose another value, or annotate a sign that has it"
+    )]
+    NoMeaning {
+        /// The value.
+        value: String,
+        /// What would be needed.
+        what: &'static str,
+    },
+    /// The query finds nothing with movement.
+    #[error("the query {0:?} finds no sign with movement; loosen it")]
+    NothingFound(String),
+    /// A sign that should give a value shows none.
+    #[error("{address:?} shows no {what} to take")]
+    NothingToTake {
+        /// The sign.
+        address: String,
+        /// What it should have shown.
+        what: &'static str,
+    },
+    /// The movement has no frame.
+    #[error("{0:?} has no frames")]
+    Empty(String),
+    /// The result would be too long to hold.
+    #[error("the result would have {frames} frames; at most {most} can be made of this skeleton")]
+    TooLong {
+        /// Its frames.
+        frames: usize,
+        /// The most that is made.
+        most: usize,
+    },
+    /// The corpus has not learned a transition.
+    #[error("the corpus has no learned transition yet; use sigmoid")]
+    NoProfile,
+    /// A source is no longer what it was when the recipe was resolved.
+    #[error("{address:?} has changed since this sign was made; resolve the recipe again")]
+    Changed {
+        /// The source.
+        address: String,
+    },
+    /// What was stored with the recipe does not fit it.
+    #[error("the stored inputs hold nothing fit for this step; resolve the recipe again")]
+    Input,
+    /// The movement that came out is no movement.
+    #[error("the result is no movement: {0}")]
+    Clip(#[from] chereme_motion::ClipError),
 }

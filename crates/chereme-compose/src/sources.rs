@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Anatomy, Clip, HandAngles, Side, Span};
+use chereme_sign::inventory::{Inventory, InventoryValue, Landmark};
 use chereme_sign::{Component, Handedness, Reading};
 use serde::{Deserialize, Serialize};
 
@@ -125,12 +125,37 @@ pub enum Meaning {
 
 /// A place relative to a signer's body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Spatial {
-    /// The landmark's name, as the anatomy spells it.
+    /// The landmark's name, as [`Anatomy::landmark`] spells it; `ipsi-` and `contra-` at its start
+    /// stand for the acting hand's own and other side.
     pub landmark: String,
-    /// From the landmark in body space (X to the signer's left, Y up, Z forward), in shares of the
-    /// arm's length.
-    pub offset: DVec3,
+    /// From the landmark to the left, up and forward in shoulder widths; with `ipsi-` and `contra-`
+    /// the first counts away from the body's middle.
+    pub offset: [f64; 3],
+}
+
+impl From<&Landmark> for Spatial {
+    fn from(landmark: &Landmark) -> Self {
+        Self {
+            landmark: landmark.name.clone(),
+            offset: landmark.offset,
+        }
+    }
+}
+
+impl Value {
+    /// Returns a value of an inventory with what it means for a body.
+    #[must_use]
+    pub fn of(inventory: &Inventory, value: &InventoryValue) -> Self {
+        let hand = value.pose.map(Meaning::Hand);
+        let place = || value.landmark.as_ref().map(|at| Meaning::Place(at.into()));
+        Self {
+            id: value.id.clone(),
+            inventory: inventory.id.clone(),
+            meaning: hand.or_else(place),
+        }
+    }
 }
 
 /// A token that shows something, and where in it.
@@ -148,17 +173,31 @@ pub struct Example {
 
 /// A letter of a manual alphabet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Letter {
     /// The letter as written.
     pub letter: String,
     /// Its configuration's value.
     pub value: Value,
-    /// The way the hand goes while it is shown, in body space of a right hand, in metres; empty for
-    /// a letter that is held still.
-    pub path: Vec<DVec3>,
-    /// How the hand is turned against the alphabet's usual palm forward, fingers up, in body space of
-    /// a right hand.
-    pub turn: DQuat,
+    /// Where the straight fingers point: left, up, forward for a right hand; nothing for up.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fingers: Option<[f64; 3]>,
+    /// Where the palm faces, likewise; nothing for forward.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub palm: Option<[f64; 3]>,
+    /// What the hand draws while it shows the letter; empty for one that is held still.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub strokes: Vec<LetterStroke>,
+}
+
+/// One stroke of a letter that moves.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LetterStroke {
+    /// The way to the left, up and forward in shoulder widths, for a right hand.
+    pub way: [f64; 3],
+    /// The turn of the forearm meanwhile in radians, positive when the palm turns to face up.
+    pub turn: f64,
 }
 
 /// Why the corpus has no answer.

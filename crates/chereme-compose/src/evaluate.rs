@@ -1,0 +1,266 @@
+//! From a resolved recipe to movement.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::course::Course;
+use crate::error::{Cause, MakeError};
+use crate::made::{ChannelReport, Made, Report, StepReport};
+use crate::ops;
+use crate::poses::HandPose;
+use crate::recipe::*;
+use crate::resolve::{Input, PlaceInput, Resolved};
+use crate::sources::Material;
+use crate::work::{Group, Work};
+
+/// Makes the movement of a recipe.
+///
+/// The same resolved recipe gives the same movement, bit by bit, on the same machine.
+///
+/// # Errors
+/// [`MakeError`] naming the step that cannot be done, why, and what would work.
+pub fn evaluate(resolved: &Resolved) -> Result<Made, MakeError> {
+    let mut evaluator = Evaluator {
+        inputs: &resolved.inputs.0,
+        materials: &resolved.materials,
+        report: Report::default(),
+    };
+    let work = evaluator.node(&resolved.recipe.root, String::new())?;
+    let fault = |cause| MakeError {
+        path: String::new(),
+        step: resolved.recipe.to_string(),
+        cause,
+    };
+    let mut report = evaluator.report;
+    report.channels = Group::ALL
+        .into_iter()
+        .map(|group| ChannelReport {
+            channel: group.name(),
+            from: work.from.get(&group).cloned().unwrap_or_default(),
+        })
+        .collect();
+    let (anatomy, handedness) = (Arc::clone(&work.anatomy), work.handedness);
+    let (signer, mut notes) = (work.signer.clone(), work.notes.clone());
+    notes.sort_by_key(|note| (note.span.start(), note.span.end()));
+    Ok(Made {
+        clip: work.into_clip().map_err(|error| fault(error.into()))?,
+        anatomy,
+        handedness,
+        signer,
+        notes,
+        report,
+    })
+}
+
+struct Evaluator<'a> {
+    inputs: &'a BTreeMap<String, Input>,
+    materials: &'a BTreeMap<String, Arc<Material>>,
+    report: Report,
+}
+
+/// What a step did, for the report.
+#[derive(Default)]
+struct Done {
+    did: Vec<String>,
+    residual: Option<f64>,
+}
+
+impl From<Vec<String>> for Done {
+    fn from(did: Vec<String>) -> Self {
+        Self {
+            did,
+            residual: None,
+        }
+    }
+}
+
+impl Evaluator<'_> {
+    fn node(&mut self, node: &Node, path: String) -> Result<Work, MakeError> {
+        match node {
+            Node::Pipe(pipe) => {
+                let mut work = self.node(&pipe.of, format!("{path}/pipe/of"))?;
+                for (n, step) in pipe.steps.iter().enumerate() {
+                    let path = format!("{path}/pipe/steps/{n}");
+                    let text = step.to_string();
+                    match self.step(&mut work, step, &path, &text) {
+                        Ok(done) => self.done(path, text, done),
+                        Err(cause) => {
+                            return Err(MakeError {
+                                path,
+                                step: text,
+                                cause,
+                            });
+                        }
+                    }
+                }
+                Ok(work)
+            }
+            Node::Then(then) => {
+                let mut work = self.node(&then.first, format!("{path}/then/first"))?;
+                for (n, joined) in then.next.iter().enumerate() {
+                    let at = format!("{path}/then/next/{n}");
+                    let next = self.node(&joined.node, format!("{at}/node"))?;
+                    let text = format!("then{} {}", joined.via, joined.node);
+                    match self.then(&mut work, next, joined, &at, &text) {
+                        Ok(done) => self.done(at, text, done),
+                        Err(cause) => {
+                            return Err(MakeError {
+                                path: at,
+                                step: text,
+                                cause,
+                            });
+                        }
+                    }
+                }
+                Ok(work)
+            }
+            leaf => {
+                let text = leaf.to_string();
+                match self.leaf(leaf, &path) {
+                    Ok((work, done)) => {
+                        self.done(path, text, done);
+                        Ok(work)
+                    }
+                    Err(cause) => Err(MakeError {
+                        path,
+                        step: text,
+                        cause,
+                    }),
+                }
+            }
+        }
+    }
+
+    fn done(&mut self, path: String, step: String, done: Done) {
+        if done.residual.is_some_and(|residual| residual > 1e-3) {
+            self.report
+                .warnings
+                .push(format!("{step}: not every target was reached"));
+        }
+        self.report.steps.push(StepReport {
+            path,
+            step,
+            did: done.did,
+            residual: done.residual,
+        });
+    }
+
+    fn leaf(&mut self, leaf: &Node, path: &str) -> Result<(Work, Done), Cause> {
+        match leaf {
+            Node::Sign(_) => {
+                let material = self.material(format!("{path}/sign"))?;
+                let clip = &material.clip;
+                let did = format!(
+                    "{} ({:?}), {} frames at {}",
+                    material.address,
+                    material.gloss,
+                    clip.frames(),
+                    clip.rate()
+                );
+                Ok((Work::of(material), vec![did].into()))
+            }
+            _ => Err(Cause::Input),
+        }
+    }
+
+    fn step(
+        &mut self,
+        work: &mut Work,
+        step: &Step,
+        path: &str,
+        text: &str,
+    ) -> Result<Done, Cause> {
+        Ok(match step {
+            Step::Configure(settings) => self.configure(work, settings, path, text)?.into(),
+            Step::Place(settings) => {
+                let input = self.place(format!("{path}/place/to"));
+                let (did, residual) = ops::place::place(work, settings, input, text)?;
+                Done {
+                    did,
+                    residual: Some(residual),
+                }
+            }
+            Step::Reverse => ops::reverse::reverse(work).into(),
+            Step::Swap => ops::mirror::swap(work)?.into(),
+            Step::Mirror(settings) => {
+                let from = settings.from.sides(work.handedness)[0];
+                ops::mirror::mirror(work, from)?.into()
+            }
+            Step::Repeat(settings) => {
+                let course =
+                    self.course(&settings.via, Profile::Slerp, format!("{path}/repeat/via"))?;
+                let (did, joins) = ops::repeat::repeat(work, settings, &course, text)?;
+                self.report.joins.extend(joins);
+                did.into()
+            }
+            _ => return Err(Cause::Input),
+        })
+    }
+
+    fn configure(
+        &mut self,
+        work: &mut Work,
+        settings: &Configure,
+        path: &str,
+        text: &str,
+    ) -> Result<Vec<String>, Cause> {
+        let course = self.course(
+            &settings.via,
+            Profile::Sigmoid,
+            format!("{path}/configure/via"),
+        )?;
+        let mut did = Vec::new();
+        for &side in settings.hand.sides(work.handedness) {
+            let mut values: Vec<Option<&[HandPose]>> = Vec::with_capacity(settings.values.len());
+            for (n, choice) in settings.values.iter().enumerate() {
+                let at = format!("{path}/configure/values/{n}/{}", side.name());
+                values.push(match (choice, self.inputs.get(&at)) {
+                    (Choice::Keep, _) => None,
+                    (_, Some(Input::Poses(poses))) if !poses.is_empty() => Some(poses),
+                    _ => return Err(Cause::Input),
+                });
+            }
+            let time = settings.via.time.map(|time| time.0);
+            did.extend(ops::configure::configure(
+                work, side, &values, &course, time, text,
+            )?);
+        }
+        Ok(did)
+    }
+
+    fn then(
+        &mut self,
+        work: &mut Work,
+        next: Work,
+        joined: &Joined,
+        path: &str,
+        text: &str,
+    ) -> Result<Done, Cause> {
+        let course = self.course(&joined.via, Profile::Sigmoid, format!("{path}/via"))?;
+        let (did, joins) = ops::then::then(work, next, joined.via.time, &course, text)?;
+        self.report.joins.extend(joins);
+        Ok(did.into())
+    }
+
+    fn material(&self, path: String) -> Result<&Material, Cause> {
+        self.materials
+            .get(&path)
+            .map(AsRef::as_ref)
+            .ok_or(Cause::Input)
+    }
+
+    fn place(&self, path: String) -> Option<&PlaceInput> {
+        match self.inputs.get(&path) {
+            Some(Input::Place(place)) => Some(place),
+            _ => None,
+        }
+    }
+
+    fn course(&self, via: &Transition, usual: Profile, path: String) -> Result<Course, Cause> {
+        let learned = match self.inputs.get(&path) {
+            Some(Input::Course(table)) => Some(table.as_slice()),
+            _ => None,
+        };
+        Course::of(via.profile.unwrap_or(usual), learned).ok_or(Cause::NoProfile)
+    }
+}

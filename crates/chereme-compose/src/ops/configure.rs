@@ -1,0 +1,191 @@
+//! `configure`: other hand shapes over the spans in which the sign holds its own.
+
+use std::ops::Range;
+
+use chereme_motion::glam::DQuat;
+use chereme_motion::{Side, Span};
+use chereme_sign::{Component, Reading};
+
+use crate::course::Course;
+use crate::error::Cause;
+use crate::made::{About, Note};
+use crate::poses::{self, HandPose};
+use crate::work::{Group, Work};
+
+/// How long a hand takes from one shape to another where nothing tells, in seconds.
+const CHANGE: f64 = 0.2;
+
+/// Gives `side` the values, one for the whole sign or one for each span; nothing keeps a span's own.
+///
+/// Only joints below the wrist change. Between two spans the fingers go from one value to the next,
+/// over the time that the sign itself takes for it, or `time`; where a span begins after the sign or
+/// ends before it they go from and to the sign's own movement.
+pub(crate) fn configure(
+    work: &mut Work,
+    side: Side,
+    values: &[Option<&[HandPose]>],
+    course: &Course,
+    time: Option<f64>,
+    operator: &str,
+) -> Result<Vec<String>, Cause> {
+    if !work.anatomy.has_fingers(side) {
+        return Err(Cause::NoFingers(side));
+    }
+    let mut held = work.held(side, Component::Configuration);
+    if held.is_empty() {
+        work.notes.push(Note {
+            hand: Some(side),
+            about: About::Component(Component::Configuration, None),
+            value: Reading::Unset,
+            span: work.span(),
+            origin: operator.to_owned(),
+        });
+        held.push(work.notes.len() - 1);
+    }
+    let chosen = deal(values, held.len(), side)?;
+    let mut did = Vec::new();
+    let mut stretches = Vec::with_capacity(held.len());
+    for (&note, pose) in held.iter().zip(chosen) {
+        let frames = work.rate.frames_in(work.notes[note].span);
+        let frames = frames.start.min(work.frames)..frames.end.min(work.frames);
+        let joints = match pose {
+            None => None,
+            Some(pose) => {
+                let found = poses::rotations(&work.skeleton, &work.anatomy, side, pose);
+                let found = found.ok_or(Cause::NoFingers(side))?;
+                did.push(told(&work.notes[note], pose));
+                let note = &mut work.notes[note];
+                note.value = pose.value.clone().map_or(Reading::Unset, Reading::Value);
+                note.origin = pose.origin.to_string();
+                Some(found)
+            }
+        };
+        stretches.push(Stretch { frames, joints });
+    }
+    for joint in work.anatomy.fingers(side) {
+        let column: Vec<Option<DQuat>> = stretches.iter().map(|s| s.rotation(joint)).collect();
+        if column.iter().any(Option::is_some) {
+            overwrite(work, joint, &stretches, &column, course, time);
+        }
+    }
+    work.changed([Group::Fingers(side)], operator);
+    Ok(did)
+}
+
+/// Returns one value for each span.
+fn deal<'a>(
+    values: &[Option<&'a [HandPose]>],
+    held: usize,
+    side: Side,
+) -> Result<Vec<Option<&'a HandPose>>, Cause> {
+    let count = |given| Cause::Count { given, held, side };
+    if let [Some(poses)] = values {
+        return match poses {
+            [one] => Ok(vec![Some(one); held]),
+            many if many.len() == held => Ok(many.iter().map(Some).collect()),
+            many if held == 1 => Ok(vec![many.first()]),
+            many => Err(count(many.len())),
+        };
+    }
+    if values.len() != held {
+        return Err(count(values.len()));
+    }
+    Ok(values
+        .iter()
+        .map(|poses| poses.and_then(<[HandPose]>::first))
+        .collect())
+}
+
+struct Stretch {
+    frames: Range<usize>,
+    joints: Option<Vec<(usize, DQuat)>>,
+}
+
+impl Stretch {
+    fn rotation(&self, joint: usize) -> Option<DQuat> {
+        let joints = self.joints.as_ref()?;
+        joints
+            .iter()
+            .find(|(j, _)| *j == joint)
+            .map(|(_, rotation)| *rotation)
+    }
+}
+
+/// Writes one joint's values over their stretches, then the ways between them.
+fn overwrite(
+    work: &mut Work,
+    joint: usize,
+    stretches: &[Stretch],
+    values: &[Option<DQuat>],
+    course: &Course,
+    time: Option<f64>,
+) {
+    let frames = work.frames;
+    let length = ((time.unwrap_or(CHANGE) / work.rate.frame_time()).round() as usize).max(1);
+    let source = work.channels[joint].rotations.clone();
+    let column = &mut work.channels[joint].rotations;
+    for (stretch, value) in stretches.iter().zip(values) {
+        if let Some(value) = value {
+            column[stretch.frames.clone()].fill(*value);
+        }
+    }
+    for edge in 0..=stretches.len() {
+        let before = edge.checked_sub(1).and_then(|n| values[n]);
+        let after = values.get(edge).copied().flatten();
+        if before.is_none() && after.is_none() {
+            continue;
+        }
+        let from = edge.checked_sub(1).map_or(0, |n| stretches[n].frames.end);
+        let to = stretches
+            .get(edge)
+            .map_or(frames, |s| s.frames.start)
+            .max(from);
+        let window = match edge {
+            0 => to.saturating_sub(length).max(from)..to,
+            _ if edge == stretches.len() => from..(from + length).min(to),
+            _ => between(
+                from,
+                to,
+                length,
+                time.is_some(),
+                &stretches[edge - 1..=edge],
+            ),
+        };
+        let steps = (window.len() + 1) as f64;
+        for (n, frame) in window.enumerate() {
+            let a = before.unwrap_or(source[frame]);
+            let b = after.unwrap_or(source[frame]);
+            column[frame] = course.rotation(a, b, (n + 1) as f64 / steps);
+        }
+    }
+}
+
+/// Returns the frames in which one value becomes the next: the gap between their spans, as long as
+/// asked for in its middle, or, where the spans leave none, up to a third of each.
+fn between(from: usize, to: usize, length: usize, asked: bool, spans: &[Stretch]) -> Range<usize> {
+    let gap = to - from;
+    if gap >= length || (gap > 0 && !asked && gap * 2 >= length) {
+        let length = if asked { length } else { gap };
+        let start = from + (gap - length) / 2;
+        return start..start + length;
+    }
+    let more = (length - gap).div_ceil(2);
+    let back = more.min(spans[0].frames.len() / 3);
+    let ahead = more.min(spans[1].frames.len() / 3);
+    from - back..to + ahead
+}
+
+fn told(note: &Note, pose: &HandPose) -> String {
+    let name = |value: Option<&str>| value.map_or("(no value)".to_owned(), str::to_owned);
+    format!(
+        "{} becomes {} over {}, from {}",
+        name(note.value.value()),
+        name(pose.value.as_deref()),
+        shown(note.span),
+        pose.origin
+    )
+}
+
+fn shown(span: Span) -> String {
+    format!("{}–{}", span.start(), span.end())
+}

@@ -1,0 +1,206 @@
+//! Movement after movement: the frames between them, and how well they meet.
+
+use chereme_motion::Side;
+use chereme_motion::glam::{DQuat, DVec3};
+
+use crate::course::Course;
+use crate::error::Cause;
+use crate::made::{About, JoinReport, Note};
+use crate::work::{Group, Work};
+
+/// The most joints times frames that are made: about 300 MB of rotations.
+const MOST_CELLS: usize = 10_000_000;
+
+/// Returns an error where `frames` of this skeleton are more than is made.
+pub(crate) fn check_length(work: &Work, frames: usize) -> Result<(), Cause> {
+    let most = MOST_CELLS / work.skeleton.len();
+    if frames > most {
+        return Err(Cause::TooLong { frames, most });
+    }
+    Ok(())
+}
+
+/// When the channels of one hand leave the first movement and enter the second.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Cut {
+    /// The last frame of the first movement that is played.
+    pub(crate) leave: usize,
+    /// The first frame of the second that is played, counted in the second.
+    pub(crate) enter: usize,
+}
+
+/// Where two movements of the same skeleton and rate meet.
+pub(crate) struct Seam {
+    /// The frame of the result at which the second movement's frame 0 would be.
+    pub(crate) offset: usize,
+    /// The cut of each side's arm and fingers.
+    pub(crate) hands: [Cut; 2],
+    /// The cut of everything else.
+    pub(crate) body: Cut,
+}
+
+impl Seam {
+    /// Returns the seam that plays both to their ends with `gap` frames between.
+    pub(crate) fn plain(first: &Work, gap: usize) -> Self {
+        let cut = Cut {
+            leave: first.frames - 1,
+            enter: 0,
+        };
+        Self {
+            offset: first.frames + gap,
+            hands: [cut; 2],
+            body: cut,
+        }
+    }
+
+    fn cut(&self, group: Group) -> Cut {
+        match group {
+            Group::Arm(side) | Group::Fingers(side) => self.hands[usize::from(side == Side::Left)],
+            _ => self.body,
+        }
+    }
+}
+
+/// Puts `second` behind `first`; both have the same skeleton and rate, and at least a frame.
+///
+/// Each channel follows the first up to its cut, goes to the second by `course`, and follows the
+/// second from its cut on.
+pub(crate) fn join(
+    first: &mut Work,
+    second: Work,
+    seam: &Seam,
+    course: &Course,
+    what: &str,
+) -> Result<Vec<JoinReport>, Cause> {
+    let frames = seam.offset + second.frames;
+    check_length(first, frames)?;
+    let groups = crate::work::groups(&first.skeleton, &first.anatomy);
+    for (joint, group) in groups.iter().enumerate() {
+        let cut = seam.cut(*group);
+        extend(first, &second, joint, cut, seam.offset, course);
+    }
+    let shift = first.rate.instant(seam.offset).micros();
+    notes(first, &second, seam, shift, what);
+    first.frames = frames;
+    for (group, from) in second.from {
+        let own = first.from.entry(group).or_default();
+        if *own != from {
+            own.push(format!("then {}", from.join(" | ")));
+        }
+    }
+    Ok(Side::BOTH
+        .into_iter()
+        .filter_map(|side| report(first, side, seam, what))
+        .collect())
+}
+
+fn extend(first: &mut Work, second: &Work, joint: usize, cut: Cut, offset: usize, course: &Course) {
+    let (leave, enter) = (cut.leave, cut.enter);
+    let steps = (offset + enter - leave) as f64;
+    let way = || (leave + 1..offset + enter).map(|frame| (frame - leave) as f64 / steps);
+    let here = first.skeleton.joint(joint).offset;
+    let (from, to) = (
+        first.translation(joint, leave),
+        second.translation(joint, enter),
+    );
+    let (channel, next) = (&mut first.channels[joint], &second.channels[joint]);
+    let moves = channel.translations.is_some() || next.translations.is_some();
+    let (a, b) = (channel.rotations[leave], next.rotations[enter]);
+    channel.rotations.truncate(leave + 1);
+    channel
+        .rotations
+        .extend(way().map(|w| course.rotation(a, b, w)));
+    channel
+        .rotations
+        .extend_from_slice(&next.rotations[enter..]);
+    if moves {
+        let places = channel
+            .translations
+            .get_or_insert_with(|| vec![here; leave + 1]);
+        places.truncate(leave + 1);
+        places.extend(way().map(|w| from.lerp(to, course.share(w))));
+        places.extend((enter..second.frames).map(|frame| second.translation(joint, frame)));
+    }
+}
+
+fn notes(first: &mut Work, second: &Work, seam: &Seam, shift: i64, what: &str) {
+    let rate = first.rate;
+    for note in &mut first.notes {
+        let cut = note
+            .hand
+            .map_or(seam.body, |side| seam.cut(Group::Arm(side)));
+        note.span = clipped(note.span, first.rate.span(0..cut.leave + 1));
+    }
+    for note in &second.notes {
+        let cut = note
+            .hand
+            .map_or(seam.body, |side| seam.cut(Group::Arm(side)));
+        let span = clipped(note.span, rate.span(cut.enter..second.frames));
+        first.notes.push(Note {
+            span: span.shifted(shift),
+            ..note.clone()
+        });
+    }
+    first.notes.push(Note {
+        hand: None,
+        about: About::Transition,
+        value: chereme_sign::Reading::Unset,
+        span: rate.span(seam.body.leave + 1..seam.offset + seam.body.enter),
+        origin: what.to_owned(),
+    });
+}
+
+fn clipped(span: chereme_motion::Span, within: chereme_motion::Span) -> chereme_motion::Span {
+    let at = |instant: chereme_motion::Instant| instant.max(within.start()).min(within.end());
+    chereme_motion::Span::between(at(span.start()), at(span.end()))
+}
+
+/// Measures how a wrist goes through both ends of a transition.
+fn report(work: &Work, side: Side, seam: &Seam, what: &str) -> Option<JoinReport> {
+    let hand = work.anatomy.arm(side)?.hand;
+    let cut = seam.cut(Group::Arm(side));
+    let (leave, enter) = (cut.leave, seam.offset + cut.enter);
+    let path = near(
+        work,
+        hand,
+        leave.saturating_sub(4)..(enter + 5).min(work.frames),
+    );
+    let start = leave.saturating_sub(4);
+    let mut report = JoinReport {
+        what: what.to_owned(),
+        hand: side,
+        span: work.rate.span(leave + 1..enter),
+        position: 0.0,
+        velocity: 0.0,
+        acceleration: 0.0,
+    };
+    let per_second = work.rate.per_second();
+    for frame in [leave, enter] {
+        let first = (frame - start).checked_sub(2);
+        let Some(&[a, b, c, d, e]) = first.and_then(|n| path.get(n..n + 5)) else {
+            continue;
+        };
+        let (before, after) = ((c - b) * per_second, (d - c) * per_second);
+        let bend = |x: DVec3, y: DVec3, z: DVec3| (z - 2.0 * y + x) * (per_second * per_second);
+        report.position = report.position.max((d - (c + (c - b))).length());
+        report.velocity = report.velocity.max((after - before).length());
+        let change = bend(c, d, e) - bend(a, b, c);
+        report.acceleration = report.acceleration.max(change.length());
+    }
+    Some(report)
+}
+
+/// Returns where `joint` is over some frames.
+fn near(work: &Work, joint: usize, frames: std::ops::Range<usize>) -> Vec<DVec3> {
+    let mut up: Vec<usize> = work.skeleton.ancestors(joint).collect();
+    up.reverse();
+    let place = |frame: usize| {
+        let start = (DVec3::ZERO, DQuat::IDENTITY);
+        let (place, _) = up.iter().fold(start, |(place, turned), &j| {
+            let place = place + turned * work.translation(j, frame);
+            (place, turned * work.channels[j].rotations[frame])
+        });
+        place
+    };
+    frames.map(place).collect()
+}

@@ -1,0 +1,283 @@
+//! `swap` and `mirror`: what one arm does, done by the other, across the body's sagittal plane.
+//!
+//! With C the rotation of the joint that carries both arms, R that of an arm's joint j and m its
+//! counterpart, all in model space, and a zero for the rest pose, the movement of j relative to the
+//! trunk is `D = (C C₀⁻¹)⁻¹ R_j R_j0⁻¹`. Its mirror image `S D S` (S reflects across the plane between
+//! the shoulders at rest) is given to m: `R_m = C C₀⁻¹ · S D S · K · R_m0`, where K, the shortest
+//! turn, makes up for arms whose bones do not lie symmetrically at rest. Doing it again gives R back.
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Part, Side};
+use chereme_sign::Reading;
+
+use crate::error::Cause;
+use crate::made::{About, Note};
+use crate::work::{Columns, Group, Work};
+
+/// Exchanges what the arms do.
+pub(crate) fn swap(work: &mut Work) -> Result<Vec<String>, Cause> {
+    let plan = Plan::of(work)?;
+    let mirrored: Vec<(usize, Column)> = plan
+        .pairs
+        .iter()
+        .map(|pair| plan.image(work, pair))
+        .collect();
+    let did = plan.write(work, mirrored);
+    for note in &mut work.notes {
+        turn_over(note);
+    }
+    work.changed(arms(&Side::BOTH), "swap");
+    Ok(did)
+}
+
+/// Makes the other arm do the mirror image of what `from` does.
+pub(crate) fn mirror(work: &mut Work, from: Side) -> Result<Vec<String>, Cause> {
+    let plan = Plan::of(work)?;
+    let copied = plan.pairs.iter().filter(|pair| pair.side == from);
+    let mirrored: Vec<(usize, Column)> = copied.map(|pair| plan.image(work, pair)).collect();
+    let did = plan.write(work, mirrored);
+    work.notes.retain(|note| note.hand != Some(from.other()));
+    let copies: Vec<Note> = work
+        .notes
+        .iter()
+        .filter(|note| note.hand == Some(from))
+        .cloned()
+        .map(|mut note| {
+            turn_over(&mut note);
+            note
+        })
+        .collect();
+    work.notes.extend(copies);
+    work.changed(arms(&[from.other()]), &format!("mirror {}", from.name()));
+    Ok(did)
+}
+
+fn arms(sides: &[Side]) -> Vec<Group> {
+    sides
+        .iter()
+        .flat_map(|&side| [Group::Arm(side), Group::Fingers(side)])
+        .collect()
+}
+
+/// Names the other hand, and the other side in values such as `high-left`.
+fn turn_over(note: &mut Note) {
+    let Some(side) = note.hand else { return };
+    note.hand = Some(side.other());
+    if let (About::Component(..), Reading::Value(value)) = (&note.about, &mut note.value) {
+        let words = value.split_inclusive(['-', ' ', '_', '/']);
+        let turned = words.map(|word| match word.trim_end_matches(['-', ' ', '_', '/']) {
+            "left" => word.replace("left", "right"),
+            "right" => word.replace("right", "left"),
+            _ => word.to_owned(),
+        });
+        *value = turned.collect();
+    }
+}
+
+struct Column {
+    rotations: Vec<DQuat>,
+    translations: Option<Vec<DVec3>>,
+}
+
+/// A joint of one arm and its counterpart.
+struct Pair {
+    side: Side,
+    joint: usize,
+    other: usize,
+    /// Turns the counterpart's bone at rest to where the mirror image of this joint's bone is.
+    even: DQuat,
+}
+
+struct Plan {
+    /// The joint that carries both arms.
+    trunk: usize,
+    /// The normal of the sagittal plane at rest in model space.
+    normal: DVec3,
+    rest: Vec<DQuat>,
+    /// Both ways, parents first.
+    pairs: Vec<Pair>,
+    alone: Vec<String>,
+    columns: Columns,
+}
+
+impl Plan {
+    fn of(work: &Work) -> Result<Self, Cause> {
+        let (skeleton, anatomy) = (&work.skeleton, &work.anatomy);
+        let mut tops = [0; 2];
+        for (top, side) in tops.iter_mut().zip(Side::BOTH) {
+            let arm = anatomy.arm(side).ok_or(Cause::NoArm(side))?;
+            *top = arm.clavicle.unwrap_or(arm.upper);
+        }
+        let above: Vec<usize> = skeleton.ancestors(tops[0]).collect();
+        let trunk = skeleton
+            .ancestors(tops[1])
+            .find(|joint| above.contains(joint));
+        let trunk = trunk
+            .filter(|joint| !tops.contains(joint))
+            .ok_or(Cause::NoArm(Side::Left))?;
+        let rest = skeleton.rest_model_pose();
+        let shoulder = |side| {
+            anatomy
+                .joint(Part::UpperArm(side))
+                .map(|j| rest.position(j))
+        };
+        let normal = match (shoulder(Side::Left), shoulder(Side::Right)) {
+            (Some(left), Some(right)) => (left - right).normalize_or(DVec3::X),
+            _ => DVec3::X,
+        };
+        let map = anatomy.mirror_map(skeleton);
+        let mut plan = Self {
+            trunk,
+            normal,
+            rest: rest.rotations().to_vec(),
+            pairs: Vec::new(),
+            alone: Vec::new(),
+            columns: Columns::of(work, tops.iter().flat_map(|&top| skeleton.subtree(top))),
+        };
+        for (&top, side) in tops.iter().zip(Side::BOTH) {
+            for joint in skeleton.subtree(top) {
+                match map[joint].filter(|&other| other != joint && map[other] == Some(joint)) {
+                    Some(other) => {
+                        let even = plan.even(work, joint, other, &map);
+                        plan.pairs.push(Pair {
+                            side,
+                            joint,
+                            other,
+                            even,
+                        });
+                    }
+                    None => plan.alone.push(skeleton.joint(joint).name.clone()),
+                }
+            }
+        }
+        plan.pairs.sort_by_key(|pair| pair.other);
+        Ok(plan)
+    }
+
+    fn reflect(&self, v: DVec3) -> DVec3 {
+        v - self.normal * (2.0 * v.dot(self.normal))
+    }
+
+    /// Returns `S q S`: the rotation about the reflected axis the other way.
+    fn reflected(&self, q: DQuat) -> DQuat {
+        let v = -self.reflect(DVec3::new(q.x, q.y, q.z));
+        DQuat::from_xyzw(v.x, v.y, v.z, q.w)
+    }
+
+    fn even(&self, work: &Work, joint: usize, other: usize, map: &[Option<usize>]) -> DQuat {
+        let skeleton = &work.skeleton;
+        let children = skeleton.children(joint).iter();
+        let mut paired = children.filter_map(|&child| {
+            let counter = map[child].filter(|&c| skeleton.parent(c) == Some(other))?;
+            Some((skeleton.joint(child).offset, skeleton.joint(counter).offset))
+        });
+        let tips = || skeleton.joint(joint).tip.zip(skeleton.joint(other).tip);
+        let Some((here, there)) = paired.next().or_else(tips) else {
+            return DQuat::IDENTITY;
+        };
+        let image = self.reflect(self.rest[joint] * here).try_normalize();
+        let bone = (self.rest[other] * there).try_normalize();
+        match (bone, image) {
+            (Some(bone), Some(image)) if bone.dot(image) < 1.0 - 1e-12 => {
+                DQuat::from_rotation_arc(bone, image)
+            }
+            _ => DQuat::IDENTITY,
+        }
+    }
+
+    /// Returns the model rotations of a joint's counterpart, and its places where the joint moves.
+    fn image(&self, work: &Work, pair: &Pair) -> (usize, Column) {
+        let trunk = self.columns.rotations(self.trunk);
+        let at_rest = self.rest[self.trunk].inverse();
+        let (back, onto) = (
+            self.rest[pair.joint].inverse(),
+            pair.even * self.rest[pair.other],
+        );
+        let rotations = self
+            .columns
+            .rotations(pair.joint)
+            .iter()
+            .zip(trunk)
+            .map(|(r, c)| {
+                let carried = *c * at_rest;
+                let moved = carried.inverse() * *r * back;
+                carried * self.reflected(moved) * onto
+            });
+        let above = |joint: usize| {
+            work.skeleton
+                .parent(joint)
+                .map_or(DQuat::IDENTITY, |p| self.rest[p])
+        };
+        let (from, to) = (above(pair.joint), above(pair.other).inverse());
+        let (here, there) = (
+            work.skeleton.joint(pair.joint),
+            work.skeleton.joint(pair.other),
+        );
+        let translations = work.channels[pair.joint]
+            .translations
+            .as_ref()
+            .map(|places| {
+                let moved =
+                    |at: &DVec3| there.offset + to * self.reflect(from * (*at - here.offset));
+                places.iter().map(moved).collect()
+            });
+        (
+            pair.other,
+            Column {
+                rotations: rotations.collect(),
+                translations,
+            },
+        )
+    }
+
+    /// Writes model rotations into local channels, parents first.
+    fn write(&self, work: &mut Work, mirrored: Vec<(usize, Column)>) -> Vec<String> {
+        let mut new: Vec<Option<Vec<DQuat>>> = vec![None; work.skeleton.len()];
+        for (joint, column) in mirrored {
+            // A joint with no counterpart between two that have one is carried along.
+            let parent = work.skeleton.parent(joint);
+            let local = column
+                .rotations
+                .iter()
+                .enumerate()
+                .map(|(frame, rotation)| {
+                    let above = parent.map_or(DQuat::IDENTITY, |parent| match &new[parent] {
+                        Some(turned) => turned[frame],
+                        None => self.carried(work, &new, parent, frame),
+                    });
+                    (above.inverse() * *rotation).normalize()
+                });
+            let local: Vec<DQuat> = local.collect();
+            work.channels[joint].rotations = local;
+            work.channels[joint].translations = column.translations;
+            new[joint] = Some(column.rotations);
+        }
+        if self.alone.is_empty() {
+            return Vec::new();
+        }
+        vec![format!(
+            "joints without a counterpart stay as they were: {}",
+            self.alone.join(", ")
+        )]
+    }
+
+    fn carried(
+        &self,
+        work: &Work,
+        new: &[Option<Vec<DQuat>>],
+        joint: usize,
+        frame: usize,
+    ) -> DQuat {
+        let mut below = DQuat::IDENTITY;
+        for above in work.skeleton.ancestors(joint) {
+            if let Some(turned) = &new[above] {
+                return turned[frame] * below;
+            }
+            if above == self.trunk {
+                return self.columns.rotations(above)[frame] * below;
+            }
+            below = work.channels[above].rotations[frame] * below;
+        }
+        below
+    }
+}

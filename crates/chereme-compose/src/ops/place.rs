@@ -1,0 +1,148 @@
+//! `place`: the hands elsewhere, moving and turned as they were.
+
+use chereme_motion::Side;
+use chereme_motion::glam::DVec3;
+use chereme_sign::{Component, Reading};
+
+use crate::arm::{self, HELP_FROM, Reach};
+use crate::body::{self, Frame};
+use crate::error::Cause;
+use crate::made::About;
+use crate::recipe::{Goal, HandPoint, Place, Solver};
+use crate::resolve::PlaceInput;
+use crate::work::{Columns, Group, Work};
+
+/// Moves the hands; returns what was done and the residual.
+pub(crate) fn place(
+    work: &mut Work,
+    settings: &Place,
+    input: Option<&PlaceInput>,
+    operator: &str,
+) -> Result<(Vec<String>, f64), Cause> {
+    let sides = settings.hand.sides(work.handedness);
+    let frame = frame(work, sides)?;
+    let by = match &settings.to {
+        Goal::By(legs) => frame.sum(legs),
+        to => {
+            let goal = match (to, input) {
+                (Goal::AtPoint(at), _) => frame.point(at),
+                (Goal::Near { by, .. }, Some(input)) => {
+                    spatial(work, &frame, input, sides[0])? + frame.sum(by)
+                }
+                (_, Some(input)) => spatial(work, &frame, input, sides[0])?,
+                (_, None) => return Err(Cause::Input),
+            };
+            let point = settings.with.unwrap_or(HandPoint::Palm);
+            let now = body::mean_point(work, sides, point).ok_or(Cause::NoArm(sides[0]))?;
+            goal - now
+        }
+    };
+    let value = input.and_then(|input| input.value.clone());
+    let reach = shift(work, sides, by, settings.solver)?;
+    for note in &mut work.notes {
+        let moved = note.hand.is_some_and(|side| sides.contains(&side));
+        if moved
+            && by != DVec3::ZERO
+            && matches!(note.about, About::Component(Component::Placement, _))
+        {
+            note.value = value.clone().map_or(Reading::Unset, Reading::Value);
+            note.origin = format!("{} | {operator}", note.origin);
+        }
+    }
+    if by != DVec3::ZERO {
+        work.changed(sides.iter().map(|&side| Group::Arm(side)), operator);
+    }
+    let body = frame.to_body(by) * 100.0;
+    let mut did = vec![format!(
+        "moved by {:.1} cm left, {:.1} cm up, {:.1} cm forward",
+        body.x, body.y, body.z
+    )];
+    if let Some(input) = input {
+        did.push(format!("the place is from {}", input.from));
+    }
+    did.extend(told(&reach));
+    Ok((did, reach.residual))
+}
+
+fn spatial(work: &Work, frame: &Frame, input: &PlaceInput, side: Side) -> Result<DVec3, Cause> {
+    frame
+        .place(work, &input.at, side)
+        .ok_or_else(|| Cause::NoMeaning {
+            value: input
+                .value
+                .clone()
+                .unwrap_or_else(|| input.at.landmark.clone()),
+            what: "landmark that this skeleton has",
+        })
+}
+
+/// Returns the body's frame, or an error that names the arm that is missing.
+pub(crate) fn frame(work: &Work, sides: &[Side]) -> Result<Frame, Cause> {
+    if let Some(&side) = sides.iter().find(|&&side| work.anatomy.arm(side).is_none()) {
+        return Err(Cause::NoArm(side));
+    }
+    Frame::of(work).ok_or(Cause::NoArm(sides[0]))
+}
+
+/// Moves wrists by the same way at every frame.
+pub(crate) fn shift(
+    work: &mut Work,
+    sides: &[Side],
+    by: DVec3,
+    solver: Solver,
+) -> Result<Reach, Cause> {
+    wrists(work, sides, solver, |_, _, at| at + by)
+}
+
+/// Moves wrists to where `target` says: hand, frame, where it is.
+pub(crate) fn wrists(
+    work: &mut Work,
+    sides: &[Side],
+    solver: Solver,
+    target: impl Fn(Side, usize, DVec3) -> DVec3,
+) -> Result<Reach, Cause> {
+    let mut worst = Reach::default();
+    for &side in sides {
+        let hand = work.anatomy.arm(side).ok_or(Cause::NoArm(side))?.hand;
+        let columns = Columns::of(work, [hand]);
+        let at = columns.positions(hand).iter().enumerate();
+        let targets: Vec<DVec3> = at.map(|(frame, &at)| target(side, frame, at)).collect();
+        let reach =
+            arm::move_wrist(work, side, &targets, None, solver).ok_or(Cause::NoArm(side))?;
+        check(side, &reach)?;
+        worst = worst.worse(reach);
+    }
+    Ok(worst)
+}
+
+/// Refuses what lies half an arm and more out of reach.
+pub(crate) fn check(side: Side, reach: &Reach) -> Result<(), Cause> {
+    if reach.residual > 0.5 * reach.arm && reach.farthest > 1.5 * reach.arm {
+        return Err(Cause::TooFar {
+            side,
+            distance: reach.farthest,
+            arm: reach.arm,
+        });
+    }
+    Ok(())
+}
+
+/// Says what an arm could not do and what helped it.
+pub(crate) fn told(reach: &Reach) -> Vec<String> {
+    let mut told = Vec::new();
+    if reach.residual > 1e-3 {
+        told.push(format!(
+            "out of reach: the wrist stays {:.1} cm short at frame {}",
+            reach.residual * 100.0,
+            reach.frame
+        ));
+    }
+    if reach.helped > 0 {
+        told.push(format!(
+            "the collar bone helped in {} frames, beyond {:.0}% of the arm's length",
+            reach.helped,
+            HELP_FROM * 100.0
+        ));
+    }
+    told
+}

@@ -1,0 +1,464 @@
+//! Synthetic bodies, movement and a small corpus for tests.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use chereme_motion::glam::{DQuat, DVec3, EulerRot};
+use chereme_motion::{
+    Anatomy, Channel, Clip, HandAngles, Instant, Joint, ModelPose, Rate, Side, Skeleton, Span,
+};
+use chereme_sign::{Component, Handedness, Reading};
+
+use crate::sources::*;
+
+/// Which local axes a body's joints have.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Axes {
+    /// All parallel to model space at rest.
+    Plain,
+    /// Each joint turned another way at rest, left and right unlike.
+    Odd,
+}
+
+/// Returns a body of 51 joints in a T-pose with full hands, `size` times as large as a tall person.
+pub(crate) fn skeleton(axes: Axes, size: f64) -> Skeleton {
+    let mut names: Vec<(String, Option<usize>, DVec3, Option<DVec3>)> = Vec::new();
+    let mut add = |name: &str, parent: Option<usize>, at: [f64; 3], tip: Option<[f64; 3]>| {
+        names.push((
+            name.to_owned(),
+            parent,
+            DVec3::from(at) * size,
+            tip.map(|t| DVec3::from(t) * size),
+        ));
+        names.len() - 1
+    };
+    let hips = add("Hips", None, [0.0, 0.95, 0.0], None);
+    let spine = add("Spine", Some(hips), [0.0, 1.05, 0.0], None);
+    let chest = add("Spine2", Some(spine), [0.0, 1.25, 0.0], None);
+    let neck = add("Neck", Some(chest), [0.0, 1.47, 0.0], None);
+    add("Head", Some(neck), [0.0, 1.56, 0.0], Some([0.0, 0.2, 0.0]));
+    for (side, x) in [("Left", 1.0), ("Right", -1.0)] {
+        let clavicle = add(
+            &format!("{side}Shoulder"),
+            Some(chest),
+            [0.03 * x, 1.42, 0.0],
+            None,
+        );
+        let upper = add(
+            &format!("{side}Arm"),
+            Some(clavicle),
+            [0.18 * x, 1.42, 0.0],
+            None,
+        );
+        let fore = add(
+            &format!("{side}ForeArm"),
+            Some(upper),
+            [0.46 * x, 1.42, 0.0],
+            None,
+        );
+        let hand = add(
+            &format!("{side}Hand"),
+            Some(fore),
+            [0.71 * x, 1.42, 0.0],
+            None,
+        );
+        for (finger, z) in [
+            ("Index", 0.03),
+            ("Middle", 0.01),
+            ("Ring", -0.01),
+            ("Pinky", -0.03),
+        ] {
+            let mut parent = hand;
+            for (n, along) in [(1, 0.80), (2, 0.84), (3, 0.865)] {
+                let tip = (n == 3).then_some([0.02 * x, 0.0, 0.0]);
+                parent = add(
+                    &format!("{side}Hand{finger}{n}"),
+                    Some(parent),
+                    [along * x, 1.42, z],
+                    tip,
+                );
+            }
+        }
+        let mut parent = hand;
+        for (n, along, z) in [(1, 0.73, 0.03), (2, 0.75, 0.06), (3, 0.77, 0.08)] {
+            let tip = (n == 3).then_some([0.015 * x, 0.0, 0.015]);
+            parent = add(
+                &format!("{side}HandThumb{n}"),
+                Some(parent),
+                [along * x, 1.42, z],
+                tip,
+            );
+        }
+        let thigh = add(
+            &format!("{side}UpLeg"),
+            Some(hips),
+            [0.09 * x, 0.9, 0.0],
+            None,
+        );
+        let shin = add(
+            &format!("{side}Leg"),
+            Some(thigh),
+            [0.09 * x, 0.5, 0.0],
+            None,
+        );
+        add(
+            &format!("{side}Foot"),
+            Some(shin),
+            [0.09 * x, 0.08, 0.0],
+            None,
+        );
+    }
+    let turned: Vec<DQuat> = (0..names.len())
+        .map(|n| match axes {
+            Axes::Plain => DQuat::IDENTITY,
+            Axes::Odd => {
+                let n = n as f64;
+                DQuat::from_euler(EulerRot::XYZ, 1.3 * n, 0.7 * n + 1.0, 2.1 * n)
+            }
+        })
+        .collect();
+    let joints = names
+        .iter()
+        .enumerate()
+        .map(|(n, (name, parent, at, tip))| {
+            let above = parent.map_or(DQuat::IDENTITY, |p| turned[p]);
+            let from = parent.map_or(DVec3::ZERO, |p| names[p].2);
+            Joint {
+                name: name.clone(),
+                parent: *parent,
+                offset: above.inverse() * (*at - from),
+                rest: (above.inverse() * turned[n]).normalize(),
+                tip: tip.map(|tip| turned[n].inverse() * tip),
+            }
+        });
+    Skeleton::new(joints.collect()).expect("a tree")
+}
+
+/// Returns signing movement: both arms bent before the chest, moving in their own ways, fingers
+/// curling and the trunk swaying a little; `seed` tells one movement from another.
+pub(crate) fn clip(skeleton: &Arc<Skeleton>, frames: usize, seed: f64) -> Clip {
+    let rest = skeleton.rest_model_pose();
+    let rate = Rate::new(120, 1).expect("rate");
+    let mut columns: Vec<Vec<DQuat>> = Vec::new();
+    let mut moved: Vec<Vec<DQuat>> = Vec::new();
+    for (n, joint) in skeleton.joints().iter().enumerate() {
+        let deltas: Vec<DQuat> = (0..frames)
+            .map(|f| bend(&joint.name, f as f64 / 120.0, seed))
+            .collect();
+        let carried: Vec<DQuat> = match joint.parent {
+            None => deltas,
+            Some(parent) => deltas
+                .iter()
+                .zip(&moved[parent])
+                .map(|(d, p)| *p * *d)
+                .collect(),
+        };
+        let model: Vec<DQuat> = carried.iter().map(|d| *d * rest.rotation(n)).collect();
+        columns.push(model);
+        moved.push(carried);
+    }
+    let channels = skeleton
+        .joints()
+        .iter()
+        .enumerate()
+        .map(|(n, joint)| Channel {
+            rotations: (0..frames)
+                .map(|f| {
+                    let above = joint.parent.map_or(DQuat::IDENTITY, |p| columns[p][f]);
+                    (above.inverse() * columns[n][f]).normalize()
+                })
+                .collect(),
+            translations: (n == 0).then(|| {
+                (0..frames)
+                    .map(|f| joint.offset + DVec3::new(0.01 * (f as f64 * 0.02).sin(), 0.0, 0.0))
+                    .collect()
+            }),
+        });
+    Clip::new(Arc::clone(skeleton), rate, channels.collect()).expect("a clip")
+}
+
+fn bend(name: &str, t: f64, seed: f64) -> DQuat {
+    let wave = |speed: f64, phase: f64| (TAU * speed * t + phase + seed).sin();
+    let (side, part) = match name.strip_prefix("Left") {
+        Some(part) => (-1.0, part),
+        None => (1.0, name.strip_prefix("Right").unwrap_or(name)),
+    };
+    let apart = if side < 0.0 { 0.8 } else { 0.0 };
+    let turn = |x: f64, y: f64, z: f64| DQuat::from_euler(EulerRot::ZYX, side * z, side * y, x);
+    match part {
+        "Spine" => turn(0.05 * wave(0.4, 0.3), 0.1 * wave(0.3, 0.0) * side, 0.0),
+        "Head" => turn(0.1 * wave(0.5, 1.0), 0.2 * wave(0.4, 2.0), 0.0),
+        "Arm" => turn(
+            0.1 * wave(1.0, apart),
+            0.45 + 0.15 * wave(1.1, apart),
+            1.1 + 0.15 * wave(0.8, apart),
+        ),
+        "ForeArm" => turn(0.3 * wave(0.9, apart), 1.4 + 0.3 * wave(1.2, apart), -0.2),
+        "Hand" => turn(
+            0.2 * wave(1.5, apart),
+            0.1 * wave(1.4, apart),
+            0.2 * wave(1.3, apart),
+        ),
+        _ if part.contains("Thumb") => turn(0.0, -0.2 - 0.05 * wave(1.0, 0.0), 0.1),
+        _ if part.starts_with("Hand") => turn(0.0, 0.0, 0.4 + 0.1 * wave(1.0, apart)),
+        _ => DQuat::IDENTITY,
+    }
+}
+
+/// Returns a span in milliseconds.
+pub(crate) fn span(start: i64, end: i64) -> Span {
+    Span::between(Instant::from_millis(start), Instant::from_millis(end))
+}
+
+/// Returns what a sign holds.
+pub(crate) fn held(hand: Side, component: Component, value: &str, span: Span) -> Held {
+    Held {
+        hand: Some(hand),
+        component,
+        feature: None,
+        value: Reading::Value(value.into()),
+        span,
+    }
+}
+
+/// A corpus of a few signs, in memory.
+pub(crate) struct Shelf {
+    pub(crate) materials: BTreeMap<String, Material>,
+    pub(crate) values: Vec<(Component, Value)>,
+}
+
+impl Shelf {
+    /// Returns two signers (one of odd axes and smaller), with four signs, and a few values.
+    pub(crate) fn new() -> Self {
+        let plain = Arc::new(skeleton(Axes::Plain, 1.0));
+        let odd = Arc::new(skeleton(Axes::Odd, 0.85));
+        let configuration = Component::Configuration;
+        let material =
+            |gloss: &str, skeleton: &Arc<Skeleton>, signer: &str, seed: f64, held: Vec<Held>| {
+                Material {
+                    address: format!("token:{gloss}"),
+                    hash: format!("{gloss}-{seed}"),
+                    gloss: gloss.to_owned(),
+                    signer: Some(signer.to_owned()),
+                    handedness: Handedness::Right,
+                    clip: clip(skeleton, 120, seed),
+                    anatomy: Arc::new(Anatomy::detect(skeleton)),
+                    held,
+                }
+            };
+        let all = [
+            material(
+                "ESCARGOT",
+                &plain,
+                "signer:1",
+                0.0,
+                vec![
+                    held(Side::Right, configuration, "Y", span(200, 800)),
+                    held(Side::Right, Component::Placement, "chest", span(200, 800)),
+                    held(Side::Right, Component::Movement, "arc", span(200, 800)),
+                ],
+            ),
+            material(
+                "BOL",
+                &plain,
+                "signer:1",
+                1.0,
+                vec![
+                    held(Side::Right, configuration, "B", span(0, 400)),
+                    held(Side::Right, configuration, "S", span(600, 1000)),
+                    held(Side::Left, configuration, "B", span(0, 1000)),
+                    held(Side::Left, Component::Placement, "high-left", span(0, 1000)),
+                ],
+            ),
+            material(
+                "LIMACE",
+                &odd,
+                "signer:2",
+                2.0,
+                vec![held(Side::Right, configuration, "U", span(100, 900))],
+            ),
+            material(
+                "CHAT",
+                &odd,
+                "signer:2",
+                3.0,
+                vec![held(Side::Left, configuration, "S", span(100, 900))],
+            ),
+        ];
+        let pose = |curl: f64| {
+            let mut angles = HandAngles::default();
+            for (n, finger) in angles.fingers.iter_mut().enumerate() {
+                finger.flexion = [curl * n as f64 / 3.0, curl, curl / 2.0];
+            }
+            Some(Meaning::Hand(angles))
+        };
+        let value = |id: &str, meaning| Value {
+            id: id.to_owned(),
+            inventory: "configurations".into(),
+            meaning,
+        };
+        let place = |id: &str, landmark: &str, offset: [f64; 3]| Value {
+            id: id.to_owned(),
+            inventory: "placements".into(),
+            meaning: Some(Meaning::Place(Spatial {
+                landmark: landmark.to_owned(),
+                offset,
+            })),
+        };
+        Self {
+            materials: all.into_iter().map(|m| (m.gloss.clone(), m)).collect(),
+            values: vec![
+                (configuration, value("Y", pose(0.3))),
+                (configuration, value("U", pose(0.9))),
+                (configuration, value("H", pose(1.0))),
+                (configuration, value("V", pose(1.6))),
+                (configuration, value("B", pose(0.1))),
+                (configuration, value("S", pose(1.5))),
+                (configuration, value("claw", None)),
+                (Component::Placement, place("chin", "chin", [0.0, 0.0, 0.3])),
+                (
+                    Component::Placement,
+                    place("neutral-space", "neutral-space", [0.0; 3]),
+                ),
+            ],
+        }
+    }
+}
+
+impl Sources for Shelf {
+    fn material(&self, address: &str) -> Result<Material, SourceError> {
+        let gloss = address.strip_prefix("token:").unwrap_or(address);
+        self.materials
+            .get(gloss)
+            .cloned()
+            .ok_or_else(|| SourceError::Missing {
+                address: address.to_owned(),
+                nearest: chereme_sign::text::nearest(
+                    gloss,
+                    self.materials.keys().map(String::as_str),
+                )
+                .map(str::to_owned),
+            })
+    }
+
+    fn stage(&self, signer: Option<&str>) -> Result<Material, SourceError> {
+        let found = self
+            .materials
+            .values()
+            .find(|m| signer.is_none() || m.signer.as_deref() == signer);
+        let mut material = found.cloned().ok_or_else(|| SourceError::Missing {
+            address: signer.unwrap_or_default().to_owned(),
+            nearest: None,
+        })?;
+        material.clip = Clip::still(
+            Arc::clone(material.clip.skeleton()),
+            material.clip.rate(),
+            1,
+        );
+        material.held.clear();
+        material.address = "stage".into();
+        material.gloss = "rest".into();
+        Ok(material)
+    }
+
+    fn value(&self, component: Component, text: &str) -> Result<Value, SourceError> {
+        let mut of = self
+            .values
+            .iter()
+            .filter(|(c, _)| *c == component)
+            .map(|(_, v)| v);
+        of.clone()
+            .find(|v| v.id == text)
+            .cloned()
+            .ok_or_else(|| SourceError::UnknownValue {
+                component,
+                text: text.to_owned(),
+                nearest: chereme_sign::text::nearest(text, of.by_ref().map(|v| v.id.as_str()))
+                    .map(str::to_owned),
+            })
+    }
+
+    fn values(&self, component: Component) -> Vec<Value> {
+        self.values
+            .iter()
+            .filter(|(c, _)| *c == component)
+            .map(|(_, v)| v.clone())
+            .collect()
+    }
+
+    fn holding(&self, component: Component, value: &str) -> Result<Vec<Example>, SourceError> {
+        Ok(self
+            .materials
+            .values()
+            .flat_map(|m| m.held.iter().map(move |h| (m, h)))
+            .filter(|(_, h)| h.component == component && h.value.value() == Some(value))
+            .map(|(m, h)| Example {
+                address: m.address.clone(),
+                signer: m.signer.clone(),
+                hand: h.hand,
+                span: Some(h.span),
+            })
+            .collect())
+    }
+
+    fn best(&self, query: &str, _: Option<&str>) -> Result<Vec<Example>, SourceError> {
+        let value = query.split('=').nth(1).unwrap_or_default();
+        let value = value.split_whitespace().next().unwrap_or_default();
+        self.holding(Component::Configuration, value)
+    }
+
+    fn letters(&self, _: Option<&str>, word: &str) -> Result<Vec<Letter>, SourceError> {
+        word.chars()
+            .map(|c| {
+                Ok(Letter {
+                    letter: c.to_string(),
+                    value: self.value(Component::Configuration, &c.to_string())?,
+                    fingers: None,
+                    palm: None,
+                    strokes: Vec::new(),
+                })
+            })
+            .collect()
+    }
+
+    fn learned_profile(&self) -> Option<Vec<f64>> {
+        Some(vec![0.0, 0.1, 0.9, 1.0])
+    }
+}
+
+/// Returns where every fingertip and wrist of `side` is at every frame.
+pub(crate) fn tips(clip: &Clip, side: Side) -> Vec<Vec<DVec3>> {
+    let skeleton = clip.skeleton();
+    let anatomy = Anatomy::detect(skeleton);
+    let mut joints = anatomy.fingers(side);
+    joints.extend(anatomy.arm(side).map(|arm| arm.hand));
+    (0..clip.frames())
+        .map(|frame| {
+            let model = clip.model_pose(frame);
+            let at = |&joint: &usize| model.tip(skeleton, joint).unwrap_or(model.position(joint));
+            joints.iter().map(at).collect()
+        })
+        .collect()
+}
+
+/// Returns the largest distance between the same points of two clips' hands.
+pub(crate) fn farthest(a: &Clip, b: &Clip) -> f64 {
+    assert_eq!(a.frames(), b.frames());
+    let mut farthest: f64 = 0.0;
+    for side in Side::BOTH {
+        for (x, y) in tips(a, side)
+            .iter()
+            .flatten()
+            .zip(tips(b, side).iter().flatten())
+        {
+            farthest = farthest.max(x.distance(*y));
+        }
+    }
+    farthest
+}
+
+/// Returns the model-space posture of a frame.
+pub(crate) fn model(clip: &Clip, frame: usize) -> ModelPose {
+    clip.model_pose(frame)
+}
