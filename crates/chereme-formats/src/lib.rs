@@ -3,6 +3,9 @@
 pub mod bvh;
 pub mod eaf;
 mod finding;
+pub mod lexicon;
+pub mod roles;
+pub mod table;
 mod tally;
 
 pub use finding::{Finding, Severity};

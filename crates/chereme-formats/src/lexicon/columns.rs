@@ -1,0 +1,216 @@
+//! What the columns of a lexicon table are, by their titles.
+
+use crate::finding::Finding;
+use crate::roles::{Hands, Mapping, Target, normal};
+use crate::tally::Findings;
+use chereme_sign::{Component, Phase, TierRole};
+use serde::Serialize;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::LazyLock;
+
+/// A column of a lexicon table.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Column {
+    /// Its title as it is written.
+    pub title: String,
+    /// What it is taken for.
+    pub meaning: Meaning,
+    /// How sure that is, from 0 to 1, where 1 is what a mapping says.
+    pub confidence: f64,
+    /// What it was taken from.
+    pub why: String,
+}
+
+/// What a column holds.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Meaning {
+    /// The gloss by which a sign is named.
+    Gloss {
+        /// The language of the gloss, such as `nl`.
+        language: Option<String>,
+    },
+    /// A gloss or translation in another language.
+    Translation {
+        /// The language, such as `en`.
+        language: Option<String>,
+    },
+    /// What the sign is coded as.
+    Coding {
+        /// Whose hand.
+        hand: Option<Hands>,
+        /// The component.
+        component: Component,
+        /// The part of it.
+        feature: Option<String>,
+        /// Which of successive values.
+        #[serde(serialize_with = "super::phase_name")]
+        phase: Option<Phase>,
+    },
+    /// Something else, kept as it is.
+    Note,
+}
+
+/// Titles by what they mean, each as folded words.
+static TABLE: LazyLock<BTreeMap<String, Target>> = LazyLock::new(|| {
+    parse(include_str!("../../../../schema/column_words.json"))
+        .expect("the shipped table of titles is whole; a test reads it")
+});
+
+const LANGUAGES: [(&str, &[&str]); 12] = [
+    ("en", &["en", "eng", "english", "anglais"]),
+    ("nl", &["nl", "nld", "dutch", "nederlands"]),
+    ("fr", &["fr", "fra", "fre", "french", "francais"]),
+    ("de", &["de", "deu", "ger", "german", "deutsch", "allemand"]),
+    ("es", &["es", "spa", "spanish", "espanol"]),
+    ("it", &["it", "ita", "italian", "italiano"]),
+    ("pt", &["pt", "por", "portuguese", "portugues"]),
+    ("fi", &["fi", "fin", "finnish", "suomi"]),
+    ("sv", &["sv", "swe", "swedish", "svenska"]),
+    ("ja", &["ja", "jpn", "japanese"]),
+    ("ko", &["ko", "kor", "korean"]),
+    ("zh", &["zh", "zho", "chinese"]),
+];
+
+fn parse(text: &str) -> Result<BTreeMap<String, Target>, String> {
+    let file: BTreeMap<String, Vec<String>> =
+        serde_json::from_str(text).map_err(|error| error.to_string())?;
+    let mut table = BTreeMap::new();
+    for (meaning, titles) in file {
+        let target = Target::parse(&meaning, &meaning).map_err(|error| error.to_string())?;
+        table.extend(titles.into_iter().map(|title| (title, target.clone())));
+    }
+    Ok(table)
+}
+
+/// Returns what each column is taken for. The first gloss column names the sign; further ones are
+/// translations.
+pub(super) fn meanings(
+    header: &[String],
+    mapping: &Mapping,
+    findings: &mut Findings,
+) -> Vec<Column> {
+    let mut gloss = false;
+    let mut seen = BTreeSet::new();
+    let mut columns = Vec::with_capacity(header.len());
+    for title in header {
+        let mut column = column(title, mapping);
+        if let Meaning::Gloss { language } = &column.meaning {
+            if gloss {
+                column.meaning = Meaning::Translation {
+                    language: language.clone(),
+                };
+            }
+            gloss = true;
+        }
+        if column.why.is_empty() {
+            findings.add("unknown columns", || {
+                Finding::note(
+                    1,
+                    format!("the column {title:?} is not understood; it is kept as a note"),
+                )
+                .with_remedy(format!(
+                    "say what it is in a mapping: {{\"columns\": {{{title:?}: \"placement\"}}}}"
+                ))
+            });
+            column.why = "no word of its title is known".to_owned();
+        }
+        if !seen.insert(title) {
+            findings.add("columns given twice", || {
+                Finding::warning(1, format!("the column {title:?} is there twice"))
+            });
+        }
+        columns.push(column);
+    }
+    columns
+}
+
+fn column(title: &str, mapping: &Mapping) -> Column {
+    let column = |target: Option<&Target>, language, confidence, why| Column {
+        title: title.to_owned(),
+        meaning: target.map_or(Meaning::Note, |target| meaning(target, language)),
+        confidence,
+        why,
+    };
+    if let Some((entry, target)) = mapping.column(title) {
+        return column(
+            Some(target),
+            None,
+            1.0,
+            format!("the mapping says so ({entry:?})"),
+        );
+    }
+    let whole = normal(title);
+    let language = language(&whole);
+    let words: Vec<&str> = whole
+        .split(' ')
+        .filter(|word| language.as_ref().is_none_or(|(_, found)| word != found))
+        .collect();
+    let plain = words.join(" ");
+    let name = language.map(|(code, _)| code);
+    for text in [&whole, &plain] {
+        if let Some(target) = TABLE.get(text) {
+            return column(Some(target), name, 0.95, format!("its title is {text:?}"));
+        }
+    }
+    let within = |known: &&String| known.split(' ').all(|word| words.contains(&word));
+    let longest = TABLE
+        .keys()
+        .filter(within)
+        .max_by_key(|known| (known.split(' ').count(), known.len()));
+    match longest {
+        Some(known) => column(
+            TABLE.get(known),
+            name,
+            0.6,
+            format!("{known:?} in its title"),
+        ),
+        None => column(None, None, 0.0, String::new()),
+    }
+}
+
+/// Returns the language that a title of several words names, and the word.
+fn language(title: &str) -> Option<(String, &str)> {
+    let words: Vec<&str> = title.split(' ').collect();
+    let mut found = words.iter().filter_map(|word| {
+        let (code, _) = LANGUAGES.iter().find(|(_, names)| names.contains(word))?;
+        Some(((*code).to_owned(), *word))
+    });
+    found.next().filter(|_| words.len() > 1)
+}
+
+fn meaning(target: &Target, language: Option<String>) -> Meaning {
+    let language = target.language.clone().or(language);
+    match &target.role {
+        Some(TierRole::Gloss) => Meaning::Gloss { language },
+        Some(TierRole::Translation) => Meaning::Translation { language },
+        Some(TierRole::Component { component, feature }) => Meaning::Coding {
+            hand: target.hand,
+            component: *component,
+            feature: feature.clone(),
+            phase: target.phase,
+        },
+        _ => Meaning::Note,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shipped_table_is_whole_and_each_title_has_one_meaning() {
+        let text = include_str!("../../../../schema/column_words.json");
+        let file: BTreeMap<String, Vec<String>> = serde_json::from_str(text).expect("a table");
+        let titles: Vec<&String> = file.values().flatten().collect();
+        assert!(
+            titles.iter().all(|title| normal(title) == **title),
+            "titles are folded words"
+        );
+        assert_eq!(
+            parse(text).expect("a table").len(),
+            titles.len(),
+            "a title stands twice"
+        );
+    }
+}

@@ -1,0 +1,302 @@
+//! Tables of lexicon codings: a sign a row, a component a column.
+//!
+//! What a column codes is guessed from its title (`schema/column_words.json`) or said by a
+//! [`Mapping`]. Compound cells are kept apart: `neutral space > head` is two successive values,
+//! `S + W` two at once, `>S` a final value alone; `-` and `N/A` are not applicable, `?` is unclear.
+//! The cells stay as they are beside what they mean, so that [`write`] gives the same table back.
+//!
+//! ```
+//! use chereme_formats::lexicon;
+//! use chereme_formats::roles::Mapping;
+//!
+//! let text = b"NL gloss\tEN gloss\tHandshape strong\tLocation\nPET\tCAP\tB\tforehead > head\n";
+//! let (lexicon, _) = lexicon::read(text, &Mapping::default())?;
+//! let codings: Vec<String> = lexicon.entries[0].codings.iter().map(|it| format!("{}={}", it.field(), it.reading)).collect();
+//! assert_eq!(codings, ["dominant.configuration=B", "initial.placement=forehead", "final.placement=head"]);
+//! # Ok::<(), chereme_formats::table::TableError>(())
+//! ```
+
+mod columns;
+mod values;
+
+pub use columns::{Column, Meaning};
+
+use crate::finding::Finding;
+use crate::roles::{Hands, Mapping};
+use crate::table::{Cells, Row, TableError};
+use crate::tally::Findings;
+use chereme_sign::text::{edit_distance, fold};
+use chereme_sign::{Component, Field, Phase, Reading};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::io;
+
+/// A table of signs and what each is coded as.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Lexicon {
+    /// The columns in order, with what they are taken for.
+    pub columns: Vec<Column>,
+    /// The signs in the order of the table.
+    pub entries: Vec<Entry>,
+    /// The character between cells: a tab, comma or semicolon.
+    pub delimiter: u8,
+}
+
+/// One sign of a lexicon.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Entry {
+    /// The line of the table, counted from 1.
+    pub line: u64,
+    /// The gloss, blanks at its ends left out.
+    pub gloss: String,
+    /// Translations and glosses in other languages: the language (empty where not known) and the
+    /// text.
+    pub translations: Vec<(String, String)>,
+    /// What the sign is coded as, in the order of the columns; unset cells give nothing.
+    pub codings: Vec<Coding>,
+    /// The cells as they are, one a column.
+    pub cells: Vec<String>,
+}
+
+/// What one cell, or one part of it, says of a sign.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Coding {
+    /// Whose hand; nothing for what belongs to the sign as a whole.
+    pub hand: Option<Hands>,
+    /// The component.
+    pub component: Component,
+    /// The part of the component, such as `palm` or `direction`.
+    pub feature: Option<String>,
+    /// Which of successive values.
+    #[serde(serialize_with = "phase_name")]
+    pub phase: Option<Phase>,
+    /// The value, or that there is none.
+    pub reading: Reading,
+    /// The part of the cell that says so, as it is written.
+    pub raw: String,
+    /// The column.
+    pub column: usize,
+}
+
+impl Coding {
+    /// Returns the field as queries spell it; a coding of both hands has no hand in it.
+    #[must_use]
+    pub fn field(&self) -> Field {
+        Field {
+            hand: self.hand.and_then(Hands::one),
+            component: self.component,
+            feature: self.feature.clone(),
+            phase: self.phase,
+        }
+    }
+}
+
+fn phase_name<S: serde::Serializer>(phase: &Option<Phase>, out: S) -> Result<S::Ok, S::Error> {
+    match phase {
+        Some(phase) => out.collect_str(phase),
+        None => out.serialize_none(),
+    }
+}
+
+/// The values that a lexicon uses for one component, or one part of it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Inventory {
+    /// The component.
+    pub component: Component,
+    /// The part of it.
+    pub feature: Option<String>,
+    /// Each value with how often it is used, in alphabetic order.
+    pub values: BTreeMap<String, usize>,
+}
+
+/// Reads a table of lexicon codings.
+///
+/// The delimiter (tab, comma, semicolon) is found from the first row; quotes, byte-order marks,
+/// line ends of Windows and UTF-16 are understood, and what is not UTF-8 is read as Latin-1.
+/// Rows without a gloss are left out; rows of another width, glosses given twice, columns that
+/// are not understood and values that look like slips are told.
+///
+/// # Errors
+/// [`TableError`] where the bytes are no table or no column is a gloss.
+pub fn read(bytes: &[u8], mapping: &Mapping) -> Result<(Lexicon, Vec<Finding>), TableError> {
+    let mut findings = Findings::default();
+    let table = Cells::read(bytes, &mut findings)?;
+    let columns = columns::meanings(&table.header, mapping, &mut findings);
+    let gloss = columns
+        .iter()
+        .position(|it| matches!(it.meaning, Meaning::Gloss { .. }));
+    let gloss = gloss.ok_or_else(|| TableError::Missing {
+        found: table.header.join(", "),
+        needed: "a gloss",
+        remedy: "call a column \"gloss\", or name it in a mapping: {\"columns\": {\"NAME\": \"gloss\"}}",
+    })?;
+    let mut lines: BTreeMap<String, u64> = BTreeMap::new();
+    let mut entries: Vec<Entry> = Vec::with_capacity(table.rows.len());
+    for row in table.rows {
+        let (line, name) = (row.line, row.cells[gloss].trim());
+        if name.is_empty() {
+            findings.add("rows without a gloss", || {
+                Finding::warning(
+                    line,
+                    format!("the row has no {}; it was left out", columns[gloss].title),
+                )
+            });
+            continue;
+        }
+        let first = *lines.entry(name.to_owned()).or_insert(line);
+        if first != line {
+            findings.add("glosses given twice", || {
+                Finding::warning(
+                    line,
+                    format!("the gloss {name:?} stands in line {first} too"),
+                )
+                .with_remedy("tell homonyms apart by a suffix, such as -A and -B")
+            });
+        }
+        entries.push(entry(row, gloss, &columns));
+    }
+    let lexicon = Lexicon {
+        columns,
+        entries,
+        delimiter: table.delimiter,
+    };
+    slips(&lexicon, &mut findings);
+    Ok((lexicon, findings.finish()))
+}
+
+/// Writes the cells of a lexicon as the table that they were read from.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write(lexicon: &Lexicon, out: impl io::Write) -> io::Result<()> {
+    let mut table = csv::WriterBuilder::new()
+        .delimiter(lexicon.delimiter)
+        .from_writer(out);
+    table.write_record(lexicon.columns.iter().map(|column| &column.title))?;
+    for entry in &lexicon.entries {
+        table.write_record(&entry.cells)?;
+    }
+    table.flush()
+}
+
+impl Lexicon {
+    /// Returns the values in use for each component and part of one, so that the table is its own
+    /// inventory; values of either hand and of every phase stand together.
+    #[must_use]
+    pub fn inventories(&self) -> Vec<Inventory> {
+        let mut all: BTreeMap<(Component, Option<&str>), BTreeMap<String, usize>> = BTreeMap::new();
+        for coding in self.entries.iter().flat_map(|entry| &entry.codings) {
+            if let Some(value) = coding.reading.value() {
+                let values = all
+                    .entry((coding.component, coding.feature.as_deref()))
+                    .or_default();
+                *values.entry(value.to_owned()).or_default() += 1;
+            }
+        }
+        all.into_iter()
+            .map(|((component, feature), values)| Inventory {
+                component,
+                feature: feature.map(str::to_owned),
+                values,
+            })
+            .collect()
+    }
+}
+
+fn entry(row: Row, gloss: usize, columns: &[Column]) -> Entry {
+    let mut entry = Entry {
+        line: row.line,
+        gloss: row.cells[gloss].trim().to_owned(),
+        translations: Vec::new(),
+        codings: Vec::new(),
+        cells: Vec::new(),
+    };
+    for (at, (column, cell)) in columns.iter().zip(&row.cells).enumerate() {
+        match &column.meaning {
+            Meaning::Translation { language } if !cell.trim().is_empty() => {
+                let language = language.clone().unwrap_or_default();
+                entry.translations.push((language, cell.trim().to_owned()));
+            }
+            Meaning::Coding {
+                hand,
+                component,
+                feature,
+                phase,
+            } => {
+                let whole = Coding {
+                    hand: *hand,
+                    component: *component,
+                    feature: feature.clone(),
+                    phase: *phase,
+                    reading: Reading::Unset,
+                    raw: String::new(),
+                    column: at,
+                };
+                values::split(cell, &whole, &mut entry.codings);
+            }
+            _ => {}
+        }
+    }
+    entry.cells = row.cells;
+    entry
+}
+
+/// Tells of rare values that differ from a common one by case or by one letter after the first.
+fn slips(lexicon: &Lexicon, findings: &mut Findings) {
+    const RARE: usize = 5;
+    const MANY: usize = 1000;
+    for inventory in lexicon
+        .inventories()
+        .iter()
+        .filter(|it| it.values.len() <= MANY)
+    {
+        let folded: Vec<(&str, String, usize)> = inventory
+            .values
+            .iter()
+            .map(|(value, uses)| (&**value, fold(value), *uses))
+            .collect();
+        for (value, plain, count) in folded.iter().filter(|(_, _, count)| *count <= RARE) {
+            let common = folded.iter().find(|(other, near, uses)| {
+                *uses >= count * 10
+                    && other != value
+                    && (near == plain || one_letter_off(plain, near))
+            });
+            let Some((common, _, uses)) = common else {
+                continue;
+            };
+            findings.add("values that may be slips", || {
+                let name = Field { hand: None, component: inventory.component, feature: inventory.feature.clone(), phase: None };
+                let line = first_line(lexicon, inventory, value);
+                Finding::note(line, format!("{name}: {value:?} stands {count} times, {common:?} {uses} times; is it the same?"))
+            });
+        }
+    }
+}
+
+/// Tells whether two folded values of six letters or more differ by one letter, which is neither
+/// the first nor a digit.
+fn one_letter_off(a: &str, b: &str) -> bool {
+    let digits = |text: &str| {
+        text.chars()
+            .filter(char::is_ascii_digit)
+            .collect::<String>()
+    };
+    a.len() >= 6
+        && a.len().abs_diff(b.len()) <= 4
+        && a.chars().next() == b.chars().next()
+        && digits(a) == digits(b)
+        && edit_distance(a, b, 1).is_some()
+}
+
+fn first_line(lexicon: &Lexicon, inventory: &Inventory, value: &str) -> Option<u64> {
+    let uses = |coding: &Coding| {
+        coding.component == inventory.component
+            && coding.feature == inventory.feature
+            && coding.reading.value() == Some(value)
+    };
+    lexicon
+        .entries
+        .iter()
+        .find(|entry| entry.codings.iter().any(uses))
+        .map(|entry| entry.line)
+}

@@ -1,0 +1,302 @@
+//! A file by which people say what their tiers and columns are.
+
+use super::{Hands, normal, same, words};
+use chereme_sign::text::{did_you_mean, nearest};
+use chereme_sign::{Component, Field, Phase, TierRole};
+use serde_json::Value;
+
+/// What tiers and columns are, by name or pattern.
+///
+/// The file is JSON with two lists, both optional:
+///
+/// ```json
+/// {
+///   "tiers": { "Config MD": "right.configuration", "*_G": "left.gloss", "Traduction": "translation" },
+///   "columns": { "Lieu": "placement", "Forme": "dominant.configuration", "Remarques": "note" }
+/// }
+/// ```
+///
+/// `*` stands for any text and `?` for one character; case and accents do not count. An entry
+/// without a pattern comes before those with one, and among patterns the first counts. A value is
+/// `gloss`, `translation`, `comment`, `free` (or `note` of a column), or a component as queries
+/// spell it, with a hand before it and a feature after it where there is one: `both.gloss`,
+/// `nonmanual.brows`, `weak.configuration`, `translation.en` of a column.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Mapping {
+    tiers: Vec<(String, Target)>,
+    columns: Vec<(String, Target)>,
+}
+
+/// What an entry of a [`Mapping`] says.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Target {
+    /// What the annotations or values say; nothing for what should be left alone.
+    pub role: Option<TierRole>,
+    /// Whose hand they are about.
+    pub hand: Option<Hands>,
+    /// Which of successive values they are, of a column.
+    pub phase: Option<Phase>,
+    /// The language of a gloss or translation, of a column.
+    pub language: Option<String>,
+}
+
+/// Why a mapping file could not be read.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum MappingError {
+    /// The file is not JSON.
+    #[error("line {line}, column {column}: the mapping is not JSON: {message}")]
+    Json {
+        /// The line, counted from 1.
+        line: usize,
+        /// The column, counted from 1.
+        column: usize,
+        /// What is wrong there.
+        message: String,
+    },
+    /// The file is JSON of another form.
+    #[error("{place}: a mapping is {{\"tiers\": {{\"NAME\": \"ROLE\"}}, \"columns\": {{\"NAME\": \"ROLE\"}}}}{}", did_you_mean(nearest.as_deref()))]
+    Form {
+        /// The key where the form is another.
+        place: String,
+        /// The key that was meant, perhaps.
+        nearest: Option<String>,
+    },
+    /// An entry's value is not understood.
+    #[error("{entry:?}: {text:?} is no role; write gloss, translation, comment, free, or a component such as right.configuration or nonmanual.brows{}", did_you_mean(nearest.as_deref()))]
+    Role {
+        /// The entry's name or pattern.
+        entry: String,
+        /// What it says.
+        text: String,
+        /// The word that was meant, perhaps.
+        nearest: Option<String>,
+    },
+}
+
+impl Mapping {
+    /// Reads a mapping file.
+    ///
+    /// # Errors
+    /// [`MappingError`] where the text is not JSON, not of the mapping's form, or an entry is not
+    /// understood; it names the entry.
+    pub fn from_json(text: &str) -> Result<Self, MappingError> {
+        let file: Value = serde_json::from_str(text).map_err(|error| MappingError::Json {
+            line: error.line(),
+            column: error.column(),
+            message: error.to_string(),
+        })?;
+        let form = |place: &str| MappingError::Form {
+            place: place.to_owned(),
+            nearest: nearest(place, ["tiers", "columns"]).map(str::to_owned),
+        };
+        let mut mapping = Self::default();
+        for (key, entries) in file.as_object().ok_or_else(|| form("the file"))? {
+            let list = match &**key {
+                "tiers" => &mut mapping.tiers,
+                "columns" => &mut mapping.columns,
+                _ => return Err(form(key)),
+            };
+            for (name, value) in entries.as_object().ok_or_else(|| form(key))? {
+                let text = value.as_str().ok_or_else(|| form(name))?;
+                list.push((name.clone(), Target::parse(name, text)?));
+            }
+        }
+        Ok(mapping)
+    }
+
+    /// Returns the entry for a tier of this name, and what it says.
+    #[must_use]
+    pub fn tier(&self, name: &str) -> Option<(&str, &Target)> {
+        find(&self.tiers, name)
+    }
+
+    /// Returns the entry for a column of this name, and what it says.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<(&str, &Target)> {
+        find(&self.columns, name)
+    }
+}
+
+fn find<'m>(entries: &'m [(String, Target)], name: &str) -> Option<(&'m str, &'m Target)> {
+    let exact = entries.iter().find(|(entry, _)| same(entry, name));
+    let found = exact.or_else(|| {
+        let name = chereme_sign::text::fold(name);
+        entries
+            .iter()
+            .find(|(entry, _)| matches(&chereme_sign::text::fold(entry), &name))
+    });
+    found.map(|(entry, target)| (&**entry, target))
+}
+
+/// Tells whether a pattern of `*` and `?` fits the whole of `name`.
+fn matches(pattern: &str, name: &str) -> bool {
+    let (pattern, name): (Vec<char>, Vec<char>) =
+        (pattern.chars().collect(), name.chars().collect());
+    let (mut p, mut n, mut star) = (0, 0, None);
+    while n < name.len() {
+        match pattern.get(p) {
+            Some('*') => {
+                star = Some((p, n));
+                p += 1;
+            }
+            Some(c) if *c == '?' || *c == name[n] => {
+                p += 1;
+                n += 1;
+            }
+            _ => {
+                let Some((at, from)) = star else { return false };
+                star = Some((at, from + 1));
+                p = at + 1;
+                n = from + 1;
+            }
+        }
+    }
+    pattern[p..].iter().all(|c| *c == '*')
+}
+
+impl Target {
+    /// Reads what the entry `entry` says.
+    pub(crate) fn parse(entry: &str, text: &str) -> Result<Self, MappingError> {
+        let lower = text.trim().to_lowercase();
+        let (first, rest) = lower.split_once('.').unwrap_or((&lower, ""));
+        let word = |word: &str| match word {
+            "gloss" => Some(TierRole::Gloss),
+            "translation" => Some(TierRole::Translation),
+            "comment" | "note" => Some(TierRole::Comment),
+            "free" | "ignore" => Some(TierRole::Free),
+            _ => None,
+        };
+        if let Some(role) = word(first) {
+            let language = (!rest.is_empty()).then(|| rest.to_owned());
+            return Ok(Self {
+                role: Some(role),
+                language,
+                ..Self::default()
+            });
+        }
+        if let (Some(hand), Some(role)) = (words::hands(first), word(rest)) {
+            return Ok(Self {
+                role: Some(role),
+                hand: Some(hand),
+                ..Self::default()
+            });
+        }
+        let (hand, field) = match lower.strip_prefix("both.") {
+            Some(field) => (Some(Hands::Both), field),
+            None => (None, &*lower),
+        };
+        let field: Field = field.parse().map_err(|_| unknown(entry, text))?;
+        Ok(Self {
+            hand: hand.or(field.hand.map(Hands::One)),
+            phase: field.phase,
+            role: Some(TierRole::Component {
+                component: field.component,
+                feature: field.feature,
+            }),
+            language: None,
+        })
+    }
+}
+
+fn unknown(entry: &str, text: &str) -> MappingError {
+    let known = Component::ALL.iter().flat_map(|it| it.names()).copied();
+    let others = [
+        "gloss",
+        "translation",
+        "comment",
+        "free",
+        "note",
+        "right",
+        "left",
+        "dominant",
+        "weak",
+        "both",
+    ];
+    let words: Vec<&str> = known.chain(others).collect();
+    let normal = normal(text);
+    let wrong = normal
+        .split(' ')
+        .find(|word| !words.contains(word))
+        .unwrap_or_default();
+    MappingError::Role {
+        entry: entry.to_owned(),
+        text: text.to_owned(),
+        nearest: nearest(wrong, words.iter().copied()).map(str::to_owned),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_by_name_and_pattern() {
+        let mapping = Mapping::from_json(
+            r#"{"tiers": {"*": "free", "config ?D*": "right.configuration", "Été": "both.gloss"}, "columns": {"EN*": "translation.en"}}"#,
+        )
+        .expect("a mapping");
+        for (name, entry) in [("ete", "Été"), ("Config MD 2", "*"), ("anything", "*")] {
+            assert_eq!(mapping.tier(name).map(|it| it.0), Some(entry), "{name}");
+        }
+        assert_eq!(
+            mapping.tier("ÉTÉ").and_then(|it| it.1.hand),
+            Some(Hands::Both)
+        );
+        assert_eq!(
+            mapping
+                .column("EN gloss")
+                .and_then(|it| it.1.language.as_deref()),
+            Some("en")
+        );
+        assert_eq!(mapping.column("NL gloss"), None);
+    }
+
+    #[test]
+    fn patterns() {
+        for (pattern, name, fits) in [
+            ("", "", true),
+            ("*", "", true),
+            ("?", "", false),
+            ("a*b*c", "a-b-b-c", true),
+            ("a*b*c", "a-b-b-", false),
+            ("**?", "ab", true),
+            ("rh_*", "rh_config", true),
+            ("rh_*", "lh_config", false),
+        ] {
+            assert_eq!(matches(pattern, name), fits, "{pattern} {name}");
+        }
+    }
+
+    #[test]
+    fn errors_name_the_entry_and_suggest() {
+        for (text, message) in [
+            (
+                "{\"tiers\": {",
+                "line 1, column 11: the mapping is not JSON",
+            ),
+            ("[]", "the file: a mapping is"),
+            (
+                "{\"tires\": {}}",
+                "tires: a mapping is {\"tiers\": {\"NAME\": \"ROLE\"}, \"columns\": {\"NAME\": \"ROLE\"}}; did you mean \"tiers\"?",
+            ),
+            ("{\"tiers\": {\"RH\": 3}}", "RH: a mapping is"),
+            (
+                "{\"tiers\": {\"RH\": \"right.handshap\"}}",
+                "\"RH\": \"right.handshap\" is no role; write gloss",
+            ),
+            (
+                "{\"tiers\": {\"RH\": \"rigth.handshape\"}}",
+                "\"RH\": \"rigth.handshape\" is no role",
+            ),
+        ] {
+            let error = Mapping::from_json(text).expect_err(text).to_string();
+            assert!(error.starts_with(message), "{error}");
+        }
+        let error =
+            Mapping::from_json("{\"tiers\": {\"RH\": \"right.handshap\"}}").expect_err("no role");
+        assert!(
+            error.to_string().ends_with("did you mean \"handshape\"?"),
+            "{error}"
+        );
+    }
+}

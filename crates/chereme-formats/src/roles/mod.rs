@@ -1,0 +1,255 @@
+//! What the tiers and columns of people's files are about, by their names or by a mapping file.
+//!
+//! Names are looked up in `schema/tier_words.json`, a table of the words that projects use in
+//! several languages; a [`Mapping`] overrides what is guessed.
+
+mod mapping;
+mod words;
+
+pub use mapping::{Mapping, MappingError, Target};
+pub(crate) use words::normal;
+
+use crate::eaf::Transcript;
+use chereme_sign::text::fold;
+use chereme_sign::{Component, HandRef, TierRole};
+use serde::Serialize;
+use std::collections::BTreeSet;
+use std::fmt;
+use words::{Match, TABLE};
+
+/// Whose hand something is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(into = "&'static str")]
+pub enum Hands {
+    /// One hand.
+    One(HandRef),
+    /// Both hands at once.
+    Both,
+}
+
+impl Hands {
+    /// Returns `right`, `left`, `dominant`, `weak` or `both`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::One(hand) => hand.name(),
+            Self::Both => "both",
+        }
+    }
+
+    /// Returns the one hand, where it is one.
+    #[must_use]
+    pub fn one(self) -> Option<HandRef> {
+        match self {
+            Self::One(hand) => Some(hand),
+            Self::Both => None,
+        }
+    }
+}
+
+impl From<Hands> for &'static str {
+    fn from(hands: Hands) -> Self {
+        hands.name()
+    }
+}
+
+impl fmt::Display for Hands {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A tier as far as its role can be guessed from it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct TierName<'a> {
+    /// The tier's name.
+    pub name: &'a str,
+    /// The name of its ELAN tier type.
+    pub kind: &'a str,
+    /// The tier above, as an index into the list.
+    pub parent: Option<usize>,
+}
+
+/// What a tier is taken for.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TierGuess {
+    /// The tier's name.
+    pub tier: String,
+    /// What its annotations say; nothing where that is not known.
+    pub role: Option<TierRole>,
+    /// Whose hand they are about.
+    pub hand: Option<Hands>,
+    /// How sure it is, from 0 to 1, where 1 is what a mapping says.
+    pub confidence: f64,
+    /// What it was taken from.
+    pub why: String,
+}
+
+/// Returns what each tier of a transcript is taken for; see [`guess_roles`].
+#[must_use]
+pub fn guess_tiers(transcript: &Transcript, mapping: &Mapping) -> Vec<TierGuess> {
+    let names = transcript.tiers.iter().map(|tier| TierName {
+        name: &tier.name,
+        kind: &tier.kind,
+        parent: tier.parent,
+    });
+    guess_roles(&names.collect::<Vec<_>>(), mapping)
+}
+
+/// Returns what each tier is taken for, in the same order.
+///
+/// The mapping comes first, then the words of the tier's own name, then those of its type. A tier
+/// that names only a hand is a gloss tier; one without a hand has that of the tier above. `MD` is
+/// the right hand (*main droite*) unless other tiers name the weak one `MND`, and `D` likewise
+/// beside `ND`.
+#[must_use]
+pub fn guess_roles(tiers: &[TierName<'_>], mapping: &Mapping) -> Vec<TierGuess> {
+    let context = Context::new(tiers);
+    let mut guesses: Vec<TierGuess> = tiers
+        .iter()
+        .map(|tier| guess(tier, mapping, &context))
+        .collect();
+    for (at, tier) in tiers.iter().enumerate() {
+        let manual = matches!(&guesses[at].role, Some(TierRole::Component { component, .. }) if component.is_manual());
+        let above = tier
+            .parent
+            .and_then(|parent| guesses.get(parent))
+            .and_then(|it| it.hand.map(|hand| (hand, it.tier.clone())));
+        if let (true, None, Some((hand, name))) = (manual, guesses[at].hand, above) {
+            let guess = &mut guesses[at];
+            guess.hand = Some(hand);
+            guess.confidence -= 0.1;
+            guess.why = format!("{}; {hand} as the tier above, {name:?}", guess.why);
+        }
+    }
+    guesses
+}
+
+/// Which abbreviations the tiers of one file use.
+struct Context {
+    /// The dominant hand is `MD` or `D`, for the weak one is `MND` or `ND`.
+    dominance: bool,
+}
+
+impl Context {
+    fn new(tiers: &[TierName<'_>]) -> Self {
+        let pieces: BTreeSet<String> = tiers
+            .iter()
+            .flat_map(|tier| words::pieces(tier.name))
+            .collect();
+        Self {
+            dominance: pieces.contains("mnd") || pieces.contains("nd"),
+        }
+    }
+
+    fn hand(&self, word: &str) -> Option<Hands> {
+        if matches!(word, "md" | "d") {
+            let right = if self.dominance {
+                HandRef::Dominant
+            } else {
+                HandRef::Right
+            };
+            return Some(Hands::One(right));
+        }
+        TABLE.hand(word)
+    }
+}
+
+fn guess(tier: &TierName<'_>, mapping: &Mapping, context: &Context) -> TierGuess {
+    let name = tier.name.to_owned();
+    if let Some((entry, target)) = mapping.tier(tier.name) {
+        let why = format!("the mapping says so ({entry:?})");
+        return TierGuess {
+            tier: name,
+            role: target.role.clone(),
+            hand: target.hand,
+            confidence: 1.0,
+            why,
+        };
+    }
+    let own = TABLE.find(tier.name, |word| context.hand(word));
+    let kind = TABLE.find(tier.kind, |word| context.hand(word));
+    let hand = own
+        .hand
+        .as_ref()
+        .or(kind.hand.as_ref())
+        .map(|(hand, _)| *hand);
+    let (role, confidence, why) = if let Some((role, word)) = role_of(&own) {
+        (
+            Some(role),
+            if word.chars().count() > 3 { 0.9 } else { 0.75 },
+            format!("{word:?} in its name"),
+        )
+    } else if let Some((role, word)) = role_of(&kind) {
+        (
+            Some(role),
+            0.6,
+            format!("{word:?} in its type {:?}", tier.kind),
+        )
+    } else if let Some(role) = TABLE.code(tier.name) {
+        (
+            Some(role),
+            0.4,
+            "a code used for this in other corpora".to_owned(),
+        )
+    } else if let Some((_, word)) = &own.hand {
+        (
+            Some(TierRole::Gloss),
+            0.5,
+            format!("its name has only a hand, {word:?}"),
+        )
+    } else {
+        (None, 0.0, "no word of its name or type is known".to_owned())
+    };
+    let manual = !matches!(
+        role,
+        Some(
+            TierRole::Component {
+                component: Component::NonManual,
+                ..
+            } | TierRole::Translation
+                | TierRole::Comment
+        )
+    );
+    TierGuess {
+        tier: name,
+        role,
+        hand: hand.filter(|_| manual),
+        confidence,
+        why,
+    }
+}
+
+/// Returns the role that the words of a name make together, and the word that decides.
+///
+/// A comment on anything is a comment, a translation a translation; a placement may be on the
+/// head, other movements and orientations of the head are non-manual; a component's gloss is the
+/// component.
+fn role_of(found: &Match) -> Option<(TierRole, String)> {
+    let rank = |role: &TierRole| match role {
+        TierRole::Comment => 0,
+        TierRole::Translation => 1,
+        TierRole::Component {
+            component: Component::Placement,
+            feature: None,
+        } => 2,
+        TierRole::Component {
+            component: Component::NonManual,
+            feature,
+        } => 3 + usize::from(feature.is_none()),
+        TierRole::Component {
+            feature: Some(_), ..
+        } => 5,
+        TierRole::Component { .. } => 6,
+        TierRole::Gloss => 7,
+        TierRole::Free => 8,
+    };
+    let mut roles: Vec<&(TierRole, String)> = found.roles.iter().collect();
+    roles.sort_by_key(|(role, word)| (rank(role), std::cmp::Reverse(word.chars().count())));
+    roles.first().map(|it| (*it).clone())
+}
+
+/// Compares texts as [`fold`] does, without blanks and punctuation.
+pub(crate) fn same(a: &str, b: &str) -> bool {
+    a == b || fold(a) == fold(b)
+}

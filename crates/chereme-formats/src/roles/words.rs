@@ -1,0 +1,206 @@
+//! The table of words that names are made of.
+
+use super::Hands;
+use chereme_sign::text::fold;
+use chereme_sign::{HandRef, TierRole};
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+/// The shipped table.
+pub(super) static TABLE: LazyLock<Words> = LazyLock::new(|| {
+    Words::parse(include_str!("../../../../schema/tier_words.json"))
+        .expect("the shipped table of words is whole; a test reads it")
+});
+
+/// Words by what they mean.
+#[derive(Debug, Default)]
+pub(super) struct Words {
+    hands: BTreeMap<String, Hands>,
+    roles: BTreeMap<String, TierRole>,
+    codes: BTreeMap<String, TierRole>,
+}
+
+/// What the words of a name mean, each with the word.
+#[derive(Debug, Default)]
+pub(super) struct Match {
+    pub(super) hand: Option<(Hands, String)>,
+    pub(super) roles: Vec<(TierRole, String)>,
+}
+
+#[derive(serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    hands: BTreeMap<String, Vec<String>>,
+    roles: BTreeMap<String, Vec<String>>,
+    codes: BTreeMap<String, Vec<String>>,
+}
+
+impl Words {
+    fn parse(text: &str) -> Result<Self, String> {
+        let file: File = serde_json::from_str(text).map_err(|error| error.to_string())?;
+        let mut table = Self::default();
+        for (name, words) in file.hands {
+            let hand = hands(&name).ok_or_else(|| format!("{name} is no hand"))?;
+            table
+                .hands
+                .extend(words.into_iter().map(|word| (word, hand)));
+        }
+        for (name, words) in file.roles {
+            let role: TierRole = name.parse().map_err(|_| format!("{name} is no role"))?;
+            table
+                .roles
+                .extend(words.into_iter().map(|word| (word, role.clone())));
+        }
+        for (name, codes) in file.codes {
+            let role: TierRole = name.parse().map_err(|_| format!("{name} is no role"))?;
+            table
+                .codes
+                .extend(codes.into_iter().map(|code| (code, role.clone())));
+        }
+        Ok(table)
+    }
+
+    /// Returns the hand that a whole word means.
+    pub(super) fn hand(&self, word: &str) -> Option<Hands> {
+        self.hands.get(word).copied()
+    }
+
+    /// Returns the role of a tier whose name is a code, in its own case.
+    pub(super) fn code(&self, name: &str) -> Option<TierRole> {
+        self.codes.get(name.trim()).cloned()
+    }
+
+    /// Finds the words of `name`; `hand` says which words are hands.
+    pub(super) fn find(&self, name: &str, hand: impl Fn(&str) -> Option<Hands>) -> Match {
+        let pieces = pieces(name);
+        let mut found = Match::default();
+        let mut spelt = 0;
+        let mut take = |word: &str| {
+            if let Some(hand) = hand(word) {
+                if word.len() > spelt {
+                    spelt = word.len();
+                    found.hand = Some((hand, word.to_owned()));
+                }
+                return true;
+            }
+            self.roles.get(word).is_some_and(|role| {
+                found.roles.push((role.clone(), word.to_owned()));
+                true
+            })
+        };
+        let mut at = 0;
+        while at < pieces.len() {
+            let joined = |n: usize| pieces.get(at..at + n).map(|pieces| pieces.concat());
+            if let Some(n) = [3, 2]
+                .into_iter()
+                .find(|n| joined(*n).is_some_and(|word| word.len() > 3 && take(&word)))
+            {
+                at += n;
+                continue;
+            }
+            if !take(&pieces[at]) {
+                for word in self.split(&pieces[at], &hand).unwrap_or_default() {
+                    take(word);
+                }
+            }
+            at += 1;
+        }
+        found
+    }
+
+    /// Splits a word such as `glossr` or `rhidgloss` into two or three that are known, one of
+    /// them of four letters or more.
+    fn split<'w>(
+        &self,
+        word: &'w str,
+        hand: &impl Fn(&str) -> Option<Hands>,
+    ) -> Option<Vec<&'w str>> {
+        if word.len() > 40 || !word.is_ascii() {
+            return None;
+        }
+        let known = |part: &str| hand(part).is_some() || self.roles.contains_key(part);
+        let whole = |parts: &[&str]| {
+            parts.iter().all(|part| known(part)) && parts.iter().any(|part| part.len() >= 4)
+        };
+        for first in 1..word.len() {
+            let (a, rest) = word.split_at(first);
+            if whole(&[a, rest]) {
+                return Some(vec![a, rest]);
+            }
+        }
+        for first in 1..word.len() {
+            let (a, rest) = word.split_at(first);
+            for second in (1..rest.len()).filter(|_| known(a)) {
+                let (b, c) = rest.split_at(second);
+                if whole(&[a, b, c]) {
+                    return Some(vec![a, b, c]);
+                }
+            }
+        }
+        None
+    }
+}
+
+/// Returns the hand or hands of this name.
+pub(super) fn hands(name: &str) -> Option<Hands> {
+    if name == "both" {
+        Some(Hands::Both)
+    } else {
+        name.parse::<HandRef>().ok().map(Hands::One)
+    }
+}
+
+/// Splits a name into its words: folded, at everything that is no letter or digit, and without
+/// the number that ends a word of four letters or more.
+pub(super) fn pieces(name: &str) -> Vec<String> {
+    let folded = fold(name);
+    let words = folded
+        .split(|c: char| !c.is_alphanumeric())
+        .filter(|word| !word.is_empty());
+    words
+        .map(|word| {
+            let plain = word.trim_end_matches(|c: char| c.is_ascii_digit());
+            if plain.len() >= 4 {
+                plain.to_owned()
+            } else {
+                word.to_owned()
+            }
+        })
+        .collect()
+}
+
+/// Returns a name as its words parted by one blank.
+pub(crate) fn normal(name: &str) -> String {
+    let folded = fold(name);
+    let words: Vec<&str> = folded
+        .split(|c: char| !c.is_alphanumeric())
+        .filter(|word| !word.is_empty())
+        .collect();
+    words.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_shipped_table_is_whole_and_each_word_has_one_meaning() {
+        let text = include_str!("../../../../schema/tier_words.json");
+        let file: File = serde_json::from_str(text).expect("a table");
+        let words: Vec<&String> = file
+            .hands
+            .values()
+            .chain(file.roles.values())
+            .flatten()
+            .collect();
+        let mut once = words.clone();
+        once.sort();
+        once.dedup();
+        assert_eq!(words.len(), once.len(), "a word stands twice");
+        for word in &words {
+            assert_eq!(fold(word), **word, "words are folded");
+        }
+        let table = Words::parse(text).expect("a table");
+        assert_eq!(table.hand("maindroite"), Some(Hands::One(HandRef::Right)));
+    }
+}

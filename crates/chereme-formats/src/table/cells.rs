@@ -1,0 +1,221 @@
+//! Bytes to rows of cells: encodings, delimiters, quotes.
+
+use crate::finding::Finding;
+use crate::tally::Findings;
+use std::borrow::Cow;
+
+/// The most columns that are read.
+const COLUMNS: usize = 4096;
+/// The most lines that one cell may have before a quote is suspected to be missing.
+const LINES: usize = 40;
+
+/// Why bytes could not be read as a table.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum TableError {
+    /// The file holds no row.
+    #[error("the table is empty; its first row should name the columns")]
+    Empty,
+    /// The file is not text.
+    #[error("line {line}: this is not a table of text; save it as CSV or TSV in UTF-8")]
+    NotText {
+        /// The line, counted from 1.
+        line: u64,
+    },
+    /// The first row has more columns than any table needs.
+    #[error("the first row has {found} columns, more than {limit}")]
+    Columns {
+        /// How many there are.
+        found: usize,
+        /// The most that are read.
+        limit: usize,
+    },
+    /// A column that has to be there is not.
+    #[error("no column of the first row ({found}) is {needed}; {remedy}")]
+    Missing {
+        /// The columns that are there, parted by commas.
+        found: String,
+        /// What is missing.
+        needed: &'static str,
+        /// What would be right.
+        remedy: &'static str,
+    },
+}
+
+/// A row with the line it starts on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Row {
+    pub(crate) line: u64,
+    pub(crate) cells: Vec<String>,
+}
+
+/// A table as cells.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Cells {
+    pub(crate) delimiter: u8,
+    pub(crate) header: Vec<String>,
+    pub(crate) rows: Vec<Row>,
+}
+
+impl Cells {
+    /// Reads a table whose first row names the columns; rows of another width are told and filled
+    /// up with empty cells.
+    pub(crate) fn read(bytes: &[u8], findings: &mut Findings) -> Result<Self, TableError> {
+        let text = decode(bytes, findings)?;
+        let first = text
+            .lines()
+            .find(|line| !line.trim().is_empty())
+            .ok_or(TableError::Empty)?;
+        let delimiter = sniff(first);
+        let mut reader = csv::ReaderBuilder::new()
+            .delimiter(delimiter)
+            .has_headers(false)
+            .flexible(true)
+            .from_reader(text.as_bytes());
+        let mut header: Option<Vec<String>> = None;
+        let mut rows = Vec::new();
+        let (mut counted, mut line) = (0, 1);
+        for record in reader.records().flatten() {
+            let at = start(text.as_bytes(), record.position());
+            line += memchr::memchr_iter(b'\n', &text.as_bytes()[counted..at]).count() as u64;
+            counted = at;
+            if record.iter().all(|cell| cell.trim().is_empty()) {
+                continue;
+            }
+            let cells: Vec<String> = record.iter().map(str::to_owned).collect();
+            match &header {
+                None if cells.len() > COLUMNS => {
+                    return Err(TableError::Columns {
+                        found: cells.len(),
+                        limit: COLUMNS,
+                    });
+                }
+                None => header = Some(cells),
+                Some(header) => rows.push(fit(Row { line, cells }, header.len(), findings)),
+            }
+        }
+        let header = header.ok_or(TableError::Empty)?;
+        Ok(Self {
+            delimiter,
+            header,
+            rows,
+        })
+    }
+}
+
+/// Returns where a record starts: csv counts the end of the line before and empty lines to it.
+fn start(text: &[u8], position: Option<&csv::Position>) -> usize {
+    let at = position.map_or(0, |position| {
+        usize::try_from(position.byte()).unwrap_or(usize::MAX)
+    });
+    let blank = text
+        .get(at..)
+        .unwrap_or_default()
+        .iter()
+        .take_while(|b| matches!(b, b'\r' | b'\n'));
+    (at + blank.count()).min(text.len())
+}
+
+fn fit(mut row: Row, width: usize, findings: &mut Findings) -> Row {
+    let (line, found) = (row.line, row.cells.len());
+    if found < width {
+        findings.add("short rows", || {
+            Finding::note(line, format!("the row has {found} cells and the first row {width}; the rest was taken as empty"))
+        });
+        row.cells.resize(width, String::new());
+    } else if row.cells[width..]
+        .iter()
+        .any(|cell| !cell.trim().is_empty())
+    {
+        findings.add("long rows", || {
+            Finding::warning(
+                line,
+                format!(
+                    "the row has {found} cells and the first row {width}; the rest was left out"
+                ),
+            )
+            .with_remedy("put texts that hold the delimiter in quotes, or name the further columns")
+        });
+    }
+    row.cells.truncate(width);
+    if row.cells.iter().any(|cell| cell.lines().count() > LINES) {
+        findings.add("very long cells", || {
+            Finding::warning(
+                line,
+                format!("a cell of this row has more than {LINES} lines"),
+            )
+            .with_remedy("look for a quotation mark that is not closed")
+        });
+    }
+    row
+}
+
+fn decode<'b>(bytes: &'b [u8], findings: &mut Findings) -> Result<Cow<'b, str>, TableError> {
+    let little: Option<fn([u8; 2]) -> u16> = match bytes {
+        [0xff, 0xfe, ..] => Some(u16::from_le_bytes),
+        [0xfe, 0xff, ..] => Some(u16::from_be_bytes),
+        _ => None,
+    };
+    if let Some(unit) = little {
+        let units = bytes[2..]
+            .chunks_exact(2)
+            .map(|pair| unit([pair[0], pair[1]]));
+        let text: String = char::decode_utf16(units)
+            .map(|c| c.unwrap_or('\u{fffd}'))
+            .collect();
+        findings.add("another encoding", || {
+            Finding::note(None, "the table is in UTF-16")
+        });
+        return printable(text.into());
+    }
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    match str::from_utf8(bytes) {
+        Ok(text) => printable(text.into()),
+        Err(error) => {
+            let line = line_of(bytes, error.valid_up_to());
+            let text = printable(
+                bytes
+                    .iter()
+                    .map(|b| char::from(*b))
+                    .collect::<String>()
+                    .into(),
+            )?;
+            findings.add("another encoding", || {
+                Finding::warning(
+                    line,
+                    "the table is not UTF-8; it was read as Latin-1, so accents may be wrong",
+                )
+                .with_remedy("save it as UTF-8")
+            });
+            Ok(text)
+        }
+    }
+}
+
+fn printable(text: Cow<'_, str>) -> Result<Cow<'_, str>, TableError> {
+    let control = |b: &u8| *b < 0x20 && !matches!(b, b'\t' | b'\n' | b'\r' | 0x0b | 0x0c);
+    match text.bytes().position(|b| control(&b)) {
+        Some(at) => Err(TableError::NotText {
+            line: line_of(text.as_bytes(), at),
+        }),
+        None => Ok(text),
+    }
+}
+
+fn line_of(bytes: &[u8], at: usize) -> u64 {
+    memchr::memchr_iter(b'\n', &bytes[..at]).count() as u64 + 1
+}
+
+/// Returns the delimiter that the first row has most of, outside quotes.
+fn sniff(line: &str) -> u8 {
+    let mut counts = [(b'\t', 0usize), (b',', 0), (b';', 0)];
+    let mut quoted = false;
+    for b in line.bytes() {
+        quoted ^= b == b'"';
+        for (delimiter, count) in &mut counts {
+            *count += usize::from(b == *delimiter && !quoted);
+        }
+    }
+    let most = counts.iter().rev().max_by_key(|(_, count)| *count);
+    most.filter(|(_, count)| *count > 0)
+        .map_or(b',', |(delimiter, _)| *delimiter)
+}

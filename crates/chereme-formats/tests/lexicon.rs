@@ -1,0 +1,374 @@
+//! Lexicon tables: what columns and cells mean, what is odd, and that all comes back.
+
+use chereme_formats::lexicon::{self, Lexicon, Meaning};
+use chereme_formats::roles::Mapping;
+use chereme_formats::table::TableError;
+use chereme_sign::Component;
+use proptest::prelude::*;
+
+fn read(text: &str) -> (Lexicon, Vec<String>) {
+    let (lexicon, findings) = lexicon::read(text.as_bytes(), &Mapping::default()).expect("a table");
+    (lexicon, findings.into_iter().map(|it| it.message).collect())
+}
+
+fn codings(lexicon: &Lexicon, entry: usize) -> Vec<String> {
+    let all = lexicon.entries[entry].codings.iter();
+    all.map(|it| format!("{}={}", it.field(), it.reading))
+        .collect()
+}
+
+#[test]
+fn cells_are_kept_apart() {
+    for (title, cell, expected) in [
+        ("Location", "neutral space", "placement=neutral space"),
+        (
+            "Location",
+            "neutral space > head",
+            "initial.placement=neutral space final.placement=head",
+        ),
+        ("Location", "cheek + chin", "placement=cheek placement=chin"),
+        ("Location", "weak hand: back", "placement=weak hand: back"),
+        (
+            "Movement direction",
+            "outwards > downwards > inwards",
+            "initial.movement.direction=outwards middle.movement.direction=downwards final.movement.direction=inwards",
+        ),
+        (
+            "Movement direction",
+            "downwards > outwards, downwards",
+            "initial.movement.direction=downwards final.movement.direction=outwards final.movement.direction=downwards",
+        ),
+        (
+            "Movement direction",
+            "variable",
+            "movement.direction=variable",
+        ),
+        (
+            "Movement shape",
+            "circle parallel + straight",
+            "movement.shape=circle parallel movement.shape=straight",
+        ),
+        (
+            "Contact type",
+            "none + initial",
+            "placement.contact=none placement.contact=initial",
+        ),
+        ("Contact type", "> final", "final.placement.contact=final"),
+        (
+            "Handshape change",
+            "closing",
+            "dominant.configuration.change=closing",
+        ),
+        ("Handshape change", ">S", "final.dominant.configuration=S"),
+        (
+            "Handshape change",
+            "+ closing",
+            "dominant.configuration.change=closing",
+        ),
+        (
+            "Handshape change",
+            "wiggle, closing",
+            "dominant.configuration.change=wiggle dominant.configuration.change=closing",
+        ),
+        (
+            "Handshape weak",
+            "O >5",
+            "initial.weak.configuration=O final.weak.configuration=5",
+        ),
+        (
+            "Handshape weak",
+            "S, closing",
+            "weak.configuration=S weak.configuration.change=closing",
+        ),
+        (
+            "Handshape weak",
+            "B + closing",
+            "weak.configuration=B weak.configuration.change=closing",
+        ),
+        (
+            "Handshape strong",
+            "S + W",
+            "dominant.configuration=S dominant.configuration=W",
+        ),
+        (
+            "Handshape strong",
+            "beak, pinkie extended",
+            "dominant.configuration=beak, pinkie extended",
+        ),
+        ("Handshape weak", "N/A", "weak.configuration=not applicable"),
+        ("Handshape weak", "-", "weak.configuration=not applicable"),
+        ("Handshape weak", "?", "weak.configuration=unclear"),
+        ("Handshape weak", "  ", ""),
+        (
+            "Absolute Orientation: palm",
+            "backwards > forwards",
+            "initial.orientation.palm=backwards final.orientation.palm=forwards",
+        ),
+        (
+            "Absolute Orientation: Fingers",
+            "back/palm",
+            "orientation.fingers=back/palm",
+        ),
+        (
+            "Relation between articulators",
+            "hands rotate around each other, then contacting movement",
+            "placement.relation=hands rotate around each other, then contacting movement",
+        ),
+        ("Handedness", "2s", "configuration.handedness=2s"),
+        ("Repeated Movement", "yes", "movement.repeated=yes"),
+        ("Final location", "chest", "final.placement=chest"),
+    ] {
+        let (lexicon, _) = read(&format!("gloss\t{title}\nX\t{cell}\n"));
+        assert_eq!(codings(&lexicon, 0).join(" "), expected, "{title}: {cell}");
+    }
+}
+
+#[test]
+fn columns_by_title_and_mapping() {
+    let (lexicon, findings) = read(
+        "Annotation ID Gloss (Dutch);Annotation ID Gloss (English);Palm orientation;Remarks;Handshape\nX;Y;up;hm;B\n",
+    );
+    assert_eq!(lexicon.delimiter, b';');
+    assert_eq!(
+        lexicon.columns[0].meaning,
+        Meaning::Gloss {
+            language: Some("nl".into())
+        }
+    );
+    assert_eq!(
+        lexicon.entries[0].translations,
+        [("en".to_owned(), "Y".to_owned())]
+    );
+    assert_eq!(lexicon.columns[3].meaning, Meaning::Note);
+    assert_eq!(
+        findings,
+        ["the column \"Remarks\" is not understood; it is kept as a note"]
+    );
+    assert_eq!(
+        codings(&lexicon, 0),
+        ["orientation.palm=up", "dominant.configuration=B"]
+    );
+    let mapping = Mapping::from_json(r#"{"columns": {"Mot": "gloss.fr", "Re*": "note", "Forme": "both.configuration", "Fin": "final.placement"}}"#).expect("a mapping");
+    let (lexicon, findings) = lexicon::read(
+        "Mot,Remarque,Forme,Fin\nchat,x,V,a > b\n".as_bytes(),
+        &mapping,
+    )
+    .expect("a table");
+    assert!(findings.is_empty());
+    assert_eq!(lexicon.entries[0].gloss, "chat");
+    assert_eq!(
+        lexicon.entries[0].codings[0].hand.map(|it| it.name()),
+        Some("both")
+    );
+    assert_eq!(
+        codings(&lexicon, 0),
+        [
+            "configuration=V",
+            "initial.placement=a",
+            "final.placement=b"
+        ]
+    );
+}
+
+#[test]
+fn odd_tables() {
+    let (lexicon, findings) = read(
+        "\u{feff}gloss,Location\r\n\"A, \"\"B\"\"\",chin\r\nSHORT\r\n,chin\r\nC,chin,more\r\nC,nose\r\n",
+    );
+    let glosses: Vec<(&str, u64)> = lexicon
+        .entries
+        .iter()
+        .map(|it| (&*it.gloss, it.line))
+        .collect();
+    assert_eq!(glosses, [("A, \"B\"", 2), ("SHORT", 3), ("C", 5), ("C", 6)]);
+    assert_eq!(
+        findings,
+        [
+            "the row has 1 cells and the first row 2; the rest was taken as empty",
+            "the row has 3 cells and the first row 2; the rest was left out",
+            "the row has no gloss; it was left out",
+            "the gloss \"C\" stands in line 5 too",
+        ]
+    );
+    let (latin, findings) =
+        lexicon::read(b"gloss\tLocation\n\xc9T\xc9\tchin\n", &Mapping::default()).expect("a table");
+    assert_eq!(latin.entries[0].gloss, "ÉTÉ");
+    assert_eq!(findings[0].line, Some(2));
+    let utf16: Vec<u8> = [0xff, 0xfe]
+        .into_iter()
+        .chain(
+            "gloss\tLocation\nÉTÉ\tchin\n"
+                .encode_utf16()
+                .flat_map(u16::to_le_bytes),
+        )
+        .collect();
+    assert_eq!(
+        lexicon::read(&utf16, &Mapping::default())
+            .expect("a table")
+            .0
+            .entries[0]
+            .gloss,
+        "ÉTÉ"
+    );
+    assert!(matches!(
+        lexicon::read(b"a,b\n1,2\n", &Mapping::default()),
+        Err(TableError::Missing {
+            needed: "a gloss",
+            ..
+        })
+    ));
+    assert_eq!(
+        lexicon::read(b"", &Mapping::default()),
+        Err(TableError::Empty)
+    );
+}
+
+#[test]
+fn inventories_count_values_of_both_hands_and_all_phases() {
+    let (lexicon, _) = read(
+        "gloss\tHandshape strong\tHandshape weak\tLocation\nA\tB\t\tchin > nose\nC\tB\t5\tchin\nD\tB > 5\t-\t?\n",
+    );
+    let inventories = lexicon.inventories();
+    let shown: Vec<String> = inventories
+        .iter()
+        .map(|it| {
+            format!(
+                "{}: {}",
+                it.component,
+                it.values
+                    .iter()
+                    .map(|(value, count)| format!("{value} {count}"))
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            )
+        })
+        .collect();
+    assert_eq!(
+        shown,
+        ["configuration: 5 2, B 3", "placement: chin 2, nose 1"]
+    );
+}
+
+#[test]
+fn slips_are_pointed_out() {
+    let mut text = "gloss\tHandshape weak\n".to_owned();
+    for n in 0..30 {
+        text += &format!("G{n}\tC-spread\n");
+    }
+    text += "X\tC-spreid\nY\tc-spread\n";
+    let (_, findings) = read(&text);
+    assert_eq!(
+        findings,
+        [
+            "configuration: \"C-spreid\" stands 1 times, \"C-spread\" 30 times; is it the same?",
+            "configuration: \"c-spread\" stands 1 times, \"C-spread\" 30 times; is it the same?",
+        ]
+    );
+}
+
+#[test]
+fn a_table_of_2145_signs_comes_back() {
+    let Some(data) = std::env::var_os("CHEREME_SHARED_DATA").map(std::path::PathBuf::from) else {
+        eprintln!("CHEREME_SHARED_DATA is not set: the table of others was not tried");
+        return;
+    };
+    let bytes = std::fs::read(data.join("phonology/ngt_lexicon.tsv")).expect("a file");
+    let (lexicon, findings) = lexicon::read(&bytes, &Mapping::default()).expect("a table");
+    for finding in &findings {
+        eprintln!("{:?} {}", finding.line, finding.message);
+    }
+    for column in &lexicon.columns {
+        eprintln!(
+            "{}: {:?} {} ({})",
+            column.title, column.meaning, column.confidence, column.why
+        );
+    }
+    assert_eq!(lexicon.entries.len(), 2145);
+    assert!(lexicon.columns.iter().all(|column| column.confidence > 0.9));
+    let mut out = Vec::new();
+    lexicon::write(&lexicon, &mut out).expect("a vector takes everything");
+    let (again, _) = lexicon::read(&out, &Mapping::default()).expect("what was written");
+    assert_eq!(again, lexicon);
+    let plain = String::from_utf8(bytes).expect("UTF-8");
+    let rows: Vec<Vec<&str>> = plain
+        .lines()
+        .map(|line| line.split('\t').collect())
+        .collect();
+    for (entry, row) in lexicon.entries.iter().zip(&rows[1..]) {
+        assert_eq!(entry.cells, *row);
+        let filled = lexicon
+            .columns
+            .iter()
+            .zip(row)
+            .enumerate()
+            .filter(|(_, (column, cell))| {
+                matches!(column.meaning, Meaning::Coding { .. }) && !cell.is_empty()
+            });
+        for (at, (_, cell)) in filled {
+            let raw: Vec<&str> = entry
+                .codings
+                .iter()
+                .filter(|it| it.column == at)
+                .map(|it| &*it.raw)
+                .collect();
+            let letters = |text: &str| {
+                text.chars()
+                    .filter(|c| !c.is_whitespace() && !"+>,".contains(*c))
+                    .collect::<String>()
+            };
+            assert_eq!(letters(&raw.concat()), letters(cell), "{}", entry.gloss);
+        }
+    }
+    let inventories = lexicon.inventories();
+    let shapes = inventories
+        .iter()
+        .find(|it| it.component == Component::Configuration && it.feature.is_none());
+    assert!(shapes.is_some_and(|it| it.values["B"] > 600));
+    let compound = lexicon
+        .entries
+        .iter()
+        .flat_map(|it| &it.codings)
+        .filter_map(|it| it.reading.value());
+    assert_eq!(
+        compound.filter(|value| value.contains(['>', '+'])).count(),
+        0
+    );
+    for inventory in &inventories {
+        eprintln!(
+            "{} {:?}: {}",
+            inventory.component,
+            inventory.feature,
+            inventory.values.len()
+        );
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn any_bytes_are_a_table_or_an_error(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
+        let _ = lexicon::read(&bytes, &Mapping::default());
+        let _ = chereme_formats::table::annotations::read(&bytes);
+        let _ = chereme_formats::eaf::read(&bytes);
+    }
+
+    #[test]
+    fn any_cells_come_back(cells in proptest::collection::vec("[ -~éあ\"\n;\t>+,]{0,12}", 8)) {
+        let header = ["gloss", "Location", "Handshape strong", "Movement direction"].map(str::to_owned);
+        let mut table = csv::Writer::from_writer(Vec::new());
+        table.write_record(&header).expect("a vector takes everything");
+        for row in cells.chunks(4) {
+            table.write_record(row).expect("a vector takes everything");
+        }
+        let bytes = table.into_inner().expect("a vector takes everything");
+        let Ok((lexicon, _)) = lexicon::read(&bytes, &Mapping::default()) else { return Ok(()) };
+        let kept: Vec<&[String]> = cells.chunks(4).filter(|row| !row[0].trim().is_empty()).collect();
+        prop_assert!(lexicon.entries.iter().map(|entry| &entry.cells[..]).eq(kept));
+        let mut out = Vec::new();
+        lexicon::write(&lexicon, &mut out).expect("a vector takes everything");
+        let (again, _) = lexicon::read(&out, &Mapping::default()).expect("what was written");
+        let cells = |it: &Lexicon| it.entries.iter().map(|entry| entry.cells.clone()).collect::<Vec<_>>();
+        prop_assert_eq!(cells(&again), cells(&lexicon));
+    }
+}
