@@ -28,6 +28,7 @@
 //! | [`interpolation`] | the ways from one posture to another |
 //! | [`anatomy`] | which joint is what, whatever the skeleton calls it; landmarks, measures, finger angles |
 //! | [`hand`] | the posture of a hand as joint angles |
+//! | [`ik`] | where the elbow goes when the wrist is moved |
 
 pub use glam;
 
@@ -36,6 +37,7 @@ pub mod axes;
 pub mod clip;
 pub mod euler;
 pub mod hand;
+pub mod ik;
 pub mod interpolation;
 pub mod pose;
 pub mod skeleton;

@@ -1,0 +1,50 @@
+//! Reaching: where the elbow goes and how an arm turns so that the hand is where it should be.
+//!
+//! [`two_bone`] is the analytic solution for an arm; it keeps the swivel of the source (the turn of
+//! the elbow about the line from shoulder to wrist), and is continuous wherever the source is and
+//! the target does not pass straight behind the shoulder. [`fabrik`] is the iterative method of
+//! Aristidou & Lasenby 2011 (Graphical Models 73, DOI 10.1016/j.gmod.2011.05.003) on chains of any
+//! length. [`reach_wrist`] moves the wrist of a posture with either and turns the joints to match.
+
+mod fabrik;
+mod reach;
+mod two_bone;
+
+pub use fabrik::{Fabrik, FabrikOptions, fabrik};
+pub use reach::{Reach, ReachOptions, Solver, WristTarget, reach_wrist};
+pub use two_bone::{TwoBone, TwoBoneOptions, two_bone};
+
+use glam::DVec3;
+
+use crate::hand::Side;
+
+/// Why a reach has no solution at all; a target out of reach is not one of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum IkError {
+    /// A coordinate or an option is no finite number.
+    #[error("the {0} of the reach is no finite number")]
+    NotFinite(&'static str),
+    /// A bone has no length, so that nothing says which way it points.
+    #[error("the {0} has no length, so there is no way to turn it towards a target")]
+    ZeroBone(&'static str),
+    /// A chain has fewer than two points.
+    #[error("a chain of {0} points has no bone to turn; it takes two points at least")]
+    Short(usize),
+    /// The skeleton has no arm on that side: shoulder, elbow and wrist were not all found.
+    #[error(
+        "the skeleton has no {} arm: name its upper arm, forearm and hand in a roles file",
+        .0.name()
+    )]
+    NoArm(Side),
+}
+
+fn finite(what: &'static str, points: &[DVec3]) -> Result<(), IkError> {
+    if points.iter().all(|point| point.is_finite()) {
+        Ok(())
+    } else {
+        Err(IkError::NotFinite(what))
+    }
+}
+
+#[cfg(test)]
+mod tests;

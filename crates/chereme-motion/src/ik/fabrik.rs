@@ -1,0 +1,137 @@
+//! Forward and backward reaching.
+
+use glam::DVec3;
+
+use super::{IkError, finite};
+
+/// When [`fabrik`] stops.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FabrikOptions {
+    /// The distance of the end from the target that is near enough.
+    pub tolerance: f64,
+    /// The most passes made.
+    pub passes: u32,
+    /// Which way a straight chain is bent first where the target lies on its line; without it such
+    /// a chain would only slide along the line and never bend.
+    pub pole: Option<DVec3>,
+}
+
+impl Default for FabrikOptions {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-6,
+            passes: 200,
+            pole: None,
+        }
+    }
+}
+
+/// Where a chain goes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fabrik {
+    /// The places of the chain, the first as it was.
+    pub points: Vec<DVec3>,
+    /// The distance of the last from the target.
+    pub residual: f64,
+    /// The passes made.
+    pub passes: u32,
+}
+
+/// Moves a chain of points, the first fixed, so that the last comes to `target`.
+///
+/// Each pass sets the last point on the target and pulls the others after it at their distances,
+/// then sets the first point back and pulls the others after that. A target farther than the chain
+/// is long is pointed at with a straight chain. Distances are kept; which of the many solutions is
+/// found depends on the start, so the swivel of an arm is not chosen.
+///
+/// # Errors
+/// [`IkError`] where a number is not finite, a bone has no length, or there is no bone.
+pub fn fabrik(points: &[DVec3], target: DVec3, options: &FabrikOptions) -> Result<Fabrik, IkError> {
+    finite("source", points)?;
+    finite("target", &[target])?;
+    finite("pole", &[options.pole.unwrap_or(DVec3::ZERO)])?;
+    if !options.tolerance.is_finite() {
+        return Err(IkError::NotFinite("tolerance"));
+    }
+    let [root, .., _] = *points else {
+        return Err(IkError::Short(points.len()));
+    };
+    let lengths: Vec<f64> = points
+        .windows(2)
+        .map(|pair| pair[0].distance(pair[1]))
+        .collect();
+    let whole: f64 = lengths.iter().sum();
+    if lengths
+        .iter()
+        .any(|&l| l <= 1e-9 * whole || l < f64::MIN_POSITIVE)
+    {
+        return Err(IkError::ZeroBone("bone"));
+    }
+    let mut points = points.to_vec();
+    let mut passes = 0;
+    if root.distance(target) >= whole {
+        let way = (target - root).normalize_or(DVec3::X);
+        stretch(&mut points, &lengths, way);
+    } else {
+        unbend_line(&mut points, target, whole, options.pole);
+        while passes < options.passes && residual(&points, target) > options.tolerance {
+            pull(points.iter_mut().rev(), lengths.iter().rev(), target);
+            pull(points.iter_mut(), lengths.iter(), root);
+            passes += 1;
+        }
+    }
+    Ok(Fabrik {
+        residual: residual(&points, target),
+        points,
+        passes,
+    })
+}
+
+fn residual(points: &[DVec3], target: DVec3) -> f64 {
+    points.last().map_or(0.0, |end| end.distance(target))
+}
+
+fn stretch(points: &mut [DVec3], lengths: &[f64], way: DVec3) {
+    let mut at = points[0];
+    for (point, length) in points[1..].iter_mut().zip(lengths) {
+        at += way * *length;
+        *point = at;
+    }
+}
+
+/// Sets the first of `points` on `anchor` and the others at their lengths towards where they were.
+fn pull<'a>(
+    points: impl Iterator<Item = &'a mut DVec3>,
+    lengths: impl Iterator<Item = &'a f64>,
+    anchor: DVec3,
+) {
+    let mut before = anchor;
+    for (point, length) in points.zip(std::iter::once(&0.0).chain(lengths)) {
+        *point = before + (*point - before).normalize_or(DVec3::X) * *length;
+        before = *point;
+    }
+}
+
+/// Bends a chain that lies on one line with its target by a hundredth of its length.
+fn unbend_line(points: &mut [DVec3], target: DVec3, whole: f64, pole: Option<DVec3>) {
+    let root = points[0];
+    let Some(line) = (points[1] - root).try_normalize() else {
+        return;
+    };
+    let off = |point: &DVec3| (*point - root).reject_from_normalized(line).length();
+    if points
+        .iter()
+        .chain([&target])
+        .any(|point| off(point) > 1e-6 * whole)
+    {
+        return;
+    }
+    let pole = pole.unwrap_or(DVec3::ZERO).reject_from_normalized(line);
+    let out = pole
+        .try_normalize()
+        .unwrap_or_else(|| line.any_orthonormal_vector());
+    let last = points.len() - 1;
+    for point in &mut points[1..last.max(1)] {
+        *point += out * (0.01 * whole);
+    }
+}

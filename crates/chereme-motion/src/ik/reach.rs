@@ -1,0 +1,252 @@
+//! Moving the wrist of a posture.
+
+use glam::{DQuat, DVec3};
+
+use super::two_bone::{least_turn, source_line};
+use super::{FabrikOptions, IkError, TwoBone, TwoBoneOptions, fabrik, finite, two_bone};
+use crate::anatomy::{Anatomy, ArmChain};
+use crate::hand::Side;
+use crate::pose::{ModelPose, Pose};
+use crate::skeleton::Skeleton;
+
+/// Where a hand should be.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WristTarget {
+    /// The place of the wrist in model space, in metres.
+    pub position: DVec3,
+    /// The rotation of the hand's joint in model space, a unit quaternion.
+    pub rotation: DQuat,
+}
+
+/// The way the elbow's place is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Solver {
+    /// [`two_bone`]: exact, and keeps the source's swivel.
+    #[default]
+    Analytic,
+    /// [`fabrik`]: as Naert, Larboulette & Gibet 2021 have it; no soft end.
+    Fabrik,
+}
+
+/// How an arm reaches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReachOptions {
+    /// The way the elbow's place is found.
+    pub solver: Solver,
+    /// The soft end of the reach, as in [`TwoBoneOptions::soft`].
+    pub soft: f64,
+    /// From which share of the arm's length on the collar bone helps; it stays still without one.
+    /// Past it the collar bone turns the shoulder towards the target, so far that this share is
+    /// kept if it can. 0.9 suits people.
+    pub clavicle: Option<f64>,
+    /// The turn of the collar bone in radians that is approached but never passed.
+    pub clavicle_limit: f64,
+}
+
+impl Default for ReachOptions {
+    fn default() -> Self {
+        Self {
+            solver: Solver::Analytic,
+            soft: TwoBoneOptions::default().soft,
+            clavicle: None,
+            clavicle_limit: 0.5,
+        }
+    }
+}
+
+/// How a reach went.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reach {
+    /// The distance of the wrist from where it should be, in metres.
+    pub residual_m: f64,
+    /// The distance from shoulder to target as a share of the arm's length, after the collar bone
+    /// helped; above 1 the target is out of reach.
+    pub extension: f64,
+    /// Whether the wrist was held back softly near full extension.
+    pub soft: bool,
+    /// Whether the target lies outside the arm's reach, too far or too near.
+    pub clamped: bool,
+    /// How far the collar bone turned, in radians.
+    pub clavicle_turn: f64,
+}
+
+/// Turns the arm of `side` in `pose` so that the wrist is at the target and the hand turned as it
+/// says.
+///
+/// Only the local rotations of upper arm, forearm and hand change, and that of the collar bone where
+/// the options ask for its help. Bone lengths stay exactly as they are in `pose`. The elbow keeps its
+/// swivel; the hand's rotation in model space is exactly the target's, and the forearm takes all of
+/// the turn about its own length, so that the wrist is twisted no more than it was. Along a
+/// continuous path of postures and targets the result is continuous.
+///
+/// # Errors
+/// [`IkError`] where the skeleton has no such arm, a number is not finite or a bone has no length;
+/// `pose` is unchanged then.
+///
+/// # Panics
+/// Where `pose` has fewer joints than `skeleton`.
+pub fn reach_wrist(
+    anatomy: &Anatomy,
+    skeleton: &Skeleton,
+    side: Side,
+    target: &WristTarget,
+    options: &ReachOptions,
+    pose: &mut Pose,
+) -> Result<Reach, IkError> {
+    let arm = anatomy.arm(side).ok_or(IkError::NoArm(side))?;
+    finite("target", &[target.position])?;
+    if !target.rotation.is_normalized() {
+        return Err(IkError::NotFinite("target's rotation"));
+    }
+    let place = |pose: &Pose, joint| placed(skeleton, pose, joint);
+    let (shoulder, upper) = place(pose, arm.upper);
+    let (elbow, forearm) = place(pose, arm.forearm);
+    let (wrist, hand) = place(pose, arm.hand);
+    if ![upper, forearm, hand].iter().all(|q| q.is_finite()) {
+        return Err(IkError::NotFinite("source"));
+    }
+    let source = [shoulder, elbow, wrist];
+    finite("source", &source)?;
+    let pole = anatomy
+        .elbow(side)
+        .map(|out| upper * out)
+        .or_else(|| back_and_down(anatomy, skeleton, pose));
+    let help = collar(skeleton, pose, &arm, source, target.position, options);
+    let shift = help.map_or(DVec3::ZERO, |help| help.shoulder - shoulder);
+    let start = source.map(|at| at + shift);
+    let solved = solve(start, target.position, options, pole)?;
+
+    let line = source_line(source);
+    let towards = source_line([start[0], solved.middle, solved.end]);
+    let whole = least_turn(line, towards);
+    let turned =
+        |from: DVec3, to: DVec3| least_turn((whole * from).normalize(), to.normalize()) * whole;
+    let upper = turned(elbow - shoulder, solved.middle - start[0]) * upper;
+    let straight = turned(wrist - elbow, solved.end - solved.middle) * forearm;
+    let bone = (forearm.inverse() * (wrist - elbow)).normalize();
+    let twist_was = twist(forearm.inverse() * hand, bone);
+    let twist_now = twist(straight.inverse() * target.rotation, bone);
+    let forearm = straight * twist_now * twist_was.inverse();
+
+    if let (Some(help), Some(clavicle)) = (help, arm.clavicle) {
+        turn_to(skeleton, pose, clavicle, help.rotation);
+    }
+    turn_to(skeleton, pose, arm.upper, upper);
+    turn_to(skeleton, pose, arm.forearm, forearm);
+    turn_to(skeleton, pose, arm.hand, target.rotation);
+    Ok(Reach {
+        residual_m: place(pose, arm.hand).0.distance(target.position),
+        extension: solved.extension,
+        soft: solved.soft,
+        clamped: solved.clamped,
+        clavicle_turn: help.map_or(0.0, |help| help.angle),
+    })
+}
+
+fn solve(
+    start: [DVec3; 3],
+    target: DVec3,
+    options: &ReachOptions,
+    pole: Option<DVec3>,
+) -> Result<TwoBone, IkError> {
+    let soft = options.soft;
+    let analytic = two_bone(start, target, &TwoBoneOptions { soft, pole })?;
+    if options.solver == Solver::Analytic {
+        return Ok(analytic);
+    }
+    let chain = fabrik(
+        &start,
+        target,
+        &FabrikOptions {
+            pole,
+            ..FabrikOptions::default()
+        },
+    )?;
+    Ok(TwoBone {
+        middle: chain.points[1],
+        end: chain.points[2],
+        soft: false,
+        ..analytic
+    })
+}
+
+/// Which way an elbow points in a posture where nothing else tells.
+fn back_and_down(anatomy: &Anatomy, skeleton: &Skeleton, pose: &Pose) -> Option<DVec3> {
+    let frame = anatomy.body_frame(&ModelPose::of(skeleton, pose))?;
+    Some(-frame.forward - frame.up)
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Help {
+    rotation: DQuat,
+    shoulder: DVec3,
+    angle: f64,
+}
+
+/// Returns how the collar bone turns so that the target is no farther than the stated share of the
+/// arm's length (or than the wrist was in the source) from the shoulder, if it can.
+fn collar(
+    skeleton: &Skeleton,
+    pose: &Pose,
+    arm: &ArmChain,
+    [shoulder, elbow, wrist]: [DVec3; 3],
+    target: DVec3,
+    options: &ReachOptions,
+) -> Option<Help> {
+    let share = options.clavicle.filter(|share| share.is_finite())?;
+    let (root, turned) = placed(skeleton, pose, arm.clavicle?);
+    let length = shoulder.distance(elbow) + elbow.distance(wrist);
+    let enough = (share.max(0.0) * length).max(shoulder.distance(wrist));
+    let (bone, way) = (shoulder - root, target - root);
+    if shoulder.distance(target) <= enough || bone.length() <= 1e-9 * length {
+        return None;
+    }
+    let axis = bone.cross(way).try_normalize()?;
+    let (b, w) = (bone.length(), way.length());
+    let cosine = (b * b + w * w - enough * enough) / (2.0 * b * w);
+    let wanted = bone.angle_between(way) - cosine.clamp(-1.0, 1.0).acos();
+    let limit = options
+        .clavicle_limit
+        .clamp(0.0, std::f64::consts::FRAC_PI_2);
+    let angle = if limit > 0.0 {
+        limit * (wanted.max(0.0) / limit).tanh()
+    } else {
+        0.0
+    };
+    let turn = DQuat::from_axis_angle(axis, angle);
+    Some(Help {
+        rotation: turn * turned,
+        shoulder: root + turn * bone,
+        angle,
+    })
+}
+
+/// Returns where `joint` is and how it is turned in model space.
+fn placed(skeleton: &Skeleton, pose: &Pose, joint: usize) -> (DVec3, DQuat) {
+    let (mut at, mut turned) = (DVec3::ZERO, DQuat::IDENTITY);
+    for j in skeleton.ancestors(joint) {
+        at = pose.translations[j] + pose.rotations[j] * at;
+        turned = pose.rotations[j] * turned;
+    }
+    (at, turned.normalize())
+}
+
+/// Gives `joint` the local rotation for which it is turned by `rotation` in model space.
+fn turn_to(skeleton: &Skeleton, pose: &mut Pose, joint: usize, rotation: DQuat) {
+    let above = skeleton
+        .parent(joint)
+        .map_or(DQuat::IDENTITY, |parent| placed(skeleton, pose, parent).1);
+    pose.rotations[joint] = (above.inverse() * rotation).normalize();
+}
+
+/// Returns the part of `q` that turns about the unit vector `axis` (swing-twist); the identity where
+/// `q` turns by half a turn across it.
+fn twist(q: DQuat, axis: DVec3) -> DQuat {
+    let along = axis * DVec3::new(q.x, q.y, q.z).dot(axis);
+    let twist = DQuat::from_xyzw(along.x, along.y, along.z, q.w);
+    if twist.length() > 1e-9 {
+        twist.normalize()
+    } else {
+        DQuat::IDENTITY
+    }
+}
