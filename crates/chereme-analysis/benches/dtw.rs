@@ -200,7 +200,7 @@ mod nearest_of_10000 {
         let base = sines(channels, &mut Numbers(1));
         let mut numbers = Numbers(7);
         let candidate = |i: usize| {
-            if i % 10 > 0 || !copies {
+            if !i.is_multiple_of(10) || !copies {
                 return played(&sines(channels, &mut numbers), FRAMES, |t| t);
             }
             let bend = (numbers.next() - 0.5) * 0.2;

@@ -20,25 +20,27 @@
 //! cannot stretch so far) there is no distance either. [`Policy`] says what happens then; the
 //! default refuses, and whatever else was done is told in [`Cost::made`].
 
+mod error;
 mod nearest;
 mod pattern;
 mod rows;
 mod series;
 mod skew;
+mod table;
 mod window;
 
+pub use error::{DtwError, Obstacle};
 pub use nearest::{Nearest, Neighbour, nearest};
 pub use pattern::StepPattern;
 pub use series::Series;
 pub use window::Window;
 
-use std::fmt;
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
 use pattern::Norm;
-use skew::Reversed;
+use table::Table;
 
 /// How far apart two frames are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
@@ -142,127 +144,6 @@ pub struct Alignment {
     pub path: Vec<(usize, usize)>,
 }
 
-/// Why there is no path.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Obstacle {
-    /// The window leaves out the last pair of frames, or the first.
-    Window(Window),
-    /// The step pattern cannot stretch one length to the other.
-    Slope(StepPattern),
-    /// Each would do, but not this window with this pattern.
-    Together(Window, StepPattern),
-}
-
-impl fmt::Display for Obstacle {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Window(window) => write!(f, "the window {window:?} does not reach both corners"),
-            Self::Slope(pattern) => write!(f, "{pattern:?} steps cannot stretch so far"),
-            Self::Together(window, pattern) => {
-                write!(
-                    f,
-                    "{pattern:?} steps find no way inside the window {window:?}"
-                )
-            }
-        }
-    }
-}
-
-/// What cannot be aligned, and what would be right.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum DtwError {
-    /// A series has no frame or no channel.
-    #[error("a series needs at least one frame and one channel")]
-    Empty,
-    /// A frame has another number of values than the others.
-    #[error("frame {frame} has {found} values where {expected} channels were expected")]
-    Ragged {
-        /// The frame, from 0.
-        frame: usize,
-        /// Values it has.
-        found: usize,
-        /// Values it should have.
-        expected: usize,
-    },
-    /// A value that has no distance to others.
-    #[error(
-        "channel {channel} is {value} at frame {frame}; values must be numbers within 1e140 of \
-         zero: fill gaps first or leave the channel out"
-    )]
-    Value {
-        /// The frame, from 0.
-        frame: usize,
-        /// The channel, from 0.
-        channel: usize,
-        /// What was found.
-        value: f64,
-    },
-    /// Not one scale per channel.
-    #[error("{found} scales were given for {channels} channels; each channel needs one")]
-    Scales {
-        /// Scales given.
-        found: usize,
-        /// Channels of the series.
-        channels: usize,
-    },
-    /// A scale that nothing can be divided by.
-    #[error("the scale of channel {channel} is {scale}; it must be a number above zero")]
-    Scale {
-        /// The channel, from 0.
-        channel: usize,
-        /// The scale given.
-        scale: f64,
-    },
-    /// The two series do not have the same channels.
-    #[error(
-        "the query has {query} channels and the reference {reference}; compare the channels that \
-         both have"
-    )]
-    Channels {
-        /// Channels of the query.
-        query: usize,
-        /// Channels of the reference.
-        reference: usize,
-    },
-    /// An open end was asked of a pattern that has no norm for it.
-    #[error(
-        "{pattern:?} cannot have an open {end}: {}",
-        if *end == "begin" {
-            "use Asymmetric, AsymmetricP1 or TypeIiiC, which are normalised by the query's length"
-        } else {
-            "use any pattern but Symmetric1, which has no norm to choose an end by"
-        }
-    )]
-    OpenEnd {
-        /// The pattern asked for.
-        pattern: StepPattern,
-        /// `begin` or `end`.
-        end: &'static str,
-    },
-    /// No path leads from the first to the last frames.
-    #[error("{query} frames cannot be aligned with {reference}: {reason}; {remedy}")]
-    NoPath {
-        /// Frames of the query.
-        query: usize,
-        /// Frames of the reference.
-        reference: usize,
-        /// What is in the way.
-        reason: Obstacle,
-        /// What would give a path.
-        remedy: String,
-    },
-    /// The table is larger than the limits allow.
-    #[error("aligning takes {cells} cells and {limit} are allowed; {remedy}")]
-    TooLarge {
-        /// Cells inside the window.
-        cells: u64,
-        /// Cells allowed.
-        limit: u64,
-        /// What would fit.
-        remedy: String,
-    },
-}
-
 /// Returns the best alignment of `query` with `reference` and its path.
 ///
 /// Memory is one byte per cell inside the window; see [`Limits`].
@@ -271,20 +152,13 @@ pub enum DtwError {
 /// [`DtwError::Channels`], [`DtwError::OpenEnd`], [`DtwError::TooLarge`], and
 /// [`DtwError::NoPath`] where the policy leaves none.
 pub fn align(query: &Series, reference: &Series, options: &Options) -> Result<Alignment, DtwError> {
-    check(
-        query,
-        reference,
-        options,
-        options.limits.kept.min(options.limits.cells),
-    )?;
+    let limit = options.limits.kept.min(options.limits.cells);
+    check(query, reference, options, limit)?;
     with_policy(query, reference, options, |query, reference, options| {
-        let rows = options.window.rows(query.frames(), reference.frames());
-        let table = rows::fill(query, reference, &rows, options, true);
-        let (end, cost) = finish(&table.last, query.frames(), options)?;
-        Some(Alignment {
-            cost,
-            path: table.path(&rows, options, end),
-        })
+        let table = Table::fill::<true>(query, reference, options)?;
+        let (end, cost) = finish(table.last(), query.frames(), options)?;
+        let path = table.path(query.frames(), end, options);
+        Some(Alignment { cost, path })
     })
 }
 
@@ -297,41 +171,12 @@ pub fn align(query: &Series, reference: &Series, options: &Options) -> Result<Al
 pub fn distance(query: &Series, reference: &Series, options: &Options) -> Result<Cost, DtwError> {
     check(query, reference, options, options.limits.cells)?;
     let found = with_policy(query, reference, options, |query, reference, options| {
-        let (n, m) = (query.frames(), reference.frames());
-        let rows = options.window.rows(n, m);
-        let ends_closed = !options.open_begin && !options.open_end;
-        if let (true, Some(diagonal)) = (ends_closed, options.pattern.diagonal()) {
-            let ask = skew::Ask {
-                rows: &rows,
-                diagonal,
-                local: options.local,
-                limit: f64::INFINITY,
-                rest: &[],
-            };
-            let distance = skew::least_cost(query, &Reversed::of(reference), &ask)?;
-            return distance
-                .is_finite()
-                .then(|| whole(distance, n, m, options.pattern));
-        }
-        let table = rows::fill(query, reference, &rows, options, false);
-        finish(&table.last, n, options).map(|(_, cost)| Alignment {
-            cost,
-            path: Vec::new(),
-        })
+        let table = Table::fill::<false>(query, reference, options)?;
+        let (_, cost) = finish(table.last(), query.frames(), options)?;
+        let path = Vec::new();
+        Some(Alignment { cost, path })
     });
     found.map(|alignment| alignment.cost)
-}
-
-fn whole(distance: f64, n: usize, m: usize, pattern: StepPattern) -> Alignment {
-    let normalized = norm(pattern, n, m - 1).map(|norm| distance / norm);
-    Alignment {
-        cost: Cost {
-            distance,
-            normalized,
-            made: Made::AsAsked,
-        },
-        path: Vec::new(),
-    }
 }
 
 /// Returns what a path to frame `end` of the reference is divided by.

@@ -1,11 +1,17 @@
 //! The nearest of many series, exactly, without working out most of the alignments.
 
-use std::collections::BTreeMap;
+use std::cmp::{Ordering, Reverse};
+use std::collections::{BTreeMap, BinaryHeap, VecDeque};
 use std::ops::Range;
 
-use super::skew::{Ask, Reversed, SLACK, least_cost};
+use super::skew::{self, Ask, Reversed, SLACK};
 use super::window::{connected, transposed};
 use super::{DtwError, Local, Options, Policy, Series, check, distance};
+
+/// Frames of a candidate whose bounds are found together.
+const RUN: usize = 16;
+/// Of this many frames one run is taken for a first bound.
+const SAMPLED: usize = 4 * RUN;
 
 /// One of the candidates and how far it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,6 +77,8 @@ fn every(
     Ok(best.found)
 }
 
+/// Works on the candidate of the least bound: first from a sample of its frames, then from all of
+/// them, then by its alignment.
 fn pruned(
     query: &Series,
     candidates: &[Series],
@@ -80,45 +88,97 @@ fn pruned(
 ) -> Nearest {
     let mut best = Best::new(k);
     let mut envelopes: BTreeMap<usize, Option<Envelope>> = BTreeMap::new();
-    let mut bounds = Vec::with_capacity(candidates.len());
-    let mut scratch = Vec::new();
+    let mut queue = Vec::with_capacity(candidates.len());
+    let mut bounds = Vec::new();
     for (index, candidate) in candidates.iter().enumerate() {
-        let length = candidate.frames();
         let envelope = envelopes
-            .entry(length)
-            .or_insert_with(|| Envelope::of(query, length, options));
-        match envelope {
-            Some(envelope) => {
-                envelope.bounds(candidate, options.local, &mut scratch);
-                bounds.push((scratch.iter().sum::<f64>() * SLACK, index));
-            }
-            None => best.found.without_path += 1,
-        }
+            .entry(candidate.frames())
+            .or_insert_with_key(|frames| Envelope::of(query, *frames, options));
+        let Some(envelope) = envelope else {
+            best.found.without_path += 1;
+            continue;
+        };
+        envelope.bounds(candidate, options.local, SAMPLED, &mut bounds);
+        queue.push(Reverse(Bound {
+            least: total(&bounds),
+            index,
+            sampled: true,
+        }));
     }
-    bounds.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let mut queue = BinaryHeap::from(queue);
     let reversed = Reversed::of(query);
-    for (bound, index) in bounds {
-        if bound > best.limit() {
+    while let Some(Reverse(bound)) = queue.pop() {
+        if bound.least * SLACK > best.limit() {
             break;
         }
-        let candidate = &candidates[index];
+        let candidate = &candidates[bound.index];
         let Some(Some(envelope)) = envelopes.get(&candidate.frames()) else {
             continue;
         };
-        envelope.bounds(candidate, options.local, &mut scratch);
-        remaining(&mut scratch);
+        envelope.bounds(candidate, options.local, RUN, &mut bounds);
+        if bound.sampled {
+            queue.push(Reverse(Bound {
+                least: total(&bounds),
+                sampled: false,
+                ..bound
+            }));
+            continue;
+        }
+        remaining(&mut bounds);
         let ask = Ask {
             rows: &envelope.rows,
             diagonal,
             local: options.local,
             limit: best.limit(),
-            rest: &scratch,
+            rest: &bounds,
         };
-        if let Some(distance) = least_cost(candidate, &reversed, &ask) {
-            best.offer(index, distance);
+        if let Some(table) = skew::fill::<false>(candidate, &reversed, &ask) {
+            best.offer(bound.index, table.last[query.frames() - 1]);
         }
     }
     best.found
+}
+
+/// A lower bound of a candidate's distance.
+struct Bound {
+    least: f64,
+    index: usize,
+    /// Whether it comes from a sample of the frames.
+    sampled: bool,
+}
+
+impl Ord for Bound {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.least
+            .total_cmp(&other.least)
+            .then(self.index.cmp(&other.index))
+    }
+}
+
+impl PartialOrd for Bound {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Bound {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Bound {}
+
+/// Returns the sum, by eight sums that do not wait for each other.
+fn total(bounds: &[f64]) -> f64 {
+    let mut sums = [0.0; 8];
+    let (chunks, rest) = bounds.as_chunks::<8>();
+    for chunk in chunks {
+        for (sum, value) in sums.iter_mut().zip(chunk) {
+            *sum += value;
+        }
+    }
+    sums.iter().chain(rest).sum()
 }
 
 /// Turns bounds of single frames into bounds of all later frames.
@@ -157,36 +217,43 @@ impl Envelope {
         Some(Self { rows, lower, upper })
     }
 
-    /// Writes for every frame of `candidate` how far it is at least from any it may meet.
-    fn bounds(&self, candidate: &Series, local: Local, out: &mut Vec<f64>) {
+    /// Writes for frames of `candidate` how far each is at least from any it may meet: for the
+    /// first [`RUN`] frames in every `stride`.
+    fn bounds(&self, candidate: &Series, local: Local, stride: usize, out: &mut Vec<f64>) {
         pulp::Arch::new().dispatch(Bounds {
             envelope: self,
             candidate,
             local,
+            stride,
             out,
         });
     }
 
     #[inline(always)]
-    fn sums(&self, candidate: &Series, local: Local, out: &mut Vec<f64>) {
+    fn sums(&self, candidate: &Series, local: Local, stride: usize, out: &mut Vec<f64>) {
         let frames = candidate.frames();
         out.clear();
-        out.resize(frames, 0.0);
-        let envelope = self
-            .lower
-            .chunks_exact(frames)
-            .zip(self.upper.chunks_exact(frames));
-        for (channel, (lower, upper)) in envelope.enumerate() {
-            let column = candidate.column(channel);
-            for (((sum, value), lower), upper) in out.iter_mut().zip(column).zip(lower).zip(upper) {
-                let (below, above) = (lower - value, value - upper);
-                let outside = if below > above { below } else { above };
-                let outside = if outside > 0.0 { outside } else { 0.0 };
-                *sum += outside * outside;
+        for start in (0..frames).step_by(stride) {
+            let run = RUN.min(frames - start);
+            let mut sums = [0.0; RUN];
+            for channel in 0..candidate.channels() {
+                let values = &candidate.column(channel)[start..][..run];
+                let envelope = channel * frames + start;
+                let lower = &self.lower[envelope..][..run];
+                let upper = &self.upper[envelope..][..run];
+                for (((sum, value), lower), upper) in
+                    sums.iter_mut().zip(values).zip(lower).zip(upper)
+                {
+                    let (below, above) = (lower - value, value - upper);
+                    let outside = if below > above { below } else { above };
+                    let outside = if outside > 0.0 { outside } else { 0.0 };
+                    *sum += outside * outside;
+                }
             }
-        }
-        if local == Local::Euclidean {
-            out.iter_mut().for_each(|sum| *sum = sum.sqrt());
+            if local == Local::Euclidean {
+                sums = sums.map(f64::sqrt);
+            }
+            out.extend_from_slice(&sums[..run]);
         }
     }
 }
@@ -196,6 +263,7 @@ struct Bounds<'a> {
     envelope: &'a Envelope,
     candidate: &'a Series,
     local: Local,
+    stride: usize,
     out: &'a mut Vec<f64>,
 }
 
@@ -204,14 +272,15 @@ impl pulp::NullaryFnOnce for Bounds<'_> {
 
     #[inline(always)]
     fn call(self) {
-        self.envelope.sums(self.candidate, self.local, self.out);
+        self.envelope
+            .sums(self.candidate, self.local, self.stride, self.out);
     }
 }
 
 /// Returns the first value of each range under the order `before`, by a queue of the values that
 /// no later one precedes (Lemire 2009, doi 10.1016/j.patcog.2008.11.030).
 fn sliding(column: &[f64], ranges: &[Range<usize>], before: fn(f64, f64) -> bool) -> Vec<f64> {
-    let mut queue: std::collections::VecDeque<usize> = std::collections::VecDeque::new();
+    let mut queue: VecDeque<usize> = VecDeque::new();
     let mut next = 0;
     ranges
         .iter()

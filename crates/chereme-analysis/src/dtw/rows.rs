@@ -1,5 +1,5 @@
-//! The table of least costs row by row, for every step pattern, with the steps taken where a path
-//! is wanted.
+//! The table of least costs row by row, for every step pattern but the symmetric ones without slope
+//! constraint, with the steps taken where a path is wanted.
 
 use std::ops::Range;
 
@@ -17,6 +17,8 @@ pub(super) struct Table {
     /// no path leads.
     pub(super) last: Vec<f64>,
     steps: Vec<u8>,
+    /// For each row where its steps begin and the column they begin at.
+    offsets: Vec<(usize, usize)>,
 }
 
 /// Fills the table over `rows`; with `keep` it holds one byte per cell of them.
@@ -69,6 +71,7 @@ impl pulp::NullaryFnOnce for Fill<'_> {
             }
         ];
         let mut used = 0;
+        let mut offsets = Vec::with_capacity(n);
         if options.open_begin {
             costs[0][PAD..].fill(0.0);
         }
@@ -92,6 +95,7 @@ impl pulp::NullaryFnOnce for Fill<'_> {
             } else {
                 0..range.len()
             };
+            offsets.push((used, range.start));
             used += range.len();
             let row = Row {
                 range,
@@ -103,7 +107,11 @@ impl pulp::NullaryFnOnce for Fill<'_> {
             costs[(i + 1) % 3] = cost;
         }
         let last = costs[n % 3].split_off(PAD);
-        Table { last, steps }
+        Table {
+            last,
+            steps,
+            offsets,
+        }
     }
 }
 
@@ -127,30 +135,8 @@ impl Row<'_> {
             steps = &mut steps[1..];
         }
         match pattern {
-            StepPattern::Symmetric1 => self.symmetric(1.0, cost, steps),
-            StepPattern::Symmetric2 => self.symmetric(2.0, cost, steps),
             StepPattern::Asymmetric => self.asymmetric(cost, steps),
             other => self.any(other.productions(), cost, steps),
-        }
-    }
-
-    /// Symmetric patterns: 0 diagonal, 1 along the reference, 2 along the query.
-    #[inline(always)]
-    fn symmetric(self, weight: f64, cost: &mut [f64], steps: &mut [u8]) {
-        let Range { start, end } = self.range;
-        let above = &self.previous[0][start + PAD - 1..end + PAD];
-        let local = &self.locals[0][start + PAD..end + PAD];
-        let mut left = cost[start + PAD - 1];
-        let out = &mut cost[start + PAD..end + PAD];
-        for (((two, d), out), step) in above.windows(2).zip(local).zip(out).zip(steps) {
-            let (diagonal, along, up) = (two[0] + weight * d, left + d, two[1] + d);
-            let (best, code) = if along < diagonal {
-                (along, 1)
-            } else {
-                (diagonal, 0)
-            };
-            let (best, code) = if up < best { (up, 2) } else { (best, code) };
-            (*out, *step, left) = (best, code, best);
         }
     }
 
@@ -181,11 +167,12 @@ impl Row<'_> {
             let mut best = (f64::INFINITY, 0);
             for (code, production) in (0u8..).zip(productions) {
                 let (di, dj) = production.from;
-                let via = production.via.iter();
-                let via: f64 = via
-                    .map(|(a, b, weight)| weight * self.locals[*a][j - b])
-                    .sum();
-                let found = self.previous[di - 1][j - dj] + via;
+                let found = production
+                    .via
+                    .iter()
+                    .fold(self.previous[di - 1][j - dj], |sum, (a, b, weight)| {
+                        sum + weight * self.locals[*a][j - b]
+                    });
                 if found < best.0 {
                     best = (found, code);
                 }
@@ -230,37 +217,9 @@ fn add_squares(sums: &mut [f64], value: f64, column: &[f64]) {
 }
 
 impl Table {
-    /// Returns the path to frame `end` of the reference, first pair first, from a table that kept
-    /// its steps.
-    pub(super) fn path(
-        &self,
-        rows: &[Range<usize>],
-        options: &Options,
-        end: usize,
-    ) -> Vec<(usize, usize)> {
-        let mut offsets = vec![0];
-        offsets.extend(rows.iter().scan(0, |sum, row| {
-            *sum += row.len();
-            Some(*sum)
-        }));
-        let productions = options.pattern.productions();
-        let mut path = Vec::with_capacity(rows.len() * 2);
-        let (mut i, mut j) = (rows.len() - 1, end);
-        loop {
-            if i == 0 && j == 0 && !options.open_begin {
-                path.push((0, 0));
-                break;
-            }
-            let step = self.steps[offsets[i] + j - rows[i].start];
-            let production = &productions[usize::from(step)];
-            path.extend(production.via.iter().rev().map(|(a, b, _)| (i - a, j - b)));
-            let (di, dj) = production.from;
-            if di > i {
-                break;
-            }
-            (i, j) = (i - di, j - dj);
-        }
-        path.reverse();
-        path
+    /// Returns the step that leads to a cell, as the place of its production in the pattern.
+    pub(super) fn step(&self, i: usize, j: usize) -> u8 {
+        let (offset, start) = self.offsets[i];
+        self.steps[offset + j - start]
     }
 }

@@ -1,5 +1,5 @@
-//! The least cost alone for the symmetric patterns: eight rows at a time along anti-diagonals,
-//! whose cells do not wait for each other, in memory of one row.
+//! The table of least costs for the symmetric patterns: eight rows at a time along anti-diagonals,
+//! whose cells do not wait for each other; without its steps in memory of one row.
 
 use std::ops::Range;
 
@@ -58,53 +58,79 @@ pub(super) struct Ask<'a> {
     pub(super) rest: &'a [f64],
 }
 
-/// Returns the least cost from the first to the last cell: infinite without a path, nothing where
-/// it was found to exceed the limit.
-pub(super) fn least_cost(rows: &Series, columns: &Reversed, ask: &Ask<'_>) -> Option<f64> {
-    if ask.diagonal > 1.0 {
-        pulp::Arch::new().dispatch(Run::<true> { rows, columns, ask })
-    } else {
-        pulp::Arch::new().dispatch(Run::<false> { rows, columns, ask })
+/// The last row of a table, and each cell's step if kept.
+pub(super) struct Table {
+    /// Least cost of reaching each column with the last row; infinite where no path leads.
+    pub(super) last: Vec<f64>,
+    /// Steps of all blocks, anti-diagonal by anti-diagonal.
+    steps: Vec<[u8; LANES]>,
+    /// For each block where its steps begin and the column they begin at.
+    blocks: Vec<(usize, usize)>,
+}
+
+impl Table {
+    /// Returns the step that leads to a cell: 0 across, 1 along the columns, 2 along the rows.
+    pub(super) fn step(&self, i: usize, j: usize) -> u8 {
+        let (offset, start) = self.blocks[i / LANES];
+        self.steps[offset + j + i % LANES - start][i % LANES]
     }
 }
 
+/// Fills the table, with about a byte per cell for its steps if `KEEP`; nothing where the least
+/// cost was found to exceed the limit.
+pub(super) fn fill<const KEEP: bool>(
+    rows: &Series,
+    columns: &Reversed,
+    ask: &Ask<'_>,
+) -> Option<Table> {
+    pulp::Arch::new().dispatch(Run::<KEEP> { rows, columns, ask })
+}
+
 /// A call of [`blocks`] that is compiled for each instruction set and chosen when run.
-struct Run<'a, const DOUBLE: bool> {
+struct Run<'a, const KEEP: bool> {
     rows: &'a Series,
     columns: &'a Reversed,
     ask: &'a Ask<'a>,
 }
 
-impl<const DOUBLE: bool> pulp::NullaryFnOnce for Run<'_, DOUBLE> {
-    type Output = Option<f64>;
+impl<const KEEP: bool> pulp::NullaryFnOnce for Run<'_, KEEP> {
+    type Output = Option<Table>;
 
     #[inline(always)]
-    fn call(self) -> Option<f64> {
-        blocks::<DOUBLE>(self.rows, self.columns, self.ask)
+    fn call(self) -> Option<Table> {
+        blocks::<KEEP>(self.rows, self.columns, self.ask)
     }
 }
 
 #[inline(always)]
-fn blocks<const DOUBLE: bool>(rows: &Series, columns: &Reversed, ask: &Ask<'_>) -> Option<f64> {
+fn blocks<const KEEP: bool>(rows: &Series, columns: &Reversed, ask: &Ask<'_>) -> Option<Table> {
     let (n, m) = (rows.frames(), columns.frames);
     let mut above = vec![f64::INFINITY; m + LANES + 1];
+    let (mut steps, mut offsets) = (Vec::new(), Vec::new());
     let mut values = vec![[0.0; LANES]; rows.channels()];
     load(rows, 0, &mut values);
     let mut corner = [[0.0; LANES]];
     local_costs(&values, columns, 0, ask.local, &mut corner);
     // The first cell weighs 1 whatever a diagonal step weighs.
-    above[0] = if DOUBLE { -corner[0][0] } else { 0.0 };
+    above[0] = -(ask.diagonal - 1.0) * corner[0][0];
     for first in (0..n).step_by(LANES) {
         load(rows, first, &mut values);
         let rows = &ask.rows[first..n.min(first + LANES)];
-        let least = block::<DOUBLE>(&values, columns, rows, ask.local, &mut above);
-        let last = first + rows.len() - 1;
-        let rest = ask.rest.get(last).copied().unwrap_or(0.0);
+        if KEEP {
+            offsets.push((steps.len(), rows[0].start));
+        }
+        let least = block::<KEEP>(&values, columns, rows, ask, &mut above, &mut steps);
+        let rest = ask.rest.get(first + rows.len() - 1).copied().unwrap_or(0.0);
         if (least + rest) * SLACK > ask.limit {
             return None;
         }
     }
-    Some(above[m])
+    above[..=ask.rows[n - 1].start].fill(f64::INFINITY);
+    Some(Table {
+        last: above[1..=m].to_vec(),
+        steps,
+        blocks: offsets,
+    })
 }
 
 /// Gathers the eight frames from `first` on, channel by channel; past the end the last is repeated.
@@ -121,12 +147,13 @@ fn load(rows: &Series, first: usize, values: &mut [Lane]) {
 /// Advances the row of costs `above` (from one column before the first) by the block's rows and
 /// returns the least cost in the new row.
 #[inline(always)]
-fn block<const DOUBLE: bool>(
+fn block<const KEEP: bool>(
     values: &[Lane],
     columns: &Reversed,
     rows: &[Range<usize>],
-    local: Local,
+    ask: &Ask<'_>,
     above: &mut [f64],
+    steps: &mut Vec<[u8; LANES]>,
 ) -> f64 {
     let last = rows.len() - 1;
     let (start, end) = (rows[0].start, rows[last].end + last);
@@ -139,20 +166,24 @@ fn block<const DOUBLE: bool>(
     while from < end {
         let count = TILE.min(end - from);
         let tile = &mut tile[..count];
-        local_costs(values, columns, from, local, tile);
+        local_costs(values, columns, from, ask.local, tile);
         mask(rows, from, tile);
         for (s, d) in (from..).zip(tile.iter()) {
             let mut up = [above[s + 1]; LANES];
             up[1..].copy_from_slice(&left[..LANES - 1]);
+            let mut codes = [0; LANES];
             for r in 0..LANES {
-                let straight = lesser(up[r], left[r]);
-                left[r] = if DOUBLE {
-                    lesser(straight + d[r], diagonal[r] + (d[r] + d[r]))
-                } else {
-                    lesser(straight, diagonal[r]) + d[r]
-                };
+                let (across, along) = (diagonal[r] + ask.diagonal * d[r], left[r] + d[r]);
+                left[r] = lesser(lesser(up[r], left[r]) + d[r], across);
+                if KEEP {
+                    let straight = if along == left[r] { 1 } else { 2 };
+                    codes[r] = if across == left[r] { 0 } else { straight };
+                }
             }
             diagonal = up;
+            if KEEP {
+                steps.push(codes);
+            }
             if s >= start + last {
                 above[s - last + 1] = left[last];
                 least = lesser(left[last], least);

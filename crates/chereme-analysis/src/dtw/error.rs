@@ -1,0 +1,126 @@
+//! What cannot be aligned, and what would be right.
+
+use std::fmt;
+
+use super::{StepPattern, Window};
+
+/// Why there is no path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Obstacle {
+    /// The window leaves out the last pair of frames, or the first.
+    Window(Window),
+    /// The step pattern cannot stretch one length to the other.
+    Slope(StepPattern),
+    /// Each would do, but not this window with this pattern.
+    Together(Window, StepPattern),
+}
+
+impl fmt::Display for Obstacle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Window(window) => write!(f, "the window {window:?} does not reach both corners"),
+            Self::Slope(pattern) => write!(f, "{pattern:?} steps cannot stretch so far"),
+            Self::Together(window, pattern) => {
+                write!(
+                    f,
+                    "{pattern:?} steps find no way inside the window {window:?}"
+                )
+            }
+        }
+    }
+}
+
+/// What cannot be aligned, and what would be right.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum DtwError {
+    /// A series has no frame or no channel.
+    #[error("a series needs at least one frame and one channel")]
+    Empty,
+    /// A frame has another number of values than the others.
+    #[error("frame {frame} has {found} values where {expected} channels were expected")]
+    Ragged {
+        /// The frame, from 0.
+        frame: usize,
+        /// Values it has.
+        found: usize,
+        /// Values it should have.
+        expected: usize,
+    },
+    /// A value that has no distance to others.
+    #[error(
+        "channel {channel} is {value} at frame {frame}; values must be numbers within 1e140 of \
+         zero: fill gaps first or leave the channel out"
+    )]
+    Value {
+        /// The frame, from 0.
+        frame: usize,
+        /// The channel, from 0.
+        channel: usize,
+        /// What was found.
+        value: f64,
+    },
+    /// Not one scale per channel.
+    #[error("{found} scales were given for {channels} channels; each channel needs one")]
+    Scales {
+        /// Scales given.
+        found: usize,
+        /// Channels of the series.
+        channels: usize,
+    },
+    /// A scale that nothing can be divided by.
+    #[error("the scale of channel {channel} is {scale}; it must be a number above zero")]
+    Scale {
+        /// The channel, from 0.
+        channel: usize,
+        /// The scale given.
+        scale: f64,
+    },
+    /// The two series do not have the same channels.
+    #[error(
+        "the query has {query} channels and the reference {reference}; compare the channels that \
+         both have"
+    )]
+    Channels {
+        /// Channels of the query.
+        query: usize,
+        /// Channels of the reference.
+        reference: usize,
+    },
+    /// An open end was asked of a pattern that has no norm for it.
+    #[error(
+        "{pattern:?} cannot have an open {end}: {}",
+        if *end == "begin" {
+            "use Asymmetric, AsymmetricP1 or TypeIiiC, which are normalised by the query's length"
+        } else {
+            "use any pattern but Symmetric1, which has no norm to choose an end by"
+        }
+    )]
+    OpenEnd {
+        /// The pattern asked for.
+        pattern: StepPattern,
+        /// `begin` or `end`.
+        end: &'static str,
+    },
+    /// No path leads from the first to the last frames.
+    #[error("{query} frames cannot be aligned with {reference}: {reason}; {remedy}")]
+    NoPath {
+        /// Frames of the query.
+        query: usize,
+        /// Frames of the reference.
+        reference: usize,
+        /// What is in the way.
+        reason: Obstacle,
+        /// What would give a path.
+        remedy: String,
+    },
+    /// The table is larger than the limits allow.
+    #[error("aligning takes {cells} cells and {limit} are allowed; {remedy}")]
+    TooLarge {
+        /// Cells inside the window.
+        cells: u64,
+        /// Cells allowed.
+        limit: u64,
+        /// What would fit.
+        remedy: String,
+    },
+}
