@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use chereme_motion::{Anatomy, Clip, Instant, ModelPose};
 
 use crate::body::Body;
-use crate::error::{FigureError, checked_size};
+use crate::error::{FigureError, checked_size, checked_view};
 use crate::image::Image;
 use crate::mesh::Mesh;
 use crate::palette::Palette;
@@ -85,6 +85,9 @@ impl<'a> Animation<'a> {
         let room = options.height.saturating_sub(BAR);
         let width = |&view: &View| (framing.aspect(view).clamp(0.45, 2.0) * room as f32) as usize;
         let columns: Vec<usize> = options.views.iter().map(width).collect();
+        for &column in &columns {
+            checked_view(column, options.height)?;
+        }
         let size = checked_size(columns.iter().sum(), options.height)?;
         let step = f64::from(options.centiseconds.clamp(1, 100)) / 100.0 * options.speed.max(1e-3);
         let frames = ((clip.span().seconds() / step).ceil() as usize).max(1);

@@ -5,6 +5,9 @@ pub const MAX_SIDE: usize = 16_384;
 /// The most pixels of a picture.
 pub const MAX_PIXELS: usize = 64_000_000;
 
+/// The most pixels of one view of a figure, which is drawn several times larger.
+pub const MAX_VIEW_PIXELS: usize = 4_000_000;
+
 /// What keeps a picture from being made.
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
@@ -28,7 +31,8 @@ pub enum FigureError {
     /// The picture would be too small to show anything or larger than is sensible.
     #[error(
         "a picture of {width} by {height} pixels cannot be made; sides are from 16 to \
-         {MAX_SIDE} and the whole at most {MAX_PIXELS} pixels; ask for fewer or smaller cells"
+         {MAX_SIDE}, one view has at most {MAX_VIEW_PIXELS} pixels and a sheet at most \
+         {MAX_PIXELS}; ask for fewer or smaller cells"
     )]
     Size {
         /// The width in pixels.
@@ -55,7 +59,16 @@ pub enum FigureError {
 /// Returns the size where a picture of it can be made.
 pub(crate) fn checked_size(width: usize, height: usize) -> Result<[usize; 2], FigureError> {
     let sides = 16..=MAX_SIDE;
-    let fits = sides.contains(&width) && sides.contains(&height) && width * height <= MAX_PIXELS;
+    let inside = sides.contains(&width) && sides.contains(&height);
+    let fits = inside && width * height <= MAX_PIXELS;
     let error = FigureError::Size { width, height };
+    fits.then_some([width, height]).ok_or(error)
+}
+
+/// Returns the size where one view of a figure can be drawn at it.
+pub(crate) fn checked_view(width: usize, height: usize) -> Result<[usize; 2], FigureError> {
+    checked_size(width, height)?;
+    let error = FigureError::Size { width, height };
+    let fits = width * height <= MAX_VIEW_PIXELS;
     fits.then_some([width, height]).ok_or(error)
 }

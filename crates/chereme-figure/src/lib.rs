@@ -1,10 +1,55 @@
 //! Movement to a body to look at: its geometry, and pictures drawn without a window.
+//!
+//! A [`Body`] is put together once for a skeleton and its anatomy, and then moved to any posture:
+//! a [`Mesh`](mesh::Mesh) of some fourteen thousand triangles, for the window's stage as for the
+//! [`Raster`](raster::Raster) here, which needs no GPU. On it stand contact sheets, animations,
+//! thumbnails, pictures of handshapes and the chart of an alignment. The same input gives the same
+//! bytes. Nothing here opens a window or a database or knows what a sign means.
+//!
+//! ```
+//! use std::ops::ControlFlow;
+//! use chereme_figure::sheet::{SheetOptions, contact_sheet};
+//! use chereme_figure::writer::write_png;
+//! use chereme_motion::{Anatomy, Clip, Joint, Rate, Skeleton, glam::DVec3};
+//!
+//! let skeleton = Skeleton::new(vec![
+//!     Joint::new("root", None, DVec3::ZERO),
+//!     Joint::new("stick", Some(0), DVec3::Y).with_tip(DVec3::X),
+//! ])?;
+//! let anatomy = Anatomy::detect(&skeleton);
+//! let clip = Clip::still(skeleton.into(), Rate::new(25, 1)?, 50);
+//! let options = SheetOptions { title: "a stick".into(), ..SheetOptions::default() };
+//! let mut progress = |_done, _total| ControlFlow::Continue(());
+//! let sheet = contact_sheet(&clip, &anatomy, &options, &mut progress)?;
+//! let mut file = Vec::new();
+//! write_png(&sheet, &mut file)?;
+//! assert_eq!(&file[1..4], b"PNG");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`body`] | the signer's surface from a skeleton's joints |
+//! | [`mesh`] | triangles with colours and parts; trails |
+//! | [`palette`] | colours of body and paper |
+//! | [`camera`], [`view`] | where the eye stands; presets fitted to a clip |
+//! | [`raster`] | triangles to pixels, with lines between parts |
+//! | [`image`], [`writer`] | pixels, and PNG |
+//! | [`sheet`] | contact sheets, thumbnails |
+//! | [`animation`] | moving pictures, and GIF |
+//! | [`handshape`] | a hand alone, from joint angles |
+//! | [`chart`] | how two clips are aligned |
+//! | [`error`] | what keeps a picture from being made |
+
 pub mod animation;
 pub mod body;
 pub mod camera;
+pub mod chart;
 pub mod error;
 mod font;
+pub mod handshape;
 pub mod image;
+mod ink;
 pub mod mesh;
 pub mod palette;
 mod quantize;
@@ -12,7 +57,14 @@ pub mod raster;
 pub mod sheet;
 pub mod view;
 pub mod writer;
+
+pub use animation::{Animation, AnimationOptions, write_gif};
 pub use body::Body;
+pub use chart::{ChartOptions, alignment_picture};
 pub use error::FigureError;
+pub use handshape::{HandView, HandshapeOptions, handshape_picture, handshape_sheet};
 pub use image::Image;
+pub use palette::{Colour, Palette, Theme};
+pub use sheet::{Frames, Progress, SheetOptions, contact_sheet, thumbnail};
 pub use view::{Framing, View};
+pub use writer::write_png;

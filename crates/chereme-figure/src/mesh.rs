@@ -47,6 +47,44 @@ impl Mesh {
     }
 }
 
+/// Returns the path through `points` as a thin tube of `radius` metres that fades from `from` to
+/// `to`: the trail of a wrist or a fingertip. Fewer than two points give nothing.
+#[must_use]
+pub fn trail(points: &[Vec3], radius: f32, [from, to]: [Colour; 2], group: u8) -> Mesh {
+    if points.len() < 2 {
+        return Mesh::default();
+    }
+    let grid = Grid::new(6, points.len());
+    let last = points.len() - 1;
+    let mut vertices = Vec::with_capacity(grid.len());
+    let mut side = Vec3::X;
+    let mut add = |position, normal, share: f32| {
+        vertices.push(Vertex {
+            position,
+            normal,
+            colour: from.mixed(to, share),
+            group,
+        });
+    };
+    add(points[0], Vec3::NEG_Z, 0.0);
+    for (index, &point) in points.iter().enumerate() {
+        let along = points[(index + 1).min(last)] - points[index.saturating_sub(1)];
+        let along = along.normalize_or(Vec3::Z);
+        let fallback = along.any_orthonormal_vector();
+        side = (side - along * along.dot(side)).normalize_or(fallback);
+        let other = along.cross(side);
+        for spoke in &grid.circle {
+            let normal = side * spoke.x + other * spoke.y;
+            add(point + normal * radius, normal, index as f32 / last as f32);
+        }
+    }
+    add(points[last], Vec3::Z, 1.0);
+    Mesh {
+        vertices,
+        triangles: grid.triangles(0),
+    }
+}
+
 /// A closed surface of rings from a first pole to a last one, described in its own space.
 ///
 /// The rings lie across the Z axis. `X` of the ring is the direction that [`Grid::facing`] counts

@@ -9,6 +9,8 @@ const UNKNOWN: u16 = u16::MAX;
 /// Counts colours, chooses a palette of them, and finds the nearest of it for any colour.
 pub(crate) struct Quantizer {
     counts: Vec<u32>,
+    /// The sums of the colours met in each cell, so that a flat colour stays exactly itself.
+    sums: Vec<[u64; 3]>,
     palette: Vec<Colour>,
     nearest: Vec<u16>,
 }
@@ -17,6 +19,7 @@ impl Default for Quantizer {
     fn default() -> Self {
         Self {
             counts: vec![0; CELLS],
+            sums: vec![[0; 3]; CELLS],
             palette: Vec::new(),
             nearest: vec![UNKNOWN; CELLS],
         }
@@ -28,7 +31,7 @@ fn cell(colour: Colour) -> usize {
     (r << (2 * BITS)) | (g << BITS) | b
 }
 
-/// Returns the colour in the middle of a cell, white and black being themselves.
+/// Returns the colour in the middle of a cell.
 fn middle(cell: usize) -> Colour {
     let part = |shift: u32| ((cell >> shift) & ((1 << BITS) - 1)) as u8;
     Colour([part(2 * BITS), part(BITS), part(0)].map(|v| (v << 2) | (v >> 4)))
@@ -87,15 +90,25 @@ impl Quantizer {
     /// Counts the colours of a picture.
     pub(crate) fn add(&mut self, pixels: &[Colour]) {
         for &pixel in pixels {
-            let count = &mut self.counts[cell(pixel)];
+            let cell = cell(pixel);
+            let count = &mut self.counts[cell];
             *count = count.saturating_add(1);
+            for (sum, part) in self.sums[cell].iter_mut().zip(pixel.0) {
+                *sum += u64::from(part);
+            }
         }
+    }
+
+    /// Returns the mean of the colours met in a cell.
+    fn mean(&self, cell: usize) -> Colour {
+        let count = u64::from(self.counts[cell].max(1));
+        Colour(self.sums[cell].map(|sum| ((sum + count / 2) / count).min(255) as u8))
     }
 
     /// Chooses at most `most` colours.
     pub(crate) fn choose(&mut self, most: usize) {
         let met = (0..CELLS).filter(|&i| self.counts[i] > 0);
-        let colours: Vec<(Colour, u32)> = met.map(|i| (middle(i), self.counts[i])).collect();
+        let colours: Vec<(Colour, u32)> = met.map(|i| (self.mean(i), self.counts[i])).collect();
         let mut boxes = vec![Box6 { colours }];
         while boxes.len() < most {
             let cuttable = (0..boxes.len()).filter(|&i| boxes[i].colours.len() > 1);
@@ -122,7 +135,11 @@ impl Quantizer {
     pub(crate) fn index(&mut self, colour: Colour) -> u8 {
         let cell = cell(colour);
         if self.nearest[cell] == UNKNOWN {
-            let wanted = middle(cell);
+            let wanted = if self.counts[cell] > 0 {
+                self.mean(cell)
+            } else {
+                middle(cell)
+            };
             let distance = |other: &Colour| -> i32 {
                 let part = |i: usize| i32::from(other.0[i]) - i32::from(wanted.0[i]);
                 2 * part(0) * part(0) + 4 * part(1) * part(1) + 3 * part(2) * part(2)

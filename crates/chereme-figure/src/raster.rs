@@ -1,4 +1,4 @@
-//! Triangles to pixels: depth buffer, light, lines where one part lies before another.
+//! Triangles to pixels: a depth buffer and light; lines and shades are [`ink`](crate::ink)'s.
 //!
 //! Everything is drawn several times larger than asked for and averaged. Corners are snapped to a
 //! sixteenth of such a pixel and edges tested in integers, so that neighbouring triangles leave no
@@ -8,8 +8,9 @@ use glam::Vec3;
 
 use crate::camera::Camera;
 use crate::image::Image;
+use crate::ink;
 use crate::mesh::Mesh;
-use crate::palette::{Colour, Theme};
+use crate::palette::Theme;
 
 /// How a figure is lit and outlined.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,7 +32,7 @@ impl Default for Style {
         Self {
             theme: Theme::Light,
             samples: 2,
-            key_light: Vec3::new(-0.45, 0.65, 0.62),
+            key_light: Vec3::new(-0.42, 0.52, 0.75),
             fill_light: Vec3::new(0.80, 0.10, 0.55),
             step: 0.012,
         }
@@ -40,22 +41,33 @@ impl Default for Style {
 
 /// The share of light that comes from everywhere, from the key and from the fill light.
 const LIGHT: [f32; 3] = [0.52, 0.44, 0.16];
-/// How far around a nearer part the farther one is shaded, in pixels of the finished picture.
-const HALO: f32 = 2.5;
-/// How dark that shade is at its darkest.
-const HALO_STRENGTH: f32 = 0.38;
 /// The snapping of corners: pixels are divided by this.
 const SUBPIXELS: f32 = 16.0;
+/// How far outside the picture a corner may lie, in samples; triangles beyond are left out.
+const FAR_OUT: f32 = 1e6;
+/// The nearest that anything is drawn, in metres before the eye.
+const NEAREST: f32 = 1e-3;
 
-/// Buffers for drawing, kept from frame to frame so that nothing is allocated anew.
+/// Buffers for drawing, kept from picture to picture so that nothing is allocated anew.
 #[derive(Debug, Clone, Default)]
 pub struct Raster {
-    width: usize,
-    height: usize,
-    depth: Vec<f32>,
-    group: Vec<u8>,
-    colour: Vec<[f32; 3]>,
+    pub(crate) buffers: Buffers,
     corners: Vec<Corner>,
+}
+
+/// What is nearest at every sample; a margin of paper all around saves the test for the edge.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Buffers {
+    /// Columns and rows of samples, the margin not counted.
+    pub(crate) size: [usize; 2],
+    pub(crate) margin: usize,
+    pub(crate) stride: usize,
+    /// Distance from the eye in metres; infinite where there is paper.
+    pub(crate) depth: Vec<f32>,
+    /// The part of the body; 0 is paper.
+    pub(crate) group: Vec<u8>,
+    /// The lit colour; meaningless where there is paper.
+    pub(crate) colour: Vec<[f32; 3]>,
 }
 
 /// A vertex in the picture: snapped place, depth, lit colour.
@@ -68,38 +80,48 @@ struct Corner {
     seen: bool,
 }
 
-/// A place beside a pixel: columns and rows away.
-type Step = [isize; 2];
-
 impl Raster {
-    /// Draws `mesh` as `camera` sees it, `width` by `height` pixels.
+    /// Draws `mesh` as `camera` sees it, `size` being columns and rows of pixels.
     #[must_use]
     pub fn draw(&mut self, mesh: &Mesh, camera: &Camera, size: [usize; 2], style: &Style) -> Image {
         let samples = style.samples.clamp(1, 4);
-        self.clear(size[0] * samples, size[1] * samples);
-        let projection = camera.projection(self.width, self.height);
-        self.corners.clear();
-        for vertex in &mesh.vertices {
-            let light = brightness(projection.turned(vertex.normal), style);
+        self.buffers
+            .clear(size.map(|side| side * samples), ink::margin(samples));
+        self.project(mesh, camera, style);
+        for triangle in &mesh.triangles {
+            let corners = triangle.map(|index| self.corners[index as usize]);
+            self.buffers.triangle(&corners);
+        }
+        ink::finish(&self.buffers, size, samples, style)
+    }
+
+    fn project(&mut self, mesh: &Mesh, camera: &Camera, style: &Style) {
+        let [width, height] = self.buffers.size;
+        let projection = camera.projection(width, height);
+        let lights = [style.key_light, style.fill_light].map(|light| light.normalize_or(Vec3::Z));
+        let corners = mesh.vertices.iter().map(|vertex| {
+            let light = brightness(projection.turned(vertex.normal), lights);
             let place = projection.project(vertex.position);
-            let seen = place.depth > 1e-3 && place.x.abs() < 1e5 && place.y.abs() < 1e5;
-            self.corners.push(Corner {
-                at: [place.x, place.y].map(|v| (v * SUBPIXELS).round() as i64),
+            let inside = place.x.abs() < FAR_OUT && place.y.abs() < FAR_OUT;
+            Corner {
+                at: [place.x, place.y].map(|v| (v * SUBPIXELS + 0.5).floor() as i64),
                 depth: place.depth,
                 colour: vertex.colour.0.map(|part| f32::from(part) * light),
                 group: vertex.group,
-                seen,
-            });
-        }
-        for triangle in &mesh.triangles {
-            self.triangle(triangle.map(|index| self.corners[index as usize]));
-        }
-        self.finish(size, samples, style)
+                seen: place.depth > NEAREST && inside,
+            }
+        });
+        self.corners.clear();
+        self.corners.extend(corners);
     }
+}
 
-    fn clear(&mut self, width: usize, height: usize) {
-        (self.width, self.height) = (width, height);
-        let len = width * height;
+impl Buffers {
+    fn clear(&mut self, size: [usize; 2], margin: usize) {
+        self.size = size;
+        self.margin = margin;
+        self.stride = size[0] + 2 * margin;
+        let len = self.stride * (size[1] + 2 * margin);
         self.depth.clear();
         self.depth.resize(len, f32::INFINITY);
         self.group.clear();
@@ -107,47 +129,57 @@ impl Raster {
         self.colour.resize(len, [0.0; 3]);
     }
 
-    /// Fills the pixels whose middle is inside a triangle that faces the eye.
-    fn triangle(&mut self, corners: [Corner; 3]) {
+    /// Returns the place of a sample in the buffers.
+    #[inline]
+    pub(crate) fn index(&self, x: usize, y: usize) -> usize {
+        (y + self.margin) * self.stride + x + self.margin
+    }
+
+    /// Fills the samples whose middle is inside a triangle that faces the eye.
+    fn triangle(&mut self, corners: &[Corner; 3]) {
         let [a, b, c] = corners;
         let area = cross(a.at, b.at, c.at);
         if area >= 0 || !(a.seen && b.seen && c.seen) {
             return;
         }
         let unit = SUBPIXELS as i64;
-        let range = |axis: usize, limit: usize| {
-            let all = corners.map(|corner| corner.at[axis]);
-            let low = all.iter().min().map_or(0, |v| v.div_euclid(unit)).max(0);
-            let high = all.iter().max().map_or(0, |v| v.div_euclid(unit));
-            (low, high.min(limit as i64 - 1))
+        let range = |axis: usize| {
+            let [a, b, c] = [a, b, c].map(|corner| corner.at[axis]);
+            let low = (a.min(b).min(c) - unit / 2).div_euclid(unit).max(0);
+            let high = (a.max(b).max(c) + unit / 2).div_euclid(unit);
+            (low, high.min(self.size[axis] as i64 - 1))
         };
-        let (columns, rows) = (range(0, self.width), range(1, self.height));
-        if columns.0 > columns.1 {
+        let (columns, rows) = (range(0), range(1));
+        if columns.0 > columns.1 || rows.0 > rows.1 {
             return;
         }
         let edges = [(b, c), (c, a), (a, b)];
-        let along = edges.map(|(from, to)| (to.at[1] - from.at[1]) * unit);
-        let weight = -1.0 / (area as f32).abs();
+        let across = edges.map(|(from, to)| (to.at[1] - from.at[1]) * unit);
+        let down = edges.map(|(from, to)| (to.at[0] - from.at[0]) * unit);
+        let middle = [columns.0 * unit + unit / 2, rows.0 * unit + unit / 2];
+        let mut first = edges.map(|(from, to)| cross(from.at, to.at, middle));
+        let share = 1.0 / area as f32;
+        let wide = columns.1 - columns.0;
         for row in rows.0..=rows.1 {
-            let middle = [columns.0 * unit + unit / 2, row * unit + unit / 2];
-            let mut inside = edges.map(|(from, to)| cross(from.at, to.at, middle));
-            let start = row as usize * self.width;
-            for column in columns.0..=columns.1 {
-                if inside.iter().all(|&w| w <= 0) {
-                    let weights = inside.map(|w| w as f32 * weight);
-                    self.pixel(start + column as usize, corners, weights);
+            let (from, to) = span(first, across, wide);
+            if from <= to {
+                let start = self.index((columns.0 + from) as usize, row as usize);
+                let mut inside = [0, 1, 2].map(|i| first[i] - across[i] * from);
+                for offset in 0..=(to - from) as usize {
+                    self.sample(start + offset, corners, inside.map(|w| w as f32 * share));
+                    for i in 0..3 {
+                        inside[i] -= across[i];
+                    }
                 }
-                for (w, step) in inside.iter_mut().zip(along) {
-                    *w -= step;
-                }
+            }
+            for i in 0..3 {
+                first[i] += down[i];
             }
         }
     }
 
     #[inline]
-    fn pixel(&mut self, index: usize, corners: [Corner; 3], weights: [f32; 3]) {
-        let [a, b, c] = corners;
-        let [u, v, w] = weights;
+    fn sample(&mut self, index: usize, [a, b, c]: &[Corner; 3], [u, v, w]: [f32; 3]) {
         let depth = a.depth * u + b.depth * v + c.depth * w;
         if depth < self.depth[index] {
             self.depth[index] = depth;
@@ -156,141 +188,40 @@ impl Raster {
                 std::array::from_fn(|i| a.colour[i] * u + b.colour[i] * v + c.colour[i] * w);
         }
     }
-
-    /// Draws lines and shades, and averages the samples of each pixel.
-    fn finish(&self, size: [usize; 2], samples: usize, style: &Style) -> Image {
-        let mut image = Image::new(size[0], size[1], style.theme.background());
-        let ink = Ink {
-            paper: style.theme.background().0.map(f32::from),
-            outline: style.theme.outline().0.map(f32::from),
-            near: around((samples as f32 * 0.6).round().max(1.0) as isize),
-            far: around((samples as f32 * HALO).round() as isize),
-            step: style.step,
-        };
-        let share = 1.0 / (samples * samples) as f32;
-        let Some((left, top, right, bottom)) = self.touched(samples) else {
-            return image;
-        };
-        for y in top..=bottom {
-            for x in left..=right {
-                let mut sum = [0.0; 3];
-                for sample in 0..samples * samples {
-                    let (i, j) = (sample % samples, sample / samples);
-                    let colour = self.sample(x * samples + i, y * samples + j, &ink);
-                    for (total, part) in sum.iter_mut().zip(colour) {
-                        *total += part;
-                    }
-                }
-                let pixel = Colour(sum.map(|part| (part * share + 0.5).clamp(0.0, 255.0) as u8));
-                image.set(x as i64, y as i64, pixel);
-            }
-        }
-        image
-    }
-
-    /// Returns the first and last column and row of finished pixels that are not all paper.
-    fn touched(&self, samples: usize) -> Option<(usize, usize, usize, usize)> {
-        let mut found: Option<(usize, usize, usize, usize)> = None;
-        for (y, row) in self.group.chunks(self.width.max(1)).enumerate() {
-            let Some(first) = row.iter().position(|&group| group != 0) else {
-                continue;
-            };
-            let last = row.iter().rposition(|&group| group != 0).unwrap_or(first);
-            let (left, top, right, _) = found.unwrap_or((first, y, last, y));
-            found = Some((left.min(first), top, right.max(last), y));
-        }
-        let (left, top, right, bottom) = found?;
-        Some((
-            (left / samples).saturating_sub(1),
-            (top / samples).saturating_sub(1),
-            (right / samples + 1).min(self.width / samples - 1),
-            (bottom / samples + 1).min(self.height / samples - 1),
-        ))
-    }
-
-    /// Returns the colour of one sample with its line and its shade.
-    fn sample(&self, x: usize, y: usize, ink: &Ink) -> [f32; 3] {
-        let index = y * self.width + x;
-        let (depth, group) = (self.depth[index], self.group[index]);
-        if group == 0 {
-            let beside = ink.near.iter().any(|&step| self.at(x, y, step).is_some());
-            return if beside { ink.outline } else { ink.paper };
-        }
-        let mut line = 0.0f32;
-        for &step in &ink.near {
-            if let Some((other, other_group)) = self.at(x, y, step) {
-                let before = depth - other;
-                line = line.max(match (group == other_group, before) {
-                    (true, before) if before > ink.step => 0.75,
-                    (false, before) if before > 0.004 => 0.9,
-                    (false, before) if before > 0.0 => 0.5,
-                    _ => 0.0,
-                });
-            }
-        }
-        let mut halo = 0.0f32;
-        for &step in &ink.far {
-            if let Some((other, _)) = self.at(x, y, step) {
-                halo += ((depth - other - 0.006) * 30.0).clamp(0.0, 1.0) / 8.0;
-            }
-        }
-        let shade = 1.0 - halo * HALO_STRENGTH;
-        let colour = self.colour[index];
-        std::array::from_fn(|i| colour[i] * shade * (1.0 - line) + INNER_LINE[i] * line)
-    }
-
-    /// Returns depth and group of the sample `step` away, or nothing where it is paper or outside.
-    #[inline]
-    fn at(&self, x: usize, y: usize, step: Step) -> Option<(f32, u8)> {
-        let (x, y) = (
-            x.wrapping_add_signed(step[0]),
-            y.wrapping_add_signed(step[1]),
-        );
-        if x >= self.width || y >= self.height {
-            return None;
-        }
-        let index = y * self.width + x;
-        (self.group[index] != 0).then(|| (self.depth[index], self.group[index]))
-    }
 }
 
-/// What lines and shades are drawn with.
-struct Ink {
-    paper: [f32; 3],
-    outline: [f32; 3],
-    near: [Step; 8],
-    far: [Step; 8],
-    step: f32,
-}
-
-/// The colour of lines within the figure.
-const INNER_LINE: [f32; 3] = [34.0, 30.0, 34.0];
-
-/// Returns the eight places `reach` samples away.
-fn around(reach: isize) -> [Step; 8] {
-    let slant = (reach * 3 + 2) / 4;
-    [
-        [reach, 0],
-        [slant, slant],
-        [0, reach],
-        [-slant, slant],
-        [-reach, 0],
-        [-slant, -slant],
-        [0, -reach],
-        [slant, -slant],
-    ]
+/// Returns the first and the last of columns 0 to `wide` whose three edge values, `first` less
+/// `across` times the column, are none positive; the first exceeds the last where there is none.
+#[inline]
+fn span(first: [i64; 3], across: [i64; 3], wide: i64) -> (i64, i64) {
+    let (mut from, mut to) = (0, wide);
+    for (value, step) in first.into_iter().zip(across) {
+        if step > 0 && value > 0 {
+            from = from.max((value + step - 1) / step);
+        } else if step < 0 && value <= 0 {
+            to = to.min(value / step);
+        } else if value > 0 {
+            return (1, 0);
+        }
+    }
+    (from, to)
 }
 
 /// Returns how bright a surface is whose normal is `normal` in the picture's right, up, towards.
-fn brightness(normal: Vec3, style: &Style) -> f32 {
-    let lit = |light: Vec3| normal.dot(light.normalize_or(Vec3::Z)).max(0.0);
+fn brightness(normal: Vec3, [key, fill]: [Vec3; 2]) -> f32 {
     let sky = 0.5 + 0.5 * normal.y;
     let around = LIGHT[0] * (0.85 + 0.15 * sky);
-    (around + LIGHT[1] * lit(style.key_light) + LIGHT[2] * lit(style.fill_light)).min(1.12)
+    let lit = LIGHT[1] * normal.dot(key).max(0.0) + LIGHT[2] * normal.dot(fill).max(0.0);
+    (around + lit).min(1.12)
 }
 
 /// Returns twice the signed area of a triangle in the picture, negative where it turns
 /// anticlockwise to the eye (rows count downwards).
+#[inline]
 fn cross(a: [i64; 2], b: [i64; 2], c: [i64; 2]) -> i64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
+
+#[cfg(test)]
+#[path = "raster_tests.rs"]
+mod tests;

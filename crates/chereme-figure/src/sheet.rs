@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use chereme_motion::{Anatomy, Clip, Side};
 
 use crate::body::Body;
-use crate::error::{FigureError, checked_size};
+use crate::error::{FigureError, checked_size, checked_view};
 use crate::font;
 use crate::image::Image;
 use crate::mesh::Mesh;
@@ -89,18 +89,16 @@ pub fn contact_sheet(
         .iter()
         .map(|&view| framing.aspect(view))
         .fold(0.45, f32::max);
-    let cell = [
-        (options.cell_height as f32 * wide.min(1.6)) as usize,
-        options.cell_height,
-    ];
+    let width = (options.cell_height as f32 * wide.min(1.6)) as usize;
+    let cell = checked_view(width, options.cell_height)?;
     let head = if options.title.is_empty() {
         GAP
     } else {
         2 * font::HEIGHT + 2 * GAP
     };
     let size = checked_size(
-        frames.len() * (cell[0] + GAP) + GAP,
-        head + options.views.len() * (cell[1] + GAP) + LABEL,
+        frames.len().saturating_mul(cell[0] + GAP) + GAP,
+        options.views.len().saturating_mul(cell[1] + GAP) + head + LABEL,
     )?;
     let theme = options.style.theme;
     let mut sheet = Image::new(size[0], size[1], theme.rule());
@@ -138,6 +136,25 @@ pub fn contact_sheet(
         sheet.text(&label, [(x + inset) as i64, y as i64], 1, theme.text());
     }
     Ok(sheet)
+}
+
+/// Draws one small picture of the middle of `clip` from the front, `size` being columns and rows.
+///
+/// # Errors
+/// [`FigureError`] where the clip is empty or the picture would be too small or too large.
+pub fn thumbnail(
+    clip: &Clip,
+    anatomy: &Anatomy,
+    size: [usize; 2],
+    style: &Style,
+) -> Result<Image, FigureError> {
+    let framing = Framing::of(clip, anatomy).ok_or(FigureError::Empty)?;
+    let size = checked_view(size[0], size[1])?;
+    let pose = clip.model_pose(clip.frames() / 2);
+    let mesh = Body::new(clip.skeleton(), anatomy).mesh(&pose);
+    let aspect = size[0] as f32 / size[1] as f32;
+    let camera = framing.camera(View::Addressee, aspect, &pose, anatomy);
+    Ok(Raster::default().draw(&mesh, &camera, size, style))
 }
 
 /// Returns time and number of a frame, as labels have it.

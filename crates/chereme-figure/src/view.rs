@@ -133,7 +133,12 @@ impl Framing {
             }
         }
         let (low, high) = found.0.unwrap_or((Vec3::NEG_ONE, Vec3::ONE));
-        let least = Vec3::splat((0.02 * size).max(1e-3));
+        let least = if known {
+            0.02 * size
+        } else {
+            ((high - low).length() * 0.03).max(0.02)
+        };
+        let least = Vec3::splat(least.max(1e-3));
         Self {
             axes,
             low: low - least,

@@ -52,7 +52,7 @@ struct Measures {
 
 impl Measures {
     /// Returns the measures, or nothing where knuckles and wrist span no palm.
-    fn of(hand: &HandJoints, rest: &ModelPose) -> Option<Self> {
+    fn of(anatomy: &Anatomy, hand: &HandJoints, rest: &ModelPose) -> Option<Self> {
         let base = |joints: &[usize]| place(rest, joints[0]);
         let (first, last) = (hand.fingers.first()?, hand.fingers.last()?);
         let (first, last) = (base(&first.1), base(&last.1));
@@ -66,7 +66,10 @@ impl Measures {
             radius: (gap * 0.46).clamp(length * 0.075, length * 0.11),
             along,
             thumbward,
-            palm: thumbward.cross(along) * -hand.side.sign() as f32,
+            palm: anatomy.palm_normal(hand.side, rest).map_or_else(
+                || thumbward.cross(along) * -hand.side.sign() as f32,
+                |palm| palm.as_vec3(),
+            ),
         })
     }
 }
@@ -80,13 +83,13 @@ const WHITE: Colour = Colour::hex(0xFF_FF_FF);
 /// Adds the hand; without fingers it is a mitten.
 pub(super) fn add(
     body: &mut Assembly,
-    skeleton: &Skeleton,
+    (skeleton, anatomy): (&Skeleton, &Anatomy),
     rest: &ModelPose,
     hand: &HandJoints,
     colours: HandColours,
 ) {
     let measures = (hand.fingers.len() >= 2)
-        .then(|| Measures::of(hand, rest))
+        .then(|| Measures::of(anatomy, hand, rest))
         .flatten();
     let Some(measures) = measures else {
         return mitten(body, skeleton, hand, colours);
@@ -265,6 +268,7 @@ fn palm(
                 section(1.0, 0.45, [0.7, 0.75], 0.25),
             ],
             columns: 24,
+            roundness: 0.62,
         },
         paint,
     );

@@ -17,7 +17,7 @@ pub(super) struct Head {
     pub(super) axes: Mat3,
 }
 
-/// Half the width, height and depth of a head beside its height.
+/// Half the width, height and depth of a head beside its height, as the anatomy's landmarks have it.
 const RADII: Vec3 = Vec3::new(0.345, 0.5, 0.42);
 
 impl Head {
@@ -99,14 +99,14 @@ struct Mark {
 fn marks(palette: &Palette) -> Vec<Mark> {
     let mut all = vec![
         Mark {
-            at: [0.0, -0.16],
-            out: 0.015,
+            at: [0.0, -0.19],
+            out: 0.012,
             radii: Vec3::new(0.042, 0.085, 0.055),
             tilt: 0.0,
             colour: palette.face.scaled(0.93),
         },
         Mark {
-            at: [0.0, -0.50],
+            at: [0.0, -0.56],
             out: -0.004,
             radii: Vec3::new(0.095, 0.020, 0.022),
             tilt: 0.0,
@@ -115,28 +115,28 @@ fn marks(palette: &Palette) -> Vec<Mark> {
     ];
     for side in [-1.0, 1.0] {
         all.push(Mark {
-            at: [side * 0.995, -0.05],
+            at: [side * 0.99, -0.08],
             out: 0.0,
             radii: Vec3::new(0.035, 0.085, 0.045),
             tilt: 0.0,
             colour: palette.face.scaled(0.93),
         });
         all.push(Mark {
-            at: [side * 0.42, 0.05],
+            at: [side * 0.39, 0.0],
             out: -0.012,
             radii: Vec3::new(0.060, 0.036, 0.026),
             tilt: 0.0,
             colour: palette.eyes,
         });
         all.push(Mark {
-            at: [side * 0.41, 0.05],
+            at: [side * 0.385, 0.0],
             out: 0.006,
             radii: Vec3::new(0.027, 0.030, 0.018),
             tilt: 0.0,
             colour: palette.marks,
         });
         all.push(Mark {
-            at: [side * 0.43, 0.245],
+            at: [side * 0.40, 0.19],
             out: 0.002,
             radii: Vec3::new(0.080, 0.013, 0.020),
             tilt: -side * 0.02,

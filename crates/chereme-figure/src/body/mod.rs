@@ -2,7 +2,7 @@
 
 mod hand;
 mod head;
-mod shape;
+pub(crate) mod shape;
 
 use chereme_motion::{Anatomy, ModelPose, Side, Skeleton, anatomy::Part};
 use glam::{Mat3, Vec3};
@@ -60,8 +60,7 @@ pub mod group {
     }
 }
 
-/// The length of an adult's arm from shoulder to wrist that the measures below are meant for, in
-/// metres (ANSUR II, men and women together, about 0.53).
+/// The length of an arm from shoulder to wrist that the measures below are meant for, in metres.
 const ARM: f32 = 0.53;
 
 impl Body {
@@ -80,7 +79,7 @@ impl Body {
             anatomy,
             palette,
             rest: &rest,
-            size: body_size(skeleton, anatomy),
+            size: body_size(anatomy),
             out: Assembly::default(),
         };
         if Side::BOTH.iter().any(|&side| anatomy.arm(side).is_some()) {
@@ -97,7 +96,8 @@ impl Body {
         let rest = skeleton.rest_model_pose();
         let mut out = Assembly::default();
         if let Some(joints) = hand::HandJoints::of(anatomy, side) {
-            hand::add(&mut out, skeleton, &rest, &joints, colours(palette, side));
+            let colours = colours(palette, side);
+            hand::add(&mut out, (skeleton, anatomy), &rest, &joints, colours);
         }
         out.into_body(&rest)
     }
@@ -140,18 +140,11 @@ impl Assembly {
     }
 }
 
-/// Returns the size of the body beside an adult's, measured by its arms, else by its height.
-fn body_size(skeleton: &Skeleton, anatomy: &Anatomy) -> f32 {
-    let reach = |from: usize, to: usize| -> f64 {
-        let chain = skeleton.ancestors(to).take_while(|&joint| joint != from);
-        chain
-            .map(|joint| skeleton.joint(joint).offset.length())
-            .sum()
-    };
-    let arms = Side::BOTH.iter().filter_map(|&side| anatomy.arm(side));
-    let arm = arms
-        .map(|arm| reach(arm.upper, arm.hand))
-        .fold(0.0, f64::max) as f32;
+/// Returns the size of the body beside an adult's, by its arms.
+fn body_size(anatomy: &Anatomy) -> f32 {
+    let arm = anatomy
+        .measures()
+        .map_or(0.0, |measures| measures.arm as f32);
     if arm > 1e-6 { arm / ARM } else { 1.0 }
 }
 
@@ -184,7 +177,8 @@ impl Builder<'_> {
             self.arm(side);
             if let Some(joints) = hand::HandJoints::of(self.anatomy, side) {
                 let colours = colours(self.palette, side);
-                hand::add(&mut self.out, self.skeleton, self.rest, &joints, colours);
+                let known = (self.skeleton, self.anatomy);
+                hand::add(&mut self.out, known, self.rest, &joints, colours);
             }
         }
     }
@@ -288,13 +282,14 @@ impl Builder<'_> {
             Loft {
                 sections,
                 columns: 32,
+                roundness: 0.8,
             },
             paint,
         );
         for shoulder in [left, right] {
             let rod = Rod {
                 ends: [Point::at(shoulder), Point::at(neck)],
-                radii: [0.056 * size, 0.050 * size, 0.040 * size],
+                radii: [0.046 * size, 0.050 * size, 0.040 * size],
                 facing: (shoulder, Vec3::Z),
                 columns: 16,
             };
@@ -321,41 +316,25 @@ impl Builder<'_> {
             let paint = Paint::plain(self.palette.face.scaled(0.9), group::HEAD);
             self.limb(neck, joint, [0.050, 0.047, 0.046], paint);
         }
-        let height = 0.225 * self.size;
-        let turn = rotation(self.rest, joint).inverse();
-        let axes = self.rest_axes();
-        let top = self
-            .skeleton
-            .children(joint)
-            .iter()
-            .map(|&child| self.skeleton.joint(child).offset)
-            .chain(self.skeleton.joint(joint).tip)
-            .map(|tip| axes.y_axis.dot(rotation(self.rest, joint) * tip.as_vec3()))
-            .fold(0.0, f32::max);
-        let crown = if (0.6..1.2).contains(&(top / height)) {
-            top
-        } else {
-            height * 0.8
+        let axes = self.anatomy.head_axes(self.rest);
+        let (Some(axes), Some(measures)) = (axes, self.anatomy.measures()) else {
+            return;
         };
-        let centre = axes.y_axis * (crown - height * 0.5) + axes.z_axis * height * 0.10;
+        let axes = Mat3::from_cols_array_2d(&axes.map(|axis| axis.as_vec3().to_array()));
+        let height = measures.head as f32;
+        let top = self.anatomy.landmark(self.skeleton, self.rest, "head-top");
+        let up = axes.y_axis;
+        let top = top.map_or_else(
+            || up * (measures.head_top as f32),
+            |top| top.as_vec3() - place(self.rest, joint),
+        );
+        let turn = rotation(self.rest, joint).inverse();
         let head = Head {
-            centre: turn * centre,
+            centre: turn * (top - up * height * 0.5),
             height,
             axes: Mat3::from_quat(turn) * axes,
         };
         self.out.rigid(joint, &head.mesh(self.palette));
-    }
-
-    /// Returns the signer's left, up and forwards at rest, in model space.
-    fn rest_axes(&self) -> Mat3 {
-        let across = |part: fn(Side) -> Part| {
-            let [right, left] = Side::BOTH.map(|side| self.joint(part(side)));
-            Some(place(self.rest, left?) - place(self.rest, right?))
-        };
-        let left = across(Part::Thigh).or_else(|| across(Part::Clavicle));
-        let left = left.or_else(|| across(Part::UpperArm)).unwrap_or(Vec3::X);
-        let flat = Vec3::new(left.x, 0.0, left.z).normalize_or(Vec3::X);
-        Mat3::from_cols(flat, Vec3::Y, flat.cross(Vec3::Y))
     }
 
     /// Adds every bone of a skeleton that is not known as a body.
@@ -369,7 +348,7 @@ impl Builder<'_> {
             .fold((places[0], places[0]), |(low, high), &at| {
                 (low.min(at), high.max(at))
             });
-        let thick = (box_.1 - box_.0).length().max(1e-3) * 0.03;
+        let thick = (box_.1 - box_.0).length().max(0.1) * 0.03;
         let rod = |ends: [Point; 2], length: f32| {
             let radius = (length * 0.14).clamp(thick * 0.15, thick);
             Rod {

@@ -104,12 +104,17 @@ impl Rod {
     }
 }
 
+/// Middles of rings nearer than this are the same, in metres.
+const SAME: f32 = 1e-3;
+
 /// A surface through rings; what the rings hang on is [`Section`]s.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Loft {
     /// From the first to the last ring.
     pub(super) sections: Vec<Section>,
     pub(super) columns: usize,
+    /// The shape of the rings: 1 is an ellipse, towards 0 ever more a rectangle.
+    pub(super) roundness: f32,
 }
 
 /// One ring of a [`Loft`]: a rounded rectangle about a spine of points.
@@ -137,17 +142,20 @@ impl Loft {
             .map(|section| section.spine.iter().map(|mix| mean(mix, pose)).collect())
             .collect();
         let middle = |spine: &[Vec3]| (spine[0] + spine[spine.len() - 1]) * 0.5;
+        let whole = middle(&spines[spines.len() - 1]) - middle(&spines[0]);
         let mut next = 1;
         for (index, section) in self.sections.iter().enumerate() {
             let spine = &spines[index];
             let before = middle(&spines[index.saturating_sub(1)]);
             let after = middle(&spines[(index + 1).min(spines.len() - 1)]);
             let across = (spine[spine.len() - 1] - spine[0]).normalize_or(Vec3::X);
-            let along = (after - before).normalize_or(Vec3::Y);
+            let local = after - before;
+            let steps = local.length() > SAME;
+            let along = if steps { local } else { whole }.normalize_or(Vec3::Y);
             let facing = across.cross(along).normalize_or(Vec3::Z);
             let reach = |v: f32| along_spine(spine, across * section.beyond, v);
             for point in &grid.circle {
-                let square = point.map(|v| v.signum() * v.abs().powf(0.62));
+                let square = point.map(|v| v.signum() * v.abs().powf(self.roundness));
                 let thick = section.thickness[usize::from(square.x < 0.0)];
                 out[next].position =
                     reach(square.y) + facing * (square.x * thick) + along * section.shift;
@@ -295,7 +303,7 @@ impl Assembly {
 
 /// Returns an ellipsoid about `centre`, its axes turned by `turn`, coloured by `colour`, which is
 /// given each point on the unit sphere.
-pub(super) fn ellipsoid(
+pub(crate) fn ellipsoid(
     centre: Vec3,
     radii: Vec3,
     turn: Quat,

@@ -1,0 +1,177 @@
+//! A chart of how two clips are aligned.
+
+use crate::error::{FigureError, checked_size};
+use crate::font;
+use crate::image::Image;
+use crate::palette::{Colour, Theme};
+
+/// How the chart of an alignment looks.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ChartOptions {
+    /// What runs to the right, and what runs up.
+    pub names: [String; 2],
+    /// The side of the square that the grid fills at most, in pixels.
+    pub size: usize,
+    /// The paper.
+    pub theme: Theme,
+}
+
+impl Default for ChartOptions {
+    fn default() -> Self {
+        Self {
+            names: ["A".into(), "B".into()],
+            size: 280,
+            theme: Theme::Light,
+        }
+    }
+}
+
+/// Space around the grid for names and numbers, in pixels.
+const MARGIN: usize = 34;
+const PATH: [Colour; 2] = [Colour::hex(0x00_5F_9E), Colour::hex(0x6F_C3_FF)];
+
+/// Draws the alignment of two clips of `lengths` frames: the first runs to the right, the second
+/// up, and `path` goes through the pairs of frames that correspond; a thin diagonal shows where
+/// it would go if both ran evenly.
+///
+/// # Errors
+/// [`FigureError`] where the path is empty, a pair lies outside, or the chart would be too large.
+pub fn alignment_picture(
+    path: &[(usize, usize)],
+    lengths: [usize; 2],
+    options: &ChartOptions,
+) -> Result<Image, FigureError> {
+    if path.is_empty() {
+        return Err(FigureError::Nothing {
+            what: "pair of frames",
+        });
+    }
+    for &(a, b) in path {
+        for (frame, length) in [a, b].into_iter().zip(lengths) {
+            if frame >= length {
+                let last = length.saturating_sub(1);
+                return Err(FigureError::Frame { frame, last });
+            }
+        }
+    }
+    let side = options.size.saturating_add(MARGIN + font::WIDTH * 2);
+    let [width, height] = checked_size(side, side)?;
+    let theme = options.theme;
+    let mut chart = Image::new(width, height, theme.background());
+    let inner = options.size as i64;
+    let (left, top) = (MARGIN as i64, font::WIDTH as i64);
+    let longest = lengths[0].max(lengths[1]).max(2) as i64 - 1;
+    let extent = lengths.map(|length| (length as i64 - 1) * (inner - 1) / longest);
+    let place = |a: i64, b: i64| {
+        let x = left + (2 * a * (inner - 1) + longest) / (2 * longest);
+        let y = top + inner - 1 - (2 * b * (inner - 1) + longest) / (2 * longest);
+        [x, y]
+    };
+    grid(&mut chart, place, lengths, theme);
+    chart.line(
+        place(0, 0),
+        [left + extent[0], top + inner - 1 - extent[1]],
+        theme.rule(),
+    );
+    let colour = PATH[usize::from(theme == Theme::Dark)];
+    let points: Vec<[i64; 2]> = path
+        .iter()
+        .map(|&(a, b)| place(a as i64, b as i64))
+        .collect();
+    for pair in points.windows(2) {
+        for [dx, dy] in [[0, 0], [1, 0], [0, 1], [1, 1]] {
+            let moved = |at: [i64; 2]| [at[0] + dx, at[1] - dy];
+            chart.line(moved(pair[0]), moved(pair[1]), colour);
+        }
+    }
+    for &at in [points[0], points[points.len() - 1]].iter() {
+        chart.fill([at[0] - 1, at[1] - 2], [4, 4], colour);
+    }
+    labels(&mut chart, options, lengths, top + inner);
+    Ok(chart)
+}
+
+/// Draws rules at round numbers of frames, at most ten each way.
+fn grid(
+    chart: &mut Image,
+    place: impl Fn(i64, i64) -> [i64; 2],
+    lengths: [usize; 2],
+    theme: Theme,
+) {
+    let [wide, tall] = lengths.map(|length| length as i64 - 1);
+    let step = round_step(wide.max(tall));
+    for at in (0..=wide / step).map(|i| i * step).chain([wide]) {
+        chart.line(place(at, 0), place(at, tall), theme.rule());
+    }
+    for at in (0..=tall / step).map(|i| i * step).chain([tall]) {
+        chart.line(place(0, at), place(wide, at), theme.rule());
+    }
+}
+
+/// Returns the least of 1, 2, 5, 10, 20... that cuts `length` into ten at most.
+fn round_step(length: i64) -> i64 {
+    let mut power = 1;
+    loop {
+        for factor in [1, 2, 5] {
+            if length / (factor * power) <= 10 {
+                return factor * power;
+            }
+        }
+        power *= 10;
+    }
+}
+
+fn labels(chart: &mut Image, options: &ChartOptions, lengths: [usize; 2], below: i64) {
+    let text = options.theme.text();
+    let across = format!("{} ({})", options.names[0], lengths[0]);
+    let across = font::fitted(&across, options.size);
+    chart.text(&across, [MARGIN as i64, below + 4], 1, text);
+    // Letters below one another, as many as there is room for.
+    let up = format!("{} ({})", options.names[1], lengths[1]);
+    let room = options.size / font::HEIGHT;
+    for (row, letter) in up.chars().take(room).enumerate() {
+        let at = [
+            (MARGIN / 2) as i64,
+            (font::WIDTH + row * font::HEIGHT) as i64,
+        ];
+        chart.text(&letter.to_string(), at, 1, text);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_path_runs_from_the_lower_left_to_the_upper_right() {
+        let path: Vec<(usize, usize)> = (0..40).map(|i| (i, i / 2)).collect();
+        let options = ChartOptions::default();
+        let chart = alignment_picture(&path, [40, 20], &options).expect("a chart");
+        assert_eq!(chart.pixel(MARGIN, font::WIDTH + 279), PATH[0]);
+        assert_eq!(
+            chart.pixel(MARGIN + 279, font::WIDTH + 279 - 19 * 279 / 39),
+            PATH[0]
+        );
+    }
+
+    #[test]
+    fn what_is_no_path_is_refused() {
+        let options = ChartOptions::default();
+        let error = |path: &[(usize, usize)]| {
+            alignment_picture(path, [4, 3], &options)
+                .expect_err("refused")
+                .to_string()
+        };
+        assert!(error(&[]).contains("nothing to draw"));
+        assert!(error(&[(0, 0), (3, 3)]).contains("no frame 3; the clip's frames are 0 to 2"));
+        let one = alignment_picture(&[(0, 0)], [1, 1], &options);
+        assert!(one.is_ok());
+    }
+
+    #[test]
+    fn steps_are_round() {
+        for (length, step) in [(0, 1), (10, 1), (21, 2), (22, 5), (59, 10), (5000, 500)] {
+            assert_eq!(round_step(length), step, "{length}");
+        }
+    }
+}

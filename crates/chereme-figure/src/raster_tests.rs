@@ -1,0 +1,141 @@
+//! The rasteriser against closed forms.
+
+use glam::{Quat, Vec3};
+
+use super::*;
+use crate::body::shape::ellipsoid;
+use crate::palette::Colour;
+
+const RED: Colour = Colour::hex(0xFF_00_00);
+const BLUE: Colour = Colour::hex(0x00_00_FF);
+
+fn ball(centre: Vec3, radius: f32, colour: Colour, group: u8) -> Mesh {
+    let paint = |point| (point, colour);
+    ellipsoid(
+        centre,
+        Vec3::splat(radius),
+        Quat::IDENTITY,
+        [96, 64],
+        paint,
+        group,
+    )
+}
+
+fn camera(distance: f32) -> Camera {
+    Camera {
+        eye: Vec3::Z * distance,
+        target: Vec3::ZERO,
+        up: Vec3::Y,
+        half_height: 1.0,
+    }
+}
+
+/// Lines only between parts: at this scale a ball's own slope is steeper than a finger's step.
+const PLAIN: fn() -> Style = || Style {
+    step: 1.0,
+    ..Style::default()
+};
+
+fn covered(raster: &Raster) -> usize {
+    raster
+        .buffers
+        .group
+        .iter()
+        .filter(|&&group| group != 0)
+        .count()
+}
+
+#[test]
+fn a_ball_covers_the_disc_that_geometry_says() {
+    // Seen from distance d, the outline of a ball of radius r has the radius d·r/√(d²-r²) in the
+    // plane through its middle.
+    let mut raster = Raster::default();
+    for (distance, radius) in [(3.0f32, 0.5f32), (5.0, 0.8), (50.0, 0.3)] {
+        let mesh = ball(Vec3::ZERO, radius, RED, 1);
+        let _ = raster.draw(&mesh, &camera(distance), [300, 300], &Style::default());
+        let outline = distance * radius / (distance * distance - radius * radius).sqrt();
+        let disc = std::f32::consts::PI * (outline * 300.0).powi(2);
+        let share = covered(&raster) as f32 / disc;
+        assert!((0.99..1.002).contains(&share), "{share} at {distance}");
+    }
+}
+
+#[test]
+fn the_nearer_ball_hides_the_farther_whatever_the_order() {
+    let near = ball(Vec3::Z * 0.5, 0.3, RED, 1);
+    let far = ball(Vec3::Z * -0.5, 0.6, BLUE, 2);
+    let mut raster = Raster::default();
+    let images = [[&near, &far], [&far, &near]].map(|[first, second]| {
+        let mut mesh = first.clone();
+        mesh.append(second);
+        raster.draw(&mesh, &camera(5.0), [100, 100], &PLAIN())
+    });
+    assert_eq!(images[0], images[1]);
+    let [r, _, b] = images[0].pixel(50, 50).0;
+    assert!(r > 150 && b == 0);
+    let [r, _, b] = images[0].pixel(28, 50).0;
+    assert!(b > 60 && r == 0);
+}
+
+#[test]
+fn neighbouring_triangles_leave_no_gap_and_no_sample_twice() {
+    // A fan of slivers about a point off the grid: inside its hull every sample is covered.
+    let corner = |position| crate::mesh::Vertex {
+        position,
+        normal: Vec3::Z,
+        colour: RED,
+        group: 1,
+    };
+    let mut mesh = Mesh::default();
+    mesh.vertices.push(corner(Vec3::new(0.0137, -0.0291, 0.0)));
+    for i in 0..101 {
+        let angle = i as f32 * std::f32::consts::TAU / 101.0;
+        mesh.vertices
+            .push(corner(Vec3::new(angle.cos(), angle.sin(), 0.0) * 0.9));
+    }
+    mesh.triangles = (0..101).map(|i| [0, i + 1, (i + 1) % 101 + 1]).collect();
+    let mut raster = Raster::default();
+    let _ = raster.draw(&mesh, &camera(7.0), [64, 64], &Style::default());
+    for y in 0..128usize {
+        for x in 0..128usize {
+            let [dx, dy] = [x, y].map(|v| (v as f32 + 0.5) / 64.0 - 1.0);
+            if dx.hypot(dy) < 0.88 {
+                let index = raster.buffers.index(x, y);
+                assert_eq!(raster.buffers.group[index], 1, "a gap at {x}, {y}");
+            }
+        }
+    }
+}
+
+#[test]
+fn lines_are_drawn_where_parts_meet_and_not_within_one() {
+    let draw = |group| {
+        let mut mesh = ball(Vec3::new(-0.25, 0.0, 0.0), 0.3, RED, 1);
+        mesh.append(&ball(Vec3::new(0.25, 0.0, 0.0), 0.3, RED, group));
+        Raster::default().draw(&mesh, &camera(9.0), [200, 200], &PLAIN())
+    };
+    let darkest = |image: &Image| (96..104).map(|x| image.pixel(x, 100).0[0]).min();
+    let (one, two) = (darkest(&draw(1)), darkest(&draw(2)));
+    assert!(
+        two.zip(one).is_some_and(|(two, one)| two + 15 < one),
+        "{two:?}, {one:?}"
+    );
+}
+
+#[test]
+fn what_is_behind_the_eye_or_far_outside_is_left_out() {
+    let mut raster = Raster::default();
+    for at in [
+        Vec3::Z * 9.0,
+        Vec3::new(0.0, 0.0, 5.0),
+        Vec3::X * 1e9,
+        Vec3::splat(f32::NAN),
+    ] {
+        let mesh = ball(at, 0.5, RED, 1);
+        let image = raster.draw(&mesh, &camera(5.0), [50, 50], &Style::default());
+        let paper = Theme::Light.background();
+        if at.z > 6.0 || !at.is_finite() || at.x > 1e6 {
+            assert!(image.pixels().iter().all(|&pixel| pixel == paper), "{at}");
+        }
+    }
+}

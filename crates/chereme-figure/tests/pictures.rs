@@ -1,0 +1,386 @@
+//! Pictures of whole clips: sizes, labels, files, determinism, the mirror law, odd skeletons.
+
+use std::ops::ControlFlow;
+
+use chereme_figure::mesh::Mesh;
+use chereme_figure::raster::{Raster, Style};
+use chereme_figure::{
+    Animation, AnimationOptions, Body, FigureError, Frames, Framing, Image, Palette, SheetOptions,
+    Theme, View, contact_sheet, thumbnail, write_gif, write_png,
+};
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Anatomy, Clip, Joint, ModelPose, Pose, Rate, Skeleton};
+
+#[path = "../examples/common/signer.rs"]
+mod signer;
+
+fn go(_: usize, _: usize) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
+
+fn clip() -> (Clip, Anatomy) {
+    let clip = signer::handshapes().expect("the example's clip");
+    let anatomy = Anatomy::detect(clip.skeleton());
+    (clip, anatomy)
+}
+
+fn small() -> SheetOptions {
+    SheetOptions {
+        title: "ÉCOLE".into(),
+        frames: Frames::Spaced(3),
+        cell_height: 90,
+        ..SheetOptions::default()
+    }
+}
+
+fn inked(image: &Image, theme: Theme) -> usize {
+    let paper = [theme.background(), theme.rule()];
+    image
+        .pixels()
+        .iter()
+        .filter(|pixel| !paper.contains(pixel))
+        .count()
+}
+
+#[test]
+fn a_sheet_has_a_cell_a_view_and_frame_and_the_same_bytes_twice() {
+    let (clip, anatomy) = clip();
+    let mut told = Vec::new();
+    let mut progress = |done, total| {
+        told.push((done, total));
+        ControlFlow::Continue(())
+    };
+    let first = contact_sheet(&clip, &anatomy, &small(), &mut progress).expect("a sheet");
+    assert_eq!(told, (0..6).map(|done| (done, 6)).collect::<Vec<_>>());
+    let files = [
+        first.clone(),
+        contact_sheet(&clip, &anatomy, &small(), &mut go).expect("again"),
+    ]
+    .map(|sheet| {
+        let mut file = Vec::new();
+        write_png(&sheet, &mut file).expect("a file");
+        file
+    });
+    assert_eq!(files[0], files[1]);
+    let mut decoder = png::Decoder::new(std::io::Cursor::new(&files[0]))
+        .read_info()
+        .expect("png");
+    let mut bytes = vec![0; decoder.output_buffer_size().expect("a size")];
+    decoder.next_frame(&mut bytes).expect("pixels");
+    assert_eq!(bytes, first.to_rgb());
+    assert_eq!(
+        decoder.info().size(),
+        (first.width() as u32, first.height() as u32)
+    );
+    let more = SheetOptions {
+        frames: Frames::At(vec![0, 5, 5, 63]),
+        ..small().with_hands()
+    };
+    let more = contact_sheet(&clip, &anatomy, &more, &mut go).expect("a sheet");
+    assert!(more.width() > first.width() && more.height() > first.height());
+    assert!(inked(&more, Theme::Light) > inked(&first, Theme::Light));
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused_with_the_reason() {
+    let (clip, anatomy) = clip();
+    let refused = |clip: &Clip, options: SheetOptions| {
+        let sheet = contact_sheet(clip, &anatomy, &options, &mut go);
+        sheet.expect_err("refused").to_string()
+    };
+    let with = |frames| SheetOptions { frames, ..small() };
+    assert!(refused(&clip.slice(0..0), small()).contains("clip is empty"));
+    assert!(refused(&clip, with(Frames::At(vec![64]))).contains("no frame 64"));
+    assert!(refused(&clip, with(Frames::At(vec![]))).contains("at least one frame"));
+    assert!(refused(&clip, with(Frames::Spaced(0))).contains("at least one frame"));
+    assert!(
+        refused(
+            &clip,
+            SheetOptions {
+                views: vec![],
+                ..small()
+            }
+        )
+        .contains("one view")
+    );
+    for cell_height in [0, 3, 100_000, usize::MAX] {
+        let options = SheetOptions {
+            cell_height,
+            ..small()
+        };
+        assert!(
+            refused(&clip, options).contains("cannot be made"),
+            "{cell_height}"
+        );
+        let options = AnimationOptions {
+            height: cell_height,
+            ..AnimationOptions::default()
+        };
+        assert!(
+            Animation::new(&clip, &anatomy, options).is_err(),
+            "{cell_height}"
+        );
+    }
+    let mut stop = |done, _| match done {
+        4 => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    };
+    let stopped = contact_sheet(&clip, &anatomy, &small(), &mut stop);
+    assert!(matches!(
+        stopped,
+        Err(FigureError::Stopped { done: 4, total: 6 })
+    ));
+}
+
+#[test]
+fn a_gif_decodes_to_the_pictures_it_was_made_of() {
+    let (clip, anatomy) = clip();
+    let clip = clip.slice(20..30);
+    let options = AnimationOptions {
+        height: 100,
+        ..AnimationOptions::default()
+    };
+    let make = || {
+        let mut animation = Animation::new(&clip, &anatomy, options.clone()).expect("animation");
+        let mut file = Vec::new();
+        write_gif(&mut animation, &mut file, &mut go).expect("a file");
+        (file, animation)
+    };
+    let (file, mut animation) = make();
+    assert_eq!(file, make().0);
+    assert_eq!(animation.frames(), 10);
+    let [width, height] = animation.size();
+    let mut decoder = gif::DecodeOptions::new()
+        .read_info(file.as_slice())
+        .expect("a gif");
+    assert_eq!(
+        [decoder.width(), decoder.height()].map(usize::from),
+        [width, height]
+    );
+    let palette = decoder.global_palette().expect("shared colours").to_vec();
+    let mut canvas = vec![0u8; width * height];
+    let mut count = 0;
+    while let Some(frame) = decoder.read_next_frame().expect("a frame") {
+        assert_eq!(frame.delay, 4);
+        for (i, &index) in frame.buffer.iter().enumerate() {
+            let wide = usize::from(frame.width);
+            let (x, y) = (
+                usize::from(frame.left) + i % wide,
+                usize::from(frame.top) + i / wide,
+            );
+            if Some(index) != frame.transparent {
+                canvas[y * width + x] = index;
+            }
+        }
+        let wanted = animation.draw(count);
+        let error: i64 = wanted
+            .pixels()
+            .iter()
+            .zip(&canvas)
+            .flat_map(|(pixel, &index)| {
+                let at = usize::from(index) * 3;
+                (0..3).map(move |i| (pixel.0[i], at + i))
+            })
+            .map(|(part, at)| (i64::from(part) - i64::from(palette[at])).abs())
+            .sum();
+        let mean = error as f64 / (width * height * 3) as f64;
+        assert!(mean < 1.0, "picture {count} is off by {mean} on average");
+        count += 1;
+    }
+    assert_eq!(count, animation.frames());
+    assert!(Animation::new(&clip.slice(0..0), &anatomy, options).is_err());
+}
+
+#[test]
+fn the_mirrored_posture_gives_the_mirrored_picture() {
+    let (clip, anatomy) = clip();
+    let skeleton = clip.skeleton();
+    let counterpart = anatomy.mirror_map(skeleton);
+    let palette = Palette {
+        left: Palette::default().right,
+        ..Palette::default()
+    };
+    let body = Body::with_palette(skeleton, &anatomy, &palette);
+    let style = Style::default();
+    let mirrored =
+        |v: chereme_motion::glam::Vec3| v * chereme_motion::glam::Vec3::new(-1.0, 1.0, 1.0);
+    let other = Style {
+        key_light: mirrored(style.key_light),
+        fill_light: mirrored(style.fill_light),
+        ..style
+    };
+    let mut raster = Raster::default();
+    for frame in [0, 20, 40] {
+        let pose = clip.pose(frame);
+        let mut turned = skeleton.rest_pose();
+        for (joint, from) in counterpart.iter().enumerate() {
+            let q = pose.rotations[from.unwrap_or(joint)];
+            turned.rotations[joint] = DQuat::from_xyzw(q.x, -q.y, -q.z, q.w);
+        }
+        let poses = [
+            ModelPose::of(skeleton, &pose),
+            ModelPose::of(skeleton, &turned),
+        ];
+        let framing = Framing::around(&poses, &anatomy);
+        let [one, two] = [(0, &style), (1, &other)].map(|(i, style)| {
+            let camera = framing.camera(View::Addressee, 1.0, &poses[i], &anatomy);
+            raster.draw(&body.mesh(&poses[i]), &camera, [160, 160], style)
+        });
+        let two = two.mirrored();
+        let far = |a: [u8; 3], b: [u8; 3]| a.iter().zip(b).any(|(a, b)| a.abs_diff(b) > 24);
+        let pairs = one.pixels().iter().zip(two.pixels());
+        let differ = pairs.filter(|(a, b)| far(a.0, b.0)).count();
+        assert!(differ < 160 * 160 / 100, "{differ} pixels at frame {frame}");
+    }
+}
+
+#[test]
+fn every_view_shows_the_signer_and_the_figure_does_not_jump() {
+    let (clip, anatomy) = clip();
+    let framing = Framing::of(&clip, &anatomy).expect("frames");
+    let body = Body::new(clip.skeleton(), &anatomy);
+    let mut raster = Raster::default();
+    for view in View::ALL {
+        let pose = clip.model_pose(3);
+        let camera = framing.camera(view, 1.0, &pose, &anatomy);
+        let image = raster.draw(&body.mesh(&pose), &camera, [80, 80], &Style::default());
+        let share = inked(&image, Theme::Light) as f64 / 6400.0;
+        assert!(
+            (0.12..1.01).contains(&share),
+            "{} shows {share}",
+            view.name()
+        );
+        if !matches!(view, View::Hand(_)) {
+            let later = framing.camera(view, 1.0, &clip.model_pose(60), &anatomy);
+            assert_eq!(camera, later);
+        }
+    }
+}
+
+#[test]
+fn a_mesh_is_closed_and_follows_its_joints_rigidly() {
+    let (clip, anatomy) = clip();
+    let body = Body::new(clip.skeleton(), &anatomy);
+    let pose = clip.pose(8);
+    let mesh = body.mesh(&ModelPose::of(clip.skeleton(), &pose));
+    let mut edges = std::collections::BTreeMap::new();
+    for [a, b, c] in &mesh.triangles {
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            *edges.entry((from, to)).or_insert(0) += 1;
+        }
+    }
+    for (&(from, to), &count) in &edges {
+        assert_eq!(
+            (count, edges.get(&(to, from))),
+            (1, Some(&1)),
+            "edge {from} to {to}"
+        );
+    }
+    let turn = DQuat::from_rotation_y(0.8);
+    let mut moved = pose.clone();
+    moved.rotations[0] = turn * moved.rotations[0];
+    moved.translations[0] += DVec3::new(0.3, 0.1, -0.2);
+    let mut other = mesh.clone();
+    body.shape(&ModelPose::of(clip.skeleton(), &moved), &mut other);
+    let hips = pose.translations[0];
+    for (a, b) in mesh.vertices.iter().zip(&other.vertices) {
+        let at = turn * (a.position.as_dvec3() - hips) + moved.translations[0];
+        let off = at.distance(b.position.as_dvec3());
+        assert!(off < 1e-5, "a vertex of part {} is {off} m off", a.group);
+        assert!((b.normal.length() - 1.0).abs() < 1e-4);
+    }
+}
+
+/// Skeletons that are less than a signer with full hands.
+#[test]
+fn odd_skeletons_are_drawn_too() {
+    let (clip, _) = clip();
+    let without = |gone: fn(&str) -> bool| {
+        let kept: Vec<&Joint> = clip
+            .skeleton()
+            .joints()
+            .iter()
+            .filter(|joint| !gone(&joint.name))
+            .collect();
+        let joints = kept.iter().map(|&joint| {
+            let parent = joint.parent.map(|p| clip.skeleton().joint(p).name.clone());
+            let parent = parent.and_then(|name| kept.iter().position(|k| k.name == name));
+            Joint {
+                parent,
+                ..joint.clone()
+            }
+        });
+        Skeleton::new(joints.collect()).expect("a tree")
+    };
+    let finger = |name: &str| name.contains("Hand") && name.ends_with(['1', '2', '3', '4']);
+    let line = |n: usize| {
+        let joints = (0..n).map(|i| Joint::new(format!("j{i}"), i.checked_sub(1), DVec3::Y));
+        Skeleton::new(joints.collect()).expect("a tree")
+    };
+    let cases = [
+        ("no fingers", without(finger)),
+        (
+            "no legs",
+            without(|name| name.contains("Leg") || name.contains("Foot") || name.contains("Toe")),
+        ),
+        ("no head", without(|name| name.contains("Head"))),
+        (
+            "three fingers",
+            without(|name| {
+                name.contains("Pinky") || name.contains("Ring1") || name.contains("Ring")
+            }),
+        ),
+        (
+            "only thumbs",
+            without(|name| {
+                ["Index", "Middle", "Ring", "Pinky"]
+                    .iter()
+                    .any(|f| name.contains(f))
+            }),
+        ),
+        ("a chain", line(9)),
+        ("two joints", line(2)),
+        ("one joint", line(1)),
+    ];
+    for (name, skeleton) in cases {
+        let anatomy = Anatomy::detect(&skeleton);
+        let rate = Rate::new(25, 1).expect("a rate");
+        let still = Clip::still(skeleton.into(), rate, 3);
+        let image = thumbnail(&still, &anatomy, [80, 80], &Style::default()).expect(name);
+        assert!(
+            inked(&image, Theme::Light) > 40,
+            "{name}: {}",
+            inked(&image, Theme::Light)
+        );
+        let mesh: Mesh = Body::new(still.skeleton(), &anatomy).mesh(&still.model_pose(0));
+        assert!(
+            mesh.vertices
+                .iter()
+                .all(|v| v.position.is_finite() && v.normal.is_finite()),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn joints_in_one_place_or_very_far_away_do_no_harm() {
+    for offset in [DVec3::ZERO, DVec3::splat(1e-300), DVec3::splat(1e200)] {
+        let names = [
+            "Hips",
+            "Spine",
+            "Neck",
+            "Head",
+            "RightArm",
+            "RightForeArm",
+            "RightHand",
+        ];
+        let joints = names.iter().enumerate();
+        let joints = joints.map(|(i, name)| Joint::new(*name, i.checked_sub(1), offset));
+        let skeleton = Skeleton::new(joints.collect()).expect("a tree");
+        let anatomy = Anatomy::detect(&skeleton);
+        let pose: Pose = skeleton.rest_pose();
+        let rate = Rate::new(25, 1).expect("a rate");
+        let clip = Clip::from_poses(skeleton.into(), rate, &[pose]).expect("a clip");
+        assert!(thumbnail(&clip, &anatomy, [40, 40], &Style::default()).is_ok());
+    }
+}
