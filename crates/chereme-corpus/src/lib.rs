@@ -7,8 +7,10 @@ mod address;
 pub(crate) mod codec;
 pub(crate) mod db;
 mod error;
+mod inventories;
 mod progress;
 pub(crate) mod search;
+mod tokens;
 
 use std::path::Path;
 
@@ -17,6 +19,7 @@ use db::Store;
 pub use address::{Address, Name, Stretch};
 pub use db::{OperationKind, OperationRow};
 pub use error::{Error, Result};
+pub use inventories::StoredInventory;
 pub use progress::{Progress, Step, Unit, unheard};
 
 /// An open corpus.
@@ -31,7 +34,7 @@ impl Corpus {
     /// [`Error::File`] where something is there already or the folder is missing.
     pub fn create(path: &Path, author: &str) -> Result<Self> {
         Ok(Self {
-            store: Store::create(path, author)?,
+            store: Store::create(path, author, inventories::store_builtin)?,
         })
     }
 

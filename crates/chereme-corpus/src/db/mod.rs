@@ -32,8 +32,14 @@ pub(crate) struct Store {
 
 impl Store {
     /// Makes an empty corpus at `path`, where nothing may be yet.
-    pub(crate) fn create(path: &Path, author: &str) -> Result<Self> {
-        let connection = open::create(path)?;
+    ///
+    /// `fill` writes what every corpus begins with; that is no operation and cannot be undone.
+    pub(crate) fn create(
+        path: &Path,
+        author: &str,
+        fill: impl FnOnce(&Connection) -> Result<()>,
+    ) -> Result<Self> {
+        let connection = open::create(path, fill)?;
         Self::ready(connection, path, author)
     }
 
@@ -192,7 +198,7 @@ mod tests {
     fn undo_and_redo_walk_the_whole_history_and_survive_reopening() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("c.chereme");
-        let mut store = Store::create(&path, "A").expect("made");
+        let mut store = Store::create(&path, "A", |_| Ok(())).expect("made");
         let mut states = vec![dump(&store)];
         for gloss in ["BOL", "CHAT", "CHIEN"] {
             add(&mut store, gloss);
@@ -242,7 +248,8 @@ mod tests {
     #[test]
     fn failed_work_changes_nothing_and_empty_work_is_no_operation() {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut store = Store::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut store =
+            Store::create(&folder.path().join("c.chereme"), "A", |_| Ok(())).expect("made");
         add(&mut store, "BOL");
         let before = dump(&store);
         let failed: Result<()> = store.operation("fail", |connection| {
@@ -261,7 +268,7 @@ mod tests {
     fn rows_changed_behind_the_index_are_noticed() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("c.chereme");
-        let mut store = Store::create(&path, "A").expect("made");
+        let mut store = Store::create(&path, "A", |_| Ok(())).expect("made");
         add(&mut store, "BOL");
         drop(store);
         let other = rusqlite::Connection::open(&path).expect("opened");
@@ -294,8 +301,8 @@ mod tests {
             .expect("made");
         assert!(Store::open(&other, "A").is_err_and(|e| e.to_string().contains("another program")));
         let evil = folder.path().join("evil.chereme");
-        drop(Store::create(&evil, "A").expect("made"));
-        assert!(Store::create(&evil, "A").is_err());
+        drop(Store::create(&evil, "A", |_| Ok(())).expect("made"));
+        assert!(Store::create(&evil, "A", |_| Ok(())).is_err());
         rusqlite::Connection::open(&evil)
             .and_then(|c| {
                 c.execute_batch(

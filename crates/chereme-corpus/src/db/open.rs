@@ -21,7 +21,11 @@ pub(crate) const SCHEMA_VERSION: i32 = STEPS.len() as i32;
 /// A value larger than this is not read: no block, changeset part or index file comes near it.
 const LARGEST_VALUE: i32 = 512 << 20;
 
-pub(super) fn create(path: &Path) -> Result<Connection> {
+/// Makes the file; `fill` writes what every corpus begins with.
+pub(super) fn create(
+    path: &Path,
+    fill: impl FnOnce(&Connection) -> Result<()>,
+) -> Result<Connection> {
     if path.exists() {
         return Err(Error::file(path, std::io::ErrorKind::AlreadyExists.into()));
     }
@@ -38,7 +42,7 @@ pub(super) fn create(path: &Path) -> Result<Connection> {
     connection.execute_batch("PRAGMA page_size = 16384; PRAGMA journal_mode = WAL;")?;
     configure(&connection)?;
     connection.pragma_update(None, "application_id", APPLICATION_ID)?;
-    raise(&mut connection)?;
+    raise(&mut connection, fill)?;
     Ok(connection)
 }
 
@@ -98,7 +102,7 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
             "take the file as untrusted: somebody has put code into it",
         ));
     }
-    raise(&mut connection)?;
+    raise(&mut connection, |_| Ok(()))?;
     Ok(connection)
 }
 
@@ -115,13 +119,14 @@ fn configure(connection: &Connection) -> Result<()> {
     Ok(())
 }
 
-fn raise(connection: &mut Connection) -> Result<()> {
+fn raise(connection: &mut Connection, fill: impl FnOnce(&Connection) -> Result<()>) -> Result<()> {
     let transaction =
         connection.transaction_with_behavior(rusqlite::TransactionBehavior::Immediate)?;
     let version: i32 = transaction.pragma_query_value(None, "user_version", |row| row.get(0))?;
     for step in STEPS.iter().skip(usize::try_from(version).unwrap_or(0)) {
         transaction.execute_batch(step)?;
     }
+    fill(&transaction)?;
     transaction.pragma_update(None, "user_version", SCHEMA_VERSION)?;
     transaction.commit()?;
     Ok(())

@@ -1,0 +1,82 @@
+//! The inventories of a corpus: the built-in ones, and those that came with its files.
+
+use chereme_sign::{Inventory, inventory};
+use rusqlite::Connection;
+use serde_json::Value;
+
+use crate::db::{damaged, inventories as rows};
+use crate::error::Result;
+
+/// An inventory of the corpus with its row.
+#[derive(Debug, Clone)]
+pub struct StoredInventory {
+    /// The row.
+    pub id: i64,
+    /// The inventory.
+    pub inventory: Inventory,
+}
+
+/// Writes the built-in inventories into a corpus.
+pub(crate) fn store_builtin(connection: &Connection) -> Result<()> {
+    for inventory in inventory::builtin() {
+        store(connection, inventory)?;
+    }
+    Ok(())
+}
+
+/// Writes an inventory, and returns its row; values that the stored one has beyond it stay.
+pub(crate) fn store(connection: &Connection, inventory: &Inventory) -> Result<i64> {
+    let place = || format!("inventory {:?}", inventory.id);
+    let mut document: Value = serde_json::from_str(&inventory.to_json())
+        .map_err(|error| damaged(place(), error.to_string()))?;
+    let values = document
+        .as_object_mut()
+        .and_then(|map| map.remove("values"));
+    let row = rows::InventoryRow {
+        id: 0,
+        key: inventory.id.clone(),
+        component: inventory.component.name().to_owned(),
+        feature: inventory.feature.clone(),
+        document: document.to_string(),
+        values: Vec::new(),
+    };
+    let id = rows::store(connection, &row)?;
+    let values = values
+        .and_then(|values| values.as_array().cloned())
+        .unwrap_or_default();
+    for (position, (value, document)) in inventory.values.iter().zip(values).enumerate() {
+        rows::store_value(connection, id, position, &value.id, &document.to_string())?;
+    }
+    Ok(id)
+}
+
+/// Returns every inventory of the corpus, oldest first.
+pub(crate) fn load(connection: &Connection) -> Result<Vec<StoredInventory>> {
+    rows::inventories(connection)?
+        .into_iter()
+        .map(read)
+        .collect()
+}
+
+fn read(row: rows::InventoryRow) -> Result<StoredInventory> {
+    let place = || format!("inventory {:?}", row.key);
+    let parse = |text: &str| {
+        serde_json::from_str::<Value>(text).map_err(|error| damaged(place(), error.to_string()))
+    };
+    let mut document = parse(&row.document)?;
+    let values = row
+        .values
+        .iter()
+        .map(|(_, document)| parse(document))
+        .collect::<Result<Vec<_>>>()?;
+    let map = document
+        .as_object_mut()
+        .ok_or_else(|| damaged(place(), "it is no object"))?;
+    map.insert("values".to_owned(), Value::Array(values));
+    let inventory = Inventory::from_json(&document.to_string())
+        .map_err(|error| damaged(place(), error.to_string()))?;
+    Ok(StoredInventory {
+        id: row.id,
+        inventory,
+    })
+}
