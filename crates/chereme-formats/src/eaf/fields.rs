@@ -22,6 +22,7 @@ pub(super) enum Field<'f, 'a> {
 
 impl<'a> Field<'_, 'a> {
     /// Stores the value; on failure returns it with what it should have been.
+    #[inline]
     fn set(&mut self, value: Text<'a>) -> Result<(), (&'static str, Text<'a>)> {
         match self {
             Self::Text(text) | Self::Required(text) => **text = value,

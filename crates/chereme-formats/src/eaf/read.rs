@@ -218,14 +218,16 @@ impl<'a> DocumentReader<'a> {
         self.not_kept(tag, kept.as_deref());
         let mut count = 0;
         while let Some(child) = self.cursor.child(tag)? {
+            let mut annotation = blank(&child);
             match child.name {
-                "ALIGNABLE_ANNOTATION" => into.push(self.alignable(&child)?),
-                "REF_ANNOTATION" => into.push(self.reference(&child)?),
+                "ALIGNABLE_ANNOTATION" => self.alignable(&child, &mut annotation)?,
+                "REF_ANNOTATION" => self.reference(&child, &mut annotation)?,
                 _ => {
                     self.skip_unknown(tag, &child)?;
                     continue;
                 }
             }
+            into.push(annotation);
             count += 1;
         }
         if count != 1 {
@@ -242,8 +244,7 @@ impl<'a> DocumentReader<'a> {
         Ok(())
     }
 
-    fn alignable(&mut self, tag: &Tag<'a>) -> Result<Annotation<'a>, Error> {
-        let mut annotation = blank(tag);
+    fn alignable(&mut self, tag: &Tag<'a>, annotation: &mut Annotation<'a>) -> Result<(), Error> {
         let (mut start, mut end) = (Text::default(), Text::default());
         let kept = self.fields(
             tag,
@@ -261,8 +262,7 @@ impl<'a> DocumentReader<'a> {
         self.annotation_value(tag, annotation, kept)
     }
 
-    fn reference(&mut self, tag: &Tag<'a>) -> Result<Annotation<'a>, Error> {
-        let mut annotation = blank(tag);
+    fn reference(&mut self, tag: &Tag<'a>, annotation: &mut Annotation<'a>) -> Result<(), Error> {
         let (mut parent, mut previous) = (Text::default(), None);
         let kept = self.fields(
             tag,
@@ -282,9 +282,9 @@ impl<'a> DocumentReader<'a> {
     fn annotation_value(
         &mut self,
         tag: &Tag<'a>,
-        mut annotation: Annotation<'a>,
+        annotation: &mut Annotation<'a>,
         mut kept: Kept<'a>,
-    ) -> Result<Annotation<'a>, Error> {
+    ) -> Result<(), Error> {
         while let Some(child) = self.cursor.child(tag)? {
             if child.name == "ANNOTATION_VALUE" {
                 let unknown = self.fields(&child, &mut [])?;
@@ -295,7 +295,7 @@ impl<'a> DocumentReader<'a> {
             }
         }
         annotation.kept = kept;
-        Ok(annotation)
+        Ok(())
     }
 
     fn linguistic_type(&mut self, tag: &Tag<'a>) -> Result<LinguisticType<'a>, Error> {

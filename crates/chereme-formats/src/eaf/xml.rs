@@ -321,6 +321,7 @@ impl<'a> Cursor<'a> {
         })
     }
 
+    #[inline]
     fn event(&mut self) -> Result<Event<'a>, Error> {
         match self.reader.read_event() {
             Ok(Event::DocType(_)) => Err(Error::Doctype { line: self.here() }),
@@ -329,6 +330,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
+    #[inline]
     fn tag(&mut self, name: usize, len: usize, empty: bool) -> Result<Tag<'a>, Error> {
         let end = self.position() - if empty { 2 } else { 1 };
         let start = end - len - 1;
@@ -438,37 +440,46 @@ struct Written<'a> {
     rest: &'a str,
 }
 
+/// What ends the name of an attribute.
+const ENDS_NAME: [bool; 256] = bytes_of(b"= \n\t\r\"'<");
+/// What keeps the value of an attribute from being taken as it is written.
+const SPECIAL: [bool; 256] = bytes_of(b"&\n\t\r");
+
+const fn bytes_of(set: &[u8]) -> [bool; 256] {
+    let mut table = [false; 256];
+    let mut at = 0;
+    while at < set.len() {
+        table[set[at] as usize] = true;
+        at += 1;
+    }
+    table
+}
+
 fn attribute(text: &str) -> Option<Written<'_>> {
     let bytes = text.as_bytes();
-    let stop = |b: &u8| matches!(b, b'=' | b' ' | b'\n' | b'\t' | b'\r' | b'"' | b'\'' | b'<');
-    let name = bytes.iter().position(stop)?;
-    let mut at = name;
-    while bytes.get(at).is_some_and(u8::is_ascii_whitespace) {
-        at += 1;
-    }
-    if name == 0 || bytes.get(at) != Some(&b'=') {
+    let name = bytes.iter().position(|b| ENDS_NAME[usize::from(*b)])?;
+    let blanks = |from: usize| {
+        let blank = bytes[from..].iter().take_while(|b| b.is_ascii_whitespace());
+        from + blank.count()
+    };
+    let equals = blanks(name);
+    if name == 0 || bytes.get(equals) != Some(&b'=') {
         return None;
     }
-    at += 1;
-    while bytes.get(at).is_some_and(u8::is_ascii_whitespace) {
-        at += 1;
-    }
-    let quote = *bytes.get(at).filter(|b| matches!(b, b'"' | b'\''))?;
-    let start = at + 1;
-    let mut special = false;
-    for (end, b) in (start..).zip(&bytes[start..]) {
-        if *b == quote {
-            let (name, value, rest) = (&text[..name], &text[start..end], &text[end + 1..]);
-            return Some(Written {
-                name,
-                value,
-                special,
-                rest,
-            });
-        }
-        special |= matches!(b, b'&' | b'\n' | b'\t' | b'\r');
-    }
-    None
+    let open = blanks(equals + 1);
+    let quote = *bytes.get(open).filter(|b| matches!(b, b'"' | b'\''))?;
+    let (start, mut special) = (open + 1, false);
+    let length = bytes[start..].iter().position(|b| {
+        special |= SPECIAL[usize::from(*b)];
+        *b == quote
+    })?;
+    let (value, rest) = (&text[start..start + length], &text[start + length + 1..]);
+    Some(Written {
+        name: &text[..name],
+        value,
+        special,
+        rest,
+    })
 }
 
 fn append<'a>(whole: &mut Cow<'a, str>, piece: Cow<'a, str>) {

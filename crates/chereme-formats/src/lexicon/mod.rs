@@ -3,7 +3,7 @@
 //! What a column codes is guessed from its title (`schema/column_words.json`) or said by a
 //! [`Mapping`]. Compound cells are kept apart: `neutral space > head` is two successive values,
 //! `S + W` two at once, `>S` a final value alone; `-` and `N/A` are not applicable, `?` is unclear.
-//! The cells stay as they are beside what they mean, so that [`write`] gives the same table back.
+//! The cells stay as they are beside what they mean, so that [`write()`] gives the same table back.
 //!
 //! ```
 //! use chereme_formats::lexicon;
