@@ -111,7 +111,6 @@ impl Frame {
         Some(root + self.direction(DVec3::from(offset)) * self.shoulders)
     }
 
-    #[expect(dead_code, reason = "directional verbs and pointing come next")]
     /// Returns where a spot is for an acting hand; `place` is what was found for an inventory's value.
     pub(crate) fn spot(
         &self,

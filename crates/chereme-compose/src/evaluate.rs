@@ -74,6 +74,15 @@ impl From<Vec<String>> for Done {
     }
 }
 
+impl From<(Vec<String>, f64)> for Done {
+    fn from((did, residual): (Vec<String>, f64)) -> Self {
+        Self {
+            did,
+            residual: Some(residual),
+        }
+    }
+}
+
 impl Evaluator<'_> {
     fn node(&mut self, node: &Node, path: String) -> Result<Work, MakeError> {
         match node {
@@ -159,7 +168,33 @@ impl Evaluator<'_> {
                 );
                 Ok((Work::of(material), vec![did].into()))
             }
-            _ => Err(Cause::Input),
+            Node::Spell(settings) => {
+                let mut work = Work::of(self.material(format!("{path}/spell"))?);
+                let Some(Input::Letters(letters)) = self.inputs.get(&format!("{path}/spell/word"))
+                else {
+                    return Err(Cause::Input);
+                };
+                let at = format!("{path}/spell/via");
+                let course = self.course(&settings.via, Profile::Sigmoid, at)?;
+                let done = ops::spell::spell(&mut work, settings, letters, &course)?;
+                Ok((work, done.into()))
+            }
+            Node::Point(settings) => {
+                let mut work = Work::of(self.material(format!("{path}/point"))?);
+                let shape = match self.inputs.get(&format!("{path}/point/with")) {
+                    Some(Input::Poses(poses)) => Some(poses.as_slice()),
+                    _ => None,
+                };
+                let given = ops::point::Given {
+                    shape,
+                    place: self.place(format!("{path}/point/at")),
+                };
+                let course =
+                    self.course(&settings.via, Profile::Sigmoid, format!("{path}/point/via"))?;
+                let done = ops::point::point(&mut work, settings, &given, &course)?;
+                Ok((work, done.into()))
+            }
+            Node::Pipe(_) | Node::Then(_) => Err(Cause::Input),
         }
     }
 
@@ -174,11 +209,7 @@ impl Evaluator<'_> {
             Step::Configure(settings) => self.configure(work, settings, path, text)?.into(),
             Step::Place(settings) => {
                 let input = self.place(format!("{path}/place/to"));
-                let (did, residual) = ops::place::place(work, settings, input, text)?;
-                Done {
-                    did,
-                    residual: Some(residual),
-                }
+                ops::place::place(work, settings, input, text)?.into()
             }
             Step::Reverse => ops::reverse::reverse(work).into(),
             Step::Swap => ops::mirror::swap(work)?.into(),
@@ -193,7 +224,25 @@ impl Evaluator<'_> {
                 self.report.joins.extend(joins);
                 did.into()
             }
-            _ => return Err(Cause::Input),
+            Step::Orient(settings) => ops::orient::orient(work, settings, text)?.into(),
+            Step::Amplify(settings) => ops::shape::amplify(work, settings, text)?.into(),
+            Step::Travel(settings) => {
+                let course = self.course(
+                    &settings.via,
+                    Profile::MinimumJerk,
+                    format!("{path}/travel/via"),
+                )?;
+                ops::shape::travel(work, settings, &course, text)?.into()
+            }
+            Step::Retime(settings) => ops::retime::retime(work, &settings.paces, text)?.into(),
+            Step::Nonmanual(_) => {
+                let donor = self.material(format!("{path}/nonmanual/from"))?;
+                ops::nonmanual::nonmanual(work, donor, text)?.into()
+            }
+            Step::Indicate(settings) => {
+                let places = ["from", "to"].map(|end| self.place(format!("{path}/indicate/{end}")));
+                ops::shape::indicate(work, settings, places, text)?.into()
+            }
         })
     }
 

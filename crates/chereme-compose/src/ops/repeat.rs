@@ -1,9 +1,12 @@
 //! `repeat`: the movement several times, growing or shrinking, faster or slower.
 
+use chereme_motion::Side;
+
 use crate::course::Course;
 use crate::error::Cause;
 use crate::made::JoinReport;
 use crate::ops::join::{self, Seam};
+use crate::ops::{retime, shape};
 use crate::recipe::Repeat;
 use crate::work::{Group, Work};
 
@@ -24,10 +27,28 @@ pub(crate) fn repeat(
     let gap = (seconds / work.rate.frame_time()).round() as usize;
     let times = settings.times as usize;
     join::check_length(work, times.saturating_mul(work.frames + gap))?;
-    let once = work.clone();
+    let mut once = work.clone();
+    let (scale, tempo) = (
+        settings.scale.map_or(1.0, |s| s.0),
+        settings.tempo.map_or(1.0, |t| t.0),
+    );
+    let arms: Vec<Side> = Side::BOTH
+        .into_iter()
+        .filter(|&s| work.anatomy.arm(s).is_some())
+        .collect();
+    let mut residual: f64 = 0.0;
     let mut joins = Vec::new();
     for n in 1..times {
-        let next = once.clone();
+        let mut next = once.clone();
+        if scale != 1.0 {
+            residual = residual.max(shape::scale(&mut next, &arms, scale)?.residual);
+        }
+        if tempo != 1.0 {
+            retime::stretch(&mut next, 1.0 / tempo)?;
+        }
+        if scale != 1.0 || tempo != 1.0 {
+            once = next.clone();
+        }
         let seam = Seam::plain(work, gap);
         let what = format!("repetition {} to {}", n, n + 1);
         joins.extend(join::join(work, next, &seam, course, &what)?);
@@ -35,5 +56,12 @@ pub(crate) fn repeat(
     if times > 1 {
         work.changed(Group::ALL, operator);
     }
-    Ok((vec![format!("{times} times, {gap} frames between")], joins))
+    let mut did = vec![format!("{times} times, {gap} frames between")];
+    if residual > 1e-3 {
+        did.push(format!(
+            "out of reach: a wrist stays {:.1} cm short",
+            residual * 100.0
+        ));
+    }
+    Ok((did, joins))
 }

@@ -1,0 +1,81 @@
+//! `orient`: the hands turned in the world, moving and turning on as they did.
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{ModelPose, Side};
+use chereme_sign::{Component, Reading};
+
+use crate::arm::{self, Reach};
+use crate::body::Frame;
+use crate::error::Cause;
+use crate::made::About;
+use crate::ops::place;
+use crate::recipe::{Orient, Solver};
+use crate::units::towards;
+use crate::work::{Columns, Group, Work};
+
+/// Turns each hand by one rotation of the world over the whole movement, so that in its middle the
+/// palm and fingers point as asked.
+pub(crate) fn orient(
+    work: &mut Work,
+    settings: &Orient,
+    operator: &str,
+) -> Result<(Vec<String>, f64), Cause> {
+    let sides = settings.hand.sides(work.handedness);
+    let frame = place::frame(work, sides)?;
+    let mut worst = Reach::default();
+    let mut did = Vec::new();
+    for &side in sides {
+        let turn = turn(work, &frame, side, settings)?;
+        let hand = work.anatomy.arm(side).ok_or(Cause::NoArm(side))?.hand;
+        let columns = Columns::of(work, [hand]);
+        let hands: Vec<DQuat> = columns.rotations(hand).iter().map(|q| turn * *q).collect();
+        let targets = columns.positions(hand).to_vec();
+        let reach = arm::move_wrist(work, side, &targets, Some(&hands), Solver::Analytic);
+        worst = worst.worse(reach.ok_or(Cause::NoArm(side))?);
+        let angle = DQuat::IDENTITY.angle_between(turn).to_degrees();
+        did.push(format!("the {} hand is turned by {angle:.0}°", side.name()));
+    }
+    for note in &mut work.notes {
+        let about = matches!(note.about, About::Component(Component::Orientation, _));
+        if about && note.hand.is_some_and(|side| sides.contains(&side)) {
+            note.value = Reading::Unset;
+            note.origin = format!("{} | {operator}", note.origin);
+        }
+    }
+    work.changed(sides.iter().map(|&side| Group::Arm(side)), operator);
+    Ok((did, worst.residual))
+}
+
+/// Returns the rotation in model space that the settings ask for.
+fn turn(work: &Work, frame: &Frame, side: Side, settings: &Orient) -> Result<DQuat, Cause> {
+    let model = ModelPose::of(&work.skeleton, &work.pose(work.frames / 2));
+    let anatomy = &work.anatomy;
+    let hand = anatomy.arm(side).ok_or(Cause::NoArm(side))?.hand;
+    let none = || Cause::NoFingers(side);
+    let palm = anatomy.palm_normal(side, &model).ok_or_else(none)?;
+    let fingers = anatomy.hand_direction(side, &model).ok_or_else(none)?;
+    let wanted = |directions: &[_]| towards(directions).map(|v| frame.direction(v));
+    let mut turn = match (wanted(&settings.palm), wanted(&settings.fingers)) {
+        (None, None) => DQuat::IDENTITY,
+        (Some(to), None) => arc(palm, to, fingers),
+        (None, Some(to)) => arc(fingers, to, palm),
+        (Some(palm_to), Some(to)) => {
+            let across = palm_to.reject_from_normalized(to);
+            let rotation = anatomy.hand_rotation(side, to, across).ok_or_else(none)?;
+            rotation * model.rotation(hand).inverse()
+        }
+    };
+    for step in &settings.by {
+        let axis = frame.direction(step.about.vector());
+        turn = DQuat::from_axis_angle(axis, step.angle.0.to_radians()) * turn;
+    }
+    Ok(turn.normalize())
+}
+
+/// Returns the shortest turn from `from` to `to`; about `axis` where they are opposite.
+fn arc(from: DVec3, to: DVec3, axis: DVec3) -> DQuat {
+    if from.dot(to) < -1.0 + 1e-9 {
+        return DQuat::from_axis_angle(axis, std::f64::consts::PI);
+    }
+    DQuat::from_rotation_arc(from, to)
+}

@@ -1,0 +1,202 @@
+//! `point`: a finger that points at a target, reached from a body at rest and left again.
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Finger, FingerAngles, HandAngles, ModelPose, Part, Side, ThumbAngles};
+use chereme_sign::{Component, Reading};
+
+use crate::arm;
+use crate::body::Frame;
+use crate::course::Course;
+use crate::error::Cause;
+use crate::made::{About, Note};
+use crate::ops::{join, place};
+use crate::poses::{self, HandPose, PoseOrigin};
+use crate::recipe::{Point, Solver};
+use crate::resolve::PlaceInput;
+use crate::work::{Group, Work, groups};
+
+/// How long reaching, holding and retraction take, in seconds.
+const REACH: f64 = 0.5;
+const HOLD: f64 = 0.3;
+/// How far the arm is stretched for a far target, as a share of its length.
+const STRETCH: f64 = 0.88;
+/// How far before a near target the fingertip stops, in metres.
+const SHORT_OF: f64 = 0.02;
+
+/// What a pointing gesture was given.
+pub(crate) struct Given<'a> {
+    pub(crate) shape: Option<&'a [HandPose]>,
+    pub(crate) place: Option<&'a PlaceInput>,
+}
+
+/// Points on the body of `work`, whose first frame is its posture at rest.
+pub(crate) fn point(
+    work: &mut Work,
+    settings: &Point,
+    given: &Given<'_>,
+    course: &Course,
+) -> Result<(Vec<String>, f64), Cause> {
+    let sides = settings.hand.sides(work.handedness);
+    let frame = place::frame(work, sides)?;
+    let frames = |seconds: f64| ((seconds / work.rate.frame_time()).round() as usize).max(1);
+    let reach = frames(settings.via.time.map_or(REACH, |time| time.0));
+    let hold = frames(settings.hold.map_or(HOLD, |hold| hold.0));
+    let total = 2 * reach + hold;
+    join::check_length(work, total)?;
+    work.sample(&vec![0.0; total]);
+    work.notes.clear();
+    let mut did = Vec::new();
+    let mut apex = Work {
+        frames: 1,
+        ..work.clone()
+    };
+    apex.sample(&[0.0]);
+    for &side in sides {
+        let pose = given
+            .shape
+            .and_then(<[_]>::first)
+            .cloned()
+            .unwrap_or_else(index_finger);
+        let joints = poses::rotations(&work.skeleton, &work.anatomy, side, &pose);
+        for (joint, rotation) in joints.ok_or(Cause::NoFingers(side))? {
+            apex.channels[joint].rotations[0] = rotation;
+        }
+        let at = given.place.map(|input| &input.at);
+        let target = frame
+            .spot(work, &settings.at, at, side)
+            .ok_or(Cause::NoMeaning {
+                value: settings.at.to_string(),
+                what: "landmark that this skeleton has",
+            })?;
+        let missed = aim(&mut apex, &frame, side, target)?;
+        did.push(format!(
+            "the {} index finger's line passes {:.1} mm beside the target",
+            side.name(),
+            missed * 1000.0
+        ));
+        note(work, side, &pose, reach..reach + hold);
+    }
+    let groups = groups(&work.skeleton, &work.anatomy);
+    for (joint, group) in groups.iter().enumerate() {
+        let moves = sides
+            .iter()
+            .any(|&s| *group == Group::Arm(s) || *group == Group::Fingers(s));
+        if !moves {
+            continue;
+        }
+        let early = if matches!(group, Group::Fingers(_)) {
+            2.0
+        } else {
+            1.0
+        };
+        let (rest, top) = (
+            work.channels[joint].rotations[0],
+            apex.channels[joint].rotations[0],
+        );
+        for (f, rotation) in work.channels[joint].rotations.iter_mut().enumerate() {
+            // Hands take their shape in the first half of the way, and lose it in the last.
+            let out = (f as f64 / reach as f64).min((total - 1 - f) as f64 / reach as f64);
+            *rotation = course.rotation(rest, top, (out * early).min(1.0));
+        }
+    }
+    work.notes.push(Note {
+        hand: None,
+        about: About::Gloss,
+        value: Reading::Value("point".into()),
+        span: work.span(),
+        origin: settings.to_string(),
+    });
+    let changed = sides
+        .iter()
+        .flat_map(|&s| [Group::Arm(s), Group::Fingers(s)]);
+    work.changed(changed.collect::<Vec<_>>(), &settings.to_string());
+    Ok((did, 0.0))
+}
+
+fn note(work: &mut Work, side: Side, pose: &HandPose, frames: std::ops::Range<usize>) {
+    work.notes.push(Note {
+        hand: Some(side),
+        about: About::Component(Component::Configuration, None),
+        value: pose.value.clone().map_or(Reading::Unset, Reading::Value),
+        span: work.rate.span(frames),
+        origin: pose.origin.to_string(),
+    });
+}
+
+/// Returns a closed hand with the index finger straight.
+fn index_finger() -> HandPose {
+    let bent = FingerAngles {
+        spread: 0.0,
+        flexion: [1.4, 1.7, 1.0],
+    };
+    let mut fingers = [bent; 4];
+    fingers[Finger::Index.index()] = FingerAngles::default();
+    HandPose {
+        value: None,
+        origin: PoseOrigin::Inventory("the pointing index finger".into()),
+        angles: HandAngles {
+            thumb: ThumbAngles {
+                radial: 0.3,
+                palmar: 0.7,
+                opposition: 0.4,
+                flexion: [0.6, 0.6],
+            },
+            fingers,
+        },
+        exact: None,
+    }
+}
+
+/// Moves arm and hand of a posture so that the index finger's line meets the target; returns by how
+/// much it passes beside.
+fn aim(apex: &mut Work, frame: &Frame, side: Side, target: DVec3) -> Result<f64, Cause> {
+    let chain = apex.anatomy.arm(side).ok_or(Cause::NoArm(side))?;
+    let model = ModelPose::of(&apex.skeleton, &apex.pose(0));
+    let shoulder = model.position(chain.upper);
+    let way = (target - shoulder).normalize_or(frame.forward);
+    let down = if way.y.abs() > 0.9 {
+        frame.forward
+    } else {
+        DVec3::NEG_Y
+    };
+    let palm = (down - frame.left * (0.3 * side.sign())).reject_from_normalized(way);
+    let rotation = apex
+        .anatomy
+        .hand_rotation(side, way, palm)
+        .ok_or(Cause::NoFingers(side))?;
+    let length = |model: &ModelPose| {
+        finger(apex, model, side).map(|(_, tip)| tip.distance(model.position(chain.hand)))
+    };
+    let hand = length(&model).unwrap_or(0.18).max(0.15);
+    let stretch = (STRETCH * crate::body::arm_length(apex, side).unwrap_or(frame.arm))
+        .min(shoulder.distance(target) - hand - SHORT_OF)
+        .max(0.25 * frame.arm);
+    let mut hands = [rotation];
+    let mut wrist = [shoulder + way * stretch];
+    let mut missed = f64::INFINITY;
+    for _ in 0..8 {
+        arm::move_wrist(apex, side, &wrist, Some(&hands), Solver::Analytic)
+            .ok_or(Cause::NoArm(side))?;
+        let model = ModelPose::of(&apex.skeleton, &apex.pose(0));
+        let (base, tip) = finger(apex, &model, side).ok_or(Cause::NoFingers(side))?;
+        let line = (tip - base).normalize_or(way);
+        let to = target - base;
+        missed = to.reject_from_normalized(line).length();
+        if missed < 1e-5 || line.dot(to) <= 0.0 {
+            break;
+        }
+        // Turned about the finger's base, the line meets the target at once where the arm follows.
+        let turn = DQuat::from_rotation_arc(line, to.normalize_or(line));
+        hands = [(turn * hands[0]).normalize()];
+        wrist = [base - turn * (base - model.position(chain.hand))];
+    }
+    Ok(missed)
+}
+
+/// Returns the base and the tip of the index finger.
+fn finger(work: &Work, model: &ModelPose, side: Side) -> Option<(DVec3, DVec3)> {
+    let base = work.anatomy.joint(Part::Finger(side, Finger::Index, 1))?;
+    let name = format!("{}-index-tip", side.name());
+    let tip = work.anatomy.landmark(&work.skeleton, model, &name)?;
+    Some((model.position(base), tip))
+}

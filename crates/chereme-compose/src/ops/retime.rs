@@ -1,0 +1,142 @@
+//! `retime`: faster or slower, as a whole or phase by phase.
+
+use chereme_motion::{Instant, Side, Span};
+use chereme_sign::Component;
+
+use crate::error::Cause;
+use crate::made::About;
+use crate::ops::join;
+use crate::recipe::Pace;
+use crate::work::{Group, Work};
+
+/// Gives the movement, or each of its phases, another length of time.
+///
+/// Phases are cut where the dominant hand's movements begin and end, or its placements, or its
+/// configurations, whichever is annotated first.
+pub(crate) fn retime(
+    work: &mut Work,
+    paces: &[Pace],
+    operator: &str,
+) -> Result<Vec<String>, Cause> {
+    let bounds = match paces {
+        [_] => vec![0, work.frames],
+        _ => phases(work),
+    };
+    let count = bounds.len() - 1;
+    if paces.len() != count {
+        return Err(Cause::Phases {
+            given: paces.len(),
+            phases: count,
+        });
+    }
+    let mut did = Vec::new();
+    let mut new = vec![0.0];
+    for (pair, pace) in bounds.windows(2).zip(paces) {
+        let frames = (pair[1] - pair[0]) as f64;
+        let length = match *pace {
+            Pace::Times(factor) => frames * factor.0,
+            Pace::To(seconds) => seconds.0 / work.rate.frame_time(),
+        };
+        did.push(format!(
+            "{:.2} s became {:.2} s",
+            frames * work.rate.frame_time(),
+            length * work.rate.frame_time()
+        ));
+        new.push(new[new.len() - 1] + length);
+    }
+    let map = Map {
+        old: bounds.iter().map(|&bound| bound as f64).collect(),
+        new,
+    };
+    warp(work, &map)?;
+    work.changed(Group::ALL, operator);
+    Ok(did)
+}
+
+/// Makes the movement `factor` times as long.
+pub(crate) fn stretch(work: &mut Work, factor: f64) -> Result<(), Cause> {
+    let frames = work.frames as f64;
+    warp(
+        work,
+        &Map {
+            old: vec![0.0, frames],
+            new: vec![0.0, frames * factor],
+        },
+    )
+}
+
+/// A piecewise even map between old and new frames.
+struct Map {
+    old: Vec<f64>,
+    new: Vec<f64>,
+}
+
+fn through(from: &[f64], to: &[f64], at: f64) -> f64 {
+    let n = from
+        .partition_point(|&bound| bound <= at)
+        .clamp(1, from.len() - 1);
+    let (a, b) = (from[n - 1], from[n]);
+    let share = if b > a { (at - a) / (b - a) } else { 0.0 };
+    to[n - 1] + (to[n] - to[n - 1]) * share
+}
+
+fn warp(work: &mut Work, map: &Map) -> Result<(), Cause> {
+    let frames = map.new.last().copied().unwrap_or(0.0).round().max(1.0) as usize;
+    join::check_length(work, frames)?;
+    let same = map.old == map.new;
+    if same {
+        return Ok(());
+    }
+    // Frame n stands for the time from n to n + 1: middles go to middles.
+    let at: Vec<f64> = (0..frames)
+        .map(|frame| through(&map.new, &map.old, frame as f64 + 0.5) - 0.5)
+        .collect();
+    work.sample(&at);
+    let rate = work.rate.per_second();
+    let moved = |instant: Instant| {
+        Instant::from_seconds(through(&map.old, &map.new, instant.seconds() * rate) / rate)
+    };
+    let end = work.end();
+    for note in &mut work.notes {
+        let (start, stop) = (
+            moved(note.span.start()).min(end),
+            moved(note.span.end()).min(end),
+        );
+        note.span = Span::between(start, stop);
+    }
+    Ok(())
+}
+
+/// Returns the frames at which phases begin, and the last one ends.
+fn phases(work: &Work) -> Vec<usize> {
+    let dominant = work.handedness.dominant();
+    let sides: [Side; 2] = [dominant, dominant.other()];
+    let components = [
+        Component::Movement,
+        Component::Placement,
+        Component::Configuration,
+    ];
+    let found = sides.into_iter().find_map(|side| {
+        components.into_iter().find_map(|component| {
+            let about = About::Component(component, None);
+            let spans: Vec<Span> = work
+                .notes
+                .iter()
+                .filter(|note| note.hand == Some(side) && note.about == about)
+                .map(|note| note.span)
+                .collect();
+            (!spans.is_empty()).then_some(spans)
+        })
+    });
+    let mut bounds = vec![0, work.frames];
+    for span in found.into_iter().flatten() {
+        bounds.extend([
+            work.rate.frame_at(span.start()),
+            work.rate.frame_at(span.end()),
+        ]);
+    }
+    bounds.retain(|&bound| bound <= work.frames);
+    bounds.sort_unstable();
+    bounds.dedup();
+    bounds
+}

@@ -1,0 +1,187 @@
+//! `spell`: a word in a manual alphabet, on a body at rest.
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Side, Span};
+use chereme_sign::{Component, Reading};
+
+use crate::arm;
+use crate::body::Frame;
+use crate::course::Course;
+use crate::error::Cause;
+use crate::made::{About, Note};
+use crate::ops::{join, place};
+use crate::poses;
+use crate::recipe::{Solver, Spell};
+use crate::resolve::LetterInput;
+use crate::work::{Group, Work};
+
+/// How long a letter is held, and a stroke of one that moves takes, in seconds.
+const HOLD: f64 = 0.2;
+const STROKE: f64 = 0.3;
+/// How long the hand takes from letter to letter, in seconds.
+const CHANGE: f64 = 0.25;
+/// How far the hand slides to the outside for the second of two like letters, in shoulder widths.
+const SLIDE: f64 = 0.12;
+/// Where the wrist spells: to the hand's own side, up and forward of the middle between the
+/// shoulders, in shoulder widths; before the shoulder, the hand at the height of the chin.
+const SEAT: [f64; 3] = [0.6, -0.25, 0.85];
+
+/// A stretch of time in which the hand shows one letter.
+struct Show {
+    frames: std::ops::Range<usize>,
+    fingers: Vec<(usize, DQuat)>,
+    /// The wrist and the hand's rotation at the start of the stretch and after each stroke.
+    keys: Vec<(DVec3, DQuat)>,
+}
+
+/// Spells on the body of `work`, whose first frame is its posture.
+pub(crate) fn spell(
+    work: &mut Work,
+    settings: &Spell,
+    letters: &[LetterInput],
+    course: &Course,
+) -> Result<(Vec<String>, f64), Cause> {
+    let sides = settings.hand.sides(work.handedness);
+    let frame = place::frame(work, sides)?;
+    let shown: Vec<Vec<Show>> = sides
+        .iter()
+        .map(|&side| shows(work, &frame, side, settings, letters))
+        .collect::<Result<_, _>>()?;
+    let frames = shown[0].last().map_or(1, |show| show.frames.end);
+    join::check_length(work, frames)?;
+    work.sample(&vec![0.0; frames]);
+    work.notes.clear();
+    let mut residual: f64 = 0.0;
+    for (&side, shows) in sides.iter().zip(&shown) {
+        fingers(work, side, shows, course);
+        let way: Vec<(DVec3, DQuat)> = (0..frames).map(|f| wrist(shows, f, course)).collect();
+        let (targets, hands): (Vec<DVec3>, Vec<DQuat>) = way.into_iter().unzip();
+        let reach = arm::move_wrist(work, side, &targets, Some(&hands), Solver::Analytic);
+        residual = residual.max(reach.ok_or(Cause::NoArm(side))?.residual);
+        note(work, side, shows, letters);
+    }
+    work.notes.push(Note {
+        hand: None,
+        about: About::Gloss,
+        value: Reading::Value(settings.word.clone()),
+        span: work.span(),
+        origin: settings.to_string(),
+    });
+    let groups = sides
+        .iter()
+        .flat_map(|&s| [Group::Arm(s), Group::Fingers(s)]);
+    work.changed(groups.collect::<Vec<_>>(), &settings.to_string());
+    let from = letters
+        .iter()
+        .map(|l| format!("{} from {}", l.letter.letter, l.pose.origin));
+    Ok((from.collect(), residual))
+}
+
+fn shows(
+    work: &Work,
+    frame: &Frame,
+    side: Side,
+    settings: &Spell,
+    letters: &[LetterInput],
+) -> Result<Vec<Show>, Cause> {
+    let frames = |seconds: f64| ((seconds / work.rate.frame_time()).round() as usize).max(1);
+    let hold = frames(settings.hold.map_or(HOLD, |hold| hold.0));
+    let change = frames(settings.via.time.map_or(CHANGE, |time| time.0));
+    let own = |v: [f64; 3]| {
+        // Letters are described for a right hand; a left one mirrors them.
+        let x = if side == Side::Left { -v[0] } else { v[0] };
+        frame.direction(DVec3::new(x, v[1], v[2]))
+    };
+    let outside = frame.left * side.sign();
+    let seat = frame.origin
+        + (outside * SEAT[0] + DVec3::Y * SEAT[1] + frame.forward * SEAT[2]) * frame.shoulders;
+    let mut shows: Vec<Show> = Vec::with_capacity(letters.len());
+    let (mut start, mut slid) = (0, DVec3::ZERO);
+    for (n, input) in letters.iter().enumerate() {
+        let letter = &input.letter;
+        let joints = poses::rotations(&work.skeleton, &work.anatomy, side, &input.pose);
+        let joints = joints.ok_or(Cause::NoFingers(side))?;
+        if n > 0 && letters[n - 1].letter.letter == letter.letter {
+            slid += outside * (SLIDE * frame.shoulders);
+        }
+        let direction = own(letter.fingers.unwrap_or([0.0, 1.0, 0.0]));
+        let palm = own(letter.palm.unwrap_or([0.0, 0.0, 1.0]));
+        let rotation = work.anatomy.hand_rotation(side, direction, palm);
+        let mut key = (seat + slid, rotation.ok_or(Cause::NoFingers(side))?);
+        let mut keys = vec![key];
+        for stroke in &letter.strokes {
+            let about = direction.normalize_or(DVec3::Y) * -side.sign();
+            key.0 += own(stroke.way) * frame.shoulders;
+            key.1 = DQuat::from_axis_angle(about, stroke.turn) * key.1;
+            keys.push(key);
+        }
+        let drawn = frames(STROKE) * letter.strokes.len();
+        let end = start + hold.max(drawn);
+        shows.push(Show {
+            frames: start..end,
+            fingers: joints,
+            keys,
+        });
+        start = end + change;
+    }
+    Ok(shows)
+}
+
+fn fingers(work: &mut Work, side: Side, shows: &[Show], course: &Course) {
+    for joint in work.anatomy.fingers(side) {
+        let value = |show: &Show| show.fingers.iter().find(|(j, _)| *j == joint).map(|f| f.1);
+        let column = &mut work.channels[joint].rotations;
+        for (n, show) in shows.iter().enumerate() {
+            let Some(here) = value(show) else { continue };
+            column[show.frames.clone()].fill(here);
+            let Some((next, there)) = shows.get(n + 1).and_then(|s| Some((s, value(s)?))) else {
+                continue;
+            };
+            let gap = show.frames.end..next.frames.start;
+            let steps = (gap.len() + 1) as f64;
+            for (n, frame) in gap.enumerate() {
+                column[frame] = course.rotation(here, there, (n + 1) as f64 / steps);
+            }
+        }
+    }
+}
+
+/// Returns where the wrist is and how the hand is turned at a frame.
+fn wrist(shows: &[Show], frame: usize, course: &Course) -> (DVec3, DQuat) {
+    let n = shows
+        .partition_point(|show| show.frames.start <= frame)
+        .saturating_sub(1);
+    let show = &shows[n];
+    let last = show.keys.len() - 1;
+    if frame < show.frames.end {
+        if last == 0 {
+            return show.keys[0];
+        }
+        let at = (frame - show.frames.start) as f64 / show.frames.len() as f64 * last as f64;
+        let key = (at.floor() as usize).min(last - 1);
+        return blend(show.keys[key], show.keys[key + 1], at - key as f64, course);
+    }
+    let Some(next) = shows.get(n + 1) else {
+        return show.keys[last];
+    };
+    let steps = (next.frames.start - show.frames.end + 1) as f64;
+    let w = (frame - show.frames.end + 1) as f64 / steps;
+    blend(show.keys[last], next.keys[0], w, course)
+}
+
+fn blend(a: (DVec3, DQuat), b: (DVec3, DQuat), w: f64, course: &Course) -> (DVec3, DQuat) {
+    (a.0.lerp(b.0, course.share(w)), course.rotation(a.1, b.1, w))
+}
+
+fn note(work: &mut Work, side: Side, shows: &[Show], letters: &[LetterInput]) {
+    for (show, input) in shows.iter().zip(letters) {
+        let span: Span = work.rate.span(show.frames.clone());
+        work.notes.push(Note {
+            hand: Some(side),
+            about: About::Component(Component::Configuration, None),
+            value: Reading::Value(input.letter.value.id.clone()),
+            span,
+            origin: input.pose.origin.to_string(),
+        });
+    }
+}
