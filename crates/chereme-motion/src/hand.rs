@@ -98,6 +98,8 @@ pub struct ThumbAngles {
     /// Angle of the metacarpal out of the plane of the palm, towards the palm's side.
     pub palmar: f64,
     /// Turn of the thumb about its own length, positive towards facing the little finger's base.
+    /// At zero, with the thumb beside the index finger, its pad faces that finger and it bends in
+    /// the plane of the palm; a skeleton's rest pose is taken for zero.
     pub opposition: f64,
     /// Flexion of the middle and the end joint, positive across the palm.
     pub flexion: [f64; 2],

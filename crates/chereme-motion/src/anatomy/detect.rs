@@ -68,25 +68,24 @@ impl<'a> Finder<'a> {
 
     /// Gives labels without a side that of the joints above, else that of the joints below.
     fn inherit_sides(&mut self) {
-        for joint in 0..self.labels.len() {
-            let Some(label) = self.labels[joint] else {
-                continue;
-            };
-            if label.side.is_some() || !label.word.sided() {
-                continue;
+        let count = self.labels.len();
+        let mut near: Vec<Option<Side>> = vec![None; count];
+        for joint in (0..count).rev() {
+            let own = self.labels[joint].and_then(|label| label.side);
+            near[joint] = own.or(near[joint]);
+            if let (Some(parent), Some(side)) = (self.skeleton.parent(joint), near[joint]) {
+                near[parent] = Some(side);
             }
-            let side_of = |&other: &usize| self.labels[other].and_then(|label| label.side);
-            let above = self
-                .skeleton
-                .ancestors(joint)
-                .find(|j| side_of(j).is_some());
-            let near = above.or_else(|| {
-                let below = self.skeleton.subtree(joint);
-                below.into_iter().find(|j| side_of(j).is_some())
-            });
-            let side = near.and_then(|near| side_of(&near));
-            if side.is_some() {
-                self.labels[joint] = Some(Label { side, ..label });
+        }
+        let below = near.clone();
+        for joint in 0..count {
+            let own = self.labels[joint].and_then(|label| label.side);
+            let parent = self.skeleton.parent(joint);
+            near[joint] = own.or_else(|| near[parent?]);
+            if let Some(label) = &mut self.labels[joint]
+                && label.word.sided()
+            {
+                label.side = near[joint].or(below[joint]);
             }
         }
     }
@@ -295,14 +294,29 @@ impl<'a> Finder<'a> {
 /// joints.
 pub(super) fn mirror_map(anatomy: &Anatomy, skeleton: &Skeleton) -> Vec<Option<usize>> {
     let mut map: Vec<Option<usize>> = Vec::with_capacity(skeleton.len());
+    let mut names: BTreeMap<&str, usize> = BTreeMap::new();
+    for (index, joint) in skeleton.joints().iter().enumerate() {
+        names.entry(&joint.name).or_insert(index);
+    }
+    let mut free: Vec<Vec<usize>> = vec![Vec::new(); skeleton.len()];
+    let mut rank = vec![0; skeleton.len()];
+    for joint in (0..skeleton.len()).filter(|&joint| anatomy.part_of(joint).is_none()) {
+        if let Some(parent) = skeleton.parent(joint) {
+            rank[joint] = free[parent].len();
+            free[parent].push(joint);
+        }
+    }
     for joint in 0..skeleton.len() {
         let counterpart = match anatomy.part_of(joint) {
             Some(part) => anatomy.joint(part.mirrored()),
             None => {
                 let named = other_side(&skeleton.joint(joint).name);
-                let named = named.and_then(|name| skeleton.find(&name));
+                let named = named.and_then(|name| names.get(name.as_str()).copied());
                 named.or_else(|| match skeleton.parent(joint) {
-                    Some(parent) => beside(anatomy, skeleton, joint, parent, map[parent]?),
+                    Some(parent) => {
+                        let (here, there) = (&free[parent], &free[map[parent]?]);
+                        (here.len() == there.len()).then(|| there[rank[joint]])
+                    }
                     None => Some(joint),
                 })
             }
@@ -310,23 +324,6 @@ pub(super) fn mirror_map(anatomy: &Anatomy, skeleton: &Skeleton) -> Vec<Option<u
         map.push(counterpart);
     }
     map
-}
-
-/// Returns the joint that has the place of `joint` among those without a part below `other`.
-fn beside(
-    anatomy: &Anatomy,
-    skeleton: &Skeleton,
-    joint: usize,
-    parent: usize,
-    other: usize,
-) -> Option<usize> {
-    let free = |of: usize| -> Vec<usize> {
-        let all = skeleton.children(of).iter().copied();
-        all.filter(|&j| anatomy.part_of(j).is_none()).collect()
-    };
-    let (here, there) = (free(parent), free(other));
-    let place = here.iter().position(|&j| j == joint)?;
-    (here.len() == there.len()).then(|| there[place])
 }
 
 /// Returns the name with its word for a side exchanged.

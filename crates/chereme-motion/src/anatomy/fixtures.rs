@@ -1,6 +1,7 @@
 //! Skeletons for tests: one body, worn in many ways.
 
 pub(crate) mod conventions;
+pub(crate) mod real;
 
 use glam::{DQuat, DVec3};
 

@@ -153,6 +153,7 @@ impl Anatomy {
             names.extend(sided(name, SIDED.contains(&name)));
         }
         names.extend(sided("chest", true));
+        names.push("hips".to_owned());
         names.extend(sided("hip", true));
         names.extend(sided("thigh", true));
         names.extend(sided("knee", true));
@@ -191,6 +192,7 @@ impl Anatomy {
                 let reach = self.measures()?.arm / frame.scale;
                 Some(place(0.0, -0.5, 0.33 + 0.45 * reach))
             }
+            "hip" if side.is_none() => Some(model.position(self.joint(Part::Hips)?)),
             "hip" => Some(match self.joint(Part::Thigh(side?)) {
                 Some(joint) => model.position(joint) + frame.left * (sign? * 0.15 * frame.scale),
                 None => place(sign? * 0.42, -1.0, 0.0),

@@ -155,7 +155,7 @@ fn trunk_length(anatomy: &Anatomy, model: &ModelPose) -> Option<f64> {
 }
 
 /// Returns the distance of the shoulders in the posture where it fits the stature; else that of
-/// shoulders whose bones lie in one line; else their share of the stature.
+/// collar bones in one line; else its share of the stature.
 fn shoulder_width(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose, stature: f64) -> f64 {
     let joint = |side| anatomy.joint(Part::UpperArm(side));
     let fits = |width: &f64| (0.12 * stature..0.35 * stature).contains(width);
@@ -163,23 +163,14 @@ fn shoulder_width(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose, sta
         return SHOULDERS * stature;
     };
     let posed = model.position(right).distance(model.position(left));
-    let chain = |joint: usize| {
-        let chest = anatomy.joint(Part::Chest);
-        let path = skeleton.ancestors(joint);
-        let bones =
-            path.take_while(|&j| Some(j) != chest && anatomy.part_of(j) != Some(Part::Hips));
-        bones
-            .map(|j| {
-                let offset = skeleton.joint(j).offset;
-                if j == joint {
-                    offset.length()
-                } else {
-                    offset.abs().min_element()
-                }
-            })
-            .sum::<f64>()
+    let collars = Side::BOTH.map(|side| anatomy.joint(Part::Clavicle(side)));
+    let line = match collars {
+        [Some(a), Some(b)] => {
+            let bones = length(skeleton, right, a) + length(skeleton, left, b);
+            model.position(a).distance(model.position(b)) + bones
+        }
+        _ => 0.0,
     };
-    let line = chain(right) + chain(left);
     Some(posed)
         .filter(fits)
         .or(Some(line).filter(fits))

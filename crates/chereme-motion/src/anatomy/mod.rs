@@ -1,5 +1,20 @@
 //! Which joint is what, whatever the skeleton calls it, and what follows from that.
 //!
+//! ```
+//! use chereme_motion::anatomy::{Anatomy, Part};
+//! use chereme_motion::{Joint, Side, Skeleton, glam::DVec3};
+//!
+//! let skeleton = Skeleton::new(vec![
+//!     Joint::new("mixamorig:RightArm", None, DVec3::ZERO),
+//!     Joint::new("mixamorig:RightForeArm", Some(0), DVec3::new(-0.28, 0.0, 0.0)),
+//!     Joint::new("mixamorig:RightHand", Some(1), DVec3::new(-0.25, 0.0, 0.0)),
+//! ])?;
+//! let anatomy = Anatomy::detect(&skeleton);
+//! assert_eq!(anatomy.joint(Part::Hand(Side::Right)), Some(2));
+//! assert!(anatomy.arm(Side::Right).is_some() && anatomy.arm(Side::Left).is_none());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! | module | holds |
 //! |---|---|
 //! | `part` | the parts of the body and their names |
@@ -309,8 +324,14 @@ impl Anatomy {
         let Some(hand) = self.joint(Part::Hand(side)) else {
             return Vec::new();
         };
-        let below = |&joint: &usize| joint != hand && self.is_below(joint, hand);
-        (0..self.parents.len()).filter(below).collect()
+        let mut inside = vec![false; self.parents.len()];
+        inside[hand] = true;
+        for joint in hand + 1..inside.len() {
+            inside[joint] = self.parents[joint].is_some_and(|parent| inside[parent]);
+        }
+        (hand + 1..inside.len())
+            .filter(|&joint| inside[joint])
+            .collect()
     }
 
     /// Returns whether the base joints of all four fingers of `side` are found.

@@ -3,6 +3,8 @@
 //! A name is cut into words at separators, digits and capitals; words that tell the side, the
 //! rig's prefix and fillers are taken out; what is left is looked up in one table.
 
+use std::collections::BTreeMap;
+
 use crate::hand::{Finger, Side};
 
 /// What a joint's name says it is. `Shoulder`, `SideHip`, `Leg`, `Foot` and `Hand` mean different
@@ -128,18 +130,13 @@ fn common_prefix<'a>(names: &[&'a str]) -> &'a str {
             .all(|word| side(word).is_none() && word.len() > 1);
         (plain && read(head, false).is_none() && name.len() > head.len()).then_some(head)
     };
-    let heads: Vec<&str> = names.iter().filter_map(|name| head(name)).collect();
-    let Some(first) = heads
-        .iter()
-        .max_by_key(|&&a| heads.iter().filter(|&&b| a == b).count())
-    else {
-        return "";
-    };
-    let shared = heads.iter().filter(|head| *head == first).count();
-    if shared > 1 && shared * 5 >= names.len() * 4 {
-        first
-    } else {
-        ""
+    let mut heads: BTreeMap<&str, usize> = BTreeMap::new();
+    for head in names.iter().filter_map(|name| head(name)) {
+        *heads.entry(head).or_default() += 1;
+    }
+    match heads.into_iter().max_by_key(|&(_, count)| count) {
+        Some((head, count)) if count > 1 && count * 5 >= names.len() * 4 => head,
+        _ => "",
     }
 }
 

@@ -1,16 +1,13 @@
 //! What anatomy finds and places, on made bodies and on real files.
 
-use std::path::{Path, PathBuf};
-
 use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 
 use super::fixtures::conventions::{conventional, conventions};
+use super::fixtures::real::{read_bvh, shared};
 use super::fixtures::{PLAIN, Wear, any_turn, body, renamed, roles, wears};
 use super::*;
-use crate::axes::Axis;
 use crate::hand::HandAngles;
-use crate::pose::Pose;
 use crate::skeleton::Joint;
 
 fn worn(wear: Wear) -> (Skeleton, Anatomy) {
@@ -441,86 +438,21 @@ fn a_hand_turned_by_direction_and_palm_has_them() {
     }
 }
 
-/// Reads the hierarchy and the first frame of a BVH file, as little as these trials need.
-fn read_bvh(path: &Path) -> Option<(Skeleton, Option<Pose>)> {
-    let text = String::from_utf8_lossy(&std::fs::read(path).ok()?).into_owned();
-    let (hierarchy, motion) = text.split_once("MOTION").unwrap_or((&text, ""));
-    let mut words = hierarchy.split_whitespace();
-    let (mut joints, mut open, mut channels) = (Vec::<Joint>::new(), Vec::new(), Vec::new());
-    let mut next: Option<Option<String>> = None;
-    while let Some(word) = words.next() {
-        let number = |word: Option<&str>| word?.parse::<f64>().ok();
-        match word {
-            "ROOT" | "JOINT" => next = Some(Some(words.next()?.to_owned())),
-            "End" => next = Some(None),
-            "{" => open.push(next.take()?.map(|name| {
-                let parent = open.iter().rev().copied().flatten().next();
-                joints.push(Joint::new(name, parent, DVec3::ZERO));
-                joints.len() - 1
-            })),
-            "}" => drop(open.pop()),
-            "OFFSET" => {
-                let at = DVec3::new(
-                    number(words.next())?,
-                    number(words.next())?,
-                    number(words.next())?,
-                );
-                match open.last()? {
-                    Some(joint) => joints[*joint].offset = at,
-                    None => joints.last_mut()?.tip = Some(at),
-                }
-            }
-            "CHANNELS" => {
-                let joint = (*open.last()?)?;
-                let count = words.next()?.parse().ok()?;
-                channels.extend((0..count).filter_map(|_| Some((joint, words.next()?.to_owned()))));
-            }
-            _ => {}
+#[test]
+fn thousands_of_joints_are_gone_through_whatever_they_are_called() {
+    for name in ["x", "LeftHand", "Hand", "LeftHandIndex1", "Spine", "A_x"] {
+        for parent in [
+            |n: usize| n - 1,
+            |_| 0,
+            |n: usize| (n - 1) / 2,
+            |n: usize| n.saturating_sub(3),
+        ] {
+            let joint = |n: usize| Joint::new(name, (n > 0).then(|| parent(n)), DVec3::Y);
+            let skeleton = Skeleton::new((0..4_000).map(joint).collect()).expect("a tree");
+            let anatomy = Anatomy::detect(&skeleton);
+            assert_eq!(anatomy.mirror_map(&skeleton).len(), 4_000);
         }
     }
-    let skeleton = Skeleton::new(joints).ok()?;
-    let row = motion
-        .lines()
-        .find(|line| line.split_whitespace().count() >= channels.len() && !channels.is_empty());
-    let pose = row.map(|row| {
-        let mut pose = skeleton.rest_pose();
-        for ((joint, channel), value) in channels.iter().zip(row.split_whitespace()) {
-            let value: f64 = value.parse().unwrap_or(0.0);
-            let axis = match channel.as_bytes()[0] {
-                b'X' => Axis::X,
-                b'Y' => Axis::Y,
-                _ => Axis::Z,
-            };
-            if channel.ends_with("rotation") {
-                pose.rotations[*joint] *= axis.rotation(value.to_radians());
-            } else {
-                pose.translations[*joint][axis.index()] = value;
-            }
-        }
-        pose
-    });
-    Some((skeleton, pose))
-}
-
-fn shared(folder: &str) -> Vec<PathBuf> {
-    let Some(root) = std::env::var_os("CHEREME_SHARED_DATA") else {
-        eprintln!("CHEREME_SHARED_DATA is not set: real files are not tried");
-        return Vec::new();
-    };
-    let mut files = Vec::new();
-    let mut folders = vec![PathBuf::from(root).join(folder)];
-    while let Some(folder) = folders.pop() {
-        for entry in std::fs::read_dir(&folder).into_iter().flatten().flatten() {
-            let path = entry.path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|end| end == "bvh") {
-                files.push(path);
-            }
-        }
-    }
-    files.sort();
-    files
 }
 
 /// What the real files are: end of the path, unit, axes, usual parts missing besides digits, and
@@ -575,8 +507,8 @@ const REAL: [(&str, &str, &str, &str, bool); 19] = [
 fn real_files_have_bodies() {
     for path in shared("motion/bvh") {
         let shown = path.display();
-        let (skeleton, first) = read_bvh(&path).unwrap_or_else(|| panic!("{shown}"));
-        let first = first.map(|pose| ModelPose::of(&skeleton, &pose));
+        let (skeleton, poses, _) = read_bvh(&path, 1).unwrap_or_else(|| panic!("{shown}"));
+        let first = poses.first().map(|pose| ModelPose::of(&skeleton, pose));
         let anatomy = Anatomy::detect(&skeleton);
         assert_eq!(anatomy.ambiguous(), [], "{shown}");
         let guess = anatomy.convention(&skeleton, first.as_ref());
@@ -605,7 +537,8 @@ fn real_files_have_bodies() {
 fn real_hands_give_plausible_angles_that_set_them_again() {
     for path in shared("motion/bvh") {
         let shown = path.display();
-        let (skeleton, Some(first)) = read_bvh(&path).unwrap_or_else(|| panic!("{shown}")) else {
+        let (skeleton, poses, _) = read_bvh(&path, 1).unwrap_or_else(|| panic!("{shown}"));
+        let Some(first) = poses.first() else {
             continue;
         };
         let anatomy = Anatomy::detect(&skeleton);
@@ -614,7 +547,7 @@ fn real_hands_give_plausible_angles_that_set_them_again() {
             .filter(|&side| anatomy.has_fingers(side))
         {
             let angles = anatomy
-                .hand_angles(&skeleton, side, &first)
+                .hand_angles(&skeleton, side, first)
                 .expect("fingers");
             let mut pose = first.clone();
             anatomy.set_hand_angles(&skeleton, side, &angles, &mut pose);
@@ -631,8 +564,6 @@ fn real_hands_give_plausible_angles_that_set_them_again() {
                 );
                 assert!(finger.spread.abs() < 0.8, "{shown} {angles:?}");
             }
-            let degrees = angles.map(f64::to_degrees);
-            eprintln!("{shown} {side:?} {:.0?}", degrees.to_array());
         }
     }
 }

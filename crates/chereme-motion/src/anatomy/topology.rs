@@ -1,5 +1,7 @@
 //! Finding parts by how joints hang together, where names do not tell.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 
 use super::detect::Finder;
@@ -51,7 +53,8 @@ impl Finder<'_> {
             .collect();
         let children = self.skeleton.children(chest).iter().copied();
         let free = children.filter(|&child| !arms.iter().any(|&arm| self.is_below(arm, child)));
-        let Some(neck) = free.max_by_key(|&child| (depth(self.skeleton, child), child)) else {
+        let depths = depths(self.skeleton);
+        let Some(neck) = free.max_by_key(|&child| (depths[child], child)) else {
             return;
         };
         let mut chain = vec![neck];
@@ -236,33 +239,46 @@ fn pairs(skeleton: &Skeleton) -> Vec<Pair> {
             .map(|&j| skeleton.joint(j).offset.length())
             .sum()
     };
+    let depths = depths(skeleton);
     let mut pairs: Vec<Pair> = Vec::new();
+    let mut inside = vec![false; skeleton.len()];
     for fork in 0..skeleton.len() {
-        let inside = |pair: &Pair| {
-            let mut above = skeleton.ancestors(fork);
-            above.any(|joint| pair.limbs.contains(&joint))
-        };
-        if pairs.iter().any(inside) {
+        inside[fork] |= skeleton.parent(fork).is_some_and(|parent| inside[parent]);
+        if inside[fork] {
             continue;
         }
-        let children = skeleton.children(fork);
-        for (n, &a) in children.iter().enumerate() {
-            let alike = |&&b: &&usize| {
-                let (x, y) = (reach(a), reach(b));
-                shapes[a] == shapes[b] && depth(skeleton, a) > 2 && (x - y).abs() <= 0.2 * x.max(y)
-            };
-            let taken = |joint: usize| pairs.iter().any(|pair| pair.limbs.contains(&joint));
-            if let Some(&b) = children[n + 1..].iter().find(alike)
-                && !taken(a)
-            {
-                pairs.push(Pair {
-                    fork,
-                    limbs: [a, b],
-                });
+        let mut waiting: BTreeMap<usize, (usize, f64)> = BTreeMap::new();
+        for &b in skeleton
+            .children(fork)
+            .iter()
+            .filter(|&&child| depths[child] > 2)
+        {
+            let y = reach(b);
+            match waiting.remove(&shapes[b]) {
+                Some((a, x)) if (x - y).abs() <= 0.2 * x.max(y) => {
+                    inside[a] = true;
+                    inside[b] = true;
+                    pairs.push(Pair {
+                        fork,
+                        limbs: [a, b],
+                    });
+                }
+                _ => drop(waiting.insert(shapes[b], (b, y))),
             }
         }
     }
     pairs
+}
+
+/// Returns for each joint how many joints the longest way down has, itself included.
+fn depths(skeleton: &Skeleton) -> Vec<usize> {
+    let mut depths = vec![1; skeleton.len()];
+    for joint in (0..skeleton.len()).rev() {
+        if let Some(parent) = skeleton.parent(joint) {
+            depths[parent] = depths[parent].max(depths[joint] + 1);
+        }
+    }
+    depths
 }
 
 /// Returns for each joint a number that joints share below which like trees hang.
@@ -294,20 +310,4 @@ fn chain(skeleton: &Skeleton, joint: usize) -> Vec<usize> {
 
 fn end(skeleton: &Skeleton, joint: usize) -> usize {
     chain(skeleton, joint).last().copied().unwrap_or(joint)
-}
-
-/// Returns how many joints the longest way down from `joint` has, itself included.
-fn depth(skeleton: &Skeleton, joint: usize) -> usize {
-    let mut deepest = 0;
-    let mut open = vec![(joint, 1)];
-    while let Some((joint, depth)) = open.pop() {
-        deepest = deepest.max(depth);
-        open.extend(
-            skeleton
-                .children(joint)
-                .iter()
-                .map(|&child| (child, depth + 1)),
-        );
-    }
-    deepest
 }

@@ -33,7 +33,9 @@ pub enum Solver {
 pub struct ReachOptions {
     /// The way the elbow's place is found.
     pub solver: Solver,
-    /// The soft end of the reach, as in [`TwoBoneOptions::soft`].
+    /// The soft end of the reach, as in [`TwoBoneOptions::soft`]. The default keeps the wrist within
+    /// a millimetre wherever it can be reached; where a movement leaves the reach anyway, 0.05 lets
+    /// the elbow open more calmly, at the price of 1.8 % of the arm's length at full extension.
     pub soft: f64,
     /// From which share of the arm's length on the collar bone helps; it stays still without one.
     /// Past it the collar bone turns the shoulder towards the target, so far that this share is

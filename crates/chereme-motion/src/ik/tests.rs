@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3};
 use proptest::prelude::*;
 
 use super::*;
+use crate::anatomy::fixtures::real::{read_bvh, shared};
 use crate::anatomy::fixtures::{PLAIN, Wear, any_turn, body, roles, wears};
 use crate::anatomy::{Anatomy, Part};
 use crate::pose::{ModelPose, Pose};
@@ -493,4 +494,73 @@ fn a_skeleton_without_the_arm_and_a_target_that_is_none_are_refused() {
     assert!(bare_again.is_none(), "the user's word holds");
     let error = reach_wrist(&bare, &skeleton, Side::Left, &nan, &options, &mut pose);
     assert_eq!(error, Err(IkError::NoArm(Side::Left)));
+}
+
+/// Every captured arm carried aside: the wrist is where it should be wherever it can be, the hand is
+/// turned as it was, and where the source moves calmly no joint of a signer's arm jumps by five
+/// degrees beyond it at 120 Hz. Blows, and arms that the move takes through full extension, jump more.
+#[test]
+fn real_arms_carried_aside_stay_smooth() {
+    for path in shared("motion/bvh") {
+        let shown = path.display();
+        let (skeleton, poses, frame_time) =
+            read_bvh(&path, 400).unwrap_or_else(|| panic!("{shown}"));
+        let Some(first) = poses.first() else { continue };
+        let first = ModelPose::of(&skeleton, first);
+        let anatomy = Anatomy::detect(&skeleton).with_reference(&skeleton, &first);
+        let Some(length) = anatomy.measures().map(|m| m.arm) else {
+            continue;
+        };
+        for (side, way) in [
+            (Side::Right, DVec3::new(0.3, 0.2, 0.2)),
+            (Side::Left, DVec3::new(0.1, -0.2, 0.3)),
+        ] {
+            let Some(arm) = anatomy.arm(side) else {
+                continue;
+            };
+            let mut before: Option<(ModelPose, ModelPose)> = None;
+            let (mut jump, mut reached, mut worst) = (0.0f64, 0, 0.0f64);
+            for source in &poses {
+                let was = ModelPose::of(&skeleton, source);
+                let Some(body) = anatomy.body_frame(&was) else {
+                    continue;
+                };
+                let target = WristTarget {
+                    position: was.position(arm.hand) + body.direction_to_model(way * length),
+                    rotation: was.rotation(arm.hand),
+                };
+                let mut pose = source.clone();
+                let options = ReachOptions::default();
+                let reach = reach_wrist(&anatomy, &skeleton, side, &target, &options, &mut pose)
+                    .expect("an arm");
+                let now = ModelPose::of(&skeleton, &pose);
+                assert!(
+                    now.rotation(arm.hand).angle_between(target.rotation) < 1e-6,
+                    "{shown}"
+                );
+                if !reach.clamped {
+                    reached += 1;
+                    worst = worst.max(reach.residual_m / length);
+                }
+                if let Some((old_was, old_now)) = before {
+                    for joint in [arm.upper, arm.forearm] {
+                        let had = old_was.rotation(joint).angle_between(was.rotation(joint));
+                        let has = old_now.rotation(joint).angle_between(now.rotation(joint));
+                        if had.to_degrees() < 5.0 {
+                            let frames = (120.0 * frame_time).max(1.0);
+                            jump = jump.max((has - had).to_degrees() / frames);
+                        }
+                    }
+                }
+                before = Some((was, now));
+            }
+            eprintln!(
+                "{shown} {side:?}: {reached} of {} reached, worst {worst:.5} of the arm, jump {jump:.1}",
+                poses.len()
+            );
+            assert!(worst < 0.0016, "{shown}");
+            let signing = shown.to_string().ends_with("NGT Thanks.bvh");
+            assert!(jump < if signing { 5.0 } else { 12.0 }, "{shown} {jump}");
+        }
+    }
 }
