@@ -6,11 +6,12 @@ use std::io::BufWriter;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use chereme_figure::animation::{Animation, AnimationOptions, write_gif};
-use chereme_figure::chart::{ChartOptions, alignment_picture};
-use chereme_figure::handshape::{HandshapeOptions, handshape_sheet};
-use chereme_figure::sheet::{Frames, SheetOptions, contact_sheet};
-use chereme_figure::{Image, writer};
+use chereme_figure::raster::Style;
+use chereme_figure::{
+    Animation, AnimationOptions, ChartOptions, Frames, HandshapeOptions, Image, SheetOptions,
+    Theme, View, alignment_picture, contact_sheet, handshape_sheet, thumbnail, write_gif,
+    write_png,
+};
 use chereme_motion::{Anatomy, HandAngles, Side};
 
 #[path = "common/signer.rs"]
@@ -39,6 +40,16 @@ fn main() -> Result<(), Box<dyn Error>> {
     write_gif(&mut animation, out, &mut go)?;
     println!("{} pictures in {:?}", animation.frames(), start.elapsed());
     save(&animation.draw(20), &folder.join("frame.png"))?;
+    let mut dark = SheetOptions {
+        frames: Frames::At(vec![2, 20, 36]),
+        views: View::ALL.to_vec(),
+        ..SheetOptions::default()
+    };
+    dark.style.theme = Theme::Dark;
+    let views = contact_sheet(&clip, &anatomy, &dark, &mut go)?;
+    save(&views, &folder.join("views.png"))?;
+    let small = thumbnail(&clip, &anatomy, [120, 120], &Style::default())?;
+    save(&small, &folder.join("thumbnail.png"))?;
     let shapes: Vec<(String, HandAngles)> = (0..clip.frames())
         .step_by(8)
         .zip("5 B U V Y S O 1".split(' '))
@@ -57,6 +68,6 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn save(image: &Image, path: &Path) -> Result<(), Box<dyn Error>> {
-    writer::write_png(image, BufWriter::new(File::create(path)?))?;
+    write_png(image, BufWriter::new(File::create(path)?))?;
     Ok(())
 }

@@ -13,6 +13,8 @@ pub struct Camera {
     pub up: Vec3,
     /// Half the height of what is seen at the target's distance, in metres.
     pub half_height: f32,
+    /// How near to the eye drawing begins, in metres; what is nearer is left out.
+    pub near: f32,
 }
 
 /// A place in the picture and how far it is from the eye.

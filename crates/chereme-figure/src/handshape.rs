@@ -160,6 +160,7 @@ fn camera(view: HandView, side: Side) -> Camera {
         target,
         up: Vec3::Y,
         half_height: 0.116,
+        near: 0.0,
     }
 }
 

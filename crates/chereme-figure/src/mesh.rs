@@ -164,3 +164,34 @@ pub(crate) fn smooth(vertices: &mut [Vertex], triangles: &[[u32; 3]], base: u32)
         vertex.normal = vertex.normal.normalize_or(Vec3::Y);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_trail_lies_around_its_path_and_faces_outwards() {
+        let path: Vec<Vec3> = (0..20)
+            .map(|i| i as f32 * 0.3)
+            .map(|t| Vec3::new(t.cos(), t.sin(), 0.1 * t))
+            .collect();
+        let colours = [Colour::hex(0), Colour::hex(0xFF_FF_FF)];
+        let tube = trail(&path, 0.01, colours, 1);
+        for (ring, at) in path.iter().enumerate() {
+            for vertex in &tube.vertices[1 + ring * 6..1 + (ring + 1) * 6] {
+                assert!((vertex.position.distance(*at) - 0.01).abs() < 1e-5);
+            }
+        }
+        let volume: f32 = tube
+            .triangles
+            .iter()
+            .map(|t| t.map(|i| tube.vertices[i as usize].position))
+            .map(|[a, b, c]| a.dot(b.cross(c)) / 6.0)
+            .sum();
+        let length: f32 = path.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        let hexagon = 1.5 * 3.0f32.sqrt() * 0.01 * 0.01;
+        let share = volume / (length * hexagon);
+        assert!((0.9..1.05).contains(&share), "{share}");
+        assert!(trail(&path[..1], 0.01, colours, 1).triangles.is_empty());
+    }
+}

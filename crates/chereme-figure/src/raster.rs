@@ -1,4 +1,4 @@
-//! Triangles to pixels: a depth buffer and light; lines and shades are [`ink`](crate::ink)'s.
+//! Triangles to pixels: a depth buffer and light; lines and shades are added after.
 //!
 //! Everything is drawn several times larger than asked for and averaged. Corners are snapped to a
 //! sixteenth of such a pixel and edges tested in integers, so that neighbouring triangles leave no
@@ -45,7 +45,7 @@ const LIGHT: [f32; 3] = [0.52, 0.44, 0.16];
 const SUBPIXELS: f32 = 16.0;
 /// How far outside the picture a corner may lie, in samples; triangles beyond are left out.
 const FAR_OUT: f32 = 1e6;
-/// The nearest that anything is drawn, in metres before the eye.
+/// The nearest that anything is drawn whatever the camera says, in metres before the eye.
 const NEAREST: f32 = 1e-3;
 
 /// Buffers for drawing, kept from picture to picture so that nothing is allocated anew.
@@ -108,7 +108,7 @@ impl Raster {
                 depth: place.depth,
                 colour: vertex.colour.0.map(|part| f32::from(part) * light),
                 group: vertex.group,
-                seen: place.depth > NEAREST && inside,
+                seen: place.depth > camera.near.max(NEAREST) && inside,
             }
         });
         self.corners.clear();

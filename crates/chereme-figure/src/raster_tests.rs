@@ -27,6 +27,7 @@ fn camera(distance: f32) -> Camera {
         target: Vec3::ZERO,
         up: Vec3::Y,
         half_height: 1.0,
+        near: 0.0,
     }
 }
 
@@ -138,4 +139,21 @@ fn what_is_behind_the_eye_or_far_outside_is_left_out() {
             assert!(image.pixels().iter().all(|&pixel| pixel == paper), "{at}");
         }
     }
+}
+
+#[test]
+fn nothing_is_drawn_nearer_than_the_camera_s_limit() {
+    let mesh = ball(Vec3::Z * 0.5, 0.3, RED, 1);
+    let count = |near| {
+        let camera = Camera {
+            near,
+            ..camera(5.0)
+        };
+        let mut raster = Raster::default();
+        let _ = raster.draw(&mesh, &camera, [50, 50], &PLAIN());
+        covered(&raster)
+    };
+    assert!(count(0.0) > 0);
+    assert_eq!(count(4.0), count(0.0));
+    assert_eq!(count(5.0), 0);
 }

@@ -18,7 +18,7 @@ pub enum View {
     Right,
     /// From above, the signer's front towards the upper edge.
     Top,
-    /// A hand from the front and near, followed as it moves.
+    /// A hand from the front and near, followed as it moves; what hides it is left out.
     Hand(Side),
 }
 
@@ -159,8 +159,12 @@ impl Framing {
         if let View::Hand(side) = view
             && let Some(target) = hand_middle(pose, anatomy, side)
         {
-            let half_height = self.hand * 0.66 / aspect.min(1.0);
-            return self.place(target, [towards, up], half_height);
+            let half_height = self.hand * 0.66 / aspect.clamp(1e-3, 1.0);
+            let camera = self.place(target, [towards, up], half_height);
+            return Camera {
+                near: half_height * DISTANCE - self.hand * 1.2,
+                ..camera
+            };
         }
         let half = (self.high - self.low) * 0.5;
         let middle = self.axes * ((self.high + self.low) * 0.5);
@@ -178,6 +182,7 @@ impl Framing {
             target,
             up: self.axes * up,
             half_height,
+            near: 0.0,
         }
     }
 

@@ -278,12 +278,11 @@ fn palm(
     let facing = (hand.wrist, turn * measures.palm);
     let metacarpal = Rod {
         ends: [Point::at(root), Point::at(middle)],
-        radii: [1.55, 1.45, 1.22].map(|r| r * radius),
+        radii: [1.55, 1.45, 1.33].map(|r| r * radius),
         facing,
         columns: 14,
     };
-    let paint_thumb = Paint { ..paint };
-    body.rod(metacarpal, paint_thumb);
+    body.rod(metacarpal, paint);
     let index = if hand.side == Side::Right {
         knuckles.len() - 1
     } else {

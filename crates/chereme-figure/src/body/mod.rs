@@ -185,10 +185,12 @@ impl Builder<'_> {
 
     /// Adds a rod between two joints; radii are an adult's.
     fn limb(&mut self, from: usize, to: usize, radii: [f32; 3], paint: Paint) {
+        let bone =
+            rotation(self.rest, from).inverse() * (place(self.rest, to) - place(self.rest, from));
         let rod = Rod {
             ends: [Point::at(from), Point::at(to)],
             radii: radii.map(|radius| radius * self.size),
-            facing: (from, Vec3::Z),
+            facing: (from, bone.normalize_or(Vec3::X).any_orthonormal_vector()),
             columns: 16,
         };
         self.out.rod(rod, paint);

@@ -77,7 +77,12 @@ impl Rod {
         let [from, to] = self.ends.map(|end| end.place(pose));
         let towards = rotation(pose, self.facing.0) * self.facing.1;
         let z = (to - from).normalize_or(towards.any_orthonormal_vector());
-        let x = (towards - z * z.dot(towards)).normalize_or(z.any_orthonormal_vector());
+        let aside = towards - z * z.dot(towards);
+        let x = if aside.length() > 0.01 {
+            aside.normalize()
+        } else {
+            z.any_orthonormal_vector()
+        };
         let y = z.cross(x);
         let mut rings: Vec<(Vec3, f32, f32)> = Vec::with_capacity(grid.rings);
         for sine in LATITUDES {
