@@ -4,4 +4,5 @@
 //! The format has no standard; the nearest to one is the description by Lander, "Working with Motion Capture File
 //! Formats", Game Developer, January 1998. What real exporters make of it is tolerated where its meaning is clear.
 
+pub mod convert;
 pub mod raw;

@@ -1,0 +1,414 @@
+//! What we mean by a BVH file: its skeleton and its movement, and the way back.
+//!
+//! Everything here is in the file's own unit and axes; a [`Convention`](chereme_motion::Convention)
+//! takes it to metres in model space. A position channel replaces its axis of the OFFSET, rotations
+//! are multiplied in the order in which their channels are written, and scale channels are left out.
+
+use std::sync::Arc;
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{
+    Axis, Channel as Movement, Clip, ClipError, Joint, Rate, RateError, RotationOrder, Skeleton,
+    SkeletonError,
+};
+
+use super::raw::{Channel, ChannelFix, Column, Hierarchy, Number, RawJoint};
+
+/// Rates are guessed from frame times; a file of one frame or none may say no frame time.
+const UNTIMED: (u32, u32) = (30, 1);
+
+/// Returns the skeleton of a hierarchy, in the file's unit and axes; of several End Sites of a
+/// joint the first is its tip.
+///
+/// # Errors
+/// [`SkeletonError`] where the joints are no tree; a hierarchy that was read is always one.
+pub fn skeleton(hierarchy: &Hierarchy) -> Result<Skeleton, SkeletonError> {
+    let joint = |raw: &RawJoint| Joint {
+        tip: raw.end_sites.first().map(place),
+        ..Joint::new(raw.name.clone(), raw.parent, place(&raw.offset))
+    };
+    Skeleton::new(hierarchy.joints.iter().map(joint).collect())
+}
+
+fn place(numbers: &[Number; 3]) -> DVec3 {
+    DVec3::from_array([0, 1, 2].map(|axis| numbers[axis].to_f64()))
+}
+
+/// Returns the frame rate that a frame time stands for; without one, 30 frames a second.
+///
+/// # Errors
+/// [`RateError`] where the frame time is nought, negative or longer than a day.
+pub fn rate(frame_time: Option<&Number>) -> Result<Rate, RateError> {
+    let Some(time) = frame_time else {
+        return Rate::new(UNTIMED.0, UNTIMED.1);
+    };
+    let text = time.to_string();
+    let decimals = text
+        .split_once('.')
+        .map_or(0, |(_, fraction)| fraction.len());
+    Rate::from_frame_time(time.to_f64(), decimals as u32)
+}
+
+/// Puts a clip together from the columns of a file, block by block.
+pub struct ClipBuilder {
+    skeleton: Arc<Skeleton>,
+    layouts: Vec<Layout>,
+    movements: Vec<Movement>,
+}
+
+/// Which columns of the motion a joint's channels are.
+struct Layout {
+    positions: Vec<(Axis, usize)>,
+    rotations: Vec<(Axis, usize)>,
+}
+
+const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
+
+impl ClipBuilder {
+    /// Begins a clip of a hierarchy; `fix` says that the root's columns lie otherwise than its
+    /// header has it.
+    ///
+    /// # Errors
+    /// Those of [`skeleton`].
+    pub fn new(hierarchy: &Hierarchy, fix: Option<ChannelFix>) -> Result<Self, SkeletonError> {
+        let skeleton = Arc::new(skeleton(hierarchy)?);
+        let layouts: Vec<Layout> = hierarchy
+            .joints
+            .iter()
+            .zip(hierarchy.columns())
+            .enumerate()
+            .map(|(at, (joint, columns))| {
+                let fixed = fix
+                    .filter(|_| at == 0)
+                    .map(|fix| fix.apply(&joint.channels));
+                let channels = fixed.as_ref().unwrap_or(&joint.channels);
+                let of = |wanted: fn(Channel) -> bool| {
+                    let numbered = channels.iter().zip(columns.clone());
+                    numbered
+                        .filter(|(channel, _)| wanted(**channel))
+                        .map(|(channel, column)| (AXES[channel.axis()], column))
+                        .collect()
+                };
+                Layout {
+                    positions: of(Channel::is_position),
+                    rotations: of(Channel::is_rotation),
+                }
+            })
+            .collect();
+        let movements = layouts
+            .iter()
+            .map(|layout| Movement {
+                rotations: Vec::new(),
+                translations: (!layout.positions.is_empty()).then(Vec::new),
+            })
+            .collect();
+        Ok(Self {
+            skeleton,
+            layouts,
+            movements,
+        })
+    }
+
+    /// Adds the rows `rows` of a block; `column` gives the columns that were read, and joints whose
+    /// columns were not stay at rest.
+    pub fn push<'c>(
+        &mut self,
+        rows: std::ops::Range<usize>,
+        column: impl Fn(usize) -> Option<&'c Column>,
+    ) {
+        for (index, (layout, movement)) in self.layouts.iter().zip(&mut self.movements).enumerate()
+        {
+            let rotations: Vec<(Axis, &Column)> = layout
+                .rotations
+                .iter()
+                .filter_map(|&(axis, at)| Some((axis, column(at)?)))
+                .collect();
+            movement.rotations.extend(rows.clone().map(|row| {
+                rotations
+                    .iter()
+                    .fold(DQuat::IDENTITY, |turned, (axis, column)| {
+                        turned * axis.rotation(column.value(row).to_radians())
+                    })
+            }));
+            let Some(translations) = &mut movement.translations else {
+                continue;
+            };
+            let offset = self.skeleton.joint(index).offset;
+            let positions: Vec<(Axis, &Column)> = layout
+                .positions
+                .iter()
+                .filter_map(|&(axis, at)| Some((axis, column(at)?)))
+                .collect();
+            translations.extend(rows.clone().map(|row| {
+                let mut at = offset;
+                for (axis, column) in &positions {
+                    at[axis.index()] = column.value(row);
+                }
+                at
+            }));
+        }
+    }
+
+    /// Returns the clip of all rows added.
+    ///
+    /// # Errors
+    /// [`ClipError`] where a number is too large for a place.
+    pub fn finish(self, rate: Rate) -> Result<Clip, ClipError> {
+        Clip::new(self.skeleton, rate, self.movements)
+    }
+}
+
+/// Returns a hierarchy for a skeleton that came from no BVH: six channels at the root, elsewhere
+/// three rotations in the order ZXY; numbers have `decimals` digits after the point.
+#[must_use]
+pub fn hierarchy(skeleton: &Skeleton, decimals: u8) -> Hierarchy {
+    let numbers = |at: DVec3| at.to_array().map(|value| number(value, decimals));
+    let joints = skeleton
+        .joints()
+        .iter()
+        .map(|joint| {
+            let root = joint.parent.is_none();
+            let positions = [Channel::Xposition, Channel::Yposition, Channel::Zposition];
+            let rotations = [Channel::Zrotation, Channel::Xrotation, Channel::Yrotation];
+            RawJoint {
+                name: joint.name.clone(),
+                parent: joint.parent,
+                offset: numbers(joint.offset),
+                channels: positions
+                    .into_iter()
+                    .filter(|_| root)
+                    .chain(rotations)
+                    .collect(),
+                end_sites: joint.tip.into_iter().map(numbers).collect(),
+            }
+        })
+        .collect();
+    Hierarchy { joints }
+}
+
+fn number(value: f64, decimals: u8) -> Number {
+    use super::raw::Decimal;
+    Decimal::rounded(value, decimals).map_or(Number::ZERO, Number::Decimal)
+}
+
+/// Returns `hierarchy` with the channels added that `clip`, of the same joints, needs: position
+/// channels where a joint leaves its offset, and all three rotations where it turns otherwise than
+/// its channels can say.
+#[must_use]
+pub fn widened(hierarchy: &Hierarchy, clip: &Clip) -> Hierarchy {
+    let mut wide = hierarchy.clone();
+    for (joint, movement) in wide.joints.iter_mut().zip(clip.channels()) {
+        let offset = place(&joint.offset);
+        let has = |channel: Channel, channels: &[Channel]| channels.contains(&channel);
+        let moves = movement.translations.iter().flatten().any(|at| {
+            let axes =
+                AXES.into_iter()
+                    .zip([Channel::Xposition, Channel::Yposition, Channel::Zposition]);
+            let mut missing = axes.filter(|(_, channel)| !has(*channel, &joint.channels));
+            missing.any(|(axis, _)| (at[axis.index()] - offset[axis.index()]).abs() > 1e-9)
+        });
+        if moves {
+            joint.channels.retain(|channel| !channel.is_position());
+            joint.channels.splice(
+                0..0,
+                [Channel::Xposition, Channel::Yposition, Channel::Zposition],
+            );
+        }
+        let turned = movement
+            .rotations
+            .iter()
+            .any(|q| q.angle_between(DQuat::IDENTITY) > 1e-7);
+        let order: Vec<Channel> = joint
+            .channels
+            .iter()
+            .copied()
+            .filter(|channel| channel.is_rotation())
+            .collect();
+        if order.len() < 3 && turned {
+            for channel in [Channel::Zrotation, Channel::Xrotation, Channel::Yrotation] {
+                if !order.contains(&channel) {
+                    joint.channels.push(channel);
+                }
+            }
+        }
+    }
+    wide
+}
+
+/// A clip that a hierarchy's channels cannot say.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum BackError {
+    /// The clip has another number of joints than the hierarchy.
+    #[error("the clip has {clip} joints and the hierarchy {hierarchy}")]
+    Joints {
+        /// The clip's.
+        clip: usize,
+        /// The hierarchy's.
+        hierarchy: usize,
+    },
+    /// A joint's rotation channels are not three different ones.
+    #[error(
+        "the rotation channels of joint {joint:?} are not one of each axis; widen the hierarchy first"
+    )]
+    Channels {
+        /// The joint's name.
+        joint: String,
+    },
+    /// A number has more than eighteen digits.
+    #[error("joint {joint:?} is too far away to be written with {decimals} decimals")]
+    TooLarge {
+        /// The joint's name.
+        joint: String,
+        /// The decimals asked for.
+        decimals: u8,
+    },
+}
+
+/// Returns the columns of `clip`, in the file's unit and axes, for the channels of `hierarchy`, with
+/// `decimals` digits after the point; angles run on without jumps.
+///
+/// # Errors
+/// [`BackError`] where the hierarchy does not fit the clip; see [`widened`].
+pub fn columns(clip: &Clip, hierarchy: &Hierarchy, decimals: u8) -> Result<Vec<Column>, BackError> {
+    if clip.skeleton().len() != hierarchy.joints.len() {
+        let (clip, hierarchy) = (clip.skeleton().len(), hierarchy.joints.len());
+        return Err(BackError::Joints { clip, hierarchy });
+    }
+    let mut all = Vec::with_capacity(hierarchy.channel_count());
+    for (index, joint) in hierarchy.joints.iter().enumerate() {
+        let angles = angles(clip, index, joint)?;
+        let mut next = 0;
+        for channel in &joint.channels {
+            let axis = channel.axis();
+            let values: Vec<f64> = if channel.is_rotation() {
+                next += 1;
+                angles
+                    .iter()
+                    .map(|angles| angles[next - 1].to_degrees())
+                    .collect()
+            } else if channel.is_position() {
+                (0..clip.frames())
+                    .map(|frame| clip.translation(index, frame)[axis])
+                    .collect()
+            } else {
+                vec![1.0; clip.frames()]
+            };
+            let too_large = || BackError::TooLarge {
+                joint: joint.name.clone(),
+                decimals,
+            };
+            all.push(Column::rounded(values, decimals).ok_or_else(too_large)?);
+        }
+    }
+    Ok(all)
+}
+
+/// The angles of a joint in radians, frame by frame, in the order of its rotation channels.
+fn angles(clip: &Clip, index: usize, joint: &RawJoint) -> Result<Vec<[f64; 3]>, BackError> {
+    let axes: Vec<Axis> = joint
+        .channels
+        .iter()
+        .filter(|channel| channel.is_rotation())
+        .map(|channel| AXES[channel.axis()])
+        .collect();
+    if axes.is_empty() {
+        return Ok(Vec::new());
+    }
+    let order = <[Axis; 3]>::try_from(axes)
+        .ok()
+        .and_then(RotationOrder::new);
+    let order = order.ok_or_else(|| BackError::Channels {
+        joint: joint.name.clone(),
+    })?;
+    let mut near = [0.0; 3];
+    let rotations = clip.channel(index).rotations.iter();
+    Ok(rotations
+        .map(|&rotation| {
+            near = order.angles(rotation, near);
+            near
+        })
+        .collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::raw::{Block, Reader};
+    use super::*;
+
+    const FILE: &str = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 90 0\n\
+        CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n\
+        JOINT Chest\n{\nOFFSET 0 40 1.5\nCHANNELS 3 Yrotation Zrotation Xrotation\n\
+        JOINT Arm\n{\nOFFSET 20 0 0\nCHANNELS 1 Zrotation\nEnd Site\n{\nOFFSET 30 0 0\n}\n}\n}\n}\n\
+        MOTION\nFrames: 3\nFrame Time: 0.008333\n\
+        1 91 2 10 20 30 5 -15 25 90\n1 92 2 11 21 31 6 -16 26 45\n1 93 2 12 22 32 7 -17 27 0\n";
+
+    fn read() -> (Hierarchy, Block, Clip) {
+        let mut reader = Reader::open(FILE.as_bytes()).expect("a file");
+        let hierarchy = reader.hierarchy().clone();
+        let rate = rate(reader.header().frame_time.as_ref()).expect("a rate");
+        let mut block = Block::default();
+        assert!(reader.next_block(&mut block).expect("rows"));
+        let mut builder = ClipBuilder::new(&hierarchy, None).expect("a tree");
+        builder.push(0..block.frames, |at| block.columns.get(at));
+        let clip = builder.finish(rate).expect("a clip");
+        (hierarchy, block, clip)
+    }
+
+    #[test]
+    fn positions_replace_the_offset_and_rotations_multiply_as_written() {
+        let (_, _, clip) = read();
+        assert_eq!(
+            (clip.frames(), clip.rate()),
+            (3, Rate::new(120, 1).expect("rate"))
+        );
+        assert_eq!(clip.translation(0, 1), DVec3::new(1.0, 92.0, 2.0));
+        assert_eq!(clip.translation(1, 1), DVec3::new(0.0, 40.0, 1.5));
+        let [z, x, y] = [10f64, 20.0, 30.0].map(f64::to_radians);
+        let want =
+            DQuat::from_rotation_z(z) * DQuat::from_rotation_x(x) * DQuat::from_rotation_y(y);
+        assert!(clip.channel(0).rotations[0].angle_between(want) < 1e-7);
+        let arm = clip.model_pose(2);
+        let tip = arm.tip(clip.skeleton(), 2).expect("a tip");
+        assert!((tip.distance(arm.position(2)) - 30.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn columns_come_back_once_the_hierarchy_is_wide_enough() {
+        let (hierarchy, block, clip) = read();
+        assert!(
+            matches!(columns(&clip, &hierarchy, 6), Err(BackError::Channels { joint }) if joint == "Arm")
+        );
+        let wide = widened(&hierarchy, &clip);
+        assert_eq!(wide.joints[2].channels.len(), 3);
+        let back = columns(&clip, &wide, 6).expect("columns");
+        for (at, column) in block.columns.iter().enumerate() {
+            for frame in 0..3 {
+                let (a, b) = (column.value(frame), back[at].value(frame));
+                assert!((a - b).abs() < 2e-6, "column {at}, frame {frame}: {a} {b}");
+            }
+        }
+        let again = hierarchy_of_same_shape(&clip);
+        assert_eq!(again.joints.len(), 3);
+    }
+
+    fn hierarchy_of_same_shape(clip: &Clip) -> Hierarchy {
+        let made = super::hierarchy(clip.skeleton(), 6);
+        let same = skeleton(&made).expect("a tree");
+        assert_eq!(&same, clip.skeleton().as_ref());
+        made
+    }
+
+    #[test]
+    fn what_was_not_read_stays_at_rest() {
+        let (hierarchy, block, _) = read();
+        let mut builder = ClipBuilder::new(&hierarchy, None).expect("a tree");
+        builder.push(1..3, |at| block.columns.get(at).filter(|_| at >= 6));
+        let clip = builder
+            .finish(Rate::new(30, 1).expect("rate"))
+            .expect("a clip");
+        assert_eq!(clip.frames(), 2);
+        assert_eq!(clip.translation(0, 0), DVec3::new(0.0, 90.0, 0.0));
+        assert_eq!(clip.channel(0).rotations[1], DQuat::IDENTITY);
+        assert!(clip.channel(1).rotations[0].angle_between(DQuat::IDENTITY) > 0.1);
+    }
+}
