@@ -84,12 +84,12 @@ impl Column {
     }
 
     /// Brings the column to a larger scale; false, and nothing changed, where a number would not fit it.
-    pub(super) fn raise(&mut self, scale: u8, pending: &mut [&mut i64]) -> bool {
+    pub(super) fn raise(&mut self, scale: u8, pending: &mut [i64]) -> bool {
         let steps = usize::from(scale - self.scale);
         let largest = self
             .mantissas
             .iter()
-            .chain(pending.iter().map(|m| &**m))
+            .chain(&*pending)
             .map(|m| m.unsigned_abs())
             .max();
         let largest = largest.unwrap_or(0);
@@ -102,7 +102,7 @@ impl Column {
             };
             self.mantissas
                 .iter_mut()
-                .chain(pending.iter_mut().map(|m| &mut **m))
+                .chain(pending)
                 .for_each(|m| *m *= factor);
         }
         self.scale = scale;

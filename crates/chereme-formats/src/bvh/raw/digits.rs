@@ -5,11 +5,23 @@ use super::number::{MANTISSA_LIMIT, POW10};
 /// How many bytes from the start of a token must be there; the last tokens of a piece take the slow road.
 const REACH: usize = 48;
 
+/// Rows gathered before they are spread over the columns: eight make a cache line of each column.
+pub(super) const TILE: usize = 8;
+
+/// Eight zeros in ASCII.
+const ZEROS: u64 = 0x3030_3030_3030_3030;
+/// The high bit of each of eight bytes.
+const HIGH: u64 = 0x8080_8080_8080_8080;
+
 /// What is known of a column while a block is read.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ColumnState {
     /// The digits after the point that the column's mantissas have.
-    pub(super) scale: u8,
+    scale: u8,
+    /// The scale where the fast road knows it (one to eight), otherwise 0, which no number fits.
+    quick: u8,
+    /// How far to the left `quick` digits go in a word of eight.
+    shift: u8,
     /// The most digits after the point among the numbers counted in `fewer`.
     pub(super) most: u8,
     /// How many numbers of the block have fewer digits after the point than `scale`.
@@ -17,6 +29,25 @@ pub(super) struct ColumnState {
 }
 
 impl ColumnState {
+    /// Returns the state of a column of this scale of which no number has been read.
+    pub(super) fn new(scale: u8) -> Self {
+        let mut state = Self::default();
+        state.set_scale(scale);
+        state
+    }
+
+    /// Returns the digits after the point that the column's mantissas have.
+    pub(super) fn scale(&self) -> u8 {
+        self.scale
+    }
+
+    /// Changes the scale; the numbers already read are the caller's to change.
+    pub(super) fn set_scale(&mut self, scale: u8) {
+        self.scale = scale;
+        self.quick = if scale <= 8 { scale } else { 0 };
+        self.shift = 64 - 8 * self.quick;
+    }
+
     /// Returns the mantissa at the column's scale; `None` if it would have more than eighteen digits or lose one.
     #[inline]
     pub(super) fn fit(&mut self, mantissa: i64, scale: u8) -> Option<i64> {
@@ -34,42 +65,82 @@ impl ColumnState {
     }
 }
 
-/// Reads numbers from `at` into the slots, one per column, on one line.
+/// Reads numbers from the start of the text into a row of the tile, one per column, on one line.
 ///
-/// Returns how many were read and the place after the last: all, or those before the first token that needs the
-/// slow road (a line end, an exponent, many digits, anything odd).
+/// Returns how many were read and how many bytes they take: all, or those before the first token that needs the slow
+/// road (a line end, an exponent, many digits, anything odd).
 pub(super) fn read_numbers(
     text: &[u8],
-    mut at: usize,
-    slots: &mut [i64],
+    row: usize,
+    slots: &mut [[i64; TILE]],
     columns: &mut [ColumnState],
 ) -> (usize, usize) {
     let mut done = 0;
+    let mut rest = text;
     for (slot, column) in slots.iter_mut().zip(columns) {
-        let mut start = at;
-        while let Some(b' ' | b'\t') = text.get(start) {
-            start += 1;
+        let expected = rest
+            .first_chunk()
+            .and_then(|window| expected_at(window, *column));
+        if let Some((mantissa, end)) = expected {
+            slot[row % TILE] = mantissa;
+            rest = &rest[end + 1..];
+        } else if let Some((mantissa, after)) = any_at(rest, column) {
+            slot[row % TILE] = mantissa;
+            rest = after;
+        } else {
+            break;
         }
-        let Some((mantissa, scale, length)) = number_at(text, start) else {
-            break;
-        };
-        let Some(fitted) = column.fit(mantissa, scale) else {
-            break;
-        };
-        *slot = fitted;
-        at = start + length;
         done += 1;
     }
-    (done, at)
+    (done, text.len() - rest.len())
+}
+
+/// Returns the mantissa of a plain number after blanks, at the column's scale, and the text after it.
+#[inline(never)]
+fn any_at<'a>(text: &'a [u8], column: &mut ColumnState) -> Option<(i64, &'a [u8])> {
+    let token = &text[leading_blanks(text)..];
+    let (mantissa, scale, length) = number_at(token)?;
+    Some((column.fit(mantissa, scale)?, &token[length..]))
+}
+
+fn leading_blanks(text: &[u8]) -> usize {
+    text.iter()
+        .take_while(|b| matches!(b, b' ' | b'\t'))
+        .count()
+}
+
+/// Returns the mantissa and the length of a number written as the column expects it: up to four characters of sign and
+/// digits, a point, exactly as many digits as the column's scale (one to eight; none fits 0), a space.
+///
+/// The end follows from the point alone, so that the processor begins the next number before it is done with this one.
+#[inline(always)]
+fn expected_at(window: &[u8; REACH], column: ColumnState) -> Option<(i64, usize)> {
+    let word = load(window, 0);
+    let point = first_point(word);
+    if point.wrapping_sub(1) >= 4 {
+        return None;
+    }
+    let end = point + 1 + usize::from(column.quick & 15);
+    let minus = minus_one_if(word as u8 == b'-');
+    let sign_to_zero = minus as u32 & u32::from(b'-' ^ b'0');
+    let whole = ((word ^ ZEROS) as u32 ^ sign_to_zero) << (32 - 8 * point);
+    let fraction = (load(window, point + 1) ^ ZEROS).wrapping_shl(column.shift.into());
+    if window[end] != b' '
+        || (high_unless_digits(fraction) | high_unless_digits(whole.into())) & HIGH != 0
+    {
+        return None;
+    }
+    let size = four(whole) * POW10[usize::from(column.quick & 15)] + eight(fraction);
+    Some((signed(size, minus), end))
 }
 
 /// Returns mantissa, scale and length of a plain number that a blank follows: at most seven digits before the point
 /// and fifteen after it, eighteen in all.
 #[inline(always)]
-fn number_at(text: &[u8], at: usize) -> Option<(i64, u8, usize)> {
-    let window: &[u8; REACH] = text.get(at..)?.first_chunk()?;
-    let negative = window[0] == b'-';
-    let sign = usize::from(negative);
+fn number_at(text: &[u8]) -> Option<(i64, u8, usize)> {
+    let window: &[u8; REACH] = text.first_chunk()?;
+    let sign = usize::from(window[0] == b'-');
+    let minus = minus_one_if(sign == 1);
     let (whole_word, whole_digits) = digits(load(window, sign));
     if whole_digits == 8 {
         return None;
@@ -78,11 +149,11 @@ fn number_at(text: &[u8], at: usize) -> Option<(i64, u8, usize)> {
     let point = sign + whole_digits;
     if window[point & 15] != b'.' {
         let good = whole_digits > 0 && is_end(window[point & 15]);
-        return good.then(|| (signed(whole, negative), 0, point));
+        return good.then(|| (signed(whole, minus), 0, point));
     }
     let (word, count) = digits(load(window, point + 1));
     if count == 8 {
-        return long_fraction(window, whole, negative, point);
+        return long_fraction(window, whole, minus, point);
     }
     let end = point + 1 + count;
     if !is_end(window[end & 31]) || whole_digits + count == 0 {
@@ -90,7 +161,7 @@ fn number_at(text: &[u8], at: usize) -> Option<(i64, u8, usize)> {
     }
     let fraction = eight((word << (56 - 8 * count)) << 8);
     Some((
-        signed(whole * POW10[count & 7] + fraction, negative),
+        signed(whole * POW10[count & 7] + fraction, minus),
         count as u8,
         end,
     ))
@@ -100,7 +171,7 @@ fn number_at(text: &[u8], at: usize) -> Option<(i64, u8, usize)> {
 fn long_fraction(
     window: &[u8; REACH],
     whole: i64,
-    negative: bool,
+    minus: i64,
     point: usize,
 ) -> Option<(i64, u8, usize)> {
     let first = eight(digits(load(window, point + 1)).0);
@@ -112,7 +183,7 @@ fn long_fraction(
     let second = eight((word << (56 - 8 * count)) << 8);
     let head = whole * POW10[8] + first;
     let mantissa = head.checked_mul(POW10[count & 7])? + second;
-    (mantissa < MANTISSA_LIMIT).then(|| (signed(mantissa, negative), 8 + count as u8, end))
+    (mantissa < MANTISSA_LIMIT).then(|| (signed(mantissa, minus), 8 + count as u8, end))
 }
 
 #[inline(always)]
@@ -126,9 +197,30 @@ fn load(window: &[u8; REACH], at: usize) -> u64 {
 /// Returns the bytes less `'0'`, and how many of the first are digits.
 #[inline(always)]
 fn digits(word: u64) -> (u64, usize) {
-    let values = word ^ 0x3030_3030_3030_3030;
-    let others = (values.wrapping_add(0x7676_7676_7676_7676) | values) & 0x8080_8080_8080_8080;
+    let values = word ^ ZEROS;
+    let others = high_unless_digits(values) & HIGH;
     (values, (others.trailing_zeros() / 8) as usize)
+}
+
+/// Returns a word whose high bits, up to the first that is set, tell which bytes are no digit values.
+#[inline(always)]
+fn high_unless_digits(values: u64) -> u64 {
+    values.wrapping_add(0x7676_7676_7676_7676) | values
+}
+
+/// Returns the place of the first point in eight bytes, 8 if there is none.
+#[inline(always)]
+fn first_point(word: u64) -> usize {
+    let zero_at_points = word ^ 0x2e2e_2e2e_2e2e_2e2e;
+    let found = zero_at_points.wrapping_sub(0x0101_0101_0101_0101) & !zero_at_points & HIGH;
+    (found.trailing_zeros() / 8) as usize
+}
+
+/// Returns the number that four digit values make, the first in the lowest byte.
+#[inline(always)]
+fn four(values: u32) -> i64 {
+    let pairs = values.wrapping_mul(10).wrapping_add(values >> 8) & 0x00ff_00ff;
+    i64::from(pairs.wrapping_mul((100 << 16) + 1) >> 16)
 }
 
 /// Returns the number that eight digit values make, the first in the lowest byte.
@@ -141,8 +233,14 @@ fn eight(values: u64) -> i64 {
 }
 
 #[inline(always)]
-fn signed(value: i64, negative: bool) -> i64 {
-    if negative { -value } else { value }
+fn minus_one_if(negative: bool) -> i64 {
+    -i64::from(negative)
+}
+
+/// Returns the size with its sign: `minus` is -1 for a negative number, otherwise 0.
+#[inline(always)]
+fn signed(size: i64, minus: i64) -> i64 {
+    (size ^ minus) - minus
 }
 
 #[inline(always)]
@@ -168,7 +266,7 @@ mod tests {
             "", "-", ".", "-.", "+1", "1e3", "1.5e3", "12345678", "1..2", "1.2.3", "1,5", "nan",
             "1x", "1.5x",
         ] {
-            assert_eq!(number_at(&padded(token), 0), None, "{token:?}");
+            assert_eq!(number_at(&padded(token)), None, "{token:?}");
         }
     }
 
@@ -185,7 +283,7 @@ mod tests {
             "0.12345678",
             "-1.123456789",
         ] {
-            let (mantissa, scale, length) = number_at(&padded(token), 0).expect(token);
+            let (mantissa, scale, length) = number_at(&padded(token)).expect(token);
             assert_eq!(length, token.len());
             let fast = Number::Decimal(Decimal { mantissa, scale });
             assert_eq!(Ok(fast), parse_number(token.as_bytes()), "{token:?}");
@@ -197,7 +295,7 @@ mod tests {
 
         #[test]
         fn both_roads_agree(token in "-?[0-9]{0,9}(\\.[0-9]{0,18})?([eEx,.-][0-9]?)?") {
-            let fast = number_at(&padded(&token), 0).map(|(mantissa, scale, _)| Number::from(Decimal { mantissa, scale }));
+            let fast = number_at(&padded(&token)).map(|(mantissa, scale, _)| Number::from(Decimal { mantissa, scale }));
             if let Some(fast) = fast {
                 prop_assert_eq!(Ok(fast), parse_number(token.as_bytes()));
             }

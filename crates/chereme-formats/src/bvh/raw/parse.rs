@@ -63,7 +63,7 @@ fn check_text<R: Read>(source: &mut Source<R>, oddities: &mut Oddities) -> Resul
         return Err(BvhErrorKind::Binary.at(1));
     }
     if start.starts_with(b"\xef\xbb\xbf") {
-        source.advance_to(source.at + 3);
+        source.advance(3);
         oddities.note(Oddity::ByteOrderMark, 1, "");
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::digits::{ColumnState, read_numbers};
+use super::digits::{ColumnState, TILE, read_numbers};
 use super::number::parse_number;
 use super::oddity::{Oddities, Oddity};
 use super::parse::read_head;
@@ -12,9 +12,6 @@ use super::{
     Block, BvhError, BvhErrorKind, ChannelFix, Column, Header, Hierarchy, NotANumber, Number,
 };
 use crate::Finding;
-
-/// Rows gathered before they are spread over the columns: eight make a cache line of each column.
-const TILE: usize = 8;
 
 /// How to read.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +40,7 @@ pub struct Reader<R> {
     rows: u64,
     ended: bool,
     columns: Vec<ColumnState>,
-    tile: Vec<i64>,
+    tile: Vec<[i64; TILE]>,
     /// The full rows in the tile.
     tile_rows: usize,
     /// The columns already read of the row after those.
@@ -97,7 +94,7 @@ impl<R: Read> Reader<R> {
             },
             rows: 0,
             columns: vec![ColumnState::default(); channels],
-            tile: vec![0; channels * TILE],
+            tile: vec![[0; TILE]; channels],
             tile_rows: 0,
             column: 0,
             on_line: 0,
@@ -134,12 +131,7 @@ impl<R: Read> Reader<R> {
         }
         self.spread_tile(block);
         for (column, state) in block.columns.iter_mut().zip(&mut self.columns) {
-            let scale = column.settle(*state);
-            *state = ColumnState {
-                scale,
-                most: 0,
-                fewer: 0,
-            };
+            *state = ColumnState::new(column.settle(*state));
         }
         self.root_order.watch(block);
         Ok(block.frames > 0)
@@ -164,7 +156,7 @@ impl<R: Read> Reader<R> {
             .columns
             .resize_with(self.columns.len(), Column::default);
         for (column, state) in block.columns.iter_mut().zip(&self.columns) {
-            column.scale = state.scale;
+            column.scale = state.scale();
             column.mantissas.clear();
             column.exceptions.clear();
         }
@@ -173,13 +165,12 @@ impl<R: Read> Reader<R> {
     /// Reads numbers up to the end of a row, or one number, or the end.
     fn step(&mut self, block: &mut Block) -> Result<(), BvhError> {
         if self.next_is_number(block)? {
-            let (row, width) = (self.tile_rows * self.columns.len(), self.columns.len());
             if self.short.is_none() {
-                let slots = &mut self.tile[row + self.column..row + width];
+                let tokens = self.source.whole_tokens();
+                let slots = &mut self.tile[self.column..];
                 let states = &mut self.columns[self.column..];
-                let (done, at) =
-                    read_numbers(self.source.whole_tokens(), self.source.at, slots, states);
-                self.source.advance_to(at);
+                let (done, length) = read_numbers(tokens, self.tile_rows, slots, states);
+                self.source.advance(length);
                 self.column += done;
                 self.on_line += done as u64;
                 if done > 0 {
@@ -280,20 +271,19 @@ impl<R: Read> Reader<R> {
 
     /// Puts a number into the row being read, raising its column's scale where that is needed and possible.
     fn put(&mut self, number: Number, block: &mut Block) {
-        let (width, index) = (self.columns.len(), self.column);
-        let frame = (block.frames + self.tile_rows) as u32;
+        let (index, row) = (self.column, self.tile_rows);
+        let frame = (block.frames + row) as u32;
         let (column, state) = (&mut block.columns[index], &mut self.columns[index]);
-        let (above, below) = self.tile.split_at_mut(self.tile_rows * width);
-        let slot = &mut below[index];
+        let (above, below) = self.tile[index].split_at_mut(row);
+        let slot = &mut below[0];
         *slot = 0;
         if let Number::Decimal(decimal) = number {
             if let Some(fitted) = state.fit(decimal.mantissa, decimal.scale) {
                 *slot = fitted;
                 return;
             }
-            let mut pending: Vec<&mut i64> = above.iter_mut().skip(index).step_by(width).collect();
-            if decimal.scale > state.scale && column.raise(decimal.scale, &mut pending) {
-                state.scale = decimal.scale;
+            if decimal.scale > state.scale() && column.raise(decimal.scale, above) {
+                state.set_scale(decimal.scale);
                 *slot = decimal.mantissa;
                 return;
             }
@@ -319,11 +309,9 @@ impl<R: Read> Reader<R> {
 
     /// Moves the rows of the tile to the columns; called between rows only.
     fn spread_tile(&mut self, block: &mut Block) {
-        let (width, rows) = (self.columns.len(), self.tile_rows);
-        for (index, column) in block.columns.iter_mut().enumerate() {
-            column
-                .mantissas
-                .extend(self.tile.iter().skip(index).step_by(width).take(rows));
+        let rows = self.tile_rows;
+        for (rows_of_column, column) in self.tile.iter().zip(&mut block.columns) {
+            column.mantissas.extend_from_slice(&rows_of_column[..rows]);
         }
         block.frames += rows;
         self.tile_rows = 0;

@@ -14,7 +14,7 @@ pub(super) struct Source<R> {
     read: R,
     buffer: Vec<u8>,
     /// The next byte in the buffer.
-    pub(super) at: usize,
+    at: usize,
     end: usize,
     ended: bool,
     read_before: u64,
@@ -57,14 +57,14 @@ impl<R: Read> Source<R> {
         &self.buffer[self.at..self.end]
     }
 
-    /// Returns the window up to the end of its last whole token and the blank after that; the place in it is `at`.
+    /// Returns what is held up to the end of its last whole token and the blank after that.
     pub(super) fn whole_tokens(&self) -> &[u8] {
         let after_last = self
             .held()
             .iter()
             .rposition(|&b| is_blank(b))
-            .map_or(self.at, |last| self.at + last + 1);
-        &self.buffer[..after_last]
+            .map_or(0, |last| last + 1);
+        &self.held()[..after_last]
     }
 
     /// Reads on; returns false at the end of the file or where the window is full.
@@ -113,12 +113,12 @@ impl<R: Read> Source<R> {
     }
 
     /// Takes bytes that hold no line end.
-    pub(super) fn advance_to(&mut self, at: usize) {
-        if at > self.at && self.after_return {
+    pub(super) fn advance(&mut self, count: usize) {
+        if count > 0 && self.after_return {
             self.after_return = false;
             self.cr.get_or_insert(self.line - 1);
         }
-        self.at = at;
+        self.at += count;
     }
 
     /// Takes blanks and line ends, and returns the byte after them.
@@ -151,7 +151,7 @@ impl<R: Read> Source<R> {
             return Err(BvhErrorKind::TooLong { limit: TOKEN_LIMIT }.at(self.line));
         }
         let start = self.at;
-        self.advance_to(start + length);
+        self.advance(length);
         Ok(&self.buffer[start..start + length])
     }
 }
