@@ -1,6 +1,10 @@
 //! What the BVH reader answers to odd, broken and hostile text.
 
-#![allow(clippy::unwrap_used, clippy::print_stderr, reason = "a test fails by panicking and may speak")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    reason = "a test fails by panicking and may speak"
+)]
 
 use std::fmt::Write as _;
 

@@ -2,15 +2,21 @@
 //!
 //! The files are not part of the repository: their folder is named by `CHEREME_SHARED_DATA`.
 
-#![allow(clippy::unwrap_used, clippy::print_stderr, reason = "a test fails by panicking and may speak")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stderr,
+    reason = "a test fails by panicking and may speak"
+)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use bvh_anim::ChannelType;
+use chereme_formats::bvh::convert::{self, ClipBuilder};
 use chereme_formats::bvh::raw::{
     Block, Channel, ChannelFix, Header, Hierarchy, Options, Reader, Summary, Writer,
 };
+use chereme_motion::Clip;
 
 struct Read {
     hierarchy: Hierarchy,
@@ -186,6 +192,60 @@ fn only_the_signers_file_has_its_root_columns_swapped() {
         Xrotation, Yrotation, Zrotation, Xposition, Yposition, Zposition,
     ];
     assert_eq!(ChannelFix::RotationBeforePosition.apply(&said), meant);
+}
+
+/// Returns the clip of a file's blocks, in its own unit and axes.
+fn clip_of(read: &Read) -> Clip {
+    let mut builder = ClipBuilder::new(&read.hierarchy, read.summary.root_fix).unwrap();
+    for block in &read.blocks {
+        builder.push(0..block.frames, |at| block.columns.get(at));
+    }
+    builder
+        .finish(convert::rate(read.header.frame_time.as_ref()).unwrap())
+        .unwrap()
+}
+
+#[test]
+fn clips_turn_back_into_columns_that_turn_alike() {
+    for path in files() {
+        let first = read(&fs::read(&path).unwrap(), 256);
+        let clip = clip_of(&first);
+        // Where the root's columns lie otherwise than the header says, the way back is by the header.
+        assert_eq!(
+            convert::widened(&first.hierarchy, &clip),
+            first.hierarchy,
+            "{path:?}"
+        );
+        let columns = convert::columns(&clip, &first.hierarchy, 9).unwrap();
+        let block = Block {
+            first_frame: 0,
+            frames: clip.frames(),
+            columns,
+        };
+        let summary = Summary {
+            root_fix: None,
+            ..first.summary
+        };
+        let again = clip_of(&Read {
+            blocks: vec![block],
+            summary,
+            ..first
+        });
+        for joint in 0..clip.skeleton().len() {
+            for frame in 0..clip.frames() {
+                let (a, b) = (
+                    clip.channel(joint).rotations[frame],
+                    again.channel(joint).rotations[frame],
+                );
+                assert!(a.angle_between(b) < 1e-7, "{path:?} {joint} {frame}");
+                let (a, b) = (
+                    clip.translation(joint, frame),
+                    again.translation(joint, frame),
+                );
+                assert!(a.abs_diff_eq(b, 1e-8), "{path:?} {joint} {frame}");
+            }
+        }
+    }
 }
 
 #[test]

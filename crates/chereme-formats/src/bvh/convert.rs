@@ -12,7 +12,7 @@ use chereme_motion::{
     SkeletonError,
 };
 
-use super::raw::{Channel, ChannelFix, Column, Hierarchy, Number, RawJoint};
+use super::raw::{Channel, ChannelFix, Column, Decimal, Hierarchy, Number, RawJoint};
 
 /// Rates are guessed from frame times; a file of one frame or none may say no frame time.
 const UNTIMED: (u32, u32) = (30, 1);
@@ -34,12 +34,13 @@ fn place(numbers: &[Number; 3]) -> DVec3 {
     DVec3::from_array([0, 1, 2].map(|axis| numbers[axis].to_f64()))
 }
 
-/// Returns the frame rate that a frame time stands for; without one, 30 frames a second.
+/// Returns the frame rate that a frame time stands for; without one above nought, which the reader
+/// passes in files of one frame at most, 30 frames a second.
 ///
 /// # Errors
-/// [`RateError`] where the frame time is nought, negative or longer than a day.
+/// [`RateError`] where the frame time is shorter than a microsecond or longer than a day.
 pub fn rate(frame_time: Option<&Number>) -> Result<Rate, RateError> {
-    let Some(time) = frame_time else {
+    let Some(time) = frame_time.filter(|time| time.to_f64() > 0.0) else {
         return Rate::new(UNTIMED.0, UNTIMED.1);
     };
     let text = time.to_string();
@@ -63,6 +64,10 @@ struct Layout {
 }
 
 const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
+const POSITIONS: [Channel; 3] = [Channel::Xposition, Channel::Yposition, Channel::Zposition];
+const XYZ_ROTATIONS: [Channel; 3] = [Channel::Xrotation, Channel::Yrotation, Channel::Zrotation];
+/// The order of rotations that most exporters write.
+const ROTATIONS: [Channel; 3] = [Channel::Zrotation, Channel::Xrotation, Channel::Yrotation];
 
 impl ClipBuilder {
     /// Begins a clip of a hierarchy; `fix` says that the root's columns lie otherwise than its
@@ -159,7 +164,8 @@ impl ClipBuilder {
 }
 
 /// Returns a hierarchy for a skeleton that came from no BVH: six channels at the root, elsewhere
-/// three rotations in the order ZXY; numbers have `decimals` digits after the point.
+/// three rotations in the order ZXY; numbers have `decimals` digits after the point, and braces and
+/// line ends in names, which BVH can't hold, become underscores.
 #[must_use]
 pub fn hierarchy(skeleton: &Skeleton, decimals: u8) -> Hierarchy {
     let numbers = |at: DVec3| at.to_array().map(|value| number(value, decimals));
@@ -167,18 +173,12 @@ pub fn hierarchy(skeleton: &Skeleton, decimals: u8) -> Hierarchy {
         .joints()
         .iter()
         .map(|joint| {
-            let root = joint.parent.is_none();
-            let positions = [Channel::Xposition, Channel::Yposition, Channel::Zposition];
-            let rotations = [Channel::Zrotation, Channel::Xrotation, Channel::Yrotation];
+            let positions = POSITIONS.into_iter().filter(|_| joint.parent.is_none());
             RawJoint {
-                name: joint.name.clone(),
+                name: writable(&joint.name),
                 parent: joint.parent,
                 offset: numbers(joint.offset),
-                channels: positions
-                    .into_iter()
-                    .filter(|_| root)
-                    .chain(rotations)
-                    .collect(),
+                channels: positions.chain(ROTATIONS).collect(),
                 end_sites: joint.tip.into_iter().map(numbers).collect(),
             }
         })
@@ -186,9 +186,14 @@ pub fn hierarchy(skeleton: &Skeleton, decimals: u8) -> Hierarchy {
     Hierarchy { joints }
 }
 
+/// Returns a name that a BVH line can hold: braces and line ends become underscores.
+fn writable(name: &str) -> String {
+    name.trim().replace(['{', '}', '\n', '\r'], "_")
+}
+
 fn number(value: f64, decimals: u8) -> Number {
-    use super::raw::Decimal;
-    Decimal::rounded(value, decimals).map_or(Number::ZERO, Number::Decimal)
+    let large = || value.to_string().parse().unwrap_or(Number::ZERO);
+    Decimal::rounded(value, decimals).map_or_else(large, Number::Decimal)
 }
 
 /// Returns `hierarchy` with the channels added that `clip`, of the same joints, needs: position
@@ -198,41 +203,87 @@ fn number(value: f64, decimals: u8) -> Number {
 pub fn widened(hierarchy: &Hierarchy, clip: &Clip) -> Hierarchy {
     let mut wide = hierarchy.clone();
     for (joint, movement) in wide.joints.iter_mut().zip(clip.channels()) {
-        let offset = place(&joint.offset);
-        let has = |channel: Channel, channels: &[Channel]| channels.contains(&channel);
-        let moves = movement.translations.iter().flatten().any(|at| {
-            let axes =
-                AXES.into_iter()
-                    .zip([Channel::Xposition, Channel::Yposition, Channel::Zposition]);
-            let mut missing = axes.filter(|(_, channel)| !has(*channel, &joint.channels));
-            missing.any(|(axis, _)| (at[axis.index()] - offset[axis.index()]).abs() > 1e-9)
-        });
-        if moves {
+        if leaves_its_offset(joint, movement) {
             joint.channels.retain(|channel| !channel.is_position());
-            joint.channels.splice(
-                0..0,
-                [Channel::Xposition, Channel::Yposition, Channel::Zposition],
-            );
+            joint.channels.splice(0..0, POSITIONS);
         }
-        let turned = movement
-            .rotations
-            .iter()
-            .any(|q| q.angle_between(DQuat::IDENTITY) > 1e-7);
-        let order: Vec<Channel> = joint
-            .channels
-            .iter()
-            .copied()
-            .filter(|channel| channel.is_rotation())
-            .collect();
-        if order.len() < 3 && turned {
-            for channel in [Channel::Zrotation, Channel::Xrotation, Channel::Yrotation] {
-                if !order.contains(&channel) {
-                    joint.channels.push(channel);
-                }
+        match Turning::of(joint) {
+            Some(turning) if turning.says_all(&movement.rotations) => {}
+            Some(turning) => joint.channels.extend(turning.missing()),
+            None => {
+                joint.channels.retain(|channel| !channel.is_rotation());
+                joint.channels.extend(ROTATIONS);
             }
         }
     }
     wide
+}
+
+fn leaves_its_offset(joint: &RawJoint, movement: &Movement) -> bool {
+    let offset = place(&joint.offset);
+    let fixed: Vec<usize> = POSITIONS
+        .into_iter()
+        .filter(|channel| !joint.channels.contains(channel))
+        .map(Channel::axis)
+        .collect();
+    let leaves = |at: &DVec3| {
+        fixed
+            .iter()
+            .any(|&axis| (at[axis] - offset[axis]).abs() > 1e-9)
+    };
+    movement.translations.iter().flatten().any(leaves)
+}
+
+/// The rotation channels of a joint, with the axes that it has none for at the end.
+struct Turning {
+    order: RotationOrder,
+    written: usize,
+}
+
+impl Turning {
+    /// Returns the rotation channels of a joint, nothing where an axis comes twice.
+    fn of(joint: &RawJoint) -> Option<Self> {
+        let rotations = joint
+            .channels
+            .iter()
+            .filter(|channel| channel.is_rotation());
+        let mut axes: Vec<Axis> = rotations.map(|channel| AXES[channel.axis()]).collect();
+        let written = axes.len();
+        for axis in ROTATIONS.map(|channel| AXES[channel.axis()]) {
+            if !axes.contains(&axis) {
+                axes.push(axis);
+            }
+        }
+        let order = <[Axis; 3]>::try_from(axes)
+            .ok()
+            .and_then(RotationOrder::new)?;
+        Some(Self { order, written })
+    }
+
+    /// Returns the angles of rotations in radians, without jumps, in the order of the channels.
+    fn angles(&self, rotations: &[DQuat]) -> Vec<[f64; 3]> {
+        let mut near = [0.0; 3];
+        let next = |rotation: &DQuat| {
+            near = self.order.angles(*rotation, near);
+            near
+        };
+        rotations.iter().map(next).collect()
+    }
+
+    /// Tells whether the written channels alone say the rotations.
+    fn says_all(&self, rotations: &[DQuat]) -> bool {
+        let unsaid = |angles: &[f64; 3]| angles[self.written..].iter().any(|a| a.abs() > 1e-7);
+        self.written == 3 || !self.angles(rotations).iter().any(unsaid)
+    }
+
+    /// Returns the channels that are not written.
+    fn missing(&self) -> Vec<Channel> {
+        let channel = |axis: &Axis| XYZ_ROTATIONS[axis.index()];
+        self.order.axes()[self.written..]
+            .iter()
+            .map(channel)
+            .collect()
+    }
 }
 
 /// A clip that a hierarchy's channels cannot say.
@@ -246,9 +297,9 @@ pub enum BackError {
         /// The hierarchy's.
         hierarchy: usize,
     },
-    /// A joint's rotation channels are not three different ones.
+    /// A joint turns about an axis that it has no rotation channel for, or has one twice.
     #[error(
-        "the rotation channels of joint {joint:?} are not one of each axis; widen the hierarchy first"
+        "the rotation channels of joint {joint:?} can't say how it turns; widen the hierarchy first"
     )]
     Channels {
         /// The joint's name.
@@ -305,29 +356,13 @@ pub fn columns(clip: &Clip, hierarchy: &Hierarchy, decimals: u8) -> Result<Vec<C
 
 /// The angles of a joint in radians, frame by frame, in the order of its rotation channels.
 fn angles(clip: &Clip, index: usize, joint: &RawJoint) -> Result<Vec<[f64; 3]>, BackError> {
-    let axes: Vec<Axis> = joint
-        .channels
-        .iter()
-        .filter(|channel| channel.is_rotation())
-        .map(|channel| AXES[channel.axis()])
-        .collect();
-    if axes.is_empty() {
-        return Ok(Vec::new());
+    let rotations = &clip.channel(index).rotations;
+    match Turning::of(joint) {
+        Some(turning) if turning.says_all(rotations) => Ok(turning.angles(rotations)),
+        _ => Err(BackError::Channels {
+            joint: joint.name.clone(),
+        }),
     }
-    let order = <[Axis; 3]>::try_from(axes)
-        .ok()
-        .and_then(RotationOrder::new);
-    let order = order.ok_or_else(|| BackError::Channels {
-        joint: joint.name.clone(),
-    })?;
-    let mut near = [0.0; 3];
-    let rotations = clip.channel(index).rotations.iter();
-    Ok(rotations
-        .map(|&rotation| {
-            near = order.angles(rotation, near);
-            near
-        })
-        .collect())
 }
 
 #[cfg(test)]
@@ -373,14 +408,10 @@ mod tests {
     }
 
     #[test]
-    fn columns_come_back_once_the_hierarchy_is_wide_enough() {
+    fn columns_come_back() {
         let (hierarchy, block, clip) = read();
-        assert!(
-            matches!(columns(&clip, &hierarchy, 6), Err(BackError::Channels { joint }) if joint == "Arm")
-        );
-        let wide = widened(&hierarchy, &clip);
-        assert_eq!(wide.joints[2].channels.len(), 3);
-        let back = columns(&clip, &wide, 6).expect("columns");
+        assert_eq!(widened(&hierarchy, &clip), hierarchy);
+        let back = columns(&clip, &hierarchy, 6).expect("columns");
         for (at, column) in block.columns.iter().enumerate() {
             for frame in 0..3 {
                 let (a, b) = (column.value(frame), back[at].value(frame));
@@ -389,6 +420,44 @@ mod tests {
         }
         let again = hierarchy_of_same_shape(&clip);
         assert_eq!(again.joints.len(), 3);
+    }
+
+    #[test]
+    fn what_the_channels_cannot_say_widens_them() {
+        let (hierarchy, _, clip) = read();
+        let (skeleton, rate) = (clip.skeleton().clone(), clip.rate());
+        let mut channels = clip.into_channels();
+        channels[2].rotations[1] = DQuat::from_rotation_y(0.5);
+        channels[1].translations = Some(vec![DVec3::X; 3]);
+        let clip = Clip::new(skeleton, rate, channels).expect("a clip");
+        let refused = columns(&clip, &hierarchy, 6);
+        assert!(matches!(refused, Err(BackError::Channels { joint }) if joint == "Arm"));
+        let wide = widened(&hierarchy, &clip);
+        assert_eq!(wide.joints[2].channels, ROTATIONS);
+        assert_eq!(wide.joints[1].channels[..3], POSITIONS);
+        let back = columns(&clip, &wide, 6).expect("columns");
+        let angle = back.last().expect("columns").value(1).to_radians();
+        assert!((angle - 0.5).abs() < 1e-7);
+
+        let mut twice = hierarchy;
+        let zxz = [Channel::Zrotation, Channel::Xrotation, Channel::Zrotation];
+        twice.joints[2].channels = zxz.to_vec();
+        assert_eq!(widened(&twice, &clip).joints[2].channels, ROTATIONS);
+    }
+
+    #[test]
+    fn no_frame_time_is_thirty_a_second() {
+        let thirty = Rate::new(30, 1).expect("rate");
+        for time in [
+            None,
+            Some("0"),
+            Some("-0.01"),
+            Some("0.033333"),
+            Some("3.33333e-2"),
+        ] {
+            let number = time.map(|text| text.parse::<Number>().expect(text));
+            assert_eq!(rate(number.as_ref()), Ok(thirty), "{time:?}");
+        }
     }
 
     fn hierarchy_of_same_shape(clip: &Clip) -> Hierarchy {
