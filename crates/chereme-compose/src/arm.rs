@@ -104,3 +104,38 @@ pub(crate) fn move_wrist(
     }
     Some(reach)
 }
+
+/// Brings wrist and hand of an arm that does nothing yet to where they should be, with the elbow
+/// hanging: down, and a little to the arm's own side.
+pub(crate) fn raise_arm(
+    work: &mut Work,
+    side: Side,
+    targets: &[DVec3],
+    hands: &[DQuat],
+    outside: DVec3,
+) -> Option<Reach> {
+    move_wrist(work, side, targets, Some(hands), Solver::Analytic)?;
+    let arm = work.anatomy.arm(side)?;
+    let columns = Columns::of(work, [arm.hand]);
+    let [shoulders, elbows, wrists] =
+        [arm.upper, arm.forearm, arm.hand].map(|j| columns.positions(j));
+    let wanted = DVec3::NEG_Y + outside * 0.35;
+    for frame in 0..work.frames {
+        let Some(line) = (wrists[frame] - shoulders[frame]).try_normalize() else {
+            continue;
+        };
+        let now = (elbows[frame] - shoulders[frame]).reject_from_normalized(line);
+        let then = wanted.reject_from_normalized(line);
+        if now.length() < 1e-4 || then.length() < 1e-2 {
+            continue;
+        }
+        let angle = line.dot(now.cross(then)).atan2(now.dot(then));
+        let model = DQuat::from_axis_angle(line, angle) * columns.rotations(arm.upper)[frame];
+        let above = match work.skeleton.parent(arm.upper) {
+            Some(parent) => columns.rotations(parent)[frame],
+            None => DQuat::IDENTITY,
+        };
+        work.channels[arm.upper].rotations[frame] = (above.inverse() * model).normalize();
+    }
+    move_wrist(work, side, targets, Some(hands), Solver::Analytic)
+}

@@ -11,7 +11,7 @@ use crate::error::Cause;
 use crate::made::{About, Note};
 use crate::ops::{join, place};
 use crate::poses::{self, HandPose, PoseOrigin};
-use crate::recipe::{Point, Solver};
+use crate::recipe::Point;
 use crate::resolve::PlaceInput;
 use crate::work::{Group, Work, groups};
 
@@ -175,7 +175,7 @@ fn aim(apex: &mut Work, frame: &Frame, side: Side, target: DVec3) -> Result<f64,
     let mut wrist = [shoulder + way * stretch];
     let mut missed = f64::INFINITY;
     for _ in 0..8 {
-        arm::move_wrist(apex, side, &wrist, Some(&hands), Solver::Analytic)
+        arm::raise_arm(apex, side, &wrist, &hands, frame.left * side.sign())
             .ok_or(Cause::NoArm(side))?;
         let model = ModelPose::of(&apex.skeleton, &apex.pose(0));
         let (base, tip) = finger(apex, &model, side).ok_or(Cause::NoFingers(side))?;

@@ -2,17 +2,21 @@
 
 use std::sync::Arc;
 
-use chereme_motion::glam::DQuat;
-use chereme_motion::{Anatomy, Channel, Part, Pose, Rate, Side, Skeleton};
+use chereme_motion::glam::{DMat3, DQuat, DVec3};
+use chereme_motion::{Anatomy, Channel, ModelPose, Part, Pose, Rate, Side, Skeleton};
 
+use crate::arm;
+use crate::body;
 use crate::error::Cause;
+use crate::recipe::Solver;
 use crate::work::{Columns, Work};
 
 /// Puts movement on another skeleton.
 ///
-/// Each part turns in model space, relative to its rest, as its counterpart does, the difference of
-/// the bones' directions at rest made up for by the shortest turn; fingers take the joint angles; the
-/// root's way is scaled by the arms' length. Joints that are no part stay at rest.
+/// Each part turns in model space as its counterpart does: its bone and a direction across it (where
+/// the elbow points, out of the palm, where the body faces) go where the counterpart's go, however
+/// both lie at rest. Wrists are where they were in arms' lengths from the shoulders' middle, fingers take the joint angles, the root's way is scaled by the legs' length, and
+/// joints that are no part stay at rest.
 pub(crate) fn retarget(
     work: &Work,
     skeleton: &Arc<Skeleton>,
@@ -41,7 +45,14 @@ pub(crate) fn retarget(
         work,
         pairs.iter().flatten().map(|&(from, _)| from).chain([0]),
     );
-    let (from_rest, to_rest) = (work.skeleton.rest_model_pose(), skeleton.rest_model_pose());
+    let there = Body {
+        anatomy: &work.anatomy,
+        rest: work.skeleton.rest_model_pose(),
+    };
+    let here = Body {
+        anatomy,
+        rest: skeleton.rest_model_pose(),
+    };
     let mut model: Vec<Vec<DQuat>> = Vec::with_capacity(skeleton.len());
     for (joint, pair) in pairs.iter().enumerate() {
         let above = skeleton.parent(joint).map(|parent| &model[parent]);
@@ -49,9 +60,8 @@ pub(crate) fn retarget(
         let rest = skeleton.joint(joint).rest;
         let column: Vec<DQuat> = match *pair {
             Some((from, part)) => {
-                let even = even(work, from, skeleton, joint, anatomy, part);
-                let back = from_rest.rotation(from).inverse();
-                let onto = even * to_rest.rotation(joint);
+                let back = there.rest.rotation(from).inverse();
+                let onto = even(&there, &here, part) * here.rest.rotation(joint);
                 let turned = columns.rotations(from);
                 turned
                     .iter()
@@ -68,6 +78,7 @@ pub(crate) fn retarget(
     }
     root(work, &mut out);
     fingers(work, &mut out);
+    wrists(work, &mut out);
     Ok(out)
 }
 
@@ -84,31 +95,90 @@ fn pairs(work: &Work, skeleton: &Skeleton, anatomy: &Anatomy) -> Vec<Option<(usi
     pairs
 }
 
-/// Returns the turn from a bone at rest to its counterpart's direction at rest, for limbs.
-fn even(
-    work: &Work,
-    from: usize,
-    skeleton: &Skeleton,
-    to: usize,
-    anatomy: &Anatomy,
-    part: Part,
-) -> DQuat {
-    let next = match part {
-        Part::UpperArm(side) => Part::Forearm(side),
-        Part::Forearm(side) => Part::Hand(side),
-        Part::Hand(side) => Part::Finger(side, chereme_motion::Finger::Middle, 1),
-        Part::Thigh(side) => Part::Shin(side),
-        Part::Shin(side) => Part::Foot(side),
-        _ => return DQuat::IDENTITY,
-    };
-    let bone = |skeleton: &Skeleton, anatomy: &Anatomy, joint: usize| {
-        let rest = skeleton.rest_model_pose();
-        (rest.position(anatomy.joint(next)?) - rest.position(joint)).try_normalize()
-    };
-    let there = bone(&work.skeleton, &work.anatomy, from);
-    match (bone(skeleton, anatomy, to), there) {
-        (Some(own), Some(other)) => DQuat::from_rotation_arc(own, other),
+/// The directions of a part at rest in model space: along its bone, and one across it.
+struct Axes {
+    along: DVec3,
+    across: Option<DVec3>,
+}
+
+impl Axes {
+    /// Returns the axes of a limb's part; nothing for one of the trunk, which takes the body's.
+    fn of(anatomy: &Anatomy, rest: &ModelPose, part: Part) -> Option<Self> {
+        let at = |part| anatomy.joint(part).map(|joint| rest.position(joint));
+        let bone = |next: Part| (at(next)? - at(part)?).try_normalize();
+        let body = anatomy.body_frame(rest)?;
+        let elbow = |side| {
+            let upper = anatomy.joint(Part::UpperArm(side))?;
+            Some(rest.rotation(upper) * anatomy.elbow(side)?)
+        };
+        let (along, across) = match part {
+            Part::Clavicle(side) => (bone(Part::UpperArm(side))?, Some(body.up)),
+            Part::UpperArm(side) => (bone(Part::Forearm(side))?, elbow(side)),
+            Part::Forearm(side) => {
+                let along = bone(Part::Hand(side))?;
+                let upper = (at(part)? - at(Part::UpperArm(side))?).try_normalize();
+                let carried = upper.map(|upper| DQuat::from_rotation_arc(upper, along));
+                (
+                    along,
+                    elbow(side).zip(carried).map(|(out, turn)| turn * out),
+                )
+            }
+            Part::Hand(side) => {
+                let palm = anatomy.palm_normal(side, rest);
+                (anatomy.hand_direction(side, rest)?, palm)
+            }
+            Part::Thigh(side) => (bone(Part::Shin(side))?, Some(body.forward)),
+            Part::Shin(side) => (bone(Part::Foot(side))?, Some(body.forward)),
+            _ => return None,
+        };
+        Some(Self { along, across })
+    }
+
+    fn basis(&self) -> Option<DQuat> {
+        let across = self
+            .across?
+            .reject_from_normalized(self.along)
+            .try_normalize()?;
+        let columns = DMat3::from_cols(self.along, across, self.along.cross(across));
+        Some(DQuat::from_mat3(&columns).normalize())
+    }
+}
+
+/// One of the two bodies.
+struct Body<'a> {
+    anatomy: &'a Anatomy,
+    rest: ModelPose,
+}
+
+impl Body<'_> {
+    /// Returns the trunk's rotation at rest, up along the spine: shoulders may be drawn forward.
+    fn trunk(&self) -> Option<DQuat> {
+        let at = |part| {
+            self.anatomy
+                .joint(part)
+                .map(|joint| self.rest.position(joint))
+        };
+        let up = (at(Part::Neck).or(at(Part::Head))? - at(Part::Hips)?).try_normalize()?;
+        let left = self.anatomy.body_frame(&self.rest)?.left;
+        let left = left.reject_from_normalized(up).try_normalize()?;
+        let columns = DMat3::from_cols(left, up, left.cross(up));
+        Some(DQuat::from_mat3(&columns).normalize())
+    }
+}
+
+/// Returns the turn from how a part lies at rest on the one body to how it lies on the other.
+fn even(from: &Body<'_>, to: &Body<'_>, part: Part) -> DQuat {
+    let bodies = match (from.trunk(), to.trunk()) {
+        (Some(from), Some(to)) => from * to.inverse(),
         _ => DQuat::IDENTITY,
+    };
+    let axes = |body: &Body<'_>| Axes::of(body.anatomy, &body.rest, part);
+    let (Some(there), Some(here)) = (axes(from), axes(to)) else {
+        return bodies;
+    };
+    match (there.basis(), here.basis()) {
+        (Some(there), Some(here)) => there * here.inverse(),
+        _ => DQuat::from_rotation_arc((bodies * here.along).normalize(), there.along) * bodies,
     }
 }
 
@@ -135,6 +205,32 @@ fn root(work: &Work, out: &mut Work) {
             .map(|&at| rest.1 + (at - rest.0) * scale)
             .collect()
     });
+}
+
+/// Brings the wrists where they are relative to the shoulders' middle, in arms' lengths, so that hands
+/// that meet go on meeting on wider shoulders.
+fn wrists(work: &Work, out: &mut Work) {
+    let arms = |work: &Work| Side::BOTH.map(|side| work.anatomy.arm(side));
+    let ([Some(r), Some(l)], [Some(right), Some(left)]) = (arms(work), arms(out)) else {
+        return;
+    };
+    let length = |work: &Work| body::arm_length(work, Side::Right).filter(|length| *length > 1e-3);
+    let Some(ratio) = length(out).zip(length(work)).map(|(to, from)| to / from) else {
+        return;
+    };
+    let there = Columns::of(work, [r.hand, l.hand]);
+    let here = Columns::of(out, [right.upper, left.upper]);
+    let middle = |columns: &Columns, a: usize, b: usize, frame: usize| {
+        (columns.positions(a)[frame] + columns.positions(b)[frame]) / 2.0
+    };
+    for (side, hand) in [(Side::Right, r.hand), (Side::Left, l.hand)] {
+        let target = |frame: usize| {
+            let way = there.positions(hand)[frame] - middle(&there, r.upper, l.upper, frame);
+            middle(&here, right.upper, left.upper, frame) + way * ratio
+        };
+        let targets: Vec<DVec3> = (0..work.frames).map(target).collect();
+        arm::move_wrist(out, side, &targets, None, Solver::Analytic);
+    }
 }
 
 fn fingers(work: &Work, out: &mut Work) {

@@ -11,7 +11,7 @@ use crate::error::Cause;
 use crate::made::{About, Note};
 use crate::ops::{join, place};
 use crate::poses;
-use crate::recipe::{Solver, Spell};
+use crate::recipe::Spell;
 use crate::resolve::LetterInput;
 use crate::work::{Group, Work};
 
@@ -56,7 +56,7 @@ pub(crate) fn spell(
         fingers(work, side, shows, course);
         let way: Vec<(DVec3, DQuat)> = (0..frames).map(|f| wrist(shows, f, course)).collect();
         let (targets, hands): (Vec<DVec3>, Vec<DQuat>) = way.into_iter().unzip();
-        let reach = arm::move_wrist(work, side, &targets, Some(&hands), Solver::Analytic);
+        let reach = arm::raise_arm(work, side, &targets, &hands, frame.left * side.sign());
         residual = residual.max(reach.ok_or(Cause::NoArm(side))?.residual);
         note(work, side, shows, letters);
     }

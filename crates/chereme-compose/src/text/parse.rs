@@ -6,6 +6,7 @@ use super::lexer::{Kind, Token, fault, lex};
 use crate::error::{Problem, RecipeError, TextError};
 use crate::recipe::*;
 use crate::units::{Direction, Hands, Length, UnitError};
+use chereme_sign::query::Query;
 
 const DEEPEST: usize = 32;
 
@@ -217,6 +218,7 @@ impl Parser<'_> {
             return Ok(None);
         };
         let query = token.text.clone();
+        Query::parse(&query).map_err(|error| self.fault(Problem::Query(error.to_string())))?;
         self.at += 1;
         Ok(Some(query))
     }
