@@ -548,6 +548,19 @@ fn large_hierarchies() {
 }
 
 #[test]
+fn endless_digits_are_bounded() {
+    let mut text = many(1000, false);
+    text.truncate(text.find("1.5 ").unwrap());
+    let row = format!("0.{} ", "3".repeat(999)).repeat(999 * 3) + "\n";
+    let frames = text.replace("Frames: 2", "Frames: 12") + &row.repeat(12);
+    check([(
+        "3 MB a row",
+        frames,
+        "line 5016: more than 33554432 bytes of numbers with more than eighteen",
+    )]);
+}
+
+#[test]
 fn truncated_at_every_byte() {
     let whole = read(GOOD.as_bytes()).unwrap();
     for end in 0..GOOD.len() {

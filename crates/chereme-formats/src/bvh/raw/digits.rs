@@ -78,6 +78,9 @@ pub(super) fn read_numbers(
     let mut done = 0;
     let mut rest = text;
     for (slot, column) in slots.iter_mut().zip(columns) {
+        if let [b' ' | b'\t', ..] = rest {
+            rest = &rest[leading_blanks(rest)..];
+        }
         let expected = rest
             .first_chunk()
             .and_then(|window| expected_at(window, *column));
@@ -95,12 +98,11 @@ pub(super) fn read_numbers(
     (done, text.len() - rest.len())
 }
 
-/// Returns the mantissa of a plain number after blanks, at the column's scale, and the text after it.
+/// Returns the mantissa of a plain number at the column's scale, and the text after it.
 #[inline(never)]
 fn any_at<'a>(text: &'a [u8], column: &mut ColumnState) -> Option<(i64, &'a [u8])> {
-    let token = &text[leading_blanks(text)..];
-    let (mantissa, scale, length) = number_at(token)?;
-    Some((column.fit(mantissa, scale)?, &token[length..]))
+    let (mantissa, scale, length) = number_at(text)?;
+    Some((column.fit(mantissa, scale)?, &text[length..]))
 }
 
 fn leading_blanks(text: &[u8]) -> usize {

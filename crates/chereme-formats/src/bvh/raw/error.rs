@@ -68,12 +68,12 @@ pub enum BvhErrorKind {
         /// The limit.
         limit: usize,
     },
-    /// More joints, channels or End Sites than the limit.
+    /// More joints, channels, End Sites or long numbers than the limit.
     #[error("more than {limit} {what}")]
     TooMany {
         /// The limit.
         limit: usize,
-        /// Joints, channels or End Sites.
+        /// Joints, channels, End Sites or bytes of long numbers.
         what: &'static str,
     },
     /// A word or a name without end.
@@ -148,7 +148,7 @@ impl BvhErrorKind {
                 "channels are Xposition, Yposition, Zposition, Xrotation, Yrotation, Zrotation (Xscale, Yscale, Zscale)"
             }
             Self::TooDeep { .. } | Self::TooMany { .. } => {
-                "a skeleton of this size is taken for damage; export fewer joints"
+                "a file of this shape is taken for damage; export it again with fewer joints or digits"
             }
             Self::TooLong { .. } => "the file is damaged here; export it again",
             Self::BadNumber { why, .. } | Self::BadValue { why, .. } => remedy_for(*why),

@@ -13,6 +13,9 @@ use super::{
 };
 use crate::Finding;
 
+/// How many bytes of numbers too long for a mantissa one block may hold.
+const LONG_NUMBERS_LIMIT: usize = 32 << 20;
+
 /// How to read.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
@@ -48,6 +51,8 @@ pub struct Reader<R> {
     /// The numbers already read on this line.
     on_line: u64,
     motion_line: u64,
+    /// The bytes of numbers too long for a mantissa in this block.
+    long_numbers: usize,
     /// The line and width of a row that ended before its last column.
     short: Option<(u64, u64)>,
 }
@@ -98,6 +103,7 @@ impl<R: Read> Reader<R> {
             tile_rows: 0,
             column: 0,
             on_line: 0,
+            long_numbers: 0,
             short: None,
         })
     }
@@ -126,6 +132,7 @@ impl<R: Read> Reader<R> {
     /// A number or a row that has no clear meaning, with its line. The reader is of no use afterwards.
     pub fn next_block(&mut self, block: &mut Block) -> Result<bool, BvhError> {
         self.begin(block);
+        self.long_numbers = 0;
         while !self.ended && block.frames + self.tile_rows < self.options.block_frames {
             self.step(block)?;
         }
@@ -221,6 +228,17 @@ impl<R: Read> Reader<R> {
         }
         if self.columns.is_empty() {
             return Err(self.width_error(line, 1));
+        }
+        if matches!(number, Number::Text(_)) {
+            self.long_numbers += token.len();
+        }
+        if self.long_numbers > LONG_NUMBERS_LIMIT {
+            let what = "bytes of numbers with more than eighteen digits in one block of frames";
+            return Err(BvhErrorKind::TooMany {
+                limit: LONG_NUMBERS_LIMIT,
+                what,
+            }
+            .at(line));
         }
         self.put(number, block);
         self.column += 1;
