@@ -30,8 +30,6 @@ CREATE TABLE recording (
     signer_id   INTEGER REFERENCES signer (id),
     origin      TEXT NOT NULL CHECK (origin IN ('captured', 'made', 'generated')),
     duration_us INTEGER NOT NULL DEFAULT 0 CHECK (duration_us >= 0),
-    source_name TEXT,
-    source_hash TEXT,
     licence     TEXT,
     notes       TEXT
 ) STRICT;
@@ -51,7 +49,8 @@ CREATE TABLE track (
     frame_time      TEXT,
     metres_per_unit REAL CHECK (metres_per_unit > 0),
     axes            TEXT,
-    root_order      TEXT,
+    root_order      TEXT CHECK (root_order IN ('rotation-before-position')),
+    root_scale      REAL CHECK (root_scale > 0),
     roles           TEXT CHECK (json_valid(roles)),
     channel_groups  TEXT CHECK (json_valid(channel_groups)),
     media_url       TEXT,
@@ -59,6 +58,19 @@ CREATE TABLE track (
     UNIQUE (recording_id, name)
 ) STRICT;
 CREATE INDEX track_skeleton ON track (skeleton_id);
+
+-- The files that rows came from; small ones are kept whole, compressed with zstd.
+CREATE TABLE source_file (
+    id           INTEGER PRIMARY KEY,
+    uid          BLOB NOT NULL DEFAULT (randomblob(16)),
+    recording_id INTEGER REFERENCES recording (id),
+    kind         TEXT NOT NULL CHECK (kind IN ('bvh', 'eaf', 'lexicon', 'inventory')),
+    name         TEXT NOT NULL,
+    hash         TEXT NOT NULL,
+    data         BLOB
+) STRICT;
+CREATE INDEX source_file_recording ON source_file (recording_id);
+CREATE INDEX source_file_hash ON source_file (hash);
 
 -- Numbers of motion, never changed: a block is named by the SHA-256 of its bytes.
 CREATE TABLE block (

@@ -7,7 +7,9 @@ mod address;
 pub(crate) mod codec;
 pub(crate) mod db;
 mod error;
+mod import;
 mod inventories;
+mod movement;
 mod progress;
 pub(crate) mod search;
 mod tokens;
@@ -16,11 +18,16 @@ use std::path::Path;
 
 use db::Store;
 
+pub use chereme_formats::roles::{Mapping, MappingError};
+
 pub use address::{Address, Name, Stretch};
 pub use db::{OperationKind, OperationRow};
 pub use error::{Error, Result};
+pub use import::{FileReport, FileStatus, ImportOptions, ImportReport, ReportFinding};
 pub use inventories::StoredInventory;
+pub use movement::ChannelGroup;
 pub use progress::{Progress, Step, Unit, unheard};
+pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions};
 
 /// An open corpus.
 pub struct Corpus {

@@ -11,14 +11,21 @@ use crate::db::recordings::{self, RecordingRow};
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::Result;
+use crate::inventories::StoredInventory;
 
 /// Brings the tokens of a recording to what its tiers say; those that stay keep their rows.
 ///
 /// Each annotation of a gloss tier with a value is a token. With `window` only the tokens near that
-/// time are looked at: enough after a change inside it.
-pub(crate) fn derive(connection: &Connection, recording: i64, window: Option<Span>) -> Result<()> {
+/// time are looked at: enough after a change inside it. Values become the ids that the tiers'
+/// inventories have for them.
+pub(crate) fn derive(
+    connection: &Connection,
+    recording: i64,
+    window: Option<Span>,
+    inventories: &[StoredInventory],
+) -> Result<()> {
     let recording = recordings::recording(connection, recording)?;
-    let said = Said::read(connection, &recording, window)?;
+    let said = Said::read(connection, &recording, window, inventories)?;
     let mut standing: BTreeMap<i64, TokenRow> = BTreeMap::new();
     for token in signs::tokens_of_recording(connection, recording.id)? {
         if let Some(annotation) = token.annotation_id
@@ -99,6 +106,7 @@ impl Said {
         connection: &Connection,
         recording: &RecordingRow,
         window: Option<Span>,
+        inventories: &[StoredInventory],
     ) -> Result<Self> {
         let handedness = handedness(connection, recording)?;
         let tiers = tiers::tiers(connection, recording.id)?;
@@ -126,8 +134,11 @@ impl Said {
             .map(|gloss| span(&gloss.row))
             .reduce(|a, b| Span::between(a.start().min(b.start()), a.end().max(b.end())));
         for tier in tiers.iter().filter(|tier| tier.role == "component") {
+            let inventory = inventories
+                .iter()
+                .find(|it| Some(it.id) == tier.inventory_id);
             for row in annotations(connection, tier, window.and(reach))? {
-                said.add_component(tier, &row);
+                said.add_component(tier, &row, inventory);
             }
         }
         said.components
@@ -141,12 +152,20 @@ impl Said {
         Ok(said)
     }
 
-    fn add_component(&mut self, tier: &TierRow, row: &AnnotationRow) {
+    fn add_component(
+        &mut self,
+        tier: &TierRow,
+        row: &AnnotationRow,
+        inventory: Option<&StoredInventory>,
+    ) {
         let Some(component) = tier.component.as_deref().and_then(|name| name.parse().ok()) else {
             return;
         };
         let reading = match row.state.as_str() {
-            "value" => Reading::from(row.value.trim()),
+            "value" => {
+                let known = inventory.and_then(|it| it.inventory.find(row.value.trim()));
+                Reading::from(known.map_or(row.value.trim(), |value| value.id.as_str()))
+            }
             "not-applicable" => Reading::NotApplicable,
             "unclear" => Reading::Unclear,
             _ => Reading::Unset,

@@ -13,11 +13,12 @@ use super::damaged;
 use crate::error::{Error, Result};
 
 /// The tables whose rows are recorded, and for each the columns that refer to a row with a uid.
-const TRACKED: [(&str, &[(&str, &str)]); 16] = [
+const TRACKED: [(&str, &[(&str, &str)]); 17] = [
     ("meta", &[]),
     ("signer", &[]),
     ("skeleton", &[]),
     ("recording", &[("signer_id", "signer")]),
+    ("source_file", &[("recording_id", "recording")]),
     (
         "track",
         &[("recording_id", "recording"), ("skeleton_id", "skeleton")],

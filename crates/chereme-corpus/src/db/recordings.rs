@@ -1,9 +1,14 @@
 //! Rows of signers, skeletons, recordings and their tracks.
 
+use std::io::Read;
+
 use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
 
+use super::damaged;
 use crate::error::{Error, Result};
+
+const LARGEST_SOURCE: u64 = 1 << 30;
 
 /// A signer.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -33,10 +38,6 @@ pub struct RecordingRow {
     pub origin: String,
     /// The length in microseconds.
     pub duration_us: i64,
-    /// The name of the file it came from.
-    pub source_name: Option<String>,
-    /// The SHA-256 of that file, in hexadecimal.
-    pub source_hash: Option<String>,
     /// The terms under which it may be used.
     pub licence: Option<String>,
     /// Remarks.
@@ -70,6 +71,9 @@ pub struct MotionTrackRow {
     pub axes: String,
     /// The order in which the root's columns are meant, where the header has it wrong.
     pub root_order: Option<String>,
+    /// By how much the root's places are to be multiplied, where they are in another unit than the
+    /// bones.
+    pub root_scale: Option<f64>,
     /// Joint roles that a person set, as JSON.
     pub roles: Option<String>,
     /// Which joints lie in which channel group, as JSON.
@@ -176,17 +180,14 @@ pub(crate) fn skeleton_document(connection: &Connection, id: i64) -> Result<Stri
 pub(crate) fn insert_recording(connection: &Connection, row: &RecordingRow) -> Result<i64> {
     connection
         .prepare_cached(
-            "INSERT INTO recording (name, signer_id, origin, duration_us, source_name, source_hash,
-                                    licence, notes)
-             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)",
+            "INSERT INTO recording (name, signer_id, origin, duration_us, licence, notes)
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
         )?
         .execute(params![
             row.name,
             row.signer_id,
             row.origin,
             row.duration_us,
-            row.source_name,
-            row.source_hash,
             row.licence,
             row.notes
         ])?;
@@ -194,7 +195,7 @@ pub(crate) fn insert_recording(connection: &Connection, row: &RecordingRow) -> R
 }
 
 const RECORDING: &str = "
-    SELECT r.id, r.name, r.signer_id, s.name, r.origin, r.duration_us, r.source_name, r.source_hash,
+    SELECT r.id, r.name, r.signer_id, s.name, r.origin, r.duration_us,
            r.licence, r.notes
     FROM recording r LEFT JOIN signer s ON s.id = r.signer_id";
 
@@ -206,10 +207,8 @@ fn recording_row(row: &Row<'_>) -> rusqlite::Result<RecordingRow> {
         signer: row.get(3)?,
         origin: row.get(4)?,
         duration_us: row.get(5)?,
-        source_name: row.get(6)?,
-        source_hash: row.get(7)?,
-        licence: row.get(8)?,
-        notes: row.get(9)?,
+        licence: row.get(6)?,
+        notes: row.get(7)?,
     })
 }
 
@@ -234,14 +233,91 @@ pub(crate) fn recording_named(connection: &Connection, name: &str) -> Result<Opt
         .optional()?)
 }
 
-/// Returns the recording that came from a file with this hash.
-pub(crate) fn recording_from(connection: &Connection, hash: &str) -> Result<Option<RecordingRow>> {
+/// A file that rows came from.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct SourceFileRow {
+    /// The row.
+    pub id: i64,
+    /// The recording that it is about.
+    pub recording_id: Option<i64>,
+    /// `bvh`, `eaf`, `lexicon` or `inventory`.
+    pub kind: String,
+    /// The file's name, without its folder.
+    pub name: String,
+    /// The SHA-256 of the file, in hexadecimal.
+    pub hash: String,
+}
+
+/// Writes down a file that rows came from, with its bytes where they are kept.
+pub(crate) fn insert_source_file(
+    connection: &Connection,
+    row: &SourceFileRow,
+    bytes: Option<&[u8]>,
+) -> Result<()> {
+    let data = bytes.map(|bytes| zstd::encode_all(bytes, 9)).transpose();
+    let data = data.map_err(|error| Error::file(&row.name, error))?;
+    connection
+        .prepare_cached(
+            "INSERT INTO source_file (recording_id, kind, name, hash, data)
+             VALUES (?1, ?2, ?3, ?4, ?5)",
+        )?
+        .execute(params![
+            row.recording_id,
+            row.kind,
+            row.name,
+            row.hash,
+            data
+        ])?;
+    Ok(())
+}
+
+/// Returns the files of a recording, oldest first.
+pub(crate) fn source_files(connection: &Connection, recording: i64) -> Result<Vec<SourceFileRow>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT id, recording_id, kind, name, hash FROM source_file
+         WHERE recording_id = ?1 ORDER BY id",
+    )?;
+    let rows = statement
+        .query_map([recording], source_file_row)?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Returns the file with this hash that was imported before.
+pub(crate) fn source_file_hashed(
+    connection: &Connection,
+    hash: &str,
+) -> Result<Option<SourceFileRow>> {
     Ok(connection
-        .prepare_cached(&format!(
-            "{RECORDING} WHERE r.source_hash = ?1 ORDER BY r.id LIMIT 1"
-        ))?
-        .query_row([hash], recording_row)
+        .prepare_cached(
+            "SELECT id, recording_id, kind, name, hash FROM source_file
+             WHERE hash = ?1 ORDER BY id LIMIT 1",
+        )?
+        .query_row([hash], source_file_row)
         .optional()?)
+}
+
+fn source_file_row(row: &Row<'_>) -> rusqlite::Result<SourceFileRow> {
+    Ok(SourceFileRow {
+        id: row.get(0)?,
+        recording_id: row.get(1)?,
+        kind: row.get(2)?,
+        name: row.get(3)?,
+        hash: row.get(4)?,
+    })
+}
+
+/// Returns the bytes of a file that was kept.
+pub(crate) fn source_bytes(connection: &Connection, id: i64) -> Result<Option<Vec<u8>>> {
+    let data: Option<Vec<u8>> = connection
+        .prepare_cached("SELECT data FROM source_file WHERE id = ?1")?
+        .query_row([id], |row| row.get(0))?;
+    let Some(data) = data else { return Ok(None) };
+    let mut bytes = Vec::new();
+    let read = zstd::Decoder::new(data.as_slice())
+        .and_then(|reader| reader.take(LARGEST_SOURCE).read_to_end(&mut bytes));
+    read.map_err(|error| damaged(format!("source_file {id}"), error.to_string()))?;
+    Ok(Some(bytes))
 }
 
 /// Returns all recordings, oldest first.
@@ -267,8 +343,9 @@ pub(crate) fn insert_motion_track(connection: &Connection, row: &MotionTrackRow)
         .prepare_cached(
             "INSERT INTO track (recording_id, kind, name, offset_us, skeleton_id, frames,
                  rate_frames, rate_seconds, frame_time, metres_per_unit, axes, root_order, roles,
-                 channel_groups)
-             VALUES (?1, 'skeleton', ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13)",
+                 channel_groups, root_scale)
+             VALUES (?1, 'skeleton', ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13,
+                 ?14)",
         )?
         .execute(params![
             row.recording_id,
@@ -283,7 +360,8 @@ pub(crate) fn insert_motion_track(connection: &Connection, row: &MotionTrackRow)
             row.axes,
             row.root_order,
             row.roles,
-            row.channel_groups
+            row.channel_groups,
+            row.root_scale
         ])?;
     Ok(connection.last_insert_rowid())
 }
@@ -305,7 +383,7 @@ pub(crate) fn motion_track(
         .prepare_cached(
             "SELECT id, recording_id, name, offset_us, skeleton_id, frames, rate_frames,
                     rate_seconds, frame_time, metres_per_unit, axes, root_order, roles,
-                    channel_groups
+                    channel_groups, root_scale
              FROM track WHERE recording_id = ?1 AND kind = 'skeleton' ORDER BY id LIMIT 1",
         )?
         .query_row([recording], |row| {
@@ -324,6 +402,7 @@ pub(crate) fn motion_track(
                 root_order: row.get(11)?,
                 roles: row.get(12)?,
                 channel_groups: row.get(13)?,
+                root_scale: row.get(14)?,
             })
         })
         .optional()?)
@@ -365,4 +444,47 @@ pub(crate) fn media_tracks(connection: &Connection, recording: i64) -> Result<Ve
         })?
         .collect::<rusqlite::Result<_>>()?;
     Ok(rows)
+}
+
+/// Writes down whose a recording is, how it came about and under which terms; nothing leaves it as it is.
+pub(crate) fn describe(
+    connection: &Connection,
+    recording: i64,
+    signer: Option<i64>,
+    origin: Option<&str>,
+    licence: Option<&str>,
+) -> Result<()> {
+    connection
+        .prepare_cached(
+            "UPDATE recording SET signer_id = coalesce(?2, signer_id), origin = coalesce(?3, origin),
+                 licence = coalesce(?4, licence)
+             WHERE id = ?1 AND (signer_id IS NOT coalesce(?2, signer_id)
+                 OR origin <> coalesce(?3, origin) OR licence IS NOT coalesce(?4, licence))",
+        )?
+        .execute(params![recording, signer, origin, licence])?;
+    Ok(())
+}
+
+/// Writes down in which order the root's columns of a track are meant, and their unit.
+pub(crate) fn set_root(
+    connection: &Connection,
+    track: i64,
+    order: Option<&str>,
+    scale: Option<f64>,
+) -> Result<()> {
+    connection
+        .prepare_cached("UPDATE track SET root_order = ?2, root_scale = ?3 WHERE id = ?1")?
+        .execute(params![track, order, scale])?;
+    Ok(())
+}
+
+/// Returns `name`, or the first of `name (2)`, `name (3)` … that no recording has.
+pub(crate) fn free_name(connection: &Connection, name: &str) -> Result<String> {
+    let mut free = name.to_owned();
+    let mut count = 1;
+    while recording_named(connection, &free)?.is_some() {
+        count += 1;
+        free = format!("{name} ({count})");
+    }
+    Ok(free)
 }

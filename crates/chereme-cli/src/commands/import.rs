@@ -1,0 +1,260 @@
+//! `chereme import`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::{Context, Result};
+use chereme_corpus::{Corpus, FileReport, FileStatus, ImportOptions, ImportReport, Progress};
+use clap::ValueEnum;
+use serde_json::Value;
+
+use crate::args::{Cli, read_text};
+use crate::output::{Bar, Output};
+
+/// Take recordings, annotations, lexicons and inventories into a corpus
+///
+/// Files: .bvh (movement), .eaf (ELAN annotations), .csv or .tsv (a lexicon of codings), .json (an
+/// inventory), or folders of them. A movement and an annotation file with the same name become one
+/// recording. What each file was understood as is shown, and can be overridden. The corpus is made
+/// where there is none yet. One import is one operation: `chereme undo` takes it back.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// Files and folders
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// Report what would be done, and write nothing
+    #[arg(long)]
+    dry_run: bool,
+    /// Whose movement it is
+    #[arg(long, value_name = "NAME")]
+    signer: Option<String>,
+    /// The signer's dominant hand
+    #[arg(long, value_enum)]
+    handedness: Option<HandWord>,
+    /// The unit of length of the movement files: m, cm, mm, inch, acclaim, or metres per unit
+    #[arg(long, value_parser = unit)]
+    unit: Option<f64>,
+    /// The axes of the movement files: the directions up and to the signer's left, such as +Z,+X
+    #[arg(long, value_name = "UP,LEFT", allow_hyphen_values = true)]
+    axes: Option<chereme_motion::Axes>,
+    /// A file that says which joint is what: lines such as `right wrist = RHand`
+    #[arg(long, value_name = "FILE")]
+    roles: Option<PathBuf>,
+    /// Read the root's columns as they lie where the header has their order or unit wrong
+    #[arg(long)]
+    mend_root: bool,
+    /// A file that says which tier or column is what (JSON)
+    #[arg(long, value_name = "FILE")]
+    map: Option<PathBuf>,
+    /// How the recordings came about
+    #[arg(long, value_enum)]
+    origin: Option<OriginWord>,
+    /// The terms under which the recordings may be used
+    #[arg(long, value_name = "TEXT")]
+    licence: Option<String>,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum HandWord {
+    Right,
+    Left,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum OriginWord {
+    Captured,
+    Made,
+    Generated,
+}
+
+fn unit(text: &str) -> Result<f64, String> {
+    match text.to_lowercase().as_str() {
+        "m" => Ok(1.0),
+        "cm" => Ok(0.01),
+        "mm" => Ok(0.001),
+        "inch" | "in" => Ok(0.0254),
+        "acclaim" => Ok(0.0254 / 0.45),
+        other => match other.parse::<f64>() {
+            Ok(metres) if metres.is_finite() && metres > 0.0 => Ok(metres),
+            _ => Err("write m, cm, mm, inch, acclaim, or how many metres one unit is".to_owned()),
+        },
+    }
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCode> {
+    let options = options(args)?;
+    let scratch = tempfile_for(args)?;
+    let path = scratch.as_ref().map_or(&args.corpus, |scratch| &scratch.1);
+    let fresh = !path.exists();
+    let mut corpus = if fresh {
+        Corpus::create(path, &cli.author())?
+    } else {
+        cli.open(path)?
+    };
+    let mut bar = Bar::new();
+    let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
+    let report = corpus.import(&args.files, &options, &mut Progress::new(&mut hear));
+    drop(bar);
+    let report = report?;
+    if fresh && scratch.is_none() {
+        output.line(format!("made {}", path.display()))?;
+    }
+    print(&report, output)?;
+    let refused = report.has_refusals();
+    output.document(report)?;
+    Ok(if refused {
+        ExitCode::FAILURE
+    } else {
+        ExitCode::SUCCESS
+    })
+}
+
+/// A throw-away corpus for a dry run where there is none yet.
+fn tempfile_for(args: &Args) -> Result<Option<(tempfile::TempDir, PathBuf)>> {
+    if !args.dry_run || args.corpus.exists() {
+        return Ok(None);
+    }
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("dry-run.chereme");
+    Ok(Some((folder, path)))
+}
+
+fn options(args: &Args) -> Result<ImportOptions> {
+    let roles = args.roles.as_ref().map(|path| {
+        let text = read_text(path)?;
+        text.parse().with_context(|| path.display().to_string())
+    });
+    let mapping = args.map.as_ref().map(|path| {
+        let text = read_text(path)?;
+        chereme_corpus::Mapping::from_json(&text).with_context(|| path.display().to_string())
+    });
+    let word = |hand: HandWord| match hand {
+        HandWord::Right => "right",
+        HandWord::Left => "left",
+    };
+    let origin = |origin: OriginWord| match origin {
+        OriginWord::Captured => "captured",
+        OriginWord::Made => "made",
+        OriginWord::Generated => "generated",
+    };
+    Ok(ImportOptions {
+        signer: args.signer.clone(),
+        handedness: args.handedness.map(|hand| word(hand).to_owned()),
+        metres_per_unit: args.unit,
+        axes: args.axes,
+        roles: roles.transpose()?,
+        mend_root: args.mend_root,
+        mapping: mapping.transpose()?.unwrap_or_default(),
+        origin: args.origin.map(|it| origin(it).to_owned()),
+        licence: args.licence.clone(),
+        dry_run: args.dry_run,
+    })
+}
+
+fn print(report: &ImportReport, output: &mut Output) -> Result<()> {
+    for file in &report.files {
+        print_file(file, output)?;
+    }
+    let skipped = report
+        .files
+        .iter()
+        .filter(|file| file.status == FileStatus::Skipped)
+        .count();
+    if skipped > 0 {
+        output.line(format!("{skipped} files of other kinds were left alone"))?;
+    }
+    let created: Vec<String> = report
+        .created
+        .iter()
+        .map(|(what, count)| format!("{count} {what}"))
+        .collect();
+    let created = if created.is_empty() {
+        "nothing".to_owned()
+    } else {
+        created.join(", ")
+    };
+    let word = if report.dry_run { "would make" } else { "made" };
+    output.line(format!("{word}: {created}"))
+}
+
+fn print_file(file: &FileReport, output: &mut Output) -> Result<()> {
+    let status = match file.status {
+        FileStatus::Skipped => return Ok(()),
+        FileStatus::Imported => "",
+        FileStatus::Unchanged => ": unchanged",
+        FileStatus::Refused => ": REFUSED",
+    };
+    let recording = file
+        .recording
+        .as_ref()
+        .map(|name| format!(" -> recording {name:?}"));
+    output.line(format!(
+        "{}{status}{}",
+        file.path,
+        recording.unwrap_or_default()
+    ))?;
+    let text = |key: &str| file.understood.get(key).map(plain).unwrap_or_default();
+    if file.understood.contains_key("axes") {
+        output.line(format!(
+            "  {} joints, {}, unit {}, axes up,left = {}",
+            text("joints"),
+            text("frame_rate"),
+            text("unit"),
+            text("axes")
+        ))?;
+    }
+    let list = |key: &str| file.understood.get(key).and_then(Value::as_array);
+    for tier in list("tiers").into_iter().flatten() {
+        let role = tier
+            .get("role")
+            .map_or_else(|| "not known".to_owned(), role_text);
+        let hand = tier.get("hand").and_then(Value::as_str);
+        let hand = hand.map(|hand| format!("{hand} ")).unwrap_or_default();
+        output.line(format!("  tier {}: {hand}{role}", plain(&tier["tier"])))?;
+    }
+    for column in list("columns").into_iter().flatten() {
+        output.line(format!(
+            "  column {}: {}",
+            plain(&column["title"]),
+            role_text(&column["meaning"])
+        ))?;
+    }
+    for finding in &file.findings {
+        let line = finding
+            .line
+            .map(|line| format!("line {line}: "))
+            .unwrap_or_default();
+        output.line(format!("  {}: {line}{}", finding.severity, finding.message))?;
+        if let Some(remedy) = &finding.remedy {
+            output.line(format!("    what to do: {remedy}"))?;
+        }
+    }
+    Ok(())
+}
+
+fn plain(value: &Value) -> String {
+    value
+        .as_str()
+        .map_or_else(|| value.to_string(), str::to_owned)
+}
+
+/// A role as people say it: `{"component": {"component": "nonmanual", "feature": "brows"}}`.
+fn role_text(value: &Value) -> String {
+    match value {
+        Value::Null => "not known".to_owned(),
+        Value::Object(map) => {
+            let known = map.iter().filter(|(_, value)| !value.is_null());
+            known
+                .map(|(key, value)| match value {
+                    Value::Object(_) => role_text(value),
+                    _ if key == "component" || key == "feature" => plain(value),
+                    _ => format!("{key} {}", plain(value)),
+                })
+                .collect::<Vec<_>>()
+                .join(" ")
+        }
+        other => plain(other),
+    }
+}

@@ -1,0 +1,35 @@
+//! The commands, one module each.
+
+mod history;
+mod import;
+mod new;
+
+use std::process::ExitCode;
+
+use anyhow::Result;
+use clap::Subcommand;
+
+use crate::args::Cli;
+use crate::output::Output;
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    New(new::Args),
+    Import(import::Args),
+    Undo(history::UndoArgs),
+    Redo(history::RedoArgs),
+    Log(history::LogArgs),
+}
+
+/// Runs the command.
+pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
+    match &cli.command {
+        Command::New(args) => new::run(cli, args, output),
+        Command::Import(args) => return import::run(cli, args, output),
+        Command::Undo(args) => history::undo(cli, args, output),
+        Command::Redo(args) => history::redo(cli, args, output),
+        Command::Log(args) => history::log(cli, args, output),
+    }?;
+    Ok(ExitCode::SUCCESS)
+}

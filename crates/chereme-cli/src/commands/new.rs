@@ -1,0 +1,23 @@
+//! `chereme new`.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::Corpus;
+use serde_json::json;
+
+use crate::args::Cli;
+use crate::output::Output;
+
+/// Make an empty corpus with the inventories of handshapes, placements, movements and the rest
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The file to make, such as lsf.chereme; nothing may be there yet
+    corpus: PathBuf,
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let corpus = Corpus::create(&args.corpus, &cli.author())?;
+    output.document(json!({ "corpus": corpus.path() }))?;
+    output.line(format!("made {}", corpus.path().display()))
+}

@@ -1,0 +1,197 @@
+//! What the terminal shows: tables and sentences for people, one JSON document for programs.
+
+use std::io::{self, IsTerminal, Write};
+use std::ops::ControlFlow;
+use std::process::ExitCode;
+use std::time::Duration;
+
+use anyhow::Result;
+use chereme_corpus::{Step, Unit};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use serde::Serialize;
+use serde_json::{Value, json};
+
+/// Where a command writes; a reader that goes away early ends the program quietly.
+pub(crate) struct Output {
+    json: bool,
+    document: Option<Value>,
+    text: io::BufWriter<io::Stdout>,
+}
+
+impl Output {
+    pub(crate) fn new(json: bool) -> Self {
+        Self {
+            json,
+            document: None,
+            text: io::BufWriter::new(io::stdout()),
+        }
+    }
+
+    /// Tells whether a JSON document is wanted.
+    pub(crate) fn is_json(&self) -> bool {
+        self.json
+    }
+
+    /// Sets the JSON document; tables and sentences are for people only.
+    pub(crate) fn document(&mut self, document: impl Serialize) -> Result<()> {
+        self.document = Some(serde_json::to_value(document)?);
+        Ok(())
+    }
+
+    /// Writes a line for people.
+    pub(crate) fn line(&mut self, text: impl AsRef<str>) -> Result<()> {
+        if !self.json {
+            quiet(writeln!(self.text, "{}", text.as_ref()))?;
+        }
+        Ok(())
+    }
+
+    /// Writes a table for people: columns as wide as their widest cell, numbers to the right.
+    pub(crate) fn table(&mut self, header: &[&str], rows: &[Vec<String>]) -> Result<()> {
+        if self.json {
+            return Ok(());
+        }
+        let width = |column: usize| {
+            let cells = rows.iter().filter_map(|row| row.get(column));
+            let widest = cells.map(|cell| cell.chars().count()).max().unwrap_or(0);
+            widest.max(header[column].chars().count())
+        };
+        let widths: Vec<usize> = (0..header.len()).map(width).collect();
+        let numeric: Vec<bool> = (0..header.len())
+            .map(|column| {
+                let mut cells = rows.iter().filter_map(|row| row.get(column)).peekable();
+                cells.peek().is_some()
+                    && cells.all(|cell| cell.is_empty() || cell.parse::<f64>().is_ok())
+            })
+            .collect();
+        let print = |cells: &mut dyn Iterator<Item = &str>| {
+            let padded = cells
+                .zip(&widths)
+                .zip(&numeric)
+                .map(|((cell, width), numeric)| {
+                    let gap = " ".repeat(width.saturating_sub(cell.chars().count()));
+                    if *numeric {
+                        format!("{gap}{cell}")
+                    } else {
+                        format!("{cell}{gap}")
+                    }
+                });
+            padded.collect::<Vec<_>>().join("  ").trim_end().to_owned()
+        };
+        let head = print(&mut header.iter().copied());
+        self.line(&head)?;
+        self.line("-".repeat(widths.iter().sum::<usize>() + 2 * widths.len().saturating_sub(1)))?;
+        for row in rows {
+            let text = print(&mut row.iter().map(String::as_str));
+            self.line(text)?;
+        }
+        Ok(())
+    }
+
+    /// Writes out what is left.
+    pub(crate) fn finish(&mut self) -> Result<()> {
+        if self.json {
+            let document = self.document.take().unwrap_or_else(|| json!({}));
+            quiet(serde_json::to_writer(&mut self.text, &document).map_err(io::Error::from))?;
+            quiet(writeln!(self.text))?;
+        }
+        quiet(self.text.flush())
+    }
+
+    /// Tells why the work could not be done, and returns the exit code.
+    pub(crate) fn fail(&mut self, error: &anyhow::Error) -> ExitCode {
+        let known = error.downcast_ref::<chereme_corpus::Error>();
+        let place = known.and_then(chereme_corpus::Error::place);
+        let remedy = known.and_then(chereme_corpus::Error::remedy);
+        let message = format!("{error:#}");
+        if self.json {
+            self.document = Some(json!({
+                "error": { "message": message, "where": place, "remedy": remedy }
+            }));
+            let _ = self.finish();
+        } else {
+            let _ = self.text.flush();
+            tell(&format!("error: {message}"));
+            if let Some(place) = place.filter(|place| !message.contains(place.as_str())) {
+                tell(&format!("  where: {place}"));
+            }
+            if let Some(remedy) = remedy {
+                tell(&format!("  what to do: {remedy}"));
+            }
+        }
+        ExitCode::FAILURE
+    }
+}
+
+fn quiet(done: io::Result<()>) -> Result<()> {
+    match done {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => std::process::exit(0),
+        other => Ok(other?),
+    }
+}
+
+/// Writes a line on standard error.
+pub(crate) fn tell(text: &str) {
+    let _ = writeln!(io::stderr(), "{text}");
+}
+
+/// Tells of wrong usage, or shows the help that was asked for.
+pub(crate) fn usage(error: &clap::Error, json: bool) -> ExitCode {
+    if json && error.use_stderr() {
+        let text = error.to_string();
+        let (message, remedy) = text.split_once("\n\n").unwrap_or((&text, ""));
+        let message = message.trim_start_matches("error: ").trim();
+        let document = json!({ "error": { "message": message, "where": Value::Null, "remedy": remedy.trim() } });
+        let _ = writeln!(io::stdout(), "{document}");
+    } else {
+        let _ = error.print();
+    }
+    ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
+}
+
+/// A progress bar on a terminal, nothing elsewhere.
+pub(crate) struct Bar {
+    bar: ProgressBar,
+    unit: Option<Unit>,
+}
+
+impl Bar {
+    pub(crate) fn new() -> Self {
+        let target = if io::stderr().is_terminal() {
+            ProgressDrawTarget::stderr_with_hz(10)
+        } else {
+            ProgressDrawTarget::hidden()
+        };
+        let bar = ProgressBar::with_draw_target(None, target);
+        bar.enable_steady_tick(Duration::from_millis(200));
+        Self { bar, unit: None }
+    }
+
+    /// Shows a step; Ctrl-C ends the program, which leaves the corpus as it was.
+    pub(crate) fn show(&mut self, step: Step<'_>) -> ControlFlow<()> {
+        if self.unit != Some(step.unit) {
+            self.unit = Some(step.unit);
+            let counts = match step.unit {
+                Unit::Bytes => "{bytes}/{total_bytes} {bytes_per_sec}",
+                Unit::Frames => "{pos}/{len} frames",
+                Unit::Items => "{pos}/{len}",
+            };
+            let template = format!("{{msg:24}} [{{bar:32}}] {counts} {{eta}}");
+            if let Ok(style) = ProgressStyle::with_template(&template) {
+                self.bar.set_style(style.progress_chars("=> "));
+            }
+        }
+        self.bar.set_length(step.total.unwrap_or(step.done));
+        self.bar.set_position(step.done);
+        if self.bar.message() != step.task {
+            self.bar.set_message(step.task.to_owned());
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl Drop for Bar {
+    fn drop(&mut self) {
+        self.bar.finish_and_clear();
+    }
+}

@@ -1,0 +1,387 @@
+//! Motion files: a recording with its skeleton and its movement, every number kept.
+
+use std::fs::File;
+use std::sync::Arc;
+
+use chereme_formats::bvh::convert::{self, ClipBuilder};
+use chereme_formats::bvh::raw::{Block, ChannelFix, Hierarchy, Options, Reader};
+use chereme_motion::anatomy::{Anatomy, ConventionGuess, Evidence, Part};
+use chereme_motion::glam::DVec3;
+use chereme_motion::{Clip, Convention, ModelPose, Rate, Side, Skeleton};
+use serde_json::json;
+use sha2::{Digest, Sha256};
+
+use super::report::ReportFinding;
+use super::{FileReport, FileStatus, Job};
+use crate::db::motion::hex;
+use crate::db::recordings::{self, MotionTrackRow, RecordingRow, SourceFileRow};
+use crate::error::{Error, Result};
+use crate::movement::{self, BLOCK_FRAMES, ChannelGroup};
+use crate::progress::{Progress, Step, Unit};
+
+pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
+    if let Some(known) = recordings::source_file_hashed(job.connection, &job.hash)? {
+        if let Some(recording) = known.recording_id {
+            job.recordings.insert(job.pair_key(), recording);
+        }
+        return Ok(FileReport::unchanged(job.path));
+    }
+    let file = File::open(job.path).map_err(|error| Error::file(job.path, error))?;
+    let size = file
+        .metadata()
+        .map_err(|error| Error::file(job.path, error))?
+        .len();
+    let options = Options {
+        block_frames: BLOCK_FRAMES,
+        ..Options::default()
+    };
+    let mut reader = Reader::open_with(file, options).map_err(wrong)?;
+    let mut block = Block::default();
+    let mut more = reader.next_block(&mut block).map_err(wrong)?;
+    let mut report = FileReport::new(job.path, FileStatus::Imported);
+    let hierarchy = reader.hierarchy().clone();
+    let frame_time = reader.header().frame_time.clone();
+    let rate = convert::rate(frame_time.as_ref()).map_err(|error| {
+        Error::wrong(error.to_string()).advise("correct the line `Frame Time:` of the file")
+    })?;
+    let found = understand(job, &hierarchy, &block, rate, &mut report)?;
+    let recording = insert_recording(job)?;
+    let track = insert_track(
+        job,
+        recording,
+        &hierarchy,
+        rate,
+        frame_time.map(|time| time.to_string()),
+        &found,
+    )?;
+    let groups: Vec<(ChannelGroup, Vec<usize>)> = found
+        .groups
+        .iter()
+        .map(|(group, joints)| (*group, movement::columns_of(&hierarchy, joints)))
+        .collect();
+    while more {
+        let first = usize::try_from(block.first_frame).unwrap_or(usize::MAX);
+        movement::store_block(
+            job.connection,
+            track,
+            &groups,
+            first,
+            block.frames,
+            &block.columns,
+        )?;
+        progress.tell(Step {
+            task: &job.file_name,
+            done: reader.bytes_read(),
+            total: Some(size),
+            unit: Unit::Bytes,
+        })?;
+        more = reader.next_block(&mut block).map_err(wrong)?;
+    }
+    let summary = reader.finish();
+    finish(job, recording, track, summary.frames, rate)?;
+    report
+        .findings
+        .extend(summary.findings.into_iter().map(ReportFinding::from));
+    let first = first_frame(&hierarchy, &found.first, rate, summary.root_fix)?;
+    let scale = root_scale(&first, &found.anatomy, found.convention.axes.up().vector());
+    mend_root(job, track, summary.root_fix, scale, &mut report)?;
+    report.recording = Some(recordings::recording(job.connection, recording)?.name);
+    Ok(report)
+}
+
+fn wrong(error: chereme_formats::bvh::raw::BvhError) -> Error {
+    let (remedy, line) = (error.kind.remedy(), error.line);
+    Error::wrong(error.to_string())
+        .at(format!("line {line}"))
+        .advise(remedy)
+}
+
+/// What a file's skeleton was understood as.
+struct Understood {
+    convention: Convention,
+    groups: std::collections::BTreeMap<ChannelGroup, Vec<usize>>,
+    anatomy: Anatomy,
+    first: Block,
+}
+
+fn understand(
+    job: &Job<'_>,
+    hierarchy: &Hierarchy,
+    block: &Block,
+    rate: Rate,
+    report: &mut FileReport,
+) -> Result<Understood> {
+    let options = job.options;
+    let first = first_frame(hierarchy, block, rate, None)?;
+    let skeleton: &Arc<Skeleton> = first.skeleton();
+    let roles = options.roles.clone().unwrap_or_default();
+    let anatomy = Anatomy::with_roles(skeleton, &roles).map_err(|error| {
+        Error::wrong(error.to_string()).advise("correct the roles file (--roles), or leave it out")
+    })?;
+    let pose: Option<ModelPose> = (first.frames() > 0).then(|| first.model_pose(0));
+    let guess = anatomy.convention(skeleton, pose.as_ref());
+    let convention = Convention {
+        metres_per_unit: options
+            .metres_per_unit
+            .unwrap_or(guess.convention.metres_per_unit),
+        axes: options.axes.unwrap_or(guess.convention.axes),
+    };
+    describe(report, &guess, &convention, rate, hierarchy);
+    describe_anatomy(report, skeleton, &anatomy);
+    if guess.unit_name == "unknown" && options.metres_per_unit.is_none() {
+        report.findings.push(ReportFinding::warning(
+            "the file's unit of length cannot be told from its skeleton; metres are assumed",
+            "say the unit with --unit, such as --unit cm",
+        ));
+    }
+    Ok(Understood {
+        convention,
+        groups: movement::channel_groups(skeleton, &anatomy),
+        anatomy,
+        first: Block {
+            columns: block.columns.clone(),
+            ..*block
+        },
+    })
+}
+
+fn first_frame(
+    hierarchy: &Hierarchy,
+    block: &Block,
+    rate: Rate,
+    fix: Option<ChannelFix>,
+) -> Result<Clip> {
+    let mut builder =
+        ClipBuilder::new(hierarchy, fix).map_err(|error| Error::wrong(error.to_string()))?;
+    builder.push(0..block.frames.min(1), |at| block.columns.get(at));
+    builder.finish(rate).map_err(|error| {
+        Error::wrong(error.to_string())
+            .advise("a joint is placed beyond what a number can hold; correct the number")
+    })
+}
+
+fn describe(
+    report: &mut FileReport,
+    guess: &ConventionGuess,
+    convention: &Convention,
+    rate: Rate,
+    hierarchy: &Hierarchy,
+) {
+    let chosen = convention != &guess.convention;
+    report.understand("joints", hierarchy.joints.len());
+    report.understand("channels", hierarchy.channel_count());
+    report.understand("frame_rate", rate.to_string());
+    report.understand("unit", if chosen { "as given" } else { guess.unit_name });
+    report.understand("metres_per_unit", convention.metres_per_unit);
+    report.understand("axes", convention.axes.to_string());
+    report.understand("confidence", guess.confidence);
+    report.understand("reasons", &guess.reasons);
+}
+
+fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, anatomy: &Anatomy) {
+    let name = |joint: usize| skeleton.joint(joint).name.clone();
+    let roles: Vec<_> = anatomy
+        .found()
+        .map(|(part, joint, how)| json!({ "part": part.to_string(), "joint": name(joint), "by": how }))
+        .collect();
+    let guessed = anatomy
+        .found()
+        .filter(|(.., how)| *how == Evidence::Topology)
+        .count();
+    report.understand("roles", roles);
+    let missing: Vec<String> = anatomy.missing().iter().map(ToString::to_string).collect();
+    if guessed > 0 {
+        report.findings.push(ReportFinding::note(format!(
+            "{guessed} joints were told by their place in the skeleton, not by their names"
+        )));
+    }
+    if !missing.is_empty() {
+        let shown = missing
+            .iter()
+            .take(6)
+            .cloned()
+            .collect::<Vec<_>>()
+            .join(", ");
+        let more = missing.len().saturating_sub(6);
+        let more = if more > 0 {
+            format!(" and {more} more")
+        } else {
+            String::new()
+        };
+        report.findings.push(ReportFinding {
+            severity: "note",
+            line: None,
+            message: format!("not found in the skeleton: {shown}{more}"),
+            remedy: Some("if a joint is one of these, say so in a roles file (--roles)".into()),
+        });
+        report.understand("missing", missing);
+    }
+    for ambiguity in anatomy.ambiguous() {
+        report.findings.push(ReportFinding::warning(
+            format!(
+                "{} was taken to be {:?}; other joints could be it",
+                ambiguity.part,
+                name(ambiguity.taken)
+            ),
+            "say which one in a roles file (--roles)",
+        ));
+    }
+}
+
+fn insert_recording(job: &mut Job<'_>) -> Result<i64> {
+    let options = job.options;
+    let signer_id = match &options.signer {
+        Some(name) => {
+            let new = recordings::find_signer(job.connection, name)?.is_none();
+            job.count("signers", usize::from(new));
+            let hand = options.handedness.as_deref();
+            Some(recordings::signer_named(job.connection, name, hand)?)
+        }
+        None => None,
+    };
+    let without_movement = match recordings::recording_named(job.connection, &job.stem)? {
+        Some(row) if recordings::motion_track(job.connection, row.id)?.is_none() => Some(row.id),
+        _ => None,
+    };
+    let id = match without_movement {
+        Some(id) => {
+            let (origin, licence) = (options.origin.as_deref(), options.licence.as_deref());
+            recordings::describe(job.connection, id, signer_id, origin, licence)?;
+            id
+        }
+        None => {
+            job.count("recordings", 1);
+            let row = RecordingRow {
+                id: 0,
+                name: recordings::free_name(job.connection, &job.stem)?,
+                signer_id,
+                signer: None,
+                origin: options
+                    .origin
+                    .clone()
+                    .unwrap_or_else(|| "captured".to_owned()),
+                duration_us: 0,
+                licence: options.licence.clone(),
+                notes: None,
+            };
+            recordings::insert_recording(job.connection, &row)?
+        }
+    };
+    job.recordings.insert(job.pair_key(), id);
+    Ok(id)
+}
+
+fn insert_track(
+    job: &mut Job<'_>,
+    recording: i64,
+    hierarchy: &Hierarchy,
+    rate: Rate,
+    frame_time: Option<String>,
+    found: &Understood,
+) -> Result<i64> {
+    let document =
+        serde_json::to_string(hierarchy).map_err(|error| Error::wrong(error.to_string()))?;
+    let hash = hex(&Sha256::digest(document.as_bytes()));
+    let joints = hierarchy.joints.len();
+    let skeleton_id = recordings::skeleton_stored(job.connection, &hash, joints, &document)?;
+    let groups: std::collections::BTreeMap<&str, &Vec<usize>> = found
+        .groups
+        .iter()
+        .map(|(group, joints)| (group.name(), joints))
+        .collect();
+    job.count("tracks", 1);
+    recordings::insert_motion_track(
+        job.connection,
+        &MotionTrackRow {
+            id: 0,
+            recording_id: recording,
+            name: "body".to_owned(),
+            offset_us: 0,
+            skeleton_id,
+            frames: 0,
+            rate_frames: rate.frames(),
+            rate_seconds: rate.per_seconds(),
+            frame_time,
+            metres_per_unit: found.convention.metres_per_unit,
+            axes: found.convention.axes.to_string(),
+            root_order: None,
+            root_scale: None,
+            roles: job
+                .options
+                .roles
+                .as_ref()
+                .and_then(|roles| serde_json::to_string(roles).ok()),
+            channel_groups: json!(groups).to_string(),
+        },
+    )
+}
+
+fn finish(job: &mut Job<'_>, recording: i64, track: i64, frames: u64, rate: Rate) -> Result<()> {
+    let count = i64::try_from(frames).unwrap_or(i64::MAX);
+    recordings::set_frames(job.connection, track, count)?;
+    let end = rate.instant(usize::try_from(frames).unwrap_or(usize::MAX));
+    recordings::lengthen(job.connection, recording, end.micros())?;
+    let row = SourceFileRow {
+        id: 0,
+        recording_id: Some(recording),
+        kind: "bvh".into(),
+        name: job.file_name.clone(),
+        hash: job.hash.clone(),
+    };
+    recordings::insert_source_file(job.connection, &row, None)
+}
+
+/// By how much the root's places must be multiplied so that the legs reach the ground, where that is
+/// a step between units: the root in metres above bones in centimetres.
+fn root_scale(first: &Clip, anatomy: &Anatomy, up: DVec3) -> Option<f64> {
+    let rest = first.skeleton().rest_model_pose();
+    let feet = Side::BOTH.map(|side| anatomy.joint(Part::Foot(side)));
+    let [Some(right), Some(left)] = feet else {
+        return None;
+    };
+    let leg = rest
+        .position(0)
+        .distance(rest.position(right).midpoint(rest.position(left)));
+    first.channel(0).translations.as_ref()?;
+    first.frames().checked_sub(1)?;
+    let height = first.translation(0, 0).dot(up).abs();
+    let ratio = leg / height;
+    [0.001, 0.01, 100.0, 1000.0]
+        .into_iter()
+        .find(|step| (step / 2.0..step * 2.0).contains(&ratio))
+}
+
+const MEND: &str = "import it with --mend-root to read it so; the stored numbers stay the file's";
+
+fn mend_root(
+    job: &Job<'_>,
+    track: i64,
+    fix: Option<ChannelFix>,
+    scale: Option<f64>,
+    report: &mut FileReport,
+) -> Result<()> {
+    let order = fix.map(|ChannelFix::RotationBeforePosition| "rotation-before-position");
+    if job.options.mend_root {
+        if order.is_some() || scale.is_some() {
+            recordings::set_root(job.connection, track, order, scale)?;
+        }
+        report.understand("root_order", order.unwrap_or("as in the header"));
+        report.understand("root_scale", scale.unwrap_or(1.0));
+        return Ok(());
+    }
+    if let Some(scale) = scale {
+        report.findings.push(ReportFinding::warning(
+            format!(
+                "the root seems to be in another unit than the bones: its places times {scale} would \
+                 put the feet on the ground"
+            ),
+            MEND,
+        ));
+    }
+    for finding in report.findings.iter_mut().filter(|_| order.is_some()) {
+        if finding.message.contains("rotation before position") {
+            finding.remedy = Some(MEND.to_owned());
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,427 @@
+//! ELAN's annotation files: tiers, annotations and vocabularies onto a recording.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use chereme_formats::eaf;
+use chereme_formats::eaf::convert::{Annotation, Place, Tier, Timing, Transcript, Vocabulary};
+use chereme_formats::roles::{self, TierGuess};
+use chereme_sign::text::fold;
+use chereme_sign::{Component, Inventory, InventoryValue, TierRole, inventory};
+use serde_json::json;
+
+use super::report::ReportFinding;
+use super::{FileReport, FileStatus, Job};
+use crate::db::recordings::{self, MediaTrackRow, RecordingRow, SourceFileRow};
+use crate::db::tiers::{self, AnnotationRow, TierRow};
+use crate::error::{Error, Result};
+use crate::inventories::{self, StoredInventory};
+use crate::tokens;
+
+/// The properties by which a file says what its recording is.
+const ORIGIN: &str = "chereme.origin";
+const LICENCE: &str = "chereme.licence";
+const SIGNER: &str = "chereme.signer";
+const HANDEDNESS: &str = "chereme.handedness";
+
+pub(super) fn import(job: &mut Job<'_>) -> Result<FileReport> {
+    if recordings::source_file_hashed(job.connection, &job.hash)?.is_some() {
+        return Ok(FileReport::unchanged(job.path));
+    }
+    let bytes = job.bytes()?;
+    let (transcript, findings) =
+        eaf::read(&bytes).map_err(|error| Error::wrong(error.to_string()))?;
+    let mut report = FileReport::new(job.path, FileStatus::Imported);
+    report
+        .findings
+        .extend(findings.into_iter().map(ReportFinding::from));
+    let guesses = roles::guess_tiers(&transcript, &job.options.mapping);
+    report.understand("tiers", &guesses);
+    let recording = recording(job, &transcript)?;
+    report.recording = Some(recordings::recording(job.connection, recording)?.name);
+    refuse_double_tiers(job, recording, &transcript)?;
+    let tier_rows = write_tiers(job, recording, &transcript, &guesses, &mut report)?;
+    write_annotations(job, &transcript, &tier_rows)?;
+    recordings::lengthen(job.connection, recording, transcript.end().micros())?;
+    tokens::derive(job.connection, recording, None, &job.inventories)?;
+    let derived = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
+    job.count("tokens", derived);
+    let row = SourceFileRow {
+        id: 0,
+        recording_id: Some(recording),
+        kind: "eaf".into(),
+        name: job.file_name.clone(),
+        hash: job.hash.clone(),
+    };
+    recordings::insert_source_file(job.connection, &row, Some(&bytes))?;
+    if !guesses
+        .iter()
+        .any(|guess| guess.role == Some(TierRole::Gloss))
+    {
+        report.findings.push(ReportFinding::warning(
+            "no tier was recognised as one of glosses, so no tokens were made",
+            "say which tier is what in a mapping file (--map), or with `chereme annotate`",
+        ));
+    }
+    Ok(report)
+}
+
+/// The recording that the annotations are about: that of the same stem, or a new one without movement.
+fn recording(job: &mut Job<'_>, transcript: &Transcript) -> Result<i64> {
+    let property = |key: &str| {
+        let found = transcript.properties.iter().find(|(name, _)| name == key);
+        found.map(|(_, value)| value.clone())
+    };
+    let options = job.options;
+    let signer = match options
+        .signer
+        .clone()
+        .or_else(|| property(SIGNER))
+        .or(participant(transcript))
+    {
+        Some(name) => {
+            let hand = options.handedness.clone().or_else(|| property(HANDEDNESS));
+            let hand = hand.filter(|hand| ["right", "left"].contains(&hand.as_str()));
+            let new = recordings::find_signer(job.connection, &name)?.is_none();
+            job.count("signers", usize::from(new));
+            Some(recordings::signer_named(
+                job.connection,
+                &name,
+                hand.as_deref(),
+            )?)
+        }
+        None => None,
+    };
+    let origin = property(ORIGIN)
+        .filter(|origin| ["captured", "made", "generated"].contains(&origin.as_str()));
+    let origin = options.origin.clone().or(origin);
+    let licence = options.licence.clone().or_else(|| property(LICENCE));
+    let paired = match job.recordings.get(&job.pair_key()) {
+        Some(&id) => Some(id),
+        None => recordings::recording_named(job.connection, &job.stem)?.map(|row| row.id),
+    };
+    if let Some(id) = paired {
+        recordings::describe(
+            job.connection,
+            id,
+            signer,
+            origin.as_deref(),
+            licence.as_deref(),
+        )?;
+        return Ok(id);
+    }
+    let id = recordings::insert_recording(
+        job.connection,
+        &RecordingRow {
+            id: 0,
+            name: job.stem.clone(),
+            signer_id: signer,
+            signer: None,
+            origin: origin.unwrap_or_else(|| "captured".to_owned()),
+            duration_us: 0,
+            licence,
+            notes: None,
+        },
+    )?;
+    job.count("recordings", 1);
+    for (place, media) in transcript.media.iter().enumerate() {
+        let row = MediaTrackRow {
+            id: 0,
+            recording_id: id,
+            name: format!("media {}", place + 1),
+            offset_us: -media.time_origin.unwrap_or_default().saturating_mul(1000),
+            url: media
+                .relative_url
+                .clone()
+                .unwrap_or_else(|| media.url.clone()),
+            media_type: Some(media.mime_type.clone()).filter(|text| !text.is_empty()),
+        };
+        recordings::insert_media_track(job.connection, &row)?;
+        job.count("tracks", 1);
+    }
+    job.recordings.insert(job.pair_key(), id);
+    Ok(id)
+}
+
+/// The one participant of all tiers, where there is one.
+fn participant(transcript: &Transcript) -> Option<String> {
+    let all: BTreeSet<&str> = transcript
+        .tiers
+        .iter()
+        .filter_map(|tier| tier.participant.as_deref())
+        .filter(|name| !name.trim().is_empty())
+        .collect();
+    let mut all = all.into_iter();
+    all.next()
+        .filter(|_| all.next().is_none())
+        .map(str::to_owned)
+}
+
+fn refuse_double_tiers(job: &Job<'_>, recording: i64, transcript: &Transcript) -> Result<()> {
+    let there = tiers::tiers(job.connection, recording)?;
+    let double = transcript
+        .tiers
+        .iter()
+        .find(|tier| there.iter().any(|row| row.name == tier.name));
+    double.map_or(Ok(()), |tier| {
+        Err(Error::wrong(format!(
+            "the recording {:?} has a tier {:?} already, and this file would bring another",
+            job.stem, tier.name
+        ))
+        .advise("undo the earlier import first, or rename the file or the tier"))
+    })
+}
+
+fn write_tiers(
+    job: &mut Job<'_>,
+    recording: i64,
+    transcript: &Transcript,
+    guesses: &[TierGuess],
+    report: &mut FileReport,
+) -> Result<Vec<i64>> {
+    let first = tiers::tiers(job.connection, recording)?.len();
+    let mut rows = vec![0; transcript.tiers.len()];
+    for place in parents_first(transcript) {
+        let (tier, guess) = (&transcript.tiers[place], &guesses[place]);
+        let inventory = tier_inventory(job, transcript, tier, guess, report)?;
+        let role = guess.role.clone().unwrap_or_default();
+        let (component, feature) = match &role {
+            TierRole::Component { component, feature } => (Some(*component), feature.clone()),
+            _ => (None, None),
+        };
+        let row = TierRow {
+            id: 0,
+            recording_id: recording,
+            name: tier.name.clone(),
+            position: (first + place) as i64,
+            parent_id: tier.parent.map(|parent| rows[parent]),
+            stereotype: tier.stereotype.map(|it| it.elan_name().to_owned()),
+            role: match role {
+                TierRole::Component { .. } => "component".to_owned(),
+                other => other.name(),
+            },
+            component: component.map(|it| it.name().to_owned()),
+            feature,
+            hand: guess.hand.map(|hand| hand.name().to_owned()),
+            participant: tier.participant.clone(),
+            annotator: tier.annotator.clone(),
+            language: tier.language.clone(),
+            inventory_id: inventory,
+            source: Some(
+                json!({ "type": tier.kind, "locale": tier.locale, "vocabulary": tier.vocabulary })
+                    .to_string(),
+            ),
+        };
+        rows[place] = tiers::insert_tier(job.connection, &row)?;
+    }
+    job.count("tiers", rows.len());
+    Ok(rows)
+}
+
+fn parents_first(transcript: &Transcript) -> Vec<usize> {
+    let depth = |place: usize| {
+        std::iter::successors(Some(place), |&at| transcript.tiers[at].parent)
+            .take(transcript.tiers.len() + 1)
+            .count()
+    };
+    let mut order: Vec<usize> = (0..transcript.tiers.len()).collect();
+    order.sort_by_key(|&place| (depth(place), place));
+    order
+}
+
+/// The inventory of a component tier: its vocabulary, or one of the corpus that has all its values.
+fn tier_inventory(
+    job: &mut Job<'_>,
+    transcript: &Transcript,
+    tier: &Tier,
+    guess: &TierGuess,
+    report: &mut FileReport,
+) -> Result<Option<i64>> {
+    let Some(TierRole::Component { component, feature }) = &guess.role else {
+        return Ok(None);
+    };
+    let said: BTreeSet<&str> = tier
+        .annotations
+        .iter()
+        .map(|annotation| annotation.value.trim())
+        .filter(|value| !value.is_empty())
+        .collect();
+    let fits = |stored: &&StoredInventory| {
+        let it = &stored.inventory;
+        it.component == *component
+            && it.feature == *feature
+            && said.iter().all(|value| it.find(value).is_some())
+    };
+    let vocabulary = tier.vocabulary.as_ref().and_then(|id| {
+        transcript
+            .vocabularies
+            .iter()
+            .find(|it| it.id == *id && !it.entries.is_empty())
+    });
+    let builtin =
+        |stored: &&StoredInventory| inventory::builtin_by_id(&stored.inventory.id).is_some();
+    let listed = |stored: &&StoredInventory| {
+        vocabulary.is_none_or(|it| {
+            entry_ids(it)
+                .iter()
+                .all(|id| stored.inventory.find(id).is_some())
+        })
+    };
+    let known = job
+        .inventories
+        .iter()
+        .filter(builtin)
+        .find(|it| fits(it) && listed(it));
+    if let Some(known) = known.filter(|_| vocabulary.is_some() || !said.is_empty()) {
+        return Ok(Some(known.id));
+    }
+    match vocabulary {
+        Some(vocabulary) => {
+            let (inventory, dropped) = of_vocabulary(vocabulary, *component, feature.clone());
+            for entry in dropped {
+                report.findings.push(ReportFinding::note(format!(
+                    "the vocabulary {:?} has {entry:?} twice; the second stays text",
+                    vocabulary.id
+                )));
+            }
+            let new = !job
+                .inventories
+                .iter()
+                .any(|it| it.inventory.id == inventory.id);
+            let id = inventories::store(job.connection, &inventory)?;
+            job.count("inventories", usize::from(new));
+            job.inventories = inventories::load(job.connection)?;
+            Ok(Some(id))
+        }
+        None if said.is_empty() => Ok(None),
+        None => Ok(job.inventories.iter().find(fits).map(|stored| stored.id)),
+    }
+}
+
+fn entry_ids(vocabulary: &Vocabulary) -> Vec<&str> {
+    let first = |entry: &'_ chereme_formats::eaf::convert::Entry| -> Option<usize> {
+        (!entry.values.is_empty()).then_some(0)
+    };
+    vocabulary
+        .entries
+        .iter()
+        .filter_map(|entry| first(entry).map(|at| entry.values[at].value.trim()))
+        .filter(|value| !value.is_empty())
+        .collect()
+}
+
+fn of_vocabulary(
+    vocabulary: &Vocabulary,
+    component: Component,
+    feature: Option<String>,
+) -> (Inventory, Vec<String>) {
+    let (mut seen, mut dropped, mut values) = (BTreeSet::new(), Vec::new(), Vec::new());
+    for entry in &vocabulary.entries {
+        let Some(id) = entry
+            .values
+            .first()
+            .map(|value| value.value.trim().to_owned())
+        else {
+            continue;
+        };
+        if id.is_empty() || !seen.insert(fold(&id)) {
+            dropped.push(id);
+            continue;
+        }
+        let mut names = BTreeMap::new();
+        for value in &entry.values {
+            let text = value.value.trim();
+            let own = fold(text) == fold(&id);
+            if !text.is_empty() && !value.language.is_empty() && (own || seen.insert(fold(text))) {
+                names.insert(value.language.clone(), text.to_owned());
+            }
+        }
+        let notes = entry
+            .values
+            .iter()
+            .find_map(|value| value.description.clone());
+        let notes = notes.filter(|text| !text.trim().is_empty());
+        values.push(InventoryValue {
+            id,
+            names,
+            notes,
+            ..InventoryValue::default()
+        });
+    }
+    let feature_name = feature
+        .as_ref()
+        .map_or(String::new(), |feature| format!(".{feature}"));
+    let inventory = Inventory {
+        id: format!("{}/{component}{feature_name}", vocabulary.id),
+        component,
+        feature,
+        version: 1,
+        language: None,
+        names: BTreeMap::from([("en".to_owned(), vocabulary.id.clone())]),
+        description: vocabulary
+            .descriptions
+            .iter()
+            .map(|(_, text)| text.trim())
+            .find(|text| !text.is_empty())
+            .unwrap_or_default()
+            .to_owned(),
+        values,
+    };
+    (inventory, dropped)
+}
+
+fn write_annotations(job: &mut Job<'_>, transcript: &Transcript, tier_rows: &[i64]) -> Result<()> {
+    let mut rows: BTreeMap<Place, i64> = BTreeMap::new();
+    let mut count = 0;
+    for tier in parents_first(transcript) {
+        for (index, annotation) in transcript.tiers[tier].annotations.iter().enumerate() {
+            let parent = annotation
+                .parent
+                .and_then(|parent| rows.get(&parent).copied());
+            let row = annotation_row(annotation, tier_rows[tier], parent);
+            rows.insert(
+                Place { tier, index },
+                tiers::insert_annotation(job.connection, &row)?,
+            );
+            count += 1;
+        }
+    }
+    job.count("annotations", count);
+    Ok(())
+}
+
+fn annotation_row(annotation: &Annotation, tier_id: i64, parent_id: Option<i64>) -> AnnotationRow {
+    let source = (annotation.entry.is_some()
+        || annotation.language.is_some()
+        || annotation.external_ref.is_some()
+        || annotation.timing != Timing::Own)
+        .then(|| {
+            json!({
+                "entry": annotation.entry,
+                "language": annotation.language,
+                "external_ref": annotation.external_ref,
+                "timing": annotation.timing,
+            })
+            .to_string()
+        });
+    AnnotationRow {
+        id: 0,
+        tier_id,
+        start_us: annotation.span.start().micros(),
+        end_us: annotation.span.end().micros(),
+        state: if annotation.value.is_empty() {
+            "unset"
+        } else {
+            "value"
+        }
+        .to_owned(),
+        value: annotation.value.clone(),
+        parent_id,
+        position: i64::from(annotation.order),
+        origin: "file".to_owned(),
+        confidence: None,
+        external_id: Some(annotation.id.clone()),
+        file_start_ms: annotation.millis.map(|[start, _]| start),
+        file_end_ms: annotation.millis.map(|[_, end]| end),
+        source,
+    }
+}

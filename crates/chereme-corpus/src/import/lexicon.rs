@@ -1,0 +1,209 @@
+//! Tables of lexicon codings: each row a sign whose citation form is a token without movement.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use chereme_formats::lexicon::{self, Coding, Entry, Lexicon, Meaning};
+use chereme_sign::text::fold;
+use chereme_sign::{Component, Inventory, InventoryValue, Phase, Reading};
+use serde_json::{Map, Value, json};
+
+use super::report::ReportFinding;
+use super::{FileReport, FileStatus, Job};
+use crate::db::recordings::{self, SourceFileRow};
+use crate::db::signs::{self, TokenRow, TokenValueRow};
+use crate::error::{Error, Result};
+use crate::inventories;
+use crate::progress::{Progress, Step, Unit};
+use crate::tokens::state_name;
+
+pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
+    if recordings::source_file_hashed(job.connection, &job.hash)?.is_some() {
+        return Ok(FileReport::unchanged(job.path));
+    }
+    let bytes = job.bytes()?;
+    let (table, findings) = lexicon::read(&bytes, &job.options.mapping).map_err(|error| {
+        Error::wrong(error.to_string())
+            .advise("a lexicon is a table with a header row and a column of glosses")
+    })?;
+    let mut report = FileReport::new(job.path, FileStatus::Imported);
+    report
+        .findings
+        .extend(findings.into_iter().map(ReportFinding::from));
+    report.understand("columns", &table.columns);
+    let inventories = store_inventories(job, &table)?;
+    let total = Some(table.entries.len() as u64);
+    for (done, entry) in table.entries.iter().enumerate() {
+        import_entry(job, &table, entry, &inventories)?;
+        if done % 256 == 0 {
+            let done = done as u64;
+            progress.tell(Step {
+                task: &job.file_name,
+                done,
+                total,
+                unit: Unit::Items,
+            })?;
+        }
+    }
+    let row = SourceFileRow {
+        id: 0,
+        recording_id: None,
+        kind: "lexicon".into(),
+        name: job.file_name.clone(),
+        hash: job.hash.clone(),
+    };
+    recordings::insert_source_file(job.connection, &row, Some(&bytes))?;
+    Ok(report)
+}
+
+type Part = (Component, Option<String>);
+
+/// The row of the inventory for a part, and the value that each folded spelling stands for.
+struct Known {
+    row: i64,
+    values: BTreeMap<String, String>,
+}
+
+/// Stores the values that the table uses, unless an inventory of the corpus has them all.
+fn store_inventories(job: &mut Job<'_>, table: &Lexicon) -> Result<BTreeMap<Part, Known>> {
+    let mut known = BTreeMap::new();
+    for used in table.inventories() {
+        let part = (used.component, used.feature.clone());
+        let same = |inventory: &Inventory| {
+            (inventory.component, &inventory.feature) == (used.component, &used.feature)
+        };
+        let complete = job.inventories.iter().find(|stored| {
+            same(&stored.inventory)
+                && used
+                    .values
+                    .keys()
+                    .all(|value| stored.inventory.find(value).is_some())
+        });
+        let (row, values) = match complete {
+            Some(stored) => {
+                let find = |value: &String| stored.inventory.find(value).map(|it| it.id.clone());
+                let pairs = used
+                    .values
+                    .keys()
+                    .filter_map(|value| Some((fold(value), find(value)?)));
+                (stored.id, pairs.collect())
+            }
+            None => {
+                let inventory = own_inventory(&job.stem, &used);
+                let values = inventory
+                    .values
+                    .iter()
+                    .map(|it| (fold(&it.id), it.id.clone()))
+                    .collect();
+                let row = inventories::store(job.connection, &inventory)?;
+                job.count("inventories", 1);
+                (row, values)
+            }
+        };
+        known.insert(part, Known { row, values });
+    }
+    Ok(known)
+}
+
+fn own_inventory(stem: &str, used: &lexicon::Inventory) -> Inventory {
+    let feature = used
+        .feature
+        .as_ref()
+        .map_or(String::new(), |feature| format!(".{feature}"));
+    let mut seen = BTreeSet::new();
+    let values = used.values.keys().filter(|value| seen.insert(fold(value)));
+    Inventory {
+        id: format!("{stem}/{}{feature}", used.component),
+        component: used.component,
+        feature: used.feature.clone(),
+        version: 1,
+        language: None,
+        names: BTreeMap::from([(
+            "en".to_owned(),
+            format!("{}{feature} of {stem}", used.component),
+        )]),
+        description: format!("The values that the table {stem} uses."),
+        values: values
+            .map(|value| InventoryValue {
+                id: value.trim().to_owned(),
+                ..InventoryValue::default()
+            })
+            .collect(),
+    }
+}
+
+fn import_entry(
+    job: &mut Job<'_>,
+    table: &Lexicon,
+    entry: &Entry,
+    inventories: &BTreeMap<Part, Known>,
+) -> Result<()> {
+    let connection = job.connection;
+    let is_new = signs::find_sign(connection, &entry.gloss)?.is_none();
+    let sign = signs::sign_glossed(connection, &entry.gloss)?;
+    for (language, text) in &entry.translations {
+        signs::add_text(connection, sign, language, text)?;
+    }
+    let tokens = signs::tokens_of_sign(connection, sign)?;
+    let token = match tokens.iter().find(|token| token.origin == "lexicon") {
+        Some(token) => token.id,
+        None => {
+            let row = TokenRow {
+                sign_id: sign,
+                origin: "lexicon".to_owned(),
+                citation: !tokens.iter().any(|token| token.citation),
+                source: Some(cells(table, entry, &job.file_name).to_string()),
+                ..TokenRow::default()
+            };
+            job.count("tokens", 1);
+            signs::insert_token(connection, &row)?
+        }
+    };
+    let values: Vec<TokenValueRow> = entry
+        .codings
+        .iter()
+        .map(|coding| value_row(coding, inventories))
+        .collect();
+    signs::set_values(connection, token, &values)?;
+    job.count("signs", usize::from(is_new));
+    Ok(())
+}
+
+fn value_row(coding: &Coding, inventories: &BTreeMap<Part, Known>) -> TokenValueRow {
+    let known = inventories.get(&(coding.component, coding.feature.clone()));
+    let (phase, position) = match coding.phase {
+        None => (None, 0),
+        Some(Phase::Initial) => (Some("initial"), 0),
+        Some(Phase::Middle(place)) => (Some("middle"), i64::from(place)),
+        Some(Phase::Final) => (Some("final"), 0),
+    };
+    let value = coding.reading.value().map(|value| {
+        let same = known.and_then(|known| known.values.get(&fold(value)));
+        same.cloned().unwrap_or_else(|| value.to_owned())
+    });
+    let is_value = matches!(coding.reading, Reading::Value(_));
+    TokenValueRow {
+        hand: coding.hand.map(|hand| hand.name().to_owned()),
+        component: coding.component.name().to_owned(),
+        feature: coding.feature.clone(),
+        phase: phase.map(str::to_owned),
+        position,
+        state: state_name(&coding.reading).to_owned(),
+        value,
+        inventory_id: known.filter(|_| is_value).map(|known| known.row),
+        annotation_id: None,
+    }
+}
+
+/// The row as the table has it, so that nothing is lost.
+fn cells(table: &Lexicon, entry: &Entry, file: &str) -> Value {
+    let cells: Map<String, Value> = table
+        .columns
+        .iter()
+        .zip(&entry.cells)
+        .filter(|(column, cell)| {
+            !cell.trim().is_empty() && !matches!(column.meaning, Meaning::Gloss { .. })
+        })
+        .map(|(column, cell)| (column.title.clone(), Value::from(cell.as_str())))
+        .collect();
+    json!({ "file": file, "line": entry.line, "cells": cells })
+}
