@@ -29,8 +29,14 @@ pub(crate) struct Frame {
 }
 
 impl Frame {
-    /// Returns the frame; nothing where the skeleton has no trunk or arms to tell.
+    /// Returns the frame; nothing where the skeleton has no arm at all.
+    ///
+    /// A body that does not tell where it faces (one arm, one leg) faces forward in model space.
     pub(crate) fn of(work: &Work) -> Option<Self> {
+        let arm = Side::BOTH
+            .into_iter()
+            .filter_map(|side| arm_length(work, side));
+        let arm = arm.reduce(f64::max)?;
         let (mut origin, mut forward, mut count) = (DVec3::ZERO, DVec3::ZERO, 0.0);
         let mut shoulders = 0.0;
         for frame in samples(0..work.frames) {
@@ -42,16 +48,21 @@ impl Frame {
                 count += 1.0;
             }
         }
-        let level = DVec3::new(forward.x, 0.0, forward.z).try_normalize()?;
-        let arm = Side::BOTH
-            .into_iter()
-            .filter_map(|side| arm_length(work, side));
+        if count == 0.0 {
+            let upper = Side::BOTH
+                .into_iter()
+                .find_map(|side| work.anatomy.arm(side))?
+                .upper;
+            origin = mean(work, 0..work.frames, |model| Some(model.position(upper)))?;
+            (forward, shoulders, count) = (DVec3::Z, 0.7 * arm, 1.0);
+        }
+        let level = DVec3::new(forward.x, 0.0, forward.z).normalize_or(DVec3::Z);
         Some(Self {
             origin: origin / count,
             left: DVec3::Y.cross(level),
             forward: level,
             shoulders,
-            arm: arm.fold(0.0, f64::max),
+            arm,
         })
     }
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use crate::contact;
 use crate::course::Course;
 use crate::error::{Cause, MakeError};
 use crate::made::{ChannelReport, Made, Report, StepReport};
@@ -10,6 +11,7 @@ use crate::ops;
 use crate::poses::HandPose;
 use crate::recipe::*;
 use crate::resolve::{Input, PlaceInput, Resolved};
+use crate::simplify::{self, Planned};
 use crate::sources::Material;
 use crate::work::{Group, Work};
 
@@ -58,6 +60,20 @@ struct Evaluator<'a> {
     report: Report,
 }
 
+/// Tells whether a step may part hands from what they touch, each frame staying what it was.
+fn moves_hands(step: &Step) -> bool {
+    match step {
+        Step::Configure(_)
+        | Step::Place(_)
+        | Step::Orient(_)
+        | Step::Amplify(_)
+        | Step::Travel(_)
+        | Step::Nonmanual(_)
+        | Step::Indicate(_) => true,
+        Step::Reverse | Step::Swap | Step::Mirror(_) | Step::Repeat(_) | Step::Retime(_) => false,
+    }
+}
+
 /// What a step did, for the report.
 #[derive(Default)]
 struct Done {
@@ -88,11 +104,20 @@ impl Evaluator<'_> {
         match node {
             Node::Pipe(pipe) => {
                 let mut work = self.node(&pipe.of, format!("{path}/pipe/of"))?;
-                for (n, step) in pipe.steps.iter().enumerate() {
-                    let path = format!("{path}/pipe/steps/{n}");
+                let plan = simplify::plan(&pipe.steps);
+                for Planned { index, step } in &plan {
+                    let path = format!("{path}/pipe/steps/{index}");
                     let text = step.to_string();
+                    let touched = moves_hands(step).then(|| contact::touches(&work));
                     match self.step(&mut work, step, &path, &text) {
-                        Ok(done) => self.done(path, text, done),
+                        Ok(done) => {
+                            let lost = touched.map(|before| contact::lost(&before, &work));
+                            let lost = lost.into_iter().flatten();
+                            self.report
+                                .contacts
+                                .extend(lost.map(|lost| format!("{text}: {lost}")));
+                            self.done(path, text, done);
+                        }
                         Err(cause) => {
                             return Err(MakeError {
                                 path,
@@ -101,6 +126,12 @@ impl Evaluator<'_> {
                             });
                         }
                     }
+                }
+                if plan.len() < pipe.steps.len() {
+                    let less = pipe.steps.len() - plan.len();
+                    let did =
+                        format!("{less} operators that cancel out or become one were left out");
+                    self.report.warnings.push(did);
                 }
                 Ok(work)
             }

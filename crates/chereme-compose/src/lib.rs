@@ -3,15 +3,18 @@
 mod arm;
 mod body;
 mod check;
+mod contact;
 mod course;
 mod error;
 mod evaluate;
+mod explain;
 mod json;
 pub mod made;
 mod ops;
 mod poses;
 pub mod recipe;
 mod resolve;
+mod simplify;
 pub mod sources;
 #[cfg(test)]
 mod testing;

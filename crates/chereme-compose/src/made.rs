@@ -60,6 +60,9 @@ pub struct Report {
     pub channels: Vec<ChannelReport>,
     /// The places at which pieces of movement meet.
     pub joins: Vec<JoinReport>,
+    /// Contacts of the sources that an operator undid, and by how much.
+    #[serde(default)]
+    pub contacts: Vec<String>,
     /// What one should know before relying on the result.
     pub warnings: Vec<String>,
 }

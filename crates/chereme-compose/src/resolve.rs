@@ -141,6 +141,9 @@ pub fn restore(
             let address = stored.address.clone();
             return Err(fault(Cause::Changed { address }));
         }
+        if material.clip.frames() == 0 {
+            return Err(fault(Cause::Empty(material.address)));
+        }
         material.held.clone_from(&stored.held);
         material.gloss.clone_from(&stored.gloss);
         material.handedness = stored.handedness;

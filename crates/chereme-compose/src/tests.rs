@@ -83,6 +83,60 @@ fn involutions_come_back() {
 }
 
 #[test]
+fn operators_taken_one_by_one_come_back() {
+    use crate::ops::{mirror, place, reverse};
+    use crate::recipe::Solver;
+    use crate::work::Work;
+    for gloss in ["ESCARGOT", "LIMACE"] {
+        let material = &Shelf::new().materials[gloss];
+        let by = DVec3::new(0.06, 0.05, -0.04);
+        let solver = Solver::Analytic;
+        type Once = fn(&mut Work, f64, DVec3, Solver);
+        let operators: [(&str, Once); 3] = [
+            ("reverse", |work, _, _, _| drop(reverse::reverse(work))),
+            ("swap", |work, _, _, _| {
+                drop(mirror::swap(work).expect("two arms"))
+            }),
+            ("place", |work, sign, by, solver| {
+                let reach = place::shift(work, &Side::BOTH, by * sign, solver).expect("two arms");
+                assert!(reach.residual < 1e-9 && reach.helped == 0);
+            }),
+        ];
+        for (name, operator) in operators {
+            let mut work = Work::of(material);
+            operator(&mut work, 1.0, by, solver);
+            operator(&mut work, -1.0, by, solver);
+            let far = farthest(&work.into_clip().expect("a clip"), &material.clip);
+            assert!(far < 1e-5, "{gloss} {name}: {far}");
+        }
+    }
+}
+
+#[test]
+fn contacts_that_are_undone_are_told() {
+    let chin = "ESCARGOT | place right at chin with index";
+    let away = made(&format!(
+        "{chin} | configure right S | place right by right 10cm"
+    ));
+    assert!(
+        away.report.contacts.iter().any(|c| c.contains("touched")),
+        "{:?}",
+        away.report.contacts
+    );
+    let text = away.report.to_string();
+    assert!(
+        text.contains("contacts undone") && text.contains("right fingers"),
+        "{text}"
+    );
+    assert!(
+        made("ESCARGOT | place both by up 2cm")
+            .report
+            .contacts
+            .is_empty()
+    );
+}
+
+#[test]
 fn a_swap_shows_the_mirror_image_whatever_the_axes() {
     for gloss in ["ESCARGOT", "LIMACE"] {
         let (before, swapped) = (source(gloss), made(&format!("{gloss} | swap")));
@@ -318,6 +372,135 @@ fn repetitions_are_joined() {
     assert_eq!(made.clip.frames(), 3 * 120 + 2 * 12);
     assert_eq!(made.clip.pose(5), made.clip.pose(5 + 132));
     assert!(make("LIMACE | repeat 1000 gap 60s").is_err());
+}
+
+/// Returns a shelf whose first sign's body lacks the joints whose names start with `without`.
+fn lacking(without: &str) -> Shelf {
+    let mut shelf = Shelf::new();
+    let old = shelf.materials["ESCARGOT"].clone();
+    let skeleton = old.clip.skeleton();
+    let lost: Vec<usize> = (0..skeleton.len())
+        .filter(|&joint| {
+            skeleton
+                .ancestors(joint)
+                .any(|above| skeleton.joint(above).name.starts_with(without))
+        })
+        .collect();
+    let kept: Vec<usize> = (0..skeleton.len())
+        .filter(|joint| !lost.contains(joint))
+        .collect();
+    let joints = kept.iter().map(|&joint| chereme_motion::Joint {
+        parent: skeleton
+            .parent(joint)
+            .and_then(|p| kept.iter().position(|&k| k == p)),
+        ..skeleton.joint(joint).clone()
+    });
+    let smaller =
+        std::sync::Arc::new(chereme_motion::Skeleton::new(joints.collect()).expect("a tree"));
+    let channels = kept
+        .iter()
+        .map(|&joint| old.clip.channel(joint).clone())
+        .collect();
+    let sign = shelf.materials.get_mut("ESCARGOT").expect("there");
+    sign.anatomy = std::sync::Arc::new(chereme_motion::Anatomy::detect(&smaller));
+    sign.clip = Clip::new(smaller, old.clip.rate(), channels).expect("a clip");
+    shelf
+}
+
+#[test]
+fn bodies_that_lack_something_are_told_what() {
+    for (without, step, want) in [
+        ("Left", "swap", "no left arm"),
+        ("Left", "place both by up 5cm", "no left arm"),
+        ("Left", "mirror right", "no left arm"),
+        ("RightHandI", "orient right palm up", ""),
+        (
+            "RightHand",
+            "configure right U",
+            "right hand has no fingers",
+        ),
+        (
+            "RightHandIndex",
+            "configure right U",
+            "right hand has no fingers",
+        ),
+        ("Neck", "nonmanual from BOL", "no head"),
+        ("Left", "place right by up 5cm", ""),
+        ("Left", "reverse | repeat 2", ""),
+    ] {
+        let recipe: crate::Recipe = format!("ESCARGOT | {step}").parse().expect(step);
+        let made = resolve(&recipe, &lacking(without)).and_then(|resolved| evaluate(&resolved));
+        match made {
+            Ok(_) => assert_eq!(want, "", "{without} {step}"),
+            Err(error) => {
+                let error = error.to_string();
+                assert!(
+                    !want.is_empty() && error.contains(want),
+                    "{without} {step}: {error}"
+                );
+            }
+        }
+    }
+}
+
+/// Steps of every kind, some of which cannot be taken.
+const STEPS: [&str; 26] = [
+    "configure right U",
+    "configure both from BOL",
+    "configure left S, _ via 0s",
+    "configure right H via learned 2s",
+    "place both by left 10cm",
+    "place right at chin with index",
+    "place left near LIMACE using fabrik",
+    "place both at -10cm,110cm,40cm",
+    "place right by forward 300%",
+    "reverse",
+    "swap",
+    "mirror",
+    "mirror left",
+    "repeat 2",
+    "repeat 3 scale 0.5 tempo 3 gap 0s",
+    "orient both palm up",
+    "orient right fingers down by 300deg about up",
+    "amplify both 0",
+    "amplify right 2",
+    "travel both up 10cm then down 10cm in 0s",
+    "travel right left 5cm in 9s",
+    "retime 5%",
+    "retime to 0.01s",
+    "retime 2, 1, 50%",
+    "nonmanual from CHAT",
+    "from me to you",
+];
+const SOURCES: [&str; 6] = [
+    "ESCARGOT",
+    "LIMACE",
+    "BOL",
+    "spell USB on signer:2",
+    "point both at left on signer:1 via 0s",
+    "(BOL then via 0s CHAT)",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn any_order_of_operators_gives_movement_or_says_why_not(
+        source in proptest::sample::select(SOURCES.to_vec()),
+        steps in proptest::collection::vec(proptest::sample::select(STEPS.to_vec()), 1..5),
+    ) {
+        let text = format!("{source} | {}", steps.join(" | "));
+        match make(&text) {
+            Ok(made) => {
+                bones_keep_their_lengths(&made.clip);
+                let end = made.clip.span().end();
+                for note in &made.notes {
+                    prop_assert!(note.span.end() <= end, "{}: {:?} ends after {}", text, note, end);
+                }
+            }
+            Err(error) => prop_assert!(!error.to_string().contains("stored inputs"), "{}: {}", text, error),
+        }
+    }
 }
 
 proptest! {

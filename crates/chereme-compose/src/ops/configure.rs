@@ -172,7 +172,7 @@ fn between(from: usize, to: usize, length: usize, asked: bool, spans: &[Stretch]
     let more = (length - gap).div_ceil(2);
     let back = more.min(spans[0].frames.len() / 3);
     let ahead = more.min(spans[1].frames.len() / 3);
-    from - back..to + ahead
+    from - back..(to + ahead).min(spans[1].frames.end.max(to))
 }
 
 fn told(note: &Note, pose: &HandPose) -> String {

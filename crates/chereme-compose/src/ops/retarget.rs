@@ -198,13 +198,16 @@ fn root(work: &Work, out: &mut Work) {
         (Some(from), Some(to)) if from > 1e-3 => to / from,
         _ => 1.0,
     };
-    let rest = (work.skeleton.joint(0).offset, out.skeleton.joint(0).offset);
-    out.channels[0].translations = work.channels[0].translations.as_ref().map(|places| {
-        places
-            .iter()
-            .map(|&at| rest.1 + (at - rest.0) * scale)
-            .collect()
-    });
+    // The hips' height above the floor is scaled, wherever the two files have their roots.
+    let hips = |work: &Work| work.anatomy.joint(Part::Hips).unwrap_or(0);
+    let (from, to) = (hips(work), hips(out));
+    let (there, here) = (Columns::of(work, [from]), Columns::of(out, [to]));
+    let pairs = there.positions(from).iter().zip(here.positions(to));
+    let offset = out.skeleton.joint(0).offset;
+    let places: Vec<DVec3> = pairs
+        .map(|(&at, &now)| offset + (at * scale - now))
+        .collect();
+    out.channels[0].translations = Some(places);
 }
 
 /// Brings the wrists where they are relative to the shoulders' middle, in arms' lengths, so that hands

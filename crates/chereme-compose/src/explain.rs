@@ -1,0 +1,54 @@
+//! A made sign explained to people: the steps, where each channel comes from, joins, residuals.
+
+use std::fmt::{self, Display, Formatter};
+
+use crate::made::Report;
+
+impl Display for Report {
+    /// Writes the report as indented lines; a step without a residual has no target to miss.
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        writeln!(f, "steps")?;
+        for step in &self.steps {
+            write!(f, "  {}", step.step)?;
+            if let Some(residual) = step.residual {
+                write!(f, "   (residual {:.2} mm)", residual * 1000.0)?;
+            }
+            writeln!(f)?;
+            step.did
+                .iter()
+                .try_for_each(|did| writeln!(f, "    {did}"))?;
+        }
+        writeln!(f, "channels")?;
+        for channel in &self.channels {
+            writeln!(f, "  {:14} {}", channel.channel, channel.from.join(" | "))?;
+        }
+        if !self.joins.is_empty() {
+            writeln!(f, "joins")?;
+        }
+        for join in &self.joins {
+            writeln!(
+                f,
+                "  {:5} {}–{}: position {:.1} mm, velocity {:.2} m/s, acceleration {:.0} m/s²   ({})",
+                join.hand.name(),
+                join.span.start(),
+                join.span.end(),
+                join.position * 1000.0,
+                join.velocity,
+                join.acceleration,
+                join.what
+            )?;
+        }
+        if !self.contacts.is_empty() {
+            writeln!(f, "contacts undone")?;
+        }
+        self.contacts
+            .iter()
+            .try_for_each(|contact| writeln!(f, "  {contact}"))?;
+        if !self.warnings.is_empty() {
+            writeln!(f, "warnings")?;
+        }
+        self.warnings
+            .iter()
+            .try_for_each(|warning| writeln!(f, "  {warning}"))
+    }
+}

@@ -1,0 +1,134 @@
+//! Pipelines without what does nothing: neighbours that cancel out or become one.
+
+use crate::recipe::*;
+use crate::units::Factor;
+
+impl Recipe {
+    /// Returns the recipe that makes the same sign with the fewest operators: pairs of `reverse` or
+    /// `swap` are gone, ways of placing the same hands are one, and what changes nothing is left out.
+    ///
+    /// Evaluating takes the same steps, so that moving hands out of reach and back loses nothing.
+    #[must_use]
+    pub fn simplified(&self) -> Self {
+        Self {
+            root: node(&self.root),
+        }
+    }
+}
+
+/// A step to be taken.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Planned {
+    /// Its place in the pipe as written; the first of those that became one.
+    pub(crate) index: usize,
+    pub(crate) step: Step,
+}
+
+/// Returns the steps of a pipe that do something.
+pub(crate) fn plan(steps: &[Step]) -> Vec<Planned> {
+    let mut kept: Vec<Planned> = Vec::with_capacity(steps.len());
+    for (index, step) in steps.iter().enumerate() {
+        if is_nothing(step) {
+            continue;
+        }
+        match (kept.last_mut().map(|planned| &mut planned.step), step) {
+            (Some(Step::Reverse), Step::Reverse) | (Some(Step::Swap), Step::Swap) => {
+                kept.pop();
+            }
+            (Some(Step::Place(before)), Step::Place(now)) => match (&mut before.to, &now.to) {
+                (Goal::By(legs), Goal::By(more))
+                    if before.hand == now.hand && before.solver == now.solver =>
+                {
+                    legs.extend(more.iter().cloned());
+                }
+                _ => kept.push(Planned {
+                    index,
+                    step: step.clone(),
+                }),
+            },
+            _ => kept.push(Planned {
+                index,
+                step: step.clone(),
+            }),
+        }
+    }
+    kept
+}
+
+fn is_nothing(step: &Step) -> bool {
+    match step {
+        Step::Repeat(repeat) => repeat.times == 1,
+        Step::Amplify(amplify) => amplify.by == Factor(1.0),
+        Step::Retime(retime) => retime.paces == [Pace::Times(Factor(1.0))],
+        Step::Place(place) => match &place.to {
+            Goal::By(legs) => legs.iter().all(|leg| leg.distance.is_zero()),
+            _ => false,
+        },
+        Step::Configure(configure) => configure.values == [Choice::Keep],
+        _ => false,
+    }
+}
+
+fn node(of: &Node) -> Node {
+    match of {
+        Node::Pipe(pipe) => {
+            let steps: Vec<Step> = plan(&pipe.steps).into_iter().map(|p| p.step).collect();
+            let of = node(&pipe.of);
+            if steps.is_empty() {
+                return of;
+            }
+            Node::Pipe(Pipe {
+                of: Box::new(of),
+                steps,
+            })
+        }
+        Node::Then(then) => Node::Then(Then {
+            first: Box::new(node(&then.first)),
+            next: then
+                .next
+                .iter()
+                .map(|joined| Joined {
+                    via: joined.via,
+                    node: node(&joined.node),
+                })
+                .collect(),
+        }),
+        leaf => leaf.clone(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::Recipe;
+
+    #[test]
+    fn what_does_nothing_is_left_out() {
+        for (text, simple) in [
+            ("A | reverse | reverse", "A"),
+            ("A | swap | reverse | reverse | swap", "A"),
+            (
+                "A | reverse | swap | reverse",
+                "A | reverse | swap | reverse",
+            ),
+            (
+                "A | repeat 1 | retime 100% | amplify 1 | place both by up 0cm",
+                "A",
+            ),
+            (
+                "A | place both by left 60cm | place both by right 60cm",
+                "A | place both by left 60cm right 60cm",
+            ),
+            (
+                "A | place both by left 5cm | place right by right 5cm",
+                "A | place both by left 5cm | place right by right 5cm",
+            ),
+            (
+                "(A | mirror then B | swap | swap) | reverse",
+                "(A | mirror then B) | reverse",
+            ),
+        ] {
+            let recipe: Recipe = text.parse().expect(text);
+            assert_eq!(recipe.simplified().to_string(), simple);
+        }
+    }
+}
