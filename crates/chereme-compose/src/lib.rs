@@ -1,4 +1,33 @@
-//! Recipes to movement: recombination and synthesis.
+//! Recipes to movement: recombination and synthesis of signs.
+//!
+//! A [`Recipe`] says how a sign comes about, as text or as JSON. [`resolve`] asks a corpus, through the
+//! one trait [`Sources`], for everything the recipe needs, and fixes it; [`evaluate`] makes the
+//! movement, what is said about it, and a report on where everything comes from.
+//!
+//! ```
+//! use chereme_compose::Recipe;
+//!
+//! let recipe: Recipe = "ESCARGOT | configure right U | place both by left 25cm".parse()?;
+//! let json = serde_json::to_string(&recipe)?;
+//! assert_eq!(serde_json::from_str::<Recipe>(&json)?.to_string(), recipe.to_string());
+//!
+//! let error = "BOL | palce both by left 25cm".parse::<Recipe>().unwrap_err();
+//! assert!(error.to_string().contains("character 7") && error.to_string().contains("\"place\"?"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`recipe`] | the tree: sources, operators with their settings, utterances |
+//! | [`units`] | lengths, times, directions and hands as recipes write them |
+//! | [`sources`] | what is asked of a corpus, and its answers |
+//! | [`made`] | movement with its notes and its report |
+//!
+//! The rest is reached through functions: [`resolve`] and [`restore`], [`evaluate`],
+//! [`value_in`] and [`letters_in`].
+//!
+//! After Naert, Larboulette & Gibet, *Motion synthesis and editing for the generation of new sign
+//! language content*, Machine Translation 35 (2021).
 
 mod arm;
 mod body;
@@ -9,6 +38,7 @@ mod error;
 mod evaluate;
 mod explain;
 mod json;
+mod lookup;
 pub mod made;
 mod ops;
 mod poses;
@@ -28,6 +58,7 @@ pub use check::{DEEPEST, MOST_PARTS, MOST_REPETITIONS};
 pub use error::{Cause, MakeError, Problem, RecipeError, TextError};
 pub use evaluate::evaluate;
 pub use json::VERSION;
+pub use lookup::{letters_in, value_in};
 pub use made::{About, ChannelReport, JoinReport, Made, Note, Report, StepReport};
 pub use poses::{Exact, HandPose, PoseOrigin};
 pub use recipe::Recipe;

@@ -1,0 +1,212 @@
+//! Values and letters looked up in inventories: what a corpus needs to answer [`Sources`](crate::Sources).
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_sign::Component;
+use chereme_sign::inventory::{Inventory, InventoryValue};
+use chereme_sign::text::fold;
+
+use crate::sources::{Letter, LetterStroke, SourceError, Value};
+
+/// Returns the value of `component` that `text` names in the first of the inventories that knows it.
+///
+/// Inventories of a part of the component (`orientation.palm`, the letters of an alphabet) are looked
+/// at after those of the whole.
+///
+/// # Errors
+/// [`SourceError::UnknownValue`] with what was probably meant.
+pub fn value_in<'a>(
+    inventories: impl IntoIterator<Item = &'a Inventory>,
+    component: Component,
+    text: &str,
+) -> Result<Value, SourceError> {
+    let mut of: Vec<&Inventory> = inventories
+        .into_iter()
+        .filter(|inventory| inventory.component == component)
+        .collect();
+    of.sort_by_key(|inventory| inventory.feature.is_some());
+    let found = of
+        .iter()
+        .find_map(|inventory| Some((inventory, inventory.find(text)?)));
+    match found {
+        Some((inventory, value)) => Ok(with_pose(&of, inventory, value)),
+        None => Err(SourceError::UnknownValue {
+            component,
+            text: text.to_owned(),
+            nearest: of
+                .iter()
+                .find_map(|inventory| inventory.suggest(text).first().map(|id| (*id).to_owned())),
+        }),
+    }
+}
+
+/// Returns the letters of `word`, without regard to case and accents; blanks, hyphens and apostrophes
+/// are passed over. Without a name the first inventory that has letters is the alphabet.
+///
+/// # Errors
+/// [`SourceError::UnknownValue`] naming the alphabet or the first letter that there is not.
+pub fn letters_in<'a>(
+    inventories: impl IntoIterator<Item = &'a Inventory>,
+    alphabet: Option<&str>,
+    word: &str,
+) -> Result<Vec<Letter>, SourceError> {
+    let all: Vec<&Inventory> = inventories.into_iter().collect();
+    let unknown = |text: &str, nearest: Option<String>| SourceError::UnknownValue {
+        component: Component::Configuration,
+        text: text.to_owned(),
+        nearest,
+    };
+    let alphabets: Vec<&Inventory> = all
+        .iter()
+        .copied()
+        .filter(|inventory| inventory.values.iter().any(|value| value.letter.is_some()))
+        .collect();
+    let names = || alphabets.iter().map(|inventory| inventory.id.as_str());
+    let chosen = match alphabet {
+        None => alphabets.first(),
+        Some(name) => alphabets.iter().find(|inventory| {
+            let language = inventory.language.as_deref().map(fold);
+            fold(&inventory.id) == fold(name) || language.is_some_and(|l| l == fold(name))
+        }),
+    };
+    let Some(chosen) = chosen else {
+        let name = alphabet.unwrap_or("an alphabet");
+        let nearest = chereme_sign::text::nearest(name, names()).map(str::to_owned);
+        return Err(unknown(name, nearest));
+    };
+    fold(word)
+        .chars()
+        .filter(|c| !c.is_whitespace() && !"-'".contains(*c))
+        .map(|c| {
+            let is = |value: &&InventoryValue| {
+                value
+                    .letter
+                    .as_deref()
+                    .is_some_and(|letter| fold(letter) == c.to_string())
+            };
+            let value = chosen.values.iter().find(is);
+            value
+                .map(|value| letter(&all, chosen, value))
+                .ok_or_else(|| unknown(&c.to_uppercase().to_string(), None))
+        })
+        .collect()
+}
+
+/// Returns a value with the posture of the configuration it names where it has none of its own.
+fn with_pose(all: &[&Inventory], inventory: &Inventory, value: &InventoryValue) -> Value {
+    let own = Value::of(inventory, value);
+    if own.meaning.is_some() {
+        return own;
+    }
+    let shape = value.configuration.as_deref().and_then(|id| {
+        let whole = all
+            .iter()
+            .filter(|i| i.component == Component::Configuration && i.feature.is_none());
+        whole
+            .into_iter()
+            .find_map(|i| Some(Value::of(i, i.get(id)?)))
+    });
+    shape.unwrap_or(own)
+}
+
+fn letter(all: &[&Inventory], alphabet: &Inventory, value: &InventoryValue) -> Letter {
+    let feature = |component: Component, feature: &str, id: &str| {
+        let of = all
+            .iter()
+            .filter(|i| i.component == component && i.feature.as_deref() == Some(feature));
+        of.into_iter().find_map(|inventory| inventory.get(id))
+    };
+    let fingers = value.orientation.as_ref().and_then(|orientation| {
+        feature(Component::Orientation, "fingers", &orientation.fingers)?.direction
+    });
+    let roll = value
+        .orientation
+        .as_ref()
+        .and_then(|orientation| feature(Component::Orientation, "palm", &orientation.palm)?.roll);
+    let strokes = value.strokes.iter().map(|stroke| {
+        let way = stroke
+            .direction
+            .as_deref()
+            .and_then(|id| feature(Component::Movement, "direction", id)?.direction)
+            .map_or(DVec3::ZERO, |way| DVec3::from(way) * stroke.size);
+        LetterStroke {
+            way: way.to_array(),
+            turn: stroke.turn,
+        }
+    });
+    Letter {
+        letter: value.letter.clone().unwrap_or_default(),
+        value: with_pose(all, alphabet, value),
+        fingers,
+        palm: roll.map(|roll| palm(fingers, roll).to_array()),
+        strokes: strokes.collect(),
+    }
+}
+
+/// Returns where the palm faces, as HamNoSys counts: from palm down on a hand that points out, turned
+/// by `roll` to the right, then turned with the hand to where it points by the shortest way.
+fn palm(fingers: Option<[f64; 3]>, roll: f64) -> DVec3 {
+    let out = DVec3::new(-roll.sin(), -roll.cos(), 0.0);
+    let to = fingers.map_or(DVec3::Y, DVec3::from).normalize_or(DVec3::Y);
+    let turn = if to.z < -1.0 + 1e-9 {
+        // Straight back: over the top, as a person turns it.
+        DQuat::from_rotation_x(std::f64::consts::PI)
+    } else {
+        DQuat::from_rotation_arc(DVec3::Z, to)
+    };
+    turn * out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sources::Meaning;
+    use chereme_sign::inventory::builtin;
+
+    #[test]
+    fn every_letter_of_the_alphabet_has_a_posture_and_a_direction() {
+        let letters = letters_in(builtin(), None, "abcdefghijklmnopqrstuvwxyz").expect("letters");
+        assert_eq!(letters.len(), 26);
+        for letter in &letters {
+            let name = &letter.letter;
+            assert!(
+                matches!(letter.value.meaning, Some(Meaning::Hand(_))),
+                "{name}"
+            );
+            let fingers = DVec3::from(letter.fingers.expect("a direction"));
+            let palm = DVec3::from(letter.palm.expect("a direction"));
+            assert!(
+                fingers.dot(palm).abs() < 1e-9 && palm.is_normalized(),
+                "{name}"
+            );
+        }
+        let a = &letters[0];
+        assert!(
+            DVec3::from(a.palm.expect("a palm")).abs_diff_eq(DVec3::Z, 1e-9),
+            "away from the signer"
+        );
+        assert!(letters[9].strokes.len() > 1 && letters[25].strokes.len() == 3);
+        assert_eq!(
+            letters_in(builtin(), Some("lsf"), "week-end É")
+                .expect("letters")
+                .len(),
+            8
+        );
+    }
+
+    #[test]
+    fn what_is_not_there_is_named() {
+        for (alphabet, word, want) in [(None, "a1", "\"1\""), (Some("morse"), "a", "\"morse\"")] {
+            let error = letters_in(builtin(), alphabet, word)
+                .expect_err(word)
+                .to_string();
+            assert!(error.contains(want), "{error}");
+        }
+        let value = value_in(builtin(), Component::Placement, "chin").expect("chin");
+        assert!(matches!(value.meaning, Some(Meaning::Place(_))));
+        let error = value_in(builtin(), Component::Placement, "foreheda").expect_err("misspelt");
+        assert!(
+            error.to_string().contains("did you mean \"forehead\""),
+            "{error}"
+        );
+    }
+}

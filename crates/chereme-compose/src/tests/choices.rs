@@ -1,0 +1,126 @@
+//! Where values come from, and that they stay what they were.
+
+use super::*;
+
+#[test]
+fn values_are_replaced_one_by_one_and_joined() {
+    let made = made("BOL | configure right U, S");
+    let held: Vec<_> = made
+        .notes
+        .iter()
+        .filter(|n| {
+            n.hand == Some(Side::Right)
+                && n.about == About::Component(Component::Configuration, None)
+        })
+        .map(|n| n.value.value().expect("a value").to_owned())
+        .collect();
+    assert_eq!(held, ["U", "S"]);
+    let joint = made
+        .anatomy
+        .joint(Part::Finger(Side::Right, chereme_motion::Finger::Index, 2))
+        .expect("a finger");
+    let column = &made.clip.channel(joint).rotations;
+    assert!(
+        column[..48].iter().all(|q| *q == column[0]),
+        "the first value is held"
+    );
+    assert!(
+        column[72..].iter().all(|q| *q == column[72]),
+        "the second value is held"
+    );
+    let jump = column
+        .windows(2)
+        .map(|w| w[0].angle_between(w[1]))
+        .fold(0.0, f64::max);
+    let whole = column[0].angle_between(column[72]);
+    assert!(whole > 0.05 && jump < whole / 5.0, "{jump} of {whole}");
+    for (recipe, want) in [
+        ("BOL | configure right U, S, Y", "give 1 or 2"),
+        ("BOL | configure right Q", "no configuration"),
+        (
+            "BOL | configure right claw",
+            "no sign with movement holds \"claw\"",
+        ),
+        ("BOOL", "did you mean \"BOL\"?"),
+        (
+            "BOL | configure right best(configuration=X)",
+            "finds no sign",
+        ),
+        ("BOL | place both by left 180cm", "the arm is 53 cm long"),
+    ] {
+        let error = make(recipe).expect_err(recipe).to_string();
+        assert!(error.contains(want), "{recipe}: {error}");
+    }
+}
+
+#[test]
+fn a_value_comes_from_whoever_is_nearest() {
+    use crate::PoseOrigin as From;
+    let origin = |recipe: &str| {
+        let recipe: crate::Recipe = recipe.parse().expect("recipe");
+        let resolved = resolve(&recipe, &Shelf::new()).expect("resolved");
+        let poses = resolved.inputs().0.values().find_map(|input| match input {
+            crate::Input::Poses(poses) => Some(poses.clone()),
+            _ => None,
+        });
+        poses.expect("poses")[0].origin.clone()
+    };
+    assert_eq!(
+        origin("ESCARGOT | configure right S"),
+        From::SameSigner("token:BOL".into())
+    );
+    assert_eq!(
+        origin("ESCARGOT | configure right U"),
+        From::OtherSigner("token:LIMACE".into())
+    );
+    assert_eq!(
+        origin("LIMACE | configure right H"),
+        From::Neighbour {
+            sign: "token:LIMACE".into(),
+            value: "U".into()
+        }
+    );
+    assert_eq!(
+        origin("ESCARGOT | configure right H"),
+        From::Inventory("configurations".into())
+    );
+    assert_eq!(
+        origin("ESCARGOT | configure right from CHAT"),
+        From::Named("token:CHAT".into())
+    );
+    let best = origin("ESCARGOT | configure right best(configuration=U signer=same)");
+    assert_eq!(best, From::OtherSigner("token:LIMACE".into()));
+}
+
+#[test]
+fn what_was_resolved_is_stored_and_gives_the_same_movement() {
+    let shelf = Shelf::new();
+    for text in [
+        "ESCARGOT | configure right U | place right near BOL then BOL via",
+        "BOL then via learned 0.3s LIMACE",
+    ] {
+        let text = text.trim_end_matches(" via");
+        let recipe: crate::Recipe = text.parse().expect(text);
+        let resolved = resolve(&recipe, &shelf).expect(text);
+        let json = serde_json::to_string(resolved.inputs()).expect("json");
+        let inputs: crate::Inputs = serde_json::from_str(&json).expect("json");
+        let mut changed = Shelf::new();
+        changed
+            .materials
+            .get_mut("LIMACE")
+            .expect("there")
+            .held
+            .clear();
+        let again = crate::restore(&recipe, inputs.clone(), &changed).expect("restored");
+        let (a, b) = (
+            evaluate(&resolved).expect(text),
+            evaluate(&again).expect(text),
+        );
+        assert!(farthest(&a.clip, &b.clip) < 1e-12);
+        for material in changed.materials.values_mut() {
+            material.hash.push('x');
+        }
+        let error = crate::restore(&recipe, inputs, &changed).expect_err("changed");
+        assert!(matches!(error.cause, Cause::Changed { .. }));
+    }
+}

@@ -1,0 +1,247 @@
+//! What each operator does.
+
+use super::*;
+
+#[test]
+fn contacts_that_are_undone_are_told() {
+    let chin = "ESCARGOT | place right at chin with index";
+    let away = made(&format!(
+        "{chin} | configure right S | place right by right 10cm"
+    ));
+    assert!(
+        away.report.contacts.iter().any(|c| c.contains("touched")),
+        "{:?}",
+        away.report.contacts
+    );
+    let text = away.report.to_string();
+    assert!(
+        text.contains("contacts undone") && text.contains("right fingers"),
+        "{text}"
+    );
+    assert!(
+        made("ESCARGOT | place both by up 2cm")
+            .report
+            .contacts
+            .is_empty()
+    );
+}
+
+#[test]
+fn another_signer_s_sign_follows_on_the_first_one_s_body() {
+    let made = made("BOL then LIMACE");
+    bones_keep_their_lengths(&made.clip);
+    assert_eq!(made.clip.skeleton(), source("BOL").skeleton());
+    let glosses: Vec<_> = made
+        .notes
+        .iter()
+        .filter(|n| n.about == About::Gloss)
+        .map(|n| n.value.value().expect("a gloss").to_owned())
+        .collect();
+    assert_eq!(glosses, ["BOL", "LIMACE"]);
+    assert_eq!(made.report.joins.len(), 2);
+    let hand = made.anatomy.joint(Part::Hand(Side::Right)).expect("a hand");
+    let path = made.clip.path(hand);
+    let step = path
+        .windows(2)
+        .map(|w| w[0].distance(w[1]))
+        .fold(0.0, f64::max);
+    assert!(step < 0.05, "no jump of the wrist: {step}");
+    assert_eq!(made.clip.frames(), {
+        let frames = made.clip.frames();
+        assert!((240..340).contains(&frames), "{frames}");
+        frames
+    });
+}
+
+#[test]
+fn repetitions_are_joined() {
+    let made = made("LIMACE | repeat 3 gap 0.1s");
+    assert_eq!(made.clip.frames(), 3 * 120 + 2 * 12);
+    assert_eq!(made.clip.pose(5), made.clip.pose(5 + 132));
+    assert!(make("LIMACE | repeat 1000 gap 60s").is_err());
+}
+
+#[test]
+fn paths_are_scaled_carried_and_sent() {
+    for gloss in ["ESCARGOT", "LIMACE"] {
+        let before = wrist(&made(gloss), Side::Right);
+        let small = wrist(&made(&format!("{gloss} | amplify right 0.5")), Side::Right);
+        let far = |path: &[DVec3]| path[10].distance(path[80]);
+        assert!((far(&small) - far(&before) / 2.0).abs() < 1e-4, "{gloss}");
+        let carried = made(&format!("{gloss} | travel right down 6cm then up 6cm"));
+        let path = wrist(&carried, Side::Right);
+        assert!(path[0].abs_diff_eq(before[0], 1e-6) && path[119].abs_diff_eq(before[119], 1e-3));
+        assert!((before[60].y - path[60].y - 0.06).abs() < 2e-3, "{gloss}");
+        let sent = made(&format!("{gloss} | from me to left with right"));
+        let path = wrist(&sent, Side::Right);
+        assert!(
+            path[119].x > path[0].x + 0.05,
+            "{gloss}: {} {}",
+            path[0],
+            path[119]
+        );
+        for made in [carried, sent] {
+            bones_keep_their_lengths(&made.clip);
+            assert_eq!(differing(&made, &source(gloss)), [Group::Arm(Side::Right)]);
+        }
+    }
+}
+
+#[test]
+fn hands_turn_as_asked_and_stay_where_they_are() {
+    for gloss in ["ESCARGOT", "LIMACE"] {
+        let made = made(&format!("{gloss} | orient right palm up fingers forward"));
+        let model = made.clip.model_pose(60);
+        let frame = made.anatomy.body_frame(&model).expect("a trunk");
+        let palm = made
+            .anatomy
+            .palm_normal(Side::Right, &model)
+            .expect("fingers");
+        let fingers = made
+            .anatomy
+            .hand_direction(Side::Right, &model)
+            .expect("fingers");
+        assert!(palm.angle_between(DVec3::Y) < 1e-6 && fingers.angle_between(frame.forward) < 0.2);
+        let before = wrist(&super::made(gloss), Side::Right);
+        for (a, b) in before.iter().zip(wrist(&made, Side::Right)) {
+            assert!(a.distance(b) < 1e-3);
+        }
+    }
+    let turned = made("ESCARGOT | orient right by 30deg about up by -30deg about up");
+    assert!(farthest(&turned.clip, &source("ESCARGOT")) < 1e-6);
+}
+
+#[test]
+fn time_is_stretched_as_a_whole_and_phase_by_phase() {
+    let slow = made("ESCARGOT | retime 200%");
+    assert_eq!(slow.clip.frames(), 240);
+    assert!(
+        slow.notes
+            .iter()
+            .any(|n| n.span == crate::testing::span(400, 1600))
+    );
+    let phases = made("ESCARGOT | retime 1, to 1.2s, 50%");
+    assert_eq!(phases.clip.frames(), 24 + 144 + 12);
+    assert!(
+        phases
+            .notes
+            .iter()
+            .any(|n| n.span == crate::testing::span(200, 1400))
+    );
+    assert_eq!(made("ESCARGOT | retime 1").clip, source("ESCARGOT"));
+    let error = make("ESCARGOT | retime 1, 2")
+        .expect_err("two of three")
+        .to_string();
+    assert!(error.contains("the sign has 3 phases"), "{error}");
+}
+
+#[test]
+fn the_head_of_another_sign_on_this_one() {
+    for donor in ["BOL", "LIMACE"] {
+        let made = made(&format!("ESCARGOT | nonmanual from {donor}"));
+        assert_eq!(
+            differing(&made, &source("ESCARGOT")),
+            [Group::Head],
+            "{donor}"
+        );
+    }
+}
+
+#[test]
+fn repetitions_shrink_and_quicken() {
+    let made = made("ESCARGOT | repeat 3 scale 0.5 tempo 2 gap 0.1s");
+    assert_eq!(made.clip.frames(), 120 + 12 + 60 + 12 + 30);
+    let path = wrist(&made, Side::Right);
+    let size = |p: &[DVec3]| p.iter().map(|a| a.distance(p[0])).fold(0.0, f64::max);
+    assert!((size(&path[132..192]) / size(&path[..120]) - 0.5).abs() < 0.05);
+}
+
+#[test]
+fn words_are_spelt_letter_by_letter() {
+    for (recipe, side) in [
+        ("spell USU", Side::Right),
+        ("spell US left on signer:2", Side::Left),
+    ] {
+        let made = made(recipe);
+        bones_keep_their_lengths(&made.clip);
+        let letters: Vec<_> = made.notes.iter().filter(|n| n.hand == Some(side)).collect();
+        assert_eq!(
+            letters.len(),
+            recipe.split(' ').nth(1).expect("a word").len()
+        );
+        for note in letters {
+            let frame = made.clip.rate().frame_at(note.span.start()) + 5;
+            let model = made.clip.model_pose(frame);
+            let up = made.anatomy.hand_direction(side, &model).expect("fingers");
+            let palm = made.anatomy.palm_normal(side, &model).expect("fingers");
+            let body = made.anatomy.body_frame(&model).expect("a trunk");
+            assert!(up.angle_between(DVec3::Y) < 1e-6 && palm.angle_between(body.forward) < 0.01);
+            let pose = made.clip.pose(frame);
+            let shown = made
+                .anatomy
+                .hand_angles(made.clip.skeleton(), side, &pose)
+                .expect("fingers");
+            let wanted = match note.value.value() {
+                Some("U") => "LIMACE",
+                _ => "BOL",
+            };
+            assert!(shown.fingers[1].flexion[1] > 0.1, "{wanted}");
+        }
+        assert!(made.report.steps[0].residual.expect("reached") < 1e-3);
+    }
+    assert!(made("spell UU | travel right 20cm").clip.frames() > 50);
+    assert!(
+        make("spell UQ")
+            .expect_err("no Q")
+            .to_string()
+            .contains("no configuration")
+    );
+}
+
+#[test]
+fn the_finger_points_at_the_target() {
+    for (recipe, target) in [
+        (
+            "point right at -40cm,120cm,150cm",
+            DVec3::new(-0.4, 1.2, 1.5),
+        ),
+        ("point left at 60cm,180cm,60cm", DVec3::new(0.6, 1.8, 0.6)),
+        (
+            "point right at -10cm,120cm,35cm with U via cosine 0.4s",
+            DVec3::new(-0.1, 1.2, 0.35),
+        ),
+        ("point right at 200cm,10cm,50cm", DVec3::new(2.0, 0.1, 0.5)),
+    ] {
+        let made = made(&format!("{recipe} on signer:1"));
+        let side = if recipe.contains("left") {
+            Side::Left
+        } else {
+            Side::Right
+        };
+        let model = made.clip.model_pose(made.clip.frames() / 2);
+        let base = made
+            .anatomy
+            .joint(Part::Finger(side, chereme_motion::Finger::Index, 1))
+            .expect("a finger");
+        let tip = made
+            .anatomy
+            .landmark(
+                made.clip.skeleton(),
+                &model,
+                &format!("{}-index-tip", side.name()),
+            )
+            .expect("a tip");
+        let line = tip - model.position(base);
+        let miss = (target - tip).reject_from(line).length();
+        assert!(
+            miss < 0.002 && line.dot(target - tip) > -0.03,
+            "{recipe}: {miss}"
+        );
+        assert_eq!(
+            made.clip.pose(0),
+            made.clip.pose(made.clip.frames() - 1),
+            "back at rest"
+        );
+        bones_keep_their_lengths(&made.clip);
+    }
+}
