@@ -15,6 +15,10 @@ use crate::simplify::{self, Planned};
 use crate::sources::Material;
 use crate::work::{Group, Work};
 
+/// The version of the evaluator; it rises whenever the same resolved recipe gives other movement, so
+/// that a made sign stored with it can be told from one that would be made today.
+pub const ENGINE: u32 = 1;
+
 /// Makes the movement of a recipe.
 ///
 /// The same resolved recipe gives the same movement, bit by bit, on the same machine.

@@ -56,7 +56,7 @@ mod work;
 
 pub use check::{DEEPEST, MOST_PARTS, MOST_REPETITIONS};
 pub use error::{Cause, MakeError, Problem, RecipeError, TextError};
-pub use evaluate::evaluate;
+pub use evaluate::{ENGINE, evaluate};
 pub use json::VERSION;
 pub use lookup::{letters_in, value_in};
 pub use made::{About, ChannelReport, JoinReport, Made, Note, Report, StepReport};

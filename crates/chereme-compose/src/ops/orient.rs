@@ -13,6 +13,9 @@ use crate::recipe::{Orient, Solver};
 use crate::units::towards;
 use crate::work::{Columns, Group, Work};
 
+/// The most that wrists bend, in degrees: flexion goes to about 80, extension to 70.
+const MOST_BEND: f64 = 85.0;
+
 /// Turns each hand by one rotation of the world over the whole movement, so that in its middle the
 /// palm and fingers point as asked.
 pub(crate) fn orient(
@@ -34,6 +37,13 @@ pub(crate) fn orient(
         worst = worst.worse(reach.ok_or(Cause::NoArm(side))?);
         let angle = DQuat::IDENTITY.angle_between(turn).to_degrees();
         did.push(format!("the {} hand is turned by {angle:.0}°", side.name()));
+        let bend = wrist_bend(work, side).to_degrees();
+        if bend > MOST_BEND {
+            did.push(format!(
+                "the {} wrist bends by {bend:.0}°, more than wrists do",
+                side.name()
+            ));
+        }
     }
     for note in &mut work.notes {
         let about = matches!(note.about, About::Component(Component::Orientation, _));
@@ -44,6 +54,25 @@ pub(crate) fn orient(
     }
     work.changed(sides.iter().map(|&side| Group::Arm(side)), operator);
     Ok((did, worst.residual))
+}
+
+/// Returns the largest angle between a forearm and its hand, in radians.
+fn wrist_bend(work: &Work, side: Side) -> f64 {
+    let Some(arm) = work.anatomy.arm(side) else {
+        return 0.0;
+    };
+    let rest = work.skeleton.rest_model_pose();
+    let Some(along) = work.anatomy.hand_direction(side, &rest) else {
+        return 0.0;
+    };
+    let along = rest.rotation(arm.hand).inverse() * along;
+    let columns = Columns::of(work, [arm.hand]);
+    let (elbows, wrists) = (columns.positions(arm.forearm), columns.positions(arm.hand));
+    let turned = columns.rotations(arm.hand);
+    (0..work.frames)
+        .map(|f| (wrists[f] - elbows[f]).angle_between(turned[f] * along))
+        .filter(|bend| bend.is_finite())
+        .fold(0.0, f64::max)
 }
 
 /// Returns the rotation in model space that the settings ask for.
