@@ -24,7 +24,8 @@
 //! | [`made`] | movement with its notes and its report |
 //!
 //! The rest is reached through functions: [`resolve`] and [`restore`], [`evaluate`],
-//! [`value_in`] and [`letters_in`].
+//! [`value_in`] and [`letters_in`] for a corpus's answers, [`learn_course`] and [`bridge`] for courses
+//! learned from captured transitions.
 //!
 //! After Naert, Larboulette & Gibet, *Motion synthesis and editing for the generation of new sign
 //! language content*, Machine Translation 35 (2021).
@@ -38,6 +39,7 @@ mod error;
 mod evaluate;
 mod explain;
 mod json;
+mod learn;
 mod lookup;
 pub mod made;
 mod ops;
@@ -58,6 +60,7 @@ pub use check::{DEEPEST, MOST_PARTS, MOST_REPETITIONS};
 pub use error::{Cause, MakeError, Problem, RecipeError, TextError};
 pub use evaluate::{ENGINE, evaluate};
 pub use json::VERSION;
+pub use learn::{Stretch, bridge, learn_course};
 pub use lookup::{letters_in, value_in};
 pub use made::{About, ChannelReport, JoinReport, Made, Note, Report, StepReport};
 pub use poses::{Exact, HandPose, PoseOrigin};

@@ -1,0 +1,204 @@
+//! The course of transitions learned from captured movement, and courses tried against it.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use chereme_motion::Clip;
+use chereme_motion::glam::DQuat;
+
+use crate::course::Course;
+use crate::recipe::Profile;
+
+/// How many steps a learned course has.
+const STEPS: usize = 64;
+/// The least that joints must turn altogether for a stretch to tell anything, in radians.
+const LEAST_TURN: f64 = 0.1;
+
+/// A stretch of captured movement from one posture to another.
+#[derive(Debug, Clone)]
+pub struct Stretch<'a> {
+    /// The movement.
+    pub clip: &'a Clip,
+    /// The joints that make the transition, such as those of an arm or of a hand's fingers.
+    pub joints: &'a [usize],
+    /// The frames, from the posture it starts in up to and with the one it ends in.
+    pub frames: Range<usize>,
+}
+
+/// Returns the mean course of transitions: shares of the way at equal steps of time, from 0 to 1,
+/// never falling.
+///
+/// The share of a frame is how far its joints have turned of what they turn from the first frame to
+/// the last. Stretches of fewer than three frames, outside of their clip, or whose joints hardly turn
+/// tell nothing; nothing is returned where none is left.
+#[must_use]
+pub fn learn_course<'a>(stretches: impl IntoIterator<Item = Stretch<'a>>) -> Option<Vec<f64>> {
+    let (mut sum, mut count) = (vec![0.0; STEPS + 1], 0.0);
+    for stretch in stretches {
+        let Some(shares) = shares(&stretch) else {
+            continue;
+        };
+        let last = (shares.len() - 1) as f64;
+        for (n, slot) in sum.iter_mut().enumerate() {
+            let at = n as f64 / STEPS as f64 * last;
+            let first = (at.floor() as usize).min(shares.len() - 2);
+            *slot += shares[first] + (shares[first + 1] - shares[first]) * (at - first as f64);
+        }
+        count += 1.0;
+    }
+    if count == 0.0 {
+        return None;
+    }
+    let mut highest: f64 = 0.0;
+    for slot in &mut sum {
+        highest = highest.max(*slot / count).clamp(0.0, 1.0);
+        *slot = highest;
+    }
+    sum[0] = 0.0;
+    sum[STEPS] = 1.0;
+    Some(sum)
+}
+
+/// Returns the clip with a stretch of it synthesised: its joints go from the stretch's first posture
+/// to its last by a course. Compared with the captured clip it shows how true the course is.
+///
+/// Nothing where the stretch is empty or outside of its clip, or the learned course is asked for and
+/// not given.
+#[must_use]
+pub fn bridge(stretch: &Stretch<'_>, profile: Profile, learned: Option<&[f64]>) -> Option<Clip> {
+    let course = Course::of(profile, learned)?;
+    let clip = stretch.clip;
+    let (first, last) = (stretch.frames.start, stretch.frames.end.checked_sub(1)?);
+    if !is_inside(stretch) {
+        return None;
+    }
+    let mut channels = clip.channels().to_vec();
+    for &joint in stretch.joints {
+        let column = &mut channels[joint].rotations;
+        let (a, b) = (column[first], column[last]);
+        let steps = (last - first).max(1) as f64;
+        for (n, rotation) in column[first..=last].iter_mut().enumerate() {
+            *rotation = course.rotation(a, b, n as f64 / steps);
+        }
+    }
+    Clip::new(Arc::clone(clip.skeleton()), clip.rate(), channels).ok()
+}
+
+fn is_inside(stretch: &Stretch<'_>) -> bool {
+    let clip = stretch.clip;
+    !stretch.frames.is_empty()
+        && stretch.frames.end <= clip.frames()
+        && stretch
+            .joints
+            .iter()
+            .all(|&joint| joint < clip.skeleton().len())
+}
+
+fn shares(stretch: &Stretch<'_>) -> Option<Vec<f64>> {
+    if !is_inside(stretch) || stretch.frames.len() < 3 {
+        return None;
+    }
+    let columns: Vec<&[DQuat]> = stretch
+        .joints
+        .iter()
+        .map(|&joint| &stretch.clip.channel(joint).rotations[stretch.frames.clone()])
+        .collect();
+    let last = stretch.frames.len() - 1;
+    let whole: f64 = columns
+        .iter()
+        .map(|column| column[0].angle_between(column[last]))
+        .sum();
+    if whole < LEAST_TURN {
+        return None;
+    }
+    let share = |frame: usize| {
+        let done: f64 = columns
+            .iter()
+            .map(|column| {
+                // Progress along the way from end to end; turns aside of it do not count.
+                let (from, to) = (
+                    column[0].angle_between(column[frame]),
+                    column[frame].angle_between(column[last]),
+                );
+                let way = column[0].angle_between(column[last]);
+                if from + to > 1e-12 {
+                    way * from / (from + to)
+                } else {
+                    0.0
+                }
+            })
+            .sum();
+        done / whole
+    };
+    Some((0..=last).map(share).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{Axes, clip, skeleton};
+
+    #[test]
+    fn a_course_is_learned_from_what_was_made_by_it() {
+        let captured = clip(&Arc::new(skeleton(Axes::Odd, 1.0)), 120, 0.0);
+        let anatomy = chereme_motion::Anatomy::detect(captured.skeleton());
+        let joints = anatomy.arm_joints(chereme_motion::Side::Right);
+        for (profile, at_a_fifth) in [(Profile::Slerp, 0.2), (Profile::MinimumJerk, 0.05792)] {
+            let stretch = Stretch {
+                clip: &captured,
+                joints: &joints,
+                frames: 10..60,
+            };
+            let made = bridge(&stretch, profile, None).expect("inside");
+            let course = learn_course([Stretch {
+                clip: &made,
+                ..stretch.clone()
+            }])
+            .expect("turns");
+            let at = |w: f64| Course::Learned(course.clone()).share(w);
+            assert!(
+                (at(0.2) - at_a_fifth).abs() < 5e-3,
+                "{profile:?} {}",
+                at(0.2)
+            );
+            assert!(
+                course.windows(2).all(|w| w[0] <= w[1]) && (course[0], course[STEPS]) == (0.0, 1.0)
+            );
+            let again = bridge(&stretch, Profile::Learned, Some(&course)).expect("inside");
+            for &joint in &joints {
+                for frame in 10..60 {
+                    let (a, b) = (
+                        &made.channel(joint).rotations,
+                        &again.channel(joint).rotations,
+                    );
+                    assert!(a[frame].angle_between(b[frame]) < 0.01);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_tells_nothing_is_passed_over() {
+        let still = clip(&Arc::new(skeleton(Axes::Plain, 1.0)), 30, 0.0);
+        for (joints, frames) in [
+            (&[0usize][..], 0..30),
+            (&[3, 99], 0..30),
+            (&[3], 20..90),
+            (&[3], 4..5),
+            (&[3], 9..9),
+        ] {
+            let stretch = Stretch {
+                clip: &still,
+                joints,
+                frames,
+            };
+            assert_eq!(learn_course([stretch.clone()]), None);
+            let inside = bridge(&stretch, Profile::Slerp, None).is_some();
+            assert_eq!(
+                inside,
+                joints.len() == 1 && stretch.frames.end <= 30 && !stretch.frames.is_empty()
+            );
+            assert!(bridge(&stretch, Profile::Learned, None).is_none());
+        }
+    }
+}
