@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use chereme_motion::Clip;
-use chereme_motion::glam::DQuat;
+use chereme_motion::glam::{DQuat, DVec3};
 
 use crate::course::Course;
 use crate::recipe::Profile;
@@ -28,8 +28,8 @@ pub struct Stretch<'a> {
 /// Returns the mean course of transitions: shares of the way at equal steps of time, from 0 to 1,
 /// never falling.
 ///
-/// The share of a frame is how far its joints have turned of what they turn from the first frame to
-/// the last. Stretches of fewer than three frames, outside of their clip, or whose joints hardly turn
+/// The share of a frame is the one that comes nearest, by least squares over the joints, to how far
+/// they have turned of what they turn from the first frame to the last; turns aside do not count. Stretches of fewer than three frames, outside of their clip, or whose joints hardly turn
 /// tell nothing; nothing is returned where none is left.
 #[must_use]
 pub fn learn_course<'a>(stretches: impl IntoIterator<Item = Stretch<'a>>) -> Option<Vec<f64>> {
@@ -104,33 +104,29 @@ fn shares(stretch: &Stretch<'_>) -> Option<Vec<f64>> {
         .map(|&joint| &stretch.clip.channel(joint).rotations[stretch.frames.clone()])
         .collect();
     let last = stretch.frames.len() - 1;
-    let whole: f64 = columns
+    let ways: Vec<DVec3> = columns
         .iter()
-        .map(|column| column[0].angle_between(column[last]))
-        .sum();
-    if whole < LEAST_TURN {
+        .map(|column| turn(column[0], column[last]))
+        .collect();
+    let whole: f64 = ways.iter().map(|way| way.length_squared()).sum();
+    if whole.sqrt() < LEAST_TURN {
         return None;
     }
     let share = |frame: usize| {
-        let done: f64 = columns
-            .iter()
-            .map(|column| {
-                // Progress along the way from end to end; turns aside of it do not count.
-                let (from, to) = (
-                    column[0].angle_between(column[frame]),
-                    column[frame].angle_between(column[last]),
-                );
-                let way = column[0].angle_between(column[last]);
-                if from + to > 1e-12 {
-                    way * from / (from + to)
-                } else {
-                    0.0
-                }
-            })
-            .sum();
-        done / whole
+        let along = columns.iter().zip(&ways);
+        along
+            .map(|(column, way)| turn(column[0], column[frame]).dot(*way))
+            .sum::<f64>()
+            / whole
     };
     Some((0..=last).map(share).collect())
+}
+
+/// Returns the shortest turn from one rotation to another as an axis times an angle.
+fn turn(from: DQuat, to: DQuat) -> DVec3 {
+    let turn = from.inverse() * to;
+    let short = if turn.w < 0.0 { -turn } else { turn };
+    short.to_scaled_axis()
 }
 
 #[cfg(test)]
