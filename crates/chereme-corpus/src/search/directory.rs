@@ -30,16 +30,18 @@ pub(super) struct Changes {
 }
 
 impl MemoryFolder {
-    /// Returns a folder of these files, none of them changed.
-    pub(super) fn new(files: impl IntoIterator<Item = (String, Vec<u8>)>) -> Self {
-        let data = files
-            .into_iter()
-            .map(|(path, bytes)| (PathBuf::from(path), OwnedBytes::new(bytes)))
-            .collect();
-        Self(Arc::new(RwLock::new(Files {
-            data,
-            ..Files::default()
-        })))
+    /// Adds a file that is saved already.
+    pub(super) fn add(&mut self, name: String, data: OwnedBytes) {
+        self.write().data.insert(PathBuf::from(name), data);
+    }
+
+    /// Returns a file that can only be as it is, where it is here: those that describe the others
+    /// are written anew under the same name.
+    pub(super) fn unchanging(&self, name: &str) -> Option<OwnedBytes> {
+        if name.ends_with(".json") {
+            return None;
+        }
+        self.read().data.get(Path::new(name)).cloned()
     }
 
     /// Returns what has changed since the last call.

@@ -3,30 +3,40 @@
 //! | field | holds | asked |
 //! |---|---|---|
 //! | `id` | the token | which rows the hits are |
-//! | `sign`, `recording`, `signer` | row numbers | whose, and where |
-//! | `gloss` | the whole gloss, folded | `gloss=BOL-2H`, prefix, wildcard, fuzzy |
+//! | `sign`, `recording`, `signer` | row numbers | whose, and where; order and counts |
+//! | `gloss` | the whole gloss, folded | `gloss=BOL-2H`, wildcards, slips |
 //! | `words`, `translation`, `comment` | words of the gloss, of what is said, of remarks | `"slow animal"` |
-//! | `reading` | a [term](super::terms::reading_term) a value | `right.configuration=U` |
+//! | `reading` | [terms](super::terms) of what is coded, and marks | `right.configuration=U`, `origin=made` |
 //! | `facet` | `right.configuration=U` as printed | counts |
-//! | `origin`, `start`, `duration` | as in the rows | `origin=made`, `duration<0.8s` |
+//! | `start`, `end`, `duration` | microseconds | `duration<0.8s`; relations of time |
+//!
+//! Texts are [folded](chereme_sign::text::fold) before they come here; words are their stretches of
+//! letters and digits. Nothing is scored: what is found first is a matter of where, not how often.
 //!
 //! Two counters in `search_state` tell whether the index follows the rows: triggers of the schema
-//! count every change of the rows, whoever makes it, and the index writes down what it has seen.
+//! count every change of the rows, whoever makes it, and the index writes down what it has seen, in
+//! the rows and in its own files.
+
+use std::cell::{Cell, RefCell, RefMut};
 
 use rusqlite::Connection;
+use tantivy::directory::OwnedBytes;
 use tantivy::indexer::NoMergePolicy;
 use tantivy::schema::{
-    FAST, Field, INDEXED, IndexRecordOption, STRING, Schema, TextFieldIndexing, TextOptions,
+    FAST, Field, INDEXED, IndexRecordOption, Schema, TextFieldIndexing, TextOptions,
 };
-use tantivy::tokenizer::{AsciiFoldingFilter, LowerCaser, SimpleTokenizer, TextAnalyzer};
-use tantivy::{Index, IndexReader, IndexWriter, ReloadPolicy, Searcher, TantivyDocument, Term};
+use tantivy::tokenizer::{SimpleTokenizer, TextAnalyzer};
+use tantivy::{
+    Index, IndexReader, IndexWriter, ReloadPolicy, Searcher, TantivyDocument, TantivyError, Term,
+};
 
 use super::directory::MemoryFolder;
+use super::known::Memory;
 use crate::db::search::{self as rows, State, TokenDocument};
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// Raised whenever documents are made otherwise than before: indexes of other numbers are remade.
-const FORMAT: i64 = 1;
+const FORMAT: i64 = 2;
 const WORDS: &str = "words";
 const MEMORY: usize = 64 << 20;
 const SMALL_SEGMENT: u32 = 20_000;
@@ -45,8 +55,8 @@ pub(crate) struct Fields {
     pub(crate) comment: Field,
     pub(crate) reading: Field,
     pub(crate) facet: Field,
-    pub(crate) origin: Field,
     pub(crate) start: Field,
+    pub(crate) end: Field,
     pub(crate) duration: Field,
 }
 
@@ -54,7 +64,8 @@ pub(crate) struct Fields {
 #[derive(Default)]
 pub(crate) struct SearchIndex {
     open: Option<OpenIndex>,
-    rebuilt: bool,
+    memory: RefCell<Memory>,
+    rebuilt: Cell<bool>,
 }
 
 struct OpenIndex {
@@ -75,25 +86,41 @@ impl SearchIndex {
     pub(crate) fn refresh(&mut self, connection: &Connection) -> Result<()> {
         let state = State::read(connection)?;
         if !follows(&state) {
-            let transaction = rows::begin(connection)?;
-            self.rebuild(&transaction)?;
-            transaction.commit()?;
-            self.rebuilt = state.format != 0 || state.content != 0;
-            return Ok(());
+            return self.mend(connection, state.content != 0);
         }
-        if self
-            .open
+        if !self.is_open_at(state.indexed) {
+            match OpenIndex::load(connection, state.indexed, self.open.as_ref()) {
+                Ok(open) => self.open = Some(open),
+                Err(Error::Index(_)) => return self.mend(connection, true),
+                Err(other) => return Err(other),
+            }
+        }
+        Ok(())
+    }
+
+    fn is_open_at(&self, indexed: i64) -> bool {
+        self.open
             .as_ref()
-            .is_none_or(|open| open.indexed != state.indexed)
-        {
-            self.open = Some(OpenIndex::load(connection, state.indexed)?);
-        }
+            .is_some_and(|open| open.indexed == indexed)
+    }
+
+    /// Makes the index anew in a transaction of its own.
+    fn mend(&mut self, connection: &Connection, noteworthy: bool) -> Result<()> {
+        let transaction = rows::begin(connection)?;
+        self.rebuild(&transaction)?;
+        transaction.commit()?;
+        self.rebuilt.set(self.rebuilt.get() || noteworthy);
         Ok(())
     }
 
     /// Tells whether the index had to be made anew because it did not follow the rows.
     pub(crate) fn was_rebuilt(&self) -> bool {
-        self.rebuilt
+        self.rebuilt.get()
+    }
+
+    /// Tells the same, once.
+    pub(crate) fn take_rebuilt(&self) -> bool {
+        self.rebuilt.take()
     }
 
     /// Returns the searcher and the fields.
@@ -108,13 +135,18 @@ impl SearchIndex {
         (open.reader.searcher(), open.fields)
     }
 
-    /// Returns the words of `text` as the fields of words hold them.
-    pub(crate) fn words(&self, text: &str) -> Vec<String> {
-        let mut analyzer = analyzer();
-        let mut stream = analyzer.token_stream(text);
-        let mut words = Vec::new();
-        stream.process(&mut |token| words.push(token.text.clone()));
-        words
+    /// Tells whether the index is where the rows are, as this connection reads them now.
+    pub(crate) fn is_current(&self, connection: &Connection) -> Result<bool> {
+        let state = State::read(connection)?;
+        let open = self.open.as_ref();
+        Ok(follows(&state) && open.is_some_and(|open| open.indexed == state.indexed))
+    }
+
+    /// Returns what is kept between queries, of the state of the index that is open.
+    pub(crate) fn memory(&self) -> RefMut<'_, Memory> {
+        let mut memory = self.memory.borrow_mut();
+        memory.turn_to(self.open.as_ref().map_or(-1, |open| open.indexed));
+        memory
     }
 
     /// Writes the tokens that the running operation touched into the index, in its transaction.
@@ -128,15 +160,15 @@ impl SearchIndex {
         if state.format != FORMAT || before != state.indexed {
             return self.rebuild(connection);
         }
-        if self
-            .open
-            .as_ref()
-            .is_none_or(|open| open.indexed != state.indexed)
-        {
-            self.open = Some(OpenIndex::load(connection, state.indexed)?);
+        if !self.is_open_at(state.indexed) {
+            match OpenIndex::load(connection, state.indexed, self.open.as_ref()) {
+                Ok(open) => self.open = Some(open),
+                Err(Error::Index(_)) => return self.rebuild(connection),
+                Err(other) => return Err(other),
+            }
         }
         let open = self.open.as_mut().expect("just loaded");
-        open.write(connection, &touched)?;
+        open.write(connection, &touched, state.content)?;
         open.save(connection, state.content)
     }
 
@@ -144,8 +176,8 @@ impl SearchIndex {
     pub(crate) fn rebuild(&mut self, connection: &Connection) -> Result<()> {
         rows::delete_files(connection)?;
         let mut open = OpenIndex::empty()?;
-        open.fill(connection)?;
         let state = State::read(connection)?;
+        open.fill(connection, state.content)?;
         open.save(connection, state.content)?;
         self.open = Some(open);
         Ok(())
@@ -158,13 +190,30 @@ impl SearchIndex {
 }
 
 impl OpenIndex {
-    fn load(connection: &Connection, indexed: i64) -> Result<Self> {
-        let files = rows::files(connection)?;
-        if files.is_empty() {
+    /// Loads the index that has seen the first `indexed` changes; of `before`, which has seen
+    /// others, the files that both have are kept.
+    fn load(connection: &Connection, indexed: i64, before: Option<&Self>) -> Result<Self> {
+        let mut folder = MemoryFolder::default();
+        let mut missing = 0;
+        for name in rows::file_names(connection)? {
+            let known = before.and_then(|before| before.folder.unchanging(&name));
+            match known {
+                Some(data) => folder.add(name, data),
+                None => {
+                    missing += 1;
+                    let data = rows::file(connection, &name)?;
+                    folder.add(name, OwnedBytes::new(data));
+                }
+            }
+        }
+        if missing == 0 && indexed == 0 {
             return Self::empty();
         }
-        let folder = MemoryFolder::new(files);
         let index = Index::open(folder.clone())?;
+        if index.load_metas()?.payload != Some(payload(indexed)) {
+            let message = "its files are of another state than the rows";
+            return Err(TantivyError::SystemError(message.to_owned()).into());
+        }
         Self::ready(folder, index, indexed)
     }
 
@@ -199,7 +248,7 @@ impl OpenIndex {
         Ok(writer)
     }
 
-    fn write(&mut self, connection: &Connection, touched: &[i64]) -> Result<()> {
+    fn write(&mut self, connection: &Connection, touched: &[i64], content: i64) -> Result<()> {
         let mut writer = self.writer(MEMORY)?;
         for &token in touched {
             writer.delete_term(Term::from_field_u64(self.fields.id, token as u64));
@@ -208,7 +257,7 @@ impl OpenIndex {
             writer.add_document(self.document(&token))?;
             Ok(())
         })?;
-        writer.commit()?;
+        commit(&mut writer, content)?;
         self.merge(&mut writer)?;
         writer.garbage_collect_files().wait()?;
         writer.wait_merging_threads()?;
@@ -216,13 +265,13 @@ impl OpenIndex {
         Ok(())
     }
 
-    fn fill(&mut self, connection: &Connection) -> Result<()> {
+    fn fill(&mut self, connection: &Connection, content: i64) -> Result<()> {
         let mut writer = self.writer(4 * MEMORY)?;
         rows::each(connection, None, |token| {
             writer.add_document(self.document(&token))?;
             Ok(())
         })?;
-        writer.commit()?;
+        commit(&mut writer, content)?;
         let all = self.index.searchable_segment_ids()?;
         if all.len() > 1 {
             writer.merge(&all).wait()?;
@@ -272,61 +321,78 @@ impl OpenIndex {
             document.add_u64(fields.signer, signer as u64);
         }
         document.add_text(fields.gloss, &token.gloss);
-        document.add_text(fields.words, &token.words);
+        document.add_text(fields.words, &token.gloss);
         for text in &token.translations {
             document.add_text(fields.translation, text);
         }
         for text in &token.comments {
             document.add_text(fields.comment, text);
         }
-        for term in &token.readings {
-            document.add_text(fields.reading, term);
+        for mark in &token.marks {
+            document.add_text(fields.reading, mark);
         }
-        for facet in &token.facets {
+        let mut facets: Vec<&str> = Vec::new();
+        for reading in &token.readings {
+            for term in &reading.terms {
+                document.add_text(fields.reading, term);
+            }
+            let facet = reading.facet.as_deref();
+            facets.extend(facet.filter(|facet| !facets.contains(facet)));
+        }
+        for facet in facets {
             document.add_text(fields.facet, facet);
         }
-        document.add_text(fields.origin, &token.origin);
-        if let Some((start, duration)) = token.time {
+        if let Some((start, end)) = token.time {
             document.add_i64(fields.start, start);
-            document.add_i64(fields.duration, duration);
+            document.add_i64(fields.end, end);
+            document.add_i64(fields.duration, end - start);
         }
         document
     }
 }
 
+/// What the index's own files say about how far it has seen.
+fn payload(content: i64) -> String {
+    format!("{FORMAT}:{content}")
+}
+
+fn commit(writer: &mut IndexWriter, content: i64) -> Result<()> {
+    let mut commit = writer.prepare_commit()?;
+    commit.set_payload(&payload(content));
+    commit.commit()?;
+    Ok(())
+}
+
 fn schema() -> (Schema, Fields) {
     let mut builder = Schema::builder();
-    let words = TextFieldIndexing::default()
-        .set_tokenizer(WORDS)
-        .set_index_option(IndexRecordOption::WithFreqsAndPositions);
-    let text = TextOptions::default().set_indexing_options(words);
-    let term = TextOptions::default().set_indexing_options(
+    let indexing = |option, tokenizer| {
         TextFieldIndexing::default()
-            .set_tokenizer("raw")
+            .set_tokenizer(tokenizer)
             .set_fieldnorms(false)
-            .set_index_option(IndexRecordOption::Basic),
-    );
+            .set_index_option(option)
+    };
+    let option = IndexRecordOption::WithFreqsAndPositions;
+    let text = TextOptions::default().set_indexing_options(indexing(option, WORDS));
+    let option = IndexRecordOption::Basic;
+    let term = TextOptions::default().set_indexing_options(indexing(option, "raw"));
     let fields = Fields {
         id: builder.add_u64_field("id", INDEXED | FAST),
-        sign: builder.add_u64_field("sign", INDEXED),
-        recording: builder.add_u64_field("recording", INDEXED),
-        signer: builder.add_u64_field("signer", INDEXED),
-        gloss: builder.add_text_field("gloss", STRING),
+        sign: builder.add_u64_field("sign", INDEXED | FAST),
+        recording: builder.add_u64_field("recording", INDEXED | FAST),
+        signer: builder.add_u64_field("signer", INDEXED | FAST),
+        gloss: builder.add_text_field("gloss", term.clone()),
         words: builder.add_text_field("words", text.clone()),
         translation: builder.add_text_field("translation", text.clone()),
         comment: builder.add_text_field("comment", text),
-        reading: builder.add_text_field("reading", term.clone()),
+        reading: builder.add_text_field("reading", term),
         facet: builder.add_text_field("facet", TextOptions::default().set_fast("raw")),
-        origin: builder.add_text_field("origin", term),
-        start: builder.add_i64_field("start", INDEXED | FAST),
-        duration: builder.add_i64_field("duration", INDEXED | FAST),
+        start: builder.add_i64_field("start", FAST),
+        end: builder.add_i64_field("end", FAST),
+        duration: builder.add_i64_field("duration", FAST),
     };
     (builder.build(), fields)
 }
 
 fn analyzer() -> TextAnalyzer {
-    TextAnalyzer::builder(SimpleTokenizer::default())
-        .filter(LowerCaser)
-        .filter(AsciiFoldingFilter)
-        .build()
+    TextAnalyzer::from(SimpleTokenizer::default())
 }

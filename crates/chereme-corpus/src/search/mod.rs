@@ -1,5 +1,208 @@
 //! Retrieval: which tokens answer a query.
+//!
+//! A query is turned into a [plan](plan::Plan): what the [index](index) can tell is one question to
+//! it, what it cannot (relations of time, whole texts) is asked of the rows, of as few tokens as the
+//! rest of the query leaves over.
 
+mod answer;
+mod any_term;
+mod beside;
+mod compile;
+mod component;
 mod directory;
+mod docs;
 pub(crate) mod index;
+mod known;
+mod like;
+mod plan;
 pub(crate) mod terms;
+#[cfg(test)]
+mod tests;
+mod texts;
+mod vocabulary;
+mod whole;
+
+use chereme_sign::query::{Expr, Like, Pattern, Query, QueryError, Test, What};
+use rusqlite::Connection;
+
+use crate::Corpus;
+use crate::db::search as rows;
+use crate::error::{Error, Result};
+
+use answer::Ranks;
+pub use answer::{Answer, FACET_VALUES, Hit, Order};
+use compile::{Ask, Asked, Failure};
+use index::SearchIndex;
+use like::Scores;
+
+/// What of an answer is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SearchOptions {
+    /// How many tokens to show at most; all of them where nothing is said.
+    pub limit: Option<usize>,
+    /// How many tokens to leave out before.
+    pub offset: usize,
+    /// Whether to count the values of all tokens found.
+    pub facets: bool,
+    /// In which order.
+    pub order: Order,
+}
+
+impl Default for SearchOptions {
+    fn default() -> Self {
+        Self {
+            limit: None,
+            offset: 0,
+            facets: true,
+            order: Order::Rank,
+        }
+    }
+}
+
+impl Corpus {
+    /// Finds the tokens that answer a query; see [`chereme_sign::query`] for the language.
+    ///
+    /// A search sees one state of the corpus: everything that was done before it, by this program or
+    /// another, and nothing that is being done meanwhile.
+    ///
+    /// # Errors
+    /// [`Error::Wrong`] with the place in the query that cannot be understood, or that names a value,
+    /// signer… that there is not.
+    pub fn search(&mut self, query: &str, options: &SearchOptions) -> Result<Answer> {
+        const ATTEMPTS: usize = 8;
+        let parsed = Query::parse(query).map_err(|error| wrong(query, &error))?;
+        for _ in 0..ATTEMPTS {
+            let (connection, index) = self.store.searchable()?;
+            let reading = rows::begin_reading(connection)?;
+            if !index.is_current(connection)? {
+                continue;
+            }
+            let answer = answer(connection, index, &parsed, options);
+            drop(reading);
+            return answer.map_err(|failure| match failure {
+                Failure::Query(error) => wrong(query, &error),
+                Failure::Other(error) => error,
+            });
+        }
+        Err(Error::wrong("another program keeps writing to the corpus")
+            .advise("try again when it is done"))
+    }
+}
+
+/// Returns the tokens that answer a query, in the order of [`Corpus::search`].
+pub(crate) fn tokens(
+    connection: &Connection,
+    index: &SearchIndex,
+    query: &str,
+) -> Result<Vec<i64>> {
+    let parsed = Query::parse(query).map_err(|error| wrong(query, &error))?;
+    let options = SearchOptions {
+        facets: false,
+        ..SearchOptions::default()
+    };
+    match answer(connection, index, &parsed, &options) {
+        Ok(answer) => Ok(answer.hits.into_iter().map(|hit| hit.token).collect()),
+        Err(Failure::Query(error)) => Err(wrong(query, &error)),
+        Err(Failure::Other(error)) => Err(error),
+    }
+}
+
+fn wrong(query: &str, error: &QueryError) -> Error {
+    let mut lines: Vec<String> = error.render(query).lines().map(str::to_owned).collect();
+    if !error.remedy.is_empty() {
+        lines.pop();
+    }
+    let advice = match (error.corrected(query), error.remedy.as_str()) {
+        (Some(corrected), "") => Some(format!("write {corrected}")),
+        (_, "") => None,
+        (_, remedy) => Some(remedy.to_owned()),
+    };
+    Error::Wrong {
+        message: lines.join("\n"),
+        place: Some(format!("character {}", error.at.start + 1)),
+        remedy: advice,
+    }
+}
+
+fn answer(
+    connection: &Connection,
+    index: &SearchIndex,
+    query: &Query,
+    options: &SearchOptions,
+) -> Asked<Answer> {
+    let (searcher, fields) = index.searcher();
+    let ask = Ask {
+        connection,
+        index,
+        searcher: &searcher,
+        fields,
+        vocabulary: index.memory().vocabulary(connection)?,
+        notes: Default::default(),
+    };
+    let plan = compile::plan(&ask, &query.root)?;
+    let found = plan::evaluate(&ask, &plan, None)?;
+    let likes = likes(&query.root);
+    let scores = match &likes[..] {
+        [] => None,
+        some => Some(Scores::new(&ask, some)?),
+    };
+    let texts = match options.order {
+        Order::Rank => ranked_texts(&ask, &query.root)?,
+        _ => Vec::new(),
+    };
+    let ranks = Ranks::new(&ask, &found, scores.as_ref(), &texts)?;
+    let end = options
+        .limit
+        .map_or(usize::MAX, |limit| options.offset.saturating_add(limit));
+    let page = answer::page(&ask, &found, options.order, &ranks, options.offset..end)?;
+    let hits = answer::hits(&ask, &page, scores.as_ref())?;
+    let facets = if options.facets {
+        answer::facets(&ask, &found)?
+    } else {
+        Default::default()
+    };
+    if index.take_rebuilt() {
+        ask.note("the search index did not follow the rows and was made anew".to_owned());
+    }
+    Ok(Answer {
+        query: query.to_string(),
+        total: found.len(),
+        hits,
+        facets,
+        notes: ask.notes.into_inner().into_iter().collect(),
+    })
+}
+
+/// Returns the terms that must all hold.
+fn joined(root: &Expr) -> &[Expr] {
+    match root {
+        Expr::And(terms) => terms,
+        one => std::slice::from_ref(one),
+    }
+}
+
+fn likes(root: &Expr) -> Vec<&Like> {
+    let likes = joined(root).iter().filter_map(|term| match term {
+        Expr::Like(like) => Some(like),
+        _ => None,
+    });
+    likes.collect()
+}
+
+/// Returns the places of the texts that the order depends on: plain words, and texts up to slips.
+fn ranked_texts(ask: &Ask<'_>, root: &Expr) -> Asked<Vec<Vec<Option<plan::Plan>>>> {
+    let plain = |pattern: &Pattern| pattern.as_literal().is_some();
+    let ranked = |test: &&Test| match &test.what {
+        What::Words(_, patterns) => patterns.iter().all(plain),
+        What::Fuzzy { .. } => true,
+        _ => false,
+    };
+    let tests = joined(root).iter().filter_map(|term| match term {
+        Expr::Test(test) => Some(test),
+        _ => None,
+    });
+    tests
+        .filter(ranked)
+        .map(|test| whole::places(ask, test))
+        .collect()
+}

@@ -1,30 +1,167 @@
-//! The terms by which the index finds values.
+//! The terms by which the index finds what is coded of a token.
+//!
+//! A reading is `component|hand and phase|part|value`, such as `placement|ri||chin`. The hand is
+//! `r`, `l` (by side), `d`, `w` (by part in signing) or `n` (none); the phase `o` (the only value),
+//! `i`, `m1`, `m2` … or `f`. A mark is `@kind|value`, such as `@origin|made`.
 
-/// Which hand a term is about: by side, by part in signing, or none.
-pub(crate) const HANDS: [&str; 5] = ["r", "l", "d", "w", "n"];
-/// Which of the sign's values a term is about: the only one, the first, one between, the last.
-pub(crate) const PHASES: [&str; 4] = ["o", "i", "m", "f"];
+use chereme_sign::{HandRef, Phase, Reading};
 
-/// What a term says where it says no value.
-pub(crate) mod special {
-    /// The field has a value, whichever.
-    pub(crate) const ANY: &str = "\u{1}any";
-    /// The field does not apply.
-    pub(crate) const NOT_APPLICABLE: &str = "\u{1}n/a";
-    /// The field cannot be told.
-    pub(crate) const UNCLEAR: &str = "\u{1}unclear";
+/// What a reading's term says where it says no value.
+mod special {
+    pub(super) const NOT_APPLICABLE: &str = "\u{1}n/a";
+    pub(super) const UNCLEAR: &str = "\u{1}unclear";
+    pub(super) const UNSET: &str = "\u{1}unset";
 }
 
-/// Returns the term for a value of a component, as `hand|phase|component|feature|value`.
+/// Something known of a token that is no component.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) enum Mark {
+    Origin,
+    Hand,
+    Tier,
+    Inventory,
+    /// Which texts it has: `translation`, `comment`.
+    Has,
+}
+
+impl Mark {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Origin => "@origin",
+            Self::Hand => "@hand",
+            Self::Tier => "@tier",
+            Self::Inventory => "@inventory",
+            Self::Has => "@has",
+        }
+    }
+
+    /// Returns the term that says so.
+    pub(crate) fn term(self, value: &str) -> String {
+        format!("{}|{value}", self.name())
+    }
+
+    /// Returns what all terms of this mark begin with.
+    pub(crate) fn prefix(self) -> String {
+        self.term("")
+    }
+}
+
+/// Returns what all readings of a component begin with.
+pub(crate) fn component_prefix(component: &str) -> String {
+    format!("{component}|")
+}
+
+/// Returns the term of a reading.
 pub(crate) fn reading_term(
-    hand: &str,
-    phase: &str,
     component: &str,
-    feature: Option<&str>,
+    hand: char,
+    phase: &str,
+    part: Option<&str>,
     value: &str,
 ) -> String {
-    format!(
-        "{hand}|{phase}|{component}|{}|{value}",
-        feature.unwrap_or_default()
-    )
+    let part = part.unwrap_or_default().replace('|', "/");
+    format!("{component}|{hand}{phase}|{part}|{value}")
+}
+
+/// Returns how a term writes the reading that a row gives as state and value.
+pub(crate) fn reading_text<'a>(state: &str, value: Option<&'a str>) -> &'a str {
+    match (state, value) {
+        ("value", Some(value)) => value,
+        ("not-applicable", _) => special::NOT_APPLICABLE,
+        ("unclear", _) => special::UNCLEAR,
+        _ => special::UNSET,
+    }
+}
+
+/// Returns the reading that a row gives as state and value.
+pub(crate) fn reading(state: &str, value: Option<&str>) -> Reading {
+    from_text(reading_text(state, value))
+}
+
+/// Returns how a term writes a reading.
+pub(crate) fn text_of(reading: &Reading) -> &str {
+    match reading {
+        Reading::Value(value) => value,
+        Reading::NotApplicable => special::NOT_APPLICABLE,
+        Reading::Unclear => special::UNCLEAR,
+        Reading::Unset => special::UNSET,
+    }
+}
+
+fn from_text(text: &str) -> Reading {
+    match text {
+        special::NOT_APPLICABLE => Reading::NotApplicable,
+        special::UNCLEAR => Reading::Unclear,
+        special::UNSET => Reading::Unset,
+        value => Reading::Value(value.to_owned()),
+    }
+}
+
+/// A reading's term, taken apart.
+pub(crate) struct Parsed<'a> {
+    pub(crate) hand: char,
+    pub(crate) phase: &'a str,
+    pub(crate) part: Option<&'a str>,
+    pub(crate) reading: Reading,
+}
+
+/// Takes the term of a reading apart.
+pub(crate) fn parse(term: &str) -> Option<Parsed<'_>> {
+    let mut pieces = term.splitn(4, '|').skip(1);
+    let (place, part, value) = (pieces.next()?, pieces.next()?, pieces.next()?);
+    let hand = place.chars().next()?;
+    Some(Parsed {
+        hand,
+        phase: &place[hand.len_utf8()..],
+        part: (!part.is_empty()).then_some(part),
+        reading: from_text(value),
+    })
+}
+
+/// Returns the code of a row's phase.
+pub(crate) fn phase_code(phase: Option<&str>, position: i64) -> String {
+    match phase {
+        Some("initial") => "i".to_owned(),
+        Some("middle") => format!("m{}", position.max(1)),
+        Some("final") => "f".to_owned(),
+        _ => "o".to_owned(),
+    }
+}
+
+/// A side and a part in signing for every hand; of both hands all four, and of no hand its own.
+pub(crate) fn hand_codes(hand: Option<&str>, left_handed: bool) -> &'static [char] {
+    match (hand, left_handed) {
+        (Some("right" | "dominant"), false) => &['r', 'd'],
+        (Some("left" | "weak"), false) => &['l', 'w'],
+        (Some("right" | "weak"), true) => &['r', 'w'],
+        (Some("left" | "dominant"), true) => &['l', 'd'],
+        (Some("both"), _) => &['r', 'l', 'd', 'w'],
+        _ => &['n'],
+    }
+}
+
+/// Returns the codes of the hands that a field means.
+///
+/// Either hand is both parts in signing, and what belongs to no hand.
+pub(crate) fn hands_of(hand: Option<HandRef>) -> &'static [char] {
+    match hand {
+        Some(HandRef::Right) => &['r'],
+        Some(HandRef::Left) => &['l'],
+        Some(HandRef::Dominant) => &['d'],
+        Some(HandRef::Weak) => &['w'],
+        None => &['d', 'w', 'n'],
+    }
+}
+
+/// Tells whether a value of this phase code counts where `phase` is asked for: the only value of
+/// a sign is its first and its last.
+pub(crate) fn phase_counts(phase: Option<Phase>, code: &str) -> bool {
+    match phase {
+        None => true,
+        Some(Phase::Initial) => matches!(code, "i" | "o"),
+        Some(Phase::Final) => matches!(code, "f" | "o"),
+        Some(Phase::Middle(count)) => {
+            code.strip_prefix('m').and_then(|n| n.parse().ok()) == Some(count)
+        }
+    }
 }

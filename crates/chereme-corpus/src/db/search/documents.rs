@@ -1,0 +1,423 @@
+//! Tokens as the search index holds them, read in one pass where all are wanted.
+
+use std::collections::HashMap;
+use std::rc::Rc;
+
+use chereme_sign::text::fold;
+use rusqlite::fallible_streaming_iterator::FallibleStreamingIterator;
+use rusqlite::{Connection, OptionalExtension, Row, Rows};
+
+use crate::error::Result;
+use crate::search::terms::{Mark, hand_codes, phase_code, reading_term, reading_text};
+
+/// A token as the index holds it; texts are folded.
+#[derive(Default)]
+pub(crate) struct TokenDocument {
+    pub(crate) id: i64,
+    pub(crate) sign: i64,
+    pub(crate) recording: Option<i64>,
+    pub(crate) signer: Option<i64>,
+    pub(crate) gloss: Rc<str>,
+    pub(crate) translations: Vec<Rc<str>>,
+    pub(crate) comments: Vec<Rc<str>>,
+    pub(crate) readings: Vec<Rc<ReadingTerms>>,
+    pub(crate) marks: Vec<Rc<str>>,
+    /// Start and end.
+    pub(crate) time: Option<(i64, i64)>,
+}
+
+/// What a row of values becomes in the index.
+pub(crate) struct ReadingTerms {
+    pub(crate) terms: Vec<String>,
+    /// `right.configuration=U`, where the row has a value.
+    pub(crate) facet: Option<String>,
+}
+
+/// Calls `take` with each of the tokens in `only`, or with all of them.
+pub(crate) fn each(
+    connection: &Connection,
+    only: Option<&[i64]>,
+    mut take: impl FnMut(TokenDocument) -> Result<()>,
+) -> Result<()> {
+    let mut reader = Reader::new(connection);
+    match only {
+        Some(tokens) => {
+            let mut statement = connection.prepare_cached(&format!("{TOKEN} WHERE t.id = ?1"))?;
+            let mut values =
+                connection.prepare_cached(&format!("{VALUE} WHERE token_id = ?1 ORDER BY id"))?;
+            for &token in tokens {
+                let found = statement
+                    .query_row([token], |row| TokenFields::read(row))
+                    .optional()?;
+                if let Some(found) = found {
+                    let mut values = Values::new(values.query([token])?);
+                    take(reader.document(&found, &mut values)?)?;
+                }
+            }
+        }
+        None => {
+            let mut statement = connection.prepare(&format!("{TOKEN} ORDER BY t.id"))?;
+            let mut values = connection.prepare(&format!("{VALUE} ORDER BY token_id, id"))?;
+            let mut values = Values::new(values.query([])?);
+            let mut rows = statement.query([])?;
+            while let Some(row) = rows.next()? {
+                let found = TokenFields::read(row)?;
+                take(reader.document(&found, &mut values)?)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+const TOKEN: &str = "
+    SELECT t.id, t.sign_id, t.recording_id, t.start_us, t.end_us, t.origin, t.hand, a.tier_id
+    FROM token t LEFT JOIN annotation a ON a.id = t.annotation_id";
+
+const VALUE: &str = "
+    SELECT token_id, hand, component, feature, phase, position, state, value, inventory_id
+    FROM token_value";
+
+struct TokenFields {
+    id: i64,
+    sign: i64,
+    recording: Option<i64>,
+    time: Option<(i64, i64)>,
+    origin: String,
+    hand: Option<String>,
+    tier: Option<i64>,
+}
+
+impl TokenFields {
+    fn read(row: &Row<'_>) -> rusqlite::Result<Self> {
+        let start: Option<i64> = row.get(3)?;
+        Ok(Self {
+            id: row.get(0)?,
+            sign: row.get(1)?,
+            recording: row.get(2)?,
+            time: start.zip(row.get(4)?),
+            origin: row.get(5)?,
+            hand: row.get(6)?,
+            tier: row.get(7)?,
+        })
+    }
+}
+
+/// Rows of values by token, of which those of the next token can be taken.
+struct Values<'s> {
+    rows: Rows<'s>,
+    /// The token of the row that the cursor stands on.
+    token: Option<i64>,
+    started: bool,
+}
+
+impl<'s> Values<'s> {
+    fn new(rows: Rows<'s>) -> Self {
+        Self {
+            rows,
+            token: None,
+            started: false,
+        }
+    }
+
+    fn advance(&mut self) -> rusqlite::Result<()> {
+        self.started = true;
+        FallibleStreamingIterator::advance(&mut self.rows)?;
+        self.token = FallibleStreamingIterator::get(&self.rows)
+            .map(|row| row.get(0))
+            .transpose()?;
+        Ok(())
+    }
+
+    /// Calls `take` with each row of `token`; rows of lesser tokens are stepped over.
+    fn of(
+        &mut self,
+        token: i64,
+        mut take: impl FnMut(&Row<'_>) -> rusqlite::Result<()>,
+    ) -> rusqlite::Result<()> {
+        if !self.started {
+            self.advance()?;
+        }
+        while let Some(next) = self.token.filter(|next| *next <= token) {
+            if next == token
+                && let Some(row) = FallibleStreamingIterator::get(&self.rows)
+            {
+                take(row)?;
+            }
+            self.advance()?;
+        }
+        Ok(())
+    }
+}
+
+/// Memory of what many tokens share; each part is emptied when it grows beyond its use.
+struct Reader<'c> {
+    connection: &'c Connection,
+    signs: HashMap<i64, Rc<SignTexts>>,
+    recordings: HashMap<i64, Rc<Around>>,
+    tiers: HashMap<i64, Rc<str>>,
+    inventories: HashMap<i64, Rc<str>>,
+    marks: HashMap<(Mark, String), Rc<str>>,
+    terms: HashMap<String, Rc<ReadingTerms>>,
+    key: String,
+}
+
+const MOST_SIGNS: usize = 100_000;
+const MOST_RECORDINGS: usize = 64;
+const MOST_TERMS: usize = 100_000;
+
+struct SignTexts {
+    gloss: Rc<str>,
+    notes: Option<Rc<str>>,
+    translations: Vec<Rc<str>>,
+}
+
+/// What is known of a recording: its signer, and what is said and remarked in it, by time.
+struct Around {
+    signer: Option<i64>,
+    left_handed: bool,
+    translations: Vec<Said>,
+    comments: Vec<Said>,
+}
+
+struct Said {
+    start: i64,
+    end: i64,
+    text: Rc<str>,
+}
+
+impl<'c> Reader<'c> {
+    fn new(connection: &'c Connection) -> Self {
+        Self {
+            connection,
+            signs: HashMap::new(),
+            recordings: HashMap::new(),
+            tiers: HashMap::new(),
+            inventories: HashMap::new(),
+            marks: HashMap::new(),
+            terms: HashMap::new(),
+            key: String::new(),
+        }
+    }
+
+    fn document(&mut self, token: &TokenFields, values: &mut Values<'_>) -> Result<TokenDocument> {
+        let sign = self.sign(token.sign)?;
+        let around = token.recording.map(|id| self.around(id)).transpose()?;
+        let left_handed = around.as_ref().is_some_and(|around| around.left_handed);
+        let mut document = TokenDocument {
+            id: token.id,
+            sign: token.sign,
+            recording: token.recording,
+            signer: around.as_ref().and_then(|around| around.signer),
+            gloss: sign.gloss.clone(),
+            translations: sign.translations.clone(),
+            comments: sign.notes.iter().cloned().collect(),
+            time: token.time,
+            ..TokenDocument::default()
+        };
+        if let (Some(around), Some(time)) = (&around, token.time) {
+            said_during(&around.translations, time, &mut document.translations);
+            said_during(&around.comments, time, &mut document.comments);
+        }
+        self.add_marks(token, left_handed, &mut document)?;
+        let mut inventories = Vec::new();
+        values.of(token.id, |row| {
+            document.readings.push(self.terms_of(row, left_handed)?);
+            let inventory: Option<i64> = row.get(8)?;
+            inventories.extend(inventory.filter(|id| !inventories.contains(id)));
+            Ok(())
+        })?;
+        for id in inventories {
+            let name = self.inventory(id)?;
+            document.marks.push(self.mark(Mark::Inventory, &name));
+        }
+        Ok(document)
+    }
+
+    fn add_marks(
+        &mut self,
+        token: &TokenFields,
+        left_handed: bool,
+        document: &mut TokenDocument,
+    ) -> Result<()> {
+        let mut marks = vec![self.mark(Mark::Origin, &token.origin)];
+        if let Some(hand) = token.hand.as_deref() {
+            let names: &[&str] = match (hand, hand_codes(Some(hand), left_handed)) {
+                ("both", _) | (_, []) => &["both"],
+                (_, ['r', 'd']) => &["right", "dominant"],
+                (_, ['l', 'w']) => &["left", "weak"],
+                (_, ['r', 'w']) => &["right", "weak"],
+                _ => &["left", "dominant"],
+            };
+            marks.extend(names.iter().map(|name| self.mark(Mark::Hand, name)));
+        }
+        if let Some(tier) = token.tier {
+            let name = self.tier(tier)?;
+            marks.push(self.mark(Mark::Tier, &name));
+        }
+        if !document.translations.is_empty() {
+            marks.push(self.mark(Mark::Has, "translation"));
+        }
+        if !document.comments.is_empty() {
+            marks.push(self.mark(Mark::Has, "comment"));
+        }
+        document.marks = marks;
+        Ok(())
+    }
+
+    fn mark(&mut self, mark: Mark, value: &str) -> Rc<str> {
+        if self.marks.len() > MOST_TERMS {
+            self.marks.clear();
+        }
+        let made = self.marks.entry((mark, value.to_owned()));
+        made.or_insert_with(|| mark.term(value).into()).clone()
+    }
+
+    fn sign(&mut self, id: i64) -> Result<Rc<SignTexts>> {
+        if let Some(known) = self.signs.get(&id) {
+            return Ok(known.clone());
+        }
+        let (gloss, notes): (String, Option<String>) = self
+            .connection
+            .prepare_cached("SELECT gloss, notes FROM sign WHERE id = ?1")?
+            .query_row([id], |row| Ok((row.get(0)?, row.get(1)?)))?;
+        let mut statement = self
+            .connection
+            .prepare_cached("SELECT text FROM sign_text WHERE sign_id = ?1 ORDER BY id")?;
+        let mut texts = SignTexts {
+            gloss: fold(&gloss).into(),
+            notes: notes.map(|notes| fold(&notes).into()),
+            translations: Vec::new(),
+        };
+        let mut rows = statement.query([id])?;
+        while let Some(row) = rows.next()? {
+            texts
+                .translations
+                .push(fold(row.get_ref(0)?.as_str().unwrap_or_default()).into());
+        }
+        if self.signs.len() > MOST_SIGNS {
+            self.signs.clear();
+        }
+        let texts = Rc::new(texts);
+        self.signs.insert(id, texts.clone());
+        Ok(texts)
+    }
+
+    fn around(&mut self, id: i64) -> Result<Rc<Around>> {
+        if let Some(known) = self.recordings.get(&id) {
+            return Ok(known.clone());
+        }
+        let (signer, handedness) = self
+            .connection
+            .prepare_cached(
+                "SELECT r.signer_id, g.handedness FROM recording r
+                 LEFT JOIN signer g ON g.id = r.signer_id WHERE r.id = ?1",
+            )?
+            .query_row([id], |row| {
+                Ok((row.get(0)?, row.get::<_, Option<String>>(1)?))
+            })?;
+        let around = Rc::new(Around {
+            signer,
+            left_handed: handedness.as_deref() == Some("left"),
+            translations: self.said(id, "translation")?,
+            comments: self.said(id, "comment")?,
+        });
+        if self.recordings.len() > MOST_RECORDINGS {
+            self.recordings.clear();
+        }
+        self.recordings.insert(id, around.clone());
+        Ok(around)
+    }
+
+    fn said(&self, recording: i64, role: &str) -> Result<Vec<Said>> {
+        let mut statement = self.connection.prepare_cached(
+            "SELECT a.start_us, a.end_us, a.value FROM tier i JOIN annotation a ON a.tier_id = i.id
+             WHERE i.recording_id = ?1 AND i.role = ?2 AND a.state = 'value' AND a.value <> ''
+             ORDER BY a.start_us, i.position, a.id",
+        )?;
+        let said = statement.query_map((recording, role), |row| {
+            Ok(Said {
+                start: row.get(0)?,
+                end: row.get(1)?,
+                text: fold(row.get_ref(2)?.as_str().unwrap_or_default()).into(),
+            })
+        })?;
+        Ok(said.collect::<rusqlite::Result<_>>()?)
+    }
+
+    fn tier(&mut self, id: i64) -> Result<Rc<str>> {
+        named(
+            self.connection,
+            &mut self.tiers,
+            "SELECT name FROM tier WHERE id = ?1",
+            id,
+        )
+    }
+
+    fn inventory(&mut self, id: i64) -> Result<Rc<str>> {
+        let sql = "SELECT key FROM inventory WHERE id = ?1";
+        named(self.connection, &mut self.inventories, sql, id)
+    }
+
+    fn terms_of(&mut self, row: &Row<'_>, left_handed: bool) -> rusqlite::Result<Rc<ReadingTerms>> {
+        let text = |column: usize| row.get_ref(column)?.as_str_or_null().map_err(Into::into);
+        let text = |column| -> rusqlite::Result<Option<&str>> { text(column) };
+        let (hand, component, part, phase) = (text(1)?, text(2)?, text(3)?, text(4)?);
+        let position: i64 = row.get(5)?;
+        let (state, value) = (text(6)?, text(7)?);
+        self.key.clear();
+        for piece in [hand, component, part, phase, state, value] {
+            self.key.push_str(piece.unwrap_or("\u{2}"));
+            self.key.push('\u{1}');
+        }
+        self.key.push(if left_handed { 'l' } else { 'r' });
+        self.key.push_str(&position.to_string());
+        if let Some(known) = self.terms.get(&self.key) {
+            return Ok(known.clone());
+        }
+        let component = component.unwrap_or_default();
+        let reading = reading_text(state.unwrap_or_default(), value);
+        let phase = phase_code(phase, position);
+        let codes = hand_codes(hand, left_handed).iter();
+        let made = Rc::new(ReadingTerms {
+            terms: codes
+                .map(|&hand| reading_term(component, hand, &phase, part, reading))
+                .collect(),
+            facet: value.map(|value| {
+                let place = hand.map_or(String::new(), |hand| format!("{hand}."));
+                let part = part.map_or(String::new(), |part| format!(".{part}"));
+                format!("{place}{component}{part}={value}")
+            }),
+        });
+        if self.terms.len() > MOST_TERMS {
+            self.terms.clear();
+        }
+        self.terms.insert(self.key.clone(), made.clone());
+        Ok(made)
+    }
+}
+
+fn named(
+    connection: &Connection,
+    known: &mut HashMap<i64, Rc<str>>,
+    sql: &str,
+    id: i64,
+) -> Result<Rc<str>> {
+    if let Some(name) = known.get(&id) {
+        return Ok(name.clone());
+    }
+    let name: String = connection
+        .prepare_cached(sql)?
+        .query_row([id], |row| row.get(0))
+        .optional()?
+        .unwrap_or_default();
+    let name: Rc<str> = name.into();
+    known.insert(id, name.clone());
+    Ok(name)
+}
+
+/// Adds the texts that share time with a token; `said` is in order of start.
+fn said_during(said: &[Said], (start, end): (i64, i64), texts: &mut Vec<Rc<str>>) {
+    let until = said.partition_point(|said| said.start < end);
+    let during = said[..until].iter().filter(|said| said.end > start);
+    texts.extend(during.map(|said| said.text.clone()));
+}

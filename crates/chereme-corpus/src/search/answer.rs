@@ -1,0 +1,383 @@
+//! Answers: the tokens found, in order, with what is coded of them and how often each value occurs.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+use serde_json::Value;
+use tantivy::DocAddress;
+
+use super::compile::{Ask, Asked};
+use super::docs::{Docs, Numbers, Times};
+use super::known::Labels;
+use super::like::Scores;
+use super::plan::{self, Plan};
+use crate::db::search::answers::{self, CodedRow, Named};
+use crate::error::Result;
+
+/// What a query finds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Answer {
+    /// The query in its canonical form.
+    pub query: String,
+    /// How many tokens it finds, whatever part of them is shown.
+    pub total: usize,
+    /// The tokens shown, in order.
+    pub hits: Vec<Hit>,
+    /// By field, how many of all tokens found have each value: the most frequent first, at most
+    /// [`FACET_VALUES`] of them, those of equal number by name.
+    pub facets: BTreeMap<String, Vec<(String, usize)>>,
+    /// What whoever asked should know besides.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
+}
+
+/// A token that was found.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Hit {
+    /// The token's row.
+    pub token: i64,
+    /// Its gloss.
+    pub gloss: String,
+    /// The name of its recording; a lexicon entry has none.
+    pub recording: Option<String>,
+    /// Where it starts, in microseconds.
+    pub start_us: Option<i64>,
+    /// The first microsecond after it.
+    pub end_us: Option<i64>,
+    /// `captured`, `made`, `generated` or `lexicon`.
+    pub origin: String,
+    /// How alike it is to the example, from 0 to 1, where there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub score: Option<f64>,
+    /// Values by field, such as `initial.right.placement`; a list where there are several. What is
+    /// not applicable is `n/a`, what is unclear `unclear`.
+    pub components: BTreeMap<String, Value>,
+}
+
+/// How many values of a field are counted at most.
+pub const FACET_VALUES: usize = 20;
+
+/// In which order tokens are shown.
+///
+/// Every order ends with: recordings in the order in which they were stored, time, the lexicon by
+/// gloss, the order in which tokens were stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Order {
+    /// The most alike to an example first; then where a text is the whole gloss, a word of the
+    /// gloss, part of what is said, part of a remark.
+    #[default]
+    Rank,
+    /// By recording and time.
+    Place,
+    /// By gloss.
+    Gloss,
+    /// The longest first, the lexicon last.
+    Duration,
+}
+
+/// The place of a token in the order.
+type Key = (u64, u64, u64, i64);
+
+/// Returns the part of the documents that is to be shown, in order.
+pub(crate) fn page(
+    ask: &Ask<'_>,
+    found: &[DocAddress],
+    order: Order,
+    ranks: &Ranks,
+    range: std::ops::Range<usize>,
+) -> Asked<Docs> {
+    let places = Places::open(ask, found, order)?;
+    let mut keyed: Vec<((u64, Key), DocAddress)> = Vec::with_capacity(found.len());
+    for (&doc, rank) in found.iter().zip(ranks.iter()) {
+        let key = (places.leading(doc, order, rank), places.key(doc));
+        keyed.push((key, doc));
+    }
+    let end = range.end.min(keyed.len());
+    let start = range.start.min(end);
+    if end > 0 && end < keyed.len() {
+        keyed.select_nth_unstable(end - 1);
+    }
+    keyed.truncate(end);
+    keyed.sort_unstable();
+    Ok(keyed[start..].iter().map(|(_, doc)| *doc).collect())
+}
+
+/// How far to the front each document found belongs, the least first.
+pub(crate) struct Ranks(Option<Vec<u64>>);
+
+impl Ranks {
+    /// Ranks documents by likeness and by the places where texts are found in them.
+    pub(crate) fn new(
+        ask: &Ask<'_>,
+        found: &[DocAddress],
+        scores: Option<&Scores>,
+        texts: &[Vec<Option<Plan>>],
+    ) -> Asked<Self> {
+        if scores.is_none() && texts.is_empty() {
+            return Ok(Self(None));
+        }
+        let mut ranks = vec![0; found.len()];
+        for places in texts {
+            let farthest = places.len() as u64;
+            let mut own = vec![farthest; found.len()];
+            for (place, plan) in (0..).zip(places) {
+                let Some(plan) = plan else {
+                    continue;
+                };
+                let here = plan::evaluate(ask, plan, Some(found))?;
+                let mut here = here.iter().peekable();
+                for (doc, rank) in found.iter().zip(&mut own) {
+                    if here.next_if_eq(&doc).is_some() {
+                        *rank = (*rank).min(place);
+                    }
+                }
+            }
+            ranks
+                .iter_mut()
+                .zip(own)
+                .for_each(|(rank, own)| *rank += own);
+        }
+        if let Some(scores) = scores {
+            let ids = Numbers::rows(ask.searcher, "id")?;
+            for (doc, rank) in found.iter().zip(&mut ranks) {
+                let example = ids
+                    .get(*doc)
+                    .is_some_and(|id| scores.examples.contains(&id));
+                let distance = ((1.0 - scores.of(*doc)) * 1e9).round() as u64;
+                let first = if example { 0 } else { distance + 1 };
+                *rank = *rank.min(&mut 0xFFFF) + (first << 16);
+            }
+        }
+        Ok(Self(Some(ranks)))
+    }
+
+    fn iter(&self) -> impl Iterator<Item = u64> {
+        let ranks = self.0.as_ref();
+        (0..).map(move |number: usize| ranks.map_or(0, |ranks| ranks[number]))
+    }
+}
+
+/// What the order of documents depends on.
+struct Places {
+    id: Numbers<u64>,
+    sign: Numbers<u64>,
+    times: Times,
+    signs: Option<std::sync::Arc<super::known::Signs>>,
+}
+
+impl Places {
+    fn open(ask: &Ask<'_>, found: &[DocAddress], order: Order) -> Asked<Self> {
+        let times = Times::open(ask.searcher)?;
+        let by_gloss = order == Order::Gloss || found.iter().any(|doc| times.get(*doc).is_none());
+        Ok(Self {
+            id: Numbers::rows(ask.searcher, "id")?,
+            sign: Numbers::rows(ask.searcher, "sign")?,
+            times,
+            signs: by_gloss.then(|| ask.signs()).transpose()?,
+        })
+    }
+
+    fn leading(&self, doc: DocAddress, order: Order, rank: u64) -> u64 {
+        match order {
+            Order::Rank => rank,
+            Order::Place => 0,
+            Order::Gloss => self.gloss(doc),
+            Order::Duration => match self.times.get(doc) {
+                Some((_, start, end)) => u64::MAX - 1 - end.abs_diff(start),
+                None => u64::MAX,
+            },
+        }
+    }
+
+    fn key(&self, doc: DocAddress) -> Key {
+        let id = self.id.get(doc).unwrap_or(i64::MAX);
+        match self.times.get(doc) {
+            Some((recording, start, _)) => (recording as u64, ordered(start), 0, id),
+            None => (u64::MAX, 0, self.gloss(doc), id),
+        }
+    }
+
+    fn gloss(&self, doc: DocAddress) -> u64 {
+        let rank = |signs: &super::known::Signs| signs.rank.get(&self.sign.get(doc)?).copied();
+        self.signs.as_deref().and_then(rank).unwrap_or(u64::MAX)
+    }
+}
+
+/// Returns a number in the order of times, those before zero first.
+fn ordered(micros: i64) -> u64 {
+    micros as u64 ^ (1 << 63)
+}
+
+/// Returns the hits of documents, in their order.
+pub(crate) fn hits(ask: &Ask<'_>, docs: &[DocAddress], scores: Option<&Scores>) -> Asked<Vec<Hit>> {
+    let ids = Numbers::rows(ask.searcher, "id")?;
+    let mut hits = Vec::with_capacity(docs.len());
+    for doc in docs {
+        let token = ids.get(*doc).unwrap_or_default();
+        let Some(row) = answers::hit(ask.connection, token)? else {
+            continue;
+        };
+        let mut components = BTreeMap::new();
+        answers::coded_of_token(ask.connection, token, |row| {
+            add_value(&mut components, &row)
+        })?;
+        hits.push(Hit {
+            token,
+            gloss: row.gloss,
+            recording: row.recording,
+            start_us: row.start_us,
+            end_us: row.end_us,
+            origin: row.origin,
+            score: scores.map(|scores| scores.of(*doc)),
+            components,
+        });
+    }
+    Ok(hits)
+}
+
+fn add_value(components: &mut BTreeMap<String, Value>, row: &CodedRow<'_>) {
+    let text = match (row.state, row.value) {
+        ("value", Some(value)) => value,
+        ("not-applicable", _) => "n/a",
+        ("unclear", _) => "unclear",
+        _ => return,
+    };
+    let mut field = String::new();
+    match (row.phase, row.position) {
+        (None, _) => {}
+        (Some("middle"), place @ 2..) => field.push_str(&format!("middle{place}.")),
+        (Some(phase), _) => {
+            field.push_str(phase);
+            field.push('.');
+        }
+    }
+    if let Some(hand) = row.hand {
+        field.push_str(hand);
+        field.push('.');
+    }
+    field.push_str(row.component);
+    if let Some(part) = row.part {
+        field.push('.');
+        field.push_str(part);
+    }
+    let value = Value::from(text);
+    match components.get_mut(&field) {
+        None => _ = components.insert(field, value),
+        Some(Value::Array(values)) => values.push(value),
+        Some(one) => *one = Value::Array(vec![one.take(), value]),
+    }
+}
+
+/// Returns how many of the documents have each value of each field.
+pub(crate) fn facets(
+    ask: &Ask<'_>,
+    found: &[DocAddress],
+) -> Asked<BTreeMap<String, Vec<(String, usize)>>> {
+    let mut facets = coded_facets(ask, found)?;
+    for (facet, field, named) in [
+        ("gloss", "sign", Named::Sign),
+        ("recording", "recording", Named::Recording),
+        ("signer", "signer", Named::Signer),
+    ] {
+        let counts = row_facet(ask, found, field, named)?;
+        if !counts.is_empty() {
+            facets.insert(facet.to_owned(), counts);
+        }
+    }
+    Ok(facets)
+}
+
+fn row_facet(
+    ask: &Ask<'_>,
+    found: &[DocAddress],
+    field: &str,
+    named: Named,
+) -> Result<Vec<(String, usize)>> {
+    let rows = Numbers::rows(ask.searcher, field)?;
+    let mut all: Vec<i64> = found.iter().filter_map(|doc| rows.get(*doc)).collect();
+    all.sort_unstable();
+    let mut counts: Vec<(usize, i64)> = all
+        .chunk_by(|a, b| a == b)
+        .map(|equal| (equal.len(), equal[0]))
+        .collect();
+    let least = counts.len().min(FACET_VALUES);
+    if least > 0 && counts.len() > least {
+        counts.select_nth_unstable_by(least - 1, |a, b| b.0.cmp(&a.0));
+        // Those of equal number are told apart by name, so all of them stay.
+        let bar = counts[least - 1].0;
+        counts.retain(|(count, _)| *count >= bar);
+    }
+    let mut named_counts = Vec::with_capacity(counts.len());
+    for (count, row) in counts {
+        if let Some(name) = answers::name(ask.connection, named, row)? {
+            named_counts.push((name, count));
+        }
+    }
+    Ok(most_frequent(named_counts))
+}
+
+fn most_frequent(mut counts: Vec<(String, usize)>) -> Vec<(String, usize)> {
+    counts.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+    counts.truncate(FACET_VALUES);
+    counts
+}
+
+fn coded_facets(
+    ask: &Ask<'_>,
+    found: &[DocAddress],
+) -> Asked<BTreeMap<String, Vec<(String, usize)>>> {
+    let mut counts: BTreeMap<String, BTreeMap<String, usize>> = BTreeMap::new();
+    for docs in found.chunk_by(|a, b| a.segment_ord == b.segment_ord) {
+        let Some(first) = docs.first() else {
+            continue;
+        };
+        let segment = ask.searcher.segment_reader(first.segment_ord);
+        let Some(column) = segment.fast_fields().str("facet")? else {
+            continue;
+        };
+        let labels = ask.index.memory().labels(ask.searcher, segment)?;
+        for (ordinal, count) in count_ordinals(&column, docs, &labels) {
+            let Some((field, value)) = labels.values.get(ordinal) else {
+                continue;
+            };
+            let field = labels.fields.get(*field as usize).cloned();
+            let values = counts.entry(field.unwrap_or_default()).or_default();
+            *values.entry(value.clone()).or_default() += count;
+        }
+    }
+    let of_field = |(field, values): (String, BTreeMap<String, usize>)| {
+        (field, most_frequent(values.into_iter().collect()))
+    };
+    Ok(counts.into_iter().map(of_field).collect())
+}
+
+fn count_ordinals(
+    column: &tantivy::columnar::StrColumn,
+    docs: &[DocAddress],
+    labels: &Labels,
+) -> Vec<(usize, usize)> {
+    if docs.len() < 1000 {
+        let mut all: Vec<u64> = docs
+            .iter()
+            .flat_map(|doc| column.term_ords(doc.doc_id))
+            .collect();
+        all.sort_unstable();
+        let equal = all.chunk_by(|a, b| a == b);
+        return equal
+            .map(|equal| (equal[0] as usize, equal.len()))
+            .collect();
+    }
+    let mut counts = vec![0; labels.values.len()];
+    for doc in docs {
+        for ordinal in column.term_ords(doc.doc_id) {
+            if let Some(count) = counts.get_mut(ordinal as usize) {
+                *count += 1;
+            }
+        }
+    }
+    counts
+        .into_iter()
+        .enumerate()
+        .filter(|(_, count)| *count > 0)
+        .collect()
+}

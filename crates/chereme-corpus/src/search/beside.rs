@@ -1,0 +1,299 @@
+//! Relations of time between a token and other annotations of its recording.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use chereme_motion::{Instant, Span};
+use chereme_sign::query::{Comparison, Pattern, Test, TextField, What};
+use chereme_sign::text::fold;
+use chereme_sign::{Reading, Relation};
+
+use super::compile::{self, Ask, Asked};
+use super::component::ComponentTest;
+use super::docs::{Docs, Numbers, Times};
+use super::plan::{self, Plan};
+use super::terms::{self, hand_codes, hands_of, phase_code, phase_counts};
+use super::{texts, whole};
+use crate::db::search::answers::{self, CodedRow};
+use crate::error::Result;
+
+/// A relation to another annotation.
+///
+/// The other is any annotation of a component, a text or a tier, those that belong to the token
+/// itself too; of glosses it is another token.
+pub(crate) struct Beside {
+    /// Nothing where annotations that share time with the token are asked for and there being none
+    /// counts as unset.
+    relation: Option<Relation>,
+    other: Vec<Other>,
+}
+
+enum Other {
+    /// Another token whose gloss passes.
+    Gloss(Plan),
+    Component(Box<ComponentTest>),
+    /// An annotation of tiers with this role.
+    Role(&'static str, Test),
+    /// An annotation of tiers of such a name.
+    Tier(Pattern, Comparison),
+}
+
+impl Beside {
+    /// Prepares a relation to what passes a test; without a relation the test is of a tier.
+    pub(crate) fn new(ask: &Ask<'_>, relation: Option<Relation>, test: &Test) -> Asked<Self> {
+        let other = match &test.what {
+            What::Component(field, comparison) => {
+                let range = test.subject_at.range();
+                let test = ComponentTest::new(ask, field, comparison, range)?;
+                vec![Other::Component(Box::new(test))]
+            }
+            What::Tier(name, comparison) => vec![Other::Tier(name.clone(), comparison.clone())],
+            What::Whole(field, _) | What::Words(field, _) | What::Fuzzy { field, .. } => {
+                texts_beside(ask, test, *field)?
+            }
+            What::Property(..) | What::Time(..) => Vec::new(),
+        };
+        Ok(Self { relation, other })
+    }
+
+    /// Returns the candidates that stand in the relation.
+    pub(crate) fn filter(&self, ask: &Ask<'_>, candidates: Docs) -> Asked<Docs> {
+        let times = Times::open(ask.searcher)?;
+        let ids = Numbers::rows(ask.searcher, "id")?;
+        let mut by_recording: BTreeMap<i64, Vec<Candidate>> = BTreeMap::new();
+        let mut found = Docs::new();
+        for doc in candidates {
+            match times.get(doc) {
+                Some((recording, start, end)) => {
+                    let (token, span) = (ids.get(doc).unwrap_or_default(), span(start, end));
+                    let candidates = by_recording.entry(recording).or_default();
+                    candidates.push(Candidate { doc, token, span });
+                }
+                None if self.passes_alone() => found.push(doc),
+                None => {}
+            }
+        }
+        let recordings = by_recording.keys().copied().collect();
+        let mut glosses = self.glosses(ask, &recordings, &times, &ids)?;
+        for (recording, candidates) in by_recording {
+            let mut marks = glosses.remove(&recording).unwrap_or_default();
+            self.collect(ask, recording, &mut marks)?;
+            let marks = Marks::new(marks);
+            let passing = candidates.iter().filter(|one| self.holds(one, &marks));
+            found.extend(passing.map(|one| one.doc));
+        }
+        found.sort_unstable();
+        Ok(found)
+    }
+
+    fn holds(&self, candidate: &Candidate, marks: &Marks) -> bool {
+        match self.relation {
+            Some(relation) => marks.any(relation, candidate, |mark| mark.passes),
+            None => {
+                marks.any(Relation::Overlaps, candidate, |mark| mark.passes)
+                    || self.passes_alone() && !marks.any(Relation::Overlaps, candidate, |_| true)
+            }
+        }
+    }
+
+    /// Tells whether a token passes that no annotation of the tier shares time with.
+    fn passes_alone(&self) -> bool {
+        self.relation.is_none()
+            && self.other.iter().any(|other| match other {
+                Other::Tier(_, comparison) => comparison.accepts(&Reading::Unset, |_, _| false),
+                _ => false,
+            })
+    }
+
+    /// Returns the tokens whose gloss passes, by recording.
+    fn glosses(
+        &self,
+        ask: &Ask<'_>,
+        recordings: &BTreeSet<i64>,
+        times: &Times,
+        ids: &Numbers<u64>,
+    ) -> Asked<BTreeMap<i64, Vec<Mark>>> {
+        let mut marks: BTreeMap<i64, Vec<Mark>> = BTreeMap::new();
+        for other in &self.other {
+            let Other::Gloss(plan) = other else {
+                continue;
+            };
+            for doc in plan::evaluate(ask, plan, None)? {
+                let Some((recording, start, end)) = times.get(doc) else {
+                    continue;
+                };
+                if recordings.contains(&recording) {
+                    marks.entry(recording).or_default().push(Mark {
+                        span: span(start, end),
+                        token: ids.get(doc),
+                        passes: true,
+                    });
+                }
+            }
+        }
+        Ok(marks)
+    }
+
+    /// Adds the annotations of a recording that the relation may be to.
+    fn collect(&self, ask: &Ask<'_>, recording: i64, marks: &mut Vec<Mark>) -> Result<()> {
+        let mut add = |row: &CodedRow<'_>, passes: bool| {
+            let wanted = passes || self.relation.is_none();
+            if let Some((start, end)) = row.span.filter(|_| wanted) {
+                marks.push(Mark {
+                    span: span(start, end),
+                    token: None,
+                    passes,
+                });
+            }
+        };
+        for other in &self.other {
+            match other {
+                Other::Gloss(_) => {}
+                Other::Component(test) => {
+                    let left_handed = answers::left_handed(ask.connection, recording)?;
+                    let (name, phases) = (test.field.component.name(), test.field.phase.is_some());
+                    answers::coded_in_recording(ask.connection, recording, name, phases, |row| {
+                        add(&row, component_passes(test, &row, left_handed));
+                    })?;
+                }
+                Other::Role(wanted, test) => {
+                    for (tier, _, role) in answers::tiers(ask.connection, recording)? {
+                        if role == *wanted {
+                            answers::on_tier(ask.connection, tier, |row| {
+                                add(&row, text_passes(test, &row));
+                            })?;
+                        }
+                    }
+                }
+                Other::Tier(pattern, comparison) => {
+                    for (tier, name, _) in answers::tiers(ask.connection, recording)? {
+                        if pattern.matches(&name) {
+                            answers::on_tier(ask.connection, tier, |row| {
+                                add(&row, whole::text_passes(comparison, &reading_of(&row)));
+                            })?;
+                        }
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn texts_beside(ask: &Ask<'_>, test: &Test, field: TextField) -> Asked<Vec<Other>> {
+    let mut other = Vec::new();
+    if matches!(field, TextField::Any | TextField::Gloss) {
+        let mut own = test.clone();
+        match &mut own.what {
+            What::Whole(field, _) | What::Words(field, _) | What::Fuzzy { field, .. } => {
+                *field = TextField::Gloss;
+            }
+            _ => {}
+        }
+        other.push(Other::Gloss(compile::test(ask, &own)?));
+    }
+    let roles = [
+        (TextField::Translation, "translation"),
+        (TextField::Comment, "comment"),
+    ];
+    for (own, role) in roles {
+        if field == TextField::Any || field == own {
+            other.push(Other::Role(role, test.clone()));
+        }
+    }
+    Ok(other)
+}
+
+fn reading_of(row: &CodedRow<'_>) -> Reading {
+    match terms::reading(row.state, row.value.map(str::trim)) {
+        Reading::Value(value) if value.is_empty() => Reading::Unset,
+        reading => reading,
+    }
+}
+
+fn component_passes(test: &ComponentTest, row: &CodedRow<'_>, left_handed: bool) -> bool {
+    let hands = hands_of(test.field.hand);
+    let own = hand_codes(row.hand, left_handed);
+    let phase = phase_code(row.phase, row.position);
+    if !own.iter().any(|hand| hands.contains(hand)) || !phase_counts(test.field.phase, &phase) {
+        return false;
+    }
+    let reading = reading_of(row);
+    let folded = reading.value().map_or(String::new(), fold);
+    test.accepts(row.part, &reading, &folded)
+}
+
+fn text_passes(test: &Test, row: &CodedRow<'_>) -> bool {
+    let reading = reading_of(row);
+    match &test.what {
+        What::Whole(_, comparison) => whole::text_passes(comparison, &reading),
+        what => reading
+            .value()
+            .is_some_and(|text| texts::passes(what, text)),
+    }
+}
+
+struct Candidate {
+    doc: tantivy::DocAddress,
+    token: i64,
+    span: Span,
+}
+
+struct Mark {
+    span: Span,
+    /// The token that it is.
+    token: Option<i64>,
+    passes: bool,
+}
+
+/// Annotations by start, with the latest end so far, so that those near a span are found.
+struct Marks {
+    marks: Vec<Mark>,
+    latest: Vec<Instant>,
+}
+
+impl Marks {
+    fn new(mut marks: Vec<Mark>) -> Self {
+        marks.sort_by_key(|mark| mark.span.start());
+        let mut latest = Vec::with_capacity(marks.len());
+        for mark in &marks {
+            let before = latest.last().copied().unwrap_or(mark.span.end());
+            latest.push(before.max(mark.span.end()));
+        }
+        Self { marks, latest }
+    }
+
+    /// Tells whether the candidate stands in the relation to one that is not itself.
+    fn any(
+        &self,
+        relation: Relation,
+        candidate: &Candidate,
+        wanted: impl Fn(&Mark) -> bool,
+    ) -> bool {
+        let holds = |mark: &Mark| {
+            wanted(mark)
+                && mark.token != Some(candidate.token)
+                && relation.holds(candidate.span, mark.span)
+        };
+        let reach = match relation {
+            Relation::Before | Relation::After | Relation::NotInside | Relation::NotOverlaps => {
+                return self.marks.iter().any(holds);
+            }
+            Relation::Around(reach) | Relation::OfBegin(reach) | Relation::OfEnd(reach) => {
+                reach.max(0)
+            }
+            _ => 0,
+        };
+        let (from, to) = (
+            candidate.span.start().shifted(-reach),
+            candidate.span.end().shifted(reach),
+        );
+        let until = self.marks.partition_point(|mark| mark.span.start() <= to);
+        let near = self.marks[..until].iter().zip(&self.latest).rev();
+        let mut near = near.take_while(|(_, latest)| **latest >= from);
+        near.any(|(mark, _)| holds(mark))
+    }
+}
+
+fn span(start: i64, end: i64) -> Span {
+    Span::between(Instant::from_micros(start), Instant::from_micros(end))
+}

@@ -1,0 +1,320 @@
+//! From the tree of a query to a plan.
+
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::ops::Bound;
+use std::sync::Arc;
+
+use chereme_sign::Component;
+use chereme_sign::query::{
+    Comparison, Expr, Missing, Operator, Property, QueryError, Test, TimeField, TimeTest, Value,
+    Wanted, What,
+};
+use chereme_sign::text::{fold, nearest};
+use rusqlite::Connection;
+use tantivy::query::{ExistsQuery, RangeQuery};
+use tantivy::{Searcher, Term};
+
+use super::any_term::AnyTerm;
+use super::beside::Beside;
+use super::component::ComponentTest;
+use super::index::{Fields, SearchIndex};
+use super::known::{KnownReadings, Signs, terms_of};
+use super::plan::Plan;
+use super::terms::Mark;
+use super::texts::Glob;
+use super::vocabulary::Vocabulary;
+use super::whole;
+use crate::db::search::answers::{self, Named};
+use crate::error::{Error, Result};
+
+/// What answering a query looks at.
+pub(crate) struct Ask<'a> {
+    pub(crate) connection: &'a Connection,
+    pub(crate) index: &'a SearchIndex,
+    pub(crate) searcher: &'a Searcher,
+    pub(crate) fields: Fields,
+    pub(crate) vocabulary: Arc<Vocabulary>,
+    pub(crate) notes: RefCell<BTreeSet<String>>,
+}
+
+/// Why a query has no answer.
+pub(crate) enum Failure {
+    /// It asks for what there is not.
+    Query(QueryError),
+    /// Rows or index cannot be read.
+    Other(Error),
+}
+
+/// What a step of answering gives.
+pub(crate) type Asked<T> = std::result::Result<T, Failure>;
+
+impl From<QueryError> for Failure {
+    fn from(error: QueryError) -> Self {
+        Self::Query(error)
+    }
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::Other(error)
+    }
+}
+
+impl From<tantivy::TantivyError> for Failure {
+    fn from(error: tantivy::TantivyError) -> Self {
+        Self::Other(error.into())
+    }
+}
+
+impl Ask<'_> {
+    /// Returns the readings of a component that the index holds.
+    pub(crate) fn readings(&self, component: Component) -> Result<Arc<KnownReadings>> {
+        let mut memory = self.index.memory();
+        memory.readings(self.searcher, self.fields.reading, component)
+    }
+
+    /// Returns the signs of the corpus.
+    pub(crate) fn signs(&self) -> Result<Arc<Signs>> {
+        self.index.memory().signs(self.connection)
+    }
+
+    /// Adds something that whoever asked should know.
+    pub(crate) fn note(&self, text: String) {
+        self.notes.borrow_mut().insert(text);
+    }
+}
+
+/// Returns the plan for an expression; a search by example wants every token, in another order.
+///
+/// # Errors
+/// Where it names a value, feature, signer… that there is not, or ranks what it excludes.
+pub(crate) fn plan(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
+    match expr {
+        Expr::And(terms) => {
+            let ranked = |term: &&Expr| !matches!(term, Expr::Like(_));
+            let plans = terms.iter().filter(ranked).map(|term| plan(ask, term));
+            Ok(Plan::all(plans.collect::<Asked<_>>()?))
+        }
+        Expr::Or(terms) => {
+            let plans = terms.iter().map(|term| inner(ask, term));
+            Ok(Plan::any(plans.collect::<Asked<_>>()?))
+        }
+        Expr::Not(negated) => Ok(inner(ask, negated)?.not()),
+        Expr::Test(test) => self::test(ask, test),
+        Expr::Relation(related) => {
+            let beside = Beside::new(ask, Some(related.relation), &related.other)?;
+            Ok(Plan::Beside(Box::new(beside)))
+        }
+        Expr::Like(_) => Ok(Plan::everything()),
+    }
+}
+
+/// Returns the plan for what stands under a joint, where a search by example has no place.
+fn inner(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
+    let example = match expr {
+        Expr::Like(like) => Some(like),
+        Expr::And(terms) => terms.iter().find_map(|term| match term {
+            Expr::Like(like) => Some(like),
+            _ => None,
+        }),
+        _ => None,
+    };
+    match example {
+        None => plan(ask, expr),
+        Some(like) => Err(QueryError {
+            at: like.at.range(),
+            message: "`like` puts the whole answer in order and leaves nothing out".to_owned(),
+            remedy: "write it beside the other terms, not after `not` or `or`".to_owned(),
+            suggestion: None,
+        }
+        .into()),
+    }
+}
+
+/// Returns the plan for one comparison.
+pub(crate) fn test(ask: &Ask<'_>, test: &Test) -> Asked<Plan> {
+    match &test.what {
+        What::Component(field, comparison) => {
+            let range = test.subject_at.range();
+            ComponentTest::new(ask, field, comparison, range)?.plan(ask)
+        }
+        What::Property(property, comparison) => self::property(ask, *property, comparison),
+        What::Whole(field, comparison) => whole::plan(ask, *field, comparison),
+        What::Words(..) | What::Fuzzy { .. } => whole::words_plan(ask, test),
+        What::Tier(..) => Ok(Plan::Beside(Box::new(Beside::new(ask, None, test)?))),
+        What::Time(field, times) => Ok(Plan::index(self::times(ask, *field, *times))),
+    }
+}
+
+fn times(ask: &Ask<'_>, field: TimeField, test: TimeTest) -> RangeQuery {
+    let field = match field {
+        TimeField::Duration => ask.fields.duration,
+        TimeField::Start => ask.fields.start,
+        TimeField::End => ask.fields.end,
+    };
+    let term = |bound: Bound<i64>| bound.map(|micros| Term::from_field_i64(field, micros));
+    let (least, most) = test.bounds();
+    RangeQuery::new(term(least), term(most))
+}
+
+fn property(ask: &Ask<'_>, property: Property, comparison: &Comparison) -> Asked<Plan> {
+    let exactly = comparison.operator == Operator::Exactly;
+    let values = comparison.values.iter();
+    let plans = values.map(|value| match &value.wanted {
+        Wanted::Present => has(ask, property),
+        Wanted::Missing(Missing::Unset) => Ok(has(ask, property)?.not()),
+        Wanted::Missing(_) | Wanted::Features(_) => Ok(Plan::nothing()),
+        Wanted::Named(pattern) => {
+            let (glob, text) = if exactly {
+                (Glob::exact(pattern), pattern.to_string())
+            } else {
+                (Glob::whole(pattern), pattern.to_string())
+            };
+            let wanted = Wish {
+                glob,
+                exactly,
+                text: pattern.as_literal().map_or(text, str::to_owned),
+                literal: pattern.as_literal().is_some(),
+                value,
+            };
+            named(ask, property, &wanted)
+        }
+    });
+    let found = Plan::any(plans.collect::<Asked<_>>()?);
+    if comparison.operator != Operator::IsNot {
+        return Ok(found);
+    }
+    let names = |value: &Value| matches!(value.wanted, Wanted::Named(_));
+    if comparison.values.iter().any(names) {
+        Ok(Plan::all(vec![has(ask, property)?, found.not()]))
+    } else {
+        Ok(found.not())
+    }
+}
+
+/// A name that is asked for.
+struct Wish<'a> {
+    glob: Glob,
+    exactly: bool,
+    text: String,
+    literal: bool,
+    value: &'a Value,
+}
+
+impl Wish<'_> {
+    fn is(&self, name: &str) -> bool {
+        if self.exactly {
+            self.glob.matches(name)
+        } else {
+            self.glob.matches(&fold(name))
+        }
+    }
+
+    fn unknown(&self, kind: &str, known: impl IntoIterator<Item = String>) -> Failure {
+        const NAMED: usize = 8;
+        let known: Vec<String> = known.into_iter().collect();
+        let shown = known.iter().take(NAMED).cloned().collect::<Vec<_>>();
+        let more = match known.len() {
+            0 => format!("the corpus has no {kind}"),
+            1..=NAMED => format!("there are: {}", shown.join(", ")),
+            count => format!("there are: {} and {} more", shown.join(", "), count - NAMED),
+        };
+        let near = nearest(&self.text, known.iter().map(String::as_str));
+        Failure::Query(QueryError {
+            at: self.value.at.range(),
+            message: format!("no {kind} is called {:?}", self.text),
+            remedy: more,
+            suggestion: near.map(quoted),
+        })
+    }
+}
+
+fn quoted(name: &str) -> String {
+    let bare = |c: char| c.is_alphanumeric() || "-_.:".contains(c);
+    if name.chars().all(bare) {
+        name.to_owned()
+    } else {
+        format!("{name:?}")
+    }
+}
+
+fn mark_of(property: Property) -> Option<Mark> {
+    match property {
+        Property::Origin => Some(Mark::Origin),
+        Property::Hand => Some(Mark::Hand),
+        Property::Tier => Some(Mark::Tier),
+        Property::Inventory => Some(Mark::Inventory),
+        _ => None,
+    }
+}
+
+/// Returns the plan for the tokens that have such a property at all.
+fn has(ask: &Ask<'_>, property: Property) -> Asked<Plan> {
+    if let Some(mark) = mark_of(property) {
+        let terms = terms_of(ask.searcher, ask.fields.reading, &mark.prefix(), |_| true)?;
+        return Ok(Plan::index(AnyTerm::texts(ask.fields.reading, terms)));
+    }
+    let field = match property {
+        Property::Signer => "signer",
+        Property::Recording => "recording",
+        _ => return Ok(Plan::everything()),
+    };
+    Ok(Plan::index(ExistsQuery::new(field.to_owned(), false)))
+}
+
+fn named(ask: &Ask<'_>, property: Property, wish: &Wish<'_>) -> Asked<Plan> {
+    if let Some(mark) = mark_of(property) {
+        return marked(ask, property, mark, wish);
+    }
+    let (field, kind, rows) = match property {
+        Property::Token => return token(ask, wish),
+        Property::Signer => (ask.fields.signer, "signer", Named::Signer),
+        Property::Recording => (ask.fields.recording, "recording", Named::Recording),
+        _ => (ask.fields.sign, "sign", Named::Sign),
+    };
+    if wish.literal
+        && let Ok(number) = wish.text.parse::<i64>()
+        && answers::name(ask.connection, rows, number)?.is_some()
+    {
+        return Ok(Plan::index(AnyTerm::numbers(field, [number])));
+    }
+    let names = answers::names(ask.connection, rows)?;
+    let found = names.iter().filter(|(_, name)| wish.is(name));
+    let found: Vec<i64> = found.map(|(id, _)| *id).collect();
+    if found.is_empty() && wish.literal {
+        return Err(wish.unknown(kind, names.into_iter().map(|(_, name)| name)));
+    }
+    Ok(Plan::index(AnyTerm::numbers(field, found)))
+}
+
+fn marked(ask: &Ask<'_>, property: Property, mark: Mark, wish: &Wish<'_>) -> Asked<Plan> {
+    let prefix = mark.prefix();
+    let field = ask.fields.reading;
+    let terms = terms_of(ask.searcher, field, &prefix, |_| true)?;
+    let name = |term: &String| term[prefix.len()..].to_owned();
+    let found: Vec<&String> = terms.iter().filter(|term| wish.is(&name(term))).collect();
+    if found.is_empty() && wish.literal && property.fixed_values().is_none() {
+        let mut known: BTreeSet<String> = terms.iter().map(name).collect();
+        if property == Property::Inventory {
+            known.extend(ask.vocabulary.ids().map(str::to_owned));
+        }
+        if !known.iter().any(|name| wish.is(name)) {
+            return Err(wish.unknown(property.name(), known));
+        }
+    }
+    Ok(Plan::index(AnyTerm::texts(field, found)))
+}
+
+fn token(ask: &Ask<'_>, wish: &Wish<'_>) -> Asked<Plan> {
+    match wish.text.parse::<i64>() {
+        Ok(number) if number >= 0 => Ok(Plan::index(AnyTerm::numbers(ask.fields.id, [number]))),
+        _ => Err(QueryError {
+            at: wish.value.at.range(),
+            message: format!("{:?} is no number of a token", wish.text),
+            remedy: "write token=41; a sign is found by gloss=CHAT".to_owned(),
+            suggestion: None,
+        }
+        .into()),
+    }
+}

@@ -1,0 +1,193 @@
+//! Search by example: how alike tokens are to one of them.
+
+use std::collections::BTreeMap;
+
+use chereme_sign::query::{Example, Like, QueryError, Weighted};
+use chereme_sign::text::{fold, nearest};
+use chereme_sign::{Component, Field, Phase, Reading};
+use tantivy::{DocAddress, Term};
+
+use super::any_term::AnyTerm;
+use super::compile::{Ask, Asked};
+use super::docs;
+use super::terms::{self, hand_codes, hands_of, phase_code, phase_counts};
+use crate::address::{self, Address, Name};
+use crate::db::search::answers;
+use crate::db::signs::TokenRow;
+
+/// How alike each document is to the examples, from 0 to 1.
+///
+/// For each component that counts, it is the share of the example's readings that the token has
+/// too; hands are compared by their part in signing unless the component names a side, and a single
+/// value is the first and the last value alike. What the example has no value of does not count:
+/// two unset fields are not equal. Several components are weighted, several examples count alike.
+pub(crate) struct Scores {
+    scores: BTreeMap<DocAddress, f64>,
+    /// The rows of the examples.
+    pub(crate) examples: Vec<i64>,
+}
+
+impl Scores {
+    /// Scores all documents by these examples; there is at least one.
+    pub(crate) fn new(ask: &Ask<'_>, likes: &[&Like]) -> Asked<Self> {
+        let mut all = Self {
+            scores: BTreeMap::new(),
+            examples: Vec::new(),
+        };
+        for like in likes {
+            let token = example(ask, like)?;
+            all.examples.push(token.id);
+            all.add(ask, like, &token, 1.0 / likes.len() as f64)?;
+        }
+        Ok(all)
+    }
+
+    /// Returns how alike a document is.
+    pub(crate) fn of(&self, doc: DocAddress) -> f64 {
+        self.scores.get(&doc).copied().unwrap_or(0.0).min(1.0)
+    }
+
+    fn add(&mut self, ask: &Ask<'_>, like: &Like, token: &TokenRow, share: f64) -> Asked<()> {
+        let on: Vec<(Field, f64)> = if like.on.is_empty() {
+            Component::ALL
+                .map(|component| (Field::new(component), 1.0))
+                .to_vec()
+        } else {
+            let weighted = |one: &Weighted| (one.field.clone(), one.weight);
+            like.on.iter().map(weighted).collect()
+        };
+        let slots = slots(ask, token)?;
+        let counted: Vec<(Vec<&Slot>, f64)> = on
+            .iter()
+            .filter_map(|(field, weight)| {
+                let own: Vec<&Slot> = slots.iter().filter(|slot| slot.belongs(field)).collect();
+                if own.is_empty() && !like.on.is_empty() {
+                    ask.note(format!("token:{} has no value of {field}", token.id));
+                }
+                (!own.is_empty()).then_some((own, *weight))
+            })
+            .collect();
+        let total: f64 = counted.iter().map(|(_, weight)| weight).sum();
+        for (slots, weight) in counted {
+            let each = share * weight / total / slots.len() as f64;
+            for slot in slots {
+                let query = AnyTerm::new(ask.fields.reading, slot.terms(ask)?);
+                for doc in docs::run(ask.searcher, &query)? {
+                    *self.scores.entry(doc).or_default() += each;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// One thing coded of the example.
+struct Slot {
+    hand: char,
+    phase: Phase,
+    component: Component,
+    part: Option<String>,
+    value: String,
+}
+
+impl Slot {
+    fn belongs(&self, field: &Field) -> bool {
+        let hands = hands_of(field.hand);
+        self.component == field.component
+            && (field.feature.is_none() || self.part == field.feature)
+            && field.phase.is_none_or(|phase| phase == self.phase)
+            && hands.contains(&self.hand)
+    }
+
+    fn terms(&self, ask: &Ask<'_>) -> Asked<Vec<Term>> {
+        let known = ask.readings(self.component)?;
+        let values = known.parts.get(&self.part);
+        let alike = values.and_then(|values| values.get(&self.value));
+        let terms = alike.into_iter().flatten().flat_map(|known| &known.terms);
+        let equal = terms
+            .filter(|(hand, phase, _)| *hand == self.hand && phase_counts(Some(self.phase), phase));
+        let field = ask.fields.reading;
+        Ok(equal
+            .map(|(_, _, term)| Term::from_field_text(field, term))
+            .collect())
+    }
+}
+
+/// Returns what is coded of a token, under every way to name its hands; a single value is both the
+/// first and the last.
+fn slots(ask: &Ask<'_>, token: &TokenRow) -> Asked<Vec<Slot>> {
+    let left_handed = match token.recording_id {
+        Some(recording) => answers::left_handed(ask.connection, recording)?,
+        None => false,
+    };
+    let mut slots = Vec::new();
+    answers::coded_of_token(ask.connection, token.id, |row| {
+        let reading = terms::reading(row.state, row.value);
+        let (Reading::Value(value), Ok(component)) = (reading, row.component.parse::<Component>())
+        else {
+            return;
+        };
+        let code = phase_code(row.phase, row.position);
+        let phases: Vec<Phase> = match code.strip_prefix('m') {
+            Some(place) => vec![Phase::Middle(place.parse().unwrap_or(u8::MAX))],
+            None if code == "i" => vec![Phase::Initial],
+            None if code == "f" => vec![Phase::Final],
+            None => vec![Phase::Initial, Phase::Final],
+        };
+        for &hand in hand_codes(row.hand, left_handed) {
+            for &phase in &phases {
+                slots.push(Slot {
+                    hand,
+                    phase,
+                    component,
+                    part: row.part.map(str::to_owned),
+                    value: fold(&value),
+                });
+            }
+        }
+    })?;
+    Ok(slots)
+}
+
+fn example(ask: &Ask<'_>, like: &Like) -> Asked<TokenRow> {
+    let address = match &like.example {
+        Example::Token(text) => match text.parse() {
+            Ok(number) => Address::Token(number),
+            Err(_) => {
+                return Err(unknown(
+                    ask,
+                    like,
+                    &format!("{text:?} is no number of a token"),
+                )?);
+            }
+        },
+        Example::Sign(text) => Address::Sign(Name::Text(text.clone())),
+    };
+    match address::token(ask.connection, &address) {
+        Ok(token) => Ok(token),
+        Err(error @ crate::Error::Wrong { .. }) => Err(unknown(ask, like, &error.to_string())?),
+        Err(other) => Err(other.into()),
+    }
+}
+
+fn unknown(ask: &Ask<'_>, like: &Like, message: &str) -> Asked<super::compile::Failure> {
+    let (message, _) = message
+        .split_once("; did you mean")
+        .unwrap_or((message, ""));
+    let suggestion = match &like.example {
+        Example::Sign(text) => {
+            let signs = ask.signs()?;
+            nearest(text, signs.rows.iter().map(|(_, gloss, _)| gloss.as_str()))
+                .filter(|near| *near != text)
+                .map(str::to_owned)
+        }
+        Example::Token(_) => None,
+    };
+    Ok(QueryError {
+        at: like.example_at.range(),
+        message: message.to_owned(),
+        remedy: "write like token:41, or like and a gloss of the corpus".to_owned(),
+        suggestion,
+    }
+    .into())
+}

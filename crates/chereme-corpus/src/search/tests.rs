@@ -1,0 +1,164 @@
+//! Searching, from rows to answers.
+
+mod table;
+
+use chereme_sign::{Field, Phase};
+
+use super::{Answer, SearchOptions};
+use crate::Corpus;
+use crate::db::recordings::signer_named;
+use crate::db::signs::{self, TokenRow, TokenValueRow};
+use crate::db::tiers::{AnnotationRow, TierRow, insert_annotation, insert_tier};
+use crate::error::Result;
+
+/// A corpus in a folder that goes away with it.
+struct Sample {
+    corpus: Corpus,
+    folder: tempfile::TempDir,
+}
+
+impl Sample {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("a corpus");
+        Self { corpus, folder }
+    }
+
+    fn path(&self) -> std::path::PathBuf {
+        self.folder.path().join("c.chereme")
+    }
+
+    fn work<T>(&mut self, work: impl FnOnce(&rusqlite::Connection) -> Result<T>) -> T {
+        let work = |connection: &rusqlite::Connection| Ok((work(connection)?, "work".to_owned()));
+        self.corpus.store.operation("test", work).expect("works")
+    }
+
+    fn recording(&mut self, name: &str, signer: &str, handedness: &str) -> i64 {
+        self.work(|connection| {
+            let signer = signer_named(connection, signer, None)?;
+            connection.execute(
+                "UPDATE signer SET handedness = ?2 WHERE id = ?1",
+                (signer, handedness),
+            )?;
+            connection.execute(
+                "INSERT INTO recording (name, signer_id, origin, duration_us)
+                 VALUES (?1, ?2, 'captured', 60000000)",
+                (name, signer),
+            )?;
+            Ok(connection.last_insert_rowid())
+        })
+    }
+
+    /// Adds a token; times are milliseconds, values `field=value`.
+    fn token(&mut self, gloss: &str, place: Option<(i64, i64, i64)>, values: &[&str]) -> i64 {
+        let row = TokenRow {
+            recording_id: place.map(|place| place.0),
+            start_us: place.map(|place| place.1 * 1000),
+            end_us: place.map(|place| place.2 * 1000),
+            origin: if place.is_some() {
+                "captured"
+            } else {
+                "lexicon"
+            }
+            .to_owned(),
+            ..TokenRow::default()
+        };
+        self.token_of(gloss, &row, values)
+    }
+
+    fn token_of(&mut self, gloss: &str, row: &TokenRow, values: &[&str]) -> i64 {
+        self.work(|connection| {
+            let sign_id = signs::sign_glossed(connection, gloss)?;
+            let row = TokenRow {
+                sign_id,
+                ..row.clone()
+            };
+            let token = signs::insert_token(connection, &row)?;
+            let values: Vec<TokenValueRow> = values.iter().map(|value| value_row(value)).collect();
+            signs::set_values(connection, token, &values)?;
+            Ok(token)
+        })
+    }
+
+    /// Adds a tier with annotations in milliseconds.
+    fn tier(&mut self, tier: &TierRow, annotations: &[(i64, i64, &str)]) {
+        self.work(|connection| {
+            let tier_id = insert_tier(connection, tier)?;
+            for (start, end, value) in annotations {
+                let row = AnnotationRow {
+                    tier_id,
+                    start_us: start * 1000,
+                    end_us: end * 1000,
+                    state: if value.is_empty() { "unset" } else { "value" }.to_owned(),
+                    value: (*value).to_owned(),
+                    origin: "human".to_owned(),
+                    ..AnnotationRow::default()
+                };
+                insert_annotation(connection, &row)?;
+            }
+            Ok(())
+        });
+    }
+
+    fn search(&mut self, query: &str) -> Answer {
+        let found = self.corpus.search(query, &SearchOptions::default());
+        found.unwrap_or_else(|error| panic!("{query}: {error}"))
+    }
+
+    fn glosses(&mut self, query: &str) -> String {
+        let hits = self.search(query).hits;
+        let glosses: Vec<String> = hits.into_iter().map(|hit| hit.gloss).collect();
+        glosses.join(" ")
+    }
+}
+
+fn tier(recording: i64, name: &str, role: &str) -> TierRow {
+    TierRow {
+        recording_id: recording,
+        name: name.to_owned(),
+        role: role.to_owned(),
+        ..TierRow::default()
+    }
+}
+
+/// A tier of a component, named as a field.
+fn component_tier(recording: i64, field: &str) -> TierRow {
+    let parsed: Field = field.parse().expect("a field");
+    TierRow {
+        component: Some(parsed.component.name().to_owned()),
+        feature: parsed.feature.clone(),
+        hand: parsed.hand.map(|hand| hand.name().to_owned()),
+        ..tier(recording, field, "component")
+    }
+}
+
+/// Reads `initial.right.placement=chin`; `both.` is a hand here too.
+fn value_row(text: &str) -> TokenValueRow {
+    let (field, value) = text.split_once('=').expect("field=value");
+    let both = field.contains("both.");
+    let field: Field = field.replace("both.", "").parse().expect("a field");
+    let (state, value) = match value {
+        "n/a" => ("not-applicable", None),
+        "unclear" => ("unclear", None),
+        "unset" => ("unset", None),
+        value => ("value", Some(value.to_owned())),
+    };
+    let hand = field.hand.map(|hand| hand.name().to_owned());
+    TokenValueRow {
+        hand: if both { Some("both".to_owned()) } else { hand },
+        component: field.component.name().to_owned(),
+        feature: field.feature,
+        phase: field.phase.map(|phase| match phase {
+            Phase::Initial => "initial".to_owned(),
+            Phase::Middle(_) => "middle".to_owned(),
+            Phase::Final => "final".to_owned(),
+        }),
+        position: match field.phase {
+            Some(Phase::Middle(place)) => i64::from(place),
+            _ => 0,
+        },
+        state: state.to_owned(),
+        value,
+        ..TokenValueRow::default()
+    }
+}

@@ -1,0 +1,153 @@
+//! Words and patterns of words, folded: what the index holds of texts, and how one text is compared.
+
+use chereme_sign::query::{Pattern, What};
+use chereme_sign::text::{edit_distance, fold};
+
+/// Returns the words of a text: its stretches of letters and digits, folded.
+pub(crate) fn words(text: &str) -> Vec<String> {
+    fold(text)
+        .split(|c: char| !c.is_alphanumeric())
+        .filter(|word| !word.is_empty())
+        .map(str::to_owned)
+        .collect()
+}
+
+/// A folded word or whole text with wildcards: the stretches between them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Glob(Vec<String>);
+
+impl Glob {
+    /// Returns the pattern over a whole text.
+    pub(crate) fn whole(pattern: &Pattern) -> Self {
+        Self(pattern.segments().iter().map(|text| fold(text)).collect())
+    }
+
+    /// Returns the pattern over a whole text that minds case and accents.
+    pub(crate) fn exact(pattern: &Pattern) -> Self {
+        Self(pattern.segments().to_vec())
+    }
+
+    /// Returns a pattern for each word of a pattern over words; a wildcard does not reach over the
+    /// end of a word, and one that stands alone at the end or the start asks for nothing.
+    pub(crate) fn words(pattern: &Pattern) -> Vec<Self> {
+        let mut found: Vec<Vec<String>> = Vec::new();
+        let mut word: Option<Vec<String>> = None;
+        for (number, segment) in pattern.segments().iter().enumerate() {
+            if number > 0 {
+                word.get_or_insert_with(|| vec![String::new()])
+                    .push(String::new());
+            }
+            for c in fold(segment).chars() {
+                if c.is_alphanumeric() {
+                    let word = word.get_or_insert_with(|| vec![String::new()]);
+                    if let Some(last) = word.last_mut() {
+                        last.push(c);
+                    }
+                } else {
+                    found.extend(word.take());
+                }
+            }
+        }
+        found.extend(word);
+        let asks = |word: &Vec<String>| word.iter().any(|segment| !segment.is_empty());
+        let first = found.iter().position(asks).unwrap_or(found.len());
+        let last = found.iter().rposition(asks).map_or(first, |last| last + 1);
+        found[first..last].iter().cloned().map(Self).collect()
+    }
+
+    /// Returns the text where there is no wildcard.
+    pub(crate) fn literal(&self) -> Option<&str> {
+        match &self.0[..] {
+            [text] => Some(text),
+            _ => None,
+        }
+    }
+
+    /// Returns what every text that matches begins with.
+    pub(crate) fn prefix(&self) -> &str {
+        self.0.first().map_or("", String::as_str)
+    }
+
+    /// Tells whether the whole of a text, folded or not as the pattern is, fits.
+    pub(crate) fn matches(&self, text: &str) -> bool {
+        let Some((last, others)) = self.0.split_last() else {
+            return false;
+        };
+        let Some((first, middle)) = others.split_first() else {
+            return last == text;
+        };
+        let Some(mut rest) = text.strip_prefix(first.as_str()) else {
+            return false;
+        };
+        for segment in middle {
+            match rest.find(segment.as_str()) {
+                Some(found) => rest = &rest[found + segment.len()..],
+                None => return false,
+            }
+        }
+        rest.ends_with(last.as_str())
+    }
+
+    /// Returns the pattern as a regular expression over one word.
+    pub(crate) fn regex(&self) -> String {
+        self.0.join(".*")
+    }
+}
+
+/// Tells whether one text passes a test of words or slips; other tests hold of nothing.
+pub(crate) fn passes(what: &What, text: &str) -> bool {
+    match what {
+        What::Words(_, patterns) => {
+            let words = words(text);
+            patterns.iter().any(|pattern| {
+                let wanted = Glob::words(pattern);
+                !wanted.is_empty()
+                    && words.windows(wanted.len()).any(|run| {
+                        run.iter()
+                            .zip(&wanted)
+                            .all(|(word, glob)| glob.matches(word))
+                    })
+            })
+        }
+        What::Fuzzy {
+            text: wanted,
+            slips,
+            ..
+        } => {
+            let slips = usize::from(*slips);
+            let near = |a: &str, b: &str| edit_distance(a, b, slips).is_some();
+            let words = words(text);
+            let wanted = self::words(wanted);
+            !wanted.is_empty()
+                && wanted
+                    .iter()
+                    .all(|wanted| words.iter().any(|word| near(wanted, word)))
+        }
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn patterns_fall_into_words() {
+        for (pattern, words) in [
+            ("MA*SON", "ma.*son"),
+            ("slow ani*", "slow ani.*"),
+            ("X(1)*", "x 1"),
+            ("*-2H", "2h"),
+            ("a * b", "a .* b"),
+            ("Été d'hiver", "ete d hiver"),
+            ("*", ""),
+            ("…", ""),
+        ] {
+            let found: Vec<String> = Glob::words(&Pattern::from_glob(pattern))
+                .iter()
+                .map(Glob::regex)
+                .collect();
+            assert_eq!(found.join(" "), words, "{pattern}");
+        }
+    }
+}

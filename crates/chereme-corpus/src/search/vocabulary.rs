@@ -1,0 +1,192 @@
+//! The values that queries may name: those of the corpus's inventories.
+
+use std::collections::BTreeSet;
+
+use chereme_sign::query::{Feature, Operator, Wanted};
+use chereme_sign::text::fold;
+use chereme_sign::{Component, Inventory, InventoryValue};
+use rusqlite::Connection;
+
+use super::texts::Glob;
+use crate::error::Result;
+use crate::inventories;
+
+/// The inventories of a corpus, as queries use them.
+///
+/// A name means every value that has it as its id, alias or name, in whichever inventory of the
+/// component: values of the same name are one value to a query.
+pub(crate) struct Vocabulary(Vec<Inventory>);
+
+/// The stored values that pass for one wanted value.
+pub(crate) struct Accepted {
+    folded: BTreeSet<String>,
+    exact: BTreeSet<String>,
+    folded_glob: Option<Glob>,
+    exact_glob: Option<Glob>,
+    /// Whether a value of an inventory is among them.
+    pub(crate) known: bool,
+}
+
+impl Accepted {
+    /// Tells whether a stored value is among them.
+    pub(crate) fn fits(&self, value: &str, folded: &str) -> bool {
+        self.folded.contains(folded)
+            || self.exact.contains(value)
+            || self
+                .folded_glob
+                .as_ref()
+                .is_some_and(|glob| glob.matches(folded))
+            || self
+                .exact_glob
+                .as_ref()
+                .is_some_and(|glob| glob.matches(value))
+    }
+
+    /// Returns all of them, folded, where they can be listed.
+    pub(crate) fn listed(&self) -> Option<&BTreeSet<String>> {
+        let plain =
+            self.exact.is_empty() && self.folded_glob.is_none() && self.exact_glob.is_none();
+        plain.then_some(&self.folded)
+    }
+}
+
+impl Vocabulary {
+    /// Reads the inventories of a corpus.
+    pub(crate) fn load(connection: &Connection) -> Result<Self> {
+        let stored = inventories::load(connection)?;
+        Ok(Self(stored.into_iter().map(|one| one.inventory).collect()))
+    }
+
+    /// Returns the inventories of a part of a component.
+    pub(crate) fn of<'a>(
+        &'a self,
+        component: Component,
+        part: Option<&'a str>,
+    ) -> impl Iterator<Item = &'a Inventory> {
+        self.0.iter().filter(move |inventory| {
+            inventory.component == component && inventory.feature.as_deref() == part
+        })
+    }
+
+    /// Returns the parts of a component that there are inventories for.
+    pub(crate) fn parts(&self, component: Component) -> BTreeSet<Option<String>> {
+        let own = self.0.iter().filter(|one| one.component == component);
+        own.map(|one| one.feature.clone()).collect()
+    }
+
+    /// Returns the ids of all inventories.
+    pub(crate) fn ids(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().map(|inventory| inventory.id.as_str())
+    }
+
+    /// Returns the names of the features that values of a component have.
+    pub(crate) fn features(&self, component: Component, part: Option<&str>) -> BTreeSet<&str> {
+        self.0
+            .iter()
+            .filter(|one| one.component == component)
+            .filter(|one| part.is_none() || one.feature.as_deref() == part)
+            .flat_map(Inventory::features)
+            .collect()
+    }
+
+    /// Returns what passes for a wanted value in a part of a component.
+    pub(crate) fn accepted(
+        &self,
+        component: Component,
+        part: Option<&str>,
+        operator: Operator,
+        wanted: &Wanted,
+    ) -> Accepted {
+        let exactly = operator == Operator::Exactly;
+        let mut accepted = Accepted {
+            folded: BTreeSet::new(),
+            exact: BTreeSet::new(),
+            folded_glob: None,
+            exact_glob: None,
+            known: false,
+        };
+        match wanted {
+            Wanted::Named(pattern) if exactly => {
+                let glob = Glob::exact(pattern);
+                self.add(&mut accepted, (component, part), Reach::Letters, |value| {
+                    value.spellings().any(|text| glob.matches(text))
+                });
+                accepted.exact_glob = Some(glob);
+            }
+            Wanted::Named(pattern) => {
+                let glob = Glob::whole(pattern);
+                self.add(&mut accepted, (component, part), Reach::Narrower, |value| {
+                    value.spellings().any(|text| glob.matches(&fold(text)))
+                });
+                match glob.literal() {
+                    Some(text) => _ = accepted.folded.insert(text.to_owned()),
+                    None => accepted.folded_glob = Some(glob),
+                }
+            }
+            Wanted::Features(features) => {
+                self.add(&mut accepted, (component, part), Reach::Own, |value| {
+                    has(value, features, exactly)
+                });
+            }
+            Wanted::Present | Wanted::Missing(_) => {}
+        }
+        accepted
+    }
+
+    fn add(
+        &self,
+        accepted: &mut Accepted,
+        (component, part): (Component, Option<&str>),
+        reach: Reach,
+        meant: impl Fn(&InventoryValue) -> bool,
+    ) {
+        for inventory in self.of(component, part) {
+            let meant: BTreeSet<&str> = inventory
+                .values
+                .iter()
+                .filter(|value| meant(value))
+                .map(|value| value.id.as_str())
+                .collect();
+            if meant.is_empty() {
+                continue;
+            }
+            accepted.known = true;
+            let is_meant = |value: &InventoryValue| meant.contains(value.id.as_str());
+            for value in &inventory.values {
+                match reach {
+                    Reach::Letters if is_meant(value) => {
+                        accepted.exact.extend(value.spellings().map(str::to_owned));
+                    }
+                    Reach::Own if is_meant(value) => {
+                        accepted.folded.extend(value.spellings().map(fold));
+                    }
+                    Reach::Narrower if inventory.chain(&value.id).any(is_meant) => {
+                        accepted.folded.extend(value.spellings().map(fold));
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+}
+
+/// What counts beside the values that are meant.
+#[derive(Clone, Copy)]
+enum Reach {
+    /// Nothing, and case and accents tell.
+    Letters,
+    /// Nothing.
+    Own,
+    /// The values within them.
+    Narrower,
+}
+
+fn has(value: &InventoryValue, features: &[Feature], exactly: bool) -> bool {
+    let own: BTreeSet<String> = value.features.iter().map(|name| fold(name)).collect();
+    let all = features
+        .iter()
+        .all(|feature| own.contains(&fold(&feature.name)) != feature.absent);
+    let named = features.iter().filter(|feature| !feature.absent);
+    let named: BTreeSet<String> = named.map(|feature| fold(&feature.name)).collect();
+    all && (!exactly || named == own)
+}

@@ -1,0 +1,257 @@
+//! Comparisons of texts: the gloss, what is said, and remarks.
+
+use chereme_sign::Reading;
+use chereme_sign::query::{
+    Comparison, Missing, Operator, Pattern, QueryError, Test, TextField, Wanted, What,
+};
+use chereme_sign::text::fold;
+use tantivy::Term;
+use tantivy::query::{FuzzyTermQuery, PhraseQuery, Query, RegexPhraseQuery};
+use tantivy::schema::Field;
+
+use super::any_term::AnyTerm;
+use super::compile::{Ask, Asked};
+use super::docs::{Docs, Numbers};
+use super::known::fitting;
+use super::plan::{Plan, WholeText};
+use super::terms::Mark;
+use super::texts::{Glob, words};
+use crate::db::search::answers;
+
+/// How long a word may be that is compared up to slips: what is built for it grows with it.
+const LONGEST_FUZZY: usize = 64;
+/// How many words of the index one pattern inside a phrase may fit.
+const MOST_EXPANSIONS: u32 = 1 << 20;
+
+/// Returns the plan for comparing whole texts; where a token has several, one that passes is enough.
+pub(crate) fn plan(ask: &Ask<'_>, field: TextField, comparison: &Comparison) -> Asked<Plan> {
+    match field {
+        TextField::Gloss => gloss(ask, comparison),
+        TextField::Translation | TextField::Comment => {
+            other(ask, field == TextField::Translation, comparison)
+        }
+        TextField::Any => Ok(Plan::any(vec![
+            gloss(ask, comparison)?,
+            other(ask, true, comparison)?,
+            other(ask, false, comparison)?,
+        ])),
+    }
+}
+
+fn gloss(ask: &Ask<'_>, comparison: &Comparison) -> Asked<Plan> {
+    let values = comparison.values.iter();
+    let plans = values.map(|value| match &value.wanted {
+        Wanted::Present => Ok(Plan::everything()),
+        Wanted::Missing(_) | Wanted::Features(_) => Ok(Plan::nothing()),
+        Wanted::Named(pattern) if comparison.operator == Operator::Exactly => {
+            let glob = Glob::exact(pattern);
+            let signs = ask.signs()?;
+            let found = signs
+                .rows
+                .iter()
+                .filter(|(_, gloss, _)| glob.matches(gloss));
+            let found = found.map(|(id, _, _)| *id);
+            Ok(Plan::index(AnyTerm::numbers(ask.fields.sign, found)))
+        }
+        Wanted::Named(pattern) => Ok(Plan::index(whole_gloss(ask, pattern)?)),
+    });
+    let found = Plan::any(plans.collect::<Asked<_>>()?);
+    Ok(match comparison.operator {
+        Operator::IsNot => found.not(),
+        _ => found,
+    })
+}
+
+fn whole_gloss(ask: &Ask<'_>, pattern: &Pattern) -> Asked<AnyTerm> {
+    let field = ask.fields.gloss;
+    let terms = fitting(ask.searcher, field, &Glob::whole(pattern))?;
+    Ok(AnyTerm::new(field, terms))
+}
+
+fn other(ask: &Ask<'_>, translation: bool, comparison: &Comparison) -> Asked<Plan> {
+    let (name, field) = if translation {
+        ("translation", ask.fields.translation)
+    } else {
+        ("comment", ask.fields.comment)
+    };
+    let has = || Plan::index(AnyTerm::texts(ask.fields.reading, [Mark::Has.term(name)]));
+    match (comparison.operator, &comparison.values[..]) {
+        (Operator::Is | Operator::Exactly, [value]) if value.wanted == Wanted::Present => {
+            return Ok(has());
+        }
+        (Operator::Is | Operator::Exactly, [value])
+            if value.wanted == Wanted::Missing(Missing::Unset) =>
+        {
+            return Ok(has().not());
+        }
+        _ => {}
+    }
+    Ok(Plan::Whole(Box::new(WholeText {
+        translation,
+        comparison: comparison.clone(),
+        narrowed: narrowed(ask, field, comparison)?,
+    })))
+}
+
+/// Returns a query that every token passes whose text is one of those wanted, if they have words.
+fn narrowed(ask: &Ask<'_>, field: Field, comparison: &Comparison) -> Asked<Option<Box<dyn Query>>> {
+    if comparison.operator == Operator::IsNot {
+        return Ok(None);
+    }
+    let mut plans = Vec::new();
+    for value in &comparison.values {
+        let literal = match &value.wanted {
+            Wanted::Named(pattern) => pattern.as_literal().map(|_| pattern),
+            _ => None,
+        };
+        let Some(pattern) = literal else {
+            return Ok(None);
+        };
+        match phrase(ask, field, &Glob::words(pattern))? {
+            Some(query) => plans.push(Plan::Index(query)),
+            None => return Ok(None),
+        }
+    }
+    Ok(Plan::any(plans).indexed().ok())
+}
+
+/// Returns the candidates whose texts pass.
+pub(crate) fn filter(ask: &Ask<'_>, text: &WholeText, candidates: Docs) -> Asked<Docs> {
+    let ids = Numbers::rows(ask.searcher, "id")?;
+    let mut found = Docs::new();
+    for doc in candidates {
+        let token = ids.get(doc).unwrap_or_default();
+        let (translations, comments) = answers::texts_of_token(ask.connection, token)?;
+        let texts = if text.translation {
+            translations
+        } else {
+            comments
+        };
+        if texts_pass(&text.comparison, texts) {
+            found.push(doc);
+        }
+    }
+    Ok(found)
+}
+
+/// Tells whether one of the texts passes, or that there is none.
+fn texts_pass(comparison: &Comparison, texts: Vec<String>) -> bool {
+    if texts.is_empty() {
+        return comparison.accepts(&Reading::Unset, |_, _| false);
+    }
+    texts
+        .into_iter()
+        .any(|text| text_passes(comparison, &Reading::Value(text)))
+}
+
+/// Tells whether a text that stands for itself passes.
+pub(crate) fn text_passes(comparison: &Comparison, reading: &Reading) -> bool {
+    comparison.accepts(reading, |text, wanted| match wanted {
+        Wanted::Named(pattern) if comparison.operator == Operator::Exactly => {
+            Glob::exact(pattern).matches(text)
+        }
+        Wanted::Named(pattern) => Glob::whole(pattern).matches(&fold(text)),
+        _ => false,
+    })
+}
+
+/// Returns the plan for words anywhere in a text, or a text up to slips.
+pub(crate) fn words_plan(ask: &Ask<'_>, test: &Test) -> Asked<Plan> {
+    let places = places(ask, test)?;
+    Ok(Plan::any(places.into_iter().flatten().collect()))
+}
+
+/// Returns the plans for the places where a text can be found, the most telling first: the whole
+/// gloss, words of the gloss, what is said, remarks.
+pub(crate) fn places(ask: &Ask<'_>, test: &Test) -> Asked<Vec<Option<Plan>>> {
+    match &test.what {
+        What::Words(field, patterns) => {
+            let mut places: [Vec<Plan>; 4] = Default::default();
+            for pattern in patterns {
+                let globs = Glob::words(pattern);
+                if in_gloss(*field) {
+                    places[0].push(Plan::index(whole_gloss(ask, pattern)?));
+                }
+                for (place, field) in fields_of(ask, *field) {
+                    places[place].extend(phrase(ask, field, &globs)?.map(Plan::Index));
+                }
+            }
+            let some = |plans: Vec<Plan>| (!plans.is_empty()).then(|| Plan::any(plans));
+            Ok(places.into_iter().map(some).collect())
+        }
+        What::Fuzzy { field, text, slips } => fuzzy(ask, test, *field, text, *slips),
+        _ => Ok(Vec::new()),
+    }
+}
+
+fn in_gloss(field: TextField) -> bool {
+    matches!(field, TextField::Any | TextField::Gloss)
+}
+
+/// Returns the fields of words that a text is searched in, with their places.
+fn fields_of(ask: &Ask<'_>, field: TextField) -> Vec<(usize, Field)> {
+    let all = [
+        (1, TextField::Gloss, ask.fields.words),
+        (2, TextField::Translation, ask.fields.translation),
+        (3, TextField::Comment, ask.fields.comment),
+    ];
+    let wanted = all
+        .into_iter()
+        .filter(|(_, own, _)| field == TextField::Any || field == *own);
+    wanted.map(|(place, _, field)| (place, field)).collect()
+}
+
+/// Returns the query for words side by side; nothing where there are none.
+fn phrase(ask: &Ask<'_>, field: Field, globs: &[Glob]) -> Asked<Option<Box<dyn Query>>> {
+    let literals: Option<Vec<&str>> = globs.iter().map(Glob::literal).collect();
+    Ok(match (globs, literals) {
+        ([], _) => None,
+        ([one], _) => Some(Box::new(AnyTerm::new(
+            field,
+            fitting(ask.searcher, field, one)?,
+        ))),
+        (_, Some(words)) => {
+            let terms = words.iter().map(|word| Term::from_field_text(field, word));
+            Some(Box::new(PhraseQuery::new(terms.collect())))
+        }
+        (several, None) => {
+            let words = several.iter().map(Glob::regex).collect();
+            let mut query = RegexPhraseQuery::new(field, words);
+            query.set_max_expansions(MOST_EXPANSIONS);
+            Some(Box::new(query))
+        }
+    })
+}
+
+fn fuzzy(
+    ask: &Ask<'_>,
+    test: &Test,
+    field: TextField,
+    text: &str,
+    slips: u8,
+) -> Asked<Vec<Option<Plan>>> {
+    let words = words(text);
+    let whole = fold(text);
+    if whole.chars().count() > LONGEST_FUZZY {
+        return Err(QueryError {
+            at: test.at.range(),
+            message: "this is too long to be compared up to slips".to_owned(),
+            remedy: format!("write at most {LONGEST_FUZZY} characters"),
+            suggestion: None,
+        }
+        .into());
+    }
+    let near = |field: Field, word: &str| {
+        let term = Term::from_field_text(field, word);
+        Plan::index(FuzzyTermQuery::new(term, slips, true))
+    };
+    let mut places: Vec<Option<Plan>> = vec![None, None, None, None];
+    if in_gloss(field) {
+        places[0] = Some(near(ask.fields.gloss, &whole));
+    }
+    for (place, field) in fields_of(ask, field) {
+        let all = words.iter().map(|word| near(field, word)).collect();
+        places[place] = (!words.is_empty()).then(|| Plan::all(all));
+    }
+    Ok(places)
+}
