@@ -48,6 +48,12 @@ pub enum Error {
         /// What would be right.
         remedy: Option<String>,
     },
+    /// Several things of one piece of work cannot be done; nothing was changed.
+    #[error("{}", several(errors))]
+    Several {
+        /// What cannot be done, each with its place.
+        errors: Vec<Error>,
+    },
     /// The caller asked to stop; nothing was changed.
     #[error("stopped; the corpus is as it was before")]
     Stopped,
@@ -108,6 +114,7 @@ impl Error {
             }
             Self::Damaged { place, .. } => Some(place.clone()),
             Self::Wrong { place, .. } => place.clone(),
+            Self::Several { errors } => errors.first().and_then(Self::place),
             _ => None,
         }
     }
@@ -135,9 +142,32 @@ impl Error {
             Self::Database(error) => database_remedy(error),
             Self::Index(_) => Some("`chereme check --mend` makes the search index anew".into()),
             Self::Wrong { remedy, .. } => remedy.clone(),
+            Self::Several { errors } => errors.first().and_then(Self::remedy),
             Self::Stopped => None,
         }
     }
+}
+
+/// The faults of a list, a line each.
+fn several(errors: &[Error]) -> String {
+    const SHOWN: usize = 20;
+    let mut lines = vec![match errors.len() {
+        1 => "one change cannot be made, and none was:".to_owned(),
+        count => format!("{count} changes cannot be made, and none was:"),
+    }];
+    lines.extend(errors.iter().take(SHOWN).map(|error| {
+        let place = error
+            .place()
+            .map_or(String::new(), |place| format!("{place}: "));
+        let remedy = error
+            .remedy()
+            .map_or(String::new(), |remedy| format!(" ({remedy})"));
+        format!("{place}{error}{remedy}")
+    }));
+    if errors.len() > SHOWN {
+        lines.push(format!("and {} more", errors.len() - SHOWN));
+    }
+    lines.join("\n")
 }
 
 fn database_remedy(error: &rusqlite::Error) -> Option<String> {

@@ -52,7 +52,15 @@ pub(crate) fn store(connection: &Connection, inventory: &Inventory) -> Result<i6
 
 /// Returns every inventory of the corpus, oldest first.
 pub(crate) fn load(connection: &Connection) -> Result<Vec<StoredInventory>> {
-    rows::inventories(connection)?
+    rows::inventories(connection, None)?
+        .into_iter()
+        .map(read)
+        .collect()
+}
+
+/// Returns the inventories that the tiers of a recording have, oldest first.
+pub(crate) fn load_of(connection: &Connection, recording: i64) -> Result<Vec<StoredInventory>> {
+    rows::inventories(connection, Some(recording))?
         .into_iter()
         .map(read)
         .collect()

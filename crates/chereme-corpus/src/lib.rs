@@ -4,8 +4,10 @@
 //! transaction, with its changeset. Nothing here prints, prompts, or reads the environment.
 
 mod address;
+mod annotate;
 pub(crate) mod codec;
 pub(crate) mod db;
+mod edit;
 mod error;
 mod import;
 mod inventories;
@@ -21,7 +23,15 @@ use db::Store;
 pub use chereme_formats::roles::{Mapping, MappingError};
 
 pub use address::{Address, Name, Stretch};
+pub use db::recordings::{RecordingRow, SignerRow};
+pub use db::signs::TokenRow;
+pub use db::tiers::TierRow;
+pub use annotate::{
+    AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
+    AnnotationOrigin, NewTier, RemovedTiers, TierChange, TierName, Values,
+};
 pub use db::{OperationKind, OperationRow};
+pub use edit::{RecordingChange, SignChange, SignerChange};
 pub use error::{Error, Result};
 pub use import::{FileReport, FileStatus, ImportOptions, ImportReport, ReportFinding};
 pub use inventories::StoredInventory;

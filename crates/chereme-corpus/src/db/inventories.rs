@@ -15,13 +15,18 @@ pub(crate) struct InventoryRow {
     pub(crate) values: Vec<(String, String)>,
 }
 
-/// Returns all inventories with their values, oldest first.
-pub(crate) fn inventories(connection: &Connection) -> Result<Vec<InventoryRow>> {
+/// Returns all inventories with their values, or those of the tiers of a recording, oldest first.
+pub(crate) fn inventories(
+    connection: &Connection,
+    recording: Option<i64>,
+) -> Result<Vec<InventoryRow>> {
     let mut statement = connection.prepare_cached(
-        "SELECT id, key, component, feature, document FROM inventory ORDER BY id",
+        "SELECT id, key, component, feature, document FROM inventory
+         WHERE ?1 IS NULL OR id IN (SELECT inventory_id FROM tier WHERE recording_id = ?1)
+         ORDER BY id",
     )?;
     let mut inventories = statement
-        .query_map([], |row| {
+        .query_map([recording], |row| {
             Ok(InventoryRow {
                 id: row.get(0)?,
                 key: row.get(1)?,

@@ -4,6 +4,7 @@
 //! in one transaction, records the rows before and after, and brings the search index along.
 
 mod history;
+pub(crate) mod edits;
 pub(crate) mod inventories;
 pub(crate) mod motion;
 mod open;

@@ -15,6 +15,7 @@ use crate::tally::Findings;
 use chereme_motion::Instant;
 use chereme_sign::text::{did_you_mean, nearest};
 use serde::Serialize;
+use std::str::FromStr;
 
 /// What a row asks for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -37,6 +38,37 @@ pub enum Moment {
     Time(Instant),
     /// A frame of the recording, counted from 0.
     Frame(u64),
+}
+
+/// A text that is no [`Moment`].
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{text:?} is no time: write 1.5, 1.5s, 1500ms, 0:01.500 or f12{}",
+    comma(text)
+)]
+pub struct MomentError {
+    /// The text.
+    pub text: String,
+}
+
+fn comma(text: &str) -> &'static str {
+    if text.contains(',') {
+        "; write a point before the decimals"
+    } else {
+        ""
+    }
+}
+
+impl FromStr for Moment {
+    type Err = MomentError;
+
+    /// Reads seconds (`1.5`, `1.5s`), milliseconds (`1500ms`), minutes (`0:01.500`, `1:02:03.5`) or
+    /// a frame (`f12`).
+    fn from_str(text: &str) -> Result<Self, MomentError> {
+        moment(text).ok_or_else(|| MomentError {
+            text: text.to_owned(),
+        })
+    }
 }
 
 /// One change.
@@ -167,7 +199,10 @@ fn row(raw: &RawRow, columns: &[Option<usize>; 8]) -> Result<Row, Fault> {
     };
     let time = |at: usize| {
         cell(at)
-            .map(|text| moment(text).map_err(|message| fault(at, message)))
+            .map(|text| {
+                text.parse()
+                    .map_err(|error: MomentError| fault(at, error.to_string()))
+            })
             .transpose()
     };
     let owned = |at: usize| cell(at).map(str::to_owned);
@@ -239,19 +274,10 @@ fn action(text: &str) -> Result<Action, String> {
     }
 }
 
-/// Reads a time; on failure says what would be right.
-fn moment(text: &str) -> Result<Moment, String> {
-    let lower = text.to_lowercase();
-    let wrong = || {
-        let hint = if lower.contains(',') {
-            "; write a point before the decimals"
-        } else {
-            ""
-        };
-        format!("{text:?} is no time: write 1.5, 1.5s, 1500ms, 0:01.500 or f12{hint}")
-    };
+fn moment(text: &str) -> Option<Moment> {
+    let lower = text.trim().to_lowercase();
     if let Some(frame) = lower.strip_prefix('f') {
-        return frame.trim().parse().map(Moment::Frame).map_err(|_| wrong());
+        return frame.trim().parse().map(Moment::Frame).ok();
     }
     let micros = if let Some(millis) = lower.strip_suffix("ms") {
         decimal(millis.trim(), 3)
@@ -260,9 +286,7 @@ fn moment(text: &str) -> Result<Moment, String> {
     } else {
         clock(&lower)
     };
-    micros
-        .map(|micros| Moment::Time(Instant::from_micros(micros)))
-        .ok_or_else(wrong)
+    Some(Moment::Time(Instant::from_micros(micros?)))
 }
 
 /// Reads `S.S`, `M:SS.S` or `H:MM:SS.S` as microseconds.

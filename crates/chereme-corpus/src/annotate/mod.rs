@@ -1,0 +1,589 @@
+//! Changes of annotations: each list of them is one operation, all of it or nothing.
+//!
+//! The tier rules are those of [`chereme_sign::tier`]; here their neighbourhood is loaded from the
+//! rows, and what follows from a change is written back.
+
+mod bulk;
+mod names;
+mod scope;
+#[cfg(test)]
+mod tests;
+mod tiers;
+mod write;
+
+use std::collections::BTreeMap;
+
+use chereme_formats::table::annotations::Moment;
+use chereme_motion::{Instant, Span};
+use chereme_sign::tier::{AnnotationId, Change, Seam, TierId, plan};
+use chereme_sign::{Reading, Stereotype};
+use rusqlite::Connection;
+use serde::Serialize;
+
+pub use names::{AnnotationName, TierName};
+pub use tiers::{NewTier, RemovedTiers, TierChange, Values};
+
+use crate::Corpus;
+use crate::db::edits;
+use crate::db::tiers::{self as tier_rows, AnnotationRow, TierRow};
+use crate::error::{Error, Result};
+use crate::inventories::StoredInventory;
+use crate::progress::{Progress, Step, Unit};
+use crate::tokens;
+use scope::Scope;
+
+/// One change of annotations.
+#[derive(Debug, Clone, PartialEq)]
+pub struct AnnotationChange {
+    /// Where it is asked for, such as `changes.csv, line 3`; errors name it.
+    pub place: Option<String>,
+    /// A name by which later changes of the same list can call the annotation that this one adds.
+    pub label: Option<String>,
+    /// What to do.
+    pub action: AnnotationAction,
+}
+
+/// What to do to annotations.
+///
+/// Values are texts: an id, alias or name of the tier's inventory, or anything where the tier has
+/// none. On coded tiers (glosses, components, and those with an inventory) `unset`, `n/a` and
+/// `unclear` say how a value is missing; a blank text is unset everywhere.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AnnotationAction {
+    /// Adds an annotation.
+    Add {
+        /// The tier.
+        tier: TierName,
+        /// Where it starts; not needed on a symbolic tier.
+        start: Option<Moment>,
+        /// Where it ends; not needed on a symbolic tier.
+        end: Option<Moment>,
+        /// The annotation above on a symbolic tier, where the times do not name it.
+        parent: Option<AnnotationName>,
+        /// The place among its siblings on a Symbolic_Subdivision, from 0; nothing for the end.
+        order: Option<u32>,
+        /// What it says.
+        value: String,
+        /// How sure its origin is, from 0 to 1.
+        confidence: Option<f64>,
+    },
+    /// Gives an annotation another time, another value, or both.
+    Set {
+        /// The annotation.
+        annotation: AnnotationName,
+        /// Where it shall start.
+        start: Option<Moment>,
+        /// Where it shall end.
+        end: Option<Moment>,
+        /// What it shall say.
+        value: Option<String>,
+    },
+    /// Gives an annotation of a Symbolic_Subdivision another place among its siblings.
+    Reorder {
+        /// The annotation.
+        annotation: AnnotationName,
+        /// The place from 0.
+        order: u32,
+    },
+    /// Cuts an annotation in two, both with its value.
+    Split {
+        /// The annotation, which becomes the first half.
+        annotation: AnnotationName,
+        /// The cut.
+        at: Moment,
+    },
+    /// Makes one annotation of two neighbours.
+    Merge {
+        /// The earlier one, which stays.
+        first: AnnotationName,
+        /// The later one, which goes.
+        second: AnnotationName,
+        /// What the merged one shall say; nothing where both say the same.
+        value: Option<String>,
+        /// Whether equal children that meet at the seam become one too.
+        join: bool,
+    },
+    /// Removes an annotation and all below it.
+    Remove {
+        /// The annotation.
+        annotation: AnnotationName,
+    },
+}
+
+impl From<AnnotationAction> for AnnotationChange {
+    fn from(action: AnnotationAction) -> Self {
+        Self {
+            place: None,
+            label: None,
+            action,
+        }
+    }
+}
+
+/// Who says what changes say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum AnnotationOrigin {
+    /// A person.
+    #[default]
+    Human,
+    /// A detector.
+    Detector,
+    /// The maker of a sign.
+    Made,
+}
+
+impl AnnotationOrigin {
+    /// Returns the name under which it is stored.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Human => "human",
+            Self::Detector => "detector",
+            Self::Made => "made",
+        }
+    }
+}
+
+/// How changes are made.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct AnnotateOptions {
+    /// Whether times move to the start of the nearest frame of the recording's movement.
+    pub snap: bool,
+    /// Who says so.
+    pub origin: AnnotationOrigin,
+}
+
+/// What became of a list of changes.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct AnnotateReport {
+    /// For each change the annotation that it added, changed or removed.
+    pub annotations: Vec<i64>,
+    /// How many annotations were added, those that follow from a split among them.
+    pub added: u64,
+    /// How many were changed, those that follow from others among them.
+    pub changed: u64,
+    /// How many were removed, those below others among them.
+    pub removed: u64,
+    /// The recordings, in order.
+    pub recordings: Vec<String>,
+}
+
+impl Corpus {
+    /// Makes changes of annotations as one operation, in their order: all of them, or none.
+    ///
+    /// Tokens and search follow. What a person changes or adds is from then on that person's, and
+    /// what moves loses the milliseconds of the file it came from.
+    ///
+    /// # Errors
+    /// Where changes break a rule of their tier, name what is not there, or say what the tier's
+    /// inventory does not have: [`Error::Several`] with each of them where the list has more than
+    /// one.
+    pub fn annotate(
+        &mut self,
+        changes: &[AnnotationChange],
+        options: &AnnotateOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<AnnotateReport> {
+        self.annotate_all(changes, options, Vec::new(), progress)
+    }
+
+    fn annotate_all(
+        &mut self,
+        changes: &[AnnotationChange],
+        options: &AnnotateOptions,
+        faults: Vec<Error>,
+        progress: &mut Progress<'_>,
+    ) -> Result<AnnotateReport> {
+        self.store.operation("annotate", |connection| {
+            let mut work = Work::new(connection, options)?;
+            work.faults = faults;
+            for (done, change) in changes.iter().enumerate() {
+                work.change(change)?;
+                if changes.len() > 1 && done % 64 == 0 {
+                    progress.tell(Step {
+                        task: "annotating",
+                        done: done as u64,
+                        total: Some(changes.len() as u64),
+                        unit: Unit::Items,
+                    })?;
+                }
+            }
+            let report = work.finish(changes.len())?;
+            let summary = report.summary();
+            Ok((report, summary))
+        })
+    }
+}
+
+impl AnnotateReport {
+    fn summary(&self) -> String {
+        let counts = [
+            (self.added, "added"),
+            (self.changed, "changed"),
+            (self.removed, "removed"),
+        ];
+        let counts: Vec<String> = counts
+            .iter()
+            .filter(|(count, _)| *count > 0)
+            .map(|(count, what)| format!("{count} {what}"))
+            .collect();
+        let place = match self.recordings.as_slice() {
+            [one] => one.clone(),
+            several => format!("{} recordings", several.len()),
+        };
+        format!("{} in {place}", counts.join(", "))
+    }
+}
+
+/// A list of changes on its way into the rows.
+struct Work<'a> {
+    connection: &'a Connection,
+    options: &'a AnnotateOptions,
+    scopes: BTreeMap<i64, Scope>,
+    /// Annotations by the labels of the changes that added them; nothing for changes that failed.
+    labels: BTreeMap<String, Option<i64>>,
+    faults: Vec<Error>,
+    report: AnnotateReport,
+}
+
+impl<'a> Work<'a> {
+    fn new(connection: &'a Connection, options: &'a AnnotateOptions) -> Result<Self> {
+        edits::defer_references(connection)?;
+        Ok(Self {
+            connection,
+            options,
+            scopes: BTreeMap::new(),
+            labels: BTreeMap::new(),
+            faults: Vec::new(),
+            report: AnnotateReport::default(),
+        })
+    }
+
+    /// Makes one change, or notes why it cannot be made.
+    fn change(&mut self, change: &AnnotationChange) -> Result<()> {
+        let done = self.act(change);
+        let annotation = match done {
+            Ok(annotation) => Some(annotation),
+            Err(fault @ Error::Wrong { .. }) => {
+                self.faults.push(match &change.place {
+                    Some(place) => fault.at(place),
+                    None => fault,
+                });
+                None
+            }
+            Err(other) => return Err(other),
+        };
+        self.report.annotations.extend(annotation);
+        if let Some(label) = &change.label {
+            self.labels.insert(label.clone(), annotation);
+        }
+        Ok(())
+    }
+
+    fn finish(mut self, changes: usize) -> Result<AnnotateReport> {
+        let failed = self.labels.values().any(Option::is_none);
+        self.faults
+            .retain(|fault| !(failed && names::is_sequel(fault)));
+        match self.faults.len() {
+            0 => {}
+            1 if changes <= 1 => return Err(self.faults.remove(0)),
+            _ => {
+                let errors = self.faults;
+                return Err(Error::Several { errors });
+            }
+        }
+        for scope in self.scopes.values() {
+            scope.close(self.connection)?;
+            if let Some(touched) = scope.touched {
+                let recording = scope.recording.id;
+                tokens::derive(
+                    self.connection,
+                    recording,
+                    Some(touched),
+                    &scope.inventories,
+                )?;
+                self.report.recordings.push(scope.recording.name.clone());
+            }
+        }
+        Ok(self.report)
+    }
+
+    fn act(&mut self, change: &AnnotationChange) -> Result<i64> {
+        match &change.action {
+            AnnotationAction::Add { .. } => self.add(&change.action),
+            AnnotationAction::Set {
+                annotation,
+                start,
+                end,
+                value,
+            } => {
+                let row = self.annotation(annotation)?;
+                self.set(&row, *start, *end, value.as_deref())
+            }
+            AnnotationAction::Reorder { annotation, order } => {
+                let row = self.annotation(annotation)?;
+                let annotation = handle(row.id);
+                let order = *order;
+                self.carry_out(row.tier_id, &Change::Reorder { annotation, order }, None)?;
+                Ok(row.id)
+            }
+            AnnotationAction::Split { annotation, at } => {
+                let row = self.annotation(annotation)?;
+                let snap = self.options.snap;
+                let at = self.scope_of(row.tier_id)?.instant(*at, snap)?;
+                let annotation = handle(row.id);
+                let added = self.carry_out(row.tier_id, &Change::Split { annotation, at }, None)?;
+                Ok(added.unwrap_or(row.id))
+            }
+            AnnotationAction::Merge {
+                first,
+                second,
+                value,
+                join,
+            } => {
+                let (first, second) = (self.annotation(first)?, self.annotation(second)?);
+                let tier = self.tier_row(first.tier_id)?;
+                let value = value.as_deref().map(|text| self.reading(&tier, text));
+                let change = Change::Merge {
+                    first: handle(first.id),
+                    second: handle(second.id),
+                    value: value.transpose()?,
+                    seam: if *join { Seam::Join } else { Seam::Keep },
+                };
+                self.carry_out(first.tier_id, &change, None)?;
+                Ok(first.id)
+            }
+            AnnotationAction::Remove { annotation } => {
+                let row = self.annotation(annotation)?;
+                let annotation = handle(row.id);
+                self.carry_out(row.tier_id, &Change::Remove { annotation }, None)?;
+                Ok(row.id)
+            }
+        }
+    }
+
+    fn add(&mut self, action: &AnnotationAction) -> Result<i64> {
+        let AnnotationAction::Add {
+            tier,
+            start,
+            end,
+            parent,
+            order,
+            value,
+            confidence,
+        } = action
+        else {
+            return Err(Error::wrong("nothing is to be added"));
+        };
+        let tier = self.tier(tier)?;
+        let value = self.reading(&tier, value)?;
+        let times = start.zip(*end);
+        let span = match times {
+            Some((start, end)) => Some(self.span(tier.id, start, end)?),
+            None => None,
+        };
+        let id = TierId(unsigned(tier.id));
+        let change = if is_symbolic(&tier) {
+            let parent = match (parent, span) {
+                (Some(parent), _) => self.annotation(parent)?.id,
+                (None, Some(span)) => self.above(&tier, span)?,
+                (None, None) => {
+                    return Err(Error::wrong(format!(
+                        "an annotation of the symbolic tier {:?} needs one above it",
+                        tier.name
+                    ))
+                    .advise("name its parent, or the times of its parent"));
+                }
+            };
+            Change::AddBelow {
+                tier: id,
+                parent: handle(parent),
+                order: *order,
+                value,
+            }
+        } else {
+            let span = span.ok_or_else(|| {
+                Error::wrong(format!(
+                    "an annotation of the tier {:?} needs a start and an end",
+                    tier.name
+                ))
+                .advise("only annotations of symbolic tiers have no times of their own")
+            })?;
+            Change::Add {
+                tier: id,
+                span,
+                value,
+            }
+        };
+        let added = self.carry_out(tier.id, &change, *confidence)?;
+        added.ok_or_else(|| Error::wrong("nothing was added"))
+    }
+
+    fn set(
+        &mut self,
+        row: &AnnotationRow,
+        start: Option<Moment>,
+        end: Option<Moment>,
+        value: Option<&str>,
+    ) -> Result<i64> {
+        let annotation = handle(row.id);
+        let tier = self.tier_row(row.tier_id)?;
+        let reading = value.map(|text| self.reading(&tier, text)).transpose()?;
+        if start.is_some() || end.is_some() {
+            let still = |micros| Moment::Time(Instant::from_micros(micros));
+            let start = start.unwrap_or_else(|| still(row.start_us));
+            let end = end.unwrap_or_else(|| still(row.end_us));
+            let span = self.span(row.tier_id, start, end)?;
+            if span != span_of(row) {
+                self.carry_out(row.tier_id, &Change::Move { annotation, span }, None)?;
+            }
+        }
+        if let Some(value) = reading {
+            self.carry_out(row.tier_id, &Change::SetValue { annotation, value }, None)?;
+        }
+        Ok(row.id)
+    }
+
+    /// Plans a change among its neighbours, writes what it takes, and returns what it added first.
+    fn carry_out(
+        &mut self,
+        tier: i64,
+        change: &Change,
+        confidence: Option<f64>,
+    ) -> Result<Option<i64>> {
+        let recording = self.scope_of(tier)?.recording.id;
+        let scope = self
+            .scopes
+            .get(&recording)
+            .ok_or_else(|| Error::wrong("the recording is gone"))?;
+        let near = scope.neighbourhood(self.connection, tier, change)?;
+        let mut next = FRESH;
+        let mut fresh = || {
+            next += 1;
+            AnnotationId(next)
+        };
+        let edits = plan(&near.set, change, &mut fresh)
+            .map_err(|error| Error::wrong(error.to_string()).at(format!("tier:{tier}")))?;
+        let named: Vec<i64> = change.annotations().into_iter().map(signed).collect();
+        let named = match change {
+            Change::AddBelow { .. } => Vec::new(),
+            _ => named,
+        };
+        let says = write::Says {
+            origin: self.options.origin.name(),
+            confidence,
+            named: &named,
+        };
+        let written = write::write(self.connection, &edits, &near.rows, &says)?;
+        self.report.added += written.added.len() as u64;
+        self.report.changed += written.changed;
+        self.report.removed += written.removed;
+        if let Some(scope) = self.scopes.get_mut(&recording) {
+            scope.touch(written.touched);
+        }
+        Ok(written.added.first().copied())
+    }
+
+    /// Returns what `text` says on a tier.
+    fn reading(&mut self, tier: &TierRow, text: &str) -> Result<Reading> {
+        let inventory = self
+            .scope_of(tier.id)?
+            .inventories
+            .iter()
+            .find(|stored| Some(stored.id) == tier.inventory_id);
+        reading(tier, inventory, text)
+    }
+
+    fn span(&mut self, tier: i64, start: Moment, end: Moment) -> Result<Span> {
+        let snap = self.options.snap;
+        let scope = self.scope_of(tier)?;
+        let (start, end) = (scope.instant(start, snap)?, scope.instant(end, snap)?);
+        scope.check_bounds(start, end)?;
+        Ok(Span::between(start, end))
+    }
+
+    fn scope_of(&mut self, tier: i64) -> Result<&Scope> {
+        let recording = tier_rows::tier(self.connection, tier)?.recording_id;
+        if !self.scopes.contains_key(&recording) {
+            let scope = Scope::read(self.connection, recording)?;
+            self.scopes.insert(recording, scope);
+        }
+        self.scopes
+            .get(&recording)
+            .ok_or_else(|| Error::wrong("the recording is gone"))
+    }
+
+    fn tier_row(&self, id: i64) -> Result<TierRow> {
+        tier_rows::tier(self.connection, id)
+    }
+}
+
+/// Handles from here on are those of annotations that have no row yet.
+const FRESH: u64 = 1 << 62;
+
+fn unsigned(id: i64) -> u64 {
+    u64::try_from(id).unwrap_or_default()
+}
+
+fn handle(id: i64) -> AnnotationId {
+    AnnotationId(unsigned(id))
+}
+
+fn signed(id: AnnotationId) -> i64 {
+    i64::try_from(id.0).unwrap_or_default()
+}
+
+fn span_of(row: &AnnotationRow) -> Span {
+    Span::between(
+        Instant::from_micros(row.start_us),
+        Instant::from_micros(row.end_us),
+    )
+}
+
+fn is_symbolic(tier: &TierRow) -> bool {
+    tier.stereotype
+        .as_deref()
+        .and_then(Stereotype::from_elan_name)
+        .is_some_and(|stereotype| !stereotype.is_alignable())
+}
+
+/// Returns what `text` says on a tier with that inventory, as the inventory's own id where it has one.
+fn reading(tier: &TierRow, inventory: Option<&StoredInventory>, text: &str) -> Result<Reading> {
+    let coded = inventory.is_some() || tier.role == "component" || tier.role == "gloss";
+    if !coded || text.trim().is_empty() {
+        return Ok(Reading::from(text));
+    }
+    let text = text.trim();
+    let known = inventory.and_then(|stored| stored.inventory.find(text));
+    if let Some(value) = known {
+        return Ok(Reading::Value(value.id.clone()));
+    }
+    let lower = text.to_lowercase();
+    let word = if tier.role == "gloss" { text } else { &lower };
+    match (word, inventory) {
+        ("unset", _) => Ok(Reading::Unset),
+        ("n/a" | "not applicable" | "not-applicable", _) => Ok(Reading::NotApplicable),
+        ("unclear" | "?", _) => Ok(Reading::Unclear),
+        (_, None) => Ok(Reading::Value(text.to_owned())),
+        (_, Some(stored)) => Err(not_in(stored, tier, text)),
+    }
+}
+
+fn not_in(stored: &StoredInventory, tier: &TierRow, text: &str) -> Error {
+    let inventory = &stored.inventory;
+    let near = inventory.suggest(text);
+    let meant = match near.as_slice() {
+        [] => String::new(),
+        [one] => format!("; did you mean {one:?}?"),
+        several => format!("; did you mean one of {}?", several.join(", ")),
+    };
+    Error::wrong(format!(
+        "{text:?} is no value of the inventory {:?} of the tier {:?}{meant}",
+        inventory.id, tier.name
+    ))
+    .advise(format!(
+        "`chereme list CORPUS values --inventory {}` lists the values",
+        inventory.id
+    ))
+}

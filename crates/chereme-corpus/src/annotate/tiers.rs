@@ -1,0 +1,353 @@
+//! Adding, changing and removing tiers.
+
+use chereme_formats::roles::Hands;
+use chereme_sign::text::{did_you_mean, nearest};
+use chereme_sign::tier::{TierSet, check_tiers};
+use chereme_sign::{Component, Stereotype, TierRole};
+use rusqlite::Connection;
+use serde::Serialize;
+
+use super::is_symbolic;
+use super::names::{self, TierName};
+use super::scope::sign_tier;
+use crate::Corpus;
+use crate::address::{self, Name};
+use crate::db::edits;
+use crate::db::tiers::{self as rows, TierRow};
+use crate::error::{Error, Result};
+use crate::inventories::{self, StoredInventory};
+use crate::tokens;
+
+/// Where the values of a tier come from.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum Values {
+    /// The first inventory of the corpus for the tier's component; any text for other tiers.
+    #[default]
+    Usual,
+    /// Any text.
+    Free,
+    /// The inventory with this id.
+    Inventory(String),
+}
+
+/// A tier to be added.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NewTier {
+    /// The recording.
+    pub recording: Name,
+    /// The name, which no other tier of the recording may have.
+    pub name: String,
+    /// What its annotations say.
+    pub role: TierRole,
+    /// Whose hand they are about.
+    pub hand: Option<Hands>,
+    /// The name of the tier above, and how this one hangs below it.
+    pub parent: Option<(String, Stereotype)>,
+    /// Where its values come from.
+    pub values: Values,
+    /// Who is annotated.
+    pub participant: Option<String>,
+    /// Who annotates.
+    pub annotator: Option<String>,
+    /// The language of its values.
+    pub language: Option<String>,
+}
+
+impl NewTier {
+    /// Returns a root tier with nothing said about it but its role.
+    #[must_use]
+    pub fn new(recording: Name, name: impl Into<String>, role: TierRole) -> Self {
+        Self {
+            recording,
+            name: name.into(),
+            role,
+            hand: None,
+            parent: None,
+            values: Values::Usual,
+            participant: None,
+            annotator: None,
+            language: None,
+        }
+    }
+}
+
+/// What shall be different about a tier; nothing leaves it as it is.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct TierChange {
+    /// Its name.
+    pub name: Option<String>,
+    /// What its annotations say.
+    pub role: Option<TierRole>,
+    /// Whose hand they are about, or nobody's.
+    pub hand: Option<Option<Hands>>,
+    /// Where its values come from.
+    pub values: Option<Values>,
+}
+
+/// What went with a tier.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct RemovedTiers {
+    /// The tier and those below it.
+    pub tiers: Vec<String>,
+    /// How many annotations they had.
+    pub annotations: u64,
+}
+
+impl Corpus {
+    /// Adds a tier to a recording, below its others.
+    ///
+    /// # Errors
+    /// Where the name is taken, the tier above or the inventory is not there, or a tier with times
+    /// of its own would hang below one without.
+    pub fn add_tier(&mut self, tier: &NewTier) -> Result<TierRow> {
+        self.store.operation("add tier", |connection| {
+            let recording = address::recording(connection, &tier.recording)?;
+            let row = new_row(connection, recording.id, tier)?;
+            let id = rows::insert_tier(connection, &row)?;
+            let summary = format!("{:?} to {}", row.name, recording.name);
+            Ok((TierRow { id, ..row }, summary))
+        })
+    }
+
+    /// Changes the name, role, hand or inventory of a tier; tokens follow.
+    ///
+    /// A tier that gets another component loses its inventory unless one is given.
+    ///
+    /// # Errors
+    /// Where the name is taken, the inventory is not there or is for another component, or the tier
+    /// says what the inventory does not have.
+    pub fn change_tier(&mut self, tier: &TierName, change: &TierChange) -> Result<TierRow> {
+        self.store.operation("change tier", |connection| {
+            let old = names::tier(connection, tier)?;
+            let inventories = inventories::load(connection)?;
+            let row = changed_row(connection, &old, change, &inventories)?;
+            let recording = old.recording_id;
+            if row != old {
+                rows::update_tier(connection, &row)?;
+                tokens::derive(connection, recording, None, &inventories)?;
+            }
+            let recording = crate::db::recordings::recording(connection, recording)?.name;
+            let summary = format!("{:?} of {recording}", row.name);
+            Ok((row, summary))
+        })
+    }
+
+    /// Removes a tier, those below it, and their annotations; tokens follow.
+    ///
+    /// # Errors
+    /// Where the tier is not there.
+    pub fn remove_tier(&mut self, tier: &TierName) -> Result<RemovedTiers> {
+        self.store.operation("remove tier", |connection| {
+            edits::defer_references(connection)?;
+            let tier = names::tier(connection, tier)?;
+            let all = rows::tiers(connection, tier.recording_id)?;
+            let mut removed = RemovedTiers {
+                tiers: Vec::new(),
+                annotations: 0,
+            };
+            for row in family(&all, &tier).into_iter().rev() {
+                removed.annotations += edits::delete_annotations(connection, row.id)? as u64;
+                rows::delete_tier(connection, row.id)?;
+                removed.tiers.insert(0, row.name.clone());
+            }
+            let inventories = inventories::load_of(connection, tier.recording_id)?;
+            tokens::derive(connection, tier.recording_id, None, &inventories)?;
+            let recording = crate::db::recordings::recording(connection, tier.recording_id)?.name;
+            let summary = format!(
+                "{} with {} annotations from {recording}",
+                removed.tiers.join(", "),
+                removed.annotations
+            );
+            Ok((removed, summary))
+        })
+    }
+}
+
+/// Returns a tier and all below it, parents first.
+fn family<'t>(all: &'t [TierRow], tier: &'t TierRow) -> Vec<&'t TierRow> {
+    let mut found = vec![tier];
+    let mut at = 0;
+    while at < found.len() {
+        let above = found[at].id;
+        found.extend(all.iter().filter(|row| row.parent_id == Some(above)));
+        at += 1;
+    }
+    found
+}
+
+fn new_row(connection: &Connection, recording: i64, tier: &NewTier) -> Result<TierRow> {
+    let all = rows::tiers(connection, recording)?;
+    let parent = match &tier.parent {
+        Some((name, stereotype)) => {
+            let recording = Name::Number(recording);
+            let name = TierName::read(name, Some(&recording))?;
+            Some((names::tier(connection, &name)?, *stereotype))
+        }
+        None => None,
+    };
+    let mut row = TierRow {
+        recording_id: recording,
+        name: tier.name.trim().to_owned(),
+        position: all.iter().map(|row| row.position + 1).max().unwrap_or(0),
+        parent_id: parent.as_ref().map(|(parent, _)| parent.id),
+        stereotype: parent.as_ref().map(|(_, it)| it.elan_name().to_owned()),
+        hand: tier.hand.map(|hand| hand.name().to_owned()),
+        participant: tier.participant.clone(),
+        annotator: tier.annotator.clone(),
+        language: tier.language.clone(),
+        ..TierRow::default()
+    };
+    if let Some((parent, stereotype)) = &parent
+        && stereotype.is_alignable()
+        && is_symbolic(parent)
+    {
+        return Err(Error::wrong(format!(
+            "a {stereotype} has times of its own and cannot hang below the symbolic tier {:?}",
+            parent.name
+        ))
+        .advise("make it Symbolic_Subdivision or Symbolic_Association"));
+    }
+    check_name(&all, &row)?;
+    set_role(&mut row, &tier.role);
+    let inventories = inventories::load(connection)?;
+    row.inventory_id = inventory(&inventories, &row, &tier.values)?.map(|stored| stored.id);
+    let set = TierSet::new(all.iter().chain([&row]).map(sign_tier), []);
+    match check_tiers(&set).into_iter().next() {
+        Some(violation) => Err(Error::wrong(violation.to_string())),
+        None => Ok(row),
+    }
+}
+
+fn changed_row(
+    connection: &Connection,
+    old: &TierRow,
+    change: &TierChange,
+    inventories: &[StoredInventory],
+) -> Result<TierRow> {
+    let mut row = old.clone();
+    if let Some(name) = &change.name {
+        name.trim().clone_into(&mut row.name);
+        check_name(&rows::tiers(connection, old.recording_id)?, &row)?;
+    }
+    if let Some(hand) = change.hand {
+        row.hand = hand.map(|hand| hand.name().to_owned());
+    }
+    if let Some(role) = &change.role {
+        set_role(&mut row, role);
+    }
+    let other = (&row.component, &row.feature) != (&old.component, &old.feature);
+    match &change.values {
+        Some(values) => {
+            let stored = inventory(inventories, &row, values)?;
+            if let Some(stored) = stored {
+                check_values(connection, old, stored)?;
+            }
+            row.inventory_id = stored.map(|stored| stored.id);
+        }
+        None if other => row.inventory_id = None,
+        None => {}
+    }
+    Ok(row)
+}
+
+fn check_name(all: &[TierRow], row: &TierRow) -> Result<()> {
+    if row.name.is_empty() {
+        return Err(Error::wrong("a tier needs a name"));
+    }
+    match all
+        .iter()
+        .find(|other| other.name == row.name && other.id != row.id)
+    {
+        Some(_) => Err(
+            Error::wrong(format!("the recording has a tier {:?} already", row.name))
+                .advise("give it another name"),
+        ),
+        None => Ok(()),
+    }
+}
+
+fn set_role(row: &mut TierRow, role: &TierRole) {
+    (row.component, row.feature) = match role {
+        TierRole::Component { component, feature } => {
+            (Some(component.name().to_owned()), feature.clone())
+        }
+        _ => (None, None),
+    };
+    row.role = match role {
+        TierRole::Component { .. } => "component".to_owned(),
+        other => other.name(),
+    };
+}
+
+fn inventory<'i>(
+    all: &'i [StoredInventory],
+    row: &TierRow,
+    values: &Values,
+) -> Result<Option<&'i StoredInventory>> {
+    let component: Option<Component> = row.component.as_deref().and_then(|name| name.parse().ok());
+    let fits = |stored: &&StoredInventory| {
+        Some(stored.inventory.component) == component && stored.inventory.feature == row.feature
+    };
+    let wanted = match values {
+        Values::Free => return Ok(None),
+        Values::Usual => return Ok(all.iter().find(fits)),
+        Values::Inventory(wanted) => wanted,
+    };
+    let known = all.iter().map(|stored| stored.inventory.id.as_str());
+    let Some(stored) = all.iter().find(|stored| stored.inventory.id == *wanted) else {
+        let meant = did_you_mean(nearest(wanted, known));
+        return Err(
+            Error::wrong(format!("there is no inventory {wanted:?}{meant}"))
+                .at(wanted)
+                .advise("`chereme list CORPUS inventories` lists them"),
+        );
+    };
+    if component.is_some() && !fits(&stored) {
+        let right: Vec<&str> = all
+            .iter()
+            .filter(fits)
+            .map(|stored| stored.inventory.id.as_str())
+            .collect();
+        let remedy = match right.as_slice() {
+            [] => "change the tier's role, or import an inventory for it".to_owned(),
+            right => format!("for this tier there are: {}", right.join(", ")),
+        };
+        return Err(Error::wrong(format!(
+            "the inventory {wanted:?} is for {}, and the tier {:?} is not",
+            stored.inventory.field(),
+            row.name
+        ))
+        .advise(remedy));
+    }
+    Ok(Some(stored))
+}
+
+/// Refuses an inventory that does not have what the tier says.
+fn check_values(connection: &Connection, tier: &TierRow, stored: &StoredInventory) -> Result<()> {
+    let mut missing = Vec::new();
+    for (value, count) in edits::values_of_tier(connection, tier.id)? {
+        if !value.trim().is_empty() && stored.inventory.find(value.trim()).is_none() {
+            let near = stored.inventory.suggest(&value);
+            let meant = near
+                .first()
+                .map_or(String::new(), |id| format!(", perhaps {id:?}"));
+            missing.push(format!("{value:?} ({count} times{meant})"));
+        }
+    }
+    if missing.is_empty() {
+        return Ok(());
+    }
+    let shown = missing
+        .iter()
+        .take(8)
+        .cloned()
+        .collect::<Vec<_>>()
+        .join(", ");
+    Err(Error::wrong(format!(
+        "the tier {:?} says {} values that the inventory {:?} does not have: {shown}",
+        tier.name,
+        missing.len(),
+        stored.inventory.id
+    ))
+    .advise("change those annotations first, or leave the tier free"))
+}

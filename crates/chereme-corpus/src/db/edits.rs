@@ -1,0 +1,146 @@
+//! Statements that only edits of annotations, tiers, recordings and signs need.
+
+use rusqlite::{Connection, params};
+
+use super::recordings::{RecordingRow, SignerRow};
+use crate::error::Result;
+
+/// Lets rows refer to missing ones until the transaction ends, so that they can go in any order.
+pub(crate) fn defer_references(connection: &Connection) -> Result<()> {
+    connection.execute_batch("PRAGMA defer_foreign_keys = ON;")?;
+    Ok(())
+}
+
+/// Returns the annotations that a file called `id`, of one recording or of any.
+pub(crate) fn called(
+    connection: &Connection,
+    recording: Option<i64>,
+    id: &str,
+) -> Result<Vec<i64>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT a.id FROM annotation a JOIN tier t ON t.id = a.tier_id
+         WHERE a.external_id = ?1 AND t.recording_id = coalesce(?2, t.recording_id) ORDER BY a.id",
+    )?;
+    let ids = statement
+        .query_map(params![id, recording], |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(ids)
+}
+
+/// Returns the values that a tier's annotations have, and how many have each.
+pub(crate) fn values_of_tier(connection: &Connection, tier: i64) -> Result<Vec<(String, i64)>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT value, count(*) FROM annotation WHERE tier_id = ?1 AND state = 'value'
+         GROUP BY value ORDER BY value",
+    )?;
+    let values = statement
+        .query_map([tier], |row| Ok((row.get(0)?, row.get(1)?)))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(values)
+}
+
+/// Deletes the annotations of a tier, and returns how many they were.
+pub(crate) fn delete_annotations(connection: &Connection, tier: i64) -> Result<usize> {
+    let deleted = connection
+        .prepare_cached("DELETE FROM annotation WHERE tier_id = ?1")?
+        .execute([tier])?;
+    Ok(deleted)
+}
+
+/// Gives the glosses of all gloss tiers that say `old` the value `new`, and returns how many.
+pub(crate) fn regloss(connection: &Connection, old: &str, new: &str) -> Result<usize> {
+    let changed = connection
+        .prepare_cached(
+            "UPDATE annotation SET value = ?2, origin = 'human', confidence = NULL,
+                 source = json_set(source, '$.entry', NULL)
+             WHERE state = 'value' AND trim(value) = ?1
+               AND tier_id IN (SELECT id FROM tier WHERE role = 'gloss')",
+        )?
+        .execute([old, new])?;
+    Ok(changed)
+}
+
+/// Writes what a recording is anew; its `signer` is not looked at.
+pub(crate) fn update_recording(connection: &Connection, row: &RecordingRow) -> Result<()> {
+    connection
+        .prepare_cached(
+            "UPDATE recording SET name = ?2, signer_id = ?3, origin = ?4, licence = ?5, notes = ?6
+             WHERE id = ?1",
+        )?
+        .execute(params![
+            row.id,
+            row.name,
+            row.signer_id,
+            row.origin,
+            row.licence,
+            row.notes
+        ])?;
+    connection
+        .prepare_cached("UPDATE token SET origin = ?2 WHERE recording_id = ?1 AND origin <> ?2")?
+        .execute(params![row.id, row.origin])?;
+    Ok(())
+}
+
+/// Writes what a signer is anew.
+pub(crate) fn update_signer(connection: &Connection, row: &SignerRow) -> Result<()> {
+    connection
+        .prepare_cached("UPDATE signer SET name = ?2, handedness = ?3, notes = ?4 WHERE id = ?1")?
+        .execute(params![row.id, row.name, row.handedness, row.notes])?;
+    Ok(())
+}
+
+/// Returns the recordings of a signer.
+pub(crate) fn recordings_of_signer(connection: &Connection, signer: i64) -> Result<Vec<i64>> {
+    let mut statement =
+        connection.prepare_cached("SELECT id FROM recording WHERE signer_id = ?1 ORDER BY id")?;
+    let ids = statement
+        .query_map([signer], |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(ids)
+}
+
+/// Writes a sign's gloss and notes anew.
+pub(crate) fn update_sign(
+    connection: &Connection,
+    sign: i64,
+    gloss: &str,
+    notes: Option<&str>,
+) -> Result<()> {
+    connection
+        .prepare_cached(
+            "UPDATE sign SET gloss = ?2, notes = ?3
+             WHERE id = ?1 AND (gloss <> ?2 OR notes IS NOT ?3)",
+        )?
+        .execute(params![sign, gloss, notes])?;
+    Ok(())
+}
+
+/// Returns the gloss and the notes of a sign.
+pub(crate) fn sign(connection: &Connection, sign: i64) -> Result<(String, Option<String>)> {
+    Ok(connection
+        .prepare_cached("SELECT gloss, notes FROM sign WHERE id = ?1")?
+        .query_row([sign], |row| Ok((row.get(0)?, row.get(1)?)))?)
+}
+
+/// Removes a translation of a sign, and tells whether it was there.
+pub(crate) fn remove_text(
+    connection: &Connection,
+    sign: i64,
+    language: &str,
+    text: &str,
+) -> Result<bool> {
+    let removed = connection
+        .prepare_cached("DELETE FROM sign_text WHERE sign_id = ?1 AND language = ?2 AND text = ?3")?
+        .execute(params![sign, language, text])?;
+    Ok(removed > 0)
+}
+
+/// Makes a token the only citation form of its sign.
+pub(crate) fn cite(connection: &Connection, sign: i64, token: i64) -> Result<()> {
+    connection
+        .prepare_cached(
+            "UPDATE token SET citation = (id = ?2) WHERE sign_id = ?1 AND citation <> (id = ?2)",
+        )?
+        .execute([sign, token])?;
+    Ok(())
+}
