@@ -1,1 +1,6 @@
-//! Helpers shared by the cross-crate tests.
+//! What the tests across crates share: small files as people would have them, processes at work on a
+//! corpus, and the repository itself.
+
+pub mod files;
+pub mod repository;
+pub mod workers;

@@ -1,0 +1,117 @@
+//! Works on a corpus until it is done or killed, and says each operation that is finished.
+//!
+//! `chereme-worker CORPUS TASK AUTHOR FOLDER COUNT` prints `ready` when the corpus is open, then
+//! `done N` after each finished operation, N being its number in the history, and at last `end`.
+
+use std::error::Error;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use chereme_corpus::{Corpus, ImportOptions, Progress};
+use chereme_tests::files;
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [corpus, task, author, folder, count] = arguments.as_slice() else {
+        let _ = writeln!(io::stderr(), "usage: CORPUS TASK AUTHOR FOLDER COUNT");
+        return ExitCode::from(2);
+    };
+    let job = Job {
+        path: PathBuf::from(corpus),
+        author: author.clone(),
+        folder: PathBuf::from(folder),
+    };
+    match job.run(task, count.parse().unwrap_or(usize::MAX)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            let _ = writeln!(io::stderr(), "{author}: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+type Done = Result<(), Box<dyn Error>>;
+
+struct Job {
+    path: PathBuf,
+    author: String,
+    folder: PathBuf,
+}
+
+impl Job {
+    fn run(&self, task: &str, count: usize) -> Done {
+        if task == "create" {
+            return self.create(count);
+        }
+        let mut corpus = Corpus::open(&self.path, &self.author)?;
+        say("ready")?;
+        for step in 0..count {
+            match task {
+                "import" => self.import(&mut corpus, step)?,
+                "history" => {
+                    corpus.redo().or_else(|_| corpus.undo())?;
+                }
+                "read" => {
+                    corpus.log(usize::MAX)?;
+                }
+                other => return Err(format!("the task {other:?} is unknown").into()),
+            }
+            if task != "read" {
+                self.tell_newest(&corpus)?;
+            }
+        }
+        drop(corpus);
+        say("end")
+    }
+
+    fn create(&self, count: usize) -> Done {
+        say("ready")?;
+        for step in 0..count {
+            let path = self.folder.join(format!("{}-{step}.chereme", self.author));
+            Corpus::create(&path, &self.author)?;
+            say(&format!("done {step}"))?;
+        }
+        say("end")
+    }
+
+    /// Imports a recording with its annotations as one operation.
+    fn import(&self, corpus: &mut Corpus, step: usize) -> Done {
+        let stem = format!("{}-{step}", self.author);
+        let seed = stem.bytes().fold(7u32, |sum, byte| {
+            sum.wrapping_mul(31).wrapping_add(u32::from(byte))
+        });
+        let write = |name: String, text: String| -> io::Result<PathBuf> {
+            let path = self.folder.join(name);
+            std::fs::write(&path, text)?;
+            Ok(path)
+        };
+        let motion = write(format!("{stem}.bvh"), files::bvh(60, seed))?;
+        let said = files::two_signs().replace("BOL", &stem);
+        let said = write(format!("{stem}.eaf"), said)?;
+        let report = corpus.import(
+            &[motion, said],
+            &ImportOptions::default(),
+            &mut Progress::new(&mut chereme_corpus::unheard),
+        )?;
+        if report.has_refusals() {
+            return Err(format!("{:?}", report.files).into());
+        }
+        Ok(())
+    }
+
+    /// Says the newest operation of this worker.
+    fn tell_newest(&self, corpus: &Corpus) -> Done {
+        let log = corpus.log(200)?;
+        let own = log.iter().find(|row| row.author == self.author);
+        let own = own.ok_or("the operation is not in the log")?;
+        say(&format!("done {}", own.id))
+    }
+}
+
+fn say(text: &str) -> Done {
+    let mut out = io::stdout().lock();
+    writeln!(out, "{text}")?;
+    out.flush()?;
+    Ok(())
+}

@@ -1,0 +1,59 @@
+//! Several processes on one file at once: all of their work is there, once, and in one history.
+
+mod common;
+
+use std::collections::BTreeMap;
+
+use chereme_corpus::Corpus;
+use chereme_tests::workers::{Worker, small_corpus};
+
+const WORKER: &str = env!("CARGO_BIN_EXE_chereme-worker");
+
+#[test]
+fn two_write_and_two_read_the_same_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = small_corpus(folder.path(), "shared.chereme").expect("a corpus");
+    let start = |task: &str, author: &str, count: usize| {
+        Worker::start(WORKER, &path, task, author, count).expect("started")
+    };
+    let workers = [
+        ("anna", start("import", "anna", 8)),
+        ("ben", start("import", "ben", 8)),
+        ("reader", start("read", "reader", 60)),
+        ("other reader", start("read", "other reader", 60)),
+    ];
+    let mut reported = BTreeMap::new();
+    for (author, worker) in workers {
+        let said = worker.hear().expect("heard");
+        assert!(said.ended, "{author}: {}", said.errors);
+        reported.insert(author.to_owned(), said.done);
+    }
+    assert_eq!(reported["anna"].len(), 8);
+    assert_eq!(reported["ben"].len(), 8);
+    common::expect_whole(&path, &reported);
+    let mut corpus = Corpus::open(&path, "checker").expect("opened");
+    let log = corpus.log(usize::MAX).expect("log");
+    assert_eq!(log.len(), 17, "one of the maker, eight of each writer");
+    for _ in 0..17 {
+        corpus
+            .undo()
+            .expect("everything can be taken back, whoever did it");
+    }
+    assert!(corpus.undo().is_err());
+    drop(corpus);
+    common::expect_whole(&path, &reported);
+}
+
+#[test]
+fn a_second_session_sees_what_the_first_one_does() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = small_corpus(folder.path(), "shared.chereme").expect("a corpus");
+    let mut first = Corpus::open(&path, "first").expect("opened");
+    let mut second = Corpus::open(&path, "second").expect("opened");
+    first.undo().expect("undone");
+    assert_eq!(second.log(9).expect("log").len(), 2);
+    second.redo().expect("done again by the other");
+    assert_eq!(first.log(9).expect("log").len(), 3);
+    assert!(first.redo().is_err(), "it is done already");
+    first.undo().expect("undone");
+}
