@@ -1,0 +1,285 @@
+//! The notes of a take as EAF: tiers with ELAN's stereotypes, vocabularies in English and French.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use chereme_formats::eaf::convert::{
+    Annotation, Entry, EntryValue, Place, Tier, Timing, Vocabulary,
+};
+use chereme_formats::eaf::{Transcript, raw, to_raw};
+use chereme_motion::{Instant, Side, Span};
+use chereme_sign::Stereotype;
+use chereme_sign::inventory::builtin_by_id;
+
+use super::notes::{Note, PHASE, TIERS};
+use super::score::Take;
+use super::signer;
+
+/// When the first version was made; files do not change with the day on which they are made.
+const DATE: &str = "2025-11-21T00:00:00Z";
+/// The licence of what the program makes.
+pub(crate) const LICENCE: &str = "CC0-1.0";
+const PHASES: [(&str, &str, &str); 4] = [
+    (
+        "preparation",
+        "the hand comes to where the sign starts",
+        "la main rejoint le début du signe",
+    ),
+    ("stroke", "the hand makes the sign", "la main fait le signe"),
+    (
+        "hold",
+        "the hand stays at the end of the sign",
+        "la main reste à la fin du signe",
+    ),
+    (
+        "retraction",
+        "the hand goes back to rest",
+        "la main retourne au repos",
+    ),
+];
+
+/// The values that any take uses, by inventory.
+pub(crate) type Used = BTreeMap<&'static str, BTreeSet<&'static str>>;
+
+/// Adds the values of `notes` to those in use.
+pub(crate) fn count(notes: &[Note], used: &mut Used) {
+    for note in notes {
+        if let Some(inventory) = TIERS[note.tier].inventory {
+            used.entry(inventory).or_default().insert(note.value);
+        }
+    }
+}
+
+/// Returns the bytes of the file for `take`.
+pub(crate) fn write(take: &Take, notes: &[Note], used: &Used) -> Vec<u8> {
+    let mut builder = Builder::default();
+    if let Some([french, english]) = take.phrase {
+        builder.phrase(take, french, english);
+    }
+    let gloss = builder.glosses(take);
+    for side in [Some(Side::Right), Some(Side::Left), None] {
+        for (at, kind) in TIERS.iter().enumerate() {
+            if kind.name.contains('@') == side.is_some() && at != PHASE {
+                let said = notes
+                    .iter()
+                    .filter(|note| note.tier == at && note.side == side);
+                builder.notes(at, side, said, Some(gloss));
+            }
+        }
+    }
+    for side in Side::BOTH {
+        let said = notes
+            .iter()
+            .filter(|note| note.tier == PHASE && note.side == Some(side));
+        builder.notes(PHASE, Some(side), said, None);
+    }
+    let transcript = Transcript {
+        author: "make_starter".to_owned(),
+        date: DATE.to_owned(),
+        properties: properties(take),
+        tiers: builder.tiers,
+        vocabularies: vocabularies(used),
+        ..Transcript::default()
+    };
+    let mut bytes = Vec::new();
+    raw::write(&to_raw(&transcript, &template()), &mut bytes).expect("memory takes every byte");
+    bytes
+}
+
+fn properties(take: &Take) -> Vec<(String, String)> {
+    let all = [
+        ("chereme.origin", "generated"),
+        ("chereme.licence", LICENCE),
+        ("chereme.signer", signer::NAME),
+        ("chereme.handedness", "right"),
+        ("chereme.about", take.about),
+    ];
+    all.map(|(name, value)| (name.to_owned(), value.to_owned()))
+        .to_vec()
+}
+
+fn template() -> raw::Document<'static> {
+    let language = |id: &'static str, label: &'static str| raw::Language {
+        id: id.into(),
+        label: Some(label.into()),
+        ..raw::Language::default()
+    };
+    raw::Document {
+        licenses: vec![raw::License {
+            url: "https://creativecommons.org/publicdomain/zero/1.0/".into(),
+            text: "Made by a program, dedicated to the public domain (CC0 1.0).".into(),
+            ..raw::License::default()
+        }],
+        languages: vec![
+            language("eng", "English (eng)"),
+            language("fra", "French (fra)"),
+        ],
+        ..raw::Document::default()
+    }
+}
+
+#[derive(Default)]
+struct Builder {
+    tiers: Vec<Tier>,
+    count: u32,
+}
+
+impl Builder {
+    fn tier(&mut self, name: String, kind: &str, parent: Option<(usize, Stereotype)>) -> usize {
+        self.tiers.push(Tier {
+            name,
+            kind: kind.to_owned(),
+            parent: parent.map(|(parent, _)| parent),
+            stereotype: parent.map(|(_, stereotype)| stereotype),
+            participant: Some(signer::NAME.to_owned()),
+            ..Tier::default()
+        });
+        self.tiers.len() - 1
+    }
+
+    fn add(&mut self, tier: usize, span: Span, value: &str, parent: Option<Place>) -> Place {
+        self.count += 1;
+        let symbolic = self.tiers[tier].stereotype == Some(Stereotype::SymbolicAssociation);
+        let entry = self.tiers[tier]
+            .vocabulary
+            .as_ref()
+            .map(|_| value.to_owned());
+        self.tiers[tier].annotations.push(Annotation {
+            id: format!("a{}", self.count),
+            span,
+            timing: if symbolic {
+                Timing::Parent
+            } else {
+                Timing::Own
+            },
+            parent,
+            order: 0,
+            value: value.to_owned(),
+            entry,
+            language: None,
+            external_ref: None,
+            millis: None,
+        });
+        Place {
+            tier,
+            index: self.tiers[tier].annotations.len() - 1,
+        }
+    }
+
+    fn phrase(&mut self, take: &Take, french: &str, english: &str) {
+        let (first, last) = (take.signs.first(), take.signs.last());
+        let start = first.map_or(0.0, |(start, _)| *start);
+        let end = last.map_or(0.0, |(start, sign)| start + sign.length);
+        let tier = self.tier("Phrase FR".to_owned(), "phrase", None);
+        self.tiers[tier].language = Some("fra".to_owned());
+        let place = self.add(tier, span(start, end), french, None);
+        let below = Some((tier, Stereotype::SymbolicAssociation));
+        let tier = self.tier("Phrase EN".to_owned(), "phrase translation", below);
+        self.tiers[tier].language = Some("eng".to_owned());
+        self.add(tier, span(start, end), english, Some(place));
+    }
+
+    fn glosses(&mut self, take: &Take) -> usize {
+        let gloss = self.tier("Gloss".to_owned(), "gloss", None);
+        let below = Some((gloss, Stereotype::SymbolicAssociation));
+        let tiers = [("FR", "fra"), ("EN", "eng")].map(|(name, language)| {
+            let tier = self.tier(format!("Translation {name}"), "translation", below);
+            self.tiers[tier].language = Some(language.to_owned());
+            tier
+        });
+        for (start, sign) in &take.signs {
+            let span = span(*start, start + sign.length);
+            let place = self.add(gloss, span, sign.gloss, None);
+            for (tier, means) in tiers.into_iter().zip(sign.means) {
+                self.add(tier, span, means, Some(place));
+            }
+        }
+        gloss
+    }
+
+    fn notes<'n>(
+        &mut self,
+        at: usize,
+        side: Option<Side>,
+        notes: impl Iterator<Item = &'n Note>,
+        gloss: Option<usize>,
+    ) {
+        let kind = &TIERS[at];
+        let hand = match side {
+            Some(Side::Left) => "LH",
+            _ => "RH",
+        };
+        let parent = gloss.map(|gloss| (gloss, Stereotype::IncludedIn));
+        let tier = self.tier(kind.name.replace('@', hand), kind.kind, parent);
+        self.tiers[tier].vocabulary = Some(kind.inventory.unwrap_or("phases").to_owned());
+        for note in notes {
+            let parent = gloss.map(|tier| Place {
+                tier,
+                index: note.sign,
+            });
+            self.add(tier, span(note.from, note.to), note.value, parent);
+        }
+    }
+}
+
+fn span(from: f64, to: f64) -> Span {
+    let at = |seconds: f64| Instant::from_millis((seconds * 1000.0).round() as i64);
+    Span::between(at(from), at(to))
+}
+
+fn vocabularies(used: &Used) -> Vec<Vocabulary> {
+    let mut all: Vec<Vocabulary> = TIERS
+        .iter()
+        .filter_map(|kind| {
+            let id = kind.inventory?;
+            let inventory = builtin_by_id(id)?;
+            let values = inventory.values.iter().filter(|value| {
+                used.get(id)
+                    .is_some_and(|used| used.contains(value.id.as_str()))
+            });
+            Some(Vocabulary {
+                id: id.to_owned(),
+                descriptions: vec![
+                    (
+                        "eng".to_owned(),
+                        inventory.names.get("en").cloned().unwrap_or_default(),
+                    ),
+                    (
+                        "fra".to_owned(),
+                        inventory.names.get("fr").cloned().unwrap_or_default(),
+                    ),
+                ],
+                entries: values
+                    .map(|value| entry(&value.id, value.name("en"), value.name("fr")))
+                    .collect(),
+                external: None,
+            })
+        })
+        .collect();
+    all.push(Vocabulary {
+        id: "phases".to_owned(),
+        descriptions: vec![
+            ("eng".to_owned(), "phases of movement".to_owned()),
+            ("fra".to_owned(), "phases du mouvement".to_owned()),
+        ],
+        entries: PHASES
+            .iter()
+            .map(|(id, english, french)| entry(id, english, french))
+            .collect(),
+        external: None,
+    });
+    all
+}
+
+/// The value is the same in both languages; what it means is told in each.
+fn entry(id: &str, english: &str, french: &str) -> Entry {
+    let value = |language: &str, description: &str| EntryValue {
+        language: language.to_owned(),
+        value: id.to_owned(),
+        description: Some(description.to_owned()),
+    };
+    Entry {
+        id: id.to_owned(),
+        values: vec![value("eng", english), value("fra", french)],
+        external_ref: None,
+    }
+}

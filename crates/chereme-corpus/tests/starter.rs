@@ -1,0 +1,270 @@
+//! The starter corpus: the files are what the program makes, they read cleanly, and the movement is
+//! one that a body can make.
+
+#[path = "../examples/make_starter/all.rs"]
+mod all;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::PathBuf;
+use std::sync::LazyLock;
+
+use all::{Performance, Take};
+use chereme_formats::bvh::raw::{Block, Reader};
+use chereme_formats::roles::{Mapping, guess_tiers};
+use chereme_formats::{eaf, lexicon};
+use chereme_motion::glam::DVec3;
+use chereme_motion::{Anatomy, Clip, ModelPose, Side};
+use chereme_sign::TierRole;
+use chereme_sign::inventory::builtin_by_id;
+
+static MADE: LazyLock<Vec<(Take, Performance)>> = LazyLock::new(all::performances);
+
+fn committed(name: &str) -> Vec<u8> {
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../corpus");
+    fs::read(folder.join(name)).unwrap_or_else(|error| panic!("corpus/{name}: {error}"))
+}
+
+/// Numbers may differ in their last digit where another machine's sines do.
+fn same(a: &[u8], b: &[u8]) -> bool {
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("text");
+    let (a, b) = (text(a), text(b));
+    let (mut a, mut b) = (a.split_ascii_whitespace(), b.split_ascii_whitespace());
+    loop {
+        match (a.next(), b.next()) {
+            (None, None) => return true,
+            (Some(x), Some(y)) if x == y => {}
+            (Some(x), Some(y)) => match (x.parse::<f64>(), y.parse::<f64>()) {
+                (Ok(x), Ok(y)) if (x - y).abs() < 0.0101 => {}
+                _ => return false,
+            },
+            _ => return false,
+        }
+    }
+}
+
+#[test]
+fn the_files_are_what_the_program_makes() {
+    let remedy = "run: cargo run -p chereme-corpus --example make_starter";
+    let files = all::files(&MADE);
+    for (name, bytes) in &files {
+        let there = committed(name);
+        let equal = if name.ends_with(".bvh") {
+            same(&there, bytes)
+        } else {
+            there == *bytes
+        };
+        assert!(
+            equal,
+            "corpus/{name} is not what the program makes; {remedy}"
+        );
+    }
+    let whole: usize = files.iter().map(|(_, bytes)| bytes.len()).sum();
+    assert!(whole < 3_500_000, "{whole} bytes are much to embed");
+}
+
+#[test]
+fn recordings_read_without_a_finding() {
+    for (take, performance) in MADE.iter() {
+        let bytes = committed(&format!("{}.bvh", take.stem));
+        let mut reader = Reader::open(&bytes[..]).expect("a hierarchy");
+        assert_eq!(reader.hierarchy().joints.len(), 61);
+        let mut block = Block::default();
+        while reader.next_block(&mut block).expect("rows of numbers") {}
+        let summary = reader.finish();
+        assert_eq!(summary.frames as usize, performance.clip.frames());
+        assert!(
+            summary.findings.is_empty(),
+            "{}: {:?}",
+            take.stem,
+            summary.findings
+        );
+    }
+}
+
+#[test]
+fn annotations_read_without_a_finding_and_every_value_is_known() {
+    for (take, performance) in MADE.iter() {
+        let bytes = committed(&format!("{}.eaf", take.stem));
+        let (transcript, findings) = eaf::read(&bytes).expect("an annotation document");
+        assert!(findings.is_empty(), "{}: {findings:?}", take.stem);
+        assert!(transcript.end() <= performance.clip.span().end());
+        let guesses = guess_tiers(&transcript, &Mapping::default());
+        let mut fields = BTreeSet::new();
+        for (tier, guess) in transcript.tiers.iter().zip(guesses) {
+            let role = guess
+                .role
+                .unwrap_or_else(|| panic!("{:?} is not understood", tier.name));
+            let TierRole::Component { component, feature } = role else {
+                continue;
+            };
+            let known = fields.insert((
+                component,
+                feature.clone(),
+                guess.hand.map(|hand| hand.name()),
+            ));
+            assert!(known, "{:?} says what another tier says", tier.name);
+            let named = tier.vocabulary.as_deref().expect("a vocabulary");
+            if named == "phases" {
+                continue;
+            }
+            let inventory = builtin_by_id(named).expect("an inventory");
+            assert_eq!(
+                (inventory.component, &inventory.feature),
+                (component, &feature),
+                "{:?}",
+                tier.name
+            );
+            for annotation in &tier.annotations {
+                assert!(
+                    inventory.get(&annotation.value).is_some(),
+                    "{} on {:?}",
+                    annotation.value,
+                    tier.name
+                );
+            }
+        }
+        assert_eq!(fields.len(), 2 * 7 + 2);
+    }
+}
+
+#[test]
+fn the_lexicon_reads_and_uses_the_inventories() {
+    let (lexicon, findings) =
+        lexicon::read(&committed("lexicon.csv"), &Mapping::default()).expect("a table");
+    assert!(findings.is_empty(), "{findings:?}");
+    assert_eq!(lexicon.entries.len(), 14);
+    let known = |id: &str, value: &str| builtin_by_id(id).is_some_and(|it| it.get(value).is_some());
+    let recorded: BTreeSet<&str> = ["LION", "POULE", "VACHE"].into();
+    for entry in &lexicon.entries {
+        assert_eq!(entry.translations.len(), 2, "{}", entry.gloss);
+        let taken = MADE
+            .iter()
+            .any(|(take, _)| take.signs.iter().any(|(_, sign)| sign.gloss == entry.gloss));
+        assert_eq!(taken, recorded.contains(&*entry.gloss), "{}", entry.gloss);
+        for coding in &entry.codings {
+            let value = coding.reading.value().expect("a value");
+            let inventories: &[&str] = match coding.component.name() {
+                "configuration" => &["configurations"],
+                "placement" => &["placements"],
+                "movement" => &["movements", "directions", "repetitions"],
+                _ => &["palm", "fingers"],
+            };
+            assert!(
+                inventories.iter().any(|id| known(id, value)),
+                "{}: {value}",
+                entry.gloss
+            );
+        }
+    }
+}
+
+#[test]
+fn wrists_are_where_they_should_be_and_nothing_jumps() {
+    for (take, performance) in MADE.iter() {
+        let clip = &performance.clip;
+        assert!(
+            performance.residual < 1e-6,
+            "{}: {} m",
+            take.stem,
+            performance.residual
+        );
+        for (joint, channel) in clip.skeleton().joints().iter().zip(clip.channels()) {
+            for (frame, pair) in channel.rotations.windows(2).enumerate() {
+                let speed = pair[0].angle_between(pair[1]).to_degrees() * clip.rate().per_second();
+                assert!(
+                    speed < 1100.0,
+                    "{} {} frame {frame}: {speed} degrees a second",
+                    take.stem,
+                    joint.name
+                );
+            }
+        }
+        for side in Side::BOTH {
+            let arm = Anatomy::detect(clip.skeleton()).arm(side).expect("an arm");
+            for (name, joint) in [("elbow", arm.forearm), ("wrist", arm.hand)] {
+                let path = clip.path(joint);
+                let pull = path
+                    .windows(3)
+                    .map(|p| (p[2] - p[1] * 2.0 + p[0]).length() * 3600.0);
+                let most = pull.fold(0.0, f64::max);
+                assert!(
+                    most < 30.0,
+                    "{} {} {name}: {most} m/s2",
+                    take.stem,
+                    side.name()
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn hands_stay_out_of_the_trunk_and_of_each_other() {
+    for (take, performance) in MADE.iter() {
+        let clip = &performance.clip;
+        let anatomy = Anatomy::detect(clip.skeleton());
+        for frame in (0..clip.frames()).step_by(3) {
+            let model = clip.model_pose(frame);
+            let body = anatomy.body_frame(&model).expect("a trunk");
+            let hands = Side::BOTH.map(|side| bones(clip, &anatomy, &model, side));
+            for (_, end, radius) in hands.iter().flatten() {
+                let at = body.direction_to_body(*end - body.origin);
+                let inside = DVec3::new(at.x / 0.155, 0.0, at.z / 0.105).length();
+                let beside =
+                    !(-0.42..0.0).contains(&at.y) || (inside - 1.0) * 0.105 > radius - 0.01;
+                assert!(
+                    beside,
+                    "{} frame {frame}: a hand is in the trunk",
+                    take.stem
+                );
+            }
+            for a in &hands[0] {
+                for b in &hands[1] {
+                    let apart = distance(a, b);
+                    assert!(
+                        apart > 0.0,
+                        "{} frame {frame}: the hands are in each other",
+                        take.stem
+                    );
+                }
+            }
+        }
+    }
+}
+
+type Bone = (DVec3, DVec3, f64);
+
+/// The bones below a wrist with their radius in metres.
+fn bones(clip: &Clip, anatomy: &Anatomy, model: &ModelPose, side: Side) -> Vec<Bone> {
+    let skeleton = clip.skeleton();
+    let bone = |joint: usize| {
+        let name = &skeleton.joint(joint).name;
+        let radius = if name.contains("InHand") {
+            0.013
+        } else {
+            0.008
+        };
+        let child = skeleton
+            .children(joint)
+            .first()
+            .map(|&child| model.position(child));
+        let end = model
+            .tip(skeleton, joint)
+            .or(child)
+            .unwrap_or(model.position(joint));
+        (model.position(joint), end, radius)
+    };
+    anatomy.fingers(side).into_iter().map(bone).collect()
+}
+
+/// The distance of two bones from skin to skin, to a few millimetres.
+fn distance((a, b, thick): &Bone, (c, d, other): &Bone) -> f64 {
+    let along = *d - *c;
+    let points = (0..=4).map(|n| a.lerp(*b, f64::from(n) / 4.0));
+    let apart = points.map(|point| {
+        let share = (point - *c).dot(along) / along.length_squared().max(1e-12);
+        point.distance(*c + along * share.clamp(0.0, 1.0))
+    });
+    apart.fold(f64::MAX, f64::min) - thick - other
+}
