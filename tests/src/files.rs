@@ -139,11 +139,12 @@ pub fn two_signs() -> String {
     )
 }
 
-/// Returns a lexicon table of three signs, one of which moves from a place to another.
+/// Returns a lexicon table of four signs: two are a minimal pair, one moves from a place to another.
 #[must_use]
 pub fn lexicon() -> &'static str {
     "gloss\tEN gloss\tHandshape strong\tHandshape weak\tLocation\n\
      CHAT\tcat\tS\t\tchin\n\
+     ESCARGOT\tsnail\tH\tB\tweak hand\n\
      LIMACE\tslug\tU\tB\tweak hand\n\
      JOUR\tday\tB\t\tneutral space > head\n"
 }

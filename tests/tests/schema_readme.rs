@@ -1,0 +1,130 @@
+//! What `schema/README.md` says: every table and column is named, and every query works.
+
+use std::fs;
+
+use chereme_tests::repository;
+use chereme_tests::workers::small_corpus;
+use rusqlite::Connection;
+
+/// How the text before a query begins when the query should find nothing.
+const FINDS_NOTHING: &str = "Faults";
+
+/// Queries about what the small corpus does not hold.
+const NOT_HELD: [&str; 1] = ["Made signs"];
+
+fn readme() -> String {
+    fs::read_to_string(repository::root().join("schema/README.md")).expect("schema/README.md")
+}
+
+/// Returns each `sql` block with the line of text before it.
+fn queries(readme: &str) -> Vec<(String, String)> {
+    let mut queries = Vec::new();
+    let (mut title, mut query) = (String::new(), None::<String>);
+    for line in readme.lines() {
+        match (&mut query, line) {
+            (None, "```sql") => query = Some(String::new()),
+            (None, "") => {}
+            (None, line) => title = line.to_owned(),
+            (Some(sql), "```") => {
+                queries.push((title.clone(), std::mem::take(sql)));
+                query = None;
+            }
+            (Some(sql), line) => *sql += &format!("{line}\n"),
+        }
+    }
+    queries
+}
+
+fn corpus() -> (tempfile::TempDir, Connection) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = small_corpus(folder.path(), "small.chereme").expect("a corpus");
+    let connection = Connection::open(path).expect("opened");
+    (folder, connection)
+}
+
+#[test]
+fn every_query_of_the_readme_works() {
+    let (_folder, connection) = corpus();
+    let queries = queries(&readme());
+    assert!(queries.len() >= 20, "{} queries", queries.len());
+    for (title, sql) in &queries {
+        let mut statement = connection
+            .prepare(sql)
+            .unwrap_or_else(|error| panic!("{title}\n{error}"));
+        assert!(statement.readonly(), "{title} changes the corpus");
+        let mut rows = statement.query([]).expect(title);
+        let mut count = 0;
+        while rows
+            .next()
+            .unwrap_or_else(|error| panic!("{title}\n{error}"))
+            .is_some()
+        {
+            count += 1;
+        }
+        let none = title.starts_with(FINDS_NOTHING);
+        if !NOT_HELD.iter().any(|held| title.starts_with(held)) {
+            assert_eq!(count == 0, none, "{title} {count} rows");
+        }
+    }
+}
+
+#[test]
+fn every_table_and_column_is_described() {
+    let (_folder, connection) = corpus();
+    let readme = readme();
+    let mut statement = connection
+        .prepare(
+            "SELECT t.name, c.name FROM pragma_table_list t, pragma_table_info(t.name) c
+             WHERE t.schema = 'main' AND t.type = 'table' AND t.name NOT LIKE 'sqlite_%'
+             ORDER BY t.name, c.cid",
+        )
+        .expect("the schema");
+    let columns: Vec<(String, String)> = statement
+        .query_map([], |row| Ok((row.get(0)?, row.get(1)?)))
+        .and_then(Iterator::collect)
+        .expect("the schema");
+    let mut missing = Vec::new();
+    for (table, column) in &columns {
+        let heading = |line: &str| line.starts_with("### ") && line.contains(&format!("`{table}`"));
+        let section: Vec<&str> = readme
+            .lines()
+            .skip_while(|line| !heading(line))
+            .skip(1)
+            .take_while(|line| !line.starts_with('#'))
+            .filter_map(|line| line.strip_prefix("| ")?.split('|').next())
+            .collect();
+        if !section
+            .iter()
+            .any(|cell| cell.contains(&format!("`{column}`")))
+        {
+            missing.push(format!("{table}.{column}"));
+        }
+    }
+    assert!(
+        missing.is_empty(),
+        "schema/README.md says nothing of {missing:?}"
+    );
+}
+
+#[test]
+fn every_word_that_a_column_may_hold_is_named() {
+    let (_folder, connection) = corpus();
+    let readme = readme();
+    let mut statement = connection
+        .prepare("SELECT sql FROM sqlite_schema WHERE type = 'table' AND sql LIKE '%CHECK%'")
+        .expect("the schema");
+    let tables: Vec<String> = statement
+        .query_map([], |row| row.get(0))
+        .and_then(Iterator::collect)
+        .expect("the schema");
+    let words = tables
+        .iter()
+        .flat_map(|sql| sql.split('\'').skip(1).step_by(2));
+    let missing: Vec<&str> = words
+        .filter(|word| !word.is_empty() && !readme.contains(&format!("`{word}`")))
+        .collect();
+    assert!(
+        missing.is_empty(),
+        "schema/README.md does not name {missing:?}"
+    );
+}
