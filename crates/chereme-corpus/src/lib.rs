@@ -8,12 +8,16 @@ mod annotate;
 pub(crate) mod codec;
 pub(crate) mod db;
 mod edit;
+mod check;
 mod error;
 mod import;
 mod inventories;
 mod movement;
+mod picture;
 mod progress;
+mod recombine;
 pub(crate) mod search;
+mod sources;
 mod tokens;
 
 use std::path::Path;
@@ -21,6 +25,7 @@ use std::path::Path;
 use db::Store;
 
 pub use chereme_formats::roles::{Mapping, MappingError};
+pub use chereme_sign::query::HELP as QUERY_HELP;
 
 pub use address::{Address, Name, Stretch};
 pub use db::recordings::{RecordingRow, SignerRow};
@@ -30,13 +35,16 @@ pub use annotate::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
     AnnotationOrigin, NewTier, RemovedTiers, TierChange, TierName, Values,
 };
+pub use check::{CheckReport, Fault};
 pub use db::{OperationKind, OperationRow};
 pub use edit::{RecordingChange, SignChange, SignerChange};
 pub use error::{Error, Result};
 pub use import::{FileReport, FileStatus, ImportOptions, ImportReport, ReportFinding};
 pub use inventories::StoredInventory;
 pub use movement::ChannelGroup;
+pub use picture::{Moving, Picture, PictureOptions, draw_clip};
 pub use progress::{Progress, Step, Unit, unheard};
+pub use recombine::Recombination;
 pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions};
 
 /// An open corpus.

@@ -76,7 +76,7 @@ fn write_token(
         None => {
             token.citation = !signs::tokens_of_sign(connection, sign_id)?
                 .iter()
-                .any(|token| token.citation);
+                .any(|token| token.citation && token.recording_id.is_some());
             signs::insert_token(connection, &token)
         }
     }

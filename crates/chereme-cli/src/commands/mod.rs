@@ -1,8 +1,12 @@
 //! The commands, one module each.
 
+mod check;
 mod history;
 mod import;
 mod new;
+mod recombine;
+mod render;
+mod search;
 
 use std::process::ExitCode;
 
@@ -17,6 +21,10 @@ use crate::output::Output;
 pub(crate) enum Command {
     New(new::Args),
     Import(import::Args),
+    Search(search::Args),
+    Recombine(recombine::Args),
+    Render(render::Args),
+    Check(check::Args),
     Undo(history::UndoArgs),
     Redo(history::RedoArgs),
     Log(history::LogArgs),
@@ -27,6 +35,10 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
     match &cli.command {
         Command::New(args) => new::run(cli, args, output),
         Command::Import(args) => return import::run(cli, args, output),
+        Command::Check(args) => return check::run(cli, args, output),
+        Command::Search(args) => search::run(cli, args, output),
+        Command::Recombine(args) => recombine::run(cli, args, output),
+        Command::Render(args) => render::run(cli, args, output),
         Command::Undo(args) => history::undo(cli, args, output),
         Command::Redo(args) => history::redo(cli, args, output),
         Command::Log(args) => history::log(cli, args, output),

@@ -3,11 +3,14 @@
 //! [`Store`] is one open connection. Every change goes through [`Store::operation`], which runs it
 //! in one transaction, records the rows before and after, and brings the search index along.
 
+pub(crate) mod check;
+pub(crate) mod dump;
 mod history;
 pub(crate) mod edits;
 pub(crate) mod inventories;
 pub(crate) mod motion;
 mod open;
+pub(crate) mod recipes;
 pub(crate) mod recordings;
 pub(crate) mod search;
 pub(crate) mod signs;

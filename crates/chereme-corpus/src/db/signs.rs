@@ -339,3 +339,44 @@ pub(crate) fn each_token(
     }
     Ok(())
 }
+
+/// A token of a recording that holds a value.
+pub(crate) struct HoldingRow {
+    pub(crate) token: i64,
+    pub(crate) hand: Option<String>,
+    pub(crate) left_handed: bool,
+    /// The annotation that says so, within the token.
+    pub(crate) span_us: Option<(i64, i64)>,
+}
+
+/// Returns the tokens of recordings that hold a value of a component, captured ones first.
+pub(crate) fn tokens_holding(
+    connection: &Connection,
+    component: &str,
+    value: &str,
+) -> Result<Vec<HoldingRow>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT t.id, v.hand, coalesce(g.handedness = 'left', 0),
+                max(a.start_us, t.start_us), min(a.end_us, t.end_us)
+         FROM token_value v JOIN token t ON t.id = v.token_id
+         JOIN recording r ON r.id = t.recording_id
+         LEFT JOIN signer g ON g.id = r.signer_id
+         LEFT JOIN annotation a ON a.id = v.annotation_id
+         WHERE v.component = ?1 AND v.feature IS NULL AND v.value = ?2
+         ORDER BY CASE r.origin WHEN 'captured' THEN 0 WHEN 'generated' THEN 1 ELSE 2 END, t.id, v.id
+         LIMIT 200",
+    )?;
+    let rows = statement
+        .query_map(params![component, value], |row| {
+            let start: Option<i64> = row.get(3)?;
+            let end: Option<i64> = row.get(4)?;
+            Ok(HoldingRow {
+                token: row.get(0)?,
+                hand: row.get(1)?,
+                left_handed: row.get(2)?,
+                span_us: start.zip(end).filter(|(start, end)| start < end),
+            })
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}

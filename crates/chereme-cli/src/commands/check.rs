@@ -1,0 +1,58 @@
+//! `chereme check`.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::Result;
+use chereme_corpus::Progress;
+
+use crate::args::Cli;
+use crate::output::{Bar, Output};
+
+/// Look for damage: database, blocks and hashes, tier rules, tokens, history, search index
+///
+/// Says what is wrong and how to mend it; the exit code is 1 where anything is.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// Make anew what is derived (tokens, search index) where it is wrong
+    #[arg(long)]
+    mend: bool,
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCode> {
+    let mut corpus = cli.open(&args.corpus)?;
+    let mut bar = Bar::new();
+    let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
+    let report = corpus.check(args.mend, &mut Progress::new(&mut hear))?;
+    drop(bar);
+    for fault in &report.faults {
+        output.line(format!(
+            "{}: {}: {}",
+            fault.kind, fault.place, fault.message
+        ))?;
+        output.line(format!("  what to do: {}", fault.remedy))?;
+    }
+    for mended in &report.mended {
+        output.line(format!("mended: {mended}"))?;
+    }
+    let looked: Vec<String> = report
+        .checked
+        .iter()
+        .map(|(what, count)| format!("{count} {what}"))
+        .collect();
+    let word = if report.ok {
+        "all is well"
+    } else {
+        "there are faults"
+    };
+    output.line(format!("{word}: looked at {}", looked.join(", ")))?;
+    let ok = report.ok;
+    output.document(report)?;
+    Ok(if ok {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    })
+}

@@ -1,0 +1,93 @@
+//! `chereme render`.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{Address, Picture, PictureOptions, Progress};
+use chereme_motion::Side;
+use clap::ValueEnum;
+
+use crate::args::Cli;
+use crate::output::{Bar, Output};
+
+/// Draw movement as a contact sheet (.png) or an animation (.gif), or handshapes (.png)
+///
+/// WHAT is a gloss, token:41, recording:3, recording:"NGT Thanks", or inventory:configurations and
+/// inventory:configurations/U for handshapes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// What to draw
+    #[arg(value_name = "WHAT")]
+    what: String,
+    /// The picture; its ending says the kind
+    #[arg(long, value_name = "FILE")]
+    to: PathBuf,
+    /// How many pictures a contact sheet has side by side
+    #[arg(long, default_value_t = 8, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
+    frames: u16,
+    /// How high one picture is, in pixels
+    #[arg(long, default_value_t = 260, value_name = "PIXELS", value_parser = clap::value_parser!(u16).range(32..=2000))]
+    height: u16,
+    /// How fast an animation runs; 1 is the recorded speed
+    #[arg(long, default_value_t = 1.0, value_name = "FACTOR")]
+    speed: f64,
+    /// Leave out the pictures of the hands from close by
+    #[arg(long)]
+    no_hands: bool,
+    /// Which hand a handshape is drawn on
+    #[arg(long, value_enum, default_value_t = HandWord::Right)]
+    hand: HandWord,
+    /// Write over a file that is there already
+    #[arg(long)]
+    force: bool,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum HandWord {
+    Right,
+    Left,
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let corpus = cli.open(&args.corpus)?;
+    let options = PictureOptions {
+        frames: usize::from(args.frames),
+        hands: !args.no_hands,
+        height: usize::from(args.height),
+        speed: args.speed,
+        force: args.force,
+    };
+    let picture = match args.what.strip_prefix("inventory:") {
+        Some(name) => {
+            let (inventory, value) = match name.split_once('/') {
+                Some((inventory, value)) => (inventory, Some(value)),
+                None => (name, None),
+            };
+            let side = match args.hand {
+                HandWord::Right => Side::Right,
+                HandWord::Left => Side::Left,
+            };
+            corpus.draw_handshapes(inventory, value, side, &args.to, &options)?
+        }
+        None => {
+            let address: Address = args.what.parse()?;
+            let mut bar = Bar::new();
+            let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
+            corpus.draw(&address, &args.to, &options, &mut Progress::new(&mut hear))?
+        }
+    };
+    say(&picture, output)?;
+    output.document(picture)
+}
+
+fn say(picture: &Picture, output: &mut Output) -> Result<()> {
+    output.line(format!(
+        "drew {} to {}: {} frames, {} KB",
+        picture.title,
+        picture.path.display(),
+        picture.frames,
+        picture.bytes.div_ceil(1024)
+    ))
+}

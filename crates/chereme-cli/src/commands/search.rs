@@ -1,0 +1,137 @@
+//! `chereme search`.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{Hit, Order, SearchOptions};
+use clap::ValueEnum;
+use serde_json::Value;
+
+use crate::args::Cli;
+use crate::output::Output;
+
+/// Find the tokens that answer a query
+///
+/// Lexicon entries are found like captured tokens. Quote the query for your shell, for example
+/// 'right.configuration=U placement=chin' or 'gloss:BO* not weak.configuration=S'.
+#[derive(Debug, clap::Args)]
+#[command(after_long_help = chereme_corpus::QUERY_HELP)]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// The query; words side by side must all hold
+    #[arg(required = true, value_name = "QUERY")]
+    query: Vec<String>,
+    /// How many tokens to show at most
+    #[arg(long, value_name = "N")]
+    limit: Option<usize>,
+    /// How many tokens to leave out before
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    offset: usize,
+    /// In which order
+    #[arg(long, value_enum, default_value_t = OrderWord::Rank)]
+    sort: OrderWord,
+    /// Leave the counts of values out
+    #[arg(long)]
+    no_facets: bool,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum OrderWord {
+    /// The best first where the query ranks, else by recording and time
+    Rank,
+    /// By gloss
+    Gloss,
+    /// By recording and time
+    Place,
+    /// The longest first
+    Duration,
+}
+
+/// What a table shows without --limit.
+const TABLE_ROWS: usize = 50;
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let mut corpus = cli.open(&args.corpus)?;
+    let limit = args.limit.or((!output.is_json()).then_some(TABLE_ROWS));
+    let order = match args.sort {
+        OrderWord::Rank => Order::Rank,
+        OrderWord::Gloss => Order::Gloss,
+        OrderWord::Place => Order::Place,
+        OrderWord::Duration => Order::Duration,
+    };
+    let options = SearchOptions {
+        limit,
+        offset: args.offset,
+        facets: !args.no_facets,
+        order,
+    };
+    let answer = corpus.search(&args.query.join(" "), &options)?;
+    let rows: Vec<Vec<String>> = answer.hits.iter().map(cells).collect();
+    if !rows.is_empty() {
+        output.table(
+            &[
+                "token",
+                "gloss",
+                "recording",
+                "start",
+                "length",
+                "origin",
+                "components",
+            ],
+            &rows,
+        )?;
+    }
+    let more = answer.total.saturating_sub(rows.len());
+    let more = if more > 0 {
+        format!(", {} shown", rows.len())
+    } else {
+        String::new()
+    };
+    let word = if answer.total == 1 { "token" } else { "tokens" };
+    output.line(format!("{} {word}{more}: {}", answer.total, answer.query))?;
+    for (field, values) in &answer.facets {
+        let counts: Vec<String> = values
+            .iter()
+            .take(8)
+            .map(|(value, count)| format!("{value} {count}"))
+            .collect();
+        output.line(format!("  {field}: {}", counts.join(", ")))?;
+    }
+    for note in &answer.notes {
+        output.line(format!("note: {note}"))?;
+    }
+    output.document(answer)
+}
+
+fn cells(hit: &Hit) -> Vec<String> {
+    let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);
+    let length = hit
+        .start_us
+        .zip(hit.end_us)
+        .map(|(start, end)| seconds(end - start));
+    let components: Vec<String> = hit
+        .components
+        .iter()
+        .map(|(field, value)| {
+            let text = match value {
+                Value::String(text) => text.clone(),
+                Value::Array(all) => {
+                    let all: Vec<&str> = all.iter().filter_map(Value::as_str).collect();
+                    all.join("+")
+                }
+                other => other.to_string(),
+            };
+            format!("{field}={text}")
+        })
+        .collect();
+    vec![
+        hit.token.to_string(),
+        hit.gloss.clone(),
+        hit.recording.clone().unwrap_or_default(),
+        hit.start_us.map(seconds).unwrap_or_default(),
+        length.unwrap_or_default(),
+        hit.origin.clone(),
+        components.join(" "),
+    ]
+}

@@ -1,0 +1,350 @@
+//! Integrity: what is wrong with a corpus, where, and how to mend it.
+
+use std::collections::BTreeMap;
+
+use chereme_formats::bvh::raw::Hierarchy;
+use chereme_motion::{Instant, Span};
+use chereme_sign::tier::{self, AnnotationId, Stereotype, TierId, TierSet};
+use chereme_sign::{HandRef, Reading, TierRole};
+use rusqlite::Connection;
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+use crate::Corpus;
+use crate::db::check as rows;
+use crate::db::motion::hex;
+use crate::db::search::State;
+use crate::db::{recordings, tiers};
+use crate::error::Result;
+use crate::inventories;
+use crate::movement::{ChannelGroup, Track};
+use crate::progress::{Progress, Step, Unit};
+use crate::tokens;
+
+/// What a check found.
+#[derive(Debug, Clone, Default, Serialize)]
+pub struct CheckReport {
+    /// Whether nothing is wrong.
+    pub ok: bool,
+    /// How many things of each kind were looked at.
+    pub checked: BTreeMap<&'static str, u64>,
+    /// What is wrong.
+    pub faults: Vec<Fault>,
+    /// What was mended.
+    pub mended: Vec<String>,
+}
+
+/// Something that is wrong with a corpus.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Fault {
+    /// `database`, `reference`, `block`, `movement`, `skeleton`, `inventory`, `tier`, `tokens`,
+    /// `history` or `index`.
+    pub kind: &'static str,
+    /// Where.
+    pub place: String,
+    /// What is wrong.
+    pub message: String,
+    /// How to mend it.
+    pub remedy: String,
+}
+
+const BACKUP: &str = "take the file from a backup, or import the recording again";
+const MEND: &str = "`chereme check --mend` puts it right";
+
+impl Corpus {
+    /// Looks at everything that can be wrong: the database, references, blocks and their hashes,
+    /// skeletons, inventories, tier rules, tokens, history and the search index.
+    ///
+    /// With `mend` what is derived (tokens, index) is made anew where it is wrong.
+    ///
+    /// # Errors
+    /// Where the database cannot be read at all, or the work is stopped.
+    pub fn check(&mut self, mend: bool, progress: &mut Progress<'_>) -> Result<CheckReport> {
+        let mut report = CheckReport::default();
+        let mut looking = Looking {
+            report: &mut report,
+            progress,
+        };
+        let connection = self.store.read();
+        looking.database(connection)?;
+        looking.blocks(connection)?;
+        looking.movement(connection)?;
+        looking.inventories(connection)?;
+        looking.tiers(connection)?;
+        for fault in self.store.check_history()? {
+            looking.fault("history", "history", fault, BACKUP);
+        }
+        self.check_index(&mut report)?;
+        if mend {
+            self.mend(&mut report)?;
+        }
+        report.ok = report.faults.is_empty();
+        Ok(report)
+    }
+
+    fn check_index(&mut self, report: &mut CheckReport) -> Result<()> {
+        let state = State::read(self.store.read())?;
+        if state.content != state.indexed && state.format != 0 {
+            report.faults.push(Fault {
+                kind: "index",
+                place: "search index".into(),
+                message: "the rows were changed without it".into(),
+                remedy: "the next search makes it anew; so does `chereme check --mend`".into(),
+            });
+            return Ok(());
+        }
+        let (connection, index) = self.store.searchable()?;
+        let (tokens, documents) = (rows::tokens(connection)?, index.documents());
+        report.checked.insert("index documents", documents);
+        if i64::try_from(documents).ok() != Some(tokens) {
+            report.faults.push(Fault {
+                kind: "index",
+                place: "search index".into(),
+                message: format!("it holds {documents} documents for {tokens} tokens"),
+                remedy: MEND.into(),
+            });
+        }
+        Ok(())
+    }
+
+    fn mend(&mut self, report: &mut CheckReport) -> Result<()> {
+        let wrong = |kind| report.faults.iter().any(|fault| fault.kind == kind);
+        let (tokens, index) = (wrong("tokens"), wrong("index"));
+        if tokens {
+            self.store.operation("mend", |connection| {
+                let inventories = inventories::load(connection)?;
+                for recording in recordings::recordings(connection)? {
+                    tokens::derive(connection, recording.id, None, &inventories)?;
+                }
+                Ok(((), "tokens derived anew".to_owned()))
+            })?;
+            report
+                .mended
+                .push("the tokens were derived anew from the tiers".to_owned());
+        }
+        if index || tokens {
+            self.store.reindex()?;
+            report
+                .mended
+                .push("the search index was made anew".to_owned());
+        }
+        report
+            .faults
+            .retain(|fault| !["tokens", "index"].contains(&fault.kind));
+        Ok(())
+    }
+}
+
+struct Looking<'a, 'p> {
+    report: &'a mut CheckReport,
+    progress: &'a mut Progress<'p>,
+}
+
+impl Looking<'_, '_> {
+    fn fault(
+        &mut self,
+        kind: &'static str,
+        place: impl Into<String>,
+        message: impl Into<String>,
+        remedy: &str,
+    ) {
+        let (place, message, remedy) = (place.into(), message.into(), remedy.to_owned());
+        self.report.faults.push(Fault {
+            kind,
+            place,
+            message,
+            remedy,
+        });
+    }
+
+    fn count(&mut self, what: &'static str) -> Result<()> {
+        let count = self.report.checked.entry(what).or_default();
+        *count += 1;
+        if *count % 64 == 0 {
+            let (task, done) = (what, *count);
+            self.progress.tell(Step {
+                task,
+                done,
+                total: None,
+                unit: Unit::Items,
+            })?;
+        }
+        Ok(())
+    }
+
+    fn database(&mut self, connection: &Connection) -> Result<()> {
+        for line in rows::integrity(connection)? {
+            self.fault("database", "the file", line, BACKUP);
+        }
+        for (table, row, other) in rows::broken_references(connection)? {
+            let place = format!("row {row} of {table}");
+            let message = format!("it refers to a row of {other} that is not there");
+            self.fault("reference", place, message, BACKUP);
+        }
+        Ok(())
+    }
+
+    fn blocks(&mut self, connection: &Connection) -> Result<()> {
+        rows::blocks(connection, |name, whole| {
+            if !whole {
+                self.fault(
+                    "block",
+                    format!("block {name}"),
+                    "its bytes are not those it is named after",
+                    BACKUP,
+                );
+            }
+            self.count("blocks")
+        })
+    }
+
+    fn movement(&mut self, connection: &Connection) -> Result<()> {
+        for (id, document, hash) in rows::skeletons(connection)? {
+            let place = format!("skeleton {id}");
+            if serde_json::from_str::<Hierarchy>(&document).is_err() {
+                self.fault("skeleton", place, "its document cannot be read", BACKUP);
+            } else if hex(&Sha256::digest(document.as_bytes())) != hash {
+                self.fault(
+                    "skeleton",
+                    place,
+                    "its document is not the one it is named after",
+                    BACKUP,
+                );
+            }
+            self.count("skeletons")?;
+        }
+        for (id, name) in rows::moving_recordings(connection)? {
+            if let Err(error) = self.track(connection, id) {
+                if matches!(error, crate::Error::Stopped) {
+                    return Err(error);
+                }
+                self.fault(
+                    "movement",
+                    format!("recording {name:?}"),
+                    error.to_string(),
+                    BACKUP,
+                );
+            }
+            self.count("motion tracks")?;
+        }
+        Ok(())
+    }
+
+    /// Decodes every block of a track and looks for frames that are missing.
+    fn track(&mut self, connection: &Connection, recording: i64) -> Result<()> {
+        let track = Track::of(connection, recording)?;
+        for group in ChannelGroup::ALL {
+            if track.columns_of(group).is_empty() {
+                continue;
+            }
+            let mut next = 0;
+            track.blocks(
+                connection,
+                &[group],
+                &(0..track.frames()),
+                |_, first, columns| {
+                    let frames = columns.first().map_or(0, |column| column.mantissas.len());
+                    if first != next {
+                        let what =
+                            format!("frames {next} to {first} of {} are missing", group.name());
+                        return Err(crate::Error::wrong(what));
+                    }
+                    next = first + frames;
+                    Ok(())
+                },
+            )?;
+            if next != track.frames() {
+                let frames = track.frames();
+                let what = format!("{} has {next} frames of {frames}", group.name());
+                return Err(crate::Error::wrong(what));
+            }
+        }
+        Ok(())
+    }
+
+    fn inventories(&mut self, connection: &Connection) -> Result<()> {
+        match inventories::load(connection) {
+            Ok(all) => {
+                self.report.checked.insert("inventories", all.len() as u64);
+            }
+            Err(error) => self.fault("inventory", "inventories", error.to_string(), BACKUP),
+        }
+        Ok(())
+    }
+
+    fn tiers(&mut self, connection: &Connection) -> Result<()> {
+        let inventories = inventories::load(connection).unwrap_or_default();
+        for recording in recordings::recordings(connection)? {
+            let set = tier_set(connection, recording.id)?;
+            for violation in tier::check(&set) {
+                let place = format!("recording {:?}", recording.name);
+                let remedy = "correct the annotation with `chereme annotate`";
+                self.fault("tier", place, violation.to_string(), remedy);
+            }
+            let derived = rows::tried(connection, || {
+                let before = rows::changes(connection)?;
+                tokens::derive(connection, recording.id, None, &inventories)?;
+                Ok(rows::changes(connection)? - before)
+            })?;
+            if derived > 0 {
+                let place = format!("recording {:?}", recording.name);
+                self.fault(
+                    "tokens",
+                    place,
+                    "its tokens are not what its tiers say",
+                    MEND,
+                );
+            }
+            self.count("recordings")?;
+        }
+        Ok(())
+    }
+}
+
+/// Returns the tiers of a recording with all their annotations, for the rules to be checked.
+pub(crate) fn tier_set(connection: &Connection, recording: i64) -> Result<TierSet> {
+    let mut annotations = Vec::new();
+    let mut all = Vec::new();
+    for row in tiers::tiers(connection, recording)? {
+        for annotation in tiers::annotations(connection, row.id)? {
+            annotations.push(tier::Annotation {
+                id: AnnotationId(annotation.id as u64),
+                tier: TierId(row.id as u64),
+                parent: annotation.parent_id.map(|id| AnnotationId(id as u64)),
+                order: u32::try_from(annotation.position).unwrap_or(u32::MAX),
+                span: Span::between(
+                    Instant::from_micros(annotation.start_us),
+                    Instant::from_micros(annotation.end_us),
+                ),
+                value: Reading::from(annotation.value.as_str()),
+            });
+        }
+        let stereotype = row
+            .stereotype
+            .as_deref()
+            .and_then(Stereotype::from_elan_name);
+        let component = row.component.as_deref().and_then(|name| name.parse().ok());
+        let role = match (row.role.as_str(), component) {
+            ("gloss", _) => TierRole::Gloss,
+            ("component", Some(component)) => TierRole::Component {
+                component,
+                feature: row.feature.clone(),
+            },
+            ("translation", _) => TierRole::Translation,
+            ("comment", _) => TierRole::Comment,
+            _ => TierRole::Free,
+        };
+        all.push(tier::Tier {
+            id: TierId(row.id as u64),
+            name: row.name,
+            role,
+            hand: row
+                .hand
+                .as_deref()
+                .and_then(|hand| hand.parse::<HandRef>().ok()),
+            parent: row.parent_id.map(|id| TierId(id as u64)).zip(stereotype),
+            vocabulary: None,
+        });
+    }
+    Ok(TierSet::new(all, annotations))
+}

@@ -1,0 +1,103 @@
+//! What the database itself can tell about damage.
+
+use rusqlite::{Connection, OptionalExtension};
+use sha2::{Digest, Sha256};
+
+use super::motion::hex;
+use crate::error::Result;
+
+/// Returns what SQLite finds wrong with the file, at most a hundred lines.
+pub(crate) fn integrity(connection: &Connection) -> Result<Vec<String>> {
+    let mut statement = connection.prepare("PRAGMA integrity_check(100)")?;
+    let lines = statement
+        .query_map([], |row| row.get::<_, String>(0))?
+        .collect::<rusqlite::Result<Vec<_>>>()?;
+    Ok(lines.into_iter().filter(|line| line != "ok").collect())
+}
+
+/// Returns the rows that refer to rows that are not there, as table, row and table referred to.
+pub(crate) fn broken_references(connection: &Connection) -> Result<Vec<(String, i64, String)>> {
+    let mut statement = connection.prepare("PRAGMA foreign_key_check")?;
+    let rows = statement
+        .query_map([], |row| {
+            Ok((
+                row.get(0)?,
+                row.get::<_, Option<i64>>(1)?.unwrap_or_default(),
+                row.get(2)?,
+            ))
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Calls `take` with every block's name, and whether its bytes are those it is named after.
+pub(crate) fn blocks(
+    connection: &Connection,
+    mut take: impl FnMut(String, bool) -> Result<()>,
+) -> Result<()> {
+    let mut statement = connection.prepare("SELECT hash, data FROM block")?;
+    let mut rows = statement.query([])?;
+    while let Some(row) = rows.next()? {
+        let hash = row.get_ref(0)?.as_blob().map_err(rusqlite::Error::from)?;
+        let data = row.get_ref(1)?.as_blob().map_err(rusqlite::Error::from)?;
+        take(hex(hash), Sha256::digest(data).as_slice() == hash)?;
+    }
+    Ok(())
+}
+
+/// Returns the names of the motion tracks' recordings with the recording's row.
+pub(crate) fn moving_recordings(connection: &Connection) -> Result<Vec<(i64, String)>> {
+    let mut statement = connection.prepare(
+        "SELECT DISTINCT r.id, r.name FROM recording r JOIN track t ON t.recording_id = r.id
+         WHERE t.kind = 'skeleton' ORDER BY r.id",
+    )?;
+    let rows = statement
+        .query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Returns the row, document and content hash of every skeleton.
+pub(crate) fn skeletons(connection: &Connection) -> Result<Vec<(i64, String, String)>> {
+    let mut statement =
+        connection.prepare("SELECT id, document, hash FROM skeleton ORDER BY id")?;
+    let rows = statement
+        .query_map([], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Returns how many tokens there are.
+pub(crate) fn tokens(connection: &Connection) -> Result<i64> {
+    Ok(connection.query_row("SELECT count(*) FROM token", [], |row| row.get(0))?)
+}
+
+/// Returns how many row changes the running work has made since the last time it was asked.
+pub(crate) fn changes(connection: &Connection) -> Result<i64> {
+    Ok(connection.query_row("SELECT count(*) FROM temp.change", [], |row| row.get(0))?)
+}
+
+/// Runs `work`, takes back what it did, and returns what it gave.
+pub(crate) fn tried<T>(connection: &Connection, work: impl FnOnce() -> Result<T>) -> Result<T> {
+    connection.execute_batch("SAVEPOINT tried")?;
+    let done = work();
+    connection.execute_batch("ROLLBACK TO tried; RELEASE tried")?;
+    done
+}
+
+/// Returns the number of a table's rows, by table.
+pub(crate) fn counts(
+    connection: &Connection,
+    tables: &[&'static str],
+) -> Result<Vec<(&'static str, i64)>> {
+    let mut counts = Vec::new();
+    for table in tables {
+        let count = connection
+            .query_row(&format!("SELECT count(*) FROM {table}"), [], |row| {
+                row.get(0)
+            })
+            .optional()?;
+        counts.push((*table, count.unwrap_or_default()));
+    }
+    Ok(counts)
+}

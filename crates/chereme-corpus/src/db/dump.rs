@@ -1,0 +1,65 @@
+//! The whole database for people without this program: a compact copy, and a table at a time.
+
+use std::path::Path;
+
+use rusqlite::types::ValueRef;
+use rusqlite::{Connection, params};
+
+use super::motion::hex;
+use crate::error::Result;
+
+/// The tables that a reader of the data wants, in the order in which they build on each other.
+pub(crate) const TABLES: [&str; 18] = [
+    "meta",
+    "signer",
+    "skeleton",
+    "recording",
+    "source_file",
+    "track",
+    "track_block",
+    "inventory",
+    "inventory_value",
+    "tier",
+    "annotation",
+    "sign",
+    "sign_text",
+    "token",
+    "token_value",
+    "recipe",
+    "recipe_input",
+    "operation",
+];
+
+/// Writes a compact copy of the database; the same rows always give the same bytes.
+pub(crate) fn copy(connection: &Connection, to: &Path) -> Result<()> {
+    connection.execute("VACUUM INTO ?1", params![to.to_string_lossy()])?;
+    Ok(())
+}
+
+/// Calls `take` with the names of a table's columns, then with each row as text; what is not set is
+/// nothing, bytes are hexadecimal, and bytes of kept files are left out.
+pub(crate) fn table(
+    connection: &Connection,
+    table: &str,
+    mut take: impl FnMut(Vec<String>) -> Result<()>,
+) -> Result<()> {
+    let mut statement = connection.prepare(&format!("SELECT * FROM {table} ORDER BY 1"))?;
+    let names: Vec<String> = statement.column_names().into_iter().map(str::to_owned).collect();
+    let kept: Vec<usize> = (0..names.len()).filter(|&at| names[at] != "data").collect();
+    take(kept.iter().map(|&at| names[at].clone()).collect())?;
+    let mut rows = statement.query([])?;
+    while let Some(row) = rows.next()? {
+        let mut cells = Vec::with_capacity(kept.len());
+        for &at in &kept {
+            cells.push(match row.get_ref(at)? {
+                ValueRef::Null => String::new(),
+                ValueRef::Integer(number) => number.to_string(),
+                ValueRef::Real(number) => number.to_string(),
+                ValueRef::Text(text) => String::from_utf8_lossy(text).into_owned(),
+                ValueRef::Blob(bytes) => hex(bytes),
+            });
+        }
+        take(cells)?;
+    }
+    Ok(())
+}

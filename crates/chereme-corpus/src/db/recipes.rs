@@ -1,0 +1,78 @@
+//! Rows of recipes and what they were made from.
+
+use rusqlite::{Connection, OptionalExtension, params};
+use serde::Serialize;
+
+use crate::error::Result;
+
+/// How a made recording came about.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct RecipeRow {
+    /// The row.
+    pub id: i64,
+    /// The made recording's row.
+    pub recording_id: i64,
+    /// The recipe as text.
+    pub text: String,
+    /// The recipe and what was chosen for it, as JSON.
+    pub document: String,
+    /// What making it told, as JSON.
+    pub report: String,
+    /// The version of the program that made it.
+    pub engine: String,
+}
+
+/// Writes a recipe and returns its row; its `id` is not looked at.
+pub(crate) fn insert(connection: &Connection, row: &RecipeRow) -> Result<i64> {
+    connection
+        .prepare_cached(
+            "INSERT INTO recipe (recording_id, text, document, report, engine)
+             VALUES (?1, ?2, ?3, ?4, ?5)",
+        )?
+        .execute(params![
+            row.recording_id,
+            row.text,
+            row.document,
+            row.report,
+            row.engine
+        ])?;
+    Ok(connection.last_insert_rowid())
+}
+
+/// Writes down one of the things that a recipe was made from.
+pub(crate) fn insert_input(
+    connection: &Connection,
+    recipe: i64,
+    address: &str,
+    recording: Option<i64>,
+    token: Option<i64>,
+    hash: &str,
+) -> Result<()> {
+    connection
+        .prepare_cached(
+            "INSERT INTO recipe_input (recipe_id, address, recording_id, token_id, hash)
+             VALUES (?1, ?2, ?3, ?4, ?5)",
+        )?
+        .execute(params![recipe, address, recording, token, hash])?;
+    Ok(())
+}
+
+/// Returns how a recording was made, where it was.
+pub(crate) fn of_recording(connection: &Connection, recording: i64) -> Result<Option<RecipeRow>> {
+    Ok(connection
+        .prepare_cached(
+            "SELECT id, recording_id, text, document, report, engine
+             FROM recipe WHERE recording_id = ?1",
+        )?
+        .query_row([recording], |row| {
+            Ok(RecipeRow {
+                id: row.get(0)?,
+                recording_id: row.get(1)?,
+                text: row.get(2)?,
+                document: row.get(3)?,
+                report: row.get(4)?,
+                engine: row.get(5)?,
+            })
+        })
+        .optional()?)
+}

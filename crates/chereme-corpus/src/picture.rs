@@ -1,0 +1,338 @@
+//! Pictures of stored movement and of inventories, drawn without a window.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use chereme_figure::{
+    Animation, AnimationOptions, FigureError, HandshapeOptions, SheetOptions, View, contact_sheet,
+    handshape_picture, handshape_sheet, write_gif, write_png,
+};
+use chereme_motion::anatomy::Anatomy;
+use chereme_motion::{Clip, Instant, Side, Span};
+use serde::Serialize;
+
+use crate::Corpus;
+use crate::address::{self, Address, Stretch};
+use crate::error::{Error, Result};
+use crate::inventories;
+use crate::movement::{ChannelGroup, Track};
+use crate::progress::{Progress, Step, Unit};
+
+/// A stretch longer than this is drawn only in part.
+const LONGEST: i64 = 120_000_000;
+
+/// What a picture should show.
+#[derive(Debug, Clone)]
+pub struct PictureOptions {
+    /// How many pictures stand side by side on a contact sheet.
+    pub frames: usize,
+    /// Whether the contact sheet shows the hands from close by.
+    pub hands: bool,
+    /// How high one picture is, in pixels.
+    pub height: usize,
+    /// How fast an animation runs, 1 being the recorded speed.
+    pub speed: f64,
+    /// Whether a file that is there already is written over.
+    pub force: bool,
+}
+
+impl Default for PictureOptions {
+    fn default() -> Self {
+        Self {
+            frames: 8,
+            hands: true,
+            height: 260,
+            speed: 1.0,
+            force: false,
+        }
+    }
+}
+
+/// A picture that was drawn.
+#[derive(Debug, Clone, Serialize)]
+pub struct Picture {
+    /// The file.
+    pub path: PathBuf,
+    /// What it shows.
+    pub title: String,
+    /// Its size in bytes.
+    pub bytes: u64,
+    /// How many pictures follow each other or stand side by side.
+    pub frames: usize,
+}
+
+/// A piece of movement with what is needed to look at it.
+#[derive(Debug, Clone)]
+pub struct Moving {
+    /// Where it is in the corpus.
+    pub stretch: Stretch,
+    /// The movement in metres and model space.
+    pub clip: Clip,
+    /// Which joint is what.
+    pub anatomy: Anatomy,
+}
+
+impl Corpus {
+    /// Returns the movement at an address: a token's span, a recording, a sign's citation form.
+    ///
+    /// # Errors
+    /// Where nothing has that address, several things have it, or it has no movement.
+    pub fn movement(&self, address: &Address) -> Result<Moving> {
+        self.movement_in(address, None, &ChannelGroup::ALL)
+    }
+
+    /// Returns part of the movement at an address: of a span of the recording, and of some channel
+    /// groups; joints of others stay at rest.
+    ///
+    /// # Errors
+    /// As [`movement`](Self::movement).
+    pub fn movement_in(
+        &self,
+        address: &Address,
+        span: Option<Span>,
+        groups: &[ChannelGroup],
+    ) -> Result<Moving> {
+        let connection = self.store.read();
+        let mut stretch = address::stretch(connection, address)?;
+        stretch.span = match span {
+            Some(span) => stretch.span.intersection(span).unwrap_or_default(),
+            None => stretch.span,
+        };
+        let track = Track::of(connection, stretch.recording.id)?;
+        let clip = track.clip(connection, track.frames_in(stretch.span), groups)?;
+        Ok(Moving {
+            clip,
+            anatomy: track.anatomy(connection)?,
+            stretch,
+        })
+    }
+
+    /// Draws movement to a file: a contact sheet where it ends in `.png`, an animation where it ends
+    /// in `.gif`.
+    ///
+    /// # Errors
+    /// Where there is nothing to draw, the ending is another, or the file is there already.
+    pub fn draw(
+        &self,
+        address: &Address,
+        to: &Path,
+        options: &PictureOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Picture> {
+        let connection = self.store.read();
+        let stretch = address::stretch(connection, address)?;
+        let from = stretch.span.start();
+        let span = Span::between(from, from.shifted(stretch.span.micros().min(LONGEST)));
+        let moving = self.movement_in(address, Some(span), &ChannelGroup::ALL)?;
+        let title = title(&moving.stretch);
+        draw_clip(&moving.clip, &moving.anatomy, &title, to, options, progress)
+    }
+
+    /// Draws handshapes to a PNG: one value, or all values of an inventory that have a posture.
+    ///
+    /// # Errors
+    /// Where no inventory is called so, or it has no handshape of that name.
+    pub fn draw_handshapes(
+        &self,
+        inventory: &str,
+        value: Option<&str>,
+        side: Side,
+        to: &Path,
+        options: &PictureOptions,
+    ) -> Result<Picture> {
+        let all = inventories::load(self.store.read())?;
+        let ids: Vec<&str> = all.iter().map(|it| it.inventory.id.as_str()).collect();
+        let stored = all
+            .iter()
+            .find(|it| it.inventory.id == inventory)
+            .ok_or_else(|| {
+                Error::wrong(format!("no inventory is called {inventory:?}"))
+                    .at(inventory)
+                    .advise(format!("the inventories are: {}", ids.join(", ")))
+            })?;
+        let configurations = all
+            .iter()
+            .find(|it| it.inventory.id == "configurations")
+            .unwrap_or(stored);
+        let pose = |value: &chereme_sign::inventory::InventoryValue| {
+            value.hand_pose(&configurations.inventory)
+        };
+        let shape = HandshapeOptions {
+            side,
+            ..HandshapeOptions::default()
+        };
+        let (image, title, frames) = match value {
+            Some(text) => {
+                let found = stored.inventory.find(text);
+                let found = found.and_then(|value| Some((value.id.clone(), pose(value)?)));
+                let (id, angles) = found.ok_or_else(|| {
+                    Error::wrong(format!("{inventory:?} has no handshape {text:?}"))
+                        .at(text)
+                        .advise(format!(
+                            "near to it: {}",
+                            stored.inventory.suggest(text).join(", ")
+                        ))
+                })?;
+                (handshape_picture(&angles, &shape).map_err(figure)?, id, 1)
+            }
+            None => {
+                let posed: Vec<_> = stored
+                    .inventory
+                    .values
+                    .iter()
+                    .filter_map(|value| Some((value.id.clone(), pose(value)?)))
+                    .collect();
+                if posed.is_empty() {
+                    return Err(Error::wrong(format!(
+                        "the values of {inventory:?} have no handshapes"
+                    ))
+                    .at(inventory)
+                    .advise("draw the inventory configurations"));
+                }
+                let image = handshape_sheet(&posed, 10, &shape).map_err(figure)?;
+                (image, inventory.to_owned(), posed.len())
+            }
+        };
+        if extension(to) != "png" {
+            return Err(ending(to, "a handshape is drawn to a .png"));
+        }
+        let bytes = write(to, options.force, |out| {
+            write_png(&image, out).map_err(figure)
+        })?;
+        Ok(Picture {
+            path: to.to_owned(),
+            title,
+            bytes,
+            frames,
+        })
+    }
+}
+
+/// Draws a clip to a file; see [`Corpus::draw`].
+///
+/// # Errors
+/// As there.
+pub fn draw_clip(
+    clip: &Clip,
+    anatomy: &Anatomy,
+    title: &str,
+    to: &Path,
+    options: &PictureOptions,
+    progress: &mut Progress<'_>,
+) -> Result<Picture> {
+    let kind = extension(to);
+    let mut hear = |done: usize, total: usize| {
+        let (done, total) = (done as u64, Some(total as u64));
+        match progress.tell(Step {
+            task: "drawing",
+            done,
+            total,
+            unit: Unit::Frames,
+        }) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(_) => ControlFlow::Break(()),
+        }
+    };
+    let (bytes, frames) = match kind.as_str() {
+        "png" => {
+            let mut sheet = SheetOptions {
+                title: title.to_owned(),
+                frames: chereme_figure::Frames::Spaced(options.frames),
+                cell_height: options.height,
+                ..SheetOptions::default()
+            };
+            if options.hands && Side::BOTH.iter().any(|&side| anatomy.has_fingers(side)) {
+                sheet = sheet.with_hands();
+            }
+            let image = contact_sheet(clip, anatomy, &sheet, &mut hear).map_err(figure)?;
+            let bytes = write(to, options.force, |out| {
+                write_png(&image, out).map_err(figure)
+            })?;
+            (bytes, options.frames.min(clip.frames()))
+        }
+        "gif" => {
+            let settings = AnimationOptions {
+                views: vec![View::Addressee, View::Left],
+                height: options.height,
+                speed: options.speed,
+                ..AnimationOptions::default()
+            };
+            let mut animation = Animation::new(clip, anatomy, settings).map_err(figure)?;
+            let frames = animation.frames();
+            let bytes = write(to, options.force, |out| {
+                write_gif(&mut animation, out, &mut hear).map_err(figure)
+            })?;
+            (bytes, frames)
+        }
+        _ => {
+            return Err(ending(
+                to,
+                "write a contact sheet to .png, or an animation to .gif",
+            ));
+        }
+    };
+    Ok(Picture {
+        path: to.to_owned(),
+        title: title.to_owned(),
+        bytes,
+        frames,
+    })
+}
+
+fn title(stretch: &Stretch) -> String {
+    let start = |at: Instant| format!("{:.2}", at.seconds());
+    match &stretch.token {
+        Some(token) => format!(
+            "{} - {} {}-{} s",
+            token.gloss,
+            stretch.recording.name,
+            start(stretch.span.start()),
+            start(stretch.span.end())
+        ),
+        None => stretch.recording.name.clone(),
+    }
+}
+
+fn extension(path: &Path) -> String {
+    path.extension()
+        .map(|it| it.to_string_lossy().to_lowercase())
+        .unwrap_or_default()
+}
+
+fn ending(path: &Path, advice: &str) -> Error {
+    Error::wrong("the picture's name has no ending that says its kind")
+        .at(path.display().to_string())
+        .advise(advice)
+}
+
+fn figure(error: FigureError) -> Error {
+    match error {
+        FigureError::Stopped { .. } => Error::Stopped,
+        other => Error::wrong(other.to_string()),
+    }
+}
+
+/// Writes a file beside its name and moves it there once it is whole.
+fn write(
+    to: &Path,
+    force: bool,
+    fill: impl FnOnce(&mut BufWriter<File>) -> Result<()>,
+) -> Result<u64> {
+    if !force && to.exists() {
+        return Err(Error::file(to, std::io::ErrorKind::AlreadyExists.into()));
+    }
+    let part = to.with_extension(format!("{}.part", extension(to)));
+    let fault = |error| Error::file(to, error);
+    let file = File::create(&part).map_err(fault)?;
+    let mut out = BufWriter::new(file);
+    let done = fill(&mut out).and_then(|()| out.flush().map_err(fault));
+    drop(out);
+    if let Err(error) = done {
+        let _ = std::fs::remove_file(&part);
+        return Err(error);
+    }
+    std::fs::rename(&part, to).map_err(fault)?;
+    Ok(std::fs::metadata(to).map_err(fault)?.len())
+}

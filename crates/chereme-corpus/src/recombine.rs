@@ -1,0 +1,439 @@
+//! New signs from stored ones: a recipe evaluated, and stored with its movement, tiers and origin.
+
+use std::collections::BTreeMap;
+
+use chereme_compose::{About, Input, Made, Note, Recipe, Report, Resolved};
+use chereme_formats::bvh::convert;
+use chereme_formats::bvh::raw::{Column, Hierarchy};
+use chereme_motion::anatomy::Anatomy;
+use chereme_motion::{Clip, Convention, Side};
+use chereme_sign::inventory;
+use chereme_sign::{Component, Field, Reading};
+use rusqlite::Connection;
+use serde::Serialize;
+use serde_json::json;
+use sha2::{Digest, Sha256};
+
+use crate::Corpus;
+use crate::address::{self, Address, Name};
+use crate::db::motion::hex;
+use crate::db::recipes::{self, RecipeRow};
+use crate::db::recordings::{self, MotionTrackRow, RecordingRow};
+use crate::db::signs;
+use crate::db::tiers::{self, AnnotationRow, TierRow};
+use crate::error::{Error, Result};
+use crate::inventories::{self, StoredInventory};
+use crate::movement::{self, BLOCK_FRAMES, Track};
+use crate::sources::CorpusSources;
+use crate::tokens;
+
+/// Decimals of the numbers of made movement: a millionth of a degree, or of the file's unit.
+const DECIMALS: u8 = 6;
+
+/// A sign that was made, or what would be made.
+#[derive(Debug, Clone, Serialize)]
+pub struct Recombination {
+    /// The recipe as the corpus spells it.
+    pub recipe: String,
+    /// The gloss of the new sign.
+    pub gloss: String,
+    /// The token's row; nothing where nothing was stored.
+    pub token: Option<i64>,
+    /// The recording's row; nothing where nothing was stored.
+    pub recording: Option<i64>,
+    /// The name of the recording.
+    pub name: Option<String>,
+    /// How long it lasts, in microseconds.
+    pub duration_us: i64,
+    /// What making it told.
+    pub report: Report,
+    /// The same for people.
+    #[serde(skip)]
+    pub explanation: String,
+    /// The movement.
+    #[serde(skip)]
+    pub clip: Clip,
+    /// Which joint of it is what.
+    #[serde(skip)]
+    pub anatomy: std::sync::Arc<Anatomy>,
+}
+
+impl Corpus {
+    /// Makes the movement of a recipe without storing anything.
+    ///
+    /// # Errors
+    /// Where the recipe is none, or cannot be made: which step, why, and what would work.
+    pub fn preview(&mut self, recipe: &str) -> Result<Recombination> {
+        let (_, made, recipe) = self.make(recipe)?;
+        Ok(recombination(&recipe, String::new(), made))
+    }
+
+    /// Makes the movement of a recipe and stores it as a sign with this gloss: its movement, its
+    /// tiers, and where it comes from.
+    ///
+    /// # Errors
+    /// As [`preview`](Self::preview); nothing half-made is stored.
+    pub fn recombine(&mut self, recipe: &str, gloss: &str) -> Result<Recombination> {
+        let gloss = gloss.trim();
+        if gloss.is_empty() {
+            return Err(Error::wrong("a new sign needs a gloss").advise("write --as GLOSS"));
+        }
+        let (resolved, made, recipe) = self.make(recipe)?;
+        let (recording, token, name) = self.store.operation("recombine", |connection| {
+            let stored = store(connection, &recipe, &resolved, &made, gloss)?;
+            Ok((stored, format!("{gloss} = {recipe}")))
+        })?;
+        let mut done = recombination(&recipe, gloss.to_owned(), made);
+        (done.token, done.recording, done.name) = (Some(token), Some(recording), Some(name));
+        Ok(done)
+    }
+
+    fn make(&mut self, recipe: &str) -> Result<(Resolved, Made, Recipe)> {
+        let recipe = read(recipe)?;
+        let (connection, index) = self.store.searchable()?;
+        let inventories = inventories::load(connection)?;
+        let sources = CorpusSources {
+            connection,
+            index,
+            inventories: &inventories,
+        };
+        let resolved = chereme_compose::resolve(&recipe, &sources).map_err(cannot)?;
+        let made = chereme_compose::evaluate(&resolved).map_err(cannot)?;
+        Ok((resolved, made, recipe))
+    }
+}
+
+/// Reads a recipe as text, or as JSON where it begins with a brace.
+fn read(text: &str) -> Result<Recipe> {
+    if text.trim_start().starts_with('{') {
+        return serde_json::from_str(text)
+            .map_err(|error| Error::wrong(format!("the recipe cannot be read: {error}")).at(text));
+    }
+    text.parse().map_err(|error: chereme_compose::RecipeError| {
+        let pointed = match &error {
+            chereme_compose::RecipeError::Text(text) => format!("\n{}", text.pointed()),
+            _ => String::new(),
+        };
+        Error::wrong(format!("the recipe cannot be read: {error}{pointed}"))
+            .at(text)
+            .advise(
+                "a recipe is a sign and what is done to it, such as: ESCARGOT | configure right U",
+            )
+    })
+}
+
+fn cannot(error: chereme_compose::MakeError) -> Error {
+    let (step, path) = (error.step.clone(), error.path.clone());
+    let place = if path.is_empty() {
+        step
+    } else {
+        format!("{step} (at {path})")
+    };
+    let message = error.to_string();
+    Error::wrong(format!("the recipe cannot be made: {message}")).at(place)
+}
+
+fn recombination(recipe: &Recipe, gloss: String, made: Made) -> Recombination {
+    Recombination {
+        recipe: recipe.to_string(),
+        gloss,
+        token: None,
+        recording: None,
+        name: None,
+        duration_us: made.clip.span().micros(),
+        explanation: made.report.to_string(),
+        report: made.report,
+        clip: made.clip,
+        anatomy: made.anatomy,
+    }
+}
+
+fn store(
+    connection: &Connection,
+    recipe: &Recipe,
+    resolved: &Resolved,
+    made: &Made,
+    gloss: &str,
+) -> Result<(i64, i64, String)> {
+    if made.clip.frames() == 0 {
+        return Err(Error::wrong("the recipe makes no movement at all"));
+    }
+    let signer_id = match made.signer.as_deref().map(str::parse) {
+        Some(Ok(Address::Signer(name))) => Some(address::signer(connection, &name)?.id),
+        _ => None,
+    };
+    let name = recordings::free_name(connection, gloss)?;
+    let recording = recordings::insert_recording(
+        connection,
+        &RecordingRow {
+            id: 0,
+            name: name.clone(),
+            signer_id,
+            signer: None,
+            origin: "made".to_owned(),
+            duration_us: made.clip.span().micros(),
+            licence: None,
+            notes: None,
+        },
+    )?;
+    store_movement(connection, recording, resolved, made)?;
+    let inventories = inventories::load(connection)?;
+    store_tiers(connection, recording, made, gloss, &inventories)?;
+    tokens::derive(connection, recording, None, &inventories)?;
+    store_recipe(connection, recording, recipe, resolved, made)?;
+    let token = signs::tokens_of_recording(connection, recording)?;
+    let token = token
+        .first()
+        .ok_or_else(|| Error::wrong("the new sign got no token"))?
+        .id;
+    Ok((recording, token, name))
+}
+
+/// The hierarchy and unit of the source whose skeleton moves, so that the new sign is written as it is.
+fn source_of(
+    connection: &Connection,
+    resolved: &Resolved,
+    made: &Made,
+) -> Result<Option<(Hierarchy, Convention)>> {
+    for input in resolved.inputs().0.values() {
+        let Input::Material(material) = input else {
+            continue;
+        };
+        let Ok(stretch) = address::stretch(connection, &material.address.parse()?) else {
+            continue;
+        };
+        let track = Track::of(connection, stretch.recording.id)?;
+        let skeleton = convert::skeleton(&track.hierarchy).ok();
+        let same =
+            skeleton.is_some_and(|it| track.convention.skeleton(&it) == **made.clip.skeleton());
+        if same {
+            return Ok(Some((track.hierarchy, track.convention)));
+        }
+    }
+    Ok(None)
+}
+
+fn store_movement(
+    connection: &Connection,
+    recording: i64,
+    resolved: &Resolved,
+    made: &Made,
+) -> Result<()> {
+    let (hierarchy, convention) = match source_of(connection, resolved, made)? {
+        Some(source) => source,
+        None => (
+            convert::hierarchy(made.clip.skeleton(), DECIMALS),
+            Convention::MODEL,
+        ),
+    };
+    let clip = convention.clip_back(&made.clip);
+    let hierarchy = convert::widened(&hierarchy, &clip);
+    let fault = |error: convert::BackError| Error::wrong(error.to_string());
+    let columns = convert::columns(&clip, &hierarchy, DECIMALS).map_err(fault)?;
+    let groups = movement::channel_groups(made.clip.skeleton(), &made.anatomy);
+    let named: BTreeMap<&str, &Vec<usize>> = groups
+        .iter()
+        .map(|(group, joints)| (group.name(), joints))
+        .collect();
+    let roles: BTreeMap<String, String> = made
+        .anatomy
+        .found()
+        .map(|(part, joint, _)| (part.to_string(), clip.skeleton().joint(joint).name.clone()))
+        .collect();
+    let document = serde_json::to_string(&hierarchy).map_err(|e| Error::wrong(e.to_string()))?;
+    let hash = hex(&Sha256::digest(document.as_bytes()));
+    let joints = hierarchy.joints.len();
+    let rate = clip.rate();
+    let track = recordings::insert_motion_track(
+        connection,
+        &MotionTrackRow {
+            id: 0,
+            recording_id: recording,
+            name: "body".to_owned(),
+            offset_us: 0,
+            skeleton_id: recordings::skeleton_stored(connection, &hash, joints, &document)?,
+            frames: clip.frames() as i64,
+            rate_frames: rate.frames(),
+            rate_seconds: rate.per_seconds(),
+            frame_time: Some(format!("{:.9}", rate.frame_time())),
+            metres_per_unit: convention.metres_per_unit,
+            axes: convention.axes.to_string(),
+            root_order: None,
+            root_scale: None,
+            roles: Some(json!(roles).to_string()),
+            channel_groups: json!(named).to_string(),
+        },
+    )?;
+    let numbers: Vec<_> = groups
+        .iter()
+        .map(|(group, joints)| (*group, movement::columns_of(&hierarchy, joints)))
+        .collect();
+    for first in (0..clip.frames()).step_by(BLOCK_FRAMES) {
+        let rows = first..clip.frames().min(first + BLOCK_FRAMES);
+        let part: Vec<Column> = columns
+            .iter()
+            .map(|column| Column {
+                scale: column.scale,
+                mantissas: column.mantissas[rows.clone()].to_vec(),
+                exceptions: Vec::new(),
+            })
+            .collect();
+        movement::store_block(connection, track, &numbers, first, rows.len(), &part)?;
+    }
+    Ok(())
+}
+
+fn store_tiers(
+    connection: &Connection,
+    recording: i64,
+    made: &Made,
+    gloss: &str,
+    inventories: &[StoredInventory],
+) -> Result<()> {
+    let whole = made.clip.span();
+    let root = TierRow {
+        role: "gloss".to_owned(),
+        ..new_tier(recording, "Gloss", 0)
+    };
+    let root = tiers::insert_tier(connection, &root)?;
+    let row = AnnotationRow {
+        tier_id: root,
+        start_us: whole.start().micros(),
+        end_us: whole.end().micros(),
+        state: "value".to_owned(),
+        value: gloss.to_owned(),
+        origin: "made".to_owned(),
+        ..AnnotationRow::default()
+    };
+    tiers::insert_annotation(connection, &row)?;
+    let mut by_tier: BTreeMap<String, Vec<&Note>> = BTreeMap::new();
+    for note in &made.notes {
+        by_tier.entry(tier_name(note)).or_default().push(note);
+    }
+    for (position, (name, notes)) in by_tier.into_iter().enumerate() {
+        let tier = note_tier(recording, &name, position as i64 + 1, notes[0], inventories);
+        let tier = tiers::insert_tier(connection, &tier)?;
+        let mut free_from = whole.start();
+        for note in notes {
+            let (start, end) = (
+                note.span.start().max(free_from),
+                note.span.end().min(whole.end()),
+            );
+            if start >= end {
+                continue;
+            }
+            free_from = end;
+            let row = AnnotationRow {
+                tier_id: tier,
+                start_us: start.micros(),
+                end_us: end.micros(),
+                state: tokens::state_name(&note.value).to_owned(),
+                value: note.value.value().unwrap_or_default().to_owned(),
+                origin: "made".to_owned(),
+                source: Some(json!({ "from": note.origin }).to_string()),
+                ..AnnotationRow::default()
+            };
+            tiers::insert_annotation(connection, &row)?;
+        }
+    }
+    Ok(())
+}
+
+fn new_tier(recording_id: i64, name: &str, position: i64) -> TierRow {
+    TierRow {
+        recording_id,
+        name: name.to_owned(),
+        position,
+        ..TierRow::default()
+    }
+}
+
+fn tier_name(note: &Note) -> String {
+    let hand = match note.hand {
+        Some(Side::Right) => " RH",
+        Some(Side::Left) => " LH",
+        None => "",
+    };
+    match &note.about {
+        About::Gloss => "Source".to_owned(),
+        About::Transition => format!("Transition{hand}"),
+        About::Component(component, feature) => {
+            let name = feature.as_deref().unwrap_or(component.name());
+            let mut letters = name.chars();
+            let first = letters.next().map(char::to_uppercase);
+            format!(
+                "{}{}{hand}",
+                first.into_iter().flatten().collect::<String>(),
+                letters.as_str()
+            )
+        }
+    }
+}
+
+fn note_tier(
+    recording: i64,
+    name: &str,
+    position: i64,
+    note: &Note,
+    inventories: &[StoredInventory],
+) -> TierRow {
+    let mut tier = new_tier(recording, name, position);
+    let About::Component(component, feature) = &note.about else {
+        tier.role = "free".to_owned();
+        return tier;
+    };
+    let mut field = Field::new(*component);
+    field.feature.clone_from(feature);
+    let manual = *component != Component::NonManual;
+    let builtin = inventory::builtin_for(&field).map(|it| it.id.as_str());
+    let known = matches!(&note.value, Reading::Value(_));
+    tier.role = "component".to_owned();
+    tier.component = Some(component.name().to_owned());
+    tier.feature.clone_from(feature);
+    tier.hand = note
+        .hand
+        .filter(|_| manual)
+        .map(|side| side.name().to_owned());
+    tier.inventory_id = inventories
+        .iter()
+        .find(|it| known && Some(it.inventory.id.as_str()) == builtin)
+        .map(|it| it.id);
+    tier
+}
+
+fn store_recipe(
+    connection: &Connection,
+    recording: i64,
+    recipe: &Recipe,
+    resolved: &Resolved,
+    made: &Made,
+) -> Result<()> {
+    let fault = |error: serde_json::Error| Error::wrong(error.to_string());
+    let document = json!({
+        "recipe": serde_json::to_value(recipe).map_err(fault)?,
+        "inputs": serde_json::to_value(resolved.inputs()).map_err(fault)?,
+    });
+    let row = RecipeRow {
+        id: 0,
+        recording_id: recording,
+        text: recipe.to_string(),
+        document: document.to_string(),
+        report: serde_json::to_string(&made.report).map_err(fault)?,
+        engine: env!("CARGO_PKG_VERSION").to_owned(),
+    };
+    let id = recipes::insert(connection, &row)?;
+    for input in resolved.inputs().0.values() {
+        let Input::Material(material) = input else {
+            continue;
+        };
+        let (address, hash) = (&material.address, &material.hash);
+        let parsed: Address = address.parse()?;
+        let (source, token) = match parsed {
+            Address::Token(token) => (signs::token(connection, token)?.recording_id, Some(token)),
+            Address::Recording(Name::Number(recording)) => (Some(recording), None),
+            _ => (None, None),
+        };
+        recipes::insert_input(connection, id, address, source, token, hash)?;
+    }
+    Ok(())
+}

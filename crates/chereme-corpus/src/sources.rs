@@ -1,0 +1,335 @@
+//! What recipes ask of the world, answered from the rows.
+
+use std::sync::Arc;
+
+use chereme_compose::{Example, Held, Letter, Material, SourceError, Sources, Value};
+use chereme_motion::{Instant, Side, Span};
+use chereme_sign::Inventory;
+use chereme_sign::text::nearest;
+use chereme_sign::{Component, HandRef, Handedness, Reading};
+use rusqlite::Connection;
+use sha2::{Digest, Sha256};
+
+use crate::address::{self, Address, Name, Stretch};
+use crate::db::motion;
+use crate::db::recordings;
+use crate::db::signs;
+use crate::db::tiers;
+use crate::error::{Error, Result};
+use crate::inventories::StoredInventory;
+use crate::movement::{ChannelGroup, Track};
+use crate::search::index::SearchIndex;
+
+/// A stretch longer than this is not taken as the source of a recipe.
+const LONGEST: i64 = 600_000_000;
+
+/// The corpus as recipes see it.
+pub(crate) struct CorpusSources<'a> {
+    pub(crate) connection: &'a Connection,
+    pub(crate) index: &'a SearchIndex,
+    pub(crate) inventories: &'a [StoredInventory],
+}
+
+impl CorpusSources<'_> {
+    fn stretch(&self, text: &str) -> Result<Stretch> {
+        address::stretch(self.connection, &text.parse()?)
+    }
+
+    fn load(&self, stretch: &Stretch) -> Result<Material> {
+        if stretch.span.micros() > LONGEST {
+            let seconds = stretch.span.seconds();
+            return Err(Error::wrong(format!(
+                "{:?} lasts {seconds:.0} s; a recipe takes stretches of at most {} s",
+                stretch.recording.name,
+                LONGEST / 1_000_000
+            ))
+            .advise("name a token in it"));
+        }
+        let track = Track::of(self.connection, stretch.recording.id)?;
+        let frames = track.frames_in(stretch.span);
+        let clip = track.clip(self.connection, frames.clone(), &ChannelGroup::ALL)?;
+        let name = format!(
+            "{} {:?} {:?}",
+            motion::content_hash(self.connection, track.row.id)?,
+            frames,
+            track.row
+        );
+        let signer = match stretch.recording.signer_id {
+            Some(id) => recordings::signer(self.connection, id)?,
+            None => None,
+        };
+        let left = signer
+            .as_ref()
+            .is_some_and(|it| it.handedness.as_deref() == Some("left"));
+        let handedness = if left {
+            Handedness::Left
+        } else {
+            Handedness::Right
+        };
+        let (address, gloss) = match &stretch.token {
+            Some(token) => (format!("token:{}", token.id), token.gloss.clone()),
+            None => (
+                format!("recording:{}", stretch.recording.id),
+                stretch.recording.name.clone(),
+            ),
+        };
+        Ok(Material {
+            address,
+            hash: motion::hex(&Sha256::digest(name.as_bytes())),
+            gloss,
+            signer: signer.map(|it| Address::Signer(Name::Text(it.name)).to_string()),
+            handedness,
+            clip,
+            anatomy: Arc::new(track.anatomy(self.connection)?),
+            held: self.held(stretch, handedness)?,
+        })
+    }
+
+    /// What the component tiers say about a stretch, counted from its first frame.
+    fn held(&self, stretch: &Stretch, handedness: Handedness) -> Result<Vec<Held>> {
+        let mut held = Vec::new();
+        let (start, end) = (stretch.span.start().micros(), stretch.span.end().micros());
+        for tier in tiers::tiers(self.connection, stretch.recording.id)? {
+            let Some(component) = tier.component.as_deref().and_then(|name| name.parse().ok())
+            else {
+                continue;
+            };
+            let inventory = self
+                .inventories
+                .iter()
+                .find(|it| Some(it.id) == tier.inventory_id);
+            for row in tiers::annotations_near(self.connection, tier.id, start, end)? {
+                let own = Span::between(
+                    Instant::from_micros(row.start_us),
+                    Instant::from_micros(row.end_us),
+                );
+                let Some(span) = own.intersection(stretch.span) else {
+                    continue;
+                };
+                if row.state != "value" || row.value.trim().is_empty() {
+                    continue;
+                }
+                let known = inventory.and_then(|it| it.inventory.find(row.value.trim()));
+                let value = known.map_or(row.value.trim(), |value| value.id.as_str());
+                for hand in sides(tier.hand.as_deref(), handedness) {
+                    held.push(Held {
+                        hand,
+                        component,
+                        feature: tier.feature.clone(),
+                        value: Reading::from(value),
+                        span: span.shifted(-start),
+                    });
+                }
+            }
+        }
+        Ok(held)
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Inventory> {
+        self.inventories.iter().map(|stored| &stored.inventory)
+    }
+
+    fn example(
+        &self,
+        token: i64,
+        hand: Option<Side>,
+        span: Option<Span>,
+    ) -> Result<Option<Example>> {
+        let token = signs::token(self.connection, token)?;
+        let (Some(recording), Some(start)) = (token.recording_id, token.start_us) else {
+            return Ok(None);
+        };
+        if recordings::motion_track(self.connection, recording)?.is_none() {
+            return Ok(None);
+        }
+        let signer = recordings::recording(self.connection, recording)?.signer;
+        Ok(Some(Example {
+            address: format!("token:{}", token.id),
+            signer: signer.map(|name| Address::Signer(Name::Text(name)).to_string()),
+            hand,
+            span: span.map(|span| span.shifted(-start)),
+        }))
+    }
+}
+
+impl Sources for CorpusSources<'_> {
+    fn material(&self, address: &str) -> std::result::Result<Material, SourceError> {
+        let stretch = self
+            .stretch(address)
+            .map_err(|error| missing(self, address, &error))?;
+        self.load(&stretch).map_err(|error| unreadable(&error))
+    }
+
+    fn stage(&self, signer: Option<&str>) -> std::result::Result<Material, SourceError> {
+        let wanted = match signer.map(str::parse) {
+            Some(Ok(Address::Signer(name))) => {
+                let row = address::signer(self.connection, &name);
+                Some(row.map_err(|error| unreadable(&error))?.id)
+            }
+            Some(_) => {
+                return Err(SourceError::Missing {
+                    address: signer.unwrap_or_default().to_owned(),
+                    nearest: None,
+                });
+            }
+            None => None,
+        };
+        let find = || -> Result<Option<Material>> {
+            let mut recordings = recordings::recordings(self.connection)?;
+            recordings.retain(|row| wanted.is_none() || row.signer_id == wanted);
+            let rank = |origin: &str| {
+                ["captured", "generated", "made"]
+                    .iter()
+                    .position(|it| *it == origin)
+            };
+            recordings.sort_by_key(|row| (rank(&row.origin), row.id));
+            let mut spare = None;
+            for recording in recordings {
+                if recordings::motion_track(self.connection, recording.id)?.is_none() {
+                    continue;
+                }
+                let rate = Track::of(self.connection, recording.id)?.rate;
+                let stretch = Stretch {
+                    span: rate.span(0..1),
+                    recording,
+                    token: None,
+                };
+                let mut material = self.load(&stretch)?;
+                material.held.clear();
+                if Side::BOTH
+                    .iter()
+                    .all(|&side| material.anatomy.has_fingers(side))
+                {
+                    return Ok(Some(material));
+                }
+                spare = spare.or(Some(material));
+            }
+            Ok(spare)
+        };
+        find()
+            .map_err(|error| unreadable(&error))?
+            .ok_or_else(|| SourceError::Missing {
+                address: signer.unwrap_or("a recording with movement").to_owned(),
+                nearest: None,
+            })
+    }
+
+    fn value(&self, component: Component, text: &str) -> std::result::Result<Value, SourceError> {
+        chereme_compose::value_in(self.all(), component, text)
+    }
+
+    fn values(&self, component: Component) -> Vec<Value> {
+        self.all()
+            .filter(|it| it.component == component && it.feature.is_none())
+            .flat_map(|it| it.values.iter().map(move |value| Value::of(it, value)))
+            .collect()
+    }
+
+    fn holding(
+        &self,
+        component: Component,
+        value: &str,
+    ) -> std::result::Result<Vec<Example>, SourceError> {
+        let find = || -> Result<Vec<Example>> {
+            let mut examples = Vec::new();
+            for found in signs::tokens_holding(self.connection, component.name(), value)? {
+                let span = found.span_us.map(|(start, end)| {
+                    Span::between(Instant::from_micros(start), Instant::from_micros(end))
+                });
+                let hand = found
+                    .hand
+                    .as_deref()
+                    .and_then(|hand| hand.parse::<HandRef>().ok());
+                let handedness = if found.left_handed {
+                    Handedness::Left
+                } else {
+                    Handedness::Right
+                };
+                let hand = hand.map(|hand| hand.resolve(handedness));
+                examples.extend(self.example(found.token, hand, span)?);
+            }
+            Ok(examples)
+        };
+        find().map_err(|error| unreadable(&error))
+    }
+
+    fn best(
+        &self,
+        query: &str,
+        signer: Option<&str>,
+    ) -> std::result::Result<Vec<Example>, SourceError> {
+        let same = signer.unwrap_or("signer:*");
+        let query = query.replace("signer=same", same);
+        let fault = |error: &Error| SourceError::Query {
+            query: query.clone(),
+            message: error.to_string(),
+        };
+        let tokens = crate::search::tokens(self.connection, self.index, &query);
+        let tokens = tokens.map_err(|error| fault(&error))?;
+        let mut examples = Vec::new();
+        for token in tokens {
+            examples.extend(
+                self.example(token, None, None)
+                    .map_err(|error| fault(&error))?,
+            );
+        }
+        Ok(examples)
+    }
+
+    fn letters(
+        &self,
+        alphabet: Option<&str>,
+        word: &str,
+    ) -> std::result::Result<Vec<Letter>, SourceError> {
+        chereme_compose::letters_in(self.all(), alphabet, word)
+    }
+}
+
+fn sides(hand: Option<&str>, handedness: Handedness) -> Vec<Option<Side>> {
+    match hand {
+        Some("both") => vec![Some(Side::Right), Some(Side::Left)],
+        Some(hand) => {
+            let hand: Option<HandRef> = hand.parse().ok();
+            vec![hand.map(|hand| hand.resolve(handedness))]
+        }
+        None => vec![None],
+    }
+}
+
+fn unreadable(error: &Error) -> SourceError {
+    SourceError::Unreadable(error.to_string())
+}
+
+/// Says of an address that names no movement what it is instead.
+fn missing(sources: &CorpusSources<'_>, address: &str, error: &Error) -> SourceError {
+    let own = address.to_owned();
+    let parsed: Option<Address> = address.parse().ok();
+    let sign = match &parsed {
+        Some(Address::Gloss(gloss) | Address::Sign(Name::Text(gloss))) => {
+            address::sign(sources.connection, gloss).ok()
+        }
+        _ => None,
+    };
+    let tokens = sign.and_then(|sign| signs::tokens_of_sign(sources.connection, sign).ok());
+    match tokens {
+        Some(tokens) if tokens.iter().all(|token| token.recording_id.is_none()) => {
+            SourceError::NoMovement { address: own }
+        }
+        Some(tokens) => SourceError::Ambiguous {
+            address: own,
+            candidates: tokens
+                .iter()
+                .map(|token| format!("token:{}", token.id))
+                .collect(),
+        },
+        None if parsed.is_none() => unreadable(error),
+        None => {
+            let glosses = signs::glosses(sources.connection).unwrap_or_default();
+            let near = nearest(address, glosses.iter().map(String::as_str));
+            SourceError::Missing {
+                address: own,
+                nearest: near.map(str::to_owned),
+            }
+        }
+    }
+}
