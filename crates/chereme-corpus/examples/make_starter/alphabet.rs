@@ -9,7 +9,7 @@ use super::score::{Beat, Part, Says, Sign, Tier};
 use super::signs;
 
 /// How long a letter is held, and one stroke of a letter that moves, in seconds.
-const HOLD: f64 = 0.34;
+const HOLD: f64 = 0.32;
 const STROKE: f64 = 0.30;
 
 /// Returns the letters in the order of the alphabet, each a sign glossed `DS:` and the letter.
@@ -22,7 +22,7 @@ fn letter(value: &'static InventoryValue) -> Option<Sign> {
     let shape = value.configuration.as_deref()?;
     let facing_ids = value.orientation.as_ref()?;
     let [fingers, palm] = facing::vectors(&facing_ids.fingers, &facing_ids.palm)?;
-    let fingers = eased(fingers);
+    let [fingers, palm] = eased([fingers, palm]);
     let moving = value.strokes.len() as f64 * STROKE;
     let length = if moving > 0.0 { moving + 0.25 } else { HOLD };
     let gloss: &'static str = format!("DS:{}", value.id).leak();
@@ -70,8 +70,8 @@ fn seated(beat: Beat, fingers: DVec3) -> Beat {
     let [side, up, forward] = beat.offset;
     if fingers.y < -0.5 {
         Beat {
-            offset: [side, up + 5.0, forward + 1.0],
-            ..beat.raised(0.8)
+            offset: [side + 7.0, up + 8.0, forward + 2.0],
+            ..beat.raised(0.9)
         }
     } else if fingers.x > 0.5 {
         Beat {
@@ -83,14 +83,20 @@ fn seated(beat: Beat, fingers: DVec3) -> Beat {
     }
 }
 
-/// Returns the direction that a wrist bends to with ease for one that is named: a hand points down
-/// and a little to the middle and out.
-fn eased(fingers: DVec3) -> DVec3 {
-    if fingers.y < -0.5 {
-        (fingers + DVec3::new(0.25, 0.0, 0.30)).normalize()
-    } else {
-        fingers
-    }
+/// Returns the directions that a wrist bends to with ease for those that are named: a hand that
+/// points up or to the side leans out a little, one that points down to the middle and out; all nearer to the
+/// directions named than to any other.
+fn eased([fingers, palm]: [DVec3; 2]) -> [DVec3; 2] {
+    let lean = match fingers.y {
+        _ if fingers.x > 0.9 => DVec3::new(0.0, 0.0, 0.33),
+        y if y > 0.9 => DVec3::new(0.0, 0.0, 0.18 + 0.17 * palm.x.abs()),
+        y if y < -0.9 => DVec3::new(0.25, 0.0, 0.28),
+        _ => DVec3::ZERO,
+    };
+    let leaning = (fingers + lean).normalize();
+    let aside = if fingers.y < -0.9 { -0.30 } else { 0.0 };
+    let palm = palm + DVec3::X * aside;
+    [leaning, palm.reject_from_normalized(leaning).normalize()]
 }
 
 /// From model space to the right hand's own side, up and forward.

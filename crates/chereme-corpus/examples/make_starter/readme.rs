@@ -5,7 +5,7 @@ use chereme_motion::Side;
 use super::notes::{self, CONFIGURATION};
 use super::score::{Sign, Take};
 
-/// Signs that are coded but not recorded; columns as people name them.
+/// Signs that are coded but not recorded.
 const LEXICON: &str = include_str!("lexicon.csv");
 
 /// Returns the lexicon.

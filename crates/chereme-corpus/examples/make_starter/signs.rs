@@ -9,7 +9,6 @@ use super::score::{Part, Says, Shape, Sign, Turn, beat};
 const DOWN: [f64; 3] = [0.0, -1.0, 0.0];
 const IN: [f64; 3] = [-1.0, 0.0, 0.0];
 const OUT: [f64; 3] = [0.0, 0.0, 1.0];
-const UP: [f64; 3] = [0.0, 1.0, 0.0];
 
 fn sign(gloss: &'static str, means: [&'static str; 2], length: f64) -> Sign {
     Sign {
@@ -29,8 +28,8 @@ fn sign(gloss: &'static str, means: [&'static str; 2], length: f64) -> Sign {
 pub(crate) fn bol() -> Sign {
     let side = Part {
         beats: vec![
-            beat(0.0, "neutral-space", [5.1, -4.0, 0.0])
-                .facing([0.05, 0.05, 1.0], [-0.05, 1.0, 0.0]),
+            beat(0.0, "neutral-space", [6.6, -4.0, 0.0])
+                .facing([-0.22, 0.05, 1.0], [-0.05, 1.0, 0.0]),
             beat(0.62, "neutral-space", [13.5, 5.0, 0.0])
                 .facing([-0.15, 0.15, 1.0], [-0.9, 0.45, 0.0])
                 .bowed([2.5, -3.0, 0.0])
@@ -123,7 +122,7 @@ pub(crate) fn escargot() -> Sign {
             "neutral-space",
             [-4.0 + 6.0 * along, 2.5, -8.0 + 7.0 * along],
         )
-        .facing([sine - 0.50, 0.05, cosine], DOWN)
+        .facing([sine - 0.62, 0.05, cosine], DOWN)
         .raised(0.45)
     };
     let under = beat(0.0, "neutral-space", [1.0, -7.5, -5.0])
@@ -164,11 +163,11 @@ pub(crate) fn clair() -> Sign {
             beat(0.0, "nose", [7.0, -12.0, 19.0]).facing([-0.3, 1.0, 0.3], [-0.45, -0.1, 1.0]),
             beat(0.16, "nose", [7.0, -12.0, 19.0]).facing([-0.3, 1.0, 0.3], [-0.45, -0.1, 1.0]),
             beat(0.72, "nose", [22.0, -4.0, 20.0])
-                .facing([0.25, 1.0, 0.05], [-0.2, 0.0, 1.0])
+                .facing([0.05, 1.0, 0.12], [-0.1, 0.0, 1.0])
                 .bowed([0.0, 1.5, 2.5])
                 .raised(0.15),
             beat(0.95, "nose", [22.0, -4.0, 20.0])
-                .facing([0.25, 1.0, 0.05], [-0.2, 0.0, 1.0])
+                .facing([0.05, 1.0, 0.12], [-0.1, 0.0, 1.0])
                 .raised(0.15),
         ],
         shapes: vec![Shape("beak", 0.0, 0.24), Shape("5", 0.66, 0.95)],
@@ -280,7 +279,9 @@ pub(crate) fn punir() -> Sign {
 
 /// The letter W goes straight to the side and becomes an E.
 pub(crate) fn week_end() -> Sign {
-    let at = |at: f64, side: f64| beat(at, "neutral-space", [side, 15.0, -4.0]).facing(UP, OUT);
+    let at = |at: f64, side: f64| {
+        beat(at, "neutral-space", [side, 17.0, -8.0]).facing([0.0, 1.0, 0.22], OUT)
+    };
     Sign {
         hold: 0.68,
         right: Part {
@@ -288,7 +289,8 @@ pub(crate) fn week_end() -> Sign {
             shapes: vec![Shape("W", 0.0, 0.30), Shape("E", 0.62, 0.88)],
         },
         says: vec![
-            Says(Placement(Right), "neutral", 0.0, 0.88),
+            Says(Placement(Right), "high", 0.0, 0.30),
+            Says(Placement(Right), "high-right", 0.56, 0.88),
             Says(Movement(Right), "straight", 0.18, 0.68),
             Says(Direction(Right), "right", 0.18, 0.68),
         ],
@@ -331,7 +333,7 @@ pub(crate) fn chat() -> Sign {
     const STEPS: usize = 6;
     let paw = |first: usize| {
         let beats = (0..=STEPS).map(|n| {
-            let front = (n + first) % 2 == 0;
+            let front = (n + first).is_multiple_of(2);
             let at = beat(
                 n as f64 * STEP,
                 "neutral-space",
