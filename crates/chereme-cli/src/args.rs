@@ -1,9 +1,10 @@
 //! The words of the command line.
 
+use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
-use chereme_corpus::Corpus;
+use anyhow::Result;
+use chereme_corpus::{Corpus, Error};
 use clap::Parser;
 
 use crate::commands::Command;
@@ -52,5 +53,13 @@ impl Cli {
 
 /// Reads a small text file that the user named.
 pub(crate) fn read_text(path: &PathBuf) -> Result<String> {
-    std::fs::read_to_string(path).with_context(|| path.display().to_string())
+    Ok(std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?)
+}
+
+/// Returns the failure that a small file of the user does not say what it should.
+pub(crate) fn wrong_text(path: &Path, error: impl Display, remedy: &str) -> Error {
+    let place = path.display().to_string();
+    Error::wrong(format!("{place}: {error}"))
+        .at(place)
+        .advise(remedy)
 }

@@ -3,12 +3,15 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use anyhow::{Context, Result};
-use chereme_corpus::{Corpus, FileReport, FileStatus, ImportOptions, ImportReport, Progress};
+use anyhow::Result;
+use chereme_corpus::{
+    Corpus, FileReport, FileStatus, ImportOptions, ImportReport, Mapping, Progress,
+};
+use chereme_motion::anatomy::RolesError;
 use clap::ValueEnum;
 use serde_json::Value;
 
-use crate::args::{Cli, read_text};
+use crate::args::{Cli, read_text, wrong_text};
 use crate::output::{Bar, Output};
 
 /// Take recordings, annotations, lexicons and inventories into a corpus
@@ -122,13 +125,19 @@ fn tempfile_for(args: &Args) -> Result<Option<(tempfile::TempDir, PathBuf)>> {
 }
 
 fn options(args: &Args) -> Result<ImportOptions> {
-    let roles = args.roles.as_ref().map(|path| {
+    let roles = args.roles.as_ref().map(|path| -> Result<_> {
         let text = read_text(path)?;
-        text.parse().with_context(|| path.display().to_string())
+        let advice =
+            "write lines such as `right wrist = RHand`, each a part of the body and a joint";
+        Ok(text
+            .parse()
+            .map_err(|error: RolesError| wrong_text(path, error, advice))?)
     });
-    let mapping = args.map.as_ref().map(|path| {
+    let mapping = args.map.as_ref().map(|path| -> Result<_> {
         let text = read_text(path)?;
-        chereme_corpus::Mapping::from_json(&text).with_context(|| path.display().to_string())
+        let advice =
+            "write a JSON object such as {\"tiers\": {\"Tier 1\": \"right.configuration\"}}";
+        Ok(Mapping::from_json(&text).map_err(|error| wrong_text(path, error, advice))?)
     });
     let word = |hand: HandWord| match hand {
         HandWord::Right => "right",
