@@ -16,8 +16,11 @@ mod movement;
 mod picture;
 mod progress;
 mod recombine;
+mod score;
 pub(crate) mod search;
 mod sources;
+mod starter;
+mod suggest;
 mod tokens;
 
 use std::path::Path;
@@ -45,6 +48,9 @@ pub use movement::ChannelGroup;
 pub use picture::{Moving, Picture, PictureOptions, draw_clip};
 pub use progress::{Progress, Step, Unit, unheard};
 pub use recombine::Recombination;
+pub use chereme_analysis::{Score, ScoreOptions};
+pub use starter::{starter_files, unpack_starter};
+pub use suggest::{Partner, Suggestions};
 pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions};
 
 /// An open corpus.

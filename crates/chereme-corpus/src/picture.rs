@@ -315,7 +315,7 @@ fn figure(error: FigureError) -> Error {
 }
 
 /// Writes a file beside its name and moves it there once it is whole.
-fn write(
+pub(crate) fn write(
     to: &Path,
     force: bool,
     fill: impl FnOnce(&mut BufWriter<File>) -> Result<()>,

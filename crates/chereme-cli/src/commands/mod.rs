@@ -6,7 +6,9 @@ mod import;
 mod new;
 mod recombine;
 mod render;
+mod score;
 mod search;
+mod suggest;
 
 use std::process::ExitCode;
 
@@ -24,6 +26,8 @@ pub(crate) enum Command {
     Search(search::Args),
     Recombine(recombine::Args),
     Render(render::Args),
+    Score(score::Args),
+    Suggest(suggest::Args),
     Check(check::Args),
     Undo(history::UndoArgs),
     Redo(history::RedoArgs),
@@ -36,6 +40,8 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::New(args) => new::run(cli, args, output),
         Command::Import(args) => return import::run(cli, args, output),
         Command::Check(args) => return check::run(cli, args, output),
+        Command::Score(args) => score::run(cli, args, output),
+        Command::Suggest(args) => suggest::run(cli, args, output),
         Command::Search(args) => search::run(cli, args, output),
         Command::Recombine(args) => recombine::run(cli, args, output),
         Command::Render(args) => render::run(cli, args, output),

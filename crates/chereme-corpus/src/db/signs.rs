@@ -380,3 +380,10 @@ pub(crate) fn tokens_holding(
         .collect::<rusqlite::Result<_>>()?;
     Ok(rows)
 }
+
+/// Returns the citation forms of all signs.
+pub(crate) fn citations(connection: &Connection) -> Result<Vec<TokenRow>> {
+    let mut statement = connection.prepare_cached(&format!("{TOKEN} WHERE t.citation = 1 ORDER BY t.id"))?;
+    let rows = statement.query_map([], token_row)?.collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}

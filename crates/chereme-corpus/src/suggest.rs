@@ -1,0 +1,211 @@
+//! What could be made from a sign: partners that differ in one component, and values that none has.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use chereme_sign::{Component, HandRef, Handedness};
+use serde::Serialize;
+
+use crate::Corpus;
+use crate::address::{self, Address};
+use crate::db::recordings;
+use crate::db::signs::{self, TokenRow, TokenValueRow};
+use crate::error::{Error, Result};
+use crate::inventories;
+
+/// What could be made from a sign.
+#[derive(Debug, Clone, Serialize)]
+pub struct Suggestions {
+    /// The token.
+    pub token: i64,
+    /// Its gloss.
+    pub gloss: String,
+    /// What it is coded as, by field.
+    pub coding: BTreeMap<String, String>,
+    /// Signs coded alike but for one component.
+    pub partners: Vec<Partner>,
+    /// Values that no sign of the corpus has with the rest of this coding, by field.
+    pub unused: BTreeMap<String, Vec<String>>,
+}
+
+/// A sign that differs from another in one component.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Partner {
+    /// Its token.
+    pub token: i64,
+    /// Its gloss.
+    pub gloss: String,
+    /// `captured`, `made`, `generated` or `lexicon`.
+    pub origin: String,
+    /// The field in which they differ.
+    pub field: String,
+    /// What the first sign has there.
+    pub from: String,
+    /// What this one has there.
+    pub to: String,
+    /// How many fields are equal.
+    pub equal: usize,
+    /// A recipe that would give its coding, where one changes that field.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub recipe: Option<String>,
+}
+
+/// Fewer equal fields than these say little.
+const LEAST_EQUAL: usize = 2;
+const MOST_UNUSED: usize = 40;
+
+/// The values of a token by field, hands by their part in signing and phases in order: `beak > 5`.
+type Coding = BTreeMap<String, String>;
+
+impl Corpus {
+    /// Returns what could be made from a token: signs of the corpus coded alike but for one
+    /// component, with a recipe where one leads there, and values that no sign has with the rest.
+    ///
+    /// Only citation forms are looked at. Fields that one of the two does not have are neither alike
+    /// nor different.
+    ///
+    /// # Errors
+    /// Where nothing has that address, or the token has no coding.
+    pub fn suggest(&self, address: &Address) -> Result<Suggestions> {
+        let connection = self.store.read();
+        let token = address::token(connection, address)?;
+        let own = coding(&signs::values(connection, token.id)?, self.handedness(&token)?);
+        if own.len() < LEAST_EQUAL {
+            return Err(Error::wrong(format!("{} has {} coded components", token.gloss, own.len()))
+                .at(address.to_string())
+                .advise("code its handshape, placement and movement first"));
+        }
+        let mut partners = Vec::new();
+        let mut used: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+        for other in signs::citations(connection)? {
+            if other.sign_id == token.sign_id {
+                continue;
+            }
+            let theirs = coding(&signs::values(connection, other.id)?, self.handedness(&other)?);
+            let (equal, different) = compare(&own, &theirs);
+            if equal < LEAST_EQUAL || different.len() != 1 {
+                continue;
+            }
+            let field = different[0].clone();
+            let (from, to) = (own[&field].clone(), theirs[&field].clone());
+            used.entry(field.clone()).or_default().insert(to.clone());
+            partners.push(Partner {
+                token: other.id,
+                recipe: recipe(&token, &field, &to),
+                gloss: other.gloss,
+                origin: other.origin,
+                field,
+                from,
+                to,
+                equal,
+            });
+        }
+        partners.sort_by(|a, b| (b.equal, &a.field, &a.gloss).cmp(&(a.equal, &b.field, &b.gloss)));
+        let unused = self.unused(&own, &used)?;
+        Ok(Suggestions { token: token.id, gloss: token.gloss, coding: own, partners, unused })
+    }
+
+    fn handedness(&self, token: &TokenRow) -> Result<Handedness> {
+        let connection = self.store.read();
+        let Some(recording) = token.recording_id else { return Ok(Handedness::Right) };
+        let signer = recordings::recording(connection, recording)?.signer_id;
+        let signer = signer.map(|id| recordings::signer(connection, id)).transpose()?.flatten();
+        let left = signer.and_then(|it| it.handedness).as_deref() == Some("left");
+        Ok(if left { Handedness::Left } else { Handedness::Right })
+    }
+
+    fn unused(
+        &self,
+        own: &Coding,
+        used: &BTreeMap<String, BTreeSet<String>>,
+    ) -> Result<BTreeMap<String, Vec<String>>> {
+        let all = inventories::load(self.store.read())?;
+        let mut unused = BTreeMap::new();
+        for (name, component) in [
+            ("dominant.configuration", Component::Configuration),
+            ("placement", Component::Placement),
+        ] {
+            let Some(value) = own.get(name) else { continue };
+            let inventory = all.iter().map(|it| &it.inventory).find(|it| {
+                it.component == component && it.feature.is_none() && it.find(value).is_some()
+            });
+            let Some(inventory) = inventory else { continue };
+            let taken = used.get(name);
+            let free = inventory.values.iter().map(|value| &value.id).filter(|id| {
+                *id != value && !taken.is_some_and(|taken| taken.contains(*id))
+            });
+            unused.insert(name.to_owned(), free.take(MOST_UNUSED).cloned().collect());
+        }
+        Ok(unused)
+    }
+}
+
+fn coding(rows: &[TokenValueRow], handedness: Handedness) -> Coding {
+    let mut values: BTreeMap<String, Vec<(u8, i64, &str)>> = BTreeMap::new();
+    for row in rows {
+        let Some(value) = row.value.as_deref().filter(|_| row.state == "value") else { continue };
+        if row.component == "nonmanual" || row.feature.as_deref() == Some("phase") {
+            continue;
+        }
+        let hand = row.hand.as_deref().and_then(|hand| hand.parse::<HandRef>().ok());
+        let weak = hand.is_some_and(|hand| hand.resolve(handedness) != handedness.dominant());
+        let both = row.hand.as_deref() == Some("both");
+        let feature = row.feature.as_ref().map_or(String::new(), |it| format!(".{it}"));
+        let manner = if row.component == "configuration" { "dominant." } else { "" };
+        let phase = match row.phase.as_deref() {
+            Some("initial") => 0,
+            Some("middle") => 1,
+            Some("final") => 3,
+            _ => 2,
+        };
+        let mut add = |prefix: &str| {
+            let field = format!("{prefix}{}{feature}", row.component);
+            values.entry(field).or_default().push((phase, row.position, value));
+        };
+        if weak {
+            add("weak.");
+        } else {
+            add(manner);
+        }
+        if both {
+            add("weak.");
+        }
+    }
+    values
+        .into_iter()
+        .map(|(field, mut values)| {
+            values.sort();
+            let texts: Vec<&str> = values.into_iter().map(|(.., value)| value).collect();
+            (field, texts.join(" > "))
+        })
+        .collect()
+}
+
+/// How many fields are equal, and which differ, of those that both have.
+fn compare(a: &Coding, b: &Coding) -> (usize, Vec<String>) {
+    let both = a.iter().filter_map(|(field, value)| Some((field, value, b.get(field)?)));
+    let (mut equal, mut different) = (0, Vec::new());
+    for (field, mine, theirs) in both {
+        if mine == theirs {
+            equal += 1;
+        } else {
+            different.push(field.clone());
+        }
+    }
+    (equal, different)
+}
+
+/// A recipe that changes one field of a token with movement.
+fn recipe(token: &TokenRow, field: &str, to: &str) -> Option<String> {
+    token.recording_id?;
+    if to.contains(" > ") {
+        return None;
+    }
+    let source = format!("token:{}", token.id);
+    let value = if to.contains(' ') { format!("\"{to}\"") } else { to.to_owned() };
+    match field {
+        "dominant.configuration" => Some(format!("{source} | configure dominant {value}")),
+        "weak.configuration" => Some(format!("{source} | configure weak {value}")),
+        "placement" => Some(format!("{source} | place both at {value}")),
+        _ => None,
+    }
+}
