@@ -5,13 +5,16 @@
 
 mod address;
 mod annotate;
+mod check;
 pub(crate) mod codec;
 pub(crate) mod db;
 mod edit;
-mod check;
 mod error;
+mod export;
 mod import;
+mod info;
 mod inventories;
+mod list;
 mod movement;
 mod picture;
 mod progress;
@@ -27,31 +30,36 @@ use std::path::Path;
 
 use db::Store;
 
-pub use chereme_formats::roles::{Mapping, MappingError};
+pub use chereme_formats::roles::{Hands, Mapping, MappingError};
+pub use chereme_formats::table::annotations::Moment;
 pub use chereme_sign::query::HELP as QUERY_HELP;
+pub use chereme_sign::{Stereotype, TierRole};
 
 pub use address::{Address, Name, Stretch};
-pub use db::recordings::{RecordingRow, SignerRow};
-pub use db::signs::TokenRow;
-pub use db::tiers::TierRow;
 pub use annotate::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
     AnnotationOrigin, NewTier, RemovedTiers, TierChange, TierName, Values,
 };
 pub use check::{CheckReport, Fault};
+pub use chereme_analysis::{Score, ScoreOptions};
+pub use db::recordings::{RecordingRow, SignerRow};
+pub use db::signs::TokenRow;
+pub use db::tiers::TierRow;
 pub use db::{OperationKind, OperationRow};
 pub use edit::{RecordingChange, SignChange, SignerChange};
 pub use error::{Error, Result};
+pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile};
 pub use import::{FileReport, FileStatus, ImportOptions, ImportReport, ReportFinding};
+pub use info::{Info, InventoryInfo, SignerInfo};
 pub use inventories::StoredInventory;
+pub use list::{ListFilter, ListKind, Listing, cell_text};
 pub use movement::ChannelGroup;
 pub use picture::{Moving, Picture, PictureOptions, draw_clip};
 pub use progress::{Progress, Step, Unit, unheard};
 pub use recombine::Recombination;
-pub use chereme_analysis::{Score, ScoreOptions};
+pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions};
 pub use starter::{starter_files, unpack_starter};
 pub use suggest::{Partner, Suggestions};
-pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions};
 
 /// An open corpus.
 pub struct Corpus {

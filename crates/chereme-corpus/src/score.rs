@@ -34,7 +34,10 @@ impl Corpus {
         let names = [a.to_string(), b.to_string()];
         let (a, b) = (self.movement(a)?, self.movement(b)?);
         let scored = score(&a, &b, options)?;
-        let chart = ChartOptions { names, ..ChartOptions::default() };
+        let chart = ChartOptions {
+            names,
+            ..ChartOptions::default()
+        };
         let lengths = [a.clip.frames(), b.clip.frames()];
         let fault = |error: chereme_figure::FigureError| Error::wrong(error.to_string());
         let image = alignment_picture(&scored.alignment, lengths, &chart).map_err(fault)?;

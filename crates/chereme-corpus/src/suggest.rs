@@ -68,11 +68,18 @@ impl Corpus {
     pub fn suggest(&self, address: &Address) -> Result<Suggestions> {
         let connection = self.store.read();
         let token = address::token(connection, address)?;
-        let own = coding(&signs::values(connection, token.id)?, self.handedness(&token)?);
+        let own = coding(
+            &signs::values(connection, token.id)?,
+            self.handedness(&token)?,
+        );
         if own.len() < LEAST_EQUAL {
-            return Err(Error::wrong(format!("{} has {} coded components", token.gloss, own.len()))
-                .at(address.to_string())
-                .advise("code its handshape, placement and movement first"));
+            return Err(Error::wrong(format!(
+                "{} has {} coded components",
+                token.gloss,
+                own.len()
+            ))
+            .at(address.to_string())
+            .advise("code its handshape, placement and movement first"));
         }
         let mut partners = Vec::new();
         let mut used: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
@@ -80,7 +87,10 @@ impl Corpus {
             if other.sign_id == token.sign_id {
                 continue;
             }
-            let theirs = coding(&signs::values(connection, other.id)?, self.handedness(&other)?);
+            let theirs = coding(
+                &signs::values(connection, other.id)?,
+                self.handedness(&other)?,
+            );
             let (equal, different) = compare(&own, &theirs);
             if equal < LEAST_EQUAL || different.len() != 1 {
                 continue;
@@ -101,16 +111,31 @@ impl Corpus {
         }
         partners.sort_by(|a, b| (b.equal, &a.field, &a.gloss).cmp(&(a.equal, &b.field, &b.gloss)));
         let unused = self.unused(&own, &used)?;
-        Ok(Suggestions { token: token.id, gloss: token.gloss, coding: own, partners, unused })
+        Ok(Suggestions {
+            token: token.id,
+            gloss: token.gloss,
+            coding: own,
+            partners,
+            unused,
+        })
     }
 
     fn handedness(&self, token: &TokenRow) -> Result<Handedness> {
         let connection = self.store.read();
-        let Some(recording) = token.recording_id else { return Ok(Handedness::Right) };
+        let Some(recording) = token.recording_id else {
+            return Ok(Handedness::Right);
+        };
         let signer = recordings::recording(connection, recording)?.signer_id;
-        let signer = signer.map(|id| recordings::signer(connection, id)).transpose()?.flatten();
+        let signer = signer
+            .map(|id| recordings::signer(connection, id))
+            .transpose()?
+            .flatten();
         let left = signer.and_then(|it| it.handedness).as_deref() == Some("left");
-        Ok(if left { Handedness::Left } else { Handedness::Right })
+        Ok(if left {
+            Handedness::Left
+        } else {
+            Handedness::Right
+        })
     }
 
     fn unused(
@@ -130,9 +155,11 @@ impl Corpus {
             });
             let Some(inventory) = inventory else { continue };
             let taken = used.get(name);
-            let free = inventory.values.iter().map(|value| &value.id).filter(|id| {
-                *id != value && !taken.is_some_and(|taken| taken.contains(*id))
-            });
+            let free = inventory
+                .values
+                .iter()
+                .map(|value| &value.id)
+                .filter(|id| *id != value && !taken.is_some_and(|taken| taken.contains(*id)));
             unused.insert(name.to_owned(), free.take(MOST_UNUSED).cloned().collect());
         }
         Ok(unused)
@@ -142,15 +169,27 @@ impl Corpus {
 fn coding(rows: &[TokenValueRow], handedness: Handedness) -> Coding {
     let mut values: BTreeMap<String, Vec<(u8, i64, &str)>> = BTreeMap::new();
     for row in rows {
-        let Some(value) = row.value.as_deref().filter(|_| row.state == "value") else { continue };
+        let Some(value) = row.value.as_deref().filter(|_| row.state == "value") else {
+            continue;
+        };
         if row.component == "nonmanual" || row.feature.as_deref() == Some("phase") {
             continue;
         }
-        let hand = row.hand.as_deref().and_then(|hand| hand.parse::<HandRef>().ok());
+        let hand = row
+            .hand
+            .as_deref()
+            .and_then(|hand| hand.parse::<HandRef>().ok());
         let weak = hand.is_some_and(|hand| hand.resolve(handedness) != handedness.dominant());
         let both = row.hand.as_deref() == Some("both");
-        let feature = row.feature.as_ref().map_or(String::new(), |it| format!(".{it}"));
-        let manner = if row.component == "configuration" { "dominant." } else { "" };
+        let feature = row
+            .feature
+            .as_ref()
+            .map_or(String::new(), |it| format!(".{it}"));
+        let manner = if row.component == "configuration" {
+            "dominant."
+        } else {
+            ""
+        };
         let phase = match row.phase.as_deref() {
             Some("initial") => 0,
             Some("middle") => 1,
@@ -159,7 +198,10 @@ fn coding(rows: &[TokenValueRow], handedness: Handedness) -> Coding {
         };
         let mut add = |prefix: &str| {
             let field = format!("{prefix}{}{feature}", row.component);
-            values.entry(field).or_default().push((phase, row.position, value));
+            values
+                .entry(field)
+                .or_default()
+                .push((phase, row.position, value));
         };
         if weak {
             add("weak.");
@@ -182,7 +224,9 @@ fn coding(rows: &[TokenValueRow], handedness: Handedness) -> Coding {
 
 /// How many fields are equal, and which differ, of those that both have.
 fn compare(a: &Coding, b: &Coding) -> (usize, Vec<String>) {
-    let both = a.iter().filter_map(|(field, value)| Some((field, value, b.get(field)?)));
+    let both = a
+        .iter()
+        .filter_map(|(field, value)| Some((field, value, b.get(field)?)));
     let (mut equal, mut different) = (0, Vec::new());
     for (field, mine, theirs) in both {
         if mine == theirs {
@@ -201,7 +245,11 @@ fn recipe(token: &TokenRow, field: &str, to: &str) -> Option<String> {
         return None;
     }
     let source = format!("token:{}", token.id);
-    let value = if to.contains(' ') { format!("\"{to}\"") } else { to.to_owned() };
+    let value = if to.contains(' ') {
+        format!("\"{to}\"")
+    } else {
+        to.to_owned()
+    };
     match field {
         "dominant.configuration" => Some(format!("{source} | configure dominant {value}")),
         "weak.configuration" => Some(format!("{source} | configure weak {value}")),

@@ -1,14 +1,19 @@
 //! The commands, one module each.
 
+mod annotate;
 mod check;
+mod demo;
+mod export;
 mod history;
 mod import;
+mod list;
 mod new;
 mod recombine;
 mod render;
 mod score;
 mod search;
 mod suggest;
+mod tiers;
 
 use std::process::ExitCode;
 
@@ -21,14 +26,19 @@ use crate::output::Output;
 /// What to do.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
+    Demo(demo::Args),
     New(new::Args),
     Import(import::Args),
+    Info(list::InfoArgs),
+    List(list::Args),
+    Annotate(annotate::Args),
     Search(search::Args),
     Recombine(recombine::Args),
     Render(render::Args),
     Score(score::Args),
     Suggest(suggest::Args),
     Check(check::Args),
+    Export(export::Args),
     Undo(history::UndoArgs),
     Redo(history::RedoArgs),
     Log(history::LogArgs),
@@ -37,6 +47,11 @@ pub(crate) enum Command {
 /// Runs the command.
 pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
     match &cli.command {
+        Command::Demo(args) => demo::run(cli, args, output),
+        Command::Info(args) => list::info(cli, args, output),
+        Command::List(args) => list::list(cli, args, output),
+        Command::Annotate(args) => annotate::run(cli, args, output),
+        Command::Export(args) => export::run(cli, args, output),
         Command::New(args) => new::run(cli, args, output),
         Command::Import(args) => return import::run(cli, args, output),
         Command::Check(args) => return check::run(cli, args, output),

@@ -36,8 +36,13 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         Some(path) => corpus.draw_alignment([&a, &b], &options, path, args.force)?,
         None => corpus.score(&a, &b, &options)?,
     };
-    let normalized = score.normalized.map_or("none".to_owned(), |it| format!("{it:.4}"));
-    output.line(format!("distance {:.4}, a step {normalized}", score.distance))?;
+    let normalized = score
+        .normalized
+        .map_or("none".to_owned(), |it| format!("{it:.4}"));
+    output.line(format!(
+        "distance {:.4}, a step {normalized}",
+        score.distance
+    ))?;
     let rows: Vec<Vec<String>> = score
         .components
         .iter()
@@ -45,8 +50,14 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         .collect();
     output.table(&["component", "distance"], &rows)?;
     if let Some(error) = score.max_joint_error_m {
-        output.line(format!("largest distance of a joint: {:.1} cm", error * 100.0))?;
+        output.line(format!(
+            "largest distance of a joint: {:.1} cm",
+            error * 100.0
+        ))?;
     }
-    output.line(format!("alignment: {} pairs of frames", score.alignment.len()))?;
+    output.line(format!(
+        "alignment: {} pairs of frames",
+        score.alignment.len()
+    ))?;
     output.document(score)
 }

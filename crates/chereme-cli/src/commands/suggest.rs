@@ -22,25 +22,45 @@ pub(crate) struct Args {
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let corpus = cli.open(&args.corpus)?;
     let found = corpus.suggest(&args.token.parse()?)?;
-    let coding: Vec<String> =
-        found.coding.iter().map(|(field, value)| format!("{field}={value}")).collect();
-    output.line(format!("{} (token:{}): {}", found.gloss, found.token, coding.join(" ")))?;
+    let coding: Vec<String> = found
+        .coding
+        .iter()
+        .map(|(field, value)| format!("{field}={value}"))
+        .collect();
+    output.line(format!(
+        "{} (token:{}): {}",
+        found.gloss,
+        found.token,
+        coding.join(" ")
+    ))?;
     let rows: Vec<Vec<String>> = found
         .partners
         .iter()
         .map(|it| {
             let change = format!("{}: {} -> {}", it.field, it.from, it.to);
             let recipe = it.recipe.clone().unwrap_or_default();
-            vec![it.gloss.clone(), it.origin.clone(), change, it.equal.to_string(), recipe]
+            vec![
+                it.gloss.clone(),
+                it.origin.clone(),
+                change,
+                it.equal.to_string(),
+                recipe,
+            ]
         })
         .collect();
     if rows.is_empty() {
         output.line("no sign differs from it in one component only")?;
     } else {
-        output.table(&["partner", "origin", "differs in", "alike in", "recipe"], &rows)?;
+        output.table(
+            &["partner", "origin", "differs in", "alike in", "recipe"],
+            &rows,
+        )?;
     }
     for (field, values) in &found.unused {
-        output.line(format!("no sign has, with the rest, {field}: {}", values.join(", ")))?;
+        output.line(format!(
+            "no sign has, with the rest, {field}: {}",
+            values.join(", ")
+        ))?;
     }
     output.document(found)
 }

@@ -5,9 +5,11 @@
 
 pub(crate) mod check;
 pub(crate) mod dump;
-mod history;
 pub(crate) mod edits;
+mod history;
+pub(crate) mod info;
 pub(crate) mod inventories;
+pub(crate) mod list;
 pub(crate) mod motion;
 mod open;
 pub(crate) mod recipes;

@@ -383,7 +383,10 @@ pub(crate) fn tokens_holding(
 
 /// Returns the citation forms of all signs.
 pub(crate) fn citations(connection: &Connection) -> Result<Vec<TokenRow>> {
-    let mut statement = connection.prepare_cached(&format!("{TOKEN} WHERE t.citation = 1 ORDER BY t.id"))?;
-    let rows = statement.query_map([], token_row)?.collect::<rusqlite::Result<_>>()?;
+    let mut statement =
+        connection.prepare_cached(&format!("{TOKEN} WHERE t.citation = 1 ORDER BY t.id"))?;
+    let rows = statement
+        .query_map([], token_row)?
+        .collect::<rusqlite::Result<_>>()?;
     Ok(rows)
 }

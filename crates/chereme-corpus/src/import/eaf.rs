@@ -18,10 +18,10 @@ use crate::inventories::{self, StoredInventory};
 use crate::tokens;
 
 /// The properties by which a file says what its recording is.
-const ORIGIN: &str = "chereme.origin";
-const LICENCE: &str = "chereme.licence";
-const SIGNER: &str = "chereme.signer";
-const HANDEDNESS: &str = "chereme.handedness";
+pub(crate) const ORIGIN: &str = "chereme.origin";
+pub(crate) const LICENCE: &str = "chereme.licence";
+pub(crate) const SIGNER: &str = "chereme.signer";
+pub(crate) const HANDEDNESS: &str = "chereme.handedness";
 
 pub(super) fn import(job: &mut Job<'_>) -> Result<FileReport> {
     if recordings::source_file_hashed(job.connection, &job.hash)?.is_some() {

@@ -4,7 +4,7 @@
 //! and does not keep the others out.
 
 mod bvh;
-mod eaf;
+pub(crate) mod eaf;
 mod inventory;
 mod lexicon;
 mod report;

@@ -1,0 +1,135 @@
+//! `chereme list` and `chereme info`.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{Info, ListFilter, ListKind, cell_text};
+
+use crate::args::Cli;
+use crate::output::Output;
+
+/// List rows: recordings, signs, tokens, tiers, annotations, inventories, values, signers, operations
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// What to list
+    kind: ListKind,
+    /// Only rows that fit, such as gloss=BO*, start_us=>=500000, recording=recording:3, parent=none
+    #[arg(long = "where", value_name = "COLUMN=PATTERN", value_parser = pair)]
+    filter: Vec<(String, String)>,
+    /// The column to sort by
+    #[arg(long, value_name = "COLUMN")]
+    sort: Option<String>,
+    /// The greatest first
+    #[arg(long)]
+    descending: bool,
+    /// How many rows to list at most
+    #[arg(long, value_name = "N")]
+    limit: Option<usize>,
+    /// How many rows to leave out before
+    #[arg(long, default_value_t = 0, value_name = "N")]
+    offset: usize,
+}
+
+fn pair(text: &str) -> Result<(String, String), String> {
+    let (column, pattern) = text
+        .split_once('=')
+        .ok_or("write COLUMN=PATTERN, such as gloss=BO*")?;
+    Ok((column.to_owned(), pattern.to_owned()))
+}
+
+pub(super) fn list(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let corpus = cli.open(&args.corpus)?;
+    let filter = ListFilter {
+        columns: args.filter.clone(),
+        sort: args.sort.clone(),
+        descending: args.descending,
+        limit: args.limit,
+        offset: args.offset,
+    };
+    let found = corpus.list(args.kind, &filter)?;
+    let columns = args.kind.columns();
+    let rows: Vec<Vec<String>> = found
+        .rows
+        .iter()
+        .map(|row| {
+            columns
+                .iter()
+                .map(|name| row.get(*name).map(cell_text).unwrap_or_default())
+                .collect()
+        })
+        .collect();
+    output.table(&columns, &rows)?;
+    let shown = if (rows.len() as u64) < found.total {
+        format!(", {} shown", rows.len())
+    } else {
+        String::new()
+    };
+    output.line(format!("{} {}{shown}", found.total, args.kind.name()))?;
+    output.document(found)
+}
+
+/// Tell what is in a corpus
+#[derive(Debug, clap::Args)]
+pub(crate) struct InfoArgs {
+    /// The corpus
+    corpus: PathBuf,
+}
+
+pub(super) fn info(cli: &Cli, args: &InfoArgs, output: &mut Output) -> Result<()> {
+    let info = cli.open(&args.corpus)?.info()?;
+    print(&info, output)?;
+    output.document(info)
+}
+
+fn print(info: &Info, output: &mut Output) -> Result<()> {
+    let counts = |map: &std::collections::BTreeMap<String, u64>| {
+        map.iter()
+            .map(|(what, count)| format!("{count} {what}"))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    output.line(format!(
+        "{}: {:.1} MB, schema version {}",
+        info.path.display(),
+        info.file_bytes as f64 / 1e6,
+        info.schema_version
+    ))?;
+    let all: Vec<String> = info
+        .counts
+        .iter()
+        .map(|(what, count)| format!("{count} {what}"))
+        .collect();
+    output.line(format!("holds: {}", all.join(", ")))?;
+    output.line(format!(
+        "movement: {:.2} hours, {} frames",
+        info.motion_hours, info.motion_frames
+    ))?;
+    output.line(format!("recordings: {}", counts(&info.recordings)))?;
+    output.line(format!("tokens: {}", counts(&info.tokens)))?;
+    output.line(format!("tiers: {}", counts(&info.tiers)))?;
+    for signer in &info.signers {
+        let hand = signer
+            .handedness
+            .as_deref()
+            .unwrap_or("handedness not known");
+        output.line(format!(
+            "signer {}: {hand}, {} recordings",
+            signer.name, signer.recordings
+        ))?;
+    }
+    let named: Vec<String> = info
+        .inventories
+        .iter()
+        .map(|it| format!("{} ({})", it.id, it.values))
+        .collect();
+    output.line(format!("inventories: {}", named.join(", ")))?;
+    if let Some(last) = &info.last_operation {
+        output.line(format!(
+            "last change: {} by {}: {} {}",
+            last.at, last.author, last.name, last.summary
+        ))?;
+    }
+    Ok(())
+}

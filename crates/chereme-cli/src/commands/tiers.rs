@@ -1,0 +1,279 @@
+//! The parts of `chereme annotate` that change tiers, recordings, signers and signs.
+
+use anyhow::Result;
+use chereme_corpus::{
+    Address, Corpus, Hands, Name, NewTier, RecordingChange, SignChange, SignerChange, Stereotype,
+    TierChange, TierName, TierRole, Values,
+};
+use chereme_motion::Side;
+use clap::{Subcommand, ValueEnum};
+
+use super::annotate;
+use crate::output::Output;
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Action {
+    /// Add a tier to the recording named by --in
+    AddTier {
+        /// Its name
+        name: String,
+        /// What its annotations say: gloss, translation, comment, free, or a component such as
+        /// placement or nonmanual.brows
+        #[arg(long, default_value = "free")]
+        role: TierRole,
+        /// Whose hand they are about
+        #[arg(long, value_enum)]
+        hand: Option<HandWord>,
+        /// The tier above
+        #[arg(long, requires = "stereotype")]
+        parent: Option<String>,
+        /// How it hangs below: Time_Subdivision, Included_In, Symbolic_Subdivision or
+        /// Symbolic_Association
+        #[arg(long, requires = "parent", value_parser = stereotype)]
+        stereotype: Option<Stereotype>,
+        /// The inventory its values come from; the usual one of its component where none is named
+        #[arg(long)]
+        inventory: Option<String>,
+    },
+    /// Change what a tier is
+    Tier {
+        /// The tier
+        tier: String,
+        /// Its new name
+        #[arg(long)]
+        name: Option<String>,
+        /// What its annotations say
+        #[arg(long)]
+        role: Option<TierRole>,
+        /// Whose hand they are about
+        #[arg(long, value_enum)]
+        hand: Option<HandWord>,
+        /// The inventory its values come from
+        #[arg(long)]
+        inventory: Option<String>,
+    },
+    /// Remove a tier, the tiers below it, and all their annotations
+    RemoveTier {
+        /// The tier
+        tier: String,
+    },
+    /// Change what is known of the recording named by --in
+    Recording {
+        /// Its new name
+        #[arg(long)]
+        name: Option<String>,
+        /// Whose movement it is
+        #[arg(long)]
+        signer: Option<String>,
+        /// captured, made or generated
+        #[arg(long)]
+        origin: Option<String>,
+        /// The terms under which it may be used
+        #[arg(long)]
+        licence: Option<String>,
+        /// Remarks
+        #[arg(long)]
+        notes: Option<String>,
+    },
+    /// Change what is known of a signer
+    Signer {
+        /// The signer
+        signer: String,
+        /// The new name
+        #[arg(long)]
+        name: Option<String>,
+        /// The dominant hand
+        #[arg(long, value_enum)]
+        handedness: Option<SideWord>,
+    },
+    /// Change a sign: its gloss, remarks and translations
+    Sign {
+        /// The gloss
+        sign: String,
+        /// The new gloss
+        #[arg(long)]
+        gloss: Option<String>,
+        /// Remarks
+        #[arg(long)]
+        notes: Option<String>,
+        /// Add a translation, such as fr=escargot
+        #[arg(long, value_name = "LANGUAGE=TEXT", value_parser = text)]
+        add: Vec<(String, String)>,
+        /// Remove a translation
+        #[arg(long, value_name = "LANGUAGE=TEXT", value_parser = text)]
+        drop: Vec<(String, String)>,
+    },
+    /// Make a token the citation form of its sign
+    Cite {
+        /// The token, such as token:41
+        token: String,
+    },
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum HandWord {
+    Right,
+    Left,
+    Dominant,
+    Weak,
+    Both,
+    /// Of no hand
+    None,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum SideWord {
+    Right,
+    Left,
+}
+
+impl HandWord {
+    fn hands(self) -> Option<Hands> {
+        use chereme_sign::HandRef;
+        Some(match self {
+            Self::Right => Hands::One(HandRef::Right),
+            Self::Left => Hands::One(HandRef::Left),
+            Self::Dominant => Hands::One(HandRef::Dominant),
+            Self::Weak => Hands::One(HandRef::Weak),
+            Self::Both => Hands::Both,
+            Self::None => return None,
+        })
+    }
+}
+
+fn stereotype(text: &str) -> Result<Stereotype, String> {
+    let names: Vec<&str> = Stereotype::ALL.iter().map(|it| it.elan_name()).collect();
+    Stereotype::from_elan_name(text).ok_or_else(|| format!("write one of {}", names.join(", ")))
+}
+
+fn text(text: &str) -> Result<(String, String), String> {
+    let (language, text) = text
+        .split_once('=')
+        .ok_or("write LANGUAGE=TEXT, such as fr=escargot")?;
+    Ok((language.to_owned(), text.to_owned()))
+}
+
+pub(super) fn run(
+    corpus: &mut Corpus,
+    action: &Action,
+    recording: Option<&Name>,
+    output: &mut Output,
+) -> Result<()> {
+    let needed = || {
+        recording.cloned().ok_or_else(|| {
+            chereme_corpus::Error::wrong("which recording?").advise("name it with --in")
+        })
+    };
+    match action {
+        Action::AddTier {
+            name,
+            role,
+            hand,
+            parent,
+            stereotype,
+            inventory,
+        } => {
+            let mut tier = NewTier::new(needed()?, name.clone(), role.clone());
+            tier.hand = hand.and_then(HandWord::hands);
+            tier.parent = parent.clone().zip(*stereotype);
+            if let Some(inventory) = inventory {
+                tier.values = Values::Inventory(inventory.clone());
+            }
+            let row = corpus.add_tier(&tier)?;
+            output.line(format!("added tier:{}, {:?}", row.id, row.name))?;
+            output.document(row)
+        }
+        Action::Tier {
+            tier,
+            name,
+            role,
+            hand,
+            inventory,
+        } => {
+            let change = TierChange {
+                name: name.clone(),
+                role: role.clone(),
+                hand: hand.map(HandWord::hands),
+                values: inventory.clone().map(Values::Inventory),
+            };
+            let row = corpus.change_tier(&TierName::read(tier, recording)?, &change)?;
+            output.line(format!("changed tier:{}, {:?}", row.id, row.name))?;
+            output.document(row)
+        }
+        Action::RemoveTier { tier } => {
+            let removed = corpus.remove_tier(&TierName::read(tier, recording)?)?;
+            let (names, count) = (removed.tiers.join(", "), removed.annotations);
+            output.line(format!("removed {names} with {count} annotations"))?;
+            output.document(removed)
+        }
+        Action::Recording {
+            name,
+            signer,
+            origin,
+            licence,
+            notes,
+        } => {
+            let change = RecordingChange {
+                name: name.clone(),
+                signer: signer.clone().map(Some),
+                origin: origin.clone(),
+                licence: licence.clone().map(Some),
+                notes: notes.clone().map(Some),
+            };
+            let row = corpus.change_recording(&needed()?, &change)?;
+            output.line(format!("changed recording:{}, {:?}", row.id, row.name))?;
+            output.document(row)
+        }
+        Action::Signer {
+            signer,
+            name,
+            handedness,
+        } => {
+            let side = |word: SideWord| match word {
+                SideWord::Right => Side::Right,
+                SideWord::Left => Side::Left,
+            };
+            let change = SignerChange {
+                name: name.clone(),
+                handedness: handedness.map(|word| Some(side(word))),
+                notes: None,
+            };
+            let named = match signer.parse()? {
+                Address::Signer(name) => name,
+                _ => annotate::name(signer)?,
+            };
+            let row = corpus.change_signer(&named, &change)?;
+            output.line(format!("changed signer:{}, {:?}", row.id, row.name))?;
+            output.document(row)
+        }
+        Action::Sign {
+            sign,
+            gloss,
+            notes,
+            add,
+            drop,
+        } => {
+            let change = SignChange {
+                gloss: gloss.clone(),
+                notes: notes.clone().map(Some),
+                add_texts: add.clone(),
+                remove_texts: drop.clone(),
+            };
+            let named = match sign.parse()? {
+                Address::Sign(name) => name,
+                _ => Name::Text(sign.clone()),
+            };
+            let gloss = corpus.change_sign(&named, &change)?;
+            output.line(format!("changed {gloss}"))?;
+            output.document(serde_json::json!({ "gloss": gloss }))
+        }
+        Action::Cite { token } => {
+            let row = corpus.set_citation(&token.parse()?)?;
+            output.line(format!(
+                "token:{} is the citation form of {}",
+                row.id, row.gloss
+            ))?;
+            output.document(row)
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! Counts and sizes of rows.
+
+use std::collections::BTreeMap;
+
+use rusqlite::Connection;
+
+use crate::error::Result;
+use crate::info::{InventoryInfo, SignerInfo};
+
+const KINDS: [(&str, &str); 12] = [
+    ("recordings", "recording"),
+    ("tracks", "track"),
+    ("skeletons", "skeleton"),
+    ("signers", "signer"),
+    ("signs", "sign"),
+    ("tokens", "token"),
+    ("tiers", "tier"),
+    ("annotations", "annotation"),
+    ("inventories", "inventory"),
+    ("values", "inventory_value"),
+    ("recipes", "recipe"),
+    ("operations", "operation"),
+];
+
+/// How much movement there is.
+pub(crate) struct Motion {
+    pub(crate) seconds: f64,
+    pub(crate) frames: u64,
+}
+
+/// Returns how many rows there are of each kind.
+pub(crate) fn counts(connection: &Connection) -> Result<BTreeMap<&'static str, u64>> {
+    let mut counts = BTreeMap::new();
+    for (kind, table) in KINDS {
+        let sql = format!("SELECT count(*) FROM {table}");
+        counts.insert(kind, number(connection, &sql)?);
+    }
+    Ok(counts)
+}
+
+fn number(connection: &Connection, sql: &str) -> Result<u64> {
+    let number: i64 = connection
+        .prepare_cached(sql)?
+        .query_row([], |row| row.get(0))?;
+    Ok(u64::try_from(number).unwrap_or_default())
+}
+
+/// Returns recordings by origin.
+pub(crate) fn recordings(connection: &Connection) -> Result<BTreeMap<String, u64>> {
+    grouped(
+        connection,
+        "SELECT origin, count(*) FROM recording GROUP BY origin",
+    )
+}
+
+/// Returns tokens by origin.
+pub(crate) fn tokens(connection: &Connection) -> Result<BTreeMap<String, u64>> {
+    grouped(
+        connection,
+        "SELECT origin, count(*) FROM token GROUP BY origin",
+    )
+}
+
+/// Returns tiers by role, those of components by the component.
+pub(crate) fn tiers(connection: &Connection) -> Result<BTreeMap<String, u64>> {
+    grouped(
+        connection,
+        "SELECT coalesce(component, role), count(*) FROM tier GROUP BY 1",
+    )
+}
+
+fn grouped(connection: &Connection, sql: &str) -> Result<BTreeMap<String, u64>> {
+    let mut statement = connection.prepare_cached(sql)?;
+    let rows = statement.query_map([], |row| {
+        Ok((row.get(0)?, row.get::<_, i64>(1)?.unsigned_abs()))
+    })?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Returns how much movement there is.
+pub(crate) fn motion(connection: &Connection) -> Result<Motion> {
+    Ok(connection
+        .prepare_cached(
+            "SELECT coalesce(sum(frames * 1.0 * rate_seconds / rate_frames), 0.0), coalesce(sum(frames), 0)
+             FROM track WHERE kind = 'skeleton'",
+        )?
+        .query_row([], |row| {
+            Ok(Motion {
+                seconds: row.get(0)?,
+                frames: row.get::<_, i64>(1)?.unsigned_abs(),
+            })
+        })?)
+}
+
+/// Returns the bytes of the file by what they hold.
+pub(crate) fn bytes(connection: &Connection) -> Result<BTreeMap<&'static str, u64>> {
+    let total = number(
+        connection,
+        "SELECT page_count * page_size FROM pragma_page_count, pragma_page_size",
+    )?;
+    let mut bytes = BTreeMap::new();
+    for (what, sql) in [
+        ("motion", "SELECT coalesce(sum(length(data)), 0) FROM block"),
+        (
+            "history",
+            "SELECT coalesce(sum(length(data)), 0) FROM changeset",
+        ),
+        (
+            "search",
+            "SELECT coalesce(sum(length(data)), 0) FROM search_file",
+        ),
+        (
+            "sources",
+            "SELECT coalesce(sum(length(data)), 0) FROM source_file",
+        ),
+    ] {
+        bytes.insert(what, number(connection, sql)?);
+    }
+    let rest = total.saturating_sub(bytes.values().sum());
+    bytes.insert("rest", rest);
+    Ok(bytes)
+}
+
+/// Returns the signers by name.
+pub(crate) fn signers(connection: &Connection) -> Result<Vec<SignerInfo>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT name, handedness, (SELECT count(*) FROM recording r WHERE r.signer_id = g.id)
+         FROM signer g ORDER BY name",
+    )?;
+    let rows = statement.query_map([], |row| {
+        Ok(SignerInfo {
+            name: row.get(0)?,
+            handedness: row.get(1)?,
+            recordings: row.get::<_, i64>(2)?.unsigned_abs(),
+        })
+    })?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Returns the inventories, oldest first.
+pub(crate) fn inventories(connection: &Connection) -> Result<Vec<InventoryInfo>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT key, component || coalesce('.' || feature, ''),
+                (SELECT count(*) FROM inventory_value v WHERE v.inventory_id = i.id),
+                (SELECT count(*) FROM tier t WHERE t.inventory_id = i.id)
+         FROM inventory i ORDER BY id",
+    )?;
+    let rows = statement.query_map([], |row| {
+        Ok(InventoryInfo {
+            id: row.get(0)?,
+            field: row.get(1)?,
+            values: row.get::<_, i64>(2)?.unsigned_abs(),
+            tiers: row.get::<_, i64>(3)?.unsigned_abs(),
+        })
+    })?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}

@@ -1,0 +1,463 @@
+//! Rows as lists: which columns each kind of row has, and how they are filtered, sorted and counted.
+
+use chereme_sign::query::Pattern;
+use chereme_sign::text::fold;
+use rusqlite::functions::FunctionFlags;
+use rusqlite::types::ValueRef;
+use rusqlite::{Connection, OptionalExtension, ToSql};
+use serde_json::{Map, Value};
+
+use crate::error::Result;
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Holds {
+    /// A name or text.
+    Text,
+    /// A number.
+    Number,
+    /// Yes or no.
+    Flag,
+    /// JSON, filtered by the text of the second expression.
+    Json(&'static str),
+    /// What a token is coded as, which the caller puts in from the row's `id`.
+    Components,
+}
+
+/// A column of a list.
+#[derive(Debug)]
+pub(crate) struct Column {
+    pub(crate) name: &'static str,
+    sql: &'static str,
+    pub(crate) holds: Holds,
+    /// The row that it names, where it names one that has an address.
+    row: Option<&'static str>,
+}
+
+/// A list: its columns, what they are of, and its order where nobody asks for another.
+#[derive(Debug)]
+pub(crate) struct Table {
+    pub(crate) columns: &'static [Column],
+    from: &'static str,
+    order: &'static str,
+}
+
+const fn text(name: &'static str, sql: &'static str) -> Column {
+    column(name, sql, Holds::Text, None)
+}
+
+const fn number(name: &'static str, sql: &'static str) -> Column {
+    column(name, sql, Holds::Number, None)
+}
+
+const fn flag(name: &'static str, sql: &'static str) -> Column {
+    column(name, sql, Holds::Flag, None)
+}
+
+const fn json(name: &'static str, sql: &'static str, filter: &'static str) -> Column {
+    column(name, sql, Holds::Json(filter), None)
+}
+
+/// A text that names the row `row`.
+const fn named(name: &'static str, sql: &'static str, row: &'static str) -> Column {
+    column(name, sql, Holds::Text, Some(row))
+}
+
+const fn column(
+    name: &'static str,
+    sql: &'static str,
+    holds: Holds,
+    row: Option<&'static str>,
+) -> Column {
+    Column {
+        name,
+        sql,
+        holds,
+        row,
+    }
+}
+
+pub(crate) const RECORDINGS: Table = Table {
+    columns: &[
+        number("id", "r.id"),
+        named("name", "r.name", "r.id"),
+        named("signer", "g.name", "g.id"),
+        text("origin", "r.origin"),
+        number("duration_us", "r.duration_us"),
+        number("frames", "k.frames"),
+        number("rate", "k.rate_frames * 1.0 / k.rate_seconds"),
+        number("joints", "(SELECT joints FROM skeleton s WHERE s.id = k.skeleton_id)"),
+        number("tiers", "(SELECT count(*) FROM tier t WHERE t.recording_id = r.id)"),
+        number(
+            "annotations",
+            "(SELECT count(*) FROM annotation a JOIN tier t ON t.id = a.tier_id WHERE t.recording_id = r.id)",
+        ),
+        number("tokens", "(SELECT count(*) FROM token t WHERE t.recording_id = r.id)"),
+        text("recipe", "(SELECT text FROM recipe p WHERE p.recording_id = r.id)"),
+        text("licence", "r.licence"),
+        text("notes", "r.notes"),
+    ],
+    from: "recording r LEFT JOIN signer g ON g.id = r.signer_id
+           LEFT JOIN track k ON k.id = (SELECT min(id) FROM track WHERE recording_id = r.id AND kind = 'skeleton')",
+    order: "r.id",
+};
+
+pub(crate) const SIGNS: Table = Table {
+    columns: &[
+        number("id", "s.id"),
+        named("gloss", "s.gloss", "s.id"),
+        number(
+            "tokens",
+            "(SELECT count(*) FROM token t WHERE t.sign_id = s.id)",
+        ),
+        number(
+            "citation",
+            "(SELECT min(id) FROM token t WHERE t.sign_id = s.id AND t.citation)",
+        ),
+        json(
+            "translations",
+            "(SELECT json_group_array(json_object('language', language, 'text', text) ORDER BY id)
+              FROM sign_text x WHERE x.sign_id = s.id)",
+            "(SELECT group_concat(text, ' · ' ORDER BY id) FROM sign_text x WHERE x.sign_id = s.id)",
+        ),
+        text("notes", "s.notes"),
+    ],
+    from: "sign s",
+    order: "s.gloss",
+};
+
+pub(crate) const TOKENS: Table = Table {
+    columns: &[
+        number("id", "t.id"),
+        named("gloss", "s.gloss", "s.id"),
+        named("recording", "r.name", "r.id"),
+        number("start_us", "t.start_us"),
+        number("end_us", "t.end_us"),
+        text("hand", "t.hand"),
+        text("origin", "t.origin"),
+        flag("citation", "t.citation"),
+        named("signer", "g.name", "g.id"),
+        column("components", "NULL", Holds::Components, None),
+    ],
+    from: "token t JOIN sign s ON s.id = t.sign_id LEFT JOIN recording r ON r.id = t.recording_id
+           LEFT JOIN signer g ON g.id = r.signer_id",
+    order: "t.id",
+};
+
+pub(crate) const TIERS: Table = Table {
+    columns: &[
+        number("id", "t.id"),
+        named("recording", "r.name", "r.id"),
+        named("name", "t.name", "t.id"),
+        text("role", "t.role"),
+        text("component", "t.component"),
+        text("feature", "t.feature"),
+        text("hand", "t.hand"),
+        named("parent", "p.name", "p.id"),
+        text("stereotype", "t.stereotype"),
+        text("inventory", "i.key"),
+        number(
+            "annotations",
+            "(SELECT count(*) FROM annotation a WHERE a.tier_id = t.id)",
+        ),
+        text("participant", "t.participant"),
+        text("annotator", "t.annotator"),
+        text("language", "t.language"),
+    ],
+    from: "tier t JOIN recording r ON r.id = t.recording_id LEFT JOIN tier p ON p.id = t.parent_id
+           LEFT JOIN inventory i ON i.id = t.inventory_id",
+    order: "t.recording_id, t.position, t.id",
+};
+
+pub(crate) const ANNOTATIONS: Table = Table {
+    columns: &[
+        number("id", "a.id"),
+        named("recording", "r.name", "r.id"),
+        named("tier", "t.name", "t.id"),
+        number("start_us", "a.start_us"),
+        number("end_us", "a.end_us"),
+        text("state", "a.state"),
+        text("value", "a.value"),
+        number("parent", "a.parent_id"),
+        number("position", "a.position"),
+        text("role", "t.role"),
+        text("component", "t.component"),
+        text("hand", "t.hand"),
+        text("origin", "a.origin"),
+        number("confidence", "a.confidence"),
+        text("external_id", "a.external_id"),
+    ],
+    from: "annotation a JOIN tier t ON t.id = a.tier_id JOIN recording r ON r.id = t.recording_id",
+    order: "t.recording_id, t.position, t.id, a.start_us, a.position, a.id",
+};
+
+pub(crate) const INVENTORIES: Table = Table {
+    columns: &[
+        number("id", "i.id"),
+        text("key", "i.key"),
+        text("name", "i.document ->> '$.names.en'"),
+        text("component", "i.component"),
+        text("feature", "i.feature"),
+        text("language", "i.document ->> '$.language'"),
+        number(
+            "values",
+            "(SELECT count(*) FROM inventory_value v WHERE v.inventory_id = i.id)",
+        ),
+        number(
+            "tiers",
+            "(SELECT count(*) FROM tier t WHERE t.inventory_id = i.id)",
+        ),
+        number(
+            "uses",
+            "(SELECT count(*) FROM token_value v WHERE v.inventory_id = i.id)",
+        ),
+        text("description", "i.document ->> '$.description'"),
+    ],
+    from: "inventory i",
+    order: "i.id",
+};
+
+pub(crate) const VALUES: Table = Table {
+    columns: &[
+        text("value", "v.key"),
+        text("inventory", "i.key"),
+        text("component", "i.component"),
+        text("feature", "i.feature"),
+        json(
+            "names",
+            "v.document -> '$.names'",
+            "v.document ->> '$.names'",
+        ),
+        json(
+            "features",
+            "v.document -> '$.features'",
+            "v.document ->> '$.features'",
+        ),
+        text("hamnosys", "v.document ->> '$.hamnosys'"),
+        text("broader", "v.document ->> '$.broader'"),
+        number(
+            "uses",
+            "(SELECT count(*) FROM token_value u
+              WHERE u.component = i.component AND u.value = v.key AND u.inventory_id = i.id)",
+        ),
+    ],
+    from: "inventory_value v JOIN inventory i ON i.id = v.inventory_id",
+    order: "i.id, v.position, v.id",
+};
+
+pub(crate) const SIGNERS: Table = Table {
+    columns: &[
+        number("id", "g.id"),
+        named("name", "g.name", "g.id"),
+        text("handedness", "g.handedness"),
+        number(
+            "recordings",
+            "(SELECT count(*) FROM recording r WHERE r.signer_id = g.id)",
+        ),
+        number(
+            "tokens",
+            "(SELECT count(*) FROM token t JOIN recording r ON r.id = t.recording_id WHERE r.signer_id = g.id)",
+        ),
+        text("notes", "g.notes"),
+    ],
+    from: "signer g",
+    order: "g.name",
+};
+
+pub(crate) const OPERATIONS: Table = Table {
+    columns: &[
+        number("id", "o.id"),
+        text("at", "o.at"),
+        text("author", "o.author"),
+        text("kind", "o.kind"),
+        number("target", "o.target"),
+        text("name", "o.name"),
+        text("summary", "o.summary"),
+        number("changes", "o.changes"),
+        flag(
+            "stands",
+            "coalesce((SELECT u.kind FROM operation u WHERE u.target = o.id ORDER BY u.id DESC LIMIT 1), '') <> 'undo'",
+        ),
+    ],
+    from: "operation o",
+    order: "o.id DESC",
+};
+
+/// What a row must fit.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Test {
+    /// The text fits a pattern with `*`, whatever its case and accents.
+    Like(String),
+    /// The number lies between two.
+    Between(f64, f64),
+    /// It is so, or not.
+    Is(bool),
+    /// It names this row.
+    Row(i64),
+    /// There is nothing.
+    Nothing,
+}
+
+/// Which rows, in which order.
+#[derive(Debug, Default)]
+pub(crate) struct Wanted {
+    /// Columns and what each must fit.
+    pub(crate) tests: Vec<(usize, Test)>,
+    /// The column to sort by, and whether the greatest comes first.
+    pub(crate) sort: Option<(usize, bool)>,
+    pub(crate) limit: Option<usize>,
+    pub(crate) offset: usize,
+}
+
+impl Column {
+    fn filter(&self) -> &'static str {
+        match self.holds {
+            Holds::Json(text) => text,
+            _ => self.sql,
+        }
+    }
+}
+
+/// Returns how many rows fit, and those of them that are wanted.
+pub(crate) fn list(
+    connection: &Connection,
+    table: &Table,
+    wanted: &Wanted,
+) -> Result<(u64, Vec<Map<String, Value>>)> {
+    add_functions(connection)?;
+    let mut values: Vec<Box<dyn ToSql>> = Vec::new();
+    let mut tests = vec!["TRUE".to_owned()];
+    for (column, test) in &wanted.tests {
+        tests.push(test_sql(&table.columns[*column], test, &mut values));
+    }
+    let (from, tests) = (table.from, tests.join(" AND "));
+    let parameters = || rusqlite::params_from_iter(values.iter());
+    let total: i64 = connection.query_row(
+        &format!("SELECT count(*) FROM {from} WHERE {tests}"),
+        parameters(),
+        |row| row.get(0),
+    )?;
+    let columns: Vec<&str> = table.columns.iter().map(|column| column.sql).collect();
+    let sort = wanted
+        .sort
+        .map(|(column, down)| sort_sql(&table.columns[column], down));
+    let sql = format!(
+        "SELECT {} FROM {from} WHERE {tests} ORDER BY {}{} LIMIT {} OFFSET {}",
+        columns.join(", "),
+        sort.unwrap_or_default(),
+        table.order,
+        wanted
+            .limit
+            .map_or(-1, |limit| i64::try_from(limit).unwrap_or(i64::MAX)),
+        i64::try_from(wanted.offset).unwrap_or(i64::MAX),
+    );
+    let mut statement = connection.prepare(&sql)?;
+    let rows = statement
+        .query_map(parameters(), |row| {
+            let mut map = Map::new();
+            for (at, column) in table.columns.iter().enumerate() {
+                map.insert(
+                    column.name.to_owned(),
+                    value(row.get_ref(at)?, column.holds),
+                );
+            }
+            Ok(map)
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok((u64::try_from(total).unwrap_or_default(), rows))
+}
+
+fn test_sql(column: &Column, test: &Test, values: &mut Vec<Box<dyn ToSql>>) -> String {
+    let (row, column) = (column.row.unwrap_or(column.sql), column.filter());
+    let mut put = |value: Box<dyn ToSql>| {
+        values.push(value);
+        values.len()
+    };
+    match test {
+        Test::Like(pattern) => {
+            format!(
+                "chereme_fits(?{}, {column})",
+                put(Box::new(pattern.clone()))
+            )
+        }
+        Test::Between(least, most) => {
+            let (least, most) = (put(Box::new(*least)), put(Box::new(*most)));
+            format!("({column}) BETWEEN ?{least} AND ?{most}")
+        }
+        Test::Is(wanted) => format!("({column}) = ?{}", put(Box::new(*wanted))),
+        Test::Row(wanted) => format!("{row} = ?{}", put(Box::new(*wanted))),
+        Test::Nothing => format!("coalesce({column}, '') = ''"),
+    }
+}
+
+fn sort_sql(column: &Column, down: bool) -> String {
+    let direction = if down { "DESC" } else { "ASC" };
+    let sql = column.filter();
+    match column.holds {
+        Holds::Text | Holds::Json(_) => {
+            format!("chereme_folded({sql}) {direction} NULLS LAST, {sql} {direction}, ")
+        }
+        _ => format!("{sql} {direction} NULLS LAST, "),
+    }
+}
+
+fn value(value: ValueRef<'_>, holds: Holds) -> Value {
+    match (value, holds) {
+        (ValueRef::Integer(number), Holds::Flag) => Value::from(number != 0),
+        (ValueRef::Integer(number), _) => Value::from(number),
+        (ValueRef::Real(number), _) => Value::from(number),
+        (ValueRef::Text(text), Holds::Json(_)) => {
+            serde_json::from_slice(text).unwrap_or(Value::Null)
+        }
+        (ValueRef::Text(text), _) => Value::from(String::from_utf8_lossy(text)),
+        _ => Value::Null,
+    }
+}
+
+fn add_functions(connection: &Connection) -> Result<()> {
+    let flags = FunctionFlags::SQLITE_UTF8
+        | FunctionFlags::SQLITE_DETERMINISTIC
+        | FunctionFlags::SQLITE_DIRECTONLY;
+    connection.create_scalar_function("chereme_fits", 2, flags, |context| {
+        let pattern = context.get_or_create_aux(0, |text| text.as_str().map(Pattern::from_glob))?;
+        Ok(match context.get_raw(1) {
+            ValueRef::Text(text) => pattern.matches(&String::from_utf8_lossy(text)),
+            _ => false,
+        })
+    })?;
+    connection.create_scalar_function("chereme_folded", 1, flags, |context| {
+        Ok(match context.get_raw(0) {
+            ValueRef::Text(text) => Some(fold(&String::from_utf8_lossy(text))),
+            _ => None,
+        })
+    })?;
+    Ok(())
+}
+
+/// Returns every token, oldest first.
+pub(crate) fn token_ids(connection: &Connection) -> Result<Vec<i64>> {
+    ids(connection, "SELECT id FROM token ORDER BY id", [])
+}
+
+/// Returns the tokens of a signer's recordings, by recording and time.
+pub(crate) fn token_ids_of_signer(connection: &Connection, signer: i64) -> Result<Vec<i64>> {
+    let sql = "SELECT t.id FROM token t JOIN recording r ON r.id = t.recording_id
+               WHERE r.signer_id = ?1 ORDER BY r.id, t.start_us, t.id";
+    ids(connection, sql, [signer])
+}
+
+fn ids(connection: &Connection, sql: &str, params: impl rusqlite::Params) -> Result<Vec<i64>> {
+    let mut statement = connection.prepare_cached(sql)?;
+    let ids = statement
+        .query_map(params, |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(ids)
+}
+
+/// Returns when the newest operation was.
+pub(crate) fn last_change(connection: &Connection) -> Result<Option<String>> {
+    Ok(connection
+        .prepare_cached("SELECT at FROM operation ORDER BY id DESC LIMIT 1")?
+        .query_row([], |row| row.get(0))
+        .optional()?)
+}

@@ -1,0 +1,109 @@
+//! Movement as BVH: captured numbers come back as the file gave them.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::ops::Range;
+
+use chereme_formats::bvh::raw::{Block, Column, Number, WriteError, Writer};
+use rusqlite::Connection;
+
+use crate::address::Stretch;
+use crate::error::{Error, Result};
+use crate::movement::{BLOCK_FRAMES, ChannelGroup, Track};
+use crate::progress::{Progress, Step, Unit};
+
+/// Writes the movement of a stretch of a recording, and returns how many frames there were.
+///
+/// # Errors
+/// Where the recording has no movement, or writing fails.
+pub(crate) fn write(
+    connection: &Connection,
+    stretch: &Stretch,
+    out: &mut dyn Write,
+    progress: &mut Progress<'_>,
+) -> Result<usize> {
+    let track = Track::of(connection, stretch.recording.id)?;
+    let frames = match stretch.token {
+        Some(_) => track.frames_in(stretch.span),
+        None => 0..track.frames(),
+    };
+    let time = track
+        .row
+        .frame_time
+        .as_deref()
+        .map(str::parse::<Number>)
+        .transpose();
+    let time = time.map_err(|_| Error::wrong("the stored frame time is no number"))?;
+    let motion =
+        (time.is_some() || !frames.is_empty()).then_some((time.as_ref(), frames.len() as u64));
+    let fault = |error: WriteError| Error::wrong(format!("the BVH cannot be written: {error}"));
+    let mut writer = Writer::new(out, &track.hierarchy, motion).map_err(fault)?;
+    let mut first = frames.start - frames.start % BLOCK_FRAMES;
+    while first < frames.end {
+        let own = first.max(frames.start)..(first + BLOCK_FRAMES).min(frames.end);
+        let columns = columns(connection, &track, first, &own)?;
+        let first_frame = (own.start - frames.start) as u64;
+        writer
+            .block(&Block {
+                first_frame,
+                frames: own.len(),
+                columns,
+            })
+            .map_err(fault)?;
+        progress.tell(Step {
+            task: &stretch.recording.name,
+            done: (own.end - frames.start) as u64,
+            total: Some(frames.len() as u64),
+            unit: Unit::Frames,
+        })?;
+        first += BLOCK_FRAMES;
+    }
+    writer.finish().map_err(fault)?;
+    Ok(frames.len())
+}
+
+/// The columns of `own`, which lies in the block that starts at `first`, in the order of the file.
+fn columns(
+    connection: &Connection,
+    track: &Track,
+    first: usize,
+    own: &Range<usize>,
+) -> Result<Vec<Column>> {
+    let mut all: BTreeMap<usize, Column> = BTreeMap::new();
+    track.blocks(
+        connection,
+        &ChannelGroup::ALL,
+        own,
+        |numbers, start, columns| {
+            if start != first {
+                return Err(Error::wrong(format!("frame {first} is missing")));
+            }
+            for (number, column) in numbers.iter().zip(columns) {
+                all.insert(*number, cut(column, own.start - first..own.end - first)?);
+            }
+            Ok(())
+        },
+    )?;
+    Ok(all.into_values().collect())
+}
+
+fn cut(column: Column, rows: Range<usize>) -> Result<Column> {
+    if rows.len() == column.mantissas.len() {
+        return Ok(column);
+    }
+    let mantissas = column.mantissas.get(rows.clone());
+    let mantissas =
+        mantissas.ok_or_else(|| Error::wrong("a block is shorter than it should be"))?;
+    let inside = |frame: u32| rows.contains(&(frame as usize));
+    let exceptions = column
+        .exceptions
+        .into_iter()
+        .filter(|(frame, _)| inside(*frame));
+    Ok(Column {
+        scale: column.scale,
+        mantissas: mantissas.to_vec(),
+        exceptions: exceptions
+            .map(|(frame, it)| (frame - rows.start as u32, it))
+            .collect(),
+    })
+}

@@ -1,0 +1,314 @@
+//! Tokens and annotations as tables.
+//!
+//! The columns of components are named as queries spell the field, and several values of one field
+//! stand in one cell as lexicons write them (`chin > chest`, `S + W`), so that importing the table
+//! gives the same codings.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Write;
+
+use ::csv::{Writer, WriterBuilder};
+use rusqlite::Connection;
+
+use crate::db::recordings;
+use crate::db::signs::{self, TokenRow, TokenValueRow};
+use crate::db::tiers;
+use crate::error::{Error, Result};
+use crate::progress::{Progress, Step, Unit};
+
+/// A column of values: component, feature, hand, and the phase where it has a column of its own.
+type Column = (String, Option<String>, Option<String>, Option<Place>);
+
+/// A phase in the order of time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Place {
+    Initial,
+    Middle(i64),
+    Final,
+}
+
+const FIXED: [&str; 9] = [
+    "token",
+    "gloss",
+    "recording",
+    "start_s",
+    "end_s",
+    "origin",
+    "signer",
+    "hand",
+    "citation",
+];
+
+/// Writes a token a row, with all its components.
+pub(super) fn tokens(
+    connection: &Connection,
+    tokens: &[i64],
+    delimiter: u8,
+    out: &mut dyn Write,
+    notes: &mut Vec<String>,
+    progress: &mut Progress<'_>,
+) -> Result<()> {
+    let signers = signers(connection)?;
+    let mut columns: BTreeSet<Column> = BTreeSet::new();
+    let mut languages: BTreeMap<String, usize> = BTreeMap::new();
+    let mut unclear = 0;
+    for (done, id) in tokens.iter().enumerate() {
+        let token = signs::token(connection, *id)?;
+        columns.extend(cells(&signs::values(connection, *id)?, &mut unclear).into_keys());
+        for (language, texts) in texts(connection, token.sign_id)? {
+            let most = languages.entry(language).or_default();
+            *most = texts.len().max(*most);
+        }
+        tell(progress, done, tokens.len() * 2)?;
+    }
+    if unclear > 0 {
+        notes.push(format!(
+            "{unclear} values hold \">\" or \"+\" and would be read back as several"
+        ));
+    }
+    let mut table = table(delimiter, out);
+    let titles = FIXED.iter().map(|title| (*title).to_owned());
+    let translations = languages
+        .iter()
+        .flat_map(|(language, most)| std::iter::repeat_n(translation(language), *most));
+    let titles = titles.chain(translations).chain(columns.iter().map(title));
+    table.write_record(titles).map_err(fault)?;
+    for (done, id) in tokens.iter().enumerate() {
+        let token = signs::token(connection, *id)?;
+        let mut row = fixed(&token, &signers);
+        let mut texts = texts(connection, token.sign_id)?;
+        for (language, most) in &languages {
+            let mut own = texts.remove(language).unwrap_or_default();
+            own.resize(*most, String::new());
+            row.append(&mut own);
+        }
+        let cells = cells(&signs::values(connection, *id)?, &mut 0);
+        let cell = |column| cells.get(column).cloned().unwrap_or_default();
+        row.extend(columns.iter().map(cell));
+        table.write_record(row).map_err(fault)?;
+        tell(progress, tokens.len() + done, tokens.len() * 2)?;
+    }
+    table.flush().map_err(|error| fault(error.into()))
+}
+
+/// Writes the annotations of a tier as a table of changes that would leave it as it is.
+pub(super) fn annotations(
+    connection: &Connection,
+    tier: i64,
+    delimiter: u8,
+    out: &mut dyn Write,
+) -> Result<()> {
+    let tier = tiers::tier(connection, tier)?;
+    let recording = recordings::recording(connection, tier.recording_id)?;
+    let mut table = table(delimiter, out);
+    let titles = [
+        "recording",
+        "tier",
+        "start",
+        "end",
+        "value",
+        "action",
+        "id",
+        "parent",
+    ];
+    table.write_record(titles).map_err(fault)?;
+    let symbolic = tier
+        .stereotype
+        .as_deref()
+        .is_some_and(|name| name.starts_with("Symbolic"));
+    for row in tiers::annotations(connection, tier.id)? {
+        let time = |micros| {
+            if symbolic {
+                String::new()
+            } else {
+                seconds(Some(micros))
+            }
+        };
+        let value = match row.state.as_str() {
+            "value" => row.value.as_str(),
+            "not-applicable" => "n/a",
+            state => state,
+        };
+        let parent = row
+            .parent_id
+            .map(|id| format!("annotation:{id}"))
+            .unwrap_or_default();
+        let id = format!("annotation:{}", row.id);
+        let (start, end) = (time(row.start_us), time(row.end_us));
+        table
+            .write_record([
+                &recording.name,
+                &tier.name,
+                &start,
+                &end,
+                value,
+                "set",
+                &id,
+                &parent,
+            ])
+            .map_err(fault)?;
+    }
+    table.flush().map_err(|error| fault(error.into()))
+}
+
+fn table(delimiter: u8, out: &mut dyn Write) -> Writer<&mut dyn Write> {
+    WriterBuilder::new().delimiter(delimiter).from_writer(out)
+}
+
+fn fault(error: ::csv::Error) -> Error {
+    Error::wrong(format!("the table cannot be written: {error}"))
+}
+
+fn tell(progress: &mut Progress<'_>, done: usize, total: usize) -> Result<()> {
+    if !done.is_multiple_of(1024) {
+        return Ok(());
+    }
+    progress.tell(Step {
+        task: "tokens",
+        done: done as u64,
+        total: Some(total as u64),
+        unit: Unit::Items,
+    })
+}
+
+fn signers(connection: &Connection) -> Result<BTreeMap<i64, String>> {
+    let all = recordings::recordings(connection)?.into_iter();
+    Ok(all.filter_map(|row| Some((row.id, row.signer?))).collect())
+}
+
+fn texts(connection: &Connection, sign: i64) -> Result<BTreeMap<String, Vec<String>>> {
+    let mut texts: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for (language, text) in signs::texts(connection, sign)? {
+        texts.entry(language).or_default().push(text);
+    }
+    Ok(texts)
+}
+
+fn translation(language: &str) -> String {
+    match language {
+        "" => "translation".to_owned(),
+        language => format!("translation.{language}"),
+    }
+}
+
+fn fixed(token: &TokenRow, signers: &BTreeMap<i64, String>) -> Vec<String> {
+    let signer = token.recording_id.and_then(|id| signers.get(&id));
+    vec![
+        token.id.to_string(),
+        token.gloss.clone(),
+        token.recording.clone().unwrap_or_default(),
+        seconds(token.start_us),
+        seconds(token.end_us),
+        token.origin.clone(),
+        signer.cloned().unwrap_or_default(),
+        token.hand.clone().unwrap_or_default(),
+        if token.citation { "yes" } else { "no" }.to_owned(),
+    ]
+}
+
+/// Microseconds as seconds with all their decimals.
+fn seconds(micros: Option<i64>) -> String {
+    let Some(micros) = micros else {
+        return String::new();
+    };
+    let sign = if micros < 0 { "-" } else { "" };
+    let micros = micros.unsigned_abs();
+    format!("{sign}{}.{:06}", micros / 1_000_000, micros % 1_000_000)
+}
+
+fn title((component, feature, hand, phase): &Column) -> String {
+    let phase = match phase {
+        None => String::new(),
+        Some(Place::Initial) => "initial.".to_owned(),
+        Some(Place::Middle(1)) => "middle.".to_owned(),
+        Some(Place::Middle(place)) => format!("middle{place}."),
+        Some(Place::Final) => "final.".to_owned(),
+    };
+    let hand = hand
+        .as_ref()
+        .map(|hand| format!("{hand}."))
+        .unwrap_or_default();
+    let feature = feature
+        .as_ref()
+        .map(|feature| format!(".{feature}"))
+        .unwrap_or_default();
+    // `both` is no hand of a field and stands first; `right.final` would be read as well.
+    format!("{hand}{phase}{component}{feature}")
+}
+
+/// Returns the cells of a token; counts values that would not be read back as one.
+fn cells(values: &[TokenValueRow], unclear: &mut usize) -> BTreeMap<Column, String> {
+    let mut fields: BTreeMap<Column, BTreeMap<Option<Place>, Vec<&str>>> = BTreeMap::new();
+    for row in values {
+        let field = (
+            row.component.clone(),
+            row.feature.clone(),
+            row.hand.clone(),
+            None,
+        );
+        let text = text(row);
+        *unclear += usize::from(text.contains(['>', '+']));
+        fields
+            .entry(field)
+            .or_default()
+            .entry(place(row))
+            .or_default()
+            .push(text);
+    }
+    let mut cells = BTreeMap::new();
+    for (field, phases) in fields {
+        let mixed = phases.len() > 1 && phases.contains_key(&None);
+        let change = field.0 == "configuration" && field.1.as_deref() == Some("change");
+        if mixed || change {
+            for (phase, texts) in phases {
+                let (component, feature, hand, _) = field.clone();
+                cells.insert((component, feature, hand, phase), texts.join(" + "));
+            }
+        } else {
+            cells.insert(field, compound(&phases));
+        }
+    }
+    cells
+}
+
+fn text(row: &TokenValueRow) -> &str {
+    match (row.state.as_str(), &row.value) {
+        ("value", Some(value)) => value,
+        ("not-applicable", _) => "n/a",
+        ("unclear", _) => "?",
+        _ => "",
+    }
+}
+
+fn place(row: &TokenValueRow) -> Option<Place> {
+    match row.phase.as_deref()? {
+        "initial" => Some(Place::Initial),
+        "final" => Some(Place::Final),
+        _ => Some(Place::Middle(row.position.max(1))),
+    }
+}
+
+/// Successive values parted by `>`, an empty part for each phase that says nothing.
+fn compound(phases: &BTreeMap<Option<Place>, Vec<&str>>) -> String {
+    if let Some(texts) = phases.get(&None) {
+        return texts.join(" + ");
+    }
+    let middle = |place: &Option<Place>| match place {
+        Some(Place::Middle(place)) => Some(*place),
+        _ => None,
+    };
+    let last = phases.keys().filter_map(middle).max().unwrap_or(0).min(255);
+    let middles = (1..=last).map(Place::Middle);
+    let order = std::iter::once(Place::Initial)
+        .chain(middles)
+        .chain([Place::Final]);
+    let parts: Vec<String> = order
+        .map(|place| {
+            phases
+                .get(&Some(place))
+                .map(|texts| texts.join(" + "))
+                .unwrap_or_default()
+        })
+        .collect();
+    parts.join(" > ").trim().to_owned()
+}

@@ -1,0 +1,440 @@
+//! A recording's tiers as a file of ELAN.
+//!
+//! What came from such files and was not changed goes back as it was: ids, milliseconds,
+//! vocabularies, and what the file said beside the tiers.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::File;
+use std::io::Write;
+use std::path::Path;
+
+use chereme_formats::eaf::convert::{
+    Annotation, Entry, EntryValue, Media, Place, Tier, Timing, Transcript, Vocabulary,
+};
+use chereme_formats::eaf::{from_raw, raw, to_raw};
+use chereme_motion::{Instant, Span};
+use chereme_sign::Stereotype;
+use rusqlite::Connection;
+use serde_json::Value;
+
+use crate::db::recordings::{self, RecordingRow};
+use crate::db::tiers::{self, AnnotationRow, TierRow};
+use crate::db::{damaged, list};
+use crate::error::{Error, Result};
+use crate::import::eaf as properties;
+use crate::inventories::{self, StoredInventory};
+
+/// Writes the tiers of a recording to a file.
+pub(super) fn write_file(
+    connection: &Connection,
+    recording: &RecordingRow,
+    path: &Path,
+) -> Result<()> {
+    let mut file = File::create(path).map_err(|error| Error::file(path, error))?;
+    write(connection, recording, &mut file)
+}
+
+/// Writes the tiers of a recording.
+pub(super) fn write(
+    connection: &Connection,
+    recording: &RecordingRow,
+    out: &mut dyn Write,
+) -> Result<()> {
+    let mut files = Vec::new();
+    for file in recordings::source_files(connection, recording.id)? {
+        if file.kind == "eaf" {
+            files.extend(recordings::source_bytes(connection, file.id)?);
+        }
+    }
+    let mut documents = Vec::new();
+    for bytes in &files {
+        let (document, _) = raw::read(bytes).map_err(|error| {
+            damaged(
+                format!("a file of the recording {:?}", recording.name),
+                error.to_string(),
+            )
+        })?;
+        documents.push(document);
+    }
+    let template = documents.first().cloned().unwrap_or_default();
+    let mut transcript = base(connection, recording, &documents)?;
+    Writing {
+        connection,
+        inventories: inventories::load_of(connection, recording.id)?,
+        transcript: &mut transcript,
+        places: BTreeMap::new(),
+    }
+    .tiers(recording)?;
+    describe(connection, recording, &mut transcript)?;
+    raw::write(&to_raw(&transcript, &template), out)
+        .map_err(|error| Error::wrong(format!("the file cannot be written: {error}")))
+}
+
+/// What there is but tiers: that of the recording's first file, and the vocabularies of the others.
+fn base(
+    connection: &Connection,
+    recording: &RecordingRow,
+    documents: &[raw::Document<'_>],
+) -> Result<Transcript> {
+    let mut read = documents.iter().map(|document| from_raw(document).0);
+    if let Some(mut first) = read.next() {
+        for other in read {
+            let new = |it: &Vocabulary| first.vocabularies.iter().all(|known| known.id != it.id);
+            let more: Vec<Vocabulary> = other.vocabularies.into_iter().filter(new).collect();
+            first.vocabularies.extend(more);
+        }
+        return Ok(first);
+    }
+    let media = recordings::media_tracks(connection, recording.id)?.into_iter();
+    Ok(Transcript {
+        media: media
+            .map(|track| Media {
+                url: track.url,
+                mime_type: track.media_type.unwrap_or_default(),
+                time_origin: (track.offset_us != 0).then_some(-track.offset_us / 1000),
+                ..Media::default()
+            })
+            .collect(),
+        ..Transcript::default()
+    })
+}
+
+/// Writes down what importing the file again would not guess.
+fn describe(
+    connection: &Connection,
+    recording: &RecordingRow,
+    transcript: &mut Transcript,
+) -> Result<()> {
+    let participants: BTreeSet<&str> = transcript
+        .tiers
+        .iter()
+        .filter_map(|tier| tier.participant.as_deref())
+        .collect();
+    let guessed = participants.len() == 1
+        && participants.contains(recording.signer.as_deref().unwrap_or_default());
+    let signer = match recording.signer_id {
+        Some(id) => recordings::signer(connection, id)?,
+        None => None,
+    };
+    let handedness = signer.as_ref().and_then(|signer| signer.handedness.clone());
+    let name = signer.map(|signer| signer.name);
+    let mut say = |key: &str, value: Option<String>, is_default: bool| {
+        let known = transcript
+            .properties
+            .iter()
+            .position(|(name, _)| name == key);
+        match (known, value) {
+            (Some(at), Some(value)) => transcript.properties[at].1 = value,
+            (Some(at), None) => {
+                transcript.properties.remove(at);
+            }
+            (None, Some(value)) if !is_default => {
+                transcript.properties.push((key.to_owned(), value));
+            }
+            (None, _) => {}
+        }
+    };
+    say(
+        properties::ORIGIN,
+        Some(recording.origin.clone()),
+        recording.origin == "captured",
+    );
+    say(properties::LICENCE, recording.licence.clone(), false);
+    say(properties::SIGNER, name, guessed);
+    say(properties::HANDEDNESS, handedness, false);
+    Ok(())
+}
+
+struct Writing<'a> {
+    connection: &'a Connection,
+    inventories: Vec<StoredInventory>,
+    transcript: &'a mut Transcript,
+    /// Where each annotation went.
+    places: BTreeMap<i64, Place>,
+}
+
+impl Writing<'_> {
+    fn tiers(mut self, recording: &RecordingRow) -> Result<()> {
+        let rows = tiers::tiers(self.connection, recording.id)?;
+        let at: BTreeMap<i64, usize> = rows
+            .iter()
+            .enumerate()
+            .map(|(at, row)| (row.id, at))
+            .collect();
+        let mut said = Vec::with_capacity(rows.len());
+        for row in &rows {
+            said.push(in_order(tiers::annotations(self.connection, row.id)?));
+        }
+        let changed = said.iter().flatten().any(|row| row.origin != "file");
+        if changed || self.transcript.date.is_empty() {
+            self.transcript.date = list::last_change(self.connection)?.unwrap_or_default();
+        }
+        let mut ids = Ids::new(said.iter().flatten(), &self.transcript.properties);
+        self.transcript.tiers = Vec::with_capacity(rows.len());
+        for (row, said) in rows.iter().zip(&said) {
+            let mut tier = tier(row, row.parent_id.and_then(|id| at.get(&id).copied()));
+            tier.vocabulary = self.vocabulary(row, said);
+            self.transcript.tiers.push(tier);
+        }
+        for place in parents_first(&rows, &at) {
+            for (index, row) in said[place].iter().enumerate() {
+                self.places.insert(row.id, Place { tier: place, index });
+                let annotation = self.annotation(&self.transcript.tiers[place], row, &mut ids);
+                self.transcript.tiers[place].annotations.push(annotation);
+            }
+        }
+        Ok(())
+    }
+
+    /// The vocabulary of a tier, with whatever it says; that of its file, or else its inventory.
+    fn vocabulary(&mut self, tier: &TierRow, said: &[AnnotationRow]) -> Option<String> {
+        let source = source(tier.source.as_deref());
+        let named = text(&source, "vocabulary");
+        let id = match (&named, &tier.source) {
+            (Some(named), _) if self.find_vocabulary(named).is_some() => named.clone(),
+            (Some(named), None) => named.clone(),
+            (_, Some(_)) => return named,
+            (None, None) => {
+                let stored = self
+                    .inventories
+                    .iter()
+                    .find(|it| Some(it.id) == tier.inventory_id)?;
+                let vocabulary = of_inventory(stored);
+                let id = vocabulary.id.clone();
+                if self.find_vocabulary(&id).is_none() {
+                    self.transcript.vocabularies.push(vocabulary);
+                }
+                id
+            }
+        };
+        let vocabulary = self.find_vocabulary(&id)?;
+        if vocabulary.external.is_none() {
+            complete(vocabulary, said);
+        }
+        Some(id)
+    }
+
+    fn find_vocabulary(&mut self, id: &str) -> Option<&mut Vocabulary> {
+        self.transcript
+            .vocabularies
+            .iter_mut()
+            .find(|it| it.id == id)
+    }
+
+    fn annotation(&self, tier: &Tier, row: &AnnotationRow, ids: &mut Ids) -> Annotation {
+        let source = source(row.source.as_deref());
+        let value = match row.state.as_str() {
+            "value" => row.value.clone(),
+            "not-applicable" => "n/a".to_owned(),
+            "unclear" => "unclear".to_owned(),
+            _ => String::new(),
+        };
+        // What its file left without an entry stays so.
+        let entry = match text(&source, "entry") {
+            None if row.origin != "file" => tier
+                .vocabulary
+                .as_deref()
+                .and_then(|vocabulary| self.entry(vocabulary, &value)),
+            entry => entry,
+        };
+        Annotation {
+            id: ids.take(row),
+            span: Span::between(
+                Instant::from_micros(row.start_us),
+                Instant::from_micros(row.end_us),
+            ),
+            timing: timing(tier.stereotype, &source),
+            parent: row.parent_id.and_then(|id| self.places.get(&id).copied()),
+            order: u32::try_from(row.position).unwrap_or(u32::MAX),
+            value,
+            entry,
+            language: text(&source, "language"),
+            external_ref: text(&source, "external_ref"),
+            millis: row
+                .file_start_ms
+                .zip(row.file_end_ms)
+                .map(|(start, end)| [start, end]),
+        }
+    }
+
+    fn entry(&self, vocabulary: &str, value: &str) -> Option<String> {
+        let all = &self.transcript.vocabularies;
+        let vocabulary = all.iter().find(|it| it.id == vocabulary)?;
+        let says = |entry: &&Entry| entry.values.iter().any(|it| it.value == value);
+        let entry = vocabulary.entries.iter().find(says)?;
+        Some(entry.id.clone()).filter(|id| !id.is_empty())
+    }
+}
+
+fn tier(row: &TierRow, parent: Option<usize>) -> Tier {
+    let source = source(row.source.as_deref());
+    let kind = text(&source, "type").unwrap_or_else(|| match (&row.component, &row.feature) {
+        (Some(component), Some(feature)) => format!("{component}.{feature}"),
+        (Some(component), None) => component.clone(),
+        _ => row.role.clone(),
+    });
+    Tier {
+        name: row.name.clone(),
+        parent,
+        stereotype: row
+            .stereotype
+            .as_deref()
+            .and_then(Stereotype::from_elan_name),
+        kind,
+        participant: row.participant.clone(),
+        annotator: row.annotator.clone(),
+        language: row.language.clone(),
+        locale: text(&source, "locale"),
+        vocabulary: None,
+        annotations: Vec::new(),
+    }
+}
+
+/// Annotations in the order of time, or in that of their file where that is another.
+fn in_order(rows: Vec<AnnotationRow>) -> Vec<AnnotationRow> {
+    let time = |row: &AnnotationRow| (row.start_us, row.position);
+    let mut by_row = rows.clone();
+    by_row.sort_by_key(|row| row.id);
+    let of_file = by_row.iter().filter(|row| row.external_id.is_some());
+    if of_file.is_sorted_by_key(time) {
+        rows
+    } else {
+        by_row
+    }
+}
+
+fn parents_first(rows: &[TierRow], at: &BTreeMap<i64, usize>) -> Vec<usize> {
+    let parent = |place: usize| rows[place].parent_id.and_then(|id| at.get(&id).copied());
+    let depth = |place: usize| {
+        std::iter::successors(Some(place), |place| parent(*place))
+            .take(rows.len() + 1)
+            .count()
+    };
+    let mut order: Vec<usize> = (0..rows.len()).collect();
+    order.sort_by_key(|place| (depth(*place), *place));
+    order
+}
+
+fn timing(stereotype: Option<Stereotype>, source: &Value) -> Timing {
+    let proposed = source
+        .get("timing")
+        .and_then(|timing| timing.get("proposed"));
+    let open = |end: &str| {
+        let end = proposed.and_then(|proposed| proposed.get(end));
+        end.and_then(Value::as_bool).unwrap_or(false)
+    };
+    match stereotype {
+        Some(Stereotype::SymbolicAssociation) => Timing::Parent,
+        Some(Stereotype::SymbolicSubdivision) => Timing::Share,
+        _ if proposed.is_some() => Timing::Proposed {
+            start: open("start"),
+            end: open("end"),
+        },
+        _ => Timing::Own,
+    }
+}
+
+fn source(text: Option<&str>) -> Value {
+    text.and_then(|text| serde_json::from_str(text).ok())
+        .unwrap_or(Value::Null)
+}
+
+fn text(source: &Value, key: &str) -> Option<String> {
+    source.get(key)?.as_str().map(str::to_owned)
+}
+
+fn of_inventory(stored: &StoredInventory) -> Vocabulary {
+    let inventory = &stored.inventory;
+    let entries = inventory.values.iter().enumerate().map(|(n, value)| {
+        let name = value.name("en");
+        Entry {
+            id: format!("cveid{n}"),
+            values: vec![EntryValue {
+                language: String::new(),
+                value: value.id.clone(),
+                description: (name != value.id).then(|| name.to_owned()),
+            }],
+            external_ref: None,
+        }
+    });
+    let description = inventory.names.get("en").cloned().unwrap_or_default();
+    Vocabulary {
+        id: inventory.id.clone(),
+        descriptions: vec![(String::new(), description)],
+        entries: entries.collect(),
+        external: None,
+    }
+}
+
+/// Adds the values that people entered since to a vocabulary.
+fn complete(vocabulary: &mut Vocabulary, said: &[AnnotationRow]) {
+    let language = vocabulary
+        .entries
+        .iter()
+        .flat_map(|entry| &entry.values)
+        .next();
+    let language = language
+        .map(|value| value.language.clone())
+        .unwrap_or_default();
+    for row in said
+        .iter()
+        .filter(|row| row.origin != "file" && row.state == "value")
+    {
+        let mut all = vocabulary.entries.iter().flat_map(|entry| &entry.values);
+        if all.any(|known| known.value == row.value) {
+            continue;
+        }
+        let taken = |id: &String| vocabulary.entries.iter().any(|entry| entry.id == *id);
+        let id = (vocabulary.entries.len()..)
+            .map(|n| format!("cveid{n}"))
+            .find(|id| !taken(id));
+        vocabulary.entries.push(Entry {
+            id: id.unwrap_or_default(),
+            values: vec![EntryValue {
+                language: language.clone(),
+                value: row.value.clone(),
+                description: None,
+            }],
+            external_ref: None,
+        });
+    }
+}
+
+/// Names of annotations: those of the file, and fresh ones after the last it ever used.
+struct Ids {
+    taken: BTreeSet<String>,
+    last: u64,
+}
+
+impl Ids {
+    fn new<'r>(
+        rows: impl Iterator<Item = &'r AnnotationRow>,
+        properties: &[(String, String)],
+    ) -> Self {
+        let number = |id: &String| id.strip_prefix('a')?.parse::<u64>().ok();
+        let used = properties
+            .iter()
+            .find(|(name, _)| name == "lastUsedAnnotationId");
+        let used = used.and_then(|(_, value)| value.parse().ok()).unwrap_or(0);
+        let last = rows
+            .filter_map(|row| number(row.external_id.as_ref()?))
+            .max()
+            .unwrap_or(0);
+        Self {
+            taken: BTreeSet::new(),
+            last: last.max(used),
+        }
+    }
+
+    fn take(&mut self, row: &AnnotationRow) -> String {
+        match &row.external_id {
+            Some(id) if self.taken.insert(id.clone()) => id.clone(),
+            _ => {
+                self.last += 1;
+                let id = format!("a{}", self.last);
+                self.taken.insert(id.clone());
+                id
+            }
+        }
+    }
+}

@@ -1,0 +1,270 @@
+//! The corpus into files that others read; the format is that of the file's extension.
+
+mod bvh;
+mod csv;
+mod eaf;
+mod enriched;
+#[cfg(test)]
+mod tests;
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Read, Write};
+use std::path::{Path, PathBuf};
+
+use rusqlite::Connection;
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+use crate::Corpus;
+use crate::address::{self, Address, Name, Stretch};
+use crate::db::motion::hex;
+use crate::db::{list, recordings, signs};
+use crate::error::{Error, Result};
+use crate::progress::Progress;
+
+/// What to export.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum ExportWhat {
+    /// What an address names.
+    Address(Address),
+    /// These tokens, such as those that a query finds, in this order.
+    Tokens(Vec<i64>),
+    /// Everything.
+    All,
+}
+
+/// How to export.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ExportOptions {
+    /// Whether a file that is there already is replaced.
+    pub force: bool,
+}
+
+/// What was written.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+pub struct ExportReport {
+    /// The files.
+    pub files: Vec<ExportedFile>,
+    /// What whoever reads the files should know.
+    pub notes: Vec<String>,
+}
+
+/// A file that was written.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct ExportedFile {
+    /// Where it is.
+    pub path: PathBuf,
+    /// How large it is.
+    pub bytes: u64,
+    /// The SHA-256 of it, in hexadecimal.
+    pub sha256: String,
+}
+
+impl Corpus {
+    /// Writes a part of the corpus, or all of it, to `to`.
+    ///
+    /// | extension | what is written |
+    /// |---|---|
+    /// | `.csv`, `.tsv` | a token a row, with its components; of a tier its annotations |
+    /// | `.eaf` | the tiers of one recording, for ELAN |
+    /// | `.bvh` | the movement of one recording or token |
+    /// | none | everything, as a folder of files that anyone can read |
+    ///
+    /// A file appears whole or not at all.
+    ///
+    /// # Errors
+    /// Where the extension is of no format, `what` cannot be written in it, or something is there
+    /// already.
+    pub fn export(
+        &self,
+        what: &ExportWhat,
+        to: &Path,
+        options: &ExportOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<ExportReport> {
+        let connection = self.store.read();
+        let extension = to
+            .extension()
+            .map(|text| text.to_string_lossy().to_lowercase());
+        let mut notes = Vec::new();
+        let file = |write: &mut dyn FnMut(&mut dyn Write) -> Result<()>| {
+            whole(to, options.force, write).map(|file| vec![file])
+        };
+        let files = match extension.as_deref() {
+            Some(kind @ ("csv" | "tsv")) => {
+                let delimiter = if kind == "csv" { b',' } else { b'\t' };
+                file(&mut |out| match what {
+                    ExportWhat::Address(Address::Tier(tier)) => {
+                        csv::annotations(connection, *tier, delimiter, out)
+                    }
+                    _ => {
+                        let tokens = tokens(connection, what)?;
+                        csv::tokens(connection, &tokens, delimiter, out, &mut notes, progress)
+                    }
+                })?
+            }
+            Some("eaf") => {
+                let stretch = stretch(connection, what)?;
+                if stretch.token.is_some() {
+                    let name = &stretch.recording.name;
+                    notes.push(format!("the file holds all of the recording {name:?}"));
+                }
+                file(&mut |out| eaf::write(connection, &stretch.recording, out))?
+            }
+            Some("bvh") => {
+                let stretch = stretch(connection, what)?;
+                file(&mut |out| bvh::write(connection, &stretch, out, progress).map(|_| ()))?
+            }
+            None => match what {
+                ExportWhat::All => enriched::write(connection, to, progress)?
+                    .into_iter()
+                    .map(exported)
+                    .collect::<Result<_>>()?,
+                _ => return Err(no_format(to, "only everything can be written as a folder")),
+            },
+            Some(other) => return Err(no_format(to, &format!("{other:?} is no format"))),
+        };
+        Ok(ExportReport { files, notes })
+    }
+}
+
+fn no_format(to: &Path, message: &str) -> Error {
+    Error::wrong(message).at(to.display().to_string()).advise(
+        "end the name in .csv, .tsv, .eaf or .bvh; a name without a dot is a folder of everything",
+    )
+}
+
+/// The tokens that are meant.
+fn tokens(connection: &Connection, what: &ExportWhat) -> Result<Vec<i64>> {
+    let ids = |rows: Vec<signs::TokenRow>| rows.into_iter().map(|row| row.id).collect();
+    match what {
+        ExportWhat::All => list::token_ids(connection),
+        ExportWhat::Tokens(tokens) => Ok(tokens.clone()),
+        ExportWhat::Address(Address::Recording(name)) => {
+            let recording = address::recording(connection, name)?;
+            Ok(ids(signs::tokens_of_recording(connection, recording.id)?))
+        }
+        ExportWhat::Address(Address::Signer(name)) => {
+            let signer = address::signer(connection, name)?;
+            list::token_ids_of_signer(connection, signer.id)
+        }
+        ExportWhat::Address(Address::Sign(Name::Number(sign))) => {
+            Ok(ids(signs::tokens_of_sign(connection, *sign)?))
+        }
+        ExportWhat::Address(Address::Sign(Name::Text(gloss))) => {
+            let sign = address::sign(connection, gloss)?;
+            Ok(ids(signs::tokens_of_sign(connection, sign)?))
+        }
+        ExportWhat::Address(token) => Ok(vec![address::token(connection, token)?.id]),
+    }
+}
+
+/// The one recording or token that is meant.
+fn stretch(connection: &Connection, what: &ExportWhat) -> Result<Stretch> {
+    let several = |count: usize, what: &str| {
+        Error::wrong(format!(
+            "such a file holds one recording, and these are {count} {what}"
+        ))
+        .advise("name one, such as recording:3 or token:41, or export everything to a folder")
+    };
+    match what {
+        ExportWhat::Address(address) => address::stretch(connection, address),
+        ExportWhat::Tokens(tokens) => match tokens.as_slice() {
+            [one] => address::stretch(connection, &Address::Token(*one)),
+            tokens => Err(several(tokens.len(), "tokens")),
+        },
+        ExportWhat::All => match recordings::recordings(connection)?.as_slice() {
+            [one] => address::stretch(connection, &Address::Recording(Name::Number(one.id))),
+            all => Err(several(all.len(), "recordings")),
+        },
+    }
+}
+
+/// Writes a file beside where it shall be, and puts it there when it is whole.
+fn whole(
+    to: &Path,
+    force: bool,
+    write: &mut dyn FnMut(&mut dyn Write) -> Result<()>,
+) -> Result<ExportedFile> {
+    if to.is_dir() || (to.exists() && !force) {
+        return Err(Error::file(to, io::ErrorKind::AlreadyExists.into()));
+    }
+    let mut name = to.file_name().unwrap_or_default().to_owned();
+    name.push(".part");
+    let part = to.with_file_name(name);
+    let done = fill(&part, write).and_then(|file| {
+        fs::rename(&part, to).map_err(|error| Error::file(to, error))?;
+        Ok(ExportedFile {
+            path: to.to_owned(),
+            ..file
+        })
+    });
+    if done.is_err() {
+        // What is left of a failed export is of no use; that it stays is no second failure.
+        let _ = fs::remove_file(&part);
+    }
+    done
+}
+
+fn fill(part: &Path, write: &mut dyn FnMut(&mut dyn Write) -> Result<()>) -> Result<ExportedFile> {
+    let fault = |error| Error::file(part, error);
+    let file = File::create(part).map_err(fault)?;
+    let mut out = Hashed {
+        out: BufWriter::with_capacity(1 << 20, file),
+        digest: Sha256::new(),
+        bytes: 0,
+    };
+    write(&mut out)?;
+    let file = out
+        .out
+        .into_inner()
+        .map_err(|error| fault(error.into_error()))?;
+    file.sync_all().map_err(fault)?;
+    Ok(ExportedFile {
+        path: part.to_owned(),
+        bytes: out.bytes,
+        sha256: hex(&out.digest.finalize()),
+    })
+}
+
+/// Counts and hashes what goes through it.
+struct Hashed<W> {
+    out: W,
+    digest: Sha256,
+    bytes: u64,
+}
+
+impl<W: Write> Write for Hashed<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.out.write(bytes)?;
+        self.digest.update(&bytes[..written]);
+        self.bytes += written as u64;
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}
+
+/// Returns a file of a folder as reports show it.
+fn exported(path: PathBuf) -> Result<ExportedFile> {
+    let fault = |error| Error::file(&path, error);
+    let mut file = File::open(&path).map_err(fault)?;
+    let (mut digest, mut buffer, mut bytes) = (Sha256::new(), vec![0; 1 << 20], 0);
+    loop {
+        match file.read(&mut buffer).map_err(fault)? {
+            0 => break,
+            read => {
+                digest.update(&buffer[..read]);
+                bytes += read as u64;
+            }
+        }
+    }
+    let sha256 = hex(&digest.finalize());
+    Ok(ExportedFile {
+        path,
+        bytes,
+        sha256,
+    })
+}

@@ -1,0 +1,448 @@
+//! What is exported comes back when it is imported.
+
+use std::path::{Path, PathBuf};
+
+use chereme_formats::eaf::{self, raw};
+use chereme_formats::table::annotations::Moment;
+use chereme_motion::Instant;
+use chereme_sign::{Component, TierRole};
+
+use super::*;
+use crate::db::signs::TokenValueRow;
+use crate::{
+    AnnotateOptions, AnnotationAction, AnnotationName, ImportOptions, ListFilter, ListKind,
+    NewTier, TierName, unheard,
+};
+
+const EAF: &str = include_str!("tests.eaf");
+
+struct Place {
+    folder: tempfile::TempDir,
+    corpora: usize,
+}
+
+impl Place {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        Self { folder, corpora: 0 }
+    }
+
+    fn file(&self, name: &str, bytes: &[u8]) -> PathBuf {
+        let path = self.folder.path().join(name);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+        std::fs::write(&path, bytes).expect("written");
+        path
+    }
+
+    /// A new corpus of these files.
+    fn corpus(&mut self, files: &[PathBuf]) -> Corpus {
+        self.corpora += 1;
+        let path = self.folder.path().join(format!("{}.chereme", self.corpora));
+        let mut corpus = Corpus::create(&path, "A").expect("made");
+        let mut hear = unheard;
+        let report = corpus
+            .import(
+                files,
+                &ImportOptions::default(),
+                &mut Progress::new(&mut hear),
+            )
+            .expect("imported");
+        assert!(!report.has_refusals(), "{report:?}");
+        corpus
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+}
+
+fn export(corpus: &Corpus, what: &ExportWhat, to: &Path) -> Result<ExportReport> {
+    let mut hear = unheard;
+    corpus.export(
+        what,
+        to,
+        &ExportOptions::default(),
+        &mut Progress::new(&mut hear),
+    )
+}
+
+fn address(text: &str) -> ExportWhat {
+    ExportWhat::Address(text.parse().expect("an address"))
+}
+
+/// The document as writing what it means gives it, which differs from the file in form only.
+fn rewritten(bytes: &[u8]) -> String {
+    let (document, _) = raw::read(bytes).expect("a document");
+    let (transcript, _) = eaf::from_raw(&document);
+    let mut out = Vec::new();
+    raw::write(&eaf::to_raw(&transcript, &document), &mut out).expect("written");
+    String::from_utf8(out).expect("text")
+}
+
+#[test]
+fn an_annotation_file_comes_back_as_it_was() {
+    let mut place = Place::new();
+    let file = place.file("Take 1.eaf", EAF.as_bytes());
+    let corpus = place.corpus(&[file]);
+    let out = place.path("out.eaf");
+    let report = export(&corpus, &address("recording:1"), &out).expect("exported");
+    let text = std::fs::read_to_string(&out).expect("text");
+    assert_eq!(text, rewritten(EAF.as_bytes()));
+    assert_eq!(
+        (report.files[0].bytes, report.notes.len()),
+        (text.len() as u64, 0)
+    );
+    let again = place.corpus(&[out]);
+    let twice = place.path("twice.eaf");
+    export(&again, &ExportWhat::All, &twice).expect("exported");
+    assert_eq!(std::fs::read_to_string(&twice).expect("text"), text);
+}
+
+#[test]
+fn changes_go_out_and_the_rest_stays() {
+    let mut place = Place::new();
+    let file = place.file("Take 1.eaf", EAF.as_bytes());
+    let mut corpus = place.corpus(&[file]);
+    let recording = Name::Number(1);
+    let tier = |name: &str| TierName::read(name, Some(&recording)).expect("a name");
+    let at = |millis| Some(Moment::Time(Instant::from_millis(millis)));
+    let called = |id: &str| AnnotationName::read(id, Some(&recording));
+    let changes = [
+        AnnotationAction::Set {
+            annotation: called("a1"),
+            start: at(5),
+            end: at(505),
+            value: None,
+        },
+        AnnotationAction::Set {
+            annotation: called("a7"),
+            start: None,
+            end: None,
+            value: Some("H".into()),
+        },
+        AnnotationAction::Add {
+            tier: tier("Gloss RH"),
+            start: at(2000),
+            end: at(2500),
+            parent: None,
+            order: None,
+            value: "CHAT".into(),
+            confidence: None,
+        },
+    ];
+    let changes: Vec<_> = changes.into_iter().map(Into::into).collect();
+    let mut hear = unheard;
+    corpus
+        .annotate(
+            &changes,
+            &AnnotateOptions::default(),
+            &mut Progress::new(&mut hear),
+        )
+        .expect("changed");
+    let role = TierRole::Component {
+        component: Component::Placement,
+        feature: None,
+    };
+    let new = NewTier {
+        participant: Some("Anna".into()),
+        ..NewTier::new(recording.clone(), "RH location", role)
+    };
+    corpus.add_tier(&new).expect("added");
+    let say = AnnotationAction::Add {
+        tier: tier("RH location"),
+        start: at(0),
+        end: at(100),
+        parent: None,
+        order: None,
+        value: "chin".into(),
+        confidence: None,
+    };
+    corpus
+        .annotate(
+            &[say.into()],
+            &AnnotateOptions::default(),
+            &mut Progress::new(&mut hear),
+        )
+        .expect("added");
+    let out = place.path("out.eaf");
+    export(&corpus, &address("recording:1"), &out).expect("exported");
+    let bytes = std::fs::read(&out).expect("bytes");
+    let (before, _) = eaf::read(EAF.as_bytes()).expect("a document");
+    let (after, findings) = eaf::read(&bytes).expect("a document");
+    assert!(findings.is_empty(), "{findings:?}");
+    let find = |id: &str| {
+        let all = after
+            .tiers
+            .iter()
+            .flat_map(|tier| tier.annotations.iter().map(move |it| (tier, it)));
+        all.filter(|(_, it)| it.id == id)
+            .map(|(tier, it)| (tier.name.clone(), it.clone()))
+            .next()
+            .expect(id)
+    };
+    assert_eq!(find("a1").1.millis, Some([5, 505]));
+    let (_, shape) = find("a7");
+    assert_eq!(
+        (shape.value.as_str(), shape.entry.as_deref()),
+        ("H", Some("cve_h"))
+    );
+    assert_eq!(find("a21").0, "Gloss RH");
+    let (name, chin) = find("a22");
+    assert_eq!(
+        (name.as_str(), chin.value.as_str()),
+        ("RH location", "chin")
+    );
+    let placements = after
+        .vocabularies
+        .iter()
+        .find(|it| it.id == "placements")
+        .expect("the vocabulary");
+    assert!(
+        placements
+            .entries
+            .iter()
+            .any(|entry| Some(&entry.id) == chin.entry.as_ref() && entry.values[0].value == "chin")
+    );
+    assert_eq!(after.tiers.len(), before.tiers.len() + 1);
+    assert_ne!(after.date, before.date);
+    let again = place.corpus(&[out]);
+    let tokens = |corpus: &Corpus| {
+        let rows = corpus
+            .list(ListKind::Tokens, &ListFilter::default())
+            .expect("listed")
+            .rows;
+        let cell = |row: &serde_json::Map<String, serde_json::Value>| {
+            format!("{} {} {}", row["gloss"], row["start_us"], row["components"])
+        };
+        rows.iter()
+            .map(cell)
+            .collect::<std::collections::BTreeSet<_>>()
+    };
+    assert_eq!(tokens(&again), tokens(&corpus));
+}
+
+#[test]
+fn made_recordings_say_so_in_their_file() {
+    let mut place = Place::new();
+    let file = place.file("Take 1.eaf", EAF.as_bytes());
+    let mut corpus = place.corpus(&[file]);
+    let change = crate::RecordingChange {
+        signer: Some(Some("Berta".into())),
+        origin: Some("made".into()),
+        licence: Some(Some("CC BY 4.0".into())),
+        ..Default::default()
+    };
+    corpus
+        .change_recording(&Name::Number(1), &change)
+        .expect("changed");
+    let left = crate::SignerChange {
+        handedness: Some(Some(chereme_motion::Side::Left)),
+        ..Default::default()
+    };
+    corpus
+        .change_signer(&Name::Text("Berta".into()), &left)
+        .expect("changed");
+    let out = place.path("out.eaf");
+    export(&corpus, &address("recording:1"), &out).expect("exported");
+    let again = place.corpus(&[out]);
+    let shown = |corpus: &Corpus, kind| {
+        corpus
+            .list(kind, &ListFilter::default())
+            .expect("listed")
+            .rows
+    };
+    for column in ["signer", "origin", "licence"] {
+        let of = |corpus: &Corpus| shown(corpus, ListKind::Recordings)[0][column].clone();
+        assert_eq!(of(&again), of(&corpus), "{column}");
+    }
+    assert_eq!(shown(&again, ListKind::Signers)[0]["handedness"], "left");
+}
+
+/// The codings of each sign's lexicon entry, in an order that does not depend on columns.
+fn codings(corpus: &Corpus) -> Vec<(String, Vec<(String, String)>, Vec<String>)> {
+    let connection = corpus.store.read();
+    let mut all = Vec::new();
+    for sign in signs::signs(connection).expect("signs") {
+        let tokens = signs::tokens_of_sign(connection, sign.id).expect("tokens");
+        let mut values: Vec<String> = tokens
+            .iter()
+            .flat_map(|token| signs::values(connection, token.id).expect("values"))
+            .map(|row| {
+                let row = TokenValueRow {
+                    inventory_id: None,
+                    ..row
+                };
+                format!("{row:?}")
+            })
+            .collect();
+        values.sort();
+        let mut texts = sign.texts;
+        texts.sort();
+        all.push((sign.gloss, texts, values));
+    }
+    all
+}
+
+#[test]
+fn a_table_of_lexicon_tokens_gives_the_same_codings() {
+    let lexicon = "NL gloss\tEN gloss\tFR translation\tHandshape strong\tHandshape weak\tLocation\tFinal location\tMovement direction\tHandshape change\tMouthing\n\
+        PET\tCAP\tcasquette\tB\tN/A\tforehead > head\t\tup, forward\t\tpet\n\
+        BAL\tBALL\tballon\tS + closing\t\tneutral space\tchest\t?\tclosing > opening\t\n\
+        LOPEN\tTO WALK\tmarcher\tV > 1 > S\tB\t> chin\t\tleft + right\t\t-\n\
+        X\t\t\t> 5\t5 >\t\t\t\tB > 5\t\n\
+        \"Y, z\"\tA\tB\tV\t\tchest, left\t\t\t\t\n";
+    let mut place = Place::new();
+    let file = place.file("lexicon.tsv", lexicon.as_bytes());
+    let corpus = place.corpus(&[file]);
+    for name in ["out.csv", "out.tsv"] {
+        let out = place.path(name);
+        let report = export(&corpus, &ExportWhat::All, &out).expect("exported");
+        assert!(report.notes.is_empty(), "{:?}", report.notes);
+        let again = place.corpus(&[out]);
+        assert_eq!(codings(&again), codings(&corpus), "{name}");
+    }
+}
+
+#[test]
+fn the_shared_lexicon_gives_the_same_codings() {
+    let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        eprintln!("CHEREME_SHARED_DATA is not set");
+        return;
+    };
+    let mut place = Place::new();
+    let corpus = place.corpus(&[Path::new(&data).join("phonology/ngt_lexicon.tsv")]);
+    let out = place.path("out.csv");
+    let report = export(&corpus, &ExportWhat::All, &out).expect("exported");
+    assert!(report.notes.is_empty(), "{:?}", report.notes);
+    let again = place.corpus(&[out]);
+    for (again, want) in codings(&again).into_iter().zip(codings(&corpus)) {
+        assert_eq!(again, want);
+    }
+}
+
+#[test]
+fn shared_annotation_files_come_back_as_they_were() {
+    let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        eprintln!("CHEREME_SHARED_DATA is not set");
+        return;
+    };
+    let mut files = Vec::new();
+    find(&Path::new(&data).join("annotation"), &mut files);
+    files.sort();
+    let mut place = Place::new();
+    for file in files {
+        let bytes = std::fs::read(&file).expect("bytes");
+        if eaf::read(&bytes).is_err() {
+            continue;
+        }
+        let corpus = place.corpus(std::slice::from_ref(&file));
+        let out = place.path("out.eaf");
+        let options = ExportOptions { force: true };
+        let mut hear = unheard;
+        corpus
+            .export(
+                &address("recording:1"),
+                &out,
+                &options,
+                &mut Progress::new(&mut hear),
+            )
+            .expect("exported");
+        assert_eq!(
+            std::fs::read_to_string(&out).expect("text"),
+            rewritten(&bytes),
+            "{}",
+            file.display()
+        );
+    }
+}
+
+fn find(folder: &Path, files: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            find(&path, files);
+        } else if path.extension().is_some_and(|extension| extension == "eaf") {
+            files.push(path);
+        }
+    }
+}
+
+#[test]
+fn tables_of_annotations_leave_them_as_they_are() {
+    let mut place = Place::new();
+    let file = place.file("Take 1.eaf", EAF.as_bytes());
+    let mut corpus = place.corpus(&[file]);
+    let tiers = corpus
+        .list(ListKind::Tiers, &ListFilter::default())
+        .expect("listed")
+        .total;
+    let log = corpus.log(9).expect("log").len();
+    for tier in 1..=tiers {
+        let out = place.path(&format!("{tier}.csv"));
+        export(&corpus, &address(&format!("tier:{tier}")), &out).expect("exported");
+        let bytes = std::fs::read(&out).expect("bytes");
+        let mut hear = unheard;
+        let options = AnnotateOptions::default();
+        corpus
+            .annotate_table(
+                &bytes,
+                "t.csv",
+                None,
+                &options,
+                &mut Progress::new(&mut hear),
+            )
+            .expect("carried out");
+    }
+    assert_eq!(corpus.log(9).expect("log").len(), log, "nothing changed");
+}
+
+#[test]
+fn files_appear_whole_and_replace_nothing_unasked() {
+    let mut place = Place::new();
+    let file = place.file("Take 1.eaf", EAF.as_bytes());
+    let corpus = place.corpus(&[file]);
+    let there = place.file("there.csv", b"mine");
+    for (what, to, want) in [
+        (ExportWhat::All, "there.csv", "there.csv"),
+        (address("recording:7"), "new.eaf", "there is no recording:7"),
+        (
+            ExportWhat::Tokens(vec![1, 2]),
+            "new.bvh",
+            "these are 2 tokens",
+        ),
+        (address("recording:1"), "new.xyz", "\"xyz\" is no format"),
+        (address("recording:1"), "folder", "only everything"),
+        (ExportWhat::All, "missing/new.csv", "missing"),
+    ] {
+        let to = place.path(to);
+        let error = export(&corpus, &what, &to).expect_err(want);
+        assert!(error.to_string().contains(want), "{error}");
+        assert!(to == there || !to.exists());
+    }
+    assert_eq!(std::fs::read(&there).expect("bytes"), b"mine");
+    let options = ExportOptions { force: true };
+    let mut hear = unheard;
+    let report = corpus
+        .export(
+            &ExportWhat::All,
+            &there,
+            &options,
+            &mut Progress::new(&mut hear),
+        )
+        .expect("exported");
+    let text = std::fs::read_to_string(&there).expect("text");
+    assert!(
+        text.starts_with("token,gloss,recording,start_s,end_s,origin,signer,hand,citation,"),
+        "{text}"
+    );
+    assert_eq!(report.files[0].bytes, text.len() as u64);
+    let left: Vec<_> = std::fs::read_dir(place.folder.path())
+        .expect("a folder")
+        .filter(|entry| {
+            entry
+                .as_ref()
+                .is_ok_and(|entry| entry.file_name().to_string_lossy().ends_with(".part"))
+        })
+        .collect();
+    assert!(left.is_empty(), "{left:?}");
+}

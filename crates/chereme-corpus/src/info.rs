@@ -1,0 +1,117 @@
+//! What is in a corpus, at a glance.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use serde::Serialize;
+
+use crate::Corpus;
+use crate::db::{OperationRow, SCHEMA_VERSION, info as rows};
+use crate::error::Result;
+
+/// What is in a corpus.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Info {
+    /// The file.
+    pub path: PathBuf,
+    /// How large it is.
+    pub file_bytes: u64,
+    /// The version of its schema.
+    pub schema_version: i32,
+    /// How many rows there are of each kind.
+    pub counts: BTreeMap<&'static str, u64>,
+    /// Recordings by how they came about.
+    pub recordings: BTreeMap<String, u64>,
+    /// Tokens by how they came about.
+    pub tokens: BTreeMap<String, u64>,
+    /// Tiers by what they say.
+    pub tiers: BTreeMap<String, u64>,
+    /// Hours of movement.
+    pub motion_hours: f64,
+    /// Frames of movement.
+    pub motion_frames: u64,
+    /// Bytes of the file by what they hold: `motion`, `history`, `search`, `sources`, `rest`.
+    pub bytes: BTreeMap<&'static str, u64>,
+    /// The signers.
+    pub signers: Vec<SignerInfo>,
+    /// The inventories.
+    pub inventories: Vec<InventoryInfo>,
+    /// What was done last.
+    pub last_operation: Option<OperationRow>,
+}
+
+/// A signer at a glance.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct SignerInfo {
+    /// The name.
+    pub name: String,
+    /// The dominant hand, where it is known.
+    pub handedness: Option<String>,
+    /// How many recordings there are.
+    pub recordings: u64,
+}
+
+/// An inventory at a glance.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct InventoryInfo {
+    /// Its id, such as `configurations`.
+    pub id: String,
+    /// The component that its values are of, with the feature.
+    pub field: String,
+    /// How many values it has.
+    pub values: u64,
+    /// How many tiers take their values from it.
+    pub tiers: u64,
+}
+
+impl Corpus {
+    /// Returns what is in the corpus.
+    ///
+    /// # Errors
+    /// Where the database fails.
+    pub fn info(&self) -> Result<Info> {
+        let connection = self.store.read();
+        let motion = rows::motion(connection)?;
+        let bytes = rows::bytes(connection)?;
+        Ok(Info {
+            path: self.path().to_owned(),
+            file_bytes: bytes.values().sum(),
+            schema_version: SCHEMA_VERSION,
+            counts: rows::counts(connection)?,
+            recordings: rows::recordings(connection)?,
+            tokens: rows::tokens(connection)?,
+            tiers: rows::tiers(connection)?,
+            motion_hours: motion.seconds / 3600.0,
+            motion_frames: motion.frames,
+            bytes,
+            signers: rows::signers(connection)?,
+            inventories: rows::inventories(connection)?,
+            last_operation: self.log(1)?.pop(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_new_corpus_has_its_inventories_and_nothing_else() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let info = corpus.info().expect("info");
+        let full: Vec<_> = info
+            .counts
+            .iter()
+            .filter(|(_, count)| **count > 0)
+            .map(|(what, _)| *what)
+            .collect();
+        assert_eq!(full, ["inventories", "values"]);
+        assert_eq!(
+            info.inventories.len(),
+            chereme_sign::inventory::builtin().len()
+        );
+        assert!(info.bytes["rest"] > 0 && info.file_bytes >= info.bytes["rest"]);
+        assert_eq!((info.motion_frames, info.last_operation), (0, None));
+    }
+}

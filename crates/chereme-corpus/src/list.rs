@@ -1,0 +1,541 @@
+//! Rows of the corpus as lists, filtered and sorted.
+
+use std::fmt;
+use std::str::FromStr;
+
+use chereme_sign::text::{did_you_mean, nearest};
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use crate::Corpus;
+use crate::address::{self, Address, Name};
+use crate::db::list::{self as rows, Holds, Table, Test, Wanted};
+use crate::db::signs::{self, TokenValueRow};
+use crate::db::tiers;
+use crate::error::{Error, Result};
+
+/// What to list.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ListKind {
+    /// Recordings.
+    Recordings,
+    /// Signs.
+    Signs,
+    /// Tokens.
+    Tokens,
+    /// Tiers.
+    Tiers,
+    /// Annotations.
+    Annotations,
+    /// Inventories.
+    Inventories,
+    /// Values of inventories.
+    Values,
+    /// Signers.
+    Signers,
+    /// Operations, the newest first.
+    Operations,
+}
+
+impl ListKind {
+    /// Every kind.
+    pub const ALL: [Self; 9] = [
+        Self::Recordings,
+        Self::Signs,
+        Self::Tokens,
+        Self::Tiers,
+        Self::Annotations,
+        Self::Inventories,
+        Self::Values,
+        Self::Signers,
+        Self::Operations,
+    ];
+
+    /// Returns the name, such as `recordings`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Recordings => "recordings",
+            Self::Signs => "signs",
+            Self::Tokens => "tokens",
+            Self::Tiers => "tiers",
+            Self::Annotations => "annotations",
+            Self::Inventories => "inventories",
+            Self::Values => "values",
+            Self::Signers => "signers",
+            Self::Operations => "operations",
+        }
+    }
+
+    /// Returns the names of the columns, in order.
+    #[must_use]
+    pub fn columns(self) -> Vec<&'static str> {
+        self.table()
+            .columns
+            .iter()
+            .map(|column| column.name)
+            .collect()
+    }
+
+    fn singular(self) -> &'static str {
+        match self {
+            Self::Inventories => "inventory",
+            other => other.name().trim_end_matches('s'),
+        }
+    }
+
+    fn table(self) -> &'static Table {
+        match self {
+            Self::Recordings => &rows::RECORDINGS,
+            Self::Signs => &rows::SIGNS,
+            Self::Tokens => &rows::TOKENS,
+            Self::Tiers => &rows::TIERS,
+            Self::Annotations => &rows::ANNOTATIONS,
+            Self::Inventories => &rows::INVENTORIES,
+            Self::Values => &rows::VALUES,
+            Self::Signers => &rows::SIGNERS,
+            Self::Operations => &rows::OPERATIONS,
+        }
+    }
+
+    /// Returns the column of that name; `recording` of recordings is their name, and so on.
+    fn column(self, name: &str) -> Result<usize> {
+        let columns = self.table().columns;
+        let name = name.trim();
+        let own = self.singular() == name;
+        let found = columns.iter().position(|column| {
+            column.name == name || (own && matches!(column.name, "name" | "gloss" | "key"))
+        });
+        found.ok_or_else(|| {
+            let names = columns.iter().map(|column| column.name);
+            let meant = did_you_mean(nearest(name, names.clone()));
+            let all: Vec<&str> = names.collect();
+            Error::wrong(format!("{} have no column {name:?}{meant}", self.name()))
+                .at(name)
+                .advise(format!("the columns are: {}", all.join(", ")))
+        })
+    }
+}
+
+impl fmt::Display for ListKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for ListKind {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let names = Self::ALL.map(Self::name);
+        Self::ALL
+            .into_iter()
+            .find(|kind| kind.name() == text)
+            .ok_or_else(|| {
+                let meant = did_you_mean(nearest(text, names));
+                Error::wrong(format!("{text:?} cannot be listed{meant}"))
+                    .at(text)
+                    .advise(format!("what can be listed: {}", names.join(", ")))
+            })
+    }
+}
+
+/// Which rows to list, and in which order.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ListFilter {
+    /// Columns and what they must fit.
+    ///
+    /// A text column fits a pattern such as `BO*`, whatever its case and accents; a number a number,
+    /// `>5`, `>=5`, `<5`, `<=5` or `2..5`; a flag `yes` or `no`; and any column `none` where it holds
+    /// nothing. `recording`, `signer` and `tier` take addresses such as `recording:3` too.
+    pub columns: Vec<(String, String)>,
+    /// The column to sort by.
+    pub sort: Option<String>,
+    /// Whether the greatest comes first.
+    pub descending: bool,
+    /// How many rows to list at most; all where nothing is said.
+    pub limit: Option<usize>,
+    /// How many rows to leave out before.
+    pub offset: usize,
+}
+
+impl ListFilter {
+    /// Returns the filter that wants `pattern` of `column` too.
+    #[must_use]
+    pub fn with(mut self, column: impl Into<String>, pattern: impl Into<String>) -> Self {
+        self.columns.push((column.into(), pattern.into()));
+        self
+    }
+}
+
+/// Rows as they are shown.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Listing {
+    /// How many rows fit the filter, whatever part of them is listed.
+    pub total: u64,
+    /// The rows, each with every column of [`ListKind::columns`] in that order.
+    pub rows: Vec<Map<String, Value>>,
+}
+
+impl Corpus {
+    /// Lists rows of one kind.
+    ///
+    /// # Errors
+    /// Where a column is not there or a pattern does not suit it.
+    pub fn list(&self, kind: ListKind, filter: &ListFilter) -> Result<Listing> {
+        let connection = self.store.read();
+        let mut wanted = Wanted {
+            limit: filter.limit,
+            offset: filter.offset,
+            ..Wanted::default()
+        };
+        for (name, pattern) in &filter.columns {
+            let column = kind.column(name)?;
+            let test = self.test(kind, column, pattern.trim())?;
+            wanted.tests.push((column, test));
+        }
+        if let Some(name) = &filter.sort {
+            wanted.sort = Some((kind.column(name)?, filter.descending));
+        }
+        let (total, mut listed) = rows::list(connection, kind.table(), &wanted)?;
+        if kind == ListKind::Tokens {
+            for row in &mut listed {
+                let token = row.get("id").and_then(Value::as_i64).unwrap_or_default();
+                let values = signs::values(connection, token)?;
+                row.insert("components".to_owned(), components(&values));
+            }
+        }
+        Ok(Listing {
+            total,
+            rows: listed,
+        })
+    }
+
+    fn test(&self, kind: ListKind, at: usize, pattern: &str) -> Result<Test> {
+        let column = &kind.table().columns[at];
+        if pattern.eq_ignore_ascii_case("none") || pattern.is_empty() {
+            return Ok(Test::Nothing);
+        }
+        let unfit = |right: &str| {
+            Error::wrong(format!(
+                "the column {:?} cannot be {pattern:?}",
+                column.name
+            ))
+            .at(pattern)
+            .advise(right)
+        };
+        match column.holds {
+            Holds::Text => Ok(match self.addressed(kind, column.name, pattern)? {
+                Some(row) => Test::Row(row),
+                None => Test::Like(pattern.to_owned()),
+            }),
+            Holds::Json(_) => Ok(Test::Like(format!("*{pattern}*"))),
+            Holds::Number => between(pattern)
+                .ok_or_else(|| unfit("write a number, >5, >=5, <5, <=5, 2..5, or none")),
+            Holds::Flag => match pattern.to_lowercase().as_str() {
+                "yes" | "true" | "1" => Ok(Test::Is(true)),
+                "no" | "false" | "0" => Ok(Test::Is(false)),
+                _ => Err(unfit("write yes or no")),
+            },
+            Holds::Components => Err(Error::wrong(
+                "tokens are filtered by their components with a query",
+            )
+            .at(pattern)
+            .advise("`chereme search CORPUS 'right.configuration=U'`")),
+        }
+    }
+
+    /// The row that an address such as `recording:3` names, in a column of such rows.
+    fn addressed(&self, kind: ListKind, column: &str, pattern: &str) -> Result<Option<i64>> {
+        let connection = self.store.read();
+        let of = |what: &str| column == what || (column == "name" && kind.singular() == what);
+        Ok(match pattern.parse() {
+            Ok(Address::Recording(name)) if of("recording") => {
+                Some(address::recording(connection, &name)?.id)
+            }
+            Ok(Address::Signer(name)) if of("signer") => {
+                Some(address::signer(connection, &name)?.id)
+            }
+            Ok(Address::Tier(tier)) if of("tier") || column == "parent" => {
+                Some(tiers::tier(connection, tier)?.id)
+            }
+            Ok(Address::Sign(Name::Number(sign))) if column == "gloss" => Some(sign),
+            Ok(Address::Sign(Name::Text(gloss))) if column == "gloss" => {
+                Some(address::sign(connection, &gloss)?)
+            }
+            _ => None,
+        })
+    }
+}
+
+fn between(pattern: &str) -> Option<Test> {
+    let number = |text: &str| {
+        text.trim()
+            .parse::<f64>()
+            .ok()
+            .filter(|number| !number.is_nan())
+    };
+    let (low, high) = (f64::MIN, f64::MAX);
+    if let Some((least, most)) = pattern.split_once("..") {
+        let least = if least.trim().is_empty() {
+            low
+        } else {
+            number(least)?
+        };
+        let most = if most.trim().is_empty() {
+            high
+        } else {
+            number(most)?
+        };
+        return Some(Test::Between(least, most));
+    }
+    let (least, most) = if let Some(text) = pattern.strip_prefix(">=") {
+        (number(text)?, high)
+    } else if let Some(text) = pattern.strip_prefix("<=") {
+        (low, number(text)?)
+    } else if let Some(text) = pattern.strip_prefix('>') {
+        (number(text)?.next_up(), high)
+    } else if let Some(text) = pattern.strip_prefix('<') {
+        (low, number(text)?.next_down())
+    } else {
+        (number(pattern)?, number(pattern)?)
+    };
+    Some(Test::Between(least, most))
+}
+
+/// Returns the values of a token by field, such as `initial.right.placement`; a list where there are
+/// several. What is not applicable is `n/a`, what is unclear `unclear`.
+fn components(values: &[TokenValueRow]) -> Value {
+    let mut map = Map::new();
+    for row in values {
+        let phase = match (row.phase.as_deref(), row.position) {
+            (Some("middle"), place) if place > 1 => Some(format!("middle{place}")),
+            (phase, _) => phase.map(str::to_owned),
+        };
+        let parts = [
+            phase.as_ref(),
+            row.hand.as_ref(),
+            Some(&row.component),
+            row.feature.as_ref(),
+        ];
+        let field: Vec<&str> = parts.into_iter().flatten().map(String::as_str).collect();
+        let value = match (row.state.as_str(), &row.value) {
+            ("value", Some(value)) => Value::from(value.as_str()),
+            ("not-applicable", _) => Value::from("n/a"),
+            (state, _) => Value::from(state),
+        };
+        match map.get_mut(&field.join(".")) {
+            Some(Value::Array(several)) => several.push(value),
+            Some(one) => *one = Value::Array(vec![one.take(), value]),
+            None => {
+                map.insert(field.join("."), value);
+            }
+        }
+    }
+    Value::Object(map)
+}
+
+/// Returns a cell of a row as people read it in a table.
+#[must_use]
+pub fn cell_text(value: &Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => text.clone(),
+        Value::Bool(yes) => if *yes { "yes" } else { "no" }.to_owned(),
+        Value::Array(all) => all.iter().map(cell_text).collect::<Vec<_>>().join(", "),
+        Value::Object(map) => match (map.get("language"), map.get("text")) {
+            (Some(Value::String(language)), Some(Value::String(text))) if map.len() == 2 => {
+                if language.is_empty() {
+                    text.clone()
+                } else {
+                    format!("{text} ({language})")
+                }
+            }
+            _ => {
+                let pair = |(key, value): (&String, &Value)| format!("{key}={}", cell_text(value));
+                map.iter().map(pair).collect::<Vec<_>>().join(" ")
+            }
+        },
+        other => other.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::db::tiers::{AnnotationRow, TierRow};
+    use crate::db::{recordings, signs as sign_rows};
+    use crate::{inventories, tokens};
+
+    fn corpus() -> (tempfile::TempDir, Corpus) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        corpus
+            .store
+            .operation("fill", |connection| {
+                let signer = recordings::signer_named(connection, "Anna", Some("left"))?;
+                for (name, gloss) in [("One", "BOL"), ("Two", "Écœuré")] {
+                    let recording = recordings::RecordingRow {
+                        id: 0,
+                        name: name.into(),
+                        signer_id: (name == "One").then_some(signer),
+                        signer: None,
+                        origin: "captured".into(),
+                        duration_us: 1_000_000,
+                        licence: None,
+                        notes: None,
+                    };
+                    let recording_id = recordings::insert_recording(connection, &recording)?;
+                    let tier = TierRow {
+                        recording_id,
+                        name: "Gloss".into(),
+                        role: "gloss".into(),
+                        ..TierRow::default()
+                    };
+                    let tier_id = tiers::insert_tier(connection, &tier)?;
+                    let row = |start_us, value: &str| AnnotationRow {
+                        tier_id,
+                        start_us,
+                        end_us: start_us + 100_000,
+                        state: "value".into(),
+                        value: value.into(),
+                        origin: "file".into(),
+                        ..AnnotationRow::default()
+                    };
+                    tiers::insert_annotation(connection, &row(0, gloss))?;
+                    tiers::insert_annotation(connection, &row(200_000, "CHAT"))?;
+                    tokens::derive(
+                        connection,
+                        recording_id,
+                        None,
+                        &inventories::load(connection)?,
+                    )?;
+                }
+                let sign = sign_rows::sign_glossed(connection, "BOL")?;
+                sign_rows::add_text(connection, sign, "en", "bowl")?;
+                sign_rows::add_text(connection, sign, "", "schaal")?;
+                Ok(((), String::new()))
+            })
+            .expect("filled");
+        (folder, corpus)
+    }
+
+    #[test]
+    fn rows_are_filtered_and_sorted() {
+        let (_folder, corpus) = corpus();
+        for (kind, filter, sort, column, want) in [
+            ("recordings", "", "", "name", "One Two"),
+            ("recordings", "", "-name", "name", "Two One"),
+            ("recordings", "recording=recording:2", "", "name", "Two"),
+            ("recordings", "signer=none", "", "name", "Two"),
+            ("recordings", "signer=ANNA", "", "name", "One"),
+            ("tokens", "", "gloss", "gloss", "BOL CHAT CHAT Écœuré"),
+            ("tokens", "", "-gloss", "gloss", "Écœuré CHAT CHAT BOL"),
+            ("tokens", "gloss=ec*", "", "gloss", "Écœuré"),
+            ("tokens", "gloss=C*; recording=Two", "", "id", "4"),
+            ("tokens", "recording=recording:1", "", "gloss", "BOL CHAT"),
+            ("tokens", "signer=signer:Anna", "", "id", "1 2"),
+            ("tokens", "citation=no", "", "id", "4"),
+            ("tokens", "start_us=>0", "", "id", "2 4"),
+            ("tokens", "start_us=0..100", "-id", "id", "3 1"),
+            ("signs", "translations=bow", "", "gloss", "BOL"),
+            ("signs", "tokens=>=2", "", "gloss", "CHAT"),
+            ("signs", "gloss=sign:chat", "", "gloss", "CHAT"),
+            ("tiers", "role=gloss", "", "recording", "One Two"),
+            (
+                "annotations",
+                "tier=tier:2; value=CHAT",
+                "",
+                "start_us",
+                "200000",
+            ),
+            (
+                "inventories",
+                "component=placement",
+                "",
+                "key",
+                "placements",
+            ),
+            (
+                "values",
+                "inventory=configurations; value=U",
+                "",
+                "value",
+                "U",
+            ),
+            (
+                "values",
+                "component=configuration; names=victory",
+                "",
+                "inventory",
+                "",
+            ),
+            ("signers", "", "", "handedness", "left"),
+            ("operations", "", "", "name", "fill"),
+            ("operations", "stands=yes", "", "id", "1"),
+        ] {
+            let mut list = ListFilter::default();
+            for part in filter.split("; ").filter(|part| !part.is_empty()) {
+                let (column, pattern) = part.split_once('=').expect("a filter");
+                list = list.with(column, pattern);
+            }
+            list.descending = sort.starts_with('-');
+            list.sort =
+                Some(sort.trim_start_matches('-').to_owned()).filter(|sort| !sort.is_empty());
+            let kind: ListKind = kind.parse().expect("a kind");
+            let listing = corpus.list(kind, &list).expect(filter);
+            let cells: Vec<String> = listing
+                .rows
+                .iter()
+                .map(|row| cell_text(&row[column]))
+                .collect();
+            assert_eq!(cells.join(" "), want, "{kind} {filter} {sort}");
+            assert_eq!(listing.total, listing.rows.len() as u64);
+            for row in &listing.rows {
+                assert!(row.keys().eq(kind.columns()), "{kind}");
+            }
+        }
+    }
+
+    #[test]
+    fn pages_tell_how_many_rows_there_are() {
+        let (_folder, corpus) = corpus();
+        let filter = ListFilter {
+            limit: Some(2),
+            offset: 1,
+            ..ListFilter::default()
+        };
+        let listing = corpus.list(ListKind::Tokens, &filter).expect("listed");
+        assert_eq!((listing.total, listing.rows.len()), (4, 2));
+        assert_eq!(listing.rows[0]["id"], 2);
+        let texts = corpus
+            .list(ListKind::Signs, &ListFilter::default())
+            .expect("listed");
+        assert_eq!(
+            cell_text(&texts.rows[0]["translations"]),
+            "bowl (en), schaal"
+        );
+    }
+
+    #[test]
+    fn what_cannot_be_listed_is_told() {
+        let (_folder, corpus) = corpus();
+        for (column, pattern, want) in [
+            ("glos", "x", "did you mean \"gloss\"?"),
+            ("start_us", "soon", "cannot be \"soon\""),
+            ("citation", "perhaps", "cannot be \"perhaps\""),
+            ("components", "U", "with a query"),
+            ("recording", "recording:9", "no recording:9"),
+        ] {
+            let filter = ListFilter::default().with(column, pattern);
+            let error = corpus.list(ListKind::Tokens, &filter).expect_err(column);
+            assert!(error.to_string().contains(want), "{error}");
+            assert!(error.remedy().is_some());
+        }
+        assert!(
+            "tokns"
+                .parse::<ListKind>()
+                .is_err_and(|error| error.to_string().contains("\"tokens\""))
+        );
+    }
+}
