@@ -25,10 +25,23 @@ pub struct Answer {
     pub hits: Vec<Hit>,
     /// By field, how many of all tokens found have each value: the most frequent first, at most
     /// [`FACET_VALUES`] of them, those of equal number by name.
+    #[serde(serialize_with = "counts")]
     pub facets: BTreeMap<String, Vec<(String, usize)>>,
     /// What whoever asked should know besides.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
+}
+
+/// Writes facets as an object of values and counts a field, the most frequent first.
+fn counts<S: serde::Serializer>(
+    facets: &BTreeMap<String, Vec<(String, usize)>>,
+    out: S,
+) -> std::result::Result<S::Ok, S::Error> {
+    let object = |values: &Vec<(String, usize)>| {
+        let pairs = values.iter().map(|(value, count)| (value.clone(), Value::from(*count)));
+        Value::Object(pairs.collect())
+    };
+    out.collect_map(facets.iter().map(|(field, values)| (field, object(values))))
 }
 
 /// A token that was found.

@@ -140,6 +140,7 @@ impl Vocabulary {
         reach: Reach,
         meant: impl Fn(&InventoryValue) -> bool,
     ) {
+        let (mut within, mut beside) = (BTreeSet::new(), BTreeSet::new());
         for inventory in self.of(component, part) {
             let meant: BTreeSet<&str> = inventory
                 .values
@@ -160,13 +161,18 @@ impl Vocabulary {
                     Reach::Own if is_meant(value) => {
                         accepted.folded.extend(value.spellings().map(fold));
                     }
-                    Reach::Narrower if inventory.chain(&value.id).any(is_meant) => {
+                    Reach::Narrower if is_meant(value) => {
                         accepted.folded.extend(value.spellings().map(fold));
                     }
+                    Reach::Narrower if inventory.chain(&value.id).any(is_meant) => {
+                        within.extend(value.spellings().map(fold));
+                    }
+                    Reach::Narrower => beside.extend(value.spellings().map(fold)),
                     _ => {}
                 }
             }
         }
+        accepted.folded.extend(within.into_iter().filter(|text| !beside.contains(text)));
     }
 }
 
@@ -177,7 +183,8 @@ enum Reach {
     Letters,
     /// Nothing.
     Own,
-    /// The values within them.
+    /// The values within them, but for those that another inventory has side by side with what is
+    /// meant: a table that codes `head` and `chin` apart does not mean its chin by `head`.
     Narrower,
 }
 
