@@ -56,6 +56,18 @@ fn cells_are_kept_apart() {
         ("Contact type", "> final", "final.placement.contact=final"),
         (
             "Handshape change",
+            "closing > opening",
+            "initial.dominant.configuration.change=closing final.dominant.configuration.change=opening",
+        ),
+        ("right.placement", "chin", "right.placement=chin"),
+        (
+            "initial.weak.configuration.change",
+            "closing",
+            "initial.weak.configuration.change=closing",
+        ),
+        ("nonmanual.gaze", "left", "nonmanual.gaze=left"),
+        (
+            "Handshape change",
             "closing",
             "dominant.configuration.change=closing",
         ),

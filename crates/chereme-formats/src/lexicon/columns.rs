@@ -153,6 +153,9 @@ fn column(title: &str, mapping: &Mapping) -> Column {
             return column(Some(target), name, 0.95, format!("its title is {text:?}"));
         }
     }
+    if let Some(target) = Target::of_title(title) {
+        return column(Some(&target), None, 1.0, "its title is a field".to_owned());
+    }
     let within = |known: &&String| known.split(' ').all(|word| words.contains(&word));
     let longest = TABLE
         .keys()

@@ -48,9 +48,10 @@ pub(super) fn split(cell: &str, whole: &Coding, codings: &mut Vec<Coding>) {
                 ..whole.clone()
             };
             let shape = whole.component == Component::Configuration;
-            if shape && whole.feature.is_none() && CHANGES.contains(&&*fold(piece)) {
+            let changing = CHANGES.contains(&&*fold(piece));
+            if shape && whole.feature.is_none() && changing {
                 coding.feature = Some("change".to_owned());
-            } else if change && parts.len() > 1 {
+            } else if change && parts.len() > 1 && !changing {
                 coding.feature = None;
             }
             codings.push(coding);

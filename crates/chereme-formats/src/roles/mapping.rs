@@ -155,6 +155,11 @@ fn matches(pattern: &str, name: &str) -> bool {
 }
 
 impl Target {
+    /// Reads the title of a column that says itself what it is: `right.configuration`.
+    pub(crate) fn of_title(title: &str) -> Option<Self> {
+        Self::parse(title, title).ok()
+    }
+
     /// Reads what the entry `entry` says.
     pub(crate) fn parse(entry: &str, text: &str) -> Result<Self, MappingError> {
         let lower = text.trim().to_lowercase();
