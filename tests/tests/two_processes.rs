@@ -18,7 +18,7 @@ fn two_write_and_two_read_the_same_file() {
     };
     let workers = [
         ("anna", start("import", "anna", 8)),
-        ("ben", start("import", "ben", 8)),
+        ("ben", start("annotate", "ben", 8)),
         ("reader", start("read", "reader", 60)),
         ("other reader", start("read", "other reader", 60)),
     ];
@@ -30,7 +30,7 @@ fn two_write_and_two_read_the_same_file() {
     }
     assert_eq!(reported["anna"].len(), 8);
     assert_eq!(reported["ben"].len(), 8);
-    common::expect_whole(&path, &reported);
+    common::expect_whole(&path, &reported, common::Check::Everything);
     let mut corpus = Corpus::open(&path, "checker").expect("opened");
     let log = corpus.log(usize::MAX).expect("log");
     assert_eq!(log.len(), 17, "one of the maker, eight of each writer");
@@ -41,7 +41,7 @@ fn two_write_and_two_read_the_same_file() {
     }
     assert!(corpus.undo().is_err());
     drop(corpus);
-    common::expect_whole(&path, &reported);
+    common::expect_whole(&path, &reported, common::Check::Everything);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use chereme_corpus::{Corpus, ImportOptions, Progress};
+use chereme_corpus::{AnnotateOptions, Corpus, ImportOptions, Name, Progress, unheard};
 use chereme_tests::files;
 
 fn main() -> ExitCode {
@@ -49,6 +49,11 @@ impl Job {
         for step in 0..count {
             match task {
                 "import" => self.import(&mut corpus, step)?,
+                "annotate" => self.annotate(&mut corpus, step)?,
+                "recombine" => {
+                    let gloss = format!("{}-{step}", self.author);
+                    corpus.recombine("BOL | place right by left 5cm", &gloss)?;
+                }
                 "history" => {
                     corpus.redo().or_else(|_| corpus.undo())?;
                 }
@@ -92,11 +97,32 @@ impl Job {
         let report = corpus.import(
             &[motion, said],
             &ImportOptions::default(),
-            &mut Progress::new(&mut chereme_corpus::unheard),
+            &mut Progress::new(&mut unheard),
         )?;
         if report.has_refusals() {
             return Err(format!("{:?}", report.files).into());
         }
+        Ok(())
+    }
+
+    /// Gives a sign another gloss, handshape, time and translation in one operation.
+    fn annotate(&self, corpus: &mut Corpus, step: usize) -> Done {
+        let (author, handshape) = (&self.author, ["5", "S"][step % 2]);
+        let end = 1400 + step % 100;
+        let table = format!(
+            "action,id,end,value\n\
+             set,a2,,{author}-{step}\n\
+             set,a4,{end}ms,{handshape}\n\
+             set,a9,,step {step} of {author}\n"
+        );
+        let recording = Name::Text("bowl and cat".to_owned());
+        corpus.annotate_table(
+            table.as_bytes(),
+            "changes",
+            Some(&recording),
+            &AnnotateOptions::default(),
+            &mut Progress::new(&mut unheard),
+        )?;
         Ok(())
     }
 

@@ -3,13 +3,27 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use chereme_corpus::Corpus;
+use chereme_corpus::{Corpus, Progress, unheard};
 use rusqlite::Connection;
 
+/// How much of a corpus is looked at.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Check {
+    /// The database and what rows must agree on.
+    Rows,
+    /// All that the corpus itself checks: blocks, tokens, tier rules, index and more.
+    Everything,
+}
+
 /// Expects that the corpus opens, is whole, and holds the operations of `reported`, by author.
-pub(crate) fn expect_whole(path: &Path, reported: &BTreeMap<String, BTreeSet<i64>>) {
-    let corpus = Corpus::open(path, "checker").expect("the corpus opens");
+pub(crate) fn expect_whole(path: &Path, reported: &BTreeMap<String, BTreeSet<i64>>, how: Check) {
+    let mut corpus = Corpus::open(path, "checker").expect("the corpus opens");
     let log = corpus.log(usize::MAX).expect("the log is read");
+    if how == Check::Everything {
+        let check = corpus.check(false, &mut Progress::new(&mut unheard));
+        let check = check.expect("the corpus is checked");
+        assert!(check.ok, "{:?}", check.faults);
+    }
     drop(corpus);
     for (author, done) in reported {
         let logged: BTreeSet<i64> = log
