@@ -5,6 +5,7 @@
 //! each hand, all by Zipf's law; a sentence of three to eight words over every eight tokens. Ours is
 //! everything from the text of the query to the hits with their values; the peer counts rows only.
 //! Times are the best of several runs. `CHEREME_BENCH_TOKENS` sets another number of tokens.
+#![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -16,7 +17,10 @@ const RECORDINGS: usize = 500;
 
 fn main() {
     let tokens = std::env::var("CHEREME_BENCH_TOKENS");
-    let tokens: usize = tokens.ok().and_then(|n| n.parse().ok()).unwrap_or(1_000_000);
+    let tokens: usize = tokens
+        .ok()
+        .and_then(|n| n.parse().ok())
+        .unwrap_or(1_000_000);
     let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(format!("search-{tokens}.chereme"));
     remove(&path);
     let (_, took) = timed(|| build(&path, tokens));
@@ -27,7 +31,11 @@ fn main() {
     drop(corpus);
     let size = std::fs::metadata(&path).map_or(0, |data| data.len());
     let index = index_size(&path);
-    println!("file {} MB, of which the index {} MB", size >> 20, index >> 20);
+    println!(
+        "file {} MB, of which the index {} MB",
+        size >> 20,
+        index >> 20
+    );
     println!("peak memory so far {} MB\n", peak_memory());
     open_and_ask(&path);
     ask(&path);
@@ -44,8 +52,14 @@ fn open_and_ask(path: &Path) {
         opened.push(took);
         asked.push(timed(|| search(&mut corpus, PATTERN, 50, false)).1);
     }
-    println!("open                                    {}", shown(best(opened)));
-    println!("first query after it                    {}\n", shown(best(asked)));
+    println!(
+        "open                                    {}",
+        shown(best(opened))
+    );
+    println!(
+        "first query after it                    {}\n",
+        shown(best(asked))
+    );
 }
 
 fn ask(path: &Path) {
@@ -55,7 +69,10 @@ fn ask(path: &Path) {
         "CREATE INDEX IF NOT EXISTS bench ON token_value (component, hand, value, token_id)",
     )
     .expect("indexed");
-    println!("{:<34}{:>8}{:>11}{:>11}{:>11}{:>11}", "", "found", "ours", "+facets", "join", "exists");
+    println!(
+        "{:<34}{:>8}{:>11}{:>11}{:>11}{:>11}",
+        "", "found", "ours", "+facets", "join", "exists"
+    );
     for (name, query, join, exists) in QUERIES {
         let total = search(&mut corpus, query, 50, false);
         let ours = best((0..41).map(|_| timed(|| search(&mut corpus, query, 50, false)).1));
@@ -72,7 +89,11 @@ fn ask(path: &Path) {
             })
         });
         let ratio = |peer: Option<Duration>| match peer {
-            Some(peer) => format!("{} {:.0}x", shown(peer), peer.as_secs_f64() / ours.as_secs_f64()),
+            Some(peer) => format!(
+                "{} {:.0}x",
+                shown(peer),
+                peer.as_secs_f64() / ours.as_secs_f64()
+            ),
             None => String::new(),
         };
         println!(
@@ -168,7 +189,9 @@ fn build(path: &Path, tokens: usize) {
     let transaction = connection.transaction().expect("begun");
     let triggers = triggers(&transaction);
     for (name, _) in &triggers {
-        transaction.execute_batch(&format!("DROP TRIGGER {name}")).expect("dropped");
+        transaction
+            .execute_batch(&format!("DROP TRIGGER {name}"))
+            .expect("dropped");
     }
     let mut numbers = Numbers(7);
     write_signs(&transaction);
@@ -210,17 +233,24 @@ fn build(path: &Path, tokens: usize) {
         if place % 8 == 0 {
             let sentence = sentence(&mut numbers);
             let until = start + 8 * 600_000;
-            annotation.execute((recording * 2 + 1, start, until, sentence)).expect("written");
+            annotation
+                .execute((recording * 2 + 1, start, until, sentence))
+                .expect("written");
         }
         let sign = glosses.pick(&mut numbers) + 1;
-        annotation.execute((recording * 2, start, end, gloss(sign - 1))).expect("written");
+        annotation
+            .execute((recording * 2, start, end, gloss(sign - 1)))
+            .expect("written");
         let said = transaction.last_insert_rowid();
-        token.execute((sign as i64, recording, said, start, end)).expect("written");
+        token
+            .execute((sign as i64, recording, said, start, end))
+            .expect("written");
         let id = transaction.last_insert_rowid();
         for hand in ["right", "left"] {
-            for (component, name, zipf) in
-                [("configuration", "config", &values[0]), ("placement", "placement", &values[1])]
-            {
+            for (component, name, zipf) in [
+                ("configuration", "config", &values[0]),
+                ("placement", "placement", &values[1]),
+            ] {
                 let text = format!("{name}{:02}", zipf.pick(&mut numbers));
                 value.execute((id, hand, component, text)).expect("written");
             }
@@ -230,7 +260,9 @@ fn build(path: &Path, tokens: usize) {
     for (_, sql) in &triggers {
         transaction.execute_batch(sql).expect("made");
     }
-    transaction.execute_batch("UPDATE search_state SET content = content + 1").expect("counted");
+    transaction
+        .execute_batch("UPDATE search_state SET content = content + 1")
+        .expect("counted");
     transaction.commit().expect("written");
 }
 
@@ -239,7 +271,9 @@ fn triggers(connection: &Connection) -> Vec<(String, String)> {
     let mut statement = connection
         .prepare("SELECT name, sql FROM sqlite_schema WHERE type = 'trigger'")
         .expect("sql");
-    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?))).expect("rows");
+    let rows = statement
+        .query_map([], |row| Ok((row.get(0)?, row.get(1)?)))
+        .expect("rows");
     rows.collect::<rusqlite::Result<_>>().expect("rows")
 }
 
@@ -271,8 +305,8 @@ fn gloss(number: usize) -> String {
         _ => {}
     }
     const SYLLABLES: [&str; 17] = [
-        "MA", "TO", "BO", "LI", "CHA", "RE", "SON", "VE", "PU", "NI", "DO", "KA", "ÉCO", "GRU", "FI",
-        "ZA", "HU",
+        "MA", "TO", "BO", "LI", "CHA", "RE", "SON", "VE", "PU", "NI", "DO", "KA", "ÉCO", "GRU",
+        "FI", "ZA", "HU",
     ];
     let mut rest = number;
     let mut text = String::new();
@@ -286,8 +320,8 @@ fn gloss(number: usize) -> String {
 fn sentence(numbers: &mut Numbers) -> String {
     const WORDS: [&str; 24] = [
         "the", "a", "slow", "animal", "cat", "dog", "house", "bowl", "goes", "sees", "gives", "to",
-        "from", "old", "young", "friend", "school", "snail", "quickly", "was", "is", "under", "over",
-        "again",
+        "from", "old", "young", "friend", "school", "snail", "quickly", "was", "is", "under",
+        "over", "again",
     ];
     let count = 3 + (numbers.next() * 6.0) as usize;
     let words = (0..count).map(|_| WORDS[(numbers.next() * 24.0) as usize % 24]);
@@ -310,7 +344,9 @@ impl Zipf {
     fn pick(&self, numbers: &mut Numbers) -> usize {
         let total = self.0.last().copied().unwrap_or(1.0);
         let at = numbers.next() * total;
-        self.0.partition_point(|sum| *sum < at).min(self.0.len() - 1)
+        self.0
+            .partition_point(|sum| *sum < at)
+            .min(self.0.len() - 1)
     }
 }
 

@@ -175,7 +175,7 @@ fn citation(connection: &Connection, sign: i64, address: &Address) -> Result<Tok
             .advise("import or make one first")),
         _ => Err(ambiguous(
             &address.to_string(),
-            tokens.iter().map(|t| candidate(t)),
+            tokens.iter().map(candidate),
         )),
     }
 }

@@ -160,7 +160,7 @@ impl Looking<'_, '_> {
     fn count(&mut self, what: &'static str) -> Result<()> {
         let count = self.report.checked.entry(what).or_default();
         *count += 1;
-        if *count % 64 == 0 {
+        if count.is_multiple_of(64) {
             let (task, done) = (what, *count);
             self.progress.tell(Step {
                 task,

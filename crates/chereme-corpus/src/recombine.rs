@@ -130,7 +130,13 @@ fn cannot(error: chereme_compose::MakeError) -> Error {
         format!("{step} (at {path})")
     };
     let message = error.to_string();
-    Error::wrong(format!("the recipe cannot be made: {message}")).at(place)
+    let advice = match message.rsplit_once("; ") {
+        Some((_, advice)) => advice.to_owned(),
+        None => "`chereme list CORPUS signs` and `… values` list what there is".to_owned(),
+    };
+    Error::wrong(format!("the recipe cannot be made: {message}"))
+        .at(place)
+        .advise(advice)
 }
 
 fn recombination(recipe: &Recipe, gloss: String, made: Made) -> Recombination {

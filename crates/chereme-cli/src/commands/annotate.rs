@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
-    Corpus, Moment, Name, Progress, ReportFinding, TierName,
+    Corpus, Error, Moment, Name, Progress, ReportFinding, TierName,
 };
 use clap::Subcommand;
 
@@ -209,7 +209,7 @@ fn table(
     recording: Option<&Name>,
     options: &AnnotateOptions,
 ) -> Result<(AnnotateReport, Vec<ReportFinding>)> {
-    let bytes = std::fs::read(file).with_context(|| file.display().to_string())?;
+    let bytes = std::fs::read(file).map_err(|error| Error::file(file, error))?;
     let name = file.display().to_string();
     let mut bar = Bar::new();
     let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);

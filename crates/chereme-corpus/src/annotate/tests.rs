@@ -493,8 +493,8 @@ fn what_people_change_is_theirs_and_loses_the_times_of_its_file() {
         (
             "set 1 5-105",
             [
-                format!("1 human - a1 e1 own"),
-                format!("2 file - a2 e1 own"),
+                "1 human - a1 e1 own".to_owned(),
+                "2 file - a2 e1 own".to_owned(),
                 format!("3 file 200 a3 e1 {proposed}"),
             ],
         ),

@@ -1,6 +1,6 @@
 //! What the database itself can tell about damage.
 
-use rusqlite::{Connection, OptionalExtension};
+use rusqlite::Connection;
 use sha2::{Digest, Sha256};
 
 use super::motion::hex;
@@ -83,21 +83,4 @@ pub(crate) fn tried<T>(connection: &Connection, work: impl FnOnce() -> Result<T>
     let done = work();
     connection.execute_batch("ROLLBACK TO tried; RELEASE tried")?;
     done
-}
-
-/// Returns the number of a table's rows, by table.
-pub(crate) fn counts(
-    connection: &Connection,
-    tables: &[&'static str],
-) -> Result<Vec<(&'static str, i64)>> {
-    let mut counts = Vec::new();
-    for table in tables {
-        let count = connection
-            .query_row(&format!("SELECT count(*) FROM {table}"), [], |row| {
-                row.get(0)
-            })
-            .optional()?;
-        counts.push((*table, count.unwrap_or_default()));
-    }
-    Ok(counts)
 }

@@ -44,11 +44,7 @@ pub(crate) fn table(
     mut take: impl FnMut(Vec<String>) -> Result<()>,
 ) -> Result<()> {
     let mut statement = connection.prepare(&format!("SELECT * FROM {table} ORDER BY 1"))?;
-    let names: Vec<String> = statement
-        .column_names()
-        .into_iter()
-        .map(str::to_owned)
-        .collect();
+    let names: Vec<String> = statement.column_names().map(str::to_owned).collect();
     let kept: Vec<usize> = (0..names.len()).filter(|&at| names[at] != "data").collect();
     take(kept.iter().map(|&at| names[at].clone()).collect())?;
     let mut rows = statement.query([])?;

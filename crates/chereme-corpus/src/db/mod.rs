@@ -26,7 +26,7 @@ use crate::error::{Error, Result};
 use crate::search::index::SearchIndex;
 
 pub use history::{OperationKind, OperationRow};
-pub(crate) use open::{APPLICATION_ID, SCHEMA_VERSION};
+pub(crate) use open::SCHEMA_VERSION;
 
 /// An open corpus file: its connection, its search index, and who works with it.
 pub(crate) struct Store {

@@ -10,7 +10,7 @@ use rusqlite::{Connection, OpenFlags};
 use crate::error::{Error, Result};
 
 /// Marks the file as a corpus: the letters `Cher`.
-pub(crate) const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");
+const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");
 
 /// The schema's steps; a file's `user_version` is how many of them it has taken.
 const STEPS: [&str; 1] = [include_str!("../../../../schema/sql/0001_corpus.sql")];

@@ -7,7 +7,7 @@ use crate::error::Result;
 
 /// How a made recording came about.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct RecipeRow {
+pub(crate) struct RecipeRow {
     /// The row.
     pub id: i64,
     /// The made recording's row.

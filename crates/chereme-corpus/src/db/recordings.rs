@@ -46,7 +46,7 @@ pub struct RecordingRow {
 
 /// A track of a recording that holds a skeleton's movement.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct MotionTrackRow {
+pub(crate) struct MotionTrackRow {
     /// The row.
     pub id: i64,
     /// The recording's row.
@@ -82,7 +82,7 @@ pub struct MotionTrackRow {
 
 /// A track of a recording that is a file beside it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct MediaTrackRow {
+pub(crate) struct MediaTrackRow {
     /// The row.
     pub id: i64,
     /// The recording's row.
@@ -235,7 +235,7 @@ pub(crate) fn recording_named(connection: &Connection, name: &str) -> Result<Opt
 
 /// A file that rows came from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct SourceFileRow {
+pub(crate) struct SourceFileRow {
     /// The row.
     pub id: i64,
     /// The recording that it is about.

@@ -6,8 +6,9 @@ use serde::Serialize;
 use crate::error::{Error, Result};
 
 /// A sign: a lexical entry.
+#[cfg(test)]
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct SignRow {
+pub(crate) struct SignRow {
     /// The row.
     pub id: i64,
     /// The gloss, which no other sign of the corpus has.
@@ -51,7 +52,7 @@ pub struct TokenRow {
 
 /// What a token's component is.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
-pub struct TokenValueRow {
+pub(crate) struct TokenValueRow {
     /// The hand, or nothing where the component belongs to none or the whole sign.
     pub hand: Option<String>,
     /// The component.
@@ -92,6 +93,7 @@ pub(crate) fn find_sign(connection: &Connection, gloss: &str) -> Result<Option<i
 }
 
 /// Returns all signs by gloss.
+#[cfg(test)]
 pub(crate) fn signs(connection: &Connection) -> Result<Vec<SignRow>> {
     let mut statement = connection.prepare_cached(
         "SELECT id, gloss, notes, (SELECT count(*) FROM token t WHERE t.sign_id = s.id)
@@ -325,19 +327,6 @@ pub(crate) fn tokens_of_sign(connection: &Connection, sign: i64) -> Result<Vec<T
         .query_map([sign], token_row)?
         .collect::<rusqlite::Result<_>>()?;
     Ok(rows)
-}
-
-/// Calls `take` with every token, oldest first.
-pub(crate) fn each_token(
-    connection: &Connection,
-    mut take: impl FnMut(TokenRow) -> Result<()>,
-) -> Result<()> {
-    let mut statement = connection.prepare(&format!("{TOKEN} ORDER BY t.id"))?;
-    let mut rows = statement.query([])?;
-    while let Some(row) = rows.next()? {
-        take(token_row(row)?)?;
-    }
-    Ok(())
 }
 
 /// A token of a recording that holds a value.

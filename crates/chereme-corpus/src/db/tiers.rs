@@ -42,7 +42,7 @@ pub struct TierRow {
 
 /// An annotation.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
-pub struct AnnotationRow {
+pub(crate) struct AnnotationRow {
     /// The row.
     pub id: i64,
     /// The tier's row.

@@ -258,8 +258,11 @@ fn made_recordings_say_so_in_their_file() {
     assert_eq!(shown(&again, ListKind::Signers)[0]["handedness"], "left");
 }
 
+/// A gloss, its translations, and its values.
+type Coded = (String, Vec<(String, String)>, Vec<String>);
+
 /// The codings of each sign's lexicon entry, in an order that does not depend on columns.
-fn codings(corpus: &Corpus) -> Vec<(String, Vec<(String, String)>, Vec<String>)> {
+fn codings(corpus: &Corpus) -> Vec<Coded> {
     let connection = corpus.store.read();
     let mut all = Vec::new();
     for sign in signs::signs(connection).expect("signs") {

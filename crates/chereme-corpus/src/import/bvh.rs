@@ -33,7 +33,6 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         .len();
     let options = Options {
         block_frames: BLOCK_FRAMES,
-        ..Options::default()
     };
     let mut reader = Reader::open_with(file, options).map_err(wrong)?;
     let mut block = Block::default();

@@ -38,7 +38,9 @@ fn counts<S: serde::Serializer>(
     out: S,
 ) -> std::result::Result<S::Ok, S::Error> {
     let object = |values: &Vec<(String, usize)>| {
-        let pairs = values.iter().map(|(value, count)| (value.clone(), Value::from(*count)));
+        let pairs = values
+            .iter()
+            .map(|(value, count)| (value.clone(), Value::from(*count)));
         Value::Object(pairs.collect())
     };
     out.collect_map(facets.iter().map(|(field, values)| (field, object(values))))

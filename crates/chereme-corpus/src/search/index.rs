@@ -114,6 +114,7 @@ impl SearchIndex {
     }
 
     /// Tells whether the index had to be made anew because it did not follow the rows.
+    #[cfg(test)]
     pub(crate) fn was_rebuilt(&self) -> bool {
         self.rebuilt.get()
     }

@@ -172,7 +172,9 @@ impl Vocabulary {
                 }
             }
         }
-        accepted.folded.extend(within.into_iter().filter(|text| !beside.contains(text)));
+        accepted
+            .folded
+            .extend(within.into_iter().filter(|text| !beside.contains(text)));
     }
 }
 

@@ -46,9 +46,7 @@ pub(crate) fn each(
             let mut values =
                 connection.prepare_cached(&format!("{VALUE} WHERE token_id = ?1 ORDER BY id"))?;
             for &token in tokens {
-                let found = statement
-                    .query_row([token], |row| TokenFields::read(row))
-                    .optional()?;
+                let found = statement.query_row([token], TokenFields::read).optional()?;
                 if let Some(found) = found {
                     let mut values = Values::new(values.query([token])?);
                     take(reader.document(&found, &mut values)?)?;
