@@ -25,38 +25,48 @@ pub struct Stretch<'a> {
     pub frames: Range<usize>,
 }
 
-/// Returns the mean course of transitions: shares of the way at equal steps of time, from 0 to 1,
+/// Returns the usual course of transitions: shares of the way at equal steps of time, from 0 to 1,
 /// never falling.
 ///
 /// The share of a frame is the one that comes nearest, by least squares over the joints, to how far
-/// they have turned of what they turn from the first frame to the last; turns aside do not count. Stretches of fewer than three frames, outside of their clip, or whose joints hardly turn
-/// tell nothing; nothing is returned where none is left.
+/// they have turned of what they turn from the first frame to the last; turns aside do not count. At
+/// each step the mean of the middle half of all transitions is taken, so that those that overshoot
+/// or wait do not bend the course. Stretches of fewer than three frames, outside of their clip, or
+/// whose joints hardly turn tell nothing; nothing is returned where none is left.
 #[must_use]
 pub fn learn_course<'a>(stretches: impl IntoIterator<Item = Stretch<'a>>) -> Option<Vec<f64>> {
-    let (mut sum, mut count) = (vec![0.0; STEPS + 1], 0.0);
+    let mut steps = vec![Vec::new(); STEPS + 1];
     for stretch in stretches {
         let Some(shares) = shares(&stretch) else {
             continue;
         };
         let last = (shares.len() - 1) as f64;
-        for (n, slot) in sum.iter_mut().enumerate() {
+        for (n, step) in steps.iter_mut().enumerate() {
             let at = n as f64 / STEPS as f64 * last;
             let first = (at.floor() as usize).min(shares.len() - 2);
-            *slot += shares[first] + (shares[first + 1] - shares[first]) * (at - first as f64);
+            step.push(shares[first] + (shares[first + 1] - shares[first]) * (at - first as f64));
         }
-        count += 1.0;
     }
-    if count == 0.0 {
+    if steps[0].is_empty() {
         return None;
     }
     let mut highest: f64 = 0.0;
-    for slot in &mut sum {
-        highest = highest.max(*slot / count).clamp(0.0, 1.0);
-        *slot = highest;
-    }
-    sum[0] = 0.0;
-    sum[STEPS] = 1.0;
-    Some(sum)
+    let rising = steps.into_iter().map(|step| {
+        highest = highest.max(middle(step)).clamp(0.0, 1.0);
+        highest
+    });
+    let mut course: Vec<f64> = rising.collect();
+    course[0] = 0.0;
+    course[STEPS] = 1.0;
+    Some(course)
+}
+
+/// Returns the mean of the middle half.
+fn middle(mut values: Vec<f64>) -> f64 {
+    values.sort_unstable_by(f64::total_cmp);
+    let cut = values.len() / 4;
+    let kept = &values[cut..values.len() - cut];
+    kept.iter().sum::<f64>() / kept.len() as f64
 }
 
 /// Returns the clip with a stretch of it synthesised: its joints go from the stretch's first posture
@@ -171,6 +181,13 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn transitions_unlike_the_others_do_not_count() {
+        let shares = vec![0.4, 0.5, 9.0, 0.45, 0.55, -3.0, 0.5, 0.6];
+        assert!((middle(shares) - 0.5).abs() < 1e-12);
+        assert_eq!(middle(vec![0.1, 0.4, 0.7]), 0.4);
     }
 
     #[test]

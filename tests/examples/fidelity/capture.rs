@@ -1,0 +1,98 @@
+//! Captured movement from BVH files, in metres and model space.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use chereme_formats::bvh::convert::{self, ClipBuilder};
+use chereme_formats::bvh::raw::{Block, ChannelFix, Reader};
+use chereme_motion::{Anatomy, Clip, Side};
+
+use crate::Result;
+
+/// A captured piece of movement of a body with at least one arm.
+pub struct Capture {
+    /// The file's name without its ending.
+    pub name: String,
+    pub clip: Clip,
+    pub anatomy: Arc<Anatomy>,
+}
+
+impl Capture {
+    /// Returns the sides that have an arm.
+    pub fn sides(&self) -> Vec<Side> {
+        let has = |side: &Side| self.anatomy.arm(*side).is_some();
+        Side::BOTH.into_iter().filter(has).collect()
+    }
+}
+
+/// Reads every BVH file below `folder`, in the order of their paths; tells which are left out and why.
+pub fn read_folder(folder: &Path) -> Result<(Vec<Capture>, Vec<String>)> {
+    let mut paths = Vec::new();
+    find(folder, &mut paths)?;
+    paths.sort();
+    let (mut captures, mut left_out) = (Vec::new(), Vec::new());
+    for path in paths {
+        let capture = read(&path).and_then(usable);
+        match capture {
+            Ok(capture) => captures.push(capture),
+            Err(error) => left_out.push(format!("{}: {error}", path.display())),
+        }
+    }
+    Ok((captures, left_out))
+}
+
+fn find(folder: &Path, paths: &mut Vec<PathBuf>) -> Result<()> {
+    for entry in std::fs::read_dir(folder)? {
+        let path = entry?.path();
+        let is_bvh = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("bvh"));
+        if path.is_dir() {
+            find(&path, paths)?;
+        } else if is_bvh {
+            paths.push(path);
+        }
+    }
+    Ok(())
+}
+
+fn usable(capture: Capture) -> Result<Capture> {
+    if capture.sides().is_empty() {
+        return Err("no arm was found in its skeleton".into());
+    }
+    if capture.clip.frames() < 10 {
+        return Err("it has fewer than ten frames".into());
+    }
+    Ok(capture)
+}
+
+fn read(path: &Path) -> Result<Capture> {
+    let clip = match build(path, None)? {
+        (_, Some(fix)) => build(path, Some(fix))?.0,
+        (clip, None) => clip,
+    };
+    let skeleton = clip.skeleton();
+    let pose = (clip.frames() > 0).then(|| clip.model_pose(0));
+    let guess = Anatomy::detect(skeleton).convention(skeleton, pose.as_ref());
+    let clip = guess.convention.clip(&clip);
+    let anatomy = Anatomy::detect(clip.skeleton()).with_clip(&clip);
+    let name = path.file_stem().unwrap_or_default();
+    Ok(Capture {
+        name: name.to_string_lossy().into_owned(),
+        clip,
+        anatomy: Arc::new(anatomy),
+    })
+}
+
+/// Reads a file, in its own unit and axes, and finds out whether its root's columns must be read in
+/// another order.
+fn build(path: &Path, fix: Option<ChannelFix>) -> Result<(Clip, Option<ChannelFix>)> {
+    let mut reader = Reader::open(File::open(path)?)?;
+    let rate = convert::rate(reader.header().frame_time.as_ref())?;
+    let mut builder = ClipBuilder::new(reader.hierarchy(), fix)?;
+    let mut block = Block::default();
+    while reader.next_block(&mut block)? {
+        builder.push(0..block.frames, |at| block.columns.get(at));
+    }
+    let found = reader.finish().root_fix;
+    Ok((builder.finish(rate)?, found))
+}
