@@ -1,14 +1,35 @@
-//! Moving wrists: the arm's posture that brings each wrist where it should be.
+//! Moving wrists: the arm's postures that bring each wrist where it should be, over all frames at
+//! once, so that elbows go calmly.
 
-use chereme_motion::Side;
+use std::f64::consts::TAU;
+
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::ik::{self, ReachOptions, WristTarget, reach_wrist};
+use chereme_motion::ik::{FabrikOptions, TwoBoneOptions, fabrik, two_bone};
+use chereme_motion::{ArmChain, Side};
 
+use crate::body::Frame;
 use crate::recipe::Solver;
 use crate::work::{Columns, Work};
 
+mod calm;
+
+use calm::Angles;
+
 /// The share of the arm's length beyond which the collar bone helps.
 pub(crate) const HELP_FROM: f64 = 0.9;
+/// The turn of the collar bone in radians that is approached but never passed.
+const HELP_MOST: f64 = 0.5;
+/// The soft end of the reach, least and most: where it is least, the wrist comes within a millimetre
+/// of whatever can be reached.
+const SOFT: (f64, f64) = (0.004, 0.08);
+/// The share of the arm's length by which an elbow must stand off the line from shoulder to wrist for
+/// its swivel to count in full, and that by which the wrist must be away from the shoulder.
+const STRAIGHT: f64 = 0.12;
+const FOLDED: f64 = 0.35;
+/// How long before and after a fast way out of reach the soft end is longer, in seconds.
+const AROUND: f64 = 0.3;
+/// The speed of an opening elbow that the soft end allows, in radians per second.
+const OPENING: f64 = 9.6;
 
 /// How well wrists came where they should.
 #[derive(Debug, Clone, Copy, Default)]
@@ -23,6 +44,9 @@ pub(crate) struct Reach {
     pub(crate) arm: f64,
     /// In how many frames the collar bone helped.
     pub(crate) helped: usize,
+    /// The share of the arm's length, before full extension, from which wrists fell behind their
+    /// targets.
+    pub(crate) soft: f64,
 }
 
 impl Reach {
@@ -36,16 +60,25 @@ impl Reach {
         Self {
             helped: self.helped + other.helped,
             farthest: self.farthest.max(other.farthest),
+            soft: self.soft.max(other.soft),
             ..worst
         }
+    }
+
+    /// Tells whether the soft end was made longer, so that reachable targets may be missed.
+    pub(crate) fn is_softened(&self) -> bool {
+        self.soft > SOFT.0
     }
 }
 
 /// Brings the wrist of `side` to `targets`, one a frame in model space, the hand turned in the world
 /// as `hands` says, or as it was.
 ///
-/// What is where it should be is not touched. Nothing where the skeleton has no such arm, or one of
-/// its bones has no length.
+/// What is where it should be is not touched. The elbow keeps the source's swivel; where that has no
+/// meaning (a source arm that is straight, or points away from where the arm goes) or turns faster
+/// than the source's, it goes calmly from before to after. Where the wrist leaves the arm's reach
+/// fast, the soft end is longer, so that the elbow does not snap. Nothing where the skeleton has no
+/// such arm, or one of its bones has no length.
 pub(crate) fn move_wrist(
     work: &mut Work,
     side: Side,
@@ -53,56 +86,472 @@ pub(crate) fn move_wrist(
     hands: Option<&[DQuat]>,
     solver: Solver,
 ) -> Option<Reach> {
-    let arm = work.anatomy.arm(side)?;
-    let (skeleton, anatomy) = (work.skeleton.clone(), work.anatomy.clone());
-    let columns = Columns::of(work, [arm.hand]);
-    let (places, turned) = (columns.positions(arm.hand), columns.rotations(arm.hand));
-    let (shoulders, elbows) = (columns.positions(arm.upper), columns.positions(arm.forearm));
-    let chain: Vec<usize> = skeleton.ancestors(arm.hand).collect();
-    let top = arm.clavicle.unwrap_or(arm.upper);
-    let moving: Vec<usize> = chain
-        .iter()
-        .copied()
-        .take_while(|&j| j != top)
-        .chain([top])
+    let source = Source::of(work, side)?;
+    let helps: Vec<Option<Help>> = (0..work.frames)
+        .map(|frame| source.help(frame, targets[frame]))
         .collect();
-    let options = ReachOptions {
-        solver: match solver {
-            Solver::Analytic => ik::Solver::Analytic,
-            Solver::Fabrik => ik::Solver::Fabrik,
-        },
-        clavicle: Some(HELP_FROM),
-        ..ReachOptions::default()
-    };
-    let mut reach = Reach::default();
-    let mut pose = work.pose(0);
-    for frame in 0..work.frames {
-        let (wrist, shoulder, elbow) = (places[frame], shoulders[frame], elbows[frame]);
-        let target = WristTarget {
-            position: targets[frame],
-            rotation: hands
-                .map_or(turned[frame], |hands| hands[frame])
-                .normalize(),
-        };
-        reach.arm = shoulder.distance(elbow) + elbow.distance(wrist);
-        reach.farthest = reach.farthest.max(shoulder.distance(target.position));
-        if wrist == target.position && hands.is_none() {
-            continue;
-        }
-        for &joint in &chain {
-            pose.rotations[joint] = work.channels[joint].rotations[frame];
-            pose.translations[joint] = work.translation(joint, frame);
-        }
-        let done = reach_wrist(&anatomy, &skeleton, side, &target, &options, &mut pose).ok()?;
-        reach.helped += usize::from(done.clavicle_turn > 0.0);
-        if done.residual_m > reach.residual {
-            (reach.residual, reach.frame) = (done.residual_m, frame);
-        }
-        for &joint in &moving {
-            work.channels[joint].rotations[frame] = pose.rotations[joint];
+    let soft = source.soft(targets, &helps, work.rate.frame_time());
+    let mut steps = Vec::with_capacity(work.frames);
+    for (frame, help) in helps.into_iter().enumerate() {
+        let moves = hands.is_some() || source.wrists()[frame] != targets[frame];
+        steps.push(source.step(frame, targets[frame], help, moves, soft[frame], solver)?);
+    }
+    if solver == Solver::Analytic {
+        swivel(&mut steps, work.rate.frame_time());
+    }
+    let mut turns: Vec<Turns> = steps
+        .iter()
+        .enumerate()
+        .map(|(frame, step)| source.turns(frame, step, hands.map(|hands| hands[frame])))
+        .collect();
+    twist(&steps, &mut turns, work.rate.frame_time());
+    for (frame, (step, turns)) in steps.iter().zip(&turns).enumerate() {
+        if step.moves {
+            source.write(work, frame, step, turns);
         }
     }
-    Some(reach)
+    let softest = soft.into_iter().fold(0.0, f64::max);
+    Some(source.reach(targets, &steps, softest))
+}
+
+/// An arm as it is, over all frames in model space.
+struct Source {
+    arm: ArmChain,
+    columns: Columns,
+    /// The joints above collar bone, upper arm, forearm and hand.
+    above: [Option<usize>; 4],
+    pole: Pole,
+}
+
+/// Which way an elbow points where nothing else tells.
+enum Pole {
+    /// In the space of the upper arm.
+    Arm(DVec3),
+    /// In model space.
+    Model(DVec3),
+}
+
+/// What the collar bone does for a target.
+#[derive(Clone, Copy)]
+struct Help {
+    rotation: DQuat,
+    shoulder: DVec3,
+}
+
+/// Where the arm goes in one frame.
+struct Step {
+    moves: bool,
+    help: Option<Help>,
+    /// Shoulder, elbow and wrist as they were, and as they will be.
+    was: [DVec3; 3],
+    is: [DVec3; 3],
+    /// Across the source's line from shoulder to wrist: where an elbow bends to by its build, where
+    /// this one stands, and where it bends to as the arm bends more.
+    pole: DVec3,
+    stands: DVec3,
+    bends: DVec3,
+    /// Takes the source's line to the new one, and what points across it with it.
+    carry: DQuat,
+    /// How much the source's swivel means once it is carried, from 0 to 1.
+    trust: f64,
+}
+
+/// How the arm's joints are turned in model space in one frame.
+struct Turns {
+    upper: DQuat,
+    forearm: DQuat,
+    hand: DQuat,
+    /// The forearm's length in the space of its joint.
+    bone: DVec3,
+    /// By how much the forearm is turned about its length more than its bone asks for, and how well
+    /// that angle can be told.
+    twist: f64,
+    told: f64,
+}
+
+impl Source {
+    fn of(work: &Work, side: Side) -> Option<Self> {
+        let arm = work.anatomy.arm(side)?;
+        let pole = match work.anatomy.elbow(side) {
+            Some(out) => Pole::Arm(out),
+            None => Pole::Model(Frame::of(work).map_or(DVec3::NEG_Y, |f| -f.forward - DVec3::Y)),
+        };
+        let above = |joint| work.skeleton.parent(joint);
+        Some(Self {
+            columns: Columns::of(work, [arm.hand]),
+            above: [
+                arm.clavicle.and_then(above),
+                above(arm.upper),
+                above(arm.forearm),
+                above(arm.hand),
+            ],
+            pole,
+            arm,
+        })
+    }
+
+    fn wrists(&self) -> &[DVec3] {
+        self.columns.positions(self.arm.hand)
+    }
+
+    fn points(&self, frame: usize) -> [DVec3; 3] {
+        [self.arm.upper, self.arm.forearm, self.arm.hand]
+            .map(|joint| self.columns.positions(joint)[frame])
+    }
+
+    fn turned(&self, joint: usize, frame: usize) -> DQuat {
+        self.columns.rotations(joint)[frame]
+    }
+
+    /// Returns how the collar bone turns so that the target is no farther from the shoulder than the
+    /// stated share of the arm's length, or than the wrist was, if it can.
+    ///
+    /// It turns by no more than what is missing over its length, however little of that comes to
+    /// good: a collar bone that points at the target cannot bring the shoulder nearer.
+    fn help(&self, frame: usize, target: DVec3) -> Option<Help> {
+        let [shoulder, elbow, wrist] = self.points(frame);
+        let length = length([shoulder, elbow, wrist]);
+        let enough = (HELP_FROM * length).max(shoulder.distance(wrist));
+        let missing = shoulder.distance(target) - enough;
+        if missing <= 0.0 {
+            return None;
+        }
+        let clavicle = self.arm.clavicle?;
+        let root = self.columns.positions(clavicle)[frame];
+        let (bone, way) = (shoulder - root, target - root);
+        let (b, w) = (bone.length(), way.length());
+        if b <= 1e-9 * length {
+            return None;
+        }
+        let axis = bone.cross(way).try_normalize()?;
+        let cosine = (b * b + w * w - enough * enough) / (2.0 * b * w);
+        let wanted = bone.angle_between(way) - cosine.clamp(-1.0, 1.0).acos();
+        let wanted = wanted.clamp(0.0, missing / b);
+        let turn = DQuat::from_axis_angle(axis, HELP_MOST * (wanted / HELP_MOST).tanh());
+        Some(Help {
+            rotation: turn * self.turned(clavicle, frame),
+            shoulder: root + turn * bone,
+        })
+    }
+
+    /// Returns the soft end of the reach at each frame: the least where no target leaves the reach,
+    /// else, about where one does, as much as keeps the elbow from opening too fast.
+    ///
+    /// An elbow of an arm that is extended to `1 - s` opens by `√(2/s)` times what the wrist goes
+    /// outwards, in arm lengths.
+    fn soft(&self, targets: &[DVec3], helps: &[Option<Help>], frame_time: f64) -> Vec<f64> {
+        let extension = |frame: usize| {
+            let points = self.points(frame);
+            let shoulder = helps[frame].map_or(points[0], |help| help.shoulder);
+            shoulder.distance(targets[frame]) / length(points)
+        };
+        let extensions: Vec<f64> = (0..targets.len()).map(extension).collect();
+        let leaves = extensions.iter().any(|&extension| extension > 1.0 - SOFT.0);
+        let mut soft = vec![SOFT.0; targets.len()];
+        if !leaves {
+            return soft;
+        }
+        let near = (AROUND / frame_time).round() as usize;
+        for frame in 1..extensions.len() {
+            let [before, now] = [extensions[frame - 1], extensions[frame]];
+            if before.max(now) < 1.0 - SOFT.1 || before.min(now) > 1.0 + SOFT.1 {
+                continue;
+            }
+            let speed = (now - before).abs() / frame_time;
+            let wanted = (2.0 * (speed / OPENING).powi(2)).clamp(SOFT.0, SOFT.1);
+            for at in frame.saturating_sub(near)..(frame + near).min(soft.len()) {
+                let away = at.abs_diff(frame) as f64 / near.max(1) as f64;
+                let share = smooth(2.0 - 2.0 * away);
+                soft[at] = soft[at].max(SOFT.0 + (wanted - SOFT.0) * share);
+            }
+        }
+        soft
+    }
+
+    fn step(
+        &self,
+        frame: usize,
+        target: DVec3,
+        help: Option<Help>,
+        moves: bool,
+        soft: f64,
+        solver: Solver,
+    ) -> Option<Step> {
+        let was = self.points(frame);
+        let pole = match self.pole {
+            Pole::Arm(out) => self.turned(self.arm.upper, frame) * out,
+            Pole::Model(way) => way,
+        };
+        let old = line(was);
+        let across = pole.reject_from_normalized(old).try_normalize();
+        let across = across.unwrap_or_else(|| old.any_orthonormal_vector());
+        let stands = bend(was, across, 1.0);
+        if !moves {
+            return Some(Step {
+                moves,
+                help: None,
+                was,
+                is: was,
+                pole: across,
+                stands,
+                bends: stands,
+                carry: DQuat::IDENTITY,
+                trust: 2.0,
+            });
+        }
+        let shift = help.map_or(DVec3::ZERO, |help| help.shoulder - was[0]);
+        let start = was.map(|at| at + shift);
+        let pole = Some(pole);
+        let solved = two_bone(start, target, &TwoBoneOptions { soft, pole }).ok()?;
+        let is = match solver {
+            Solver::Analytic => [start[0], solved.middle, solved.end],
+            Solver::Fabrik => {
+                let options = FabrikOptions {
+                    pole,
+                    ..FabrikOptions::default()
+                };
+                let points = fabrik(&start, target, &options).ok()?.points;
+                [start[0], points[1], points[2]]
+            }
+        };
+        let grown = (off_line(is) - off_line(was)) / (STRAIGHT * length(was));
+        let known = match self.pole {
+            Pole::Arm(_) => 1.0,
+            Pole::Model(_) => smooth(off_line(was) / (STRAIGHT * length(was))),
+        };
+        Some(Step {
+            moves,
+            help,
+            was,
+            is,
+            pole: across,
+            stands,
+            bends: bend(was, across, grown.clamp(0.0, 1.0)),
+            carry: least_turn(old, line(is)),
+            trust: known * meaning(was, is),
+        })
+    }
+
+    /// Turns the arm's joints so that its bones lie where the step has them.
+    fn turns(&self, frame: usize, step: &Step, hand: Option<DQuat>) -> Turns {
+        let [upper, forearm, held] = [self.arm.upper, self.arm.forearm, self.arm.hand]
+            .map(|joint| self.turned(joint, frame));
+        let hand = hand.unwrap_or(held).normalize();
+        let whole = step.carry;
+        let ways = |points: [DVec3; 3]| [points[1] - points[0], points[2] - points[1]];
+        let ([first, second], [to, on]) = (ways(step.was), ways(step.is));
+        let turned =
+            |from: DVec3, to: DVec3| least_turn((whole * from).normalize(), to.normalize()) * whole;
+        let straight = (turned(second, on) * forearm).normalize();
+        let bone = (forearm.inverse() * second).normalize();
+        let (was, _) = twist_about(forearm.inverse() * held, bone);
+        let (now, told) = twist_about(straight.inverse() * hand, bone);
+        Turns {
+            upper: (turned(first, to) * upper).normalize(),
+            forearm: straight,
+            hand,
+            bone,
+            twist: now - was,
+            told,
+        }
+    }
+
+    /// Gives the arm's joints the local rotations for which they are turned so in model space.
+    fn write(&self, work: &mut Work, frame: usize, step: &Step, turns: &Turns) {
+        let above =
+            |n: usize| self.above[n].map_or(DQuat::IDENTITY, |joint| self.turned(joint, frame));
+        let change = |joint: usize, now: DQuat| now * self.turned(joint, frame).inverse();
+        let mut set = |joint: usize, above: DQuat, now: DQuat| {
+            work.channels[joint].rotations[frame] = (above.inverse() * now).normalize();
+        };
+        let mut carried = DQuat::IDENTITY;
+        if let (Some(help), Some(clavicle)) = (step.help, self.arm.clavicle) {
+            set(clavicle, above(0), help.rotation);
+            carried = change(clavicle, help.rotation);
+        }
+        set(self.arm.upper, carried * above(1), turns.upper);
+        let carried = change(self.arm.upper, turns.upper);
+        let forearm = turns.forearm * DQuat::from_axis_angle(turns.bone, turns.twist);
+        set(self.arm.forearm, carried * above(2), forearm);
+        let carried = change(self.arm.forearm, forearm);
+        set(self.arm.hand, carried * above(3), turns.hand);
+    }
+
+    fn reach(&self, targets: &[DVec3], steps: &[Step], soft: f64) -> Reach {
+        let mut reach = Reach {
+            soft,
+            ..Reach::default()
+        };
+        for (frame, (target, step)) in targets.iter().zip(steps).enumerate() {
+            reach.arm = length(step.was);
+            reach.farthest = reach.farthest.max(step.was[0].distance(*target));
+            reach.helped += usize::from(step.help.is_some());
+            let residual = step.is[2].distance(*target);
+            if residual > reach.residual {
+                (reach.residual, reach.frame) = (residual, frame);
+            }
+        }
+        reach
+    }
+}
+
+fn length([shoulder, elbow, wrist]: [DVec3; 3]) -> f64 {
+    shoulder.distance(elbow) + elbow.distance(wrist)
+}
+
+/// Returns the unit vector from shoulder to wrist; along the upper arm where they coincide.
+fn line([shoulder, elbow, wrist]: [DVec3; 3]) -> DVec3 {
+    let line = wrist - shoulder;
+    if line.length() > 1e-9 * length([shoulder, elbow, wrist]) {
+        line.normalize()
+    } else {
+        (elbow - shoulder).normalize_or(DVec3::X)
+    }
+}
+
+/// Returns the least rotation from one unit vector to another.
+fn least_turn(from: DVec3, to: DVec3) -> DQuat {
+    DQuat::from_rotation_arc(from, to).normalize()
+}
+
+/// Returns by what angle `q` turns about the unit vector `axis` (swing-twist), and how well that can
+/// be told: 0 where it turns by half a turn across it.
+fn twist_about(q: DQuat, axis: DVec3) -> (f64, f64) {
+    let along = axis.dot(q.xyz());
+    (2.0 * along.atan2(q.w), along * along + q.w * q.w)
+}
+
+/// Turns arms about the line from shoulder to wrist so that they go calmly: first the whole arm, then
+/// the elbow alone, where it stands otherwise than by its build.
+fn swivel(steps: &mut [Step], frame_time: f64) {
+    let was = swivels(steps.iter().map(|step| (line(step.was), step.pole)));
+    let is = swivels(
+        steps
+            .iter()
+            .map(|step| (line(step.is), step.carry * step.pole)),
+    );
+    if let Some(changes) = calmed(steps, &was, is, |_| 1.0, frame_time) {
+        for (step, change) in steps.iter_mut().zip(changes).filter(|(step, _)| step.moves) {
+            step.carry = DQuat::from_axis_angle(line(step.is), change) * step.carry;
+        }
+    }
+    let was = swivels(steps.iter().map(|step| (line(step.was), step.stands)));
+    let is = swivels(
+        steps
+            .iter()
+            .map(|step| (line(step.is), step.carry * step.bends)),
+    );
+    let seen = |step: &Step| (off_line(step.was) / off_line(step.is).max(1e-9)).min(1.0);
+    let changes = calmed(steps, &was, is, seen, frame_time);
+    for (n, step) in steps.iter_mut().enumerate().filter(|(_, step)| step.moves) {
+        let line = line(step.is);
+        let mut out = step.carry * step.bends;
+        if let Some(changes) = &changes {
+            out = DQuat::from_axis_angle(line, changes[n]) * out;
+        }
+        let out = out.reject_from_normalized(line).normalize_or(out);
+        let along = (step.is[1] - step.is[0]).dot(line);
+        step.is[1] = step.is[0] + line * along + out * off_line(step.is);
+    }
+}
+
+/// Calms angles about the new lines; of the turns of those about the old ones the share `seen` is
+/// their own way.
+fn calmed(
+    steps: &[Step],
+    was: &[f64],
+    is: Vec<f64>,
+    seen: impl Fn(&Step) -> f64,
+    frame_time: f64,
+) -> Option<Vec<f64>> {
+    let own = (0..steps.len()).map(|n| match n.checked_sub(1) {
+        Some(before) => {
+            let trust = steps[before].trust.min(steps[n].trust).min(1.0);
+            let turn = was[n] - was[before];
+            (turn - TAU * (turn / TAU).round()) * trust * seen(&steps[n])
+        }
+        None => 0.0,
+    });
+    let own = own.collect();
+    let trust = steps.iter().map(|step| step.trust).collect();
+    Angles {
+        values: is,
+        trust,
+        own,
+    }
+    .calmed(frame_time)
+}
+
+/// Returns where an elbow stands across the line from shoulder to wrist; as the arm becomes straight,
+/// so that this loses meaning, the share `grown` of where it would bend to counts more and more.
+fn bend(arm: [DVec3; 3], pole: DVec3, grown: f64) -> DVec3 {
+    let clear = STRAIGHT * length(arm);
+    let own = (arm[1] - arm[0]).reject_from_normalized(line(arm));
+    let mixed = own + pole * (clear * (1.0 - smooth(own.length() / clear)) * grown);
+    mixed
+        .try_normalize()
+        .filter(|_| mixed.length() > 1e-9 * clear)
+        .unwrap_or(pole)
+}
+
+/// Returns how far the elbow stands off the line from shoulder to wrist.
+fn off_line(arm: [DVec3; 3]) -> f64 {
+    (arm[1] - arm[0]).reject_from_normalized(line(arm)).length()
+}
+
+/// Returns the angle of each direction about its line, against a direction that is carried along by
+/// the least turns of the lines.
+fn swivels(arms: impl Iterator<Item = (DVec3, DVec3)>) -> Vec<f64> {
+    let mut carried: Option<(DVec3, DVec3)> = None;
+    arms.map(|(line, out)| {
+        let across = match carried {
+            Some((before, across)) => least_turn(before, line) * across,
+            None => line.any_orthonormal_vector(),
+        };
+        let across = across
+            .reject_from_normalized(line)
+            .normalize_or(line.any_orthonormal_vector());
+        carried = Some((line, across));
+        line.dot(across.cross(out)).atan2(across.dot(out))
+    })
+    .collect()
+}
+
+/// Returns how much the source's swivel means where the arm goes: nothing for an arm that is folded
+/// on the shoulder, or points opposite to where it goes.
+fn meaning(was: [DVec3; 3], is: [DVec3; 3]) -> f64 {
+    let folded = smooth(was[0].distance(was[2]) / (FOLDED * length(was)));
+    folded * smooth((1.0 + line(was).dot(line(is))) / 0.5)
+}
+
+/// Returns a share that runs from 0 to 1 and is level at both.
+fn smooth(share: f64) -> f64 {
+    let share = share.clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}
+
+/// Lets the forearms' turns about their length go calmly.
+fn twist(steps: &[Step], turns: &mut [Turns], frame_time: f64) {
+    let trust = steps.iter().zip(turns.iter());
+    let angles = Angles {
+        values: turns.iter().map(|turn| turn.twist).collect(),
+        trust: trust
+            .map(|(step, turn)| {
+                if step.moves {
+                    (2.0 * turn.told).min(1.0)
+                } else {
+                    2.0
+                }
+            })
+            .collect(),
+        own: vec![0.0; turns.len()],
+    };
+    let Some(changes) = angles.calmed(frame_time) else {
+        return;
+    };
+    for (turn, change) in turns.iter_mut().zip(changes) {
+        turn.twist += change;
+    }
 }
 
 /// Brings wrist and hand of an arm that does nothing yet to where they should be, with the elbow

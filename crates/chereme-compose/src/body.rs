@@ -1,7 +1,7 @@
 //! The signer's body while a sign is made: its directions, its places, its size.
 
 use chereme_motion::glam::DVec3;
-use chereme_motion::{ModelPose, Side};
+use chereme_motion::{ModelPose, Pose, Side};
 use chereme_sign::Component;
 use chereme_sign::inventory::Landmark;
 
@@ -40,10 +40,14 @@ impl Frame {
         let (mut origin, mut forward, mut count) = (DVec3::ZERO, DVec3::ZERO, 0.0);
         let mut shoulders = 0.0;
         for frame in samples(0..work.frames) {
-            let model = ModelPose::of(&work.skeleton, &work.pose(frame));
-            if let Some(body) = work.anatomy.body_frame(&model) {
+            let mut pose = work.pose(frame);
+            let model = ModelPose::of(&work.skeleton, &pose);
+            still_collars(work, &mut pose);
+            let still = ModelPose::of(&work.skeleton, &pose);
+            let bodies = [&model, &still].map(|model| work.anatomy.body_frame(model));
+            if let [Some(body), Some(still)] = bodies {
                 origin += body.origin;
-                forward += body.forward;
+                forward += still.forward;
                 shoulders = body.scale;
                 count += 1.0;
             }
@@ -141,6 +145,20 @@ impl Frame {
             Spot::Point(at) => self.point(at),
             Spot::Value(_) => self.place(work, place?, hand)?,
         })
+    }
+}
+
+/// Gives collar bones their posture at rest, so that arms that were moved do not change where the
+/// trunk faces; not where the rest posture is none that a body takes.
+fn still_collars(work: &Work, pose: &mut Pose) {
+    if !work.anatomy.is_posed() {
+        return;
+    }
+    for side in Side::BOTH {
+        let arm = work.anatomy.arm(side);
+        if let Some(clavicle) = arm.and_then(|arm| arm.clavicle) {
+            pose.rotations[clavicle] = work.skeleton.joint(clavicle).rest;
+        }
     }
 }
 

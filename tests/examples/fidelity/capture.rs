@@ -45,7 +45,9 @@ pub fn read_folder(folder: &Path) -> Result<(Vec<Capture>, Vec<String>)> {
 fn find(folder: &Path, paths: &mut Vec<PathBuf>) -> Result<()> {
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();
-        let is_bvh = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("bvh"));
+        let is_bvh = path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("bvh"));
         if path.is_dir() {
             find(&path, paths)?;
         } else if is_bvh {

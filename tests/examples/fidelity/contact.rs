@@ -1,2 +1,4 @@
 //! x
-pub fn tables(_: &[crate::capture::Capture]) -> crate::Result<String> { Ok(String::new()) }
+pub fn tables(_: &[crate::capture::Capture]) -> crate::Result<String> {
+    Ok(String::new())
+}

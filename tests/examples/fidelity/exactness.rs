@@ -54,16 +54,24 @@ fn row(capture: &Capture) -> Result<Vec<String>> {
         }
         let [one, two] = after(first, second)?;
         let to = if to_source { clip } else { &one.clip };
-        bones = bones.max(stretched(clip, &one.clip)).max(stretched(clip, &two.clip));
+        bones = bones
+            .max(stretched(clip, &one.clip))
+            .max(stretched(clip, &two.clip));
         let apart = fingertips(capture, to, &two.clip).into_iter();
         cells.push(small(apart.map(|(_, far)| far).fold(0.0, f64::max)));
     }
     let (mut worst, mut reached, mut all): (f64, usize, usize) = (0.0, 0, 0);
     for (there, back) in [("left", "right"), ("up", "down"), ("forward", "back")] {
-        let hands = if both { "both" } else { capture.sides()[0].name() };
+        let hands = if both {
+            "both"
+        } else {
+            capture.sides()[0].name()
+        };
         let place = |way: &str| format!("place {hands} by {way} 10cm");
         let [one, two] = after(&place(there), &place(back))?;
-        bones = bones.max(stretched(clip, &one.clip)).max(stretched(clip, &two.clip));
+        bones = bones
+            .max(stretched(clip, &one.clip))
+            .max(stretched(clip, &two.clip));
         let moved = moved(capture, &one.clip);
         for ((side, far), shift) in fingertips(capture, clip, &two.clip).into_iter().zip(moved) {
             all += usize::from(capture.anatomy.arm(side).is_some());
@@ -74,7 +82,10 @@ fn row(capture: &Capture) -> Result<Vec<String>> {
         }
     }
     cells.push(small(worst));
-    cells.push(format!("{:.0} %", 100.0 * reached as f64 / all.max(1) as f64));
+    cells.push(format!(
+        "{:.0} %",
+        100.0 * reached as f64 / all.max(1) as f64
+    ));
     cells.push(small(bones));
     Ok(cells)
 }
@@ -126,7 +137,9 @@ pub fn stretched(was: &Clip, is: &Clip) -> f64 {
         // What was reversed or mirrored has the bones of other frames where joints also move.
         let models = [was, is].map(|clip| clip.model_pose(frame));
         for joint in 1..skeleton.len() {
-            let Some(parent) = skeleton.parent(joint) else { continue };
+            let Some(parent) = skeleton.parent(joint) else {
+                continue;
+            };
             if was.channel(joint).translations.is_some() {
                 continue;
             }

@@ -45,8 +45,14 @@ impl Error {
 pub fn tables(captures: &[Capture]) -> Result<String> {
     let mut text = String::new();
     for (kind, name) in [
-        (Kind::Stroke, "Strokes of a wrist between two minima of its speed"),
-        (Kind::Handshape, "Changes of handshape between two minima of the fingers' speed"),
+        (
+            Kind::Stroke,
+            "Strokes of a wrist between two minima of its speed",
+        ),
+        (
+            Kind::Handshape,
+            "Changes of handshape between two minima of the fingers' speed",
+        ),
     ] {
         let found: Vec<Transition> = captures
             .iter()
@@ -66,7 +72,10 @@ pub fn tables(captures: &[Capture]) -> Result<String> {
 fn table(captures: &[Capture], found: &[Transition]) -> String {
     let errors: Vec<[Option<Error>; COURSES.len()]> =
         (0..found.len()).map(|n| tried(found, n)).collect();
-    let head: Vec<&str> = ["capture", "transitions"].into_iter().chain(COURSES).collect();
+    let head: Vec<&str> = ["capture", "transitions"]
+        .into_iter()
+        .chain(COURSES)
+        .collect();
     let row = |name: String, numbers: &[usize]| {
         let cells = (0..COURSES.len()).map(|course| {
             let mut sum = Error::default();
@@ -80,11 +89,16 @@ fn table(captures: &[Capture], found: &[Transition]) -> String {
                 format!("{position:.1} · {speed:.0}")
             }
         });
-        [name, numbers.len().to_string()].into_iter().chain(cells).collect::<Vec<String>>()
+        [name, numbers.len().to_string()]
+            .into_iter()
+            .chain(cells)
+            .collect::<Vec<String>>()
     };
     let mut rows = Vec::new();
     for (at, capture) in captures.iter().enumerate() {
-        let own: Vec<usize> = (0..found.len()).filter(|&n| found[n].capture == at).collect();
+        let own: Vec<usize> = (0..found.len())
+            .filter(|&n| found[n].capture == at)
+            .collect();
         if !own.is_empty() {
             rows.push(row(capture.name.clone(), &own));
         }
@@ -115,7 +129,10 @@ fn wins(errors: &[[Option<Error>; COURSES.len()]], numbers: &[usize]) -> Vec<Str
         let position = share(|a, b| a.position < b.position);
         format!("{position:.0} % · {:.0} %", share(|a, b| a.speed < b.speed))
     });
-    ["better than the sigmoid in".to_owned(), String::new()].into_iter().chain(cells).collect()
+    ["better than the sigmoid in".to_owned(), String::new()]
+        .into_iter()
+        .chain(cells)
+        .collect()
 }
 
 /// Tries every course on one transition; learned ones are fitted to the others.
@@ -158,9 +175,8 @@ fn compare(one: &Transition, made: &Clip) -> Error {
                 .map(|frame| strokes::point(clip, joint, one.base, frame))
                 .collect::<Vec<DVec3>>()
         });
-        let speeds = [&was, &is].map(|path| {
-            strokes::speeds(path, per_second, |a: &DVec3, b| a.distance(*b))
-        });
+        let speeds = [&was, &is]
+            .map(|path| strokes::speeds(path, per_second, |a: &DVec3, b| a.distance(*b)));
         for frame in 0..was.len() {
             error.add(Error {
                 position: was[frame].distance_squared(is[frame]),

@@ -1,7 +1,7 @@
 //! Hands placed elsewhere: what is left of the way, how hands are turned, how elbows move.
 
 use chereme_compose::Made;
-use chereme_motion::glam::DVec3;
+use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Clip, ModelPose, Rate, Side};
 
 use crate::Result;
@@ -9,31 +9,44 @@ use crate::capture::Capture;
 use crate::shelf::Shelf;
 use crate::table::markdown;
 
-const HEAD: [&str; 9] = [
+const HEAD: [&str; 11] = [
     "capture",
     "targets",
     "in reach",
-    "residual in reach, mm",
+    "residual to 92 %, mm",
+    "residual to 100 %, mm",
     "hand turned, °",
     "elbow jumps, 10 cm",
     "elbow jumps, 25 cm",
+    "by the shoulder",
     "largest, °",
     "clips out of reach, told",
 ];
-/// A joint's turn between two frames at 120 Hz that is a jump, in degrees.
+/// By how many degrees more than in the source a joint turns from a frame to the next in a jump.
 const JUMP: f64 = 5.0;
+/// A turn in the source, in degrees, that no arm makes: the capture is cut there.
+const CUT: f64 = 15.0;
+/// A wrist nearer to the shoulder than this share of the arm's length is by the shoulder.
+const BESIDE: f64 = 0.35;
+/// The longest soft end of the reach.
+const SOFT: f64 = 0.08;
 
 #[derive(Default)]
 struct Found {
     targets: usize,
     in_reach: usize,
-    residual: f64,
+    /// Largest residuals: of targets nearer than the longest soft end, and of all in reach.
+    residual: [f64; 2],
     turned: f64,
+    /// Jumps with hands moved by 10 and by 25 cm, and those of them by the shoulder.
     jumps: [usize; 2],
+    beside: usize,
     largest: f64,
     /// Clips with targets out of reach, and those of them whose report says so.
     beyond: [usize; 2],
     refused: usize,
+    /// Clips of which most targets are out of reach sideways, so that their place is not known.
+    unclear: usize,
 }
 
 pub fn tables(captures: &[Capture]) -> Result<String> {
@@ -53,9 +66,12 @@ pub fn tables(captures: &[Capture]) -> Result<String> {
     rows.push(all.row("**all**"));
     Ok(format!(
         "### Hands placed 10 and 25 cm to the left, right, up and down\n\nAt 120 Hz. A target is in \
-         reach where it is no farther from the shoulder than the arm is long. A jump is a turn of \
-         upper arm or forearm by more than {JUMP}° from a frame to the next where the source turns \
-         by less.\n\n{}",
+         reach where it is no farther from the shoulder than the arm is long; residuals are those of \
+         targets to 92 % of its length, where the longest soft end begins, and of all in reach. A \
+         jump is a turn of upper arm or forearm from a frame to the next that is more than {JUMP}° \
+         larger than the source's, where nothing of the source's arm turns by more than {CUT}°; by the shoulder are \
+         those with the wrist nearer to it than {:.0} % of the arm's length.\n\n{}",
+        BESIDE * 100.0,
         markdown(&HEAD, rows)
     ))
 }
@@ -64,38 +80,51 @@ impl Found {
     fn add(&mut self, other: &Self) {
         self.targets += other.targets;
         self.in_reach += other.in_reach;
-        self.residual = self.residual.max(other.residual);
+        self.beside += other.beside;
         self.turned = self.turned.max(other.turned);
         self.largest = self.largest.max(other.largest);
         self.refused += other.refused;
+        self.unclear += other.unclear;
         for n in 0..2 {
+            self.residual[n] = self.residual[n].max(other.residual[n]);
             self.jumps[n] += other.jumps[n];
             self.beyond[n] += other.beyond[n];
         }
     }
 
     fn row(&self, name: &str) -> Vec<String> {
-        let refused = match self.refused {
-            0 => String::new(),
-            n => format!(", {n} refused"),
-        };
+        let mut beyond = format!("{} of {}", self.beyond[1], self.beyond[0]);
+        for (count, what) in [(self.refused, "refused"), (self.unclear, "not measured")] {
+            if count > 0 {
+                beyond.push_str(&format!(", {count} {what}"));
+            }
+        }
         vec![
             name.to_owned(),
             self.targets.to_string(),
-            format!("{:.0} %", 100.0 * self.in_reach as f64 / self.targets.max(1) as f64),
-            format!("{:.2}", self.residual * 1000.0),
+            format!(
+                "{:.0} %",
+                100.0 * self.in_reach as f64 / self.targets.max(1) as f64
+            ),
+            format!("{:.2}", self.residual[0] * 1000.0),
+            format!("{:.2}", self.residual[1] * 1000.0),
             format!("{:.4}", self.turned.to_degrees()),
             self.jumps[0].to_string(),
             self.jumps[1].to_string(),
+            self.beside.to_string(),
             format!("{:.1}", self.largest.to_degrees()),
-            format!("{} of {}{refused}", self.beyond[1], self.beyond[0]),
+            beyond,
         ]
     }
 }
 
 fn one(capture: &Capture, clip: &Clip, way: &str, cm: usize, found: &mut Found) -> Result<()> {
     let sides = capture.sides();
-    let hands = if sides.len() == 2 { "both" } else { sides[0].name() };
+    let hands = if sides.len() == 2 {
+        "both"
+    } else {
+        sides[0].name()
+    };
     let shelf = Shelf::new(clip.clone(), &capture.anatomy);
     let made = match shelf.make(&format!("place {hands} by {way} {cm}cm")) {
         Ok(made) => made,
@@ -104,13 +133,20 @@ fn one(capture: &Capture, clip: &Clip, way: &str, cm: usize, found: &mut Found) 
             return Ok(());
         }
     };
-    let by = offset(capture, clip, way) * (cm as f64 / 100.0);
+    let asked = cm as f64 / 100.0;
+    let by = match way {
+        "up" => DVec3::Y * asked,
+        "down" => DVec3::NEG_Y * asked,
+        _ => offset(capture, clip, &made.clip),
+    };
+    if (by.length() - asked).abs() > 1e-6 {
+        found.unclear += 1;
+        return Ok(());
+    }
     let mut beyond = false;
     for side in sides {
         beyond |= arm(capture, clip, &made.clip, side, by, found);
-        let (jumps, largest) = jumps(capture, clip, &made.clip, side);
-        found.jumps[usize::from(cm > 10)] += jumps;
-        found.largest = found.largest.max(largest);
+        jumps(capture, clip, &made.clip, side, found, usize::from(cm > 10));
     }
     if beyond {
         found.beyond[0] += 1;
@@ -124,22 +160,24 @@ fn told(made: &Made) -> bool {
     did.into_iter().any(|did| did.contains("out of reach"))
 }
 
-/// Returns the signer's own direction in model space: the mean of where the trunk faces.
-fn offset(capture: &Capture, clip: &Clip, way: &str) -> DVec3 {
-    let frames = clip.frames();
-    let count = frames.min(16);
-    let forward: DVec3 = (0..count)
-        .map(|n| if count == frames { n } else { (2 * n + 1) * frames / (2 * count) })
-        .filter_map(|frame| capture.anatomy.body_frame(&clip.model_pose(frame)))
-        .map(|body| body.forward)
-        .sum();
-    let forward = DVec3::new(forward.x, 0.0, forward.z).normalize_or(DVec3::Z);
-    match way {
-        "left" => DVec3::Y.cross(forward),
-        "right" => forward.cross(DVec3::Y),
-        "up" => DVec3::Y,
-        _ => DVec3::NEG_Y,
+/// Returns by how much the wrists were moved: what half of all frames and hands agree on, coordinate
+/// by coordinate.
+fn offset(capture: &Capture, clip: &Clip, made: &Clip) -> DVec3 {
+    let hands = capture
+        .sides()
+        .into_iter()
+        .filter_map(|side| capture.anatomy.arm(side));
+    let mut moved: Vec<DVec3> = Vec::new();
+    for arm in hands {
+        let [was, is] = [clip, made].map(|clip| clip.path(arm.hand));
+        moved.extend(was.iter().zip(&is).map(|(was, is)| *is - *was));
     }
+    let middle = |axis: usize| {
+        let mut values: Vec<f64> = moved.iter().map(|way| way[axis]).collect();
+        values.sort_unstable_by(f64::total_cmp);
+        values[values.len() / 2]
+    };
+    DVec3::new(middle(0), middle(1), middle(2))
 }
 
 /// Measures one arm; tells whether a target was out of reach and not met.
@@ -151,7 +189,9 @@ fn arm(
     by: DVec3,
     found: &mut Found,
 ) -> bool {
-    let Some(arm) = capture.anatomy.arm(side) else { return false };
+    let Some(arm) = capture.anatomy.arm(side) else {
+        return false;
+    };
     let mut beyond = false;
     for frame in 0..clip.frames() {
         let [was, is]: [ModelPose; 2] = [clip, made].map(|clip| clip.model_pose(frame));
@@ -162,7 +202,10 @@ fn arm(
         found.targets += 1;
         if distance <= first + second && distance >= (first - second).abs() {
             found.in_reach += 1;
-            found.residual = found.residual.max(residual);
+            found.residual[1] = found.residual[1].max(residual);
+            if distance <= (1.0 - SOFT) * (first + second) {
+                found.residual[0] = found.residual[0].max(residual);
+            }
         } else {
             beyond |= residual > 1e-3;
         }
@@ -173,20 +216,61 @@ fn arm(
     beyond
 }
 
-/// Returns how many jumps of upper arm and forearm are the operator's, and the largest in radians.
-fn jumps(capture: &Capture, clip: &Clip, made: &Clip, side: Side) -> (usize, f64) {
-    let Some(arm) = capture.anatomy.arm(side) else { return (0, 0.0) };
-    let (mut count, mut largest): (usize, f64) = (0, 0.0);
-    for joint in [arm.upper, arm.forearm] {
-        let [was, is] = [clip, made].map(|clip| &clip.channel(joint).rotations);
-        for frame in 1..clip.frames() {
-            let source = was[frame - 1].angle_between(was[frame]);
-            let turn = is[frame - 1].angle_between(is[frame]);
-            if source <= JUMP.to_radians() {
-                largest = largest.max(turn);
-                count += usize::from(turn > JUMP.to_radians());
+/// Counts the jumps of upper arm and forearm that are the operator's.
+///
+/// The upper arm is looked at in the space of the trunk, the forearm in that of the upper arm.
+fn jumps(capture: &Capture, clip: &Clip, made: &Clip, side: Side, found: &mut Found, far: usize) {
+    let Some(arm) = capture.anatomy.arm(side) else {
+        return;
+    };
+    let skeleton = clip.skeleton();
+    let top = skeleton.parent(arm.clavicle.unwrap_or(arm.upper));
+    let joints = [(arm.upper, top), (arm.forearm, Some(arm.upper))];
+    let whole = turns(clip, arm.upper, None);
+    let forearm = turns(clip, arm.forearm, Some(arm.upper));
+    let fastest: Vec<f64> = whole
+        .into_iter()
+        .zip(forearm)
+        .map(|(a, b)| a.max(b))
+        .collect();
+    for (joint, base) in joints {
+        let [was, is] = [clip, made].map(|clip| turns(clip, joint, base));
+        for (frame, (source, turn)) in was.into_iter().zip(is).enumerate() {
+            if fastest[frame] > CUT.to_radians() {
+                continue;
+            }
+            found.largest = found.largest.max(turn - source);
+            if turn - source > JUMP.to_radians() {
+                let model = made.model_pose(frame + 1);
+                let at = |joint: usize| model.position(joint);
+                let bones = at(arm.upper).distance(at(arm.forearm))
+                    + at(arm.forearm).distance(at(arm.hand));
+                found.jumps[far] += 1;
+                let near = at(arm.upper).distance(at(arm.hand)) < BESIDE * bones;
+                found.beside += usize::from(near);
             }
         }
     }
-    (count, largest)
+}
+
+/// Returns how far a joint turns from each frame to the next in the space of one above it.
+fn turns(clip: &Clip, joint: usize, base: Option<usize>) -> Vec<f64> {
+    let chain: Vec<usize> = clip
+        .skeleton()
+        .ancestors(joint)
+        .take_while(|&above| Some(above) != base)
+        .collect();
+    let turned: Vec<DQuat> = (0..clip.frames())
+        .map(|frame| {
+            let local = |&joint: &usize| clip.channel(joint).rotations[frame];
+            chain.iter().rev().map(local).product()
+        })
+        .collect();
+    turned
+        .windows(2)
+        .map(|two| {
+            let turn = two[0].inverse() * two[1];
+            2.0 * turn.xyz().length().atan2(turn.w.abs())
+        })
+        .collect()
 }

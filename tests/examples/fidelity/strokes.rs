@@ -49,7 +49,10 @@ impl Transition {
             let path: Vec<DVec3> = (0..self.clip.frames())
                 .map(|frame| point(&self.clip, joint, self.base, frame))
                 .collect();
-            along += path.windows(2).map(|two| two[0].distance(two[1])).sum::<f64>();
+            along += path
+                .windows(2)
+                .map(|two| two[0].distance(two[1]))
+                .sum::<f64>();
             across += path[0].distance(path[path.len() - 1]);
         }
         across >= 0.7 * along
@@ -62,10 +65,16 @@ pub fn find(number: usize, capture: &Capture, kind: Kind) -> Vec<Transition> {
     let (clip, anatomy) = (&capture.clip, &capture.anatomy);
     let skeleton = clip.skeleton();
     for side in capture.sides() {
-        let Some(arm) = anatomy.arm(side) else { continue };
+        let Some(arm) = anatomy.arm(side) else {
+            continue;
+        };
         let top = arm.clavicle.unwrap_or(arm.upper);
         let (joints, points, base) = match kind {
-            Kind::Stroke => (anatomy.arm_joints(side), vec![arm.hand], skeleton.parent(top)),
+            Kind::Stroke => (
+                anatomy.arm_joints(side),
+                vec![arm.hand],
+                skeleton.parent(top),
+            ),
             Kind::Handshape => {
                 let fingers = anatomy.fingers(side);
                 let is_end = |&joint: &usize| skeleton.children(joint).is_empty();
@@ -124,7 +133,11 @@ fn moves(
 pub fn point(clip: &Clip, joint: usize, base: Option<usize>, frame: usize) -> DVec3 {
     let skeleton = clip.skeleton();
     let is_end = skeleton.children(joint).is_empty();
-    let mut at = skeleton.joint(joint).tip.filter(|_| is_end).unwrap_or(DVec3::ZERO);
+    let mut at = skeleton
+        .joint(joint)
+        .tip
+        .filter(|_| is_end)
+        .unwrap_or(DVec3::ZERO);
     let mut next = Some(joint);
     while let Some(joint) = next.filter(|&joint| Some(joint) != base) {
         at = clip.translation(joint, frame) + clip.channel(joint).rotations[frame] * at;
@@ -142,7 +155,12 @@ fn wrist_speeds(clip: &Clip, hand: usize, base: Option<usize>) -> Vec<f64> {
 
 fn finger_speeds(clip: &Clip, joints: &[usize]) -> Vec<f64> {
     let shapes: Vec<Vec<DQuat>> = (0..clip.frames())
-        .map(|frame| joints.iter().map(|&j| clip.channel(j).rotations[frame]).collect())
+        .map(|frame| {
+            joints
+                .iter()
+                .map(|&j| clip.channel(j).rotations[frame])
+                .collect()
+        })
         .collect();
     speeds(&shapes, clip.rate().per_second(), |a, b| {
         let squares = a.iter().zip(b).map(|(a, b)| a.angle_between(*b).powi(2));
@@ -195,7 +213,9 @@ fn between_minima(speeds: &[f64], least: f64) -> Vec<Range<usize>> {
         let (Some(start), Some(end)) = (start, end) else {
             continue;
         };
-        let highest = speeds[start..=end].iter().all(|&speed| speed <= speeds[top]);
+        let highest = speeds[start..=end]
+            .iter()
+            .all(|&speed| speed <= speeds[top]);
         if highest && found.last().is_none_or(|last| last.start != start) {
             found.push(start..end + 1);
         }

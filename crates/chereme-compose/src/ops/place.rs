@@ -137,6 +137,13 @@ pub(crate) fn told(reach: &Reach) -> Vec<String> {
             reach.frame
         ));
     }
+    if reach.is_softened() {
+        told.push(format!(
+            "the wrist leaves the arm's reach fast: beyond {:.1}% of its length it falls behind, so \
+             that the elbow opens calmly",
+            (1.0 - reach.soft) * 100.0
+        ));
+    }
     if reach.helped > 0 {
         told.push(format!(
             "the collar bone helped in {} frames, beyond {:.0}% of the arm's length",

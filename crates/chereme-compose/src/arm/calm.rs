@@ -1,0 +1,172 @@
+//! Angles over time that stay where they can be trusted and go calmly where they cannot.
+
+use std::f64::consts::{PI, TAU};
+
+/// How fast an angle may turn beyond its own way before it is doubted, in radians per second.
+const FASTEST: f64 = 5.0;
+/// The times before and after a doubted turn over which it is spread, tried in order, in seconds.
+const SPREADS: [f64; 4] = [0.05, 0.1, 0.2, 0.4];
+/// The time over which angles of little trust are evened out, in seconds.
+const EVEN: f64 = 0.04;
+/// The weight of an angle that may not change.
+const FIXED: f64 = 1e9;
+
+/// Angles of one joint, one a frame.
+pub(super) struct Angles {
+    /// The angles in radians; those that differ by whole turns are the same.
+    pub(super) values: Vec<f64>,
+    /// How much each is worth, from 0 to 1; above 1 it must not change.
+    pub(super) trust: Vec<f64>,
+    /// By how much the angle turns of itself from the frame before, where that is known.
+    pub(super) own: Vec<f64>,
+}
+
+impl Angles {
+    /// Returns how far each angle is changed so that none turns faster than it should; nothing where
+    /// none needs to.
+    ///
+    /// Angles of little trust follow their neighbours of more; where angles still turn too fast, the
+    /// turn is spread over the frames around it. This is least squares: the sum of
+    /// `weight · change²` and of the squares of what steps differ from their own way is least.
+    pub(super) fn calmed(mut self, frame_time: f64) -> Option<Vec<f64>> {
+        self.unwrap();
+        let fastest = FASTEST * frame_time;
+        let mut weights: Vec<f64> = self.trust.iter().map(|&trust| weight(trust)).collect();
+        let doubted = |values: &[f64], own: &[f64]| -> Vec<usize> {
+            let too_fast = |n: &usize| (values[*n] - values[n - 1] - own[*n]).abs() > fastest;
+            (1..values.len()).filter(too_fast).collect()
+        };
+        let mut values = self.values.clone();
+        let mut left = doubted(&values, &self.own);
+        if left.is_empty() && self.trust.iter().all(|&trust| trust > 0.99) {
+            return None;
+        }
+        let stiff = (EVEN / frame_time).powi(2);
+        for spread in SPREADS {
+            let near = (spread / frame_time).round() as usize;
+            for &at in &left {
+                let around = at.saturating_sub(near)..(at + near).min(weights.len());
+                for weight in weights[around].iter_mut().filter(|weight| **weight < FIXED) {
+                    *weight = weight.min(1e-3);
+                }
+            }
+            values = evened(&self.values, &weights, &self.own, stiff);
+            left = doubted(&values, &self.own);
+            if left.is_empty() {
+                break;
+            }
+        }
+        let changes = values.iter().zip(&self.values).map(|(new, old)| new - old);
+        Some(changes.collect())
+    }
+
+    /// Takes whole turns out, each angle against the last one that can be trusted.
+    fn unwrap(&mut self) {
+        let mut last = self.values.first().copied().unwrap_or_default();
+        for (value, trust) in self.values.iter_mut().zip(&self.trust) {
+            *value -= TAU * ((*value - last + PI) / TAU).floor();
+            if *trust > 0.3 {
+                last = *value;
+            }
+        }
+    }
+}
+
+fn weight(trust: f64) -> f64 {
+    if trust > 1.0 {
+        return FIXED;
+    }
+    let trust = trust.max(0.0);
+    1e-4 + 4.0 * trust * trust / (1.001 - trust)
+}
+
+/// Solves for the values that are near the given ones by weight and whose steps are near `own`.
+fn evened(values: &[f64], weights: &[f64], own: &[f64], stiff: f64) -> Vec<f64> {
+    let len = values.len();
+    // The equations are tridiagonal, with the same number beside the diagonal everywhere.
+    let mut above = vec![0.0; len];
+    let mut solved = vec![0.0; len];
+    for n in 0..len {
+        let neighbours = f64::from(u8::from(n > 0)) + f64::from(u8::from(n + 1 < len));
+        let mut right = weights[n] * values[n];
+        if n > 0 {
+            right += stiff * own[n];
+        }
+        if n + 1 < len {
+            right -= stiff * own[n + 1];
+        }
+        let mut diagonal = weights[n] + stiff * neighbours;
+        if n > 0 {
+            diagonal += stiff * above[n - 1];
+            right += stiff * solved[n - 1];
+        }
+        above[n] = -stiff / diagonal;
+        solved[n] = right / diagonal;
+    }
+    for n in (0..len.saturating_sub(1)).rev() {
+        solved[n] -= above[n] * solved[n + 1];
+    }
+    solved
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn angles(values: Vec<f64>, trust: Vec<f64>) -> Angles {
+        let own = vec![0.0; values.len()];
+        Angles { values, trust, own }
+    }
+
+    #[test]
+    fn calm_angles_stay() {
+        let values: Vec<f64> = (0..200).map(|n| 3.0 + 0.01 * f64::from(n)).collect();
+        let wrapped = values
+            .iter()
+            .map(|v| (v + PI).rem_euclid(TAU) - PI)
+            .collect();
+        assert_eq!(angles(wrapped, vec![1.0; 200]).calmed(1.0 / 120.0), None);
+    }
+
+    #[test]
+    fn a_jump_is_spread_and_what_must_stay_stays() {
+        let jump: Vec<f64> = (0..240).map(|n| if n < 120 { 0.0 } else { 2.0 }).collect();
+        let mut trust = vec![1.0; 240];
+        trust[..20].fill(2.0);
+        let changes = angles(jump.clone(), trust)
+            .calmed(1.0 / 120.0)
+            .expect("a jump");
+        let now: Vec<f64> = jump.iter().zip(&changes).map(|(a, b)| a + b).collect();
+        let steepest = now
+            .windows(2)
+            .map(|w| (w[1] - w[0]).abs())
+            .fold(0.0, f64::max);
+        assert!(steepest < 0.05, "{steepest}");
+        assert!(changes[..20].iter().all(|change| change.abs() < 1e-6));
+        assert!(changes[0].abs() + changes[239].abs() < 1e-3);
+    }
+
+    #[test]
+    fn what_cannot_be_trusted_follows_its_neighbours() {
+        let values: Vec<f64> = (0..60)
+            .map(|n| if (20..40).contains(&n) { 2.5 } else { 0.3 })
+            .collect();
+        let trust = values
+            .iter()
+            .map(|&v| if v > 1.0 { 0.0 } else { 1.0 })
+            .collect();
+        let changes = angles(values.clone(), trust)
+            .calmed(1.0 / 120.0)
+            .expect("doubts");
+        for (value, change) in values.iter().zip(changes) {
+            assert!((value + change - 0.3).abs() < 0.02, "{}", value + change);
+        }
+    }
+
+    #[test]
+    fn least_squares_agree_with_elimination_by_hand() {
+        // (1 + 2)x - 2y = 0 + 2·(-0.5); -2x + (3 + 2)y = 3·1 + 2·0.5.
+        let solved = evened(&[0.0, 1.0], &[1.0, 3.0], &[0.0, 0.5], 2.0);
+        assert!((solved[0] - 3.0 / 11.0).abs() < 1e-12 && (solved[1] - 10.0 / 11.0).abs() < 1e-12);
+    }
+}
