@@ -103,7 +103,7 @@ impl Output {
         let known = error.downcast_ref::<chereme_corpus::Error>();
         let place = known.and_then(chereme_corpus::Error::place);
         let remedy = known.and_then(chereme_corpus::Error::remedy);
-        let message = format!("{error:#}");
+        let message = known.map_or_else(|| format!("{error:#}"), ToString::to_string);
         if self.json {
             self.document = Some(json!({
                 "error": { "message": message, "where": place, "remedy": remedy }

@@ -14,6 +14,7 @@ pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
     /// What to list
+    #[arg(value_parser = kind)]
     kind: ListKind,
     /// Only rows that fit, such as gloss=BO*, start_us=>=500000, recording=recording:3, parent=none
     #[arg(long = "where", value_name = "COLUMN=PATTERN", value_parser = pair)]
@@ -30,6 +31,12 @@ pub(crate) struct Args {
     /// How many rows to leave out before
     #[arg(long, default_value_t = 0, value_name = "N")]
     offset: usize,
+}
+
+fn kind(text: &str) -> Result<ListKind, String> {
+    text.parse().map_err(|error: chereme_corpus::Error| {
+        format!("{error}; {}", error.remedy().unwrap_or_default())
+    })
 }
 
 fn pair(text: &str) -> Result<(String, String), String> {

@@ -90,7 +90,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
 
 fn wrong(error: chereme_formats::bvh::raw::BvhError) -> Error {
     let (remedy, line) = (error.kind.remedy(), error.line);
-    Error::wrong(error.to_string())
+    Error::wrong(error.kind.to_string())
         .at(format!("line {line}"))
         .advise(remedy)
 }
