@@ -47,13 +47,13 @@ fn main() {
     drop(corpus);
     let ours = clock.elapsed().as_secs_f64();
     let stored = std::fs::metadata(&path).expect("there").len();
+    println!("largest memory so far: {}", peak_memory());
     let (peer, peer_stored) = import_with_bvh_anim(&text, folder.path());
     println!(
         "import to a stored corpus: {ours:.2} s, {:.0} MB/s; bvh_anim + f32 blobs {peer:.2} s; ratio {:.2}",
         mega(size) / ours,
         peer / ours
     );
-    println!("largest memory of the whole run: {}", peak_memory());
     println!(
         "stored: {:.0} MB an hour without loss ({:.2} of the text); f32 blobs {:.0} MB an hour",
         mega(stored) / hours,
