@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use chereme_corpus::{
     Corpus, ExportOptions, ExportWhat, ImportOptions, PictureOptions, Progress, SearchOptions,
-    unpack_starter,
+    starter_files, unpack_starter,
 };
 use serde_json::{Value, json};
 
@@ -80,6 +80,19 @@ fn folder(named: Option<&Path>) -> Result<PathBuf> {
         .map(name)
         .find(|path| !path.exists())
         .context("no folder name is free here")
+}
+
+/// The recipes of the starter corpus, as gloss and recipe.
+fn recipes() -> Vec<(String, String)> {
+    let file = starter_files().find(|(name, _)| *name == Path::new("recipes.txt"));
+    let text = file.map_or_else(Default::default, |(_, bytes)| {
+        String::from_utf8_lossy(bytes)
+    });
+    text.lines()
+        .filter(|line| !line.starts_with('#'))
+        .filter_map(|line| line.split_once(" = "))
+        .map(|(gloss, recipe)| (gloss.trim().to_owned(), recipe.trim().to_owned()))
+        .collect()
 }
 
 struct Demo {
@@ -162,6 +175,20 @@ impl Demo {
                 json!({ "step": "recombine", "gloss": gloss, "recipe": recipe, "token": token }),
             );
         }
+        let more = recipes();
+        let more: Vec<_> = more
+            .iter()
+            .filter(|(gloss, _)| !MADE.iter().any(|it| it.0 == gloss))
+            .collect();
+        for (gloss, recipe) in &more {
+            self.corpus()?.recombine(recipe, gloss)?;
+        }
+        let names: Vec<&str> = more.iter().map(|(gloss, _)| gloss.as_str()).collect();
+        output.line(format!(
+            "   and {} more of starter/recipes.txt: {}",
+            more.len(),
+            names.join(", ")
+        ))?;
         let query = "origin=made right.configuration=U";
         let answer = self.corpus()?.search(query, &SearchOptions::default())?;
         let glosses: Vec<&str> = answer.hits.iter().map(|hit| hit.gloss.as_str()).collect();
