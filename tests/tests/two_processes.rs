@@ -57,3 +57,32 @@ fn a_second_session_sees_what_the_first_one_does() {
     assert!(first.redo().is_err(), "it is done already");
     first.undo().expect("undone");
 }
+
+#[test]
+fn of_two_that_make_the_same_corpus_one_does_and_both_can_work() {
+    for round in 0..5 {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("x");
+        let start = || Worker::start(WORKER, &path, "create", "made", 3).expect("started");
+        let (first, second) = (start(), start());
+        let (first, second) = (first.hear().expect("heard"), second.hear().expect("heard"));
+        for said in [&first, &second] {
+            assert!(
+                said.ended || said.errors.contains("exists"),
+                "{}",
+                said.errors
+            );
+        }
+        assert!(first.ended || second.ended, "round {round}");
+        for step in 0..3 {
+            let path = folder.path().join(format!("made-{step}.chereme"));
+            assert!(
+                Corpus::open(&path, "checker").is_ok(),
+                "round {round}, {step}"
+            );
+        }
+        let left = std::fs::read_dir(folder.path()).expect("a folder");
+        let left: Vec<_> = left.flatten().map(|entry| entry.file_name()).collect();
+        assert!(left.len() == 3, "round {round}: {left:?}");
+    }
+}

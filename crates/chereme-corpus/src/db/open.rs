@@ -1,11 +1,14 @@
 //! Making, opening and raising a corpus file.
 
-use std::path::Path;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use rusqlite::config::DbConfig;
 use rusqlite::limits::Limit;
 use rusqlite::{Connection, OpenFlags};
+use uuid::Uuid;
 
 use crate::error::{Error, Result};
 
@@ -22,19 +25,30 @@ pub(crate) const SCHEMA_VERSION: i32 = STEPS.len() as i32;
 const LARGEST_VALUE: i32 = 512 << 20;
 
 /// Makes the file; `fill` writes what every corpus begins with.
+///
+/// It is made under another name beside `path` and gets its own when it is whole: whoever looks, at
+/// whatever moment, finds a corpus there or nothing.
 pub(super) fn create(
     path: &Path,
     fill: impl FnOnce(&Connection) -> Result<()>,
 ) -> Result<Connection> {
     if path.exists() {
-        return Err(Error::file(path, std::io::ErrorKind::AlreadyExists.into()));
+        return Err(Error::file(path, ErrorKind::AlreadyExists.into()));
     }
     let folder = path
         .parent()
         .filter(|folder| !folder.as_os_str().is_empty());
     if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
-        return Err(Error::file(folder, std::io::ErrorKind::NotFound.into()));
+        return Err(Error::file(folder, ErrorKind::NotFound.into()));
     }
+    let making = Making::beside(path);
+    make(&making.0, fill)?;
+    making.publish(path)?;
+    drop(making);
+    open(path)
+}
+
+fn make(path: &Path, fill: impl FnOnce(&Connection) -> Result<()>) -> Result<()> {
     let flags = OpenFlags::SQLITE_OPEN_READ_WRITE
         | OpenFlags::SQLITE_OPEN_CREATE
         | OpenFlags::SQLITE_OPEN_NO_MUTEX;
@@ -43,7 +57,41 @@ pub(super) fn create(
     configure(&connection)?;
     connection.pragma_update(None, "application_id", APPLICATION_ID)?;
     raise(&mut connection, fill)?;
-    Ok(connection)
+    connection.close().map_err(|(_, error)| error)?;
+    Ok(())
+}
+
+/// A corpus in the making, under a name of its own; what is left of it goes in the end.
+struct Making(PathBuf);
+
+impl Making {
+    fn beside(path: &Path) -> Self {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        Self(path.with_file_name(format!(".{name}.{}", Uuid::now_v7().simple())))
+    }
+
+    /// Gives the file its name, where nothing has it: a link never replaces what is there.
+    fn publish(&self, path: &Path) -> Result<()> {
+        let published = match fs::hard_link(&self.0, path) {
+            // Some file systems know no links.
+            Err(error) if error.kind() != ErrorKind::AlreadyExists && !path.exists() => {
+                fs::rename(&self.0, path)
+            }
+            other => other,
+        };
+        published.map_err(|error| Error::file(path, error))
+    }
+}
+
+impl Drop for Making {
+    fn drop(&mut self) {
+        for end in ["", "-wal", "-shm"] {
+            let mut name = self.0.clone().into_os_string();
+            name.push(end);
+            // What is not there need not go.
+            let _ = fs::remove_file(name);
+        }
+    }
 }
 
 pub(super) fn open(path: &Path) -> Result<Connection> {
