@@ -3,7 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`dtw`] | dynamic time warping: alignments, distances, nearest neighbours |
-//! | [`score`] | how alike two performances are, component by component, with their alignment |
+//! | [`score`](mod@score) | how alike two performances are, component by component, with their alignment |
 
 pub mod dtw;
 pub mod score;
