@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use chereme_motion::{Instant, Span};
-use chereme_sign::token::{ComponentSpan, readings};
+use chereme_sign::token::{ComponentSpan, owner, readings};
 use chereme_sign::{Component, Field, HandRef, Handedness, Phase, Reading};
 use rusqlite::Connection;
 
@@ -26,15 +26,18 @@ pub(crate) fn derive(
 ) -> Result<()> {
     let recording = recordings::recording(connection, recording)?;
     let said = Said::read(connection, &recording, window, inventories)?;
-    let mut standing: BTreeMap<i64, TokenRow> = BTreeMap::new();
-    for token in signs::tokens_of_recording(connection, recording.id)? {
-        if let Some(annotation) = token.annotation_id
-            && window.is_none_or(|window| touches(span_of(&token), window))
-        {
-            standing.insert(annotation, token);
+    let tokens = match said.within {
+        Some(within) => {
+            let (start, end) = (within.start().micros(), within.end().micros());
+            signs::tokens_near(connection, recording.id, start, end)?
         }
-    }
-    for gloss in &said.glosses {
+        None => signs::tokens_of_recording(connection, recording.id)?,
+    };
+    let mut standing: BTreeMap<i64, TokenRow> = tokens
+        .into_iter()
+        .filter_map(|token| Some((token.annotation_id?, token)))
+        .collect();
+    for gloss in said.glosses.iter().filter(|gloss| said.is_within(gloss)) {
         let old = standing.remove(&gloss.row.id);
         let token = write_token(connection, &recording, gloss, old)?;
         signs::set_values(connection, token, &said.values(gloss))?;
@@ -92,7 +95,10 @@ struct Said {
     handedness: Handedness,
     glosses: Vec<Gloss>,
     components: Vec<Coded>,
-    longest: i64,
+    /// The components of each gloss, by the row of its annotation.
+    owned: BTreeMap<i64, Vec<usize>>,
+    /// The glosses that touch this are to be read; the others are there to tell whose a component is.
+    within: Option<Span>,
 }
 
 struct Coded {
@@ -108,48 +114,50 @@ impl Said {
         window: Option<Span>,
         inventories: &[StoredInventory],
     ) -> Result<Self> {
-        let handedness = handedness(connection, recording)?;
-        let tiers = tiers::tiers(connection, recording.id)?;
+        let all = tiers::tiers(connection, recording.id)?;
+        let of = |role: &'static str| all.iter().filter(move |tier| tier.role == role);
         let mut said = Self {
-            handedness,
+            handedness: handedness(connection, recording)?,
             glosses: Vec::new(),
             components: Vec::new(),
-            longest: 0,
+            owned: BTreeMap::new(),
+            within: None,
         };
-        for tier in tiers.iter().filter(|tier| tier.role == "gloss") {
-            for row in annotations(connection, tier, window)? {
-                if row.state == "value" && !row.value.trim().is_empty() {
-                    said.glosses.push(Gloss {
-                        row,
-                        hand: tier.hand.clone(),
-                    });
+        if let Some(window) = window {
+            let mut within = window;
+            for tier in of("component") {
+                for row in annotations(connection, tier, Some(window))? {
+                    within = hull(within, span(&row));
                 }
             }
+            said.within = Some(within);
         }
-        said.glosses
-            .sort_by_key(|gloss| (gloss.row.start_us, gloss.row.id));
-        let reach = said
-            .glosses
-            .iter()
-            .map(|gloss| span(&gloss.row))
-            .reduce(|a, b| Span::between(a.start().min(b.start()), a.end().max(b.end())));
-        for tier in tiers.iter().filter(|tier| tier.role == "component") {
+        said.glosses = glosses(connection, of("gloss"), said.within)?;
+        let Some(reach) = said.glosses.iter().map(|it| span(&it.row)).reduce(hull) else {
+            return Ok(said);
+        };
+        let mut context = reach;
+        for tier in of("component") {
             let inventory = inventories
                 .iter()
                 .find(|it| Some(it.id) == tier.inventory_id);
-            for row in annotations(connection, tier, window.and(reach))? {
+            for row in annotations(connection, tier, said.within.and(Some(reach)))? {
+                context = hull(context, span(&row));
                 said.add_component(tier, &row, inventory);
             }
         }
+        if said.within.is_some() {
+            said.glosses = glosses(connection, of("gloss"), Some(context))?;
+        }
         said.components
             .sort_by_key(|coded| (coded.span.span.start(), coded.annotation));
-        said.longest = said
-            .components
-            .iter()
-            .map(|coded| coded.span.span.micros())
-            .max()
-            .unwrap_or(0);
+        said.give();
         Ok(said)
+    }
+
+    fn is_within(&self, gloss: &Gloss) -> bool {
+        self.within
+            .is_none_or(|within| touches(span(&gloss.row), within))
     }
 
     fn add_component(
@@ -200,57 +208,57 @@ impl Said {
         let own = span(&gloss.row);
         let hand: Option<HandRef> = gloss.hand.as_deref().and_then(|hand| hand.parse().ok());
         let hand = hand.map(|hand| HandRef::from(hand.resolve(self.handedness)));
-        let near = self.near(own);
-        let around: Vec<ComponentSpan> = near.iter().map(|coded| coded.span.clone()).collect();
-        let others = self.others(gloss, &around);
-        readings(own, &others, hand, &around)
+        let owned: Vec<&Coded> = self
+            .owned
+            .get(&gloss.row.id)
             .into_iter()
-            .map(|(field, reading)| row_of(&field, &reading, near))
+            .flatten()
+            .map(|at| &self.components[*at])
+            .collect();
+        let around: Vec<ComponentSpan> = owned.iter().map(|coded| coded.span.clone()).collect();
+        readings(own, &[], hand, &around)
+            .into_iter()
+            .map(|(field, reading)| row_of(&field, &reading, &owned))
             .collect()
     }
 
-    /// The component annotations that may share time with `own`.
-    fn near(&self, own: Span) -> &[Coded] {
-        let from = own.start().shifted(-self.longest);
-        let first = self
-            .components
-            .partition_point(|coded| coded.span.span.start() < from);
-        let last = self
-            .components
-            .partition_point(|coded| coded.span.span.start() < own.end());
-        &self.components[first.min(last)..last]
-    }
-
-    /// The spans of the other glosses of the same hand that may share time with those annotations.
-    fn others(&self, gloss: &Gloss, around: &[ComponentSpan]) -> Vec<Span> {
-        let Some(reach) = around
-            .iter()
-            .map(|said| said.span)
-            .reduce(|a, b| Span::between(a.start().min(b.start()), a.end().max(b.end())))
-        else {
-            return Vec::new();
-        };
-        let last = self
-            .glosses
-            .partition_point(|other| Instant::from_micros(other.row.start_us) < reach.end());
-        self.glosses[..last]
-            .iter()
-            .rev()
-            .take(64)
-            .filter(|other| other.row.id != gloss.row.id && other.hand == gloss.hand)
-            .map(|other| span(&other.row))
-            .filter(|other| other.overlaps(reach))
-            .collect()
+    /// Gives each component to the gloss that it belongs to, among those of each hand.
+    fn give(&mut self) {
+        let mut hands: BTreeMap<Option<&str>, Vec<&Gloss>> = BTreeMap::new();
+        for gloss in &self.glosses {
+            hands.entry(gloss.hand.as_deref()).or_default().push(gloss);
+        }
+        let mut owned: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
+        for glosses in hands.values() {
+            let spans: Vec<Span> = glosses.iter().map(|gloss| span(&gloss.row)).collect();
+            let longest = spans.iter().map(|span| span.micros()).max().unwrap_or(0);
+            for (at, coded) in self.components.iter().enumerate() {
+                let said = coded.span.span;
+                let from = said.start().shifted(-longest);
+                let first = spans.partition_point(|span| span.start() < from);
+                let last = spans.partition_point(|span| span.start() < said.end());
+                let near = spans.get(first..last).unwrap_or_default();
+                if let Some(place) = owner(said, near) {
+                    let gloss = glosses[first + place].row.id;
+                    owned.entry(gloss).or_default().push(at);
+                }
+            }
+        }
+        self.owned = owned;
     }
 }
 
-fn row_of(field: &Field, reading: &Reading, near: &[Coded]) -> TokenValueRow {
-    let source = near.iter().find(|coded| {
+fn row_of(field: &Field, reading: &Reading, owned: &[&Coded]) -> TokenValueRow {
+    let says = |coded: &&&Coded| {
         coded.span.reading == *reading
             && coded.span.field.component == field.component
             && coded.span.field.feature == field.feature
             && (coded.span.field.hand == field.hand || coded.span.field.hand.is_none())
-    });
+    };
+    let source = match field.phase {
+        Some(Phase::Final) => owned.iter().rfind(says),
+        _ => owned.iter().find(says),
+    };
     let (phase, position) = match field.phase {
         None => (None, 0),
         Some(Phase::Initial) => (Some("initial"), 0),
@@ -322,9 +330,27 @@ fn span(row: &AnnotationRow) -> Span {
     )
 }
 
-fn span_of(token: &TokenRow) -> Span {
-    let at = |micros: Option<i64>| Instant::from_micros(micros.unwrap_or_default());
-    Span::between(at(token.start_us), at(token.end_us))
+/// Returns the glosses that touch `within`, by time.
+fn glosses<'t>(
+    connection: &Connection,
+    tiers: impl Iterator<Item = &'t TierRow>,
+    within: Option<Span>,
+) -> Result<Vec<Gloss>> {
+    let mut glosses = Vec::new();
+    for tier in tiers {
+        for row in annotations(connection, tier, within)? {
+            if row.state == "value" && !row.value.trim().is_empty() {
+                let hand = tier.hand.clone();
+                glosses.push(Gloss { row, hand });
+            }
+        }
+    }
+    glosses.sort_by_key(|gloss| (gloss.row.start_us, gloss.row.id));
+    Ok(glosses)
+}
+
+fn hull(a: Span, b: Span) -> Span {
+    Span::between(a.start().min(b.start()), a.end().max(b.end()))
 }
 
 fn touches(a: Span, b: Span) -> bool {

@@ -319,6 +319,24 @@ pub(crate) fn tokens_of_recording(
     Ok(rows)
 }
 
+/// Returns the tokens of a recording that share time with a span or touch it, by time.
+pub(crate) fn tokens_near(
+    connection: &Connection,
+    recording: i64,
+    start_us: i64,
+    end_us: i64,
+) -> Result<Vec<TokenRow>> {
+    let sql = format!(
+        "{TOKEN} WHERE t.recording_id = ?1 AND t.start_us <= ?3 AND t.end_us >= ?2
+         ORDER BY t.start_us, t.id"
+    );
+    let mut statement = connection.prepare_cached(&sql)?;
+    let rows = statement
+        .query_map([recording, start_us, end_us], token_row)?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
 /// Returns the tokens of a sign, citation forms first.
 pub(crate) fn tokens_of_sign(connection: &Connection, sign: i64) -> Result<Vec<TokenRow>> {
     let sql = format!("{TOKEN} WHERE t.sign_id = ?1 ORDER BY t.citation DESC, t.id");

@@ -1,0 +1,105 @@
+//! Whatever changes people make: the rules hold, tokens follow, and each change can be undone.
+
+use chereme_sign::tier::{TierSet, check};
+use proptest::prelude::*;
+use rusqlite::Connection;
+
+use super::super::scope;
+use super::{annotate, corpus, rows, strings};
+use crate::Corpus;
+use crate::db::tiers as tier_rows;
+use crate::error::{Error, Result};
+use crate::tokens;
+
+/// One of many changes that may or may not be legal.
+fn wish() -> impl Strategy<Value = String> {
+    let id = 1u32..14;
+    let tier = prop::sample::select(vec!["G", "G", "H", "C", "C", "L", "T", "I"]);
+    let times = (0u32..20, 1u32..7)
+        .prop_map(|(start, length)| format!("{}-{}", start * 10, (start + length) * 10));
+    let value = prop::sample::select(vec!["U", "H", "unset"]);
+    prop_oneof![
+        6 => (tier, times.clone(), value.clone()).prop_map(|(tier, times, value)| format!("add {tier} {times} {value}")),
+        1 => (prop::sample::select(vec!["S", "A"]), id.clone(), value.clone()).prop_map(|(tier, id, value)| format!("below {tier} {id} {value}")),
+        3 => (id.clone(), times).prop_map(|(id, times)| format!("set {id} {times}")),
+        1 => (id.clone(), value.clone()).prop_map(|(id, value)| format!("set {id} = {value}")),
+        2 => (id.clone(), 0u32..200).prop_map(|(id, at)| format!("split {id} {at}")),
+        1 => (id.clone(), id.clone(), value).prop_map(|(a, b, value)| format!("merge {a} {b} = {value}")),
+        1 => id.prop_map(|id| format!("remove {id}")),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { max_shrink_iters: 30, failure_persistence: None, ..ProptestConfig::with_cases(4) })]
+
+    #[test]
+    fn any_changes_keep_the_rules_and_can_be_undone_and_done_again(wishes in prop::collection::vec(wish(), 30)) {
+        let (_folder, mut corpus) = corpus();
+        let mut states = vec![rows(corpus.store.read())];
+        for wish in &wishes {
+            let before = corpus.log(1).expect("log")[0].id;
+            let done = annotate(&mut corpus, wish).is_ok();
+            let now = rows(corpus.store.read());
+            if !done {
+                prop_assert!(&now == states.last().expect("a state"), "{} failed and changed rows", wish);
+            }
+            if corpus.log(1).expect("log")[0].id != before {
+                states.push(now);
+            }
+            check_rules(&corpus);
+            check_tokens(&mut corpus, wish);
+        }
+        for state in states.iter().rev().skip(1) {
+            corpus.undo().expect("undone");
+            prop_assert!(&rows(corpus.store.read()) == state, "other rows than before");
+        }
+        for state in states.iter().skip(1) {
+            corpus.redo().expect("done again");
+            prop_assert!(&rows(corpus.store.read()) == state, "other rows than before");
+        }
+        check_tokens(&mut corpus, "redo");
+    }
+}
+
+fn check_rules(corpus: &Corpus) {
+    let connection = corpus.store.read();
+    let tiers = tier_rows::tiers(connection, 1).expect("tiers");
+    let annotations: Vec<_> = tiers
+        .iter()
+        .flat_map(|tier| tier_rows::annotations(connection, tier.id).expect("annotations"))
+        .map(|row| scope::annotation(&row))
+        .collect();
+    let found = check(&TierSet::new(
+        tiers.iter().map(scope::sign_tier),
+        annotations,
+    ));
+    assert!(found.is_empty(), "{found:?}");
+}
+
+/// Tokens near a change are what deriving all of them again gives, and search holds as many.
+fn check_tokens(corpus: &mut Corpus, change: &str) {
+    let near = token_rows(corpus.store.read());
+    let again: Result<()> = corpus.store.operation("derive", |connection| {
+        tokens::derive(
+            connection,
+            1,
+            None,
+            &crate::inventories::load_of(connection, 1)?,
+        )?;
+        assert_eq!(token_rows(connection), near, "after {change}");
+        Err(Error::Stopped)
+    });
+    assert!(matches!(again, Err(Error::Stopped)));
+    let (_, index) = corpus.store.searchable().expect("index");
+    let tokens = near.iter().filter(|row| row.starts_with("token")).count();
+    assert_eq!(index.documents(), tokens as u64);
+}
+
+/// The rows of tokens and their values, a text each.
+fn token_rows(connection: &Connection) -> Vec<String> {
+    let sql = "SELECT concat_ws(' ', 'token', t.id, s.gloss, t.annotation_id, t.start_us, t.end_us, t.hand)
+                   FROM token t JOIN sign s ON s.id = t.sign_id
+               UNION ALL SELECT concat_ws(' ', 'value', token_id, phase, position, hand, component, state,
+                   value, inventory_id, annotation_id) FROM token_value ORDER BY 1";
+    strings(connection, sql)
+}
