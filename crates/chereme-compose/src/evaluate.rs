@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::contact;
+use crate::contact::{self, Keep};
 use crate::course::Course;
 use crate::error::{Cause, MakeError};
 use crate::made::{ChannelReport, Made, Report, StepReport};
@@ -114,7 +114,13 @@ impl Evaluator<'_> {
                     let text = step.to_string();
                     let touched = moves_hands(step).then(|| contact::touches(&work));
                     match self.step(&mut work, step, &path, &text) {
-                        Ok(done) => {
+                        Ok(mut done) => {
+                            if let Some(before) = &touched {
+                                let handedness = work.handedness;
+                                let keep = Keep::of(step, |hands| hands.sides(handedness));
+                                done.did
+                                    .extend(contact::mend(&mut work, before, keep, &text));
+                            }
                             let lost = touched.map(|before| contact::lost(&before, &work));
                             let lost = lost.into_iter().flatten();
                             self.report

@@ -1,0 +1,218 @@
+//! Wrists moved a little, so that hands touch where they touched.
+
+use chereme_motion::Side;
+use chereme_motion::glam::DVec3;
+
+use super::{Contact, Contacts, KEPT, POINTS, Tracks};
+use crate::arm;
+use crate::recipe::{Solver, Step};
+use crate::work::{Columns, Group, Work};
+
+/// How far a wrist is moved for the same point of the hand to touch, and for any, in metres.
+const SAME: f64 = 0.06;
+const MOST: f64 = 0.12;
+/// How long a wrist takes to and from a contact that was mended, in seconds.
+const BLEND: f64 = 0.2;
+
+/// Which contacts an operator is to keep.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Keep {
+    /// None: it takes one hand elsewhere.
+    None,
+    /// Those of the hands with each other: it takes both elsewhere.
+    Hands,
+    /// Those of these hands with each other and the body.
+    All(&'static [Side]),
+}
+
+impl Keep {
+    /// Returns what a step keeps; `sides` tells the sides of hands that are named.
+    pub(crate) fn of(step: &Step, sides: impl Fn(crate::units::Hands) -> &'static [Side]) -> Self {
+        let both = |hands| match sides(hands).len() {
+            2 => Self::Hands,
+            _ => Self::None,
+        };
+        match step {
+            Step::Configure(settings) => Self::All(sides(settings.hand)),
+            Step::Orient(settings) => Self::All(sides(settings.hand)),
+            Step::Amplify(settings) => Self::All(sides(settings.hand)),
+            Step::Nonmanual(_) => Self::All(&Side::BOTH),
+            Step::Place(settings) => both(settings.hand),
+            Step::Travel(settings) => both(settings.hand),
+            Step::Indicate(settings) => both(settings.hand),
+            _ => Self::None,
+        }
+    }
+}
+
+/// Moves wrists so that what touched touches again, where `keep` asks for it and it takes little;
+/// returns what was done.
+///
+/// The hand that was changed comes to the other; where both were, the weak hand comes first. Turns of
+/// hands stay. Before and after a contact the wrist's way is blended with what it was.
+pub(crate) fn mend(work: &mut Work, before: &Contacts, keep: Keep, operator: &str) -> Vec<String> {
+    let (sides, body): (&[Side], bool) = match keep {
+        Keep::None => return Vec::new(),
+        Keep::Hands => (&Side::BOTH, false),
+        Keep::All(sides) => (sides, true),
+    };
+    let wanted = |contact: &&Contact| match contact.other {
+        Some(_) => true,
+        None => body && sides.contains(&contact.side),
+    };
+    let contacts: Vec<&Contact> = before.found.iter().filter(wanted).collect();
+    if contacts.is_empty() {
+        return Vec::new();
+    }
+    let weak = work.handedness.dominant().other();
+    let mut order = vec![weak, weak.other()];
+    order.retain(|side| sides.contains(side));
+    let mut did = Vec::new();
+    for side in order {
+        let tracks = before.anchors.tracks(work);
+        let mut shifts: Vec<Option<DVec3>> = vec![None; work.frames];
+        for contact in contacts
+            .iter()
+            .filter(|c| c.side == side || c.other.is_some())
+        {
+            let Some((shift, point)) = shift(contact, &tracks, side) else {
+                continue;
+            };
+            let slots = &mut shifts[contact.frames.clone()];
+            if slots.iter().any(Option::is_some) {
+                continue;
+            }
+            let most = shift.iter().map(|way| way.length()).fold(0.0, f64::max);
+            for (slot, way) in slots.iter_mut().zip(shift) {
+                *slot = Some(way);
+            }
+            did.push(told(contact, side, point, most));
+        }
+        if shifts.iter().all(Option::is_none) {
+            continue;
+        }
+        let ways = blended(&shifts, (BLEND / work.rate.frame_time()).round() as usize);
+        let Some(hand) = work.anatomy.arm(side).map(|arm| arm.hand) else {
+            continue;
+        };
+        let columns = Columns::of(work, [hand]);
+        let wrists = columns.positions(hand).iter().zip(&ways);
+        let targets: Vec<DVec3> = wrists.map(|(wrist, way)| *wrist + *way).collect();
+        arm::move_wrist(work, side, &targets, None, Solver::Analytic);
+        work.changed([Group::Arm(side)], &format!("{operator} (contact kept)"));
+    }
+    did
+}
+
+/// Returns by how much the wrist of `side` must be moved at each frame of a contact, and the point of
+/// that hand that touches then: the one that did, or, where that takes much, the one that takes
+/// least. Nothing where the contact is still there, or it takes too much.
+fn shift(contact: &Contact, tracks: &Tracks, side: Side) -> Option<(Vec<DVec3>, usize)> {
+    if contact.moved(tracks) < KEPT {
+        return None;
+    }
+    let acts = contact.side == side;
+    let own = if acts { contact.point } else { contact.place };
+    let ways = |point: usize| -> Option<(Vec<DVec3>, f64)> {
+        let mut same = contact.clone();
+        if acts {
+            same.point = point;
+        } else {
+            same.place = point;
+        }
+        let ways: Option<Vec<DVec3>> = contact
+            .frames
+            .clone()
+            .zip(&contact.ways)
+            .map(|(frame, was)| {
+                let way = same.way(tracks, frame)? - *was;
+                Some(if acts { way } else { -way })
+            })
+            .collect();
+        let ways = ways?;
+        let most = ways.iter().map(|way| way.length()).fold(0.0, f64::max);
+        Some((ways, most))
+    };
+    let (same, most) = ways(own)?;
+    if most <= SAME {
+        return Some((same, own));
+    }
+    let others = (0..POINTS.len()).filter_map(|point| Some((ways(point)?, point)));
+    let ((best, most), point) = others.min_by(|a, b| a.0.1.total_cmp(&b.0.1))?;
+    (most <= MOST).then_some((best, point))
+}
+
+fn told(contact: &Contact, side: Side, point: usize, most: f64) -> String {
+    let mut now = contact.clone();
+    if contact.side == side {
+        now.point = point;
+    } else {
+        now.place = point;
+    }
+    let (point, place) = now.names();
+    format!(
+        "contact kept: {point} and {place}; the {} wrist is moved by up to {:.1} cm for it",
+        side.name(),
+        most * 100.0
+    )
+}
+
+/// Fills in what is not said: from the nearest said before to the nearest after, each fading within
+/// `blend` frames.
+fn blended(shifts: &[Option<DVec3>], blend: usize) -> Vec<DVec3> {
+    let blend = blend.max(1);
+    let smooth = |share: f64| {
+        let w = share.clamp(0.0, 1.0);
+        w * w * w * (10.0 + w * (6.0 * w - 15.0))
+    };
+    let mut ways = Vec::with_capacity(shifts.len());
+    let mut before: Option<(usize, DVec3)> = None;
+    let mut after: Option<(usize, DVec3)> = None;
+    for (frame, shift) in shifts.iter().enumerate() {
+        if let Some(way) = *shift {
+            before = Some((frame, way));
+            ways.push(way);
+            continue;
+        }
+        if after.is_none_or(|(at, _)| at < frame) {
+            let next = (frame..shifts.len()).find_map(|at| Some((at, shifts[at]?)));
+            after = next.or(Some((usize::MAX, DVec3::ZERO)));
+        }
+        let next = after.filter(|(at, _)| *at != usize::MAX);
+        let way = match (before, next) {
+            (Some((from, a)), Some((to, b))) if to - from <= 2 * blend => {
+                a.lerp(b, smooth((frame - from) as f64 / (to - from) as f64))
+            }
+            (before, next) => {
+                let fade = |away: usize| 1.0 - smooth(away as f64 / blend as f64);
+                let out = before.map_or(DVec3::ZERO, |(from, a)| a * fade(frame - from));
+                out + next.map_or(DVec3::ZERO, |(to, b)| b * fade(to - frame))
+            }
+        };
+        ways.push(way);
+    }
+    ways
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shifts_fade_in_and_out_and_meet() {
+        let mut shifts = vec![None; 100];
+        shifts[30..40].fill(Some(DVec3::X));
+        shifts[50..55].fill(Some(DVec3::X * 3.0));
+        let ways = blended(&shifts, 10);
+        assert_eq!(
+            (ways[19], ways[35], ways[52], ways[65]),
+            (DVec3::ZERO, DVec3::X, DVec3::X * 3.0, DVec3::ZERO)
+        );
+        assert!(ways[24].x > 0.0 && ways[24].x < 0.5 && ways[45].x > 1.0 && ways[45].x < 3.0);
+        let step = ways
+            .windows(2)
+            .map(|w| w[0].distance(w[1]))
+            .fold(0.0, f64::max);
+        assert!(step < 0.7, "{step}");
+    }
+}
