@@ -11,23 +11,23 @@ use chereme_motion::{Anatomy, Clip, Side};
 use crate::Result;
 
 /// A captured piece of movement of a body with at least one arm.
-pub struct Capture {
+pub(crate) struct Capture {
     /// The file's name without its ending.
-    pub name: String,
-    pub clip: Clip,
-    pub anatomy: Arc<Anatomy>,
+    pub(crate) name: String,
+    pub(crate) clip: Clip,
+    pub(crate) anatomy: Arc<Anatomy>,
 }
 
 impl Capture {
     /// Returns the sides that have an arm.
-    pub fn sides(&self) -> Vec<Side> {
+    pub(crate) fn sides(&self) -> Vec<Side> {
         let has = |side: &Side| self.anatomy.arm(*side).is_some();
         Side::BOTH.into_iter().filter(has).collect()
     }
 }
 
 /// Reads every BVH file below `folder`, in the order of their paths; tells which are left out and why.
-pub fn read_folder(folder: &Path) -> Result<(Vec<Capture>, Vec<String>)> {
+pub(crate) fn read_folder(folder: &Path) -> Result<(Vec<Capture>, Vec<String>)> {
     let mut paths = Vec::new();
     find(folder, &mut paths)?;
     paths.sort();

@@ -50,7 +50,7 @@ struct Contact {
     frame: usize,
 }
 
-pub fn tables(captures: &[Capture]) -> Result<String> {
+pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
     let mut rows = Vec::new();
     let two: Vec<&Capture> = captures.iter().filter(|c| c.sides().len() == 2).collect();
     let sources: Vec<Vec<Contact>> = two.iter().map(|capture| contacts(capture)).collect();

@@ -20,7 +20,7 @@ const HEAD: [&str; 8] = [
     "bone lengths",
 ];
 
-pub fn tables(captures: &[Capture]) -> Result<String> {
+pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
     let mut rows = Vec::new();
     for capture in captures {
         rows.push(row(capture)?);
@@ -130,7 +130,7 @@ fn moved(capture: &Capture, made: &Clip) -> Vec<DVec3> {
 }
 
 /// Returns the largest change of a bone's length.
-pub fn stretched(was: &Clip, is: &Clip) -> f64 {
+fn stretched(was: &Clip, is: &Clip) -> f64 {
     let skeleton = was.skeleton();
     let mut worst: f64 = 0.0;
     for frame in 0..was.frames().min(is.frames()) {

@@ -42,7 +42,7 @@ impl Error {
     }
 }
 
-pub fn tables(captures: &[Capture]) -> Result<String> {
+pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
     let mut text = String::new();
     for (kind, name) in [
         (

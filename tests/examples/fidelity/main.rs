@@ -18,6 +18,9 @@ mod table;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
+/// Prints what one room of the benchmark found out.
+type Table = fn(&[capture::Capture]) -> Result<String>;
+
 #[allow(clippy::print_stdout, clippy::print_stderr)]
 fn main() -> Result<()> {
     let mut arguments = std::env::args().skip(1);
@@ -27,7 +30,7 @@ fn main() -> Result<()> {
     for reason in left_out {
         eprintln!("left out: {reason}");
     }
-    let tables: [(&str, fn(&[capture::Capture]) -> Result<String>); 4] = [
+    let tables: [(&str, Table); 4] = [
         ("interpolation", interpolation::tables),
         ("exactness", exactness::tables),
         ("spatialisation", spatial::tables),

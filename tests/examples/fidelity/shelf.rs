@@ -10,10 +10,10 @@ use chereme_motion::{Anatomy, Clip, HandAngles};
 use chereme_sign::{Component, Handedness};
 
 /// One sign, named `A`, and two hand shapes: a `fist` and a `flat` hand.
-pub struct Shelf(Material);
+pub(crate) struct Shelf(Material);
 
 impl Shelf {
-    pub fn new(clip: Clip, anatomy: &Arc<Anatomy>) -> Self {
+    pub(crate) fn new(clip: Clip, anatomy: &Arc<Anatomy>) -> Self {
         Self(Material {
             address: "token:1".into(),
             hash: "1".into(),
@@ -27,7 +27,7 @@ impl Shelf {
     }
 
     /// Makes `A | operators`.
-    pub fn make(&self, operators: &str) -> Result<Made, MakeError> {
+    pub(crate) fn make(&self, operators: &str) -> Result<Made, MakeError> {
         let recipe: Recipe = match format!("A | {operators}").parse() {
             Ok(recipe) => recipe,
             Err(error) => unreachable!("{operators} is a recipe: {error}"),

@@ -49,7 +49,7 @@ struct Found {
     unclear: usize,
 }
 
-pub fn tables(captures: &[Capture]) -> Result<String> {
+pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
     let mut all = Found::default();
     let mut rows = Vec::new();
     for capture in captures {

@@ -19,7 +19,7 @@ const REST: f64 = 0.1;
 
 /// What makes a transition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// The wrist goes from place to place, told by its speed in the space of the trunk.
     Stroke,
     /// The fingers go from shape to shape, told by the root of the mean square of their joints'
@@ -28,22 +28,22 @@ pub enum Kind {
 }
 
 /// A transition between two minima of speed.
-pub struct Transition {
+pub(crate) struct Transition {
     /// Which capture.
-    pub capture: usize,
+    pub(crate) capture: usize,
     /// The transition alone: its frames, from the first posture to the last.
-    pub clip: Clip,
+    pub(crate) clip: Clip,
     /// The joints that make it.
-    pub joints: Vec<usize>,
+    pub(crate) joints: Vec<usize>,
     /// The joints whose ends are compared, and the joint in whose space they are.
-    pub points: Vec<usize>,
-    pub base: Option<usize>,
+    pub(crate) points: Vec<usize>,
+    pub(crate) base: Option<usize>,
 }
 
 impl Transition {
     /// Tells whether the points go rather straight: their distance from start to end is at least
     /// seven tenths of the length of their way.
-    pub fn is_direct(&self) -> bool {
+    pub(crate) fn is_direct(&self) -> bool {
         let (mut along, mut across) = (0.0, 0.0);
         for &joint in &self.points {
             let path: Vec<DVec3> = (0..self.clip.frames())
@@ -60,7 +60,7 @@ impl Transition {
 }
 
 /// Returns every transition of a kind in a capture.
-pub fn find(number: usize, capture: &Capture, kind: Kind) -> Vec<Transition> {
+pub(crate) fn find(number: usize, capture: &Capture, kind: Kind) -> Vec<Transition> {
     let mut found = Vec::new();
     let (clip, anatomy) = (&capture.clip, &capture.anatomy);
     let skeleton = clip.skeleton();
@@ -130,7 +130,7 @@ fn moves(
 }
 
 /// Returns the end of `joint` in the space of `base`, or of the model.
-pub fn point(clip: &Clip, joint: usize, base: Option<usize>, frame: usize) -> DVec3 {
+pub(crate) fn point(clip: &Clip, joint: usize, base: Option<usize>, frame: usize) -> DVec3 {
     let skeleton = clip.skeleton();
     let is_end = skeleton.children(joint).is_empty();
     let mut at = skeleton
@@ -169,7 +169,7 @@ fn finger_speeds(clip: &Clip, joints: &[usize]) -> Vec<f64> {
 }
 
 /// Returns speeds by central differences.
-pub fn speeds<T>(path: &[T], per_second: f64, distance: impl Fn(&T, &T) -> f64) -> Vec<f64> {
+pub(crate) fn speeds<T>(path: &[T], per_second: f64, distance: impl Fn(&T, &T) -> f64) -> Vec<f64> {
     let last = path.len().saturating_sub(1);
     (0..path.len())
         .map(|n| {

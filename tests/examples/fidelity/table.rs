@@ -1,7 +1,7 @@
 //! Markdown tables.
 
 /// Returns a table; the first column is to the left, the others are to the right.
-pub fn markdown<R: IntoIterator<Item = String>>(
+pub(crate) fn markdown<R: IntoIterator<Item = String>>(
     head: &[&str],
     rows: impl IntoIterator<Item = R>,
 ) -> String {
@@ -16,7 +16,7 @@ pub fn markdown<R: IntoIterator<Item = String>>(
 }
 
 /// Returns a small number so that its size can be told: `0` below a billionth.
-pub fn small(value: f64) -> String {
+pub(crate) fn small(value: f64) -> String {
     if value < 1e-12 {
         "0".into()
     } else {
