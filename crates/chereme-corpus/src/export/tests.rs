@@ -10,8 +10,8 @@ use chereme_sign::{Component, TierRole};
 use super::*;
 use crate::db::signs::TokenValueRow;
 use crate::{
-    AnnotateOptions, AnnotationAction, AnnotationName, ImportOptions, ListFilter, ListKind,
-    NewTier, TierName, unheard,
+    AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, ImportOptions, ListFilter,
+    ListKind, NewTier, TierName, unheard,
 };
 
 const EAF: &str = include_str!("tests.eaf");
@@ -148,18 +148,24 @@ fn changes_go_out_and_the_rest_stays() {
         ..NewTier::new(recording.clone(), "RH location", role)
     };
     corpus.add_tier(&new).expect("added");
-    let say = AnnotationAction::Add {
-        tier: tier("RH location"),
-        start: at(0),
-        end: at(100),
-        parent: None,
-        order: None,
-        value: "chin".into(),
-        confidence: None,
+    let say = |start, end, value: &str| {
+        AnnotationChange::from(AnnotationAction::Add {
+            tier: tier("RH location"),
+            start: at(start),
+            end: at(end),
+            parent: None,
+            order: None,
+            value: value.into(),
+            confidence: None,
+        })
     };
     corpus
         .annotate(
-            &[say.into()],
+            &[
+                say(0, 100, "chin"),
+                say(100, 400, "?"),
+                say(2000, 2500, "N/A"),
+            ],
             &AnnotateOptions::default(),
             &mut Progress::new(&mut hear),
         )

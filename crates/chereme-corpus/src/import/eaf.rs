@@ -40,7 +40,7 @@ pub(super) fn import(job: &mut Job<'_>) -> Result<FileReport> {
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
     refuse_double_tiers(job, recording, &transcript)?;
     let tier_rows = write_tiers(job, recording, &transcript, &guesses, &mut report)?;
-    write_annotations(job, &transcript, &tier_rows)?;
+    write_annotations(job, &transcript, &guesses, &tier_rows)?;
     recordings::lengthen(job.connection, recording, transcript.end().micros())?;
     tokens::derive(job.connection, recording, None, &job.inventories)?;
     let derived = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
@@ -243,7 +243,7 @@ fn tier_inventory(
         .annotations
         .iter()
         .map(|annotation| annotation.value.trim())
-        .filter(|value| !value.is_empty())
+        .filter(|value| !value.is_empty() && missing(value).is_none())
         .collect();
     let fits = |stored: &&StoredInventory| {
         let it = &stored.inventory;
@@ -369,7 +369,12 @@ fn of_vocabulary(
     (inventory, dropped)
 }
 
-fn write_annotations(job: &mut Job<'_>, transcript: &Transcript, tier_rows: &[i64]) -> Result<()> {
+fn write_annotations(
+    job: &mut Job<'_>,
+    transcript: &Transcript,
+    guesses: &[TierGuess],
+    tier_rows: &[i64],
+) -> Result<()> {
     let mut rows: BTreeMap<Place, i64> = BTreeMap::new();
     let mut count = 0;
     for tier in parents_first(transcript) {
@@ -377,7 +382,15 @@ fn write_annotations(job: &mut Job<'_>, transcript: &Transcript, tier_rows: &[i6
             let parent = annotation
                 .parent
                 .and_then(|parent| rows.get(&parent).copied());
-            let row = annotation_row(annotation, tier_rows[tier], parent);
+            let mut row = annotation_row(annotation, tier_rows[tier], parent);
+            let coded = matches!(
+                guesses[tier].role,
+                Some(TierRole::Gloss | TierRole::Component { .. })
+            );
+            if let Some(state) = missing(&row.value).filter(|_| coded) {
+                state.clone_into(&mut row.state);
+                row.value.clear();
+            }
             rows.insert(
                 Place { tier, index },
                 tiers::insert_annotation(job.connection, &row)?,
@@ -387,6 +400,15 @@ fn write_annotations(job: &mut Job<'_>, transcript: &Transcript, tier_rows: &[i6
     }
     job.count("annotations", count);
     Ok(())
+}
+
+/// How a value is missing, in the words that exported files say it with.
+fn missing(value: &str) -> Option<&'static str> {
+    match value {
+        "n/a" => Some("not-applicable"),
+        "unclear" => Some("unclear"),
+        _ => None,
+    }
 }
 
 fn annotation_row(annotation: &Annotation, tier_id: i64, parent_id: Option<i64>) -> AnnotationRow {
