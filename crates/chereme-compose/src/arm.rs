@@ -505,7 +505,7 @@ fn swivels(arms: impl Iterator<Item = (DVec3, DVec3)>) -> Vec<f64> {
     let mut carried: Option<(DVec3, DVec3)> = None;
     arms.map(|(line, out)| {
         let across = match carried {
-            Some((before, across)) => least_turn(before, line) * across,
+            Some((before, across)) => carried_along(before, line, across),
             None => line.any_orthonormal_vector(),
         };
         let across = across
@@ -515,6 +515,15 @@ fn swivels(arms: impl Iterator<Item = (DVec3, DVec3)>) -> Vec<f64> {
         line.dot(across.cross(out)).atan2(across.dot(out))
     })
     .collect()
+}
+
+/// Returns what the least turn from one unit vector to another makes of a vector across the first.
+fn carried_along(from: DVec3, to: DVec3, across: DVec3) -> DVec3 {
+    let opposed = 1.0 + from.dot(to);
+    if opposed < 1e-9 {
+        return least_turn(from, to) * across;
+    }
+    across - (from + to) * (to.dot(across) / opposed)
 }
 
 /// Returns how much the source's swivel means where the arm goes: nothing for an arm that is folded

@@ -18,8 +18,9 @@ use points::{Anchors, PLACES, POINTS, Tracks};
 /// 5.5 cm of it, thumbs that touch to 3.1 cm.
 const HANDS: f64 = 0.035;
 const BODY: f64 = 0.06;
-/// The farthest that a point of a hand is from its palm's middle, in metres.
-const HAND: f64 = 0.25;
+/// The farthest that a point of a hand is from its palm's middle, in lengths of the hand, and that
+/// length in metres where the body does not tell.
+const HAND: (f64, f64) = (0.9, 0.2);
 /// Contacts that are apart for less than this are one, in seconds.
 const PAUSE: f64 = 0.1;
 /// How far a contact may move and still be where it was, in metres.
@@ -48,14 +49,13 @@ struct Contact {
 }
 
 impl Contact {
-    fn way(&self, tracks: &Tracks, frame: usize) -> Option<DVec3> {
-        let from = tracks.hand(self.side)[self.point].as_ref()?;
-        let to = tracks.touched(self.other)[self.place].as_ref()?;
-        Some(to[frame] - from[frame])
+    fn way(&self, tracks: &Tracks<'_>, frame: usize) -> Option<DVec3> {
+        let from = tracks.hand(self.side, self.point, frame)?;
+        Some(tracks.touched(self.other, self.place, frame)? - from)
     }
 
     /// Returns how far the point was moved against the place where they were nearest.
-    fn moved(&self, tracks: &Tracks) -> f64 {
+    fn moved(&self, tracks: &Tracks<'_>) -> f64 {
         let was = self.ways[self.nearest - self.frames.start];
         self.way(tracks, self.nearest)
             .map_or(0.0, |way| way.distance(was))
@@ -75,80 +75,131 @@ impl Contact {
 pub(crate) fn touches(work: &Work) -> Contacts {
     let anchors = Anchors::of(work);
     let tracks = anchors.tracks(work);
-    let pairs = [
-        (Side::Right, Some(Side::Left), HANDS),
-        (Side::Right, None, BODY),
-        (Side::Left, None, BODY),
-    ];
+    let measures = work.anatomy.measures();
+    let reach = HAND.0 * measures.map_or(HAND.1, |measures| measures.hand);
+    let mut near: [Vec<Near>; PAIRS.len()] = Default::default();
+    for frame in 0..work.frames {
+        let at = At::of(&tracks, frame, reach + BODY);
+        for (near, (side, other, limit)) in near.iter_mut().zip(PAIRS) {
+            let found = at.nearest(side, other, limit + reach);
+            near.extend(found.filter(|found| found.distance < limit));
+        }
+    }
+    let pause = (PAUSE / work.rate.frame_time()).round().max(1.0) as usize;
     let mut found = Vec::new();
-    for (side, other, near) in pairs {
-        let near_frames = (0..work.frames).filter_map(|frame| {
-            let (point, place, distance) = nearest(&tracks, side, other, frame)?;
-            (distance < near).then_some((frame, point, place, distance))
-        });
-        let near_frames: Vec<_> = near_frames.collect();
-        let pause = (PAUSE / work.rate.frame_time()).round().max(1.0) as usize;
-        for run in near_frames.chunk_by(|a, b| b.0 - a.0 <= pause) {
+    for (near, (side, other, _)) in near.iter().zip(PAIRS) {
+        for run in near.chunk_by(|a, b| b.frame - a.frame <= pause) {
             found.extend(contact(&tracks, side, other, run));
         }
     }
+    drop(tracks);
     Contacts { anchors, found }
 }
 
-/// Makes one contact of a run of frames with what comes nearest in each.
-fn contact(
-    tracks: &Tracks,
-    side: Side,
-    other: Option<Side>,
-    run: &[(usize, usize, usize, f64)],
-) -> Option<Contact> {
-    let &(nearest, point, place, _) = run.iter().min_by(|a, b| a.3.total_cmp(&b.3))?;
+/// What may touch: a hand, the other hand or the body, and how near they are then.
+const PAIRS: [(Side, Option<Side>, f64); 3] = [
+    (Side::Right, Some(Side::Left), HANDS),
+    (Side::Right, None, BODY),
+    (Side::Left, None, BODY),
+];
+
+/// The point and the place that are nearest in a frame.
+#[derive(Debug, Clone, Copy)]
+struct Near {
+    frame: usize,
+    point: usize,
+    place: usize,
+    distance: f64,
+}
+
+/// Makes one contact of a run of frames with what comes nearest in any of them.
+fn contact(tracks: &Tracks<'_>, side: Side, other: Option<Side>, run: &[Near]) -> Option<Contact> {
+    let nearest = run
+        .iter()
+        .min_by(|a, b| a.distance.total_cmp(&b.distance))?;
     let mut contact = Contact {
         side,
         other,
-        point,
-        place,
-        frames: run.first()?.0..run.last()?.0 + 1,
+        point: nearest.point,
+        place: nearest.place,
+        frames: run.first()?.frame..run.last()?.frame + 1,
         ways: Vec::new(),
-        nearest,
+        nearest: nearest.frame,
     };
-    let ways = contact
-        .frames
-        .clone()
-        .map(|frame| contact.way(tracks, frame));
+    let frames = contact.frames.clone();
+    let ways = frames.map(|frame| contact.way(tracks, frame));
     contact.ways = ways.collect::<Option<_>>()?;
     Some(contact)
 }
 
-/// Returns the point of a hand and the place that are nearest to each other.
-fn nearest(
-    tracks: &Tracks,
-    side: Side,
-    other: Option<Side>,
+/// Where everything is in one frame, as far as hands are near to it.
+struct At<'a> {
+    tracks: &'a Tracks<'a>,
     frame: usize,
-) -> Option<(usize, usize, f64)> {
-    let (hand, touched) = (tracks.hand(side), tracks.touched(other));
-    let reach = if other.is_some() { 2.0 * HAND } else { HAND };
-    let palm = hand[0].as_ref().map(|palm| palm[frame]);
-    let mut best: Option<(usize, usize, f64)> = None;
-    for (place, track) in touched.iter().enumerate() {
-        let Some(to) = track.as_ref().map(|track| track[frame]) else {
-            continue;
-        };
-        if palm.is_some_and(|palm| palm.distance_squared(to) > reach * reach) {
-            continue;
-        }
-        for (point, track) in hand.iter().enumerate() {
-            let Some(from) = track.as_ref().map(|track| track[frame]) else {
-                continue;
-            };
-            let distance = from.distance_squared(to);
-            if best.is_none_or(|(.., least)| distance < least) {
-                best = Some((point, place, distance));
-            }
+    palms: [Option<DVec3>; 2],
+    body: [Option<DVec3>; PLACES.len()],
+}
+
+impl<'a> At<'a> {
+    fn of(tracks: &'a Tracks<'a>, frame: usize, reach: f64) -> Self {
+        let palms = Side::BOTH.map(|side| tracks.hand(side, 0, frame));
+        let body = tracks.body_near(&palms, reach, frame);
+        Self {
+            tracks,
+            frame,
+            palms,
+            body,
         }
     }
-    best.map(|(point, place, square)| (point, place, square.sqrt()))
+
+    fn palm(&self, side: Side) -> Option<DVec3> {
+        self.palms[usize::from(side == Side::Left)]
+    }
+
+    fn hand(&self, side: Side) -> [Option<DVec3>; POINTS.len()] {
+        std::array::from_fn(|point| self.tracks.hand(side, point, self.frame))
+    }
+
+    /// Returns the point of a hand and the place that are nearest to each other, if the place is
+    /// within `reach` of the palm, or the palms within twice that.
+    fn nearest(&self, side: Side, other: Option<Side>, reach: f64) -> Option<Near> {
+        let palm = self.palm(side);
+        let is_far = |to: Option<DVec3>, reach: f64| {
+            let far = palm.zip(to).map(|(palm, to)| palm.distance_squared(to));
+            far.is_some_and(|far| far > reach * reach)
+        };
+        let hands = match other {
+            Some(other) if is_far(self.palm(other), 2.0 * reach) => return None,
+            Some(other) => self.hand(other),
+            None => [None; POINTS.len()],
+        };
+        let places: &[Option<DVec3>] = match other {
+            Some(_) => &hands,
+            None => &self.body,
+        };
+        let mut points = None;
+        let mut best: Option<(usize, usize, f64)> = None;
+        for (place, &at) in places.iter().enumerate() {
+            let Some(to) = at.filter(|_| other.is_some() || !is_far(at, reach)) else {
+                continue;
+            };
+            let points = points.get_or_insert_with(|| self.hand(side));
+            for (point, from) in points.iter().enumerate() {
+                let Some(square) = from.map(|from| from.distance_squared(to)) else {
+                    continue;
+                };
+                if best.is_none_or(|(.., least)| square < least) {
+                    best = Some((point, place, square));
+                }
+            }
+        }
+        best.map(|(point, place, square)| Near {
+            frame: self.frame,
+            point,
+            place,
+            distance: square.sqrt(),
+        })
+    }
 }
 
 /// Says which contacts of before are gone, and by how far.

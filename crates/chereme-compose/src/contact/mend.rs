@@ -107,7 +107,7 @@ pub(crate) fn mend(work: &mut Work, before: &Contacts, keep: Keep, operator: &st
 /// Returns by how much the wrist of `side` must be moved at each frame of a contact, and the point of
 /// that hand that touches then: the one that did, or, where that takes much, the one that takes
 /// least. Nothing where the contact is still there, or it takes too much.
-fn shift(contact: &Contact, tracks: &Tracks, side: Side) -> Option<(Vec<DVec3>, usize)> {
+fn shift(contact: &Contact, tracks: &Tracks<'_>, side: Side) -> Option<(Vec<DVec3>, usize)> {
     if contact.moved(tracks) < KEPT {
         return None;
     }

@@ -1,6 +1,4 @@
-//! Where points of hands and places on the body are, over all frames.
-
-use std::cell::OnceCell;
+//! Where points of hands and places on the body are.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{ModelPose, Part, Side};
@@ -33,7 +31,10 @@ pub(super) const PLACES: [&str; 12] = [
 ];
 
 /// How often places that go with several joints are looked for; between, they are interpolated.
-const SAMPLES: usize = 24;
+const SAMPLES: usize = 16;
+
+/// The farthest that places are from the joint that carries them, in metres.
+const SPREAD: f64 = 0.35;
 
 /// What carries a point.
 #[derive(Clone, Copy)]
@@ -92,47 +93,49 @@ impl Anchors {
     }
 
     /// Follows the points through the movement.
-    pub(super) fn tracks(&self, work: &Work) -> Tracks {
-        let all = self.hands.iter().flatten().chain(&self.body).flatten();
-        let columns = Columns::of(work, all.map(|anchor| anchor.joint));
-        let carried = |joint: usize, at: &dyn Fn(usize) -> DVec3| -> Vec<DVec3> {
-            let turned = columns.rotations(joint).iter().enumerate();
-            let path = columns.positions(joint).iter().zip(turned);
-            path.map(|(place, (frame, turned))| *place + *turned * at(frame))
-                .collect()
-        };
+    pub(super) fn tracks<'a>(&'a self, work: &'a Work) -> Tracks<'a> {
+        let hands = Side::BOTH.map(|side| work.anatomy.arm(side).map(|arm| arm.hand));
+        let body = self.body.iter().flatten().map(|anchor| anchor.joint);
+        let columns = Columns::of(work, hands.into_iter().flatten().chain(body));
         let step = work.frames.div_ceil(SAMPLES).max(1);
-        let samples = (0..work.frames + step).step_by(step);
-        let models = OnceCell::new();
-        let sampled = || -> Vec<ModelPose> {
-            let pose = |frame: usize| work.pose(frame.min(work.frames - 1));
-            let model = |frame| ModelPose::of(&work.skeleton, &pose(frame));
-            samples.clone().map(model).collect()
+        let mut tracks = Tracks {
+            work,
+            anchors: self,
+            columns,
+            step,
+            loose: Vec::new(),
         };
-        let track = |name: &str, anchor: &Option<Anchor>| -> Option<Vec<DVec3>> {
-            let Anchor { joint, at } = (*anchor)?;
-            if let Some(at) = at {
-                return Some(carried(joint, &|_| at));
+        let is_loose = |anchor: &Anchor| anchor.at.is_none();
+        let mut all = self.hands.iter().flatten().chain(&self.body).flatten();
+        if all.any(is_loose) {
+            for frame in (0..work.frames + step).step_by(step) {
+                let pose = work.pose(frame.min(work.frames - 1));
+                tracks
+                    .loose
+                    .push(self.sampled(work, &ModelPose::of(&work.skeleton, &pose)));
             }
-            let models = models.get_or_init(sampled).iter();
-            let at = |model: &ModelPose| {
-                let place = work.anatomy.landmark(&work.skeleton, model, name)?;
-                Some(local(model, joint, place))
-            };
-            let places = models.map(at).collect::<Option<Vec<DVec3>>>()?;
-            Some(carried(joint, &|frame| {
-                let (first, share) = (frame / step, (frame % step) as f64 / step as f64);
-                places[first].lerp(places[first + 1], share)
-            }))
-        };
-        let hand = |side: Side| {
-            let anchors = &self.hands[usize::from(side == Side::Left)];
-            std::array::from_fn(|n| track(&hand_point(side, POINTS[n]), &anchors[n]))
-        };
-        Tracks {
-            hands: Side::BOTH.map(hand),
-            body: std::array::from_fn(|n| track(PLACES[n], &self.body[n])),
         }
+        tracks
+    }
+
+    /// Returns where in one posture what moves in its joint's space is there, hands first.
+    fn sampled(&self, work: &Work, model: &ModelPose) -> Vec<Option<DVec3>> {
+        let at = |anchor: &Option<Anchor>, name: &dyn Fn() -> String| {
+            let anchor = anchor.filter(|anchor| anchor.at.is_none())?;
+            let place = work.anatomy.landmark(&work.skeleton, model, &name())?;
+            Some(local(model, anchor.joint, place))
+        };
+        let hands = Side::BOTH
+            .into_iter()
+            .zip(&self.hands)
+            .flat_map(|(side, hand)| {
+                let points = hand.iter().zip(POINTS);
+                points.map(move |(anchor, point)| at(anchor, &|| hand_point(side, point)))
+            });
+        let body = self.body.iter().zip(PLACES);
+        hands
+            .chain(body.map(|(anchor, place)| at(anchor, &|| place.to_owned())))
+            .collect()
     }
 }
 
@@ -155,24 +158,85 @@ fn twisted(work: &Work, way: f64) -> ModelPose {
     ModelPose::of(&work.skeleton, &pose)
 }
 
-/// Where points of hands and places on the body are at each frame; nothing for what a body lacks.
-pub(super) struct Tracks {
-    pub(super) hands: [[Option<Vec<DVec3>>; POINTS.len()]; 2],
-    pub(super) body: [Option<Vec<DVec3>>; PLACES.len()],
+/// Where points of hands and places on the body are at each frame, as far as one asks.
+pub(super) struct Tracks<'a> {
+    work: &'a Work,
+    anchors: &'a Anchors,
+    columns: Columns,
+    /// What moves in its joint's space, every so many frames.
+    step: usize,
+    loose: Vec<Vec<Option<DVec3>>>,
 }
 
-impl Tracks {
-    /// Returns the points of the hand of `side`.
-    pub(super) fn hand(&self, side: Side) -> &[Option<Vec<DVec3>>; POINTS.len()] {
-        &self.hands[usize::from(side == Side::Left)]
+impl Tracks<'_> {
+    /// Returns where a point of the hand of `side` is; nothing for what the hand lacks.
+    pub(super) fn hand(&self, side: Side, point: usize, frame: usize) -> Option<DVec3> {
+        let hand = usize::from(side == Side::Left);
+        let anchor = self.anchors.hands[hand][point]?;
+        let mut at = self.local(anchor, hand * POINTS.len() + point, frame)?;
+        let (mut joint, wrist) = (anchor.joint, self.work.anatomy.arm(side)?.hand);
+        while joint != wrist {
+            at = self.work.translation(joint, frame)
+                + self.work.channels[joint].rotations[frame] * at;
+            joint = self.work.skeleton.parent(joint)?;
+        }
+        Some(self.placed(wrist, at, frame))
     }
 
-    /// Returns what a hand touches: the other hand's points, or the body's places.
-    pub(super) fn touched(&self, other: Option<Side>) -> &[Option<Vec<DVec3>>] {
+    /// Returns where a place on the body is; nothing for what the body lacks.
+    pub(super) fn body(&self, place: usize, frame: usize) -> Option<DVec3> {
+        let anchor = self.anchors.body[place]?;
+        let at = self.local(anchor, 2 * POINTS.len() + place, frame)?;
+        Some(self.placed(anchor.joint, at, frame))
+    }
+
+    /// Returns where places on the body are, those left out that no palm is within `reach` of.
+    pub(super) fn body_near(
+        &self,
+        palms: &[Option<DVec3>; 2],
+        reach: f64,
+        frame: usize,
+    ) -> [Option<DVec3>; PLACES.len()] {
+        let near = |joint: usize| {
+            let at = self.columns.positions(joint)[frame];
+            let within = reach + SPREAD;
+            let mut known = palms.iter().flatten().peekable();
+            known.peek().is_none() || known.any(|palm| palm.distance_squared(at) < within * within)
+        };
+        let mut last: Option<(usize, bool)> = None;
+        std::array::from_fn(|place| {
+            let joint = self.anchors.body[place]?.joint;
+            let known = last.filter(|(same, _)| *same == joint);
+            let (_, is_near) = *last.insert(known.unwrap_or_else(|| (joint, near(joint))));
+            if is_near {
+                self.body(place, frame)
+            } else {
+                None
+            }
+        })
+    }
+
+    /// Returns where what a hand may touch is: a point of the other hand, or a place on the body.
+    pub(super) fn touched(&self, other: Option<Side>, place: usize, frame: usize) -> Option<DVec3> {
         match other {
-            Some(side) => self.hand(side),
-            None => &self.body,
+            Some(side) => self.hand(side, place, frame),
+            None => self.body(place, frame),
         }
+    }
+
+    fn placed(&self, joint: usize, at: DVec3, frame: usize) -> DVec3 {
+        self.columns.positions(joint)[frame] + self.columns.rotations(joint)[frame] * at
+    }
+
+    fn local(&self, anchor: Anchor, index: usize, frame: usize) -> Option<DVec3> {
+        if anchor.at.is_some() {
+            return anchor.at;
+        }
+        let (first, share) = (
+            frame / self.step,
+            (frame % self.step) as f64 / self.step as f64,
+        );
+        Some(self.loose[first][index]?.lerp(self.loose[first + 1][index]?, share))
     }
 }
 
@@ -185,22 +249,22 @@ mod tests {
     fn tracks_are_where_landmarks_are() {
         for gloss in ["ESCARGOT", "LIMACE"] {
             let work = Work::of(&Shelf::new().materials[gloss]);
-            let tracks = Anchors::of(&work).tracks(&work);
+            let anchors = Anchors::of(&work);
+            let tracks = anchors.tracks(&work);
             for frame in [0, 50, 119] {
                 let model = ModelPose::of(&work.skeleton, &work.pose(frame));
                 let at = |name: &str| work.anatomy.landmark(&work.skeleton, &model, name);
-                let check = |name: &str, track: &Option<Vec<DVec3>>, near: f64| {
-                    let (is, want) = (track.as_ref().map(|t| t[frame]), at(name));
-                    let far = is.zip(want).map(|(a, b)| a.distance(b));
+                let check = |name: &str, is: Option<DVec3>, near: f64| {
+                    let far = is.zip(at(name)).map(|(a, b)| a.distance(b));
                     assert!(far.is_some_and(|far| far < near), "{gloss} {name} {far:?}");
                 };
                 for side in Side::BOTH {
-                    for (point, track) in POINTS.iter().zip(tracks.hand(side)) {
-                        check(&format!("{}-{point}", side.name()), track, 1e-6);
+                    for (n, point) in POINTS.into_iter().enumerate() {
+                        check(&hand_point(side, point), tracks.hand(side, n, frame), 1e-6);
                     }
                 }
-                for (place, track) in PLACES.iter().zip(&tracks.body) {
-                    check(place, track, 1e-4);
+                for (n, place) in PLACES.into_iter().enumerate() {
+                    check(place, tracks.body(n, frame), 1e-3);
                 }
             }
         }
