@@ -35,9 +35,11 @@
 //! | [`inventory`] | the values of components as data, and those that come with the program |
 //! | [`token`] | what the tiers around a gloss say about it |
 //! | [`query`] | the query language |
+//! | [`hamnosys`] | signs as notation: the tree that HamNoSys and SiGML write down |
 //! | [`text`] | folding of case and accents, and what was probably meant |
 
 pub mod component;
+pub mod hamnosys;
 pub mod inventory;
 pub mod query;
 pub mod relation;

@@ -1,0 +1,284 @@
+//! Directions as notation names them: letters for the signer's own sides.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+/// One of the 26 directions in space: up or down, out or in, left or right, and half-way between.
+///
+/// Written as SiGML writes it: `u`, `ol`, `dir` (down, in, right).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct Direction {
+    up: i8,
+    out: i8,
+    left: i8,
+}
+
+impl Direction {
+    /// Straight up.
+    pub const UP: Self = Self::of(1, 0, 0);
+    /// Straight down.
+    pub const DOWN: Self = Self::of(-1, 0, 0);
+    /// Away from the signer.
+    pub const OUT: Self = Self::of(0, 1, 0);
+    /// Towards the signer.
+    pub const IN: Self = Self::of(0, -1, 0);
+    /// To the signer's left.
+    pub const LEFT: Self = Self::of(0, 0, 1);
+    /// To the signer's right.
+    pub const RIGHT: Self = Self::of(0, 0, -1);
+
+    const fn of(up: i8, out: i8, left: i8) -> Self {
+        Self { up, out, left }
+    }
+
+    /// Returns the direction with these parts, each by its sign; nothing where all are zero.
+    #[must_use]
+    pub fn from_parts(up: i8, out: i8, left: i8) -> Option<Self> {
+        let direction = Self::of(up.signum(), out.signum(), left.signum());
+        (direction != Self::of(0, 0, 0)).then_some(direction)
+    }
+
+    /// Returns every direction, in a fixed order.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let part = [1, 0, -1];
+        part.into_iter().flat_map(move |up| {
+            part.into_iter().flat_map(move |out| {
+                part.into_iter()
+                    .filter_map(move |left| Self::from_parts(up, out, left))
+            })
+        })
+    }
+
+    /// Returns the unit vector: to the signer's left, up, away from the signer.
+    #[must_use]
+    pub fn vector(self) -> [f64; 3] {
+        let parts = [self.left, self.up, self.out].map(f64::from);
+        let length = parts.iter().map(|part| part * part).sum::<f64>().sqrt();
+        parts.map(|part| part / length)
+    }
+
+    /// Returns the direction nearest to a vector (left, up, out); nothing for the zero vector or
+    /// numbers that are not finite.
+    #[must_use]
+    pub fn nearest(vector: [f64; 3]) -> Option<Self> {
+        let dot = |direction: Self| -> f64 {
+            let own = direction.vector();
+            own.iter().zip(vector).map(|(a, b)| a * b).sum()
+        };
+        if !vector.iter().all(|part| part.is_finite()) || vector == [0.0; 3] {
+            return None;
+        }
+        Self::all().max_by(|a, b| dot(*a).total_cmp(&dot(*b)))
+    }
+
+    /// Returns the mirror image across the signer's middle.
+    #[must_use]
+    pub fn mirrored(self) -> Self {
+        Self::of(self.up, self.out, -self.left)
+    }
+
+    /// Returns the opposite direction.
+    #[must_use]
+    pub fn opposite(self) -> Self {
+        Self::of(-self.up, -self.out, -self.left)
+    }
+
+    /// Tells whether HamNoSys has one symbol for it: those with at most two parts.
+    #[must_use]
+    pub fn has_symbol(self) -> bool {
+        self.up == 0 || self.out == 0 || self.left == 0
+    }
+}
+
+impl fmt::Display for Direction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let letters = [
+            (self.up, 'u', 'd'),
+            (self.out, 'o', 'i'),
+            (self.left, 'l', 'r'),
+        ];
+        for (part, plus, minus) in letters {
+            match part {
+                0 => {}
+                1 => write!(f, "{plus}")?,
+                _ => write!(f, "{minus}")?,
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Why letters are no direction.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{0:?} is no direction; write one to three of u or d, o or i, l or r, such as \"u\", \"ol\" or \"dir\""
+)]
+pub struct DirectionError(pub String);
+
+impl FromStr for Direction {
+    type Err = DirectionError;
+
+    /// Reads letters in any order; each of the three pairs may give one letter at most.
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let error = || DirectionError(text.chars().take(12).collect());
+        let (mut up, mut out, mut left) = (0, 0, 0);
+        for letter in text.chars() {
+            let (part, value) = match letter {
+                'u' => (&mut up, 1),
+                'd' => (&mut up, -1),
+                'o' => (&mut out, 1),
+                'i' => (&mut out, -1),
+                'l' => (&mut left, 1),
+                'r' => (&mut left, -1),
+                _ => return Err(error()),
+            };
+            if *part != 0 {
+                return Err(error());
+            }
+            *part = value;
+        }
+        Self::from_parts(up, out, left).ok_or_else(error)
+    }
+}
+
+impl TryFrom<String> for Direction {
+    type Error = DirectionError;
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        text.parse()
+    }
+}
+
+impl From<Direction> for String {
+    fn from(direction: Direction) -> Self {
+        direction.to_string()
+    }
+}
+
+/// One of eight directions about an axis: where a palm faces, where a curve bulges, where a circle begins.
+///
+/// For a palm the axis is the hand's own, and the letters are those of a hand that points away from the signer: `d` faces the floor, `l` the
+/// signer's left. For a hand that points elsewhere the same angle is kept from the posture that the
+/// shortest turn from pointing away gives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Compass {
+    /// Down.
+    D,
+    /// Down and right.
+    Dr,
+    /// Right.
+    R,
+    /// Up and right.
+    Ur,
+    /// Up.
+    U,
+    /// Up and left.
+    Ul,
+    /// Left.
+    L,
+    /// Down and left.
+    Dl,
+}
+
+impl Compass {
+    /// Every direction, an eighth of a turn apart, from down over the right.
+    pub const ALL: [Self; 8] = [
+        Self::D,
+        Self::Dr,
+        Self::R,
+        Self::Ur,
+        Self::U,
+        Self::Ul,
+        Self::L,
+        Self::Dl,
+    ];
+
+    /// Returns the angle about the axis in radians, from `d` over `r`: 0, π/4 ... 7π/4.
+    #[must_use]
+    pub fn angle(self) -> f64 {
+        f64::from(self as u8) * std::f64::consts::FRAC_PI_4
+    }
+
+    /// Returns the direction nearest to an angle in radians, from `d` over `r`.
+    #[must_use]
+    pub fn nearest(angle: f64) -> Self {
+        let eighths = (angle / std::f64::consts::FRAC_PI_4)
+            .round()
+            .rem_euclid(8.0);
+        Self::ALL[if eighths.is_finite() {
+            eighths as usize % 8
+        } else {
+            0
+        }]
+    }
+
+    /// Returns the mirror image across the signer's middle.
+    #[must_use]
+    pub fn mirrored(self) -> Self {
+        Self::ALL[(8 - self as usize) % 8]
+    }
+
+    /// Returns the letters, as SiGML writes them.
+    #[must_use]
+    pub fn letters(self) -> &'static str {
+        ["d", "dr", "r", "ur", "u", "ul", "l", "dl"][self as usize]
+    }
+}
+
+impl fmt::Display for Compass {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.letters())
+    }
+}
+
+impl FromStr for Compass {
+    type Err = CompassError;
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Self::ALL
+            .into_iter()
+            .find(|palm| palm.letters() == text)
+            .ok_or_else(|| CompassError(text.chars().take(12).collect()))
+    }
+}
+
+/// Why letters are none of the eight directions.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0:?} is none of the eight directions; write u, ur, r, dr, d, dl, l or ul")]
+pub struct CompassError(pub String);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_direction_reads_what_it_writes_and_is_nearest_to_itself() {
+        assert_eq!(Direction::all().count(), 26);
+        assert_eq!(Direction::all().filter(|d| d.has_symbol()).count(), 18);
+        for direction in Direction::all() {
+            assert_eq!(direction.to_string().parse(), Ok(direction));
+            assert_eq!(Direction::nearest(direction.vector()), Some(direction));
+            assert_eq!(direction.mirrored().mirrored(), direction);
+        }
+        assert_eq!(
+            "uol".parse::<Direction>().map(Direction::vector).ok(),
+            Some([1.0 / 3f64.sqrt(); 3])
+        );
+        for odd in ["", "uu", "ud", "x", "uuo"] {
+            assert!(odd.parse::<Direction>().is_err(), "{odd:?}");
+        }
+    }
+
+    #[test]
+    fn palms_are_an_eighth_of_a_turn_apart() {
+        for palm in Compass::ALL {
+            assert_eq!(palm.letters().parse(), Ok(palm));
+            assert_eq!(Compass::nearest(palm.angle() + 0.3), palm);
+            assert_eq!(palm.mirrored().mirrored(), palm);
+        }
+        assert_eq!(Compass::L.mirrored(), Compass::R);
+        assert_eq!(Compass::nearest(-std::f64::consts::FRAC_PI_2), Compass::L);
+    }
+}

@@ -1,0 +1,17 @@
+//! Signs as notation: the tree that HamNoSys 4 and SiGML both write down.
+//!
+//! One tree serves both: HamNoSys text (one symbol after another) and gestural SiGML (elements with
+//! attributes) are two spellings of it. Everything is from the signer's own point of view, and where
+//! a sign is two-handed with symmetry, what is said is about the dominant hand.
+
+pub mod direction;
+pub mod tree;
+
+pub use direction::{Compass, Direction};
+pub use tree::{
+    Aim, Amount, Bend, BodyAction, BodyLocation, BodyPlace, Circular, Clock, Constellation,
+    Contact, Curve, Digit, Digits, Directed, Each, Ellipse, FingerContact, FingerPart, Form, Frame,
+    Growth, HandClass, HandLocation, HandSite, HandsUsed, Handshape, Manner, Manual, Motion,
+    MotionKind, Opening, Place, Posture, Repeat, Repetition, Side, Sign, Site, Size, Symmetry,
+    ThumbExtra, ThumbPosition, WristMotion, Written, Zigzag,
+};
