@@ -5,9 +5,13 @@
 //! a sign is two-handed with symmetry, what is said is about the dominant hand.
 
 pub mod direction;
+pub mod nonmanual;
+mod notated;
 pub mod tree;
 
 pub use direction::{Compass, Direction};
+pub use nonmanual::{Act, Nonmanual, NonmanualPart, NonmanualTier, TierEnd, TierKind, TierStart};
+pub use notated::Notated;
 pub use tree::{
     Aim, Amount, Bend, BodyAction, BodyLocation, BodyPlace, Circular, Clock, Constellation,
     Contact, Curve, Digit, Digits, Directed, Each, Ellipse, FingerContact, FingerPart, Form, Frame,

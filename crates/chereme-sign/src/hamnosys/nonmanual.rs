@@ -1,0 +1,307 @@
+//! What face and body do beside the hands: the non-manual tiers of SiGML.
+//!
+//! Tags are kept as they are written, a short code (`L04`) or a code with its words
+//! (`L04_pursed_lips`); [`Act::code`] is what tells them apart. A mouth picture is SAMPA.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+/// What face and body do while a sign is made, tier by tier.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Nonmanual {
+    /// The tiers that say something.
+    pub tiers: BTreeMap<TierKind, NonmanualTier>,
+}
+
+impl Nonmanual {
+    /// Tells whether nothing is said.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.tiers.is_empty()
+    }
+
+    /// Returns every act with its tier, in the order of tiers and then of time.
+    pub fn acts(&self) -> impl Iterator<Item = (TierKind, &Act)> {
+        self.tiers
+            .iter()
+            .flat_map(|(kind, tier)| tier.groups.iter().flatten().map(move |act| (*kind, act)))
+    }
+
+    /// Adds acts that happen at the same time, after what the tier holds already.
+    pub fn push(&mut self, kind: TierKind, group: Vec<Act>) {
+        self.tiers.entry(kind).or_default().groups.push(group);
+    }
+}
+
+/// The tiers, in the order in which they are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum TierKind {
+    /// The shoulders.
+    Shoulder,
+    /// The trunk.
+    Body,
+    /// The head.
+    Head,
+    /// Where the eyes look.
+    EyeGaze,
+    /// Brows, lids and nose.
+    FacialExpr,
+    /// The mouth.
+    Mouthing,
+    /// Anything else.
+    Extra,
+}
+
+impl TierKind {
+    /// Every tier, in order.
+    pub const ALL: [Self; 7] = [
+        Self::Shoulder,
+        Self::Body,
+        Self::Head,
+        Self::EyeGaze,
+        Self::FacialExpr,
+        Self::Mouthing,
+        Self::Extra,
+    ];
+}
+
+/// One tier: acts one after the other, some at the same time.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct NonmanualTier {
+    /// When the tier starts, where not with the hands.
+    pub start: Option<TierStart>,
+    /// When the tier ends, where not with the hands.
+    pub end: Option<TierEnd>,
+    /// A mouth picture is stretched to the time of the hands.
+    pub fit_picture: bool,
+    /// The acts in their order; those of one group happen at the same time.
+    pub groups: Vec<Vec<Act>>,
+}
+
+impl NonmanualTier {
+    /// Tells whether it says nothing at all.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// When a tier starts beside the hands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TierStart {
+    /// A little later.
+    SlightDelay,
+    /// A little earlier.
+    StartSlightlyAhead,
+}
+
+/// When a tier ends beside the hands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TierEnd {
+    /// Later.
+    LastsLonger,
+    /// Earlier.
+    EndsBefore,
+}
+
+/// One thing that a part of face or body does.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Act {
+    /// The part that does it.
+    pub part: NonmanualPart,
+    /// The tag as it is written, or the SAMPA of a mouth picture.
+    pub tag: String,
+    /// How much of it, 1 as usual; some files carry it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub amount: Option<f64>,
+    /// A factor of speed, 1 as usual; some files carry it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed: Option<f64>,
+}
+
+impl Act {
+    /// Returns the act of a part as usual.
+    #[must_use]
+    pub fn new(part: NonmanualPart, tag: impl Into<String>) -> Self {
+        Self {
+            part,
+            tag: tag.into(),
+            amount: None,
+            speed: None,
+        }
+    }
+
+    /// Returns the code of the tag: what stands before the first underscore; the whole picture of a
+    /// mouth picture.
+    #[must_use]
+    pub fn code(&self) -> &str {
+        match self.part {
+            NonmanualPart::MouthPicture => &self.tag,
+            _ => self.tag.split('_').next().unwrap_or_default(),
+        }
+    }
+
+    /// Tells whether its code is one that SiGML lists for the part.
+    #[must_use]
+    pub fn is_listed(&self) -> bool {
+        self.part.is_listed(self.code())
+    }
+
+    fn numbers(&self) -> [Option<u64>; 2] {
+        [self.amount, self.speed].map(|number| number.map(f64::to_bits))
+    }
+}
+
+/// Equal are acts of one part and one code, whatever words follow the code.
+impl PartialEq for Act {
+    fn eq(&self, other: &Self) -> bool {
+        self.part == other.part && self.code() == other.code() && self.numbers() == other.numbers()
+    }
+}
+
+impl Eq for Act {}
+
+/// The part of face or body that acts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum NonmanualPart {
+    /// The shoulders.
+    Shoulders,
+    /// The trunk.
+    Body,
+    /// The head.
+    Head,
+    /// The eyes' gaze.
+    Gaze,
+    /// The eyebrows.
+    Brows,
+    /// The eyelids.
+    Lids,
+    /// The nose.
+    Nose,
+    /// The mouth, by a tag.
+    MouthGesture,
+    /// The mouth, by the sounds that it seems to speak.
+    MouthPicture,
+    /// The mouth goes on with what it did: `holdprevious` or `stretchprevious`.
+    MouthMeta,
+    /// Anything else.
+    Extra,
+    /// Nothing: back to rest.
+    Neutral,
+}
+
+impl NonmanualPart {
+    /// Every part, in order.
+    pub const ALL: [Self; 12] = [
+        Self::Shoulders,
+        Self::Body,
+        Self::Head,
+        Self::Gaze,
+        Self::Brows,
+        Self::Lids,
+        Self::Nose,
+        Self::MouthGesture,
+        Self::MouthPicture,
+        Self::MouthMeta,
+        Self::Extra,
+        Self::Neutral,
+    ];
+
+    /// Returns the tier in which SiGML has it.
+    #[must_use]
+    pub fn tier(self) -> TierKind {
+        match self {
+            Self::Shoulders => TierKind::Shoulder,
+            Self::Body => TierKind::Body,
+            Self::Head => TierKind::Head,
+            Self::Gaze => TierKind::EyeGaze,
+            Self::Brows | Self::Lids | Self::Nose => TierKind::FacialExpr,
+            Self::MouthGesture | Self::MouthPicture | Self::MouthMeta => TierKind::Mouthing,
+            Self::Extra | Self::Neutral => TierKind::Extra,
+        }
+    }
+
+    /// Tells whether SiGML lists a code for it; where any text goes, every one is.
+    #[must_use]
+    pub fn is_listed(self, code: &str) -> bool {
+        let codes = match self {
+            Self::Shoulders => "UL UR UB HL HR HB SL SR SB",
+            Self::Body => "RL RR TL TR TF TB SI HE ST RD",
+            Self::Head => "NO SH SR SL TR TL NF NB PF PB LI",
+            Self::Gaze => "AD FR HD HI HC UP DN LE RI NO RO LU LD RU RD",
+            Self::Brows => "RB RR RL FU",
+            Self::Lids => "WB WR WL SB SR SL CB CR CL TB TR TL BB",
+            Self::Nose => "WR TW WI",
+            Self::MouthMeta => "holdprevious stretchprevious",
+            Self::MouthGesture => return is_mouth_gesture(code),
+            Self::MouthPicture | Self::Extra | Self::Neutral => return true,
+        };
+        codes.split(' ').any(|known| known == code)
+    }
+}
+
+/// Teeth D01 to D09, jaw J01 to J04, lips L01 to L35, cheeks C01 to C13, tongue T01 to T17.
+fn is_mouth_gesture(code: &str) -> bool {
+    let last = match code.as_bytes().first() {
+        Some(b'D') => 9,
+        Some(b'J') => 4,
+        Some(b'L') => 35,
+        Some(b'C') => 13,
+        Some(b'T') => 17,
+        _ => return false,
+    };
+    code.len() == 3
+        && code[1..].bytes().all(|byte| byte.is_ascii_digit())
+        && code[1..]
+            .parse()
+            .is_ok_and(|number: u8| (1..=last).contains(&number))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tags_are_compared_by_their_code() {
+        let part = NonmanualPart::MouthGesture;
+        assert_eq!(Act::new(part, "L04"), Act::new(part, "L04_pursed_lips"));
+        assert_ne!(Act::new(part, "L04"), Act::new(part, "L05"));
+        let picture = NonmanualPart::MouthPicture;
+        assert_ne!(Act::new(picture, "a_b"), Act::new(picture, "a_c"));
+    }
+
+    #[test]
+    fn listed_codes_are_told_from_others() {
+        let listed = |part: NonmanualPart, tag: &str| Act::new(part, tag).is_listed();
+        assert!(listed(NonmanualPart::Head, "SH_shaking_left_and_right"));
+        assert!(listed(NonmanualPart::MouthGesture, "T17"));
+        for (part, odd) in [
+            (NonmanualPart::Head, "ND"),
+            (NonmanualPart::Brows, "DN"),
+            (NonmanualPart::MouthGesture, "T18"),
+            (NonmanualPart::MouthGesture, "L00"),
+            (NonmanualPart::MouthGesture, "Lé"),
+            (NonmanualPart::MouthGesture, ""),
+        ] {
+            assert!(!listed(part, odd), "{odd}");
+        }
+    }
+
+    #[test]
+    fn every_tier_and_part_goes_through_json() {
+        let mut said = Nonmanual::default();
+        for part in NonmanualPart::ALL {
+            said.push(part.tier(), vec![Act::new(part, "X")]);
+        }
+        let text = serde_json::to_string(&said).expect("plain data");
+        assert_eq!(serde_json::from_str::<Nonmanual>(&text).ok(), Some(said));
+    }
+}
