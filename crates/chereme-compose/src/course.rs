@@ -4,6 +4,43 @@ use chereme_motion::Interpolation;
 use chereme_motion::glam::DQuat;
 
 use crate::recipe::Profile;
+use crate::sources::{LearnedCourse, LearnedProfile};
+
+/// How transitions run: those of arms and of all else but fingers, and those of fingers.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Courses {
+    pub(crate) arms: Course,
+    pub(crate) fingers: Course,
+}
+
+impl Courses {
+    /// Returns the courses that `profile` names; nothing for learned ones that are not there.
+    pub(crate) fn of(profile: Profile, learned: Option<&LearnedProfile>) -> Option<Self> {
+        let shares = |course: Option<&'_ LearnedCourse>| course.map(|it| it.shares.clone());
+        let [arms, fingers] = [
+            shares(learned.and_then(LearnedProfile::of_arms)),
+            shares(learned.and_then(LearnedProfile::of_fingers)),
+        ];
+        Some(Self {
+            arms: Course::of(profile, arms.as_deref())?,
+            fingers: Course::of(profile, fingers.as_deref())?,
+        })
+    }
+}
+
+/// Returns what learned courses were learned from, for people.
+pub(crate) fn told(learned: &LearnedProfile) -> String {
+    let count = |course: &Option<LearnedCourse>, whose: &str| {
+        let course = course.as_ref()?;
+        Some(format!("{} transitions of {whose}", course.transitions))
+    };
+    let counts = [
+        count(&learned.arms, "arms"),
+        count(&learned.fingers, "fingers"),
+    ];
+    let counts: Vec<String> = counts.into_iter().flatten().collect();
+    format!("the course was learned from {}", counts.join(" and "))
+}
 
 /// How a transition runs.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,7 +58,11 @@ impl Course {
             Profile::Cosine => Self::Formula(Interpolation::Cosine),
             Profile::Sigmoid => Self::Formula(Interpolation::Sigmoid),
             Profile::MinimumJerk => Self::Formula(Interpolation::MinimumJerk),
-            Profile::Learned => Self::Learned(learned.filter(|table| table.len() > 1)?.to_vec()),
+            Profile::Learned => {
+                let legal =
+                    |table: &&[f64]| table.len() > 1 && table.iter().all(|share| share.is_finite());
+                Self::Learned(learned.filter(legal)?.to_vec())
+            }
         })
     }
 

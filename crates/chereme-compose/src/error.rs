@@ -200,7 +200,9 @@ pub enum Cause {
         most: usize,
     },
     /// The corpus has not learned a transition.
-    #[error("the corpus has no learned transition yet; use sigmoid")]
+    #[error(
+        "the corpus shows too few transitions to learn their course from; import captured movement, or use sigmoid"
+    )]
     NoProfile,
     /// A source is no longer what it was when the recipe was resolved.
     #[error("{address:?} has changed since this sign was made; resolve the recipe again")]

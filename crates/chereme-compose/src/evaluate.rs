@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::contact::{self, Keep};
-use crate::course::Course;
+use crate::course::{self, Courses};
 use crate::error::{Cause, MakeError};
 use crate::made::{ChannelReport, Made, Report, StepReport};
 use crate::ops;
@@ -30,6 +30,7 @@ pub fn evaluate(resolved: &Resolved) -> Result<Made, MakeError> {
         inputs: &resolved.inputs.0,
         materials: &resolved.materials,
         report: Report::default(),
+        aside: Vec::new(),
     };
     let work = evaluator.node(&resolved.recipe.root, String::new())?;
     let fault = |cause| MakeError {
@@ -62,6 +63,8 @@ struct Evaluator<'a> {
     inputs: &'a BTreeMap<String, Input>,
     materials: &'a BTreeMap<String, Arc<Material>>,
     report: Report,
+    /// What the step being taken tells besides what it did.
+    aside: Vec<String>,
 }
 
 /// Tells whether a step may part hands from what they touch, each frame staying what it was.
@@ -181,7 +184,8 @@ impl Evaluator<'_> {
         }
     }
 
-    fn done(&mut self, path: String, step: String, done: Done) {
+    fn done(&mut self, path: String, step: String, mut done: Done) {
+        done.did.append(&mut self.aside);
         if done.residual.is_some_and(|residual| residual > 1e-3) {
             self.report
                 .warnings
@@ -217,11 +221,18 @@ impl Evaluator<'_> {
                 };
                 let at = format!("{path}/spell/via");
                 let course = self.course(&settings.via, Profile::Sigmoid, at)?;
-                let done = ops::spell::spell(&mut work, settings, letters, &course)?;
+                let times = match self.inputs.get(&format!("{path}/spell/hold")) {
+                    Some(Input::Times(times)) => Some(times),
+                    _ => None,
+                };
+                let times = ops::spell::Times::of(settings, times);
+                let done = ops::spell::spell(&mut work, settings, letters, &times, &course)?;
                 Ok((work, done.into()))
             }
             Node::Point(settings) => {
                 let mut work = Work::of(self.material(format!("{path}/point"))?);
+                let course =
+                    self.course(&settings.via, Profile::Sigmoid, format!("{path}/point/via"))?;
                 let shape = match self.inputs.get(&format!("{path}/point/with")) {
                     Some(Input::Poses(poses)) => Some(poses.as_slice()),
                     _ => None,
@@ -230,8 +241,6 @@ impl Evaluator<'_> {
                     shape,
                     place: self.place(format!("{path}/point/at")),
                 };
-                let course =
-                    self.course(&settings.via, Profile::Sigmoid, format!("{path}/point/via"))?;
                 let done = ops::point::point(&mut work, settings, &given, &course)?;
                 Ok((work, done.into()))
             }
@@ -273,7 +282,7 @@ impl Evaluator<'_> {
                     Profile::MinimumJerk,
                     format!("{path}/travel/via"),
                 )?;
-                ops::shape::travel(work, settings, &course, text)?.into()
+                ops::shape::travel(work, settings, &course.arms, text)?.into()
             }
             Step::Retime(settings) => ops::retime::retime(work, &settings.paces, text)?.into(),
             Step::Nonmanual(_) => {
@@ -312,7 +321,12 @@ impl Evaluator<'_> {
             }
             let time = settings.via.time.map(|time| time.0);
             did.extend(ops::configure::configure(
-                work, side, &values, &course, time, text,
+                work,
+                side,
+                &values,
+                &course.fingers,
+                time,
+                text,
             )?);
         }
         Ok(did)
@@ -346,11 +360,12 @@ impl Evaluator<'_> {
         }
     }
 
-    fn course(&self, via: &Transition, usual: Profile, path: String) -> Result<Course, Cause> {
+    fn course(&mut self, via: &Transition, usual: Profile, path: String) -> Result<Courses, Cause> {
         let learned = match self.inputs.get(&path) {
-            Some(Input::Course(table)) => Some(table.as_slice()),
+            Some(Input::Courses(profile)) => Some(profile),
             _ => None,
         };
-        Course::of(via.profile.unwrap_or(usual), learned).ok_or(Cause::NoProfile)
+        self.aside.extend(learned.map(course::told));
+        Courses::of(via.profile.unwrap_or(usual), learned).ok_or(Cause::NoProfile)
     }
 }

@@ -35,30 +35,65 @@ pub struct Stretch<'a> {
 /// whose joints hardly turn tell nothing; nothing is returned where none is left.
 #[must_use]
 pub fn learn_course<'a>(stretches: impl IntoIterator<Item = Stretch<'a>>) -> Option<Vec<f64>> {
-    let mut steps = vec![Vec::new(); STEPS + 1];
+    let mut learner = CourseLearner::default();
     for stretch in stretches {
-        let Some(shares) = shares(&stretch) else {
-            continue;
+        learner.add(&stretch);
+    }
+    learner.course()
+}
+
+/// Learns a course as [`learn_course`] does, from one stretch after another.
+#[derive(Debug, Clone)]
+pub struct CourseLearner {
+    /// The share of each transition at each step.
+    steps: Vec<Vec<f64>>,
+}
+
+impl Default for CourseLearner {
+    fn default() -> Self {
+        Self {
+            steps: vec![Vec::new(); STEPS + 1],
+        }
+    }
+}
+
+impl CourseLearner {
+    /// Takes a stretch in; tells whether it told anything.
+    pub fn add(&mut self, stretch: &Stretch<'_>) -> bool {
+        let Some(shares) = shares(stretch) else {
+            return false;
         };
         let last = (shares.len() - 1) as f64;
-        for (n, step) in steps.iter_mut().enumerate() {
+        for (n, step) in self.steps.iter_mut().enumerate() {
             let at = n as f64 / STEPS as f64 * last;
             let first = (at.floor() as usize).min(shares.len() - 2);
             step.push(shares[first] + (shares[first + 1] - shares[first]) * (at - first as f64));
         }
+        true
     }
-    if steps[0].is_empty() {
-        return None;
+
+    /// Returns how many stretches told something.
+    #[must_use]
+    pub fn transitions(&self) -> usize {
+        self.steps[0].len()
     }
-    let mut highest: f64 = 0.0;
-    let rising = steps.into_iter().map(|step| {
-        highest = highest.max(middle(step)).clamp(0.0, 1.0);
-        highest
-    });
-    let mut course: Vec<f64> = rising.collect();
-    course[0] = 0.0;
-    course[STEPS] = 1.0;
-    Some(course)
+
+    /// Returns the course learned so far; nothing where no stretch told anything.
+    #[must_use]
+    pub fn course(&self) -> Option<Vec<f64>> {
+        if self.transitions() == 0 {
+            return None;
+        }
+        let mut highest: f64 = 0.0;
+        let rising = self.steps.iter().map(|step| {
+            highest = highest.max(middle(step.clone())).clamp(0.0, 1.0);
+            highest
+        });
+        let mut course: Vec<f64> = rising.collect();
+        course[0] = 0.0;
+        course[STEPS] = 1.0;
+        Some(course)
+    }
 }
 
 /// Returns the mean of the middle half.

@@ -60,7 +60,7 @@ pub use check::{DEEPEST, MOST_PARTS, MOST_REPETITIONS};
 pub use error::{Cause, MakeError, Problem, RecipeError, TextError};
 pub use evaluate::{ENGINE, evaluate};
 pub use json::VERSION;
-pub use learn::{Stretch, bridge, learn_course};
+pub use learn::{CourseLearner, Stretch, bridge, learn_course};
 pub use lookup::{letters_in, value_in};
 pub use made::{About, ChannelReport, JoinReport, Made, Note, Report, StepReport};
 pub use poses::{Exact, HandPose, PoseOrigin};
@@ -69,5 +69,6 @@ pub use resolve::{
     Input, Inputs, LetterInput, MaterialInput, PlaceInput, Resolved, resolve, restore,
 };
 pub use sources::{
-    Example, Held, Letter, LetterStroke, Material, Meaning, SourceError, Sources, Spatial, Value,
+    Example, Held, LearnedCourse, LearnedProfile, Letter, LetterStroke, Material, Meaning,
+    MedianTime, SourceError, Sources, Spatial, SpellingTimes, Value,
 };

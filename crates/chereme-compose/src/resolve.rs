@@ -11,7 +11,9 @@ use crate::body;
 use crate::error::{Cause, MakeError};
 use crate::poses::{self, HandPose};
 use crate::recipe::*;
-use crate::sources::{Held, Letter, Material, Meaning, Sources, Spatial};
+use crate::sources::{
+    Held, LearnedProfile, Letter, Material, Meaning, Sources, Spatial, SpellingTimes,
+};
 
 /// A recipe with everything it needs.
 #[derive(Debug, Clone)]
@@ -55,8 +57,10 @@ pub enum Input {
     Place(PlaceInput),
     /// The letters of a word.
     Letters(Vec<LetterInput>),
-    /// A learned course: shares of the way at equal steps of time.
-    Course(Vec<f64>),
+    /// Learned courses.
+    Courses(LearnedProfile),
+    /// How long letters are held, and how long the hand takes from one to the next.
+    Times(SpellingTimes),
 }
 
 /// A source of movement as it was found.
@@ -193,6 +197,11 @@ impl Resolver<'_> {
                 let letters = self.letters(spell, &setting).map_err(fault)?;
                 let at = format!("{path}/spell/word");
                 self.inputs.0.insert(at, Input::Letters(letters));
+                if spell.hold.is_none() || spell.via.time.is_none() {
+                    let times = self.sources.spelling_times();
+                    let times = Input::Times(times.map_err(|e| fault(e.into()))?);
+                    self.inputs.0.insert(format!("{path}/spell/hold"), times);
+                }
                 self.course(&spell.via, format!("{path}/spell/via"))
                     .map_err(fault)?;
                 Ok(setting)
@@ -340,12 +349,8 @@ impl Resolver<'_> {
 
     fn course(&mut self, via: &Transition, path: String) -> Result<(), Cause> {
         if via.profile == Some(Profile::Learned) {
-            let table = self.sources.learned_profile().ok_or(Cause::NoProfile)?;
-            let legal = table.len() > 1 && table.iter().all(|share| share.is_finite());
-            if !legal {
-                return Err(Cause::NoProfile);
-            }
-            self.inputs.0.insert(path, Input::Course(table));
+            let profile = self.sources.learned_profile()?.ok_or(Cause::NoProfile)?;
+            self.inputs.0.insert(path, Input::Courses(profile));
         }
         Ok(())
     }

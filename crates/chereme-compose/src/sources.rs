@@ -56,11 +56,79 @@ pub trait Sources {
     /// [`SourceError::UnknownValue`] naming the first letter that the alphabet does not have.
     fn letters(&self, alphabet: Option<&str>, word: &str) -> Result<Vec<Letter>, SourceError>;
 
-    /// Returns the mean course of the corpus's own transitions: shares of the way at equal steps of
-    /// time, from 0 to 1; nothing where the corpus has not learned one.
-    fn learned_profile(&self) -> Option<Vec<f64>> {
-        None
+    /// Returns the usual courses of the corpus's own transitions; nothing where it shows too few.
+    ///
+    /// # Errors
+    /// [`SourceError`] where the corpus cannot be read.
+    fn learned_profile(&self) -> Result<Option<LearnedProfile>, SourceError> {
+        Ok(None)
     }
+
+    /// Returns how long the corpus's hands hold a configuration and take to the next.
+    ///
+    /// # Errors
+    /// [`SourceError`] where the corpus cannot be read.
+    fn spelling_times(&self) -> Result<SpellingTimes, SourceError> {
+        Ok(SpellingTimes::default())
+    }
+}
+
+/// The usual courses of a corpus's transitions, for each channel that shows enough of them.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LearnedProfile {
+    /// Of wrists from place to place; where there is none that of the fingers stands for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub arms: Option<LearnedCourse>,
+    /// Of fingers from shape to shape; where there is none that of the arms stands for it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fingers: Option<LearnedCourse>,
+}
+
+/// The usual course of transitions, as [`learn_course`](crate::learn_course) finds it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LearnedCourse {
+    /// Shares of the way at equal steps of time, from 0 to 1.
+    pub shares: Vec<f64>,
+    /// How many transitions it was learned from.
+    pub transitions: usize,
+}
+
+impl LearnedProfile {
+    /// Returns the course of the arms, or the fingers' where there is none.
+    #[must_use]
+    pub fn of_arms(&self) -> Option<&LearnedCourse> {
+        self.arms.as_ref().or(self.fingers.as_ref())
+    }
+
+    /// Returns the course of the fingers, or the arms' where there is none.
+    #[must_use]
+    pub fn of_fingers(&self) -> Option<&LearnedCourse> {
+        self.fingers.as_ref().or(self.arms.as_ref())
+    }
+}
+
+/// How long hands hold a configuration, and how long they take from one to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SpellingTimes {
+    /// Of holds; nothing where there are too few.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hold: Option<MedianTime>,
+    /// From the end of one hold to the start of the next; nothing where there are too few.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub change: Option<MedianTime>,
+}
+
+/// A median of times.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MedianTime {
+    /// The median in seconds.
+    pub seconds: f64,
+    /// How many it is the median of.
+    pub count: usize,
 }
 
 /// A piece of movement with what is said about it.

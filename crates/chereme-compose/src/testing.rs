@@ -422,8 +422,22 @@ impl Sources for Shelf {
             .collect()
     }
 
-    fn learned_profile(&self) -> Option<Vec<f64>> {
-        Some(vec![0.0, 0.1, 0.9, 1.0])
+    fn learned_profile(&self) -> Result<Option<LearnedProfile>, SourceError> {
+        Ok(Some(LearnedProfile {
+            arms: None,
+            fingers: Some(LearnedCourse {
+                shares: vec![0.0, 0.1, 0.9, 1.0],
+                transitions: 12,
+            }),
+        }))
+    }
+
+    fn spelling_times(&self) -> Result<SpellingTimes, SourceError> {
+        let median = |seconds, count| Some(MedianTime { seconds, count });
+        Ok(SpellingTimes {
+            hold: median(0.3, 9),
+            change: median(0.15, 8),
+        })
     }
 }
 

@@ -26,6 +26,7 @@ mod starter;
 mod suggest;
 mod tokens;
 
+use std::cell::RefCell;
 use std::path::Path;
 
 use db::Store;
@@ -64,6 +65,7 @@ pub use suggest::{Partner, Suggestions};
 /// An open corpus.
 pub struct Corpus {
     store: Store,
+    learned: RefCell<sources::Learned>,
 }
 
 impl Corpus {
@@ -74,6 +76,7 @@ impl Corpus {
     pub fn create(path: &Path, author: &str) -> Result<Self> {
         Ok(Self {
             store: Store::create(path, author, inventories::store_builtin)?,
+            learned: RefCell::default(),
         })
     }
 
@@ -84,6 +87,7 @@ impl Corpus {
     pub fn open(path: &Path, author: &str) -> Result<Self> {
         Ok(Self {
             store: Store::open(path, author)?,
+            learned: RefCell::default(),
         })
     }
 

@@ -96,6 +96,7 @@ impl Corpus {
             connection,
             index,
             inventories: &inventories,
+            learned: &self.learned,
         };
         let resolved = chereme_compose::resolve(&recipe, &sources).map_err(cannot)?;
         let made = chereme_compose::evaluate(&resolved).map_err(cannot)?;

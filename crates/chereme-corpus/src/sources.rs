@@ -1,8 +1,11 @@
 //! What recipes ask of the world, answered from the rows.
 
+use std::cell::RefCell;
 use std::sync::Arc;
 
-use chereme_compose::{Example, Held, Letter, Material, SourceError, Sources, Value};
+use chereme_compose::{
+    Example, Held, LearnedProfile, Letter, Material, SourceError, Sources, SpellingTimes, Value,
+};
 use chereme_motion::{Instant, Side, Span};
 use chereme_sign::Inventory;
 use chereme_sign::text::nearest;
@@ -11,6 +14,7 @@ use rusqlite::Connection;
 use sha2::{Digest, Sha256};
 
 use crate::address::{self, Address, Name, Stretch};
+use crate::db::history;
 use crate::db::motion;
 use crate::db::recordings;
 use crate::db::signs;
@@ -20,6 +24,8 @@ use crate::inventories::StoredInventory;
 use crate::movement::{ChannelGroup, Track};
 use crate::search::index::SearchIndex;
 
+mod learned;
+
 /// A stretch longer than this is not taken as the source of a recipe.
 const LONGEST: i64 = 600_000_000;
 
@@ -28,6 +34,14 @@ pub(crate) struct CorpusSources<'a> {
     pub(crate) connection: &'a Connection,
     pub(crate) index: &'a SearchIndex,
     pub(crate) inventories: &'a [StoredInventory],
+    pub(crate) learned: &'a RefCell<Learned>,
+}
+
+/// What was learned from a corpus, kept until something in it changes.
+#[derive(Default)]
+pub(crate) struct Learned {
+    /// The newest operation when it was learned, and what it was.
+    profile: Option<(Option<i64>, Option<LearnedProfile>)>,
 }
 
 impl CorpusSources<'_> {
@@ -282,6 +296,22 @@ impl Sources for CorpusSources<'_> {
         word: &str,
     ) -> std::result::Result<Vec<Letter>, SourceError> {
         chereme_compose::letters_in(self.all(), alphabet, word)
+    }
+
+    fn learned_profile(&self) -> std::result::Result<Option<LearnedProfile>, SourceError> {
+        let newest = history::newest(self.connection).map_err(|error| unreadable(&error))?;
+        let mut learned = self.learned.borrow_mut();
+        if let Some((_, profile)) = learned.profile.as_ref().filter(|(at, _)| *at == newest) {
+            return Ok(profile.clone());
+        }
+        let profile = learned::profile(self.connection).map_err(|error| unreadable(&error))?;
+        learned.profile = Some((newest, profile.clone()));
+        Ok(profile)
+    }
+
+    fn spelling_times(&self) -> std::result::Result<SpellingTimes, SourceError> {
+        learned::spelling_times(self.connection, self.inventories)
+            .map_err(|error| unreadable(&error))
     }
 }
 

@@ -1,5 +1,6 @@
 //! Courses of transitions against captured ones.
 
+use chereme_analysis::strokes::Mover;
 use chereme_compose::recipe::Profile;
 use chereme_compose::{Stretch, bridge, learn_course};
 use chereme_motion::Clip;
@@ -7,7 +8,7 @@ use chereme_motion::glam::DVec3;
 
 use crate::Result;
 use crate::capture::Capture;
-use crate::strokes::{self, Kind, Transition};
+use crate::strokes::{self, Transition};
 use crate::table::markdown;
 
 const COURSES: [&str; 6] = [
@@ -46,11 +47,11 @@ pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
     let mut text = String::new();
     for (kind, name) in [
         (
-            Kind::Stroke,
+            Mover::Wrist,
             "Strokes of a wrist between two minima of its speed",
         ),
         (
-            Kind::Handshape,
+            Mover::Fingers,
             "Changes of handshape between two minima of the fingers' speed",
         ),
     ] {

@@ -3,7 +3,7 @@
 use chereme_motion::Side;
 use chereme_motion::glam::{DQuat, DVec3};
 
-use crate::course::Course;
+use crate::course::{Course, Courses};
 use crate::error::Cause;
 use crate::made::{About, JoinReport, Note};
 use crate::work::{Group, Work};
@@ -63,13 +63,13 @@ impl Seam {
 
 /// Puts `second` behind `first`; both have the same skeleton and rate, and at least a frame.
 ///
-/// Each channel follows the first up to its cut, goes to the second by `course`, and follows the
+/// Each channel follows the first up to its cut, goes to the second by its course, and follows the
 /// second from its cut on.
 pub(crate) fn join(
     first: &mut Work,
     second: Work,
     seam: &Seam,
-    course: &Course,
+    courses: &Courses,
     what: &str,
 ) -> Result<Vec<JoinReport>, Cause> {
     let frames = seam.offset + second.frames;
@@ -77,6 +77,10 @@ pub(crate) fn join(
     let groups = crate::work::groups(&first.skeleton, &first.anatomy);
     for (joint, group) in groups.iter().enumerate() {
         let cut = seam.cut(*group);
+        let course = match group {
+            Group::Fingers(_) => &courses.fingers,
+            _ => &courses.arms,
+        };
         extend(first, &second, joint, cut, seam.offset, course);
     }
     let shift = first.rate.instant(seam.offset).micros();

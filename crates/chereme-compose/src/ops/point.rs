@@ -6,7 +6,7 @@ use chereme_sign::{Component, Reading};
 
 use crate::arm;
 use crate::body::Frame;
-use crate::course::Course;
+use crate::course::Courses;
 use crate::error::Cause;
 use crate::made::{About, Note};
 use crate::ops::{join, place};
@@ -34,7 +34,7 @@ pub(crate) fn point(
     work: &mut Work,
     settings: &Point,
     given: &Given<'_>,
-    course: &Course,
+    courses: &Courses,
 ) -> Result<(Vec<String>, f64), Cause> {
     let sides = settings.hand.sides(work.handedness);
     let frame = place::frame(work, sides)?;
@@ -84,10 +84,9 @@ pub(crate) fn point(
         if !moves {
             continue;
         }
-        let early = if matches!(group, Group::Fingers(_)) {
-            2.0
-        } else {
-            1.0
+        let (early, course) = match group {
+            Group::Fingers(_) => (2.0, &courses.fingers),
+            _ => (1.0, &courses.arms),
         };
         let (rest, top) = (
             work.channels[joint].rotations[0],

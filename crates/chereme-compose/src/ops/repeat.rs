@@ -2,7 +2,7 @@
 
 use chereme_motion::Side;
 
-use crate::course::Course;
+use crate::course::Courses;
 use crate::error::Cause;
 use crate::made::JoinReport;
 use crate::ops::join::{self, Seam};
@@ -17,7 +17,7 @@ const GAP: f64 = 0.12;
 pub(crate) fn repeat(
     work: &mut Work,
     settings: &Repeat,
-    course: &Course,
+    courses: &Courses,
     operator: &str,
 ) -> Result<(Vec<String>, Vec<JoinReport>), Cause> {
     let seconds = settings
@@ -51,7 +51,7 @@ pub(crate) fn repeat(
         }
         let seam = Seam::plain(work, gap);
         let what = format!("repetition {} to {}", n, n + 1);
-        joins.extend(join::join(work, next, &seam, course, &what)?);
+        joins.extend(join::join(work, next, &seam, courses, &what)?);
     }
     if times > 1 {
         work.changed(Group::ALL, operator);

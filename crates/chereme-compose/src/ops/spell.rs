@@ -6,20 +6,25 @@ use chereme_sign::{Component, Reading};
 
 use crate::arm;
 use crate::body::Frame;
-use crate::course::Course;
+use crate::course::{Course, Courses};
 use crate::error::Cause;
 use crate::made::{About, Note};
 use crate::ops::{join, place};
 use crate::poses;
 use crate::recipe::Spell;
 use crate::resolve::LetterInput;
+use crate::sources::{MedianTime, SpellingTimes};
+use crate::units::Seconds;
 use crate::work::{Group, Work};
 
-/// How long a letter is held, and a stroke of one that moves takes, in seconds.
+/// How long a letter is held, and the hand takes from letter to letter, where neither recipe nor
+/// corpus tells, in seconds.
 const HOLD: f64 = 0.2;
-const STROKE: f64 = 0.3;
-/// How long the hand takes from letter to letter, in seconds.
 const CHANGE: f64 = 0.25;
+/// The longest of either that is taken from a corpus, in seconds.
+const LONGEST: f64 = 60.0;
+/// How long a stroke of a letter that moves takes, in seconds.
+const STROKE: f64 = 0.3;
 /// How far the hand slides to the outside for the second of two like letters, in shoulder widths.
 const SLIDE: f64 = 0.12;
 /// Where the wrist spells: to the hand's own side, up and forward of the middle between the
@@ -34,18 +39,62 @@ struct Show {
     keys: Vec<(DVec3, DQuat)>,
 }
 
+/// How long letters are held, and how long the hand takes from one to the next, in seconds.
+pub(crate) struct Times {
+    hold: f64,
+    change: f64,
+    told: Vec<String>,
+}
+
+impl Times {
+    /// Takes each time from the recipe, else from the corpus, else a usual one.
+    pub(crate) fn of(settings: &Spell, corpus: Option<&SpellingTimes>) -> Self {
+        let mut told = Vec::new();
+        let mut time = |what, asked: Option<Seconds>, found: Option<MedianTime>, usual: f64| {
+            if let Some(asked) = asked {
+                return asked.0;
+            }
+            let found = found.filter(|found| (0.0..=LONGEST).contains(&found.seconds));
+            let time = found.map_or(usual, |found| found.seconds);
+            told.push(match found {
+                Some(found) => {
+                    format!(
+                        "{what} {time:.2} s, the median of {} in the corpus",
+                        found.count
+                    )
+                }
+                None => format!("{what} {time:.2} s: the corpus shows too few to learn from"),
+            });
+            time
+        };
+        let corpus = corpus.copied().unwrap_or_default();
+        let asked = settings.via.time;
+        Self {
+            hold: time("letters are held for", settings.hold, corpus.hold, HOLD),
+            change: time(
+                "from letter to letter it takes",
+                asked,
+                corpus.change,
+                CHANGE,
+            ),
+            told,
+        }
+    }
+}
+
 /// Spells on the body of `work`, whose first frame is its posture.
 pub(crate) fn spell(
     work: &mut Work,
     settings: &Spell,
     letters: &[LetterInput],
-    course: &Course,
+    times: &Times,
+    courses: &Courses,
 ) -> Result<(Vec<String>, f64), Cause> {
     let sides = settings.hand.sides(work.handedness);
     let frame = place::frame(work, sides)?;
     let shown: Vec<Vec<Show>> = sides
         .iter()
-        .map(|&side| shows(work, &frame, side, settings, letters))
+        .map(|&side| shows(work, &frame, side, times, letters))
         .collect::<Result<_, _>>()?;
     let frames = shown[0].last().map_or(1, |show| show.frames.end);
     join::check_length(work, frames)?;
@@ -53,8 +102,10 @@ pub(crate) fn spell(
     work.notes.clear();
     let mut residual: f64 = 0.0;
     for (&side, shows) in sides.iter().zip(&shown) {
-        fingers(work, side, shows, course);
-        let way: Vec<(DVec3, DQuat)> = (0..frames).map(|f| wrist(shows, f, course)).collect();
+        fingers(work, side, shows, &courses.fingers);
+        let way: Vec<(DVec3, DQuat)> = (0..frames)
+            .map(|f| wrist(shows, f, &courses.arms))
+            .collect();
         let (targets, hands): (Vec<DVec3>, Vec<DQuat>) = way.into_iter().unzip();
         let reach = arm::raise_arm(work, side, &targets, &hands, frame.left * side.sign());
         residual = residual.max(reach.ok_or(Cause::NoArm(side))?.residual);
@@ -74,19 +125,19 @@ pub(crate) fn spell(
     let from = letters
         .iter()
         .map(|l| format!("{} from {}", l.letter.letter, l.pose.origin));
-    Ok((from.collect(), residual))
+    let told = from.chain(times.told.iter().cloned());
+    Ok((told.collect(), residual))
 }
 
 fn shows(
     work: &Work,
     frame: &Frame,
     side: Side,
-    settings: &Spell,
+    times: &Times,
     letters: &[LetterInput],
 ) -> Result<Vec<Show>, Cause> {
     let frames = |seconds: f64| ((seconds / work.rate.frame_time()).round() as usize).max(1);
-    let hold = frames(settings.hold.map_or(HOLD, |hold| hold.0));
-    let change = frames(settings.via.time.map_or(CHANGE, |time| time.0));
+    let (hold, change) = (frames(times.hold), frames(times.change));
     let own = |v: [f64; 3]| {
         // Letters are described for a right hand; a left one mirrors them.
         let x = if side == Side::Left { -v[0] } else { v[0] };

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use chereme_motion::glam::DQuat;
 use chereme_motion::{ModelPose, Side};
 
-use crate::course::Course;
+use crate::course::Courses;
 use crate::error::Cause;
 use crate::made::JoinReport;
 use crate::ops::join::{self, Cut, Seam};
@@ -24,7 +24,7 @@ pub(crate) fn then(
     work: &mut Work,
     next: Work,
     time: Option<Seconds>,
-    course: &Course,
+    courses: &Courses,
     operator: &str,
 ) -> Result<(Vec<String>, Vec<JoinReport>), Cause> {
     let mut did = Vec::new();
@@ -64,7 +64,7 @@ pub(crate) fn then(
             frames
         ));
     }
-    let joins = join::join(work, next, &seam, course, operator)?;
+    let joins = join::join(work, next, &seam, courses, operator)?;
     Ok((did, joins))
 }
 

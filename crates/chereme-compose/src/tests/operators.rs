@@ -245,3 +245,26 @@ fn the_finger_points_at_the_target() {
         bones_keep_their_lengths(&made.clip);
     }
 }
+
+#[test]
+fn letters_take_the_time_that_the_recipe_or_else_the_corpus_says() {
+    let seconds = |recipe: &str| {
+        let made = made(recipe);
+        let told = made.report.steps[0].did.join("\n");
+        (made.clip.span().seconds(), told)
+    };
+    let (learned, told) = seconds("spell UB");
+    assert!((learned - 0.75).abs() < 0.02, "{learned}");
+    assert!(told.contains("0.30 s, the median of 9") && told.contains("0.15 s, the median of 8"));
+    let (half, told) = seconds("spell UB hold 0.1s");
+    assert!(
+        (half - 0.35).abs() < 0.02 && !told.contains("held for"),
+        "{half} {told}"
+    );
+    let (asked, told) = seconds("spell UB hold 0.1s via learned 0.5s");
+    assert!((asked - 0.7).abs() < 0.02, "{asked}");
+    assert!(
+        told.contains("learned from 12 transitions of fingers"),
+        "{told}"
+    );
+}

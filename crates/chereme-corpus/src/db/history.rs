@@ -497,6 +497,12 @@ fn expect_row(
     .advise("`chereme log` shows what was done; `chereme check` looks for damage"))
 }
 
+/// Returns the number of the newest operation; nothing where there was none.
+pub(crate) fn newest(connection: &Connection) -> Result<Option<i64>> {
+    let sql = "SELECT max(id) FROM operation";
+    Ok(connection.query_row(sql, [], |row| row.get(0))?)
+}
+
 /// Returns the newest operations first.
 pub(super) fn log(connection: &Connection, limit: usize) -> Result<Vec<OperationRow>> {
     let (done, _) = stacks(connection)?;

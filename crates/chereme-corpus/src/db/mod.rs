@@ -6,7 +6,7 @@
 pub(crate) mod check;
 pub(crate) mod dump;
 pub(crate) mod edits;
-mod history;
+pub(crate) mod history;
 pub(crate) mod info;
 pub(crate) mod inventories;
 pub(crate) mod list;

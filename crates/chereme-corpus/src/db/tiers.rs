@@ -285,6 +285,40 @@ pub(crate) fn annotations(connection: &Connection, tier: i64) -> Result<Vec<Anno
     collect(connection, &sql, params![tier])
 }
 
+/// A handshape as it is annotated.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct ConfigurationSpan {
+    pub(crate) tier_id: i64,
+    pub(crate) start_us: i64,
+    pub(crate) end_us: i64,
+    pub(crate) value: String,
+}
+
+/// Returns up to `most` annotated handshapes of movement that no recipe made, tier by tier and by time.
+pub(crate) fn configuration_spans(
+    connection: &Connection,
+    most: usize,
+) -> Result<Vec<ConfigurationSpan>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT a.tier_id, a.start_us, a.end_us, a.value
+         FROM tier t JOIN recording r ON r.id = t.recording_id JOIN annotation a ON a.tier_id = t.id
+         WHERE t.component = 'configuration' AND t.feature IS NULL AND r.origin <> 'made'
+           AND a.state = 'value'
+         ORDER BY a.tier_id, a.start_us, a.id LIMIT ?1",
+    )?;
+    let rows = statement
+        .query_map([i64::try_from(most).unwrap_or(i64::MAX)], |row| {
+            Ok(ConfigurationSpan {
+                tier_id: row.get(0)?,
+                start_us: row.get(1)?,
+                end_us: row.get(2)?,
+                value: row.get(3)?,
+            })
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
 /// Returns the annotations of a tier that share time with a span or touch it, by time.
 pub(crate) fn annotations_near(
     connection: &Connection,

@@ -1,0 +1,259 @@
+//! Transitions in movement: strokes of wrists and changes of handshape, between two minima of speed.
+
+use std::ops::Range;
+
+use chereme_motion::{Anatomy, Clip, Side};
+use glam::{DQuat, DVec3};
+
+/// The deviation of the Gauss curve that speeds are smoothed by before minima are looked for, in
+/// seconds.
+const SMOOTH: f64 = 0.03;
+/// The least time of a transition in seconds, and its least frames.
+const LEAST: (f64, usize) = (0.1, 6);
+/// A minimum counts where the speed falls below this share of the peaks on both of its sides.
+const DIP: f64 = 0.8;
+/// A speed below this share of the peak is rest: its first minimum ends the transition.
+const REST: f64 = 0.1;
+/// The least peak of speed in metres or radians per second, and the least way in metres or radians.
+const STROKE: (f64, f64) = (0.15, 0.05);
+const SHAPE: (f64, f64) = (0.5, 0.349);
+
+/// What makes a transition.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mover {
+    /// The wrist goes from place to place, told by its speed in the space of the trunk.
+    Wrist,
+    /// The fingers go from shape to shape, told by the root of the mean square of their joints'
+    /// angular speeds.
+    Fingers,
+}
+
+impl Mover {
+    /// Returns the joints that make the transition, in the skeleton's order; none where the skeleton
+    /// lacks them.
+    #[must_use]
+    pub fn joints(self, anatomy: &Anatomy, side: Side) -> Vec<usize> {
+        match self {
+            Self::Wrist => anatomy.arm_joints(side),
+            Self::Fingers => anatomy.fingers(side),
+        }
+    }
+}
+
+/// Returns the frames of every transition of one side, from the posture it starts in up to and with
+/// the one it ends in, in order of time.
+///
+/// A transition goes from one minimum of speed to the next and lasts a tenth of a second and six
+/// frames or more; the wrist ends 5 cm or more from where it started, or the fingers are turned by 20
+/// degrees or more altogether. Speeds are smoothed over 30 ms first. None where the skeleton has no
+/// such arm or hand.
+#[must_use]
+pub fn strokes(clip: &Clip, anatomy: &Anatomy, side: Side, mover: Mover) -> Vec<Range<usize>> {
+    let joints = mover.joints(anatomy, side);
+    let Some(arm) = anatomy.arm(side).filter(|_| !joints.is_empty()) else {
+        return Vec::new();
+    };
+    let base = clip.skeleton().parent(arm.clavicle.unwrap_or(arm.upper));
+    let path = match mover {
+        Mover::Wrist => (0..clip.frames())
+            .map(|frame| place_in(clip, arm.hand, DVec3::ZERO, base, frame))
+            .collect(),
+        Mover::Fingers => Vec::new(),
+    };
+    let ((least, _), speeds) = match mover {
+        Mover::Wrist => {
+            let speeds = speeds(path.len(), clip, |a, b| path[a].distance(path[b]));
+            (STROKE, speeds)
+        }
+        Mover::Fingers => {
+            let count = (joints.len() as f64).sqrt();
+            let turned = |a, b| turned(clip, &joints, a, b) / count;
+            (SHAPE, speeds(clip.frames(), clip, turned))
+        }
+    };
+    let far = |frames: &Range<usize>| {
+        let (first, last) = (frames.start, frames.end - 1);
+        match mover {
+            Mover::Wrist => path[first].distance(path[last]) > STROKE.1,
+            Mover::Fingers => turned(clip, &joints, first, last) > SHAPE.1,
+        }
+    };
+    let long = |frames: &Range<usize>| {
+        frames.len() as f64 * clip.rate().frame_time() >= LEAST.0 && frames.len() >= LEAST.1
+    };
+    let mut found = between_minima(&smoothed(&speeds, clip), least);
+    found.retain(|frames| long(frames) && far(frames));
+    found
+}
+
+/// Returns a point of the space of `joint` in that of `base`, a joint above it, or of the model.
+#[must_use]
+pub fn place_in(
+    clip: &Clip,
+    joint: usize,
+    point: DVec3,
+    base: Option<usize>,
+    frame: usize,
+) -> DVec3 {
+    let above = clip.skeleton().ancestors(joint);
+    above
+        .take_while(|&joint| Some(joint) != base)
+        .fold(point, |at, joint| {
+            clip.translation(joint, frame) + clip.channel(joint).rotations[frame] * at
+        })
+}
+
+/// Returns how far joints are turned from one frame to another: the root of the sum of squares.
+fn turned(clip: &Clip, joints: &[usize], from: usize, to: usize) -> f64 {
+    let squares = joints.iter().map(|&joint| {
+        let column: &[DQuat] = &clip.channel(joint).rotations;
+        column[from].angle_between(column[to]).powi(2)
+    });
+    squares.sum::<f64>().sqrt()
+}
+
+/// Returns speeds by central differences, given the distance between two frames.
+fn speeds(frames: usize, clip: &Clip, distance: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+    let last = frames.saturating_sub(1);
+    (0..frames)
+        .map(|n| {
+            let (before, after) = (n.saturating_sub(1), (n + 1).min(last));
+            let steps = (after - before).max(1) as f64;
+            distance(before, after) * clip.rate().per_second() / steps
+        })
+        .collect()
+}
+
+fn smoothed(speeds: &[f64], clip: &Clip) -> Vec<f64> {
+    let frame = clip.rate().frame_time();
+    let reach = ((3.0 * SMOOTH / frame).ceil() as usize).min(speeds.len());
+    let bell: Vec<f64> = (0..=reach)
+        .map(|away| (-0.5 * (away as f64 * frame / SMOOTH).powi(2)).exp())
+        .collect();
+    (0..speeds.len())
+        .map(|n| {
+            let near = n.saturating_sub(reach)..(n + reach + 1).min(speeds.len());
+            let (mut sum, mut weights) = (0.0, 0.0);
+            for m in near {
+                let weight = bell[m.abs_diff(n)];
+                sum += weight * speeds[m];
+                weights += weight;
+            }
+            sum / weights
+        })
+        .collect()
+}
+
+/// Returns the stretches between two minima around each peak of at least `least`.
+fn between_minima(speeds: &[f64], least: f64) -> Vec<Range<usize>> {
+    let peak = |n: usize| {
+        let (before, after) = (n.checked_sub(1).map(|m| speeds[m]), speeds.get(n + 1));
+        speeds[n] >= least
+            && before.is_none_or(|s| s < speeds[n])
+            && after.is_none_or(|s| *s <= speeds[n])
+    };
+    let mut found: Vec<Range<usize>> = Vec::new();
+    for top in (0..speeds.len()).filter(|&n| peak(n)) {
+        let start = minimum(speeds, top, (0..top).rev());
+        let end = minimum(speeds, top, top + 1..speeds.len());
+        let (Some(start), Some(end)) = (start, end) else {
+            continue;
+        };
+        let highest = speeds[start..=end]
+            .iter()
+            .all(|&speed| speed <= speeds[top]);
+        if highest && found.last().is_none_or(|last| last.start != start) {
+            found.push(start..end + 1);
+        }
+    }
+    found
+}
+
+/// Walks away from a peak to the minimum that ends its transition; nothing where the speed rises
+/// above the peak before, or the movement ends without falling far enough.
+fn minimum(speeds: &[f64], top: usize, way: impl Iterator<Item = usize>) -> Option<usize> {
+    let mut lowest = top;
+    for n in way {
+        if speeds[n] < speeds[lowest] {
+            lowest = n;
+        } else if speeds[lowest] < REST * speeds[top] || speeds[n] * DIP > speeds[lowest] {
+            break;
+        }
+        if speeds[n] > speeds[top] {
+            return None;
+        }
+    }
+    (speeds[lowest] < DIP * speeds[top]).then_some(lowest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_motion::{Channel, Joint, Rate, Skeleton};
+    use std::sync::Arc;
+
+    /// An arm whose forearm bends by `angle` at each frame.
+    fn bending(angle: impl Fn(f64) -> f64) -> (Clip, Anatomy) {
+        let mut joints = vec![Joint::new("Hips", None, DVec3::Y)];
+        let chain = ["Spine", "Neck", "Head"];
+        for (n, name) in chain.into_iter().enumerate() {
+            joints.push(Joint::new(name, Some(n), DVec3::Y * 0.2));
+        }
+        for (side, x) in [("Left", 1.0), ("Right", -1.0)] {
+            let first = joints.len();
+            let names = ["Shoulder", "Arm", "ForeArm", "Hand"];
+            for (n, (name, long)) in names.into_iter().zip([0.05, 0.12, 0.3, 0.25]).enumerate() {
+                let parent = if n == 0 { 1 } else { first + n - 1 };
+                let offset = DVec3::new(long * x, if n == 0 { 0.15 } else { 0.0 }, 0.0);
+                joints.push(Joint::new(format!("{side}{name}"), Some(parent), offset));
+            }
+        }
+        let skeleton = Arc::new(Skeleton::new(joints).expect("a tree"));
+        let anatomy = Anatomy::detect(&skeleton);
+        let elbow = anatomy.arm(Side::Right).expect("an arm").forearm;
+        let channels = (0..skeleton.len()).map(|joint| Channel {
+            rotations: (0..360)
+                .map(|f| match joint == elbow {
+                    true => DQuat::from_rotation_y(angle(f64::from(f) / 120.0)),
+                    false => DQuat::IDENTITY,
+                })
+                .collect(),
+            translations: None,
+        });
+        let rate = Rate::new(120, 1).expect("a rate");
+        let clip = Clip::new(Arc::clone(&skeleton), rate, channels.collect()).expect("a clip");
+        (clip, anatomy)
+    }
+
+    #[test]
+    fn strokes_lie_between_rests() {
+        // There in the second half second, back in the fourth.
+        let step = |s: f64| s.clamp(0.0, 1.0).powi(2) * (3.0 - 2.0 * s.clamp(0.0, 1.0));
+        let (clip, anatomy) = bending(|t| step(2.0 * t - 1.0) - step(2.0 * t - 3.0));
+        let found = strokes(&clip, &anatomy, Side::Right, Mover::Wrist);
+        assert_eq!(found.len(), 2, "{found:?}");
+        for (frames, start) in found.iter().zip([60, 180]) {
+            assert!(frames.start.abs_diff(start) < 20, "{frames:?}");
+            assert!(frames.end.abs_diff(start + 60) < 20, "{frames:?}");
+        }
+        assert!(strokes(&clip, &anatomy, Side::Left, Mover::Wrist).is_empty());
+        assert!(strokes(&clip, &anatomy, Side::Right, Mover::Fingers).is_empty());
+    }
+
+    #[test]
+    fn what_hardly_moves_is_no_stroke() {
+        let (clip, anatomy) = bending(|t| 0.05 * (t * 6.0).sin());
+        assert!(strokes(&clip, &anatomy, Side::Right, Mover::Wrist).is_empty());
+    }
+
+    #[test]
+    fn a_point_is_carried_up_to_its_base() {
+        let (clip, anatomy) = bending(|_| std::f64::consts::FRAC_PI_2);
+        let arm = anatomy.arm(Side::Right).expect("an arm");
+        let at = place_in(&clip, arm.hand, DVec3::ZERO, Some(arm.upper), 3);
+        assert!(at.abs_diff_eq(DVec3::new(-0.3, 0.0, 0.25), 1e-12), "{at}");
+        let place = clip.model_pose(3).position(arm.hand);
+        let at = place_in(&clip, arm.hand, DVec3::ZERO, None, 3);
+        assert!(at.abs_diff_eq(place, 1e-12));
+    }
+}
