@@ -25,6 +25,8 @@ const HAND: (f64, f64) = (0.9, 0.2);
 const PAUSE: f64 = 0.1;
 /// How far a contact may move and still be where it was, in metres.
 const KEPT: f64 = 0.005;
+/// The same where another hand or moment touches: bodies are never quite alike on both sides.
+const ALIKE: f64 = 0.02;
 
 /// The contacts of a movement.
 pub(crate) struct Contacts {
@@ -46,6 +48,16 @@ struct Contact {
     ways: Vec<DVec3>,
     /// The frame at which they are nearest.
     nearest: usize,
+}
+
+impl Contacts {
+    /// Looks for the same contacts on another body that moves alike.
+    pub(crate) fn on(self, work: &Work) -> Self {
+        Self {
+            anchors: Anchors::of(work),
+            ..self
+        }
+    }
 }
 
 impl Contact {
@@ -202,25 +214,82 @@ impl<'a> At<'a> {
     }
 }
 
+/// How an operator carries contacts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Carry {
+    /// The same hand touches the same place at the same frame.
+    Same,
+    /// The other hand touches the place on the other side.
+    Swapped,
+    /// The other hand does what this one does.
+    Copied(Side),
+    /// At some frame or other.
+    Anytime,
+}
+
+impl Carry {
+    /// Returns what should touch after the operator; nothing where the arm does something else.
+    fn carried(self, contact: &Contact) -> Option<Contact> {
+        match (self, contact.other) {
+            (Self::Swapped, Some(_)) => Some(Contact {
+                point: contact.place,
+                place: contact.point,
+                ..contact.clone()
+            }),
+            (Self::Copied(from), None) if contact.side != from => None,
+            (Self::Swapped | Self::Copied(_), None) => Some(Contact {
+                side: contact.side.other(),
+                place: points::across(contact.place),
+                ..contact.clone()
+            }),
+            _ => Some(contact.clone()),
+        }
+    }
+
+    /// Returns how far what should touch now is, and by how much that is more than it was.
+    fn off(self, contact: &Contact, tracks: &Tracks<'_>, frames: usize) -> Option<(f64, f64)> {
+        let was = contact.ways[contact.nearest - contact.frames.start].length();
+        let at = |frame: usize| contact.way(tracks, frame).map(DVec3::length);
+        let is = match self {
+            Self::Anytime => (0..frames).filter_map(at).min_by(f64::total_cmp)?,
+            _ => at(contact.nearest)?,
+        };
+        let more = match self {
+            Self::Same => contact.moved(tracks),
+            _ => is - was,
+        };
+        Some((is, more))
+    }
+}
+
 /// Says which contacts of before are gone, and by how far.
-pub(crate) fn lost(before: &Contacts, work: &Work) -> Vec<String> {
+pub(crate) fn lost(before: &Contacts, work: &Work, carry: Carry) -> Vec<String> {
     if before.found.is_empty() {
         return Vec::new();
     }
     let tracks = before.anchors.tracks(work);
-    let gone = before
-        .found
-        .iter()
-        .filter(|contact| contact.moved(&tracks) >= KEPT);
-    gone.filter_map(|contact| {
-        let (point, place) = contact.names();
-        let way = contact.way(&tracks, contact.nearest)?;
-        Some(format!(
-            "{point} touched {place} at {}; it is now {:.1} cm away, having moved {:.1} cm against it",
-            work.rate.instant(contact.nearest),
-            way.length() * 100.0,
-            contact.moved(&tracks) * 100.0
-        ))
-    })
-    .collect()
+    let told = |contact: &Contact| {
+        let now = carry.carried(contact)?;
+        let (is, more) = carry.off(&now, &tracks, work.frames)?;
+        if more < if carry == Carry::Same { KEPT } else { ALIKE } {
+            return None;
+        }
+        let [(point, place), (now_point, now_place)] = [contact.names(), now.names()];
+        let at = work.rate.instant(contact.nearest);
+        let is = is * 100.0;
+        Some(match carry {
+            Carry::Same => format!(
+                "{point} touched {place} at {at}; it is now {is:.1} cm away, having moved {:.1} cm \
+                 against it",
+                more * 100.0
+            ),
+            Carry::Swapped | Carry::Copied(_) => format!(
+                "{point} touched {place} at {at}; now {now_point} is {is:.1} cm away from {now_place}"
+            ),
+            Carry::Anytime => format!(
+                "{point} touched {place} at {at}; it comes to {is:.1} cm of it at the nearest"
+            ),
+        })
+    };
+    before.found.iter().filter_map(told).collect()
 }

@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::contact::{self, Keep};
+use chereme_sign::Handedness;
+
+use crate::contact::{self, Carry, Keep};
 use crate::course::{self, Courses};
 use crate::error::{Cause, MakeError};
 use crate::made::{ChannelReport, Made, Report, StepReport};
-use crate::ops;
+use crate::ops::{self, join};
 use crate::poses::HandPose;
 use crate::recipe::*;
 use crate::resolve::{Input, PlaceInput, Resolved};
@@ -67,8 +69,8 @@ struct Evaluator<'a> {
     aside: Vec<String>,
 }
 
-/// Tells whether a step may part hands from what they touch, each frame staying what it was.
-fn moves_hands(step: &Step) -> bool {
+/// Returns how a step carries contacts; nothing where it cannot undo any, or sees to them itself.
+fn carry(step: &Step, handedness: Handedness) -> Option<Carry> {
     match step {
         Step::Configure(_)
         | Step::Place(_)
@@ -76,8 +78,11 @@ fn moves_hands(step: &Step) -> bool {
         | Step::Amplify(_)
         | Step::Travel(_)
         | Step::Nonmanual(_)
-        | Step::Indicate(_) => true,
-        Step::Reverse | Step::Swap | Step::Mirror(_) | Step::Repeat(_) | Step::Retime(_) => false,
+        | Step::Indicate(_) => Some(Carry::Same),
+        Step::Swap => Some(Carry::Swapped),
+        Step::Mirror(mirror) => Some(Carry::Copied(mirror.from.sides(handedness)[0])),
+        Step::Retime(_) => Some(Carry::Anytime),
+        Step::Reverse | Step::Repeat(_) => None,
     }
 }
 
@@ -115,20 +120,17 @@ impl Evaluator<'_> {
                 for Planned { index, step } in &plan {
                     let path = format!("{path}/pipe/steps/{index}");
                     let text = step.to_string();
-                    let touched = moves_hands(step).then(|| contact::touches(&work));
+                    let carry = carry(step, work.handedness);
+                    let mut touched = carry.map(|carry| (contact::touches(&work), carry));
                     match self.step(&mut work, step, &path, &text) {
                         Ok(mut done) => {
-                            if let Some(before) = &touched {
+                            if let Some((before, carry)) = &mut touched {
                                 let handedness = work.handedness;
                                 let keep = Keep::of(step, |hands| hands.sides(handedness));
-                                done.did
-                                    .extend(contact::mend(&mut work, before, keep, &text));
+                                let kept = contact::mend(&mut work, before, keep, &text);
+                                done.did.extend(kept);
+                                self.lost(&text, contact::lost(before, &work, *carry));
                             }
-                            let lost = touched.map(|before| contact::lost(&before, &work));
-                            let lost = lost.into_iter().flatten();
-                            self.report
-                                .contacts
-                                .extend(lost.map(|lost| format!("{text}: {lost}")));
                             self.done(path, text, done);
                         }
                         Err(cause) => {
@@ -182,6 +184,11 @@ impl Evaluator<'_> {
                 }
             }
         }
+    }
+
+    fn lost(&mut self, step: &str, contacts: Vec<String>) {
+        let told = contacts.iter().map(|lost| format!("{step}: {lost}"));
+        self.report.contacts.extend(told);
     }
 
     fn done(&mut self, path: String, step: String, mut done: Done) {
@@ -270,9 +277,8 @@ impl Evaluator<'_> {
             Step::Repeat(settings) => {
                 let course =
                     self.course(&settings.via, Profile::Slerp, format!("{path}/repeat/via"))?;
-                let (did, joins) = ops::repeat::repeat(work, settings, &course, text)?;
-                self.report.joins.extend(joins);
-                did.into()
+                let done = ops::repeat::repeat(work, settings, &course, text)?;
+                self.joined(text, done)
             }
             Step::Orient(settings) => ops::orient::orient(work, settings, text)?.into(),
             Step::Amplify(settings) => ops::shape::amplify(work, settings, text)?.into(),
@@ -341,9 +347,14 @@ impl Evaluator<'_> {
         text: &str,
     ) -> Result<Done, Cause> {
         let course = self.course(&joined.via, Profile::Sigmoid, format!("{path}/via"))?;
-        let (did, joins) = ops::then::then(work, next, joined.via.time, &course, text)?;
-        self.report.joins.extend(joins);
-        Ok(did.into())
+        let done = ops::then::then(work, next, joined.via.time, &course, text)?;
+        Ok(self.joined(text, done))
+    }
+
+    fn joined(&mut self, text: &str, done: join::Done) -> Done {
+        self.report.joins.extend(done.joins);
+        self.lost(text, done.contacts);
+        done.did.into()
     }
 
     fn material(&self, path: String) -> Result<&Material, Cause> {

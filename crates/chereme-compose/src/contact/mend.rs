@@ -46,22 +46,28 @@ impl Keep {
 }
 
 /// Moves wrists so that what touched touches again, where `keep` asks for it and it takes little;
-/// returns what was done.
+/// returns what was done. Where another point of a hand touches than did, the contact is that from
+/// now on.
 ///
 /// The hand that was changed comes to the other; where both were, the weak hand comes first. Turns of
 /// hands stay. Before and after a contact the wrist's way is blended with what it was.
-pub(crate) fn mend(work: &mut Work, before: &Contacts, keep: Keep, operator: &str) -> Vec<String> {
+pub(crate) fn mend(
+    work: &mut Work,
+    before: &mut Contacts,
+    keep: Keep,
+    operator: &str,
+) -> Vec<String> {
     let (sides, body): (&[Side], bool) = match keep {
         Keep::None => return Vec::new(),
         Keep::Hands => (&Side::BOTH, false),
         Keep::All(sides) => (sides, true),
     };
-    let wanted = |contact: &&Contact| match contact.other {
+    let wanted = |contact: &Contact| match contact.other {
         Some(_) => true,
         None => body && sides.contains(&contact.side),
     };
-    let contacts: Vec<&Contact> = before.found.iter().filter(wanted).collect();
-    if contacts.is_empty() {
+    let Contacts { anchors, found } = before;
+    if !found.iter().any(wanted) {
         return Vec::new();
     }
     let weak = work.handedness.dominant().other();
@@ -69,12 +75,12 @@ pub(crate) fn mend(work: &mut Work, before: &Contacts, keep: Keep, operator: &st
     order.retain(|side| sides.contains(side));
     let mut did = Vec::new();
     for side in order {
-        let tracks = before.anchors.tracks(work);
+        let tracks = anchors.tracks(work);
         let mut shifts: Vec<Option<DVec3>> = vec![None; work.frames];
-        for contact in contacts
-            .iter()
-            .filter(|c| c.side == side || c.other.is_some())
-        {
+        for contact in found.iter_mut().filter(|contact| wanted(contact)) {
+            if contact.side != side && contact.other.is_none() {
+                continue;
+            }
             let Some((shift, point)) = shift(contact, &tracks, side) else {
                 continue;
             };
@@ -86,7 +92,12 @@ pub(crate) fn mend(work: &mut Work, before: &Contacts, keep: Keep, operator: &st
             for (slot, way) in slots.iter_mut().zip(shift) {
                 *slot = Some(way);
             }
-            did.push(told(contact, side, point, most));
+            if contact.side == side {
+                contact.point = point;
+            } else {
+                contact.place = point;
+            }
+            did.push(told(contact, side, most));
         }
         if shifts.iter().all(Option::is_none) {
             continue;
@@ -142,14 +153,8 @@ fn shift(contact: &Contact, tracks: &Tracks<'_>, side: Side) -> Option<(Vec<DVec
     (most <= MOST).then_some((best, point))
 }
 
-fn told(contact: &Contact, side: Side, point: usize, most: f64) -> String {
-    let mut now = contact.clone();
-    if contact.side == side {
-        now.point = point;
-    } else {
-        now.place = point;
-    }
-    let (point, place) = now.names();
+fn told(contact: &Contact, side: Side, most: f64) -> String {
+    let (point, place) = contact.names();
     format!(
         "contact kept: {point} and {place}; the {} wrist is moved by up to {:.1} cm for it",
         side.name(),

@@ -30,6 +30,17 @@ pub(super) const PLACES: [&str; 12] = [
     "right-shoulder",
 ];
 
+/// Returns the place on the other side of the body.
+pub(super) fn across(place: usize) -> usize {
+    let name = match PLACES[place].split_once('-') {
+        Some(("left", what)) => format!("right-{what}"),
+        Some(("right", what)) => format!("left-{what}"),
+        _ => return place,
+    };
+    let other = PLACES.iter().position(|place| **place == name);
+    other.unwrap_or(place)
+}
+
 /// How often places that go with several joints are looked for; between, they are interpolated.
 const SAMPLES: usize = 16;
 

@@ -20,6 +20,14 @@ pub(crate) fn check_length(work: &Work, frames: usize) -> Result<(), Cause> {
     Ok(())
 }
 
+/// What joining told: what was done, how the hands meet, and contacts that are gone.
+#[derive(Debug, Default)]
+pub(crate) struct Done {
+    pub(crate) did: Vec<String>,
+    pub(crate) joins: Vec<JoinReport>,
+    pub(crate) contacts: Vec<String>,
+}
+
 /// When the channels of one hand leave the first movement and enter the second.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Cut {

@@ -35,7 +35,8 @@ pub(crate) fn mirror(work: &mut Work, from: Side) -> Result<Vec<String>, Cause> 
     let plan = Plan::of(work)?;
     let copied = plan.pairs.iter().filter(|pair| pair.side == from);
     let mirrored: Vec<(usize, Column)> = copied.map(|pair| plan.image(work, pair)).collect();
-    let did = plan.write(work, mirrored);
+    let mut did = plan.write(work, mirrored);
+    did.extend(crossing(work, &plan));
     work.notes.retain(|note| note.hand != Some(from.other()));
     let copies: Vec<Note> = work
         .notes
@@ -50,6 +51,35 @@ pub(crate) fn mirror(work: &mut Work, from: Side) -> Result<Vec<String>, Cause> 
     work.notes.extend(copies);
     work.changed(arms(&[from.other()]), &format!("mirror {}", from.name()));
     Ok(did)
+}
+
+/// Says when hands that are each other's mirror image go through each other: when a joint of one is
+/// beyond the plane between them.
+fn crossing(work: &Work, plan: &Plan) -> Option<String> {
+    let upper = |side| Some(work.anatomy.arm(side)?.upper);
+    let (left, right) = (upper(Side::Left)?, upper(Side::Right)?);
+    let hand = work.anatomy.arm(Side::Left)?.hand;
+    let below = work.skeleton.subtree(hand);
+    let pairs = plan.pairs.iter().filter(|pair| below.contains(&pair.joint));
+    let pairs: Vec<(usize, usize)> = pairs.map(|pair| (pair.joint, pair.other)).collect();
+    let all = pairs.iter().flat_map(|&(a, b)| [a, b]).chain([left, right]);
+    let columns = Columns::of(work, all);
+    let way = |from: usize, to: usize, frame: usize| {
+        columns.positions(to)[frame] - columns.positions(from)[frame]
+    };
+    let crossed = |frame: &usize| {
+        let across = way(right, left, *frame);
+        pairs
+            .iter()
+            .any(|&(left, right)| way(right, left, *frame).dot(across) < 0.0)
+    };
+    let frames: Vec<usize> = (0..work.frames).filter(crossed).collect();
+    let first = work.rate.instant(*frames.first()?);
+    Some(format!(
+        "the hands go through each other in {} frames, from {first} on; take one aside, as with: \
+         place left by left 5cm",
+        frames.len()
+    ))
 }
 
 fn arms(sides: &[Side]) -> Vec<Group> {

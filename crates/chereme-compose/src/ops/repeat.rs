@@ -2,9 +2,9 @@
 
 use chereme_motion::Side;
 
+use crate::contact::{self, Carry, Keep};
 use crate::course::Courses;
 use crate::error::Cause;
-use crate::made::JoinReport;
 use crate::ops::join::{self, Seam};
 use crate::ops::{retime, shape};
 use crate::recipe::Repeat;
@@ -19,7 +19,7 @@ pub(crate) fn repeat(
     settings: &Repeat,
     courses: &Courses,
     operator: &str,
-) -> Result<(Vec<String>, Vec<JoinReport>), Cause> {
+) -> Result<join::Done, Cause> {
     let seconds = settings
         .gap
         .or(settings.via.time)
@@ -37,11 +37,18 @@ pub(crate) fn repeat(
         .filter(|&s| work.anatomy.arm(s).is_some())
         .collect();
     let mut residual: f64 = 0.0;
-    let mut joins = Vec::new();
+    let mut done = join::Done::default();
     for n in 1..times {
         let mut next = once.clone();
         if scale != 1.0 {
+            let mut touched = contact::touches(&next);
             residual = residual.max(shape::scale(&mut next, &arms, scale)?.residual);
+            let keep = Keep::All(&Side::BOTH);
+            let what = |told: &String| format!("repetition {}: {told}", n + 1);
+            let kept = contact::mend(&mut next, &mut touched, keep, operator);
+            done.did.extend(kept.iter().map(what));
+            let lost = contact::lost(&touched, &next, Carry::Same);
+            done.contacts.extend(lost.iter().map(what));
         }
         if tempo != 1.0 {
             retime::stretch(&mut next, 1.0 / tempo)?;
@@ -51,17 +58,19 @@ pub(crate) fn repeat(
         }
         let seam = Seam::plain(work, gap);
         let what = format!("repetition {} to {}", n, n + 1);
-        joins.extend(join::join(work, next, &seam, courses, &what)?);
+        done.joins
+            .extend(join::join(work, next, &seam, courses, &what)?);
     }
     if times > 1 {
         work.changed(Group::ALL, operator);
     }
-    let mut did = vec![format!("{times} times, {gap} frames between")];
+    let times = format!("{times} times, {gap} frames between");
+    done.did.insert(0, times);
     if residual > 1e-3 {
-        did.push(format!(
+        done.did.push(format!(
             "out of reach: a wrist stays {:.1} cm short",
             residual * 100.0
         ));
     }
-    Ok((did, joins))
+    Ok(done)
 }

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use chereme_motion::glam::DQuat;
 use chereme_motion::{ModelPose, Side};
 
+use crate::contact::{self, Carry, Keep};
 use crate::course::Courses;
 use crate::error::Cause;
-use crate::made::JoinReport;
 use crate::ops::join::{self, Cut, Seam};
 use crate::ops::retarget;
 use crate::units::Seconds;
@@ -26,14 +26,20 @@ pub(crate) fn then(
     time: Option<Seconds>,
     courses: &Courses,
     operator: &str,
-) -> Result<(Vec<String>, Vec<JoinReport>), Cause> {
-    let mut did = Vec::new();
+) -> Result<join::Done, Cause> {
+    let (mut did, mut contacts) = (Vec::new(), Vec::new());
     let mut next = if Arc::ptr_eq(&work.skeleton, &next.skeleton) || work.skeleton == next.skeleton
     {
         next
     } else {
         did.push("the second signer's movement is put on the first one's body".to_owned());
-        retarget::retarget(&next, &work.skeleton, &work.anatomy)?
+        let touched = contact::touches(&next);
+        let mut next = retarget::retarget(&next, &work.skeleton, &work.anatomy)?;
+        let mut touched = touched.on(&next);
+        let keep = Keep::All(&Side::BOTH);
+        did.extend(contact::mend(&mut next, &mut touched, keep, operator));
+        contacts = contact::lost(&touched, &next, Carry::Same);
+        next
     };
     retarget::resample(&mut next, work.rate);
     face_alike(work, &mut next);
@@ -65,7 +71,11 @@ pub(crate) fn then(
         ));
     }
     let joins = join::join(work, next, &seam, courses, operator)?;
-    Ok((did, joins))
+    Ok(join::Done {
+        did,
+        joins,
+        contacts,
+    })
 }
 
 /// Turns and moves the second movement on the floor so that it starts where the first ends, facing

@@ -268,3 +268,36 @@ fn letters_take_the_time_that_the_recipe_or_else_the_corpus_says() {
         "{told}"
     );
 }
+
+#[test]
+fn contacts_are_followed_through_every_operator() {
+    let touching = "ESCARGOT | place right at chin with index";
+    let contacts = |step: &str| made(&format!("{touching} | {step}")).report.contacts;
+    for kept in ["reverse", "repeat 2", "repeat 3 tempo 1.3", "retime 150%"] {
+        assert_eq!(contacts(kept), Vec::<String>::new(), "{kept}");
+    }
+    // The head is turned aside, so that the mirror image of the hand misses the nose.
+    for mirrored in ["swap", "mirror right"] {
+        let told = contacts(mirrored);
+        assert!(!told.is_empty(), "{mirrored}");
+        let names_both = |told: &String| told.contains("right-thumb-tip touched nose");
+        assert!(
+            told.iter()
+                .any(|told| names_both(told) && told.contains("now left-thumb-tip")),
+            "{told:?}"
+        );
+    }
+    // What was shrunk no longer reaches where it did, or is told to be brought back.
+    let shrunk = made(&format!("{touching} | repeat 2 scale 0.3"));
+    let told = format!("{}{:?}", shrunk.report, shrunk.report.contacts);
+    assert!(told.contains("repetition 2: "), "{told}");
+}
+
+#[test]
+fn mirrored_hands_that_would_go_through_each_other_are_told() {
+    let crossed = made("ESCARGOT | place right by left 40cm | mirror right");
+    let told = crossed.report.to_string();
+    assert!(told.contains("go through each other"), "{told}");
+    let apart = made("ESCARGOT | place right by right 20cm | mirror right");
+    assert!(!apart.report.to_string().contains("go through each other"));
+}

@@ -183,4 +183,42 @@ mod tests {
         assert_eq!((letters.seconds, letters.count), (0.3, 5));
         assert_eq!(Times::default().median(), None);
     }
+
+    #[test]
+    fn the_starter_corpus_teaches_courses_and_times() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let files = folder.path().join("starter");
+        crate::unpack_starter(&files).expect("unpacked");
+        let path = folder.path().join("c.chereme");
+        let mut corpus = crate::Corpus::create(&path, "A").expect("made");
+        let empty = corpus
+            .preview("spell OR via learned")
+            .expect_err("no movement");
+        assert!(empty.to_string().contains("not in the corpus"), "{empty}");
+        let mut hear = crate::unheard;
+        corpus
+            .import(
+                &[files],
+                &crate::ImportOptions::default(),
+                &mut crate::Progress::new(&mut hear),
+            )
+            .expect("imported");
+        let made = corpus
+            .recombine("spell OR via learned", "OR")
+            .expect("made");
+        let told = made.report.steps[0].did.join("\n");
+        for want in [
+            "0.32 s, the median of 30",
+            "0.30 s, the median of 25",
+            "transitions of arms",
+        ] {
+            assert!(told.contains(want), "{told}");
+        }
+        let again = corpus.preview("spell OR via learned").expect("made");
+        assert_eq!(again.clip, made.clip, "what was made does not teach");
+        let recording = made.recording.expect("stored");
+        let stored = crate::db::recipes::of_recording(corpus.store.read(), recording);
+        let document = stored.expect("read").expect("kept").document;
+        assert!(document.contains("\"transitions\"") && document.contains("\"seconds\""));
+    }
 }
