@@ -5,6 +5,7 @@ pub mod eaf;
 mod finding;
 pub mod lexicon;
 pub mod roles;
+pub mod sigml;
 pub mod table;
 mod tally;
 

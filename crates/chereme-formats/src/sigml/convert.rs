@@ -1,0 +1,145 @@
+//! What a SiGML document means: notated signs.
+
+use super::gestural::{read_sign, write_manual, write_nonmanual};
+use super::node::Node;
+use super::raw::{Element, Line, shown};
+use crate::finding::Finding;
+use crate::tally::Findings;
+use chereme_sign::hamnosys::Notated;
+
+pub use super::error::Error;
+
+/// A notated sign and the line of the file on which it starts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    /// The sign.
+    pub sign: Notated,
+    /// Where it is; it takes no part in comparisons.
+    pub line: Line,
+}
+
+/// Says what a document means: its signs in their order.
+///
+/// Whatever can be lived with is read and told as a finding: names and values that SiGML 1.2 does
+/// not have, letters that repeat, parts in other places.
+///
+/// # Errors
+/// [`Error::Root`] where the root is neither `<sigml>` nor a sign.
+pub fn from_raw(root: &Element<'_>) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
+    let mut findings = Findings::default();
+    let mut entries = Vec::new();
+    if root.name == "sigml" {
+        let mut node = Node::new(root, &mut findings);
+        node.text("base_uri");
+        node.finish();
+        read_signs(root, &mut findings, &mut entries);
+    } else if read_entry(root, &mut findings, &mut entries) {
+        findings.add("signs without a document", || {
+            Finding::note(
+                root.line.0,
+                "the root element is a sign; <sigml> is missing around it",
+            )
+        });
+    } else {
+        return Err(Error::Root {
+            line: root.line.0,
+            found: shown(&root.name),
+        });
+    }
+    if entries.is_empty() {
+        findings.add("documents without signs", || {
+            Finding::warning(root.line.0, "there is no sign in the document")
+        });
+    }
+    Ok((entries, findings.finish()))
+}
+
+fn read_signs(parent: &Element<'_>, findings: &mut Findings, entries: &mut Vec<Entry>) {
+    for child in &parent.children {
+        if read_entry(child, findings, entries) {
+            continue;
+        }
+        match &*child.name {
+            "sigmlsection" | "sigmlstream" => read_signs(child, findings, entries),
+            _ => findings.add("elements that are not signs", || {
+                let message = format!(
+                    "<{}> is no notated sign; it was left out",
+                    shown(&child.name)
+                );
+                Finding::warning(child.line.0, message)
+            }),
+        }
+    }
+}
+
+/// Reads an element where it is a sign, and tells whether it is.
+fn read_entry(element: &Element<'_>, findings: &mut Findings, entries: &mut Vec<Entry>) -> bool {
+    if !matches!(&*element.name, "hamgestural_sign" | "hamgestural_segment") {
+        return false;
+    }
+    let mut node = Node::new(element, findings);
+    let gloss = node.text("gloss").map(str::trim).unwrap_or_default();
+    if gloss.is_empty() {
+        node.warn("signs without a gloss", |tag| {
+            format!("<{tag}> has no gloss")
+        });
+    }
+    let owned = |text: Option<&str>| text.map(str::to_owned);
+    let mut sign = Notated {
+        gloss: gloss.to_owned(),
+        sign_language: owned(node.text("sign_language")),
+        gloss_language: owned(node.text("gloss_language")),
+        speed: node.number("speed"),
+        timescale: node.number("timescale"),
+        duration: node.number("duration"),
+        ..Notated::default()
+    };
+    node.finish();
+    (sign.sign, sign.nonmanual) = read_sign(element, findings);
+    if sign.sign.parts.is_empty() {
+        findings.add("signs without hands", || {
+            let message = format!("<{}> says nothing of the hands", element.name);
+            Finding::warning(element.line.0, message)
+        });
+    }
+    entries.push(Entry {
+        sign,
+        line: element.line,
+    });
+    true
+}
+
+/// Returns the document that holds these signs as gestural SiGML.
+///
+/// Beyond SiGML 1.2, and so that nothing is lost, it writes the attributes `speed`, `amount`,
+/// `timescale` and `duration` where the tree has them, `digits` of a finger play, `second_size` of a
+/// circle, `approx_repetition`, and an empty `location_hand` for a half of a split that says nothing.
+pub fn to_gestural<'s>(signs: impl IntoIterator<Item = &'s Notated>) -> Element<'static> {
+    let mut root = Element::new("sigml");
+    for sign in signs {
+        let mut element = header("hamgestural_sign", sign);
+        if !sign.nonmanual.is_empty() {
+            element.children.push(write_nonmanual(&sign.nonmanual));
+        }
+        if !sign.sign.parts.is_empty() {
+            element.children.push(write_manual(&sign.sign));
+        }
+        root.children.push(element);
+    }
+    root
+}
+
+fn header(name: &'static str, sign: &Notated) -> Element<'static> {
+    let mut element = Element::new(name);
+    element.set("gloss", sign.gloss.clone());
+    element.some("sign_language", sign.sign_language.clone());
+    element.some("gloss_language", sign.gloss_language.clone());
+    for (name, value) in [
+        ("speed", sign.speed),
+        ("timescale", sign.timescale),
+        ("duration", sign.duration),
+    ] {
+        element.some(name, value.map(|value| value.to_string()));
+    }
+    element
+}

@@ -1,0 +1,71 @@
+//! What makes a SiGML file meaningless.
+
+/// Why a file could not be read as SiGML; every case names the line and what would be right.
+///
+/// What is odd and can be lived with is a [`Finding`](crate::Finding) instead.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Error {
+    /// The file is not UTF-8.
+    #[error(
+        "line {line}: the text is in {encoding}, and SiGML is read in UTF-8; \
+         open it in a text editor and save it as UTF-8"
+    )]
+    Encoding {
+        /// The encoding that its first bytes or its declaration name, or `an unknown encoding`.
+        encoding: String,
+        /// Where the first wrong byte or the declaration is, counted from 1.
+        line: u64,
+    },
+    /// The file holds nothing, or something that isn't XML.
+    #[error("line {line}: this is not XML; a SiGML file starts with <sigml>")]
+    NotXml {
+        /// The line, counted from 1.
+        line: u64,
+    },
+    /// The root element is another one.
+    #[error(
+        "line {line}: the root element is <{found}>; it should be <sigml>, \
+         or a single <hamgestural_sign> or <hns_sign>"
+    )]
+    Root {
+        /// The line, counted from 1.
+        line: u64,
+        /// The element that is there.
+        found: String,
+    },
+    /// The text ends inside an element.
+    #[error("line {line}: the file ends inside <{open}>; it was cut short: copy it anew")]
+    Truncated {
+        /// The last line, counted from 1.
+        line: u64,
+        /// The innermost element that was not closed.
+        open: String,
+    },
+    /// The text breaks the rules of XML.
+    #[error("line {line}: {message}")]
+    Syntax {
+        /// The line, counted from 1.
+        line: u64,
+        /// What is wrong there and what would be right.
+        message: String,
+    },
+    /// The file declares entities or a document type of its own.
+    #[error(
+        "line {line}: a <!DOCTYPE …> with declarations of its own is not read, for entities can \
+         hide anything; take away what stands between [ and ]"
+    )]
+    Entities {
+        /// The line, counted from 1.
+        line: u64,
+    },
+    /// The file goes beyond what is read.
+    #[error("line {line}: {what}, more than {limit}; no SiGML file needs as many")]
+    Limit {
+        /// The line, counted from 1.
+        line: u64,
+        /// What there is too much of, as a sentence.
+        what: &'static str,
+        /// The most that is read.
+        limit: usize,
+    },
+}

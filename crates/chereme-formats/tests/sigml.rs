@@ -1,0 +1,838 @@
+//! SiGML files: what is read, what is found odd, what is refused, and that all comes back.
+
+use chereme_formats::sigml::{self, Error};
+use chereme_sign::hamnosys::{
+    Act, Aim, Amount, Bend, BodyAction, BodyLocation, BodyPlace, Circular, Clock, Compass,
+    Constellation, Contact, Curve, Digit, Digits, Directed, Direction, Each, Ellipse,
+    FingerContact, FingerPart, Form, Frame, Growth, HandClass, HandLocation, HandSite, HandsUsed,
+    Handshape, Manner, Manual, Motion, MotionKind, Nonmanual, NonmanualPart, NonmanualTier,
+    Notated, Opening, Place, Posture, Repeat, Repetition, Side, Sign, Site, Size, Symmetry,
+    ThumbExtra, ThumbPosition, TierEnd, TierKind, TierStart, WristMotion, Zigzag,
+};
+use proptest::prelude::*;
+use proptest::sample::select;
+
+fn document(manual: &str) -> String {
+    format!(
+        "<sigml>\n<hamgestural_sign gloss=\"X\">\n<sign_manual>\n{manual}\n</sign_manual>\n</hamgestural_sign>\n</sigml>\n"
+    )
+}
+
+/// Reads the one part of a sign and what was found, as `line: message`.
+fn part(manual: &str) -> (Manual, Vec<String>) {
+    let (mut signs, findings) = sigml::read(document(manual).as_bytes()).expect("it is SiGML");
+    let line = |line: Option<u64>| line.map_or_else(String::new, |line| line.to_string());
+    let told = findings
+        .iter()
+        .map(|finding| format!("{}: {}", line(finding.line), finding.message));
+    (signs.remove(0).sign.sign.parts.remove(0), told.collect())
+}
+
+#[test]
+fn a_sign_is_read_with_all_that_is_said_of_it() {
+    let text = br#"<?xml version="1.0"?><!DOCTYPE sigml SYSTEM "http://example.org/sigml.dtd">
+<sigml><hamgestural_sign gloss="HERE &amp; NOW" speed="1.2" timescale="2" duration="0.5" sign_language="dse" gloss_language="nl">
+<sign_nonmanual>
+  <head_tier presynchronization="slight_delay"><head_movement movement="SH_shaking_left_and_right"/>
+    <head_par><head_movement movement="NF"/><head_movement movement="TL" amount="0.5"/></head_par></head_tier>
+  <mouthing_tier fitpicturetomanual="true"><mouth_picture picture="hi:r"/><mouth_gesture movement="L04"/></mouthing_tier>
+</sign_nonmanual>
+<sign_manual both_hands="true" lr_symm="true" outofphase="true">
+  <handconfig handshape="finger2" thumbpos="across" mainbend="bent" bend5="hooked"/>
+  <split_handconfig><handconfig extfidir="o" second_extfidir="uor"/><handconfig/></split_handconfig>
+  <handconfig palmor="d" rel_palmor="false"/>
+  <location_bodyarm location="chest" side="right_at" contact="touch"><location_hand location="tip" digits="2"/></location_bodyarm>
+  <rpt_motion repetition="fromstart"><directedmotion direction="d" size="small" manner="fast"/></rpt_motion>
+</sign_manual></hamgestural_sign></sigml>"#;
+    let (signs, findings) = sigml::read(text).expect("it is SiGML");
+    let sign = &signs[0].sign;
+    assert_eq!(sign.gloss, "HERE & NOW");
+    assert_eq!(
+        (sign.speed, sign.timescale, sign.duration),
+        (Some(1.2), Some(2.0), Some(0.5))
+    );
+    assert_eq!(sign.sign_language.as_deref(), Some("dse"));
+    let told: Vec<_> = findings.iter().map(|f| (f.line, &f.message[..])).collect();
+    assert_eq!(
+        told,
+        [
+            (
+                Some(1),
+                "a document type is named; it is not fetched, and not kept"
+            ),
+            (
+                Some(5),
+                "<head_movement> has an amount or speed, which is not in SiGML 1.2; it was kept as a factor"
+            ),
+        ]
+    );
+    let head = &sign.nonmanual.tiers[&TierKind::Head];
+    assert_eq!(head.start, Some(TierStart::SlightDelay));
+    assert_eq!(head.groups[0], [Act::new(NonmanualPart::Head, "SH")]);
+    assert_eq!(head.groups[1].len(), 2);
+    assert!(sign.nonmanual.tiers[&TierKind::Mouthing].fit_picture);
+    let part = &sign.sign.parts[0];
+    assert!(
+        matches!(part.hands, HandsUsed::Both(s) if s.left_right && s.out_of_phase && !s.up_down)
+    );
+    let shape = part.posture.shape.dominant().expect("there is one");
+    assert_eq!(shape.form.thumb, Some(ThumbPosition::Across));
+    assert_eq!(shape.bends[4], Some(Bend::Hooked));
+    let aim = part.posture.extended.dominant().expect("there is one");
+    assert_eq!(aim.second.map(|d| d.to_string()).as_deref(), Some("uor"));
+    assert_eq!(part.posture.extended.other(), None);
+    let MotionKind::Repeated { motion, .. } = &part.actions[0].kind else {
+        panic!("{:?}", part.actions)
+    };
+    assert!(motion.manner.fast);
+}
+
+#[test]
+fn deviations_are_read_and_told_with_their_line() {
+    for (manual, told) in [
+        (
+            r#"<handconfig extfidir="uuo"/>"#,
+            r#"4: extfidir="uuo" was read as "uo""#,
+        ),
+        (
+            r#"<handconfig extfidir="lu"/>"#,
+            r#"4: extfidir="lu" was read as "ul""#,
+        ),
+        (
+            r#"<handconfig extfidir="oi"/>"#,
+            r#"4: <handconfig extfidir="oi">: the value means nothing; it was left out"#,
+        ),
+        (
+            r#"<handconfig palmor="il"/>"#,
+            r#"4: palmor="il" is none of the eight directions; it was read as "l""#,
+        ),
+        (
+            r#"<handconfig palmor="o"/>"#,
+            r#"4: <handconfig palmor="o">: the value means nothing; it was left out"#,
+        ),
+        (
+            r#"<handconfig palmor="d" abs_palmor="true"/>"#,
+            "4: <handconfig> says what its palmor is relative to, which few programs read",
+        ),
+        (
+            r#"<handconfig handshape="flat" mainbend="410"/>"#,
+            r#"4: <handconfig mainbend="410">: the bend is given joint by joint"#,
+        ),
+        (
+            r#"<handconfig handshape="flat" mainbend="0.50.50.5"/>"#,
+            r#"4: mainbend="0.50.50.5" was read as the bends 0.5 0.5 0.5 of three joints, 4 being as far as goes"#,
+        ),
+        (
+            r#"<handconfig handshape="flat" bend2="stiff"/>"#,
+            r#"4: <handconfig bend2="stiff">: the value means nothing; it was left out"#,
+        ),
+        (
+            r#"<handconfig handshape="paw"/>"#,
+            r#"4: <handconfig handshape="paw">: the value means nothing; it was left out"#,
+        ),
+        (
+            r#"<handconfig handshape="flat" exempteddigits="227"/>"#,
+            r#"4: <handconfig exempteddigits="227"> was read as "2"; write digits from 1 (thumb) to 5, each once"#,
+        ),
+        (
+            r#"<handconfig thumbpos="out"/>"#,
+            "4: <handconfig> says something of a handshape without handshape=…; it was left out",
+        ),
+        (
+            r#"<handconfig handshape="flat" colour="red"/>"#,
+            r#"4: <handconfig> has no attribute colour="red"; it was left out"#,
+        ),
+        (
+            "<handconfig handshape=\"flat\"/>\n<handconfig handshape=\"fist\"/>",
+            "5: <handconfig> says what another in <sign_manual> said before; the last one counts",
+        ),
+        (
+            "<nomotion/>\n<handconfig handshape=\"flat\"/>",
+            "5: <handconfig> stands after a motion; it was read as part of the posture the sign begins with",
+        ),
+        (
+            r#"<location_bodyarm side="right_at"/>"#,
+            "4: <location_bodyarm> has side without location; it was read as a side of neutralspace",
+        ),
+        (
+            r#"<location_bodyarm location="chest" second_side="left_at"/>"#,
+            "4: <location_bodyarm> has second_side without second_location; it was read as a side of chest",
+        ),
+        (
+            "<split_location><location_bodyarm/></split_location>",
+            "4: <split_location> holds fewer than two halves; what is there is the dominant hand's",
+        ),
+        ("<no_motion/>", "4: <no_motion> was read as <nomotion>"),
+        (
+            r#"<directedmotion direction="u" speed="0.3"/>"#,
+            "4: <directedmotion speed> is not in SiGML 1.2; it was kept as a factor",
+        ),
+        (
+            r#"<directedmotion/>"#,
+            r#"4: <directedmotion> has no direction that can be read; it was taken as "o""#,
+        ),
+        (
+            "<par_motion><nomotion/></par_motion>",
+            "4: <par_motion> holds 1 motions instead of two or more",
+        ),
+        (
+            "<rpt_motion repetition=\"swap\"><nomotion/>\n<nomotion/></rpt_motion>",
+            "4: <rpt_motion> holds 2 motions instead of one; they were read as a sequence",
+        ),
+        (
+            "<rpt_motion><nomotion/></rpt_motion>",
+            r#"4: <rpt_motion> has no repetition that can be read; it was taken as "fromstart""#,
+        ),
+        (
+            "<tgt_motion><nomotion/></tgt_motion>",
+            "4: <tgt_motion> says no posture that it ends in",
+        ),
+        (
+            "<changeposture/>",
+            "4: <changeposture> stands outside <tgt_motion>; it changes nothing",
+        ),
+        (
+            "<dance/>",
+            "4: <dance> has no place in <sign_manual>; it was left out",
+        ),
+        (
+            "\n<nomotion>“2” tip&gt;</nomotion>",
+            r#"5: there is text in <nomotion>: "“2” tip"; it was left out"#,
+        ),
+        (
+            "<!-- so -->",
+            "4: an XML comment or instruction is not kept",
+        ),
+        (
+            "<nonmanualconfig><nomotion/></nonmanualconfig>",
+            "4: <nonmanualconfig> names no part of the body; it was left out",
+        ),
+    ] {
+        assert_eq!(part(manual).1, [told], "{manual}");
+    }
+}
+
+#[test]
+fn a_place_in_a_motion_is_brushed_along() {
+    let (part, told) = part(
+        r#"<circularmotion axis="o" fast="true"><location_hand location="handback" contact="touch"/></circularmotion>"#,
+    );
+    assert!(told.is_empty(), "{told:?}");
+    let MotionKind::Target {
+        motion: Some(motion),
+        posture,
+    } = &part.actions[0].kind
+    else {
+        panic!("{:?}", part.actions)
+    };
+    assert!(motion.manner.fast && !part.actions[0].manner.fast);
+    assert!(
+        matches!(&posture.place, Some(Place::Hand(site)) if site.contact == Some(Contact::Brushing))
+    );
+}
+
+#[test]
+fn what_is_no_sigml_is_refused() {
+    let deep = format!("<sigml>{}", "<sigmlsection>".repeat(100));
+    let bomb = "<!DOCTYPE sigml [<!ENTITY a \"b\"><!ENTITY c \"&a;&a;\">]><sigml/>";
+    for (text, expected) in [
+        ("", "line 1: this is not XML"),
+        ("hello", "line 1: this is not XML"),
+        ("\u{1}<sigml/>", "line 1: this is not XML"),
+        ("<eaf/>", "line 1: the root element is <eaf>"),
+        (
+            "<sigml>\n<hamgestural_sign>",
+            "line 2: the file ends inside <hamgestural_sign>",
+        ),
+        ("<sigml>\n</sign>", "line 2: </sign> closes <sigml>"),
+        (
+            "<sigml/>\n<sigml/>",
+            "line 2: <sigml> is a second root element",
+        ),
+        ("<sigml a/>", "line 1: <sigml> has a broken attribute"),
+        (
+            bomb,
+            "line 1: a <!DOCTYPE …> with declarations of its own is not read",
+        ),
+        (&deep, "line 1: elements are nested too deep, more than 64"),
+        (
+            "<?xml version=\"1.0\" encoding=\"latin1\"?><sigml base_uri=\"é\"/>",
+            "line 1: the text is in latin1",
+        ),
+    ] {
+        let error = sigml::read(text.as_bytes()).expect_err(text).to_string();
+        assert!(error.starts_with(expected), "{text}: {error}");
+    }
+    let wide: Vec<u8> = "<sigml/>".bytes().flat_map(|byte| [byte, 0]).collect();
+    assert!(matches!(sigml::read(&wide), Err(Error::Encoding { .. })));
+    assert!(matches!(
+        sigml::read(b"<sigml a='\xff'/>"),
+        Err(Error::Encoding { line: 1, .. })
+    ));
+}
+
+#[test]
+fn truncation_anywhere_is_an_error_or_a_document() {
+    let text = document(
+        "<handconfig extfidir=\"uuo\"/><rpt_motion repetition=\"swap\"><directedmotion direction=\"u\"/></rpt_motion>",
+    );
+    for end in 0..text.len() {
+        let whole = text[..end].trim_end().ends_with("</sigml>");
+        assert_eq!(sigml::read(&text.as_bytes()[..end]).is_ok(), whole, "{end}");
+    }
+}
+
+fn word<T: Copy + std::fmt::Debug + 'static>(words: &'static [T]) -> impl Strategy<Value = T> {
+    select(words)
+}
+
+fn maybe<T: std::fmt::Debug>(value: impl Strategy<Value = T>) -> impl Strategy<Value = Option<T>> {
+    proptest::option::weighted(0.3, value)
+}
+
+fn direction() -> impl Strategy<Value = Direction> {
+    select(Direction::all().collect::<Vec<_>>())
+}
+
+fn compass() -> impl Strategy<Value = Compass> {
+    select(Compass::ALL.to_vec())
+}
+
+fn size() -> impl Strategy<Value = Option<Size>> {
+    maybe(word(&[Size::Small, Size::Big]))
+}
+
+fn digit() -> impl Strategy<Value = Digit> {
+    select(Digit::ALL.to_vec())
+}
+
+fn digits() -> impl Strategy<Value = Digits> {
+    proptest::sample::subsequence(Digit::ALL.to_vec(), 0..=2).prop_map(Digits)
+}
+
+fn side() -> impl Strategy<Value = Option<Side>> {
+    maybe(word(&[
+        Side::LeftBeside,
+        Side::RightAt,
+        Side::Front,
+        Side::Dorsal,
+        Side::Ulnar,
+    ]))
+}
+
+fn bend() -> impl Strategy<Value = Bend> {
+    prop_oneof![
+        word(&[
+            Bend::Bent,
+            Bend::Round,
+            Bend::Hooked,
+            Bend::DoubleBent,
+            Bend::DoubleHooked,
+            Bend::HalfBent
+        ]),
+        proptest::array::uniform3(0.0..4.0).prop_map(Bend::Joints),
+        proptest::array::uniform3(0u8..=4).prop_map(|joints| Bend::Joints(joints.map(f64::from))),
+    ]
+}
+
+fn form() -> impl Strategy<Value = Form> {
+    let class = word(&[
+        HandClass::Fist,
+        HandClass::Flat,
+        HandClass::Pinch12Open,
+        HandClass::CeeAll,
+    ]);
+    let thumb = maybe(word(&[
+        ThumbPosition::Out,
+        ThumbPosition::Across,
+        ThumbPosition::Opposed,
+    ]));
+    let opening = maybe(word(&[Opening::Tight, Opening::Slack]));
+    (class, thumb, maybe(bend()), opening).prop_map(|(class, thumb, bend, opening)| Form {
+        class,
+        thumb,
+        bend,
+        opening,
+    })
+}
+
+fn part_of_finger() -> impl Strategy<Value = FingerPart> {
+    word(&[FingerPart::Tip, FingerPart::Nail, FingerPart::MidJoint])
+}
+
+fn handshape() -> impl Strategy<Value = Handshape> {
+    let contact = (digit(), digit(), maybe(part_of_finger()));
+    let contact = contact.prop_map(|(first, second, part)| FingerContact {
+        first,
+        second,
+        part,
+    });
+    let thumb = prop_oneof![
+        (digit(), digit()).prop_map(|(a, b)| ThumbExtra::Between(a, b)),
+        Just(ThumbExtra::Enclosed),
+        part_of_finger().prop_map(ThumbExtra::Contact),
+    ];
+    let forms = (form(), maybe(form()), any::<bool>(), maybe(0u8..=2));
+    let fingers = (
+        digits(),
+        digits(),
+        maybe(digit()),
+        proptest::array::uniform5(maybe(bend())),
+    );
+    let rest = (proptest::collection::vec(contact, 0..=2), maybe(thumb));
+    (forms, fingers, rest).prop_map(
+        |((form, between, approx, splay), (special, exempt, opposed, bends), (contacts, thumb))| {
+            Handshape {
+                form,
+                between,
+                approx,
+                splay,
+                special,
+                exempt,
+                opposed,
+                bends,
+                contacts,
+                thumb,
+                ..Handshape::default()
+            }
+        },
+    )
+}
+
+fn aim<D: std::fmt::Debug + Clone + 'static>(
+    direction: impl Strategy<Value = D> + Clone + 'static,
+) -> impl Strategy<Value = Aim<D>> {
+    let frame = word(&[Frame::Plain, Frame::Plain, Frame::Absolute, Frame::Relative]);
+    (direction.clone(), maybe(direction), any::<bool>(), frame).prop_map(
+        |(first, second, approx, frame)| Aim {
+            first,
+            second,
+            approx,
+            frame,
+        },
+    )
+}
+
+fn each<T: std::fmt::Debug + Clone + 'static>(
+    one: impl Strategy<Value = T> + Clone + 'static,
+) -> impl Strategy<Value = Each<T>> {
+    let split = (maybe(one.clone()), maybe(one.clone()));
+    prop_oneof![
+        Just(Each::Unset),
+        one.prop_map(Each::Shared),
+        split.prop_filter_map("a split says something", |(a, b)| {
+            (a.is_some() || b.is_some()).then_some(Each::Split(a, b))
+        }),
+    ]
+}
+
+fn hand_site() -> impl Strategy<Value = HandSite> {
+    let at = word(&[
+        HandLocation::Palm,
+        HandLocation::Tip,
+        HandLocation::WristBack,
+        HandLocation::Elbow,
+    ]);
+    let simple =
+        (at, digits(), side(), any::<bool>()).prop_map(|(at, digits, side, approx)| HandSite {
+            at: Some(at),
+            digits,
+            side,
+            approx,
+            ..HandSite::default()
+        });
+    let simple = simple.boxed();
+    let contact = maybe(word(&[
+        Contact::Touch,
+        Contact::Close,
+        Contact::Interlock,
+        Contact::Brushing,
+    ]));
+    (
+        simple.clone(),
+        maybe(simple.clone()),
+        contact,
+        maybe(simple),
+        maybe(1u8..=5),
+    )
+        .prop_map(|(site, second, contact, by, define)| HandSite {
+            second: second.map(Box::new),
+            contact,
+            by: by.map(Box::new),
+            define,
+            ..site
+        })
+}
+
+fn body_place() -> impl Strategy<Value = BodyPlace> {
+    let site = || {
+        let at = word(&[
+            BodyLocation::Chin,
+            BodyLocation::Chest,
+            BodyLocation::NeutralSpace,
+            BodyLocation::UpperEyelid,
+        ]);
+        maybe((at, side(), any::<bool>()).prop_map(|(at, side, approx)| Site { at, side, approx }))
+    };
+    let contact = maybe(word(&[
+        Contact::Touch,
+        Contact::Close,
+        Contact::ArmExtended,
+        Contact::Brushing,
+    ]));
+    (
+        site(),
+        site(),
+        any::<bool>(),
+        contact,
+        maybe(hand_site()),
+        maybe(1u8..=5),
+    )
+        .prop_map(|(site, second, behind, contact, by, define)| BodyPlace {
+            site,
+            second,
+            behind,
+            contact,
+            by,
+            define,
+            ..BodyPlace::default()
+        })
+}
+
+fn place() -> impl Strategy<Value = Place> {
+    let hands = (
+        maybe(hand_site()),
+        maybe(hand_site()),
+        maybe(word(&[Contact::Touch, Contact::Cross])),
+        maybe(body_place()),
+        maybe(1u8..=5),
+    );
+    let hands = hands.prop_map(|(dominant, other, contact, at, define)| {
+        Place::Hands(Constellation {
+            dominant,
+            other,
+            contact,
+            at,
+            define,
+            ..Constellation::default()
+        })
+    });
+    let one = prop_oneof![
+        body_place().prop_map(Place::Body),
+        hand_site().prop_map(Place::Hand),
+        hands,
+        (1u8..=5).prop_map(Place::Named),
+    ];
+    let one = one.boxed();
+    let half = maybe(one.clone().prop_map(Box::new));
+    prop_oneof![3 => one.clone(), 1 => (half, maybe(one.prop_map(Box::new))).prop_map(|(a, b)| Place::Split(a, b))]
+}
+
+fn posture() -> impl Strategy<Value = Posture> {
+    let shape = each(handshape().boxed());
+    let extended = each(aim(direction().boxed()).boxed());
+    let palm = each(aim(compass().boxed()).boxed());
+    (shape, extended, palm, maybe(place())).prop_map(|(shape, extended, palm, place)| Posture {
+        shape,
+        extended,
+        palm,
+        place,
+    })
+}
+
+fn growth() -> impl Strategy<Value = Option<Growth>> {
+    maybe((any::<bool>(), size()).prop_map(|(increasing, size)| Growth { increasing, size }))
+}
+
+fn zigzag() -> impl Strategy<Value = Option<Zigzag>> {
+    maybe(
+        (any::<bool>(), size(), growth()).prop_map(|(wavy, size, growth)| Zigzag {
+            wavy,
+            size,
+            growth,
+        }),
+    )
+}
+
+fn amount() -> impl Strategy<Value = Amount> {
+    (size(), size()).prop_map(|(first, second)| Amount { first, second })
+}
+
+fn ellipse() -> impl Strategy<Value = Option<Ellipse>> {
+    maybe(word(&[
+        Ellipse::Horizontal,
+        Ellipse::UpRight,
+        Ellipse::Vertical,
+        Ellipse::UpLeft,
+    ]))
+}
+
+fn manner() -> impl Strategy<Value = Manner> {
+    (any::<[bool; 9]>(), maybe(0.1..3.0)).prop_map(
+        |(
+            [
+                fast,
+                slow,
+                tense,
+                rest,
+                halt,
+                bouncing,
+                alternating,
+                second_alternating,
+                absolute,
+            ],
+            speed,
+        )| {
+            Manner {
+                fast,
+                slow,
+                tense,
+                rest,
+                halt,
+                bouncing,
+                alternating,
+                second_alternating,
+                absolute,
+                speed,
+            }
+        },
+    )
+}
+
+fn simple() -> impl Strategy<Value = MotionKind> {
+    let curve = maybe((compass(), size()).prop_map(|(to, size)| Curve { to, size }));
+    let directed = (
+        direction(),
+        maybe(direction()),
+        amount(),
+        curve,
+        zigzag(),
+        ellipse(),
+    );
+    let directed = directed.prop_map(|(direction, second, size, curve, zigzag, ellipse)| {
+        MotionKind::Directed(Directed {
+            direction,
+            second,
+            size,
+            curve,
+            zigzag,
+            ellipse,
+        })
+    });
+    let clock = (maybe(compass()), maybe(compass()), 0u8..=2)
+        .prop_map(|(start, end, full)| Clock { start, end, full });
+    let circular = (
+        direction(),
+        maybe(direction()),
+        amount(),
+        ellipse(),
+        size(),
+        clock,
+        zigzag(),
+        growth(),
+    );
+    let circular = circular.prop_map(
+        |(axis, second, size, ellipse, ellipse_size, clock, zigzag, growth)| {
+            MotionKind::Circular(Circular {
+                axis,
+                second,
+                size,
+                ellipse,
+                ellipse_size,
+                clock,
+                zigzag,
+                growth,
+            })
+        },
+    );
+    let wrist = (word(&[WristMotion::Nodding, WristMotion::StirCcw]), size());
+    prop_oneof![
+        directed,
+        circular,
+        wrist.prop_map(|(motion, size)| MotionKind::Wrist { motion, size }),
+        any::<bool>().prop_map(|diagonal| MotionKind::Cross { diagonal }),
+        digits().prop_map(MotionKind::FingerPlay),
+        Just(MotionKind::Still),
+    ]
+}
+
+fn motion() -> impl Strategy<Value = Motion> {
+    let with = |kind: BoxedStrategy<MotionKind>| {
+        (kind, manner()).prop_map(|(kind, manner)| Motion {
+            manner,
+            ..Motion::new(kind)
+        })
+    };
+    with(simple().boxed()).prop_recursive(3, 8, 3, move |inner| {
+        let several = proptest::collection::vec(inner.clone(), 2..=3);
+        let boxed = inner.clone().prop_map(Box::new).boxed();
+        let repeat = word(&[Repeat::FromStart, Repeat::ContinueSeveral, Repeat::Swap]).boxed();
+        let repetition = (
+            repeat.clone(),
+            maybe(repeat),
+            growth(),
+            maybe(direction()),
+            size(),
+            growth(),
+            any::<bool>(),
+        );
+        let repetition = repetition.prop_map(
+            |(repeat, second, growth, shift, shift_size, shift_growth, approx)| Repetition {
+                repeat,
+                second,
+                growth,
+                shift,
+                shift_size,
+                shift_growth,
+                approx,
+            },
+        );
+        let kind = prop_oneof![
+            (several.clone(), any::<bool>())
+                .prop_map(|(motions, fused)| MotionKind::Sequence { motions, fused }),
+            several.prop_map(MotionKind::Parallel),
+            (boxed.clone(), boxed.clone()).prop_map(|(a, b)| MotionKind::Split(Some(a), Some(b))),
+            (maybe(boxed.clone()), posture().prop_map(Box::new))
+                .prop_map(|(motion, posture)| MotionKind::Target { motion, posture }),
+            (boxed.clone(), repetition)
+                .prop_map(|(motion, repetition)| MotionKind::Repeated { motion, repetition }),
+            (maybe(boxed), side()).prop_map(|(motion, side)| {
+                MotionKind::Body(BodyAction {
+                    part: BodyLocation::Shoulders,
+                    side,
+                    motion,
+                })
+            }),
+        ];
+        with(kind.boxed())
+    })
+}
+
+fn manual() -> impl Strategy<Value = Manual> {
+    let symmetry =
+        any::<[bool; 5]>().prop_map(|[left_right, up_down, out_in, out_of_phase, real_space]| {
+            HandsUsed::Both(Symmetry {
+                left_right,
+                up_down,
+                out_in,
+                out_of_phase,
+                real_space,
+            })
+        });
+    let hands = prop_oneof![
+        Just(HandsUsed::Dominant),
+        Just(HandsUsed::Nondominant),
+        symmetry
+    ];
+    let body = (side(), maybe(motion().prop_map(Box::new))).prop_map(|(side, motion)| BodyAction {
+        part: BodyLocation::Head,
+        side,
+        motion,
+    });
+    (
+        hands,
+        any::<bool>(),
+        proptest::collection::vec(body, 0..=1),
+        posture(),
+        proptest::collection::vec(motion(), 0..=2),
+    )
+        .prop_map(|(hands, holdover, body, posture, actions)| Manual {
+            hands,
+            holdover,
+            body,
+            posture,
+            actions,
+            ..Manual::default()
+        })
+}
+
+fn nonmanual() -> impl Strategy<Value = Nonmanual> {
+    let act = (
+        select(NonmanualPart::ALL.to_vec()),
+        "[A-Z]{2}|[A-Z][0-9]{2}_[a-z]{3}|[a-z:@]{1,4}",
+        maybe(0.1..2.0),
+        maybe(0.1..2.0),
+    );
+    let act = act.prop_map(|(part, tag, amount, speed)| Act {
+        part,
+        tag,
+        amount,
+        speed,
+    });
+    let start = maybe(word(&[
+        TierStart::SlightDelay,
+        TierStart::StartSlightlyAhead,
+    ]));
+    let end = maybe(word(&[TierEnd::LastsLonger, TierEnd::EndsBefore]));
+    let groups = proptest::collection::vec(proptest::collection::vec(act, 1..=3), 1..=3);
+    let tier = (start, end, any::<bool>(), groups);
+    proptest::collection::btree_map(select(TierKind::ALL.to_vec()), tier, 0..=3).prop_map(|tiers| {
+        let tiers = tiers.into_iter().map(|(kind, (start, end, fit, groups))| {
+            let fit_picture = fit && kind == TierKind::Mouthing;
+            (
+                kind,
+                NonmanualTier {
+                    start,
+                    end,
+                    fit_picture,
+                    groups,
+                },
+            )
+        });
+        Nonmanual {
+            tiers: tiers.collect(),
+        }
+    })
+}
+
+fn notated() -> impl Strategy<Value = Notated> {
+    let header = (
+        "[A-Z<>&\"'é]{1,8}",
+        maybe("[a-z]{3}"),
+        maybe(0.1..3.0),
+        maybe(0.1..3.0),
+    );
+    (
+        header,
+        proptest::collection::vec(manual(), 1..=2),
+        nonmanual(),
+    )
+        .prop_map(
+            |((gloss, language, speed, duration), parts, nonmanual)| Notated {
+                gloss,
+                sign_language: language.clone(),
+                gloss_language: language,
+                speed,
+                timescale: speed,
+                duration,
+                text: None,
+                sign: Sign { parts },
+                nonmanual,
+            },
+        )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn any_sign_comes_back_from_gestural_sigml(signs in proptest::collection::vec(notated(), 1..=2)) {
+        let text = sigml::write_gestural(&signs);
+        let (again, _) = sigml::read(&text).expect("we wrote it");
+        let again: Vec<_> = again.into_iter().map(|entry| entry.sign).collect();
+        prop_assert_eq!(again, signs);
+    }
+
+    #[test]
+    fn any_bytes_are_a_document_or_an_error(bytes in proptest::collection::vec(any::<u8>(), 0..300)) {
+        let _ = sigml::read(&bytes);
+    }
+
+    #[test]
+    fn any_bytes_within_a_document_are_a_document_or_an_error(at in 0usize..200, bytes in "[ -~<>&;/\"é\n]{1,12}") {
+        let mut text = document("<handconfig extfidir=\"u\"/><directedmotion direction=\"ol\" size=\"big\"/>");
+        let at = at.min(text.len());
+        text.insert_str(at, &bytes);
+        let _ = sigml::read(text.as_bytes());
+    }
+}
