@@ -4,6 +4,7 @@
 //! attributes) are two spellings of it. Everything is from the signer's own point of view, and where
 //! a sign is two-handed with symmetry, what is said is about the dominant hand.
 
+pub mod components;
 pub mod direction;
 pub mod nonmanual;
 mod notated;
