@@ -30,7 +30,7 @@ impl Direction {
     /// To the signer's right.
     pub const RIGHT: Self = Self::of(0, 0, -1);
 
-    const fn of(up: i8, out: i8, left: i8) -> Self {
+    pub(crate) const fn of(up: i8, out: i8, left: i8) -> Self {
         Self { up, out, left }
     }
 
@@ -84,6 +84,38 @@ impl Direction {
     #[must_use]
     pub fn opposite(self) -> Self {
         Self::of(-self.up, -self.out, -self.left)
+    }
+
+    /// Returns the corner between two directions of two parts each that share one: `uo` and `ol`
+    /// make `uol`.
+    ///
+    /// So HamNoSys writes where a hand points when it has no symbol of its own for it.
+    #[must_use]
+    pub fn corner_with(self, other: Self) -> Option<Self> {
+        let own = [self.up, self.out, self.left];
+        let others = [other.up, other.out, other.left];
+        let two = |parts: [i8; 3]| parts.iter().filter(|part| **part != 0).count() == 2;
+        let agree = own
+            .iter()
+            .zip(others)
+            .all(|(a, b)| *a == 0 || b == 0 || *a == b);
+        if !two(own) || !two(others) || !agree || self == other {
+            return None;
+        }
+        Self::from_parts(
+            self.up + other.up,
+            self.out + other.out,
+            self.left + other.left,
+        )
+    }
+
+    /// Returns the two directions whose symbols, one after the other, stand for a corner.
+    #[must_use]
+    pub fn corner_parts(self) -> Option<(Self, Self)> {
+        (!self.has_symbol()).then_some((
+            Self::of(self.up, self.out, 0),
+            Self::of(0, self.out, self.left),
+        ))
     }
 
     /// Tells whether HamNoSys has one symbol for it: those with at most two parts.
@@ -261,6 +293,9 @@ mod tests {
             assert_eq!(direction.to_string().parse(), Ok(direction));
             assert_eq!(Direction::nearest(direction.vector()), Some(direction));
             assert_eq!(direction.mirrored().mirrored(), direction);
+            let corner = direction.corner_parts();
+            assert_eq!(corner.is_none(), direction.has_symbol());
+            assert!(corner.is_none_or(|(a, b)| a.corner_with(b) == Some(direction)));
         }
         assert_eq!(
             "uol".parse::<Direction>().map(Direction::vector).ok(),

@@ -291,6 +291,22 @@ pub enum Bend {
     Joints([f64; 3]),
 }
 
+impl Bend {
+    /// Returns how far each joint is bent, from the palm outwards: 0 straight, 4 as far as goes.
+    #[must_use]
+    pub fn joints(self) -> [f64; 3] {
+        match self {
+            Self::Bent => [4.0, 0.0, 0.0],
+            Self::Round => [2.0, 2.0, 2.0],
+            Self::Hooked => [0.0, 4.0, 4.0],
+            Self::DoubleBent => [4.0, 4.0, 0.0],
+            Self::DoubleHooked => [4.0, 4.0, 4.0],
+            Self::HalfBent => [2.0, 0.0, 0.0],
+            Self::Joints(joints) => joints,
+        }
+    }
+}
+
 /// A digit, thumb first as notation counts them: 1 to 5.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

@@ -1,0 +1,408 @@
+//! Symbols to the tree, by recursive descent with one symbol of look-ahead and a bounded depth.
+//!
+//! A text is read once; where the canonical print of what was read is not the text, it is read a
+//! second time, and every part that prints differently from its own symbols remembers them
+//! ([`Written`]). So whatever is accepted prints as it was.
+
+mod action;
+mod place;
+mod posture;
+
+use super::error::{Finding, HamnosysError};
+use super::lex::{self, Lexed, Token};
+use super::print::{self, Write};
+use super::symbol::{Bracket, Kind, Symbol};
+use super::tree::{Bend, BodyAction, HandsUsed, Manual, Sign, Size, Symmetry, Written};
+
+/// How deep brackets, and things done to things done, may nest.
+pub const MAX_DEPTH: usize = 48;
+
+/// A transcription that was read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Transcription {
+    /// What it says.
+    pub sign: Sign,
+    /// What is odd about it; nothing is silent that the tree does not hold.
+    pub findings: Vec<Finding>,
+    /// The text, where it was not written in the symbols' own characters.
+    text: Option<Box<str>>,
+}
+
+impl Transcription {
+    /// Returns the text that was read, to the byte.
+    #[must_use]
+    pub fn print(&self) -> String {
+        match &self.text {
+            Some(text) => text.to_string(),
+            None => print::text_of(&self.sign),
+        }
+    }
+
+    /// Tells whether symbols are in the text only, not in the tree.
+    #[must_use]
+    pub fn is_partial(&self) -> bool {
+        self.findings.iter().any(|finding| finding.dropped)
+    }
+}
+
+/// Reads a transcription: characters, names of symbols, or both.
+///
+/// # Errors
+/// The first symbol that cannot be where it is, with what was expected.
+pub fn parse(text: &str) -> Result<Transcription, HamnosysError> {
+    read(text, false)
+}
+
+/// Reads what can be understood of a transcription; what cannot is in the findings.
+///
+/// The tree keeps the whole text, so that it prints as it was.
+#[must_use]
+pub fn parse_lenient(text: &str) -> Transcription {
+    read(text, true).unwrap_or_else(|error| Transcription {
+        sign: Sign::default(),
+        findings: vec![Finding::from(&error)],
+        text: Some(text.into()),
+    })
+}
+
+impl From<&HamnosysError> for Finding {
+    fn from(error: &HamnosysError) -> Self {
+        Self {
+            index: error.index().unwrap_or_default(),
+            message: error.to_string(),
+            remedy: "mend or remove it",
+            dropped: true,
+        }
+    }
+}
+
+fn read(text: &str, lenient: bool) -> Result<Transcription, HamnosysError> {
+    let mut lexed = lex::lex(text, lenient)?;
+    if lexed.text.trim().is_empty() {
+        return Err(HamnosysError::Empty);
+    }
+    let findings = std::mem::take(&mut lexed.findings);
+    let mut parser = Parser::new(&lexed, lenient, false);
+    let mut sign = parser.sign()?;
+    if print::text_of(&sign) != *lexed.text {
+        parser = Parser::new(&lexed, lenient, true);
+        sign = parser.sign()?;
+    }
+    let mut findings = [findings, parser.findings].concat();
+    findings.sort_by_key(|finding| finding.index);
+    Ok(Transcription {
+        sign,
+        findings,
+        text: (*lexed.text != *text).then(|| text.into()),
+    })
+}
+
+type Parsed<T> = Result<T, HamnosysError>;
+
+struct Parser<'a> {
+    text: &'a str,
+    tokens: &'a [Token],
+    count: usize,
+    at: usize,
+    depth: usize,
+    lenient: bool,
+    /// Parts that print differently remember their symbols.
+    remember: bool,
+    /// Two hands act in the part that is read.
+    two: bool,
+    findings: Vec<Finding>,
+}
+
+impl<'a> Parser<'a> {
+    fn new(lexed: &'a Lexed<'_>, lenient: bool, remember: bool) -> Self {
+        Self {
+            text: &lexed.text,
+            tokens: &lexed.tokens,
+            count: lexed.count,
+            at: 0,
+            depth: 0,
+            lenient,
+            remember,
+            two: false,
+            findings: Vec::new(),
+        }
+    }
+
+    fn sign(&mut self) -> Parsed<Sign> {
+        let mut parts: Vec<Manual> = Vec::new();
+        let mut from = 0;
+        while parts.is_empty() || self.at < self.tokens.len() {
+            let start = self.at;
+            let mut part = self.manual(parts.is_empty())?;
+            if self.at == start && self.at < self.tokens.len() {
+                self.unexpected("a handshape, a movement or another part of a sign")?;
+            } else if !parts.is_empty() && part == Manual::default() {
+                self.missing("another sign after hamplus")?;
+            }
+            let to = self
+                .tokens
+                .get(self.at)
+                .map_or(self.text.len(), |next| next.start as usize);
+            if self.remember {
+                let separator = !parts.is_empty();
+                let mut out = Write::default();
+                out.manual(&part, separator);
+                if out.text != self.text[from..to] {
+                    part.written = Written(Some(self.text[from..to].into()));
+                }
+            }
+            from = to;
+            parts.push(part);
+        }
+        Ok(Sign { parts })
+    }
+
+    fn manual(&mut self, first: bool) -> Parsed<Manual> {
+        if !first && !self.eat(Kind::Plus) {
+            self.note(
+                "another sign begins without hamplus before it",
+                "write hamplus between the parts of a compound, or hamreplace before a new handshape",
+                false,
+            );
+        }
+        let mut part = Manual {
+            hands: self.hands()?,
+            ..Manual::default()
+        };
+        self.two = matches!(part.hands, HandsUsed::Both(_));
+        while self.at_body_action() {
+            part.body.push(self.body_action()?.0);
+        }
+        part.posture = self.posture()?;
+        part.actions = self.actions()?;
+        Ok(part)
+    }
+
+    fn hands(&mut self) -> Parsed<HandsUsed> {
+        let left_right = match self.peek() {
+            Some(Kind::Nondominant) => {
+                self.at += 1;
+                return Ok(HandsUsed::Nondominant);
+            }
+            Some(Kind::Symmetry { left_right }) => left_right,
+            _ => return Ok(HandsUsed::Dominant),
+        };
+        self.at += 1;
+        let mut symmetry = Symmetry {
+            left_right,
+            ..Symmetry::default()
+        };
+        while let Some(kind) = self.peek() {
+            let flag = match kind {
+                Kind::Size(Size::Big) => &mut symmetry.up_down,
+                Kind::Bend(Bend::Bent) => &mut symmetry.out_in,
+                Kind::Alternating => &mut symmetry.out_of_phase,
+                Kind::RealSpace => &mut symmetry.real_space,
+                _ => break,
+            };
+            if std::mem::replace(flag, true) {
+                self.note("the mark is there twice", "write it once", true);
+            }
+            self.at += 1;
+        }
+        Ok(HandsUsed::Both(symmetry))
+    }
+
+    /// Tells whether a part of the body acts here before the hands are described.
+    fn at_body_action(&self) -> bool {
+        let mut at = self.at;
+        while matches!(self.kind(at), Some(Kind::At | Kind::Beside)) {
+            at += 1;
+        }
+        if !matches!(self.kind(at), Some(Kind::Body(_))) {
+            return false;
+        }
+        at += 1;
+        while matches!(self.kind(at), Some(Kind::At | Kind::Beside)) {
+            at += 1;
+        }
+        match self.kind(at) {
+            Some(Kind::Base(_)) => true,
+            Some(kind) => is_motion(kind),
+            None => false,
+        }
+    }
+
+    fn body_action(&mut self) -> Parsed<(BodyAction, usize)> {
+        let site = self.body_site()?;
+        let motion = match self.peek() {
+            Some(kind) if is_motion(kind) => Some(self.deeper(Self::action)?),
+            _ => None,
+        };
+        let height = 1 + motion.as_ref().map_or(0, |deep| deep.1);
+        let action = BodyAction {
+            part: site.at,
+            side: site.side,
+            motion: motion.map(|deep| Box::new(deep.0)),
+        };
+        Ok((action, height))
+    }
+
+    fn kind(&self, at: usize) -> Option<Kind> {
+        self.tokens.get(at).map(|token| token.kind)
+    }
+
+    fn peek(&self) -> Option<Kind> {
+        self.kind(self.at)
+    }
+
+    fn next_is(&self, ahead: usize, kind: Kind) -> bool {
+        self.kind(self.at + ahead) == Some(kind)
+    }
+
+    fn eat(&mut self, kind: Kind) -> bool {
+        let there = self.next_is(0, kind);
+        self.at += usize::from(there);
+        there
+    }
+
+    /// Returns the symbols from one token up to another as text.
+    fn slice(&self, from: usize, to: usize) -> &'a str {
+        let (Some(first), Some(last)) =
+            (self.tokens.get(from), self.tokens.get(to.wrapping_sub(1)))
+        else {
+            return "";
+        };
+        self.text
+            .get(first.start as usize..last.end())
+            .unwrap_or_default()
+    }
+
+    /// Returns what a part remembers that was read since `from` and prints as `write` says.
+    fn written(&self, from: usize, write: impl FnOnce(&mut Write)) -> Written {
+        if !self.remember {
+            return Written(None);
+        }
+        let mut out = Write::default();
+        write(&mut out);
+        let text = self.slice(from, self.at);
+        Written((out.text != text).then(|| text.into()))
+    }
+
+    fn index(&self) -> usize {
+        self.tokens
+            .get(self.at)
+            .map_or(self.count, |token| token.index as usize)
+    }
+
+    fn wrong(&self, expected: &'static str) -> HamnosysError {
+        let index = self.index();
+        match self.tokens.get(self.at) {
+            Some(token) => HamnosysError::Unexpected {
+                index,
+                symbol: token.symbol,
+                expected,
+            },
+            None => HamnosysError::Ended { index, expected },
+        }
+    }
+
+    /// Refuses the symbol that is next; a lenient reading leaves it out.
+    fn unexpected(&mut self, expected: &'static str) -> Parsed<()> {
+        self.missing(expected)?;
+        self.at += 1;
+        Ok(())
+    }
+
+    /// Says that something is missing here; a lenient reading goes on without it.
+    fn missing(&mut self, expected: &'static str) -> Parsed<()> {
+        let error = self.wrong(expected);
+        if !self.lenient {
+            return Err(error);
+        }
+        self.findings.push(Finding::from(&error));
+        Ok(())
+    }
+
+    /// Adds a finding about the symbol that is next.
+    fn note(&mut self, message: &str, remedy: &'static str, dropped: bool) {
+        let symbol = self
+            .tokens
+            .get(self.at)
+            .map_or("end", |token| token.symbol.name());
+        self.findings.push(Finding {
+            index: self.index(),
+            message: format!("{symbol}: {message}"),
+            remedy,
+            dropped,
+        });
+    }
+
+    /// Leaves out the symbol that is next, saying why.
+    fn drop(&mut self, message: &str, remedy: &'static str) {
+        self.note(message, remedy, true);
+        self.at += 1;
+    }
+
+    fn close(&mut self, opened: usize, bracket: Bracket) -> Parsed<()> {
+        if self.eat(Kind::Close(bracket)) {
+            return Ok(());
+        }
+        let Some(token) = self.tokens.get(opened) else {
+            return Ok(());
+        };
+        let error = HamnosysError::Unclosed {
+            index: token.index as usize,
+            symbol: token.symbol,
+            at: self.index(),
+            expected: Symbol::of(Kind::Close(bracket)).map_or("a bracket", Symbol::name),
+        };
+        if !self.lenient {
+            return Err(error);
+        }
+        self.findings.push(Finding::from(&error));
+        Ok(())
+    }
+
+    fn deeper<T>(&mut self, inner: impl FnOnce(&mut Self) -> Parsed<T>) -> Parsed<T> {
+        if self.depth >= MAX_DEPTH {
+            return Err(self.too_deep());
+        }
+        self.depth += 1;
+        let result = inner(self);
+        self.depth -= 1;
+        result
+    }
+
+    fn too_deep(&self) -> HamnosysError {
+        HamnosysError::TooDeep {
+            index: self.index(),
+            limit: MAX_DEPTH,
+        }
+    }
+
+    /// Returns the tokens within the group that opens at `at`, up to its close or the end, and
+    /// where its own hamplus is.
+    fn group(&self, at: usize) -> (&'a [Token], Option<usize>) {
+        let inside = self.tokens.get(at + 1..).unwrap_or_default();
+        let mut depth = 0_usize;
+        let mut plus = None;
+        for (offset, token) in inside.iter().enumerate() {
+            match token.kind {
+                Kind::Open(_) => depth += 1,
+                Kind::Close(_) if depth == 0 => return (&inside[..offset], plus),
+                Kind::Close(_) => depth -= 1,
+                Kind::Plus if depth == 0 && plus.is_none() => plus = Some(offset),
+                _ => {}
+            }
+        }
+        (inside, plus)
+    }
+}
+
+/// Tells whether a movement, or a group that can only be one, begins with this.
+fn is_motion(kind: Kind) -> bool {
+    use Kind as K;
+    matches!(
+        kind,
+        K::Move(_) | K::Circle(_) | K::Wrist(_) | K::FingerPlay | K::Cross { .. } | K::Still
+    )
+}
+
+#[cfg(test)]
+mod tests;
