@@ -232,6 +232,60 @@ fn a_place_in_a_motion_is_brushed_along() {
 }
 
 #[test]
+fn symbols_are_read_and_written() {
+    let text = br#"<sigml>
+<hns_sign gloss="HERE">
+<hamnosys_nonmanual><hnm_head tag="NO"/><hnm_mouthpicture picture="hi:r"/><hnm_nose tag="XX"/></hamnosys_nonmanual>
+<hamnosys_manual>
+<hamsymmlr/><hamfinger2/><hamthumbacrossmod/>
+<hamextfingero/><hampalmd/><hamtab/>
+<hamfoo/>
+<hammoved/><hamsmallmod/><hamrepeatfromstart/>
+</hamnosys_manual>
+</hns_sign>
+</sigml>"#;
+    let (signs, findings) = sigml::read(text).expect("it is SiGML");
+    let told: Vec<_> = findings.iter().map(|f| (f.line, &f.message[..])).collect();
+    assert_eq!(
+        told,
+        [
+            (
+                Some(3),
+                "<hnm_nose>: SiGML 1.2 lists no \"XX\"; it was kept as it is"
+            ),
+            (Some(6), "<hamtab> is layout; it was left out"),
+            (
+                Some(7),
+                "<hamfoo> is none of HamNoSys's symbols; it was left out"
+            ),
+        ]
+    );
+    let sign = &signs[0].sign;
+    assert!(matches!(sign.sign.parts[0].hands, HandsUsed::Both(symmetry) if symmetry.left_right));
+    assert_eq!(
+        sign.nonmanual.tiers[&TierKind::Head].groups[0],
+        [Act::new(NonmanualPart::Head, "NO")]
+    );
+    let (written, lost) = sigml::write_symbols([sign]);
+    assert_eq!(lost, [Vec::<String>::new()]);
+    let (again, findings) = sigml::read(&written).expect("we wrote it");
+    assert_eq!((&again[0].sign, findings.len()), (sign, 1), "{findings:?}");
+    let gestural = sigml::write_gestural([sign]);
+    assert_eq!(
+        sigml::read(&gestural).expect("we wrote it").0[0].sign.sign,
+        sign.sign
+    );
+}
+
+#[test]
+fn what_symbols_cannot_say_is_told() {
+    let text = document(r#"<directedmotion direction="uol" speed="0.5"/>"#);
+    let (signs, _) = sigml::read(text.as_bytes()).expect("it is SiGML");
+    let (_, lost) = sigml::write_symbols(signs.iter().map(|entry| &entry.sign));
+    assert!(!lost[0].is_empty());
+}
+
+#[test]
 fn what_is_no_sigml_is_refused() {
     let deep = format!("<sigml>{}", "<sigmlsection>".repeat(100));
     let bomb = "<!DOCTYPE sigml [<!ENTITY a \"b\"><!ENTITY c \"&a;&a;\">]><sigml/>";
@@ -269,6 +323,27 @@ fn what_is_no_sigml_is_refused() {
         sigml::read(b"<sigml a='\xff'/>"),
         Err(Error::Encoding { line: 1, .. })
     ));
+}
+
+#[test]
+fn what_is_nested_as_deep_as_is_read_is_read_and_written() {
+    let depth = 59;
+    let motion = format!(
+        "{}<directedmotion direction=\"u\"/>{}",
+        "<seq_motion>".repeat(depth),
+        "</seq_motion>".repeat(depth)
+    );
+    let site = format!(
+        "{}{}",
+        "<location_hand digits=\"2\">".repeat(depth),
+        "</location_hand>".repeat(depth)
+    );
+    for text in [document(&motion), document(&site)] {
+        let (signs, _) = sigml::read(text.as_bytes()).expect("it is not too deep");
+        let written = sigml::write_gestural(signs.iter().map(|entry| &entry.sign));
+        assert_eq!(sigml::read(&written).expect("we wrote it").0, signs);
+        let _ = sigml::write_symbols(signs.iter().map(|entry| &entry.sign));
+    }
 }
 
 #[test]
@@ -320,7 +395,7 @@ fn side() -> impl Strategy<Value = Option<Side>> {
     ]))
 }
 
-fn bend() -> impl Strategy<Value = Bend> {
+fn bend() -> BoxedStrategy<Bend> {
     prop_oneof![
         word(&[
             Bend::Bent,
@@ -333,9 +408,10 @@ fn bend() -> impl Strategy<Value = Bend> {
         proptest::array::uniform3(0.0..4.0).prop_map(Bend::Joints),
         proptest::array::uniform3(0u8..=4).prop_map(|joints| Bend::Joints(joints.map(f64::from))),
     ]
+    .boxed()
 }
 
-fn form() -> impl Strategy<Value = Form> {
+fn form() -> BoxedStrategy<Form> {
     let class = word(&[
         HandClass::Fist,
         HandClass::Flat,
@@ -348,19 +424,21 @@ fn form() -> impl Strategy<Value = Form> {
         ThumbPosition::Opposed,
     ]));
     let opening = maybe(word(&[Opening::Tight, Opening::Slack]));
-    (class, thumb, maybe(bend()), opening).prop_map(|(class, thumb, bend, opening)| Form {
-        class,
-        thumb,
-        bend,
-        opening,
-    })
+    (class, thumb, maybe(bend()), opening)
+        .prop_map(|(class, thumb, bend, opening)| Form {
+            class,
+            thumb,
+            bend,
+            opening,
+        })
+        .boxed()
 }
 
 fn part_of_finger() -> impl Strategy<Value = FingerPart> {
     word(&[FingerPart::Tip, FingerPart::Nail, FingerPart::MidJoint])
 }
 
-fn handshape() -> impl Strategy<Value = Handshape> {
+fn handshape() -> BoxedStrategy<Handshape> {
     let contact = (digit(), digit(), maybe(part_of_finger()));
     let contact = contact.prop_map(|(first, second, part)| FingerContact {
         first,
@@ -380,23 +458,29 @@ fn handshape() -> impl Strategy<Value = Handshape> {
         proptest::array::uniform5(maybe(bend())),
     );
     let rest = (proptest::collection::vec(contact, 0..=2), maybe(thumb));
-    (forms, fingers, rest).prop_map(
-        |((form, between, approx, splay), (special, exempt, opposed, bends), (contacts, thumb))| {
-            Handshape {
-                form,
-                between,
-                approx,
-                splay,
-                special,
-                exempt,
-                opposed,
-                bends,
-                contacts,
-                thumb,
-                ..Handshape::default()
-            }
-        },
-    )
+    (forms, fingers, rest)
+        .prop_map(
+            |(
+                (form, between, approx, splay),
+                (special, exempt, opposed, bends),
+                (contacts, thumb),
+            )| {
+                Handshape {
+                    form,
+                    between,
+                    approx,
+                    splay,
+                    special,
+                    exempt,
+                    opposed,
+                    bends,
+                    contacts,
+                    thumb,
+                    ..Handshape::default()
+                }
+            },
+        )
+        .boxed()
 }
 
 fn aim<D: std::fmt::Debug + Clone + 'static>(
@@ -426,7 +510,7 @@ fn each<T: std::fmt::Debug + Clone + 'static>(
     ]
 }
 
-fn hand_site() -> impl Strategy<Value = HandSite> {
+fn hand_site() -> BoxedStrategy<HandSite> {
     let at = word(&[
         HandLocation::Palm,
         HandLocation::Tip,
@@ -462,9 +546,10 @@ fn hand_site() -> impl Strategy<Value = HandSite> {
             define,
             ..site
         })
+        .boxed()
 }
 
-fn body_place() -> impl Strategy<Value = BodyPlace> {
+fn body_place() -> BoxedStrategy<BodyPlace> {
     let site = || {
         let at = word(&[
             BodyLocation::Chin,
@@ -497,9 +582,10 @@ fn body_place() -> impl Strategy<Value = BodyPlace> {
             define,
             ..BodyPlace::default()
         })
+        .boxed()
 }
 
-fn place() -> impl Strategy<Value = Place> {
+fn place() -> BoxedStrategy<Place> {
     let hands = (
         maybe(hand_site()),
         maybe(hand_site()),
@@ -526,25 +612,29 @@ fn place() -> impl Strategy<Value = Place> {
     let one = one.boxed();
     let half = maybe(one.clone().prop_map(Box::new));
     prop_oneof![3 => one.clone(), 1 => (half, maybe(one.prop_map(Box::new))).prop_map(|(a, b)| Place::Split(a, b))]
+    .boxed()
 }
 
-fn posture() -> impl Strategy<Value = Posture> {
+fn posture() -> BoxedStrategy<Posture> {
     let shape = each(handshape().boxed());
     let extended = each(aim(direction().boxed()).boxed());
     let palm = each(aim(compass().boxed()).boxed());
-    (shape, extended, palm, maybe(place())).prop_map(|(shape, extended, palm, place)| Posture {
-        shape,
-        extended,
-        palm,
-        place,
-    })
+    (shape, extended, palm, maybe(place()))
+        .prop_map(|(shape, extended, palm, place)| Posture {
+            shape,
+            extended,
+            palm,
+            place,
+        })
+        .boxed()
 }
 
-fn growth() -> impl Strategy<Value = Option<Growth>> {
+fn growth() -> BoxedStrategy<Option<Growth>> {
     maybe((any::<bool>(), size()).prop_map(|(increasing, size)| Growth { increasing, size }))
+        .boxed()
 }
 
-fn zigzag() -> impl Strategy<Value = Option<Zigzag>> {
+fn zigzag() -> BoxedStrategy<Option<Zigzag>> {
     maybe(
         (any::<bool>(), size(), growth()).prop_map(|(wavy, size, growth)| Zigzag {
             wavy,
@@ -552,6 +642,7 @@ fn zigzag() -> impl Strategy<Value = Option<Zigzag>> {
             growth,
         }),
     )
+    .boxed()
 }
 
 fn amount() -> impl Strategy<Value = Amount> {
@@ -567,39 +658,41 @@ fn ellipse() -> impl Strategy<Value = Option<Ellipse>> {
     ]))
 }
 
-fn manner() -> impl Strategy<Value = Manner> {
-    (any::<[bool; 9]>(), maybe(0.1..3.0)).prop_map(
-        |(
-            [
-                fast,
-                slow,
-                tense,
-                rest,
-                halt,
-                bouncing,
-                alternating,
-                second_alternating,
-                absolute,
-            ],
-            speed,
-        )| {
-            Manner {
-                fast,
-                slow,
-                tense,
-                rest,
-                halt,
-                bouncing,
-                alternating,
-                second_alternating,
-                absolute,
+fn manner() -> BoxedStrategy<Manner> {
+    (any::<[bool; 9]>(), maybe(0.1..3.0))
+        .prop_map(
+            |(
+                [
+                    fast,
+                    slow,
+                    tense,
+                    rest,
+                    halt,
+                    bouncing,
+                    alternating,
+                    second_alternating,
+                    absolute,
+                ],
                 speed,
-            }
-        },
-    )
+            )| {
+                Manner {
+                    fast,
+                    slow,
+                    tense,
+                    rest,
+                    halt,
+                    bouncing,
+                    alternating,
+                    second_alternating,
+                    absolute,
+                    speed,
+                }
+            },
+        )
+        .boxed()
 }
 
-fn simple() -> impl Strategy<Value = MotionKind> {
+fn simple() -> BoxedStrategy<MotionKind> {
     let curve = maybe((compass(), size()).prop_map(|(to, size)| Curve { to, size }));
     let directed = (
         direction(),
@@ -654,61 +747,65 @@ fn simple() -> impl Strategy<Value = MotionKind> {
         digits().prop_map(MotionKind::FingerPlay),
         Just(MotionKind::Still),
     ]
+    .boxed()
 }
 
-fn motion() -> impl Strategy<Value = Motion> {
+fn motion() -> BoxedStrategy<Motion> {
     let with = |kind: BoxedStrategy<MotionKind>| {
         (kind, manner()).prop_map(|(kind, manner)| Motion {
             manner,
             ..Motion::new(kind)
         })
     };
-    with(simple().boxed()).prop_recursive(3, 8, 3, move |inner| {
-        let several = proptest::collection::vec(inner.clone(), 2..=3);
-        let boxed = inner.clone().prop_map(Box::new).boxed();
-        let repeat = word(&[Repeat::FromStart, Repeat::ContinueSeveral, Repeat::Swap]).boxed();
-        let repetition = (
-            repeat.clone(),
-            maybe(repeat),
-            growth(),
-            maybe(direction()),
-            size(),
-            growth(),
-            any::<bool>(),
-        );
-        let repetition = repetition.prop_map(
-            |(repeat, second, growth, shift, shift_size, shift_growth, approx)| Repetition {
-                repeat,
-                second,
-                growth,
-                shift,
-                shift_size,
-                shift_growth,
-                approx,
-            },
-        );
-        let kind = prop_oneof![
-            (several.clone(), any::<bool>())
-                .prop_map(|(motions, fused)| MotionKind::Sequence { motions, fused }),
-            several.prop_map(MotionKind::Parallel),
-            (boxed.clone(), boxed.clone()).prop_map(|(a, b)| MotionKind::Split(Some(a), Some(b))),
-            (maybe(boxed.clone()), posture().prop_map(Box::new))
-                .prop_map(|(motion, posture)| MotionKind::Target { motion, posture }),
-            (boxed.clone(), repetition)
-                .prop_map(|(motion, repetition)| MotionKind::Repeated { motion, repetition }),
-            (maybe(boxed), side()).prop_map(|(motion, side)| {
-                MotionKind::Body(BodyAction {
-                    part: BodyLocation::Shoulders,
-                    side,
-                    motion,
-                })
-            }),
-        ];
-        with(kind.boxed())
-    })
+    with(simple().boxed())
+        .prop_recursive(3, 8, 3, move |inner| {
+            let several = proptest::collection::vec(inner.clone(), 2..=3);
+            let boxed = inner.clone().prop_map(Box::new).boxed();
+            let repeat = word(&[Repeat::FromStart, Repeat::ContinueSeveral, Repeat::Swap]).boxed();
+            let repetition = (
+                repeat.clone(),
+                maybe(repeat),
+                growth(),
+                maybe(direction()),
+                size(),
+                growth(),
+                any::<bool>(),
+            );
+            let repetition = repetition.prop_map(
+                |(repeat, second, growth, shift, shift_size, shift_growth, approx)| Repetition {
+                    repeat,
+                    second,
+                    growth,
+                    shift,
+                    shift_size,
+                    shift_growth,
+                    approx,
+                },
+            );
+            let kind = prop_oneof![
+                (several.clone(), any::<bool>())
+                    .prop_map(|(motions, fused)| MotionKind::Sequence { motions, fused }),
+                several.prop_map(MotionKind::Parallel),
+                (boxed.clone(), boxed.clone())
+                    .prop_map(|(a, b)| MotionKind::Split(Some(a), Some(b))),
+                (maybe(boxed.clone()), posture().prop_map(Box::new))
+                    .prop_map(|(motion, posture)| MotionKind::Target { motion, posture }),
+                (boxed.clone(), repetition)
+                    .prop_map(|(motion, repetition)| MotionKind::Repeated { motion, repetition }),
+                (maybe(boxed), side()).prop_map(|(motion, side)| {
+                    MotionKind::Body(BodyAction {
+                        part: BodyLocation::Shoulders,
+                        side,
+                        motion,
+                    })
+                }),
+            ];
+            with(kind.boxed())
+        })
+        .boxed()
 }
 
-fn manual() -> impl Strategy<Value = Manual> {
+fn manual() -> BoxedStrategy<Manual> {
     let symmetry =
         any::<[bool; 5]>().prop_map(|[left_right, up_down, out_in, out_of_phase, real_space]| {
             HandsUsed::Both(Symmetry {
@@ -744,9 +841,10 @@ fn manual() -> impl Strategy<Value = Manual> {
             actions,
             ..Manual::default()
         })
+        .boxed()
 }
 
-fn nonmanual() -> impl Strategy<Value = Nonmanual> {
+fn nonmanual() -> BoxedStrategy<Nonmanual> {
     let act = (
         select(NonmanualPart::ALL.to_vec()),
         "[A-Z]{2}|[A-Z][0-9]{2}_[a-z]{3}|[a-z:@]{1,4}",
@@ -766,26 +864,28 @@ fn nonmanual() -> impl Strategy<Value = Nonmanual> {
     let end = maybe(word(&[TierEnd::LastsLonger, TierEnd::EndsBefore]));
     let groups = proptest::collection::vec(proptest::collection::vec(act, 1..=3), 1..=3);
     let tier = (start, end, any::<bool>(), groups);
-    proptest::collection::btree_map(select(TierKind::ALL.to_vec()), tier, 0..=3).prop_map(|tiers| {
-        let tiers = tiers.into_iter().map(|(kind, (start, end, fit, groups))| {
-            let fit_picture = fit && kind == TierKind::Mouthing;
-            (
-                kind,
-                NonmanualTier {
-                    start,
-                    end,
-                    fit_picture,
-                    groups,
-                },
-            )
-        });
-        Nonmanual {
-            tiers: tiers.collect(),
-        }
-    })
+    proptest::collection::btree_map(select(TierKind::ALL.to_vec()), tier, 0..=3)
+        .prop_map(|tiers| {
+            let tiers = tiers.into_iter().map(|(kind, (start, end, fit, groups))| {
+                let fit_picture = fit && kind == TierKind::Mouthing;
+                (
+                    kind,
+                    NonmanualTier {
+                        start,
+                        end,
+                        fit_picture,
+                        groups,
+                    },
+                )
+            });
+            Nonmanual {
+                tiers: tiers.collect(),
+            }
+        })
+        .boxed()
 }
 
-fn notated() -> impl Strategy<Value = Notated> {
+fn notated() -> BoxedStrategy<Notated> {
     let header = (
         "[A-Z<>&\"'é]{1,8}",
         maybe("[a-z]{3}"),
@@ -810,6 +910,7 @@ fn notated() -> impl Strategy<Value = Notated> {
                 nonmanual,
             },
         )
+        .boxed()
 }
 
 proptest! {

@@ -3,6 +3,7 @@
 use super::gestural::{read_sign, write_manual, write_nonmanual};
 use super::node::Node;
 use super::raw::{Element, Line, shown};
+use super::symbols;
 use crate::finding::Finding;
 use crate::tally::Findings;
 use chereme_sign::hamnosys::Notated;
@@ -74,7 +75,8 @@ fn read_signs(parent: &Element<'_>, findings: &mut Findings, entries: &mut Vec<E
 
 /// Reads an element where it is a sign, and tells whether it is.
 fn read_entry(element: &Element<'_>, findings: &mut Findings, entries: &mut Vec<Entry>) -> bool {
-    if !matches!(&*element.name, "hamgestural_sign" | "hamgestural_segment") {
+    let gestural = matches!(&*element.name, "hamgestural_sign" | "hamgestural_segment");
+    if !gestural && element.name != "hns_sign" {
         return false;
     }
     let mut node = Node::new(element, findings);
@@ -95,7 +97,11 @@ fn read_entry(element: &Element<'_>, findings: &mut Findings, entries: &mut Vec<
         ..Notated::default()
     };
     node.finish();
-    (sign.sign, sign.nonmanual) = read_sign(element, findings);
+    if gestural {
+        (sign.sign, sign.nonmanual) = read_sign(element, findings);
+    } else {
+        (sign.sign, sign.text, sign.nonmanual) = symbols::read_sign(element, findings);
+    }
     if sign.sign.parts.is_empty() {
         findings.add("signs without hands", || {
             let message = format!("<{}> says nothing of the hands", element.name);
@@ -127,6 +133,23 @@ pub fn to_gestural<'s>(signs: impl IntoIterator<Item = &'s Notated>) -> Element<
         root.children.push(element);
     }
     root
+}
+
+/// Returns the document that holds these signs as H-SiGML, and for each what it does not say.
+///
+/// HamNoSys has no symbols for all that a tree may hold; the text of a sign that was read as symbols
+/// is written as it was.
+pub fn to_symbols<'s>(
+    signs: impl IntoIterator<Item = &'s Notated>,
+) -> (Element<'static>, Vec<Vec<String>>) {
+    let mut root = Element::new("sigml");
+    let mut lost = Vec::new();
+    for sign in signs {
+        let mut element = header("hns_sign", sign);
+        lost.push(symbols::write_sign(sign, &mut element));
+        root.children.push(element);
+    }
+    (root, lost)
 }
 
 fn header(name: &'static str, sign: &Notated) -> Element<'static> {

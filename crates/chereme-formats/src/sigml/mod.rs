@@ -1,7 +1,9 @@
 //! SiGML: signs as notation in XML, `.sigml`.
 //!
 //! [`raw`] mirrors the file, [`convert`] says what it means: notated signs, each the tree of
-//! [`chereme_sign::hamnosys`] with its gloss and the non-manual tiers.
+//! [`chereme_sign::hamnosys`] with its gloss and the non-manual tiers. A file holds signs in gestural
+//! SiGML (`hamgestural_sign`, elements that say the tree), in H-SiGML (`hns_sign`, HamNoSys's symbols as
+//! elements), or both.
 //!
 //! ```
 //! let text = br#"<sigml><hamgestural_sign gloss="TWO"><sign_manual>
@@ -17,12 +19,13 @@
 mod error;
 mod gestural;
 mod node;
+mod symbols;
 mod words;
 
 pub mod convert;
 pub mod raw;
 
-pub use convert::{Entry, from_raw, to_gestural};
+pub use convert::{Entry, from_raw, to_gestural, to_symbols};
 pub use error::Error;
 
 use crate::finding::Finding;
@@ -43,4 +46,13 @@ pub fn read(bytes: &[u8]) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
 #[must_use]
 pub fn write_gestural<'s>(signs: impl IntoIterator<Item = &'s Notated>) -> Vec<u8> {
     raw::write(&to_gestural(signs))
+}
+
+/// Writes signs as H-SiGML, symbol by symbol, and returns for each what HamNoSys does not say.
+#[must_use]
+pub fn write_symbols<'s>(
+    signs: impl IntoIterator<Item = &'s Notated>,
+) -> (Vec<u8>, Vec<Vec<String>>) {
+    let (root, lost) = to_symbols(signs);
+    (raw::write(&root), lost)
 }

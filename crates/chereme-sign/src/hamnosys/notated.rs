@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::nonmanual::Nonmanual;
+use super::print::{Printed, print};
 use super::tree::Sign;
 
 /// A notated sign: what the hands do, what face and body do, and what it is called.
@@ -34,4 +35,18 @@ pub struct Notated {
     /// What face and body do.
     #[serde(skip_serializing_if = "Nonmanual::is_empty")]
     pub nonmanual: Nonmanual,
+}
+
+impl Notated {
+    /// Returns what the hands do as HamNoSys: the text as it came, else the tree printed.
+    #[must_use]
+    pub fn hamnosys(&self) -> Printed {
+        match &self.text {
+            Some(text) => Printed {
+                text: text.clone(),
+                losses: Vec::new(),
+            },
+            None => print(&self.sign),
+        }
+    }
 }
