@@ -30,3 +30,6 @@ pub use tree::{
     MotionKind, Opening, Place, Posture, Repeat, Repetition, Side, Sign, Site, Size, Symmetry,
     ThumbExtra, ThumbPosition, WristMotion, Written, Zigzag,
 };
+
+#[cfg(test)]
+mod laws;

@@ -122,8 +122,8 @@ impl Parser<'_> {
             return Ok((MotionKind::Still, 1));
         };
         Ok(match kind {
-            Kind::Move(direction) => (self.directed(direction), 1),
-            Kind::Circle(axis) => (self.circular(axis), 1),
+            Kind::Move(_) => (self.directed(), 1),
+            Kind::Circle(_) => (self.circular(), 1),
             Kind::Wrist(motion) => {
                 self.at += 1;
                 (MotionKind::Wrist { motion, size: None }, 1)
@@ -302,15 +302,11 @@ impl Parser<'_> {
         MotionKind::FingerPlay(digits)
     }
 
-    fn directed(&mut self, direction: Direction) -> MotionKind {
-        self.at += 1;
-        let second = match (self.peek(), self.kind(self.at + 1)) {
-            (Some(Kind::Between), Some(Kind::Move(second))) => {
-                self.at += 2;
-                Some(second)
-            }
+    fn directed(&mut self) -> MotionKind {
+        let (direction, second) = self.ways(|kind| match kind {
+            Kind::Move(direction) => Some(direction),
             _ => None,
-        };
+        });
         let mut kind = MotionKind::Directed(Directed {
             direction,
             second,
@@ -323,15 +319,11 @@ impl Parser<'_> {
         kind
     }
 
-    fn circular(&mut self, axis: Direction) -> MotionKind {
-        self.at += 1;
-        let second = match (self.peek(), self.kind(self.at + 1)) {
-            (Some(Kind::Between), Some(Kind::Circle(second))) => {
-                self.at += 2;
-                Some(second)
-            }
+    fn circular(&mut self) -> MotionKind {
+        let (axis, second) = self.ways(|kind| match kind {
+            Kind::Circle(axis) => Some(axis),
             _ => None,
-        };
+        });
         let mut kind = MotionKind::Circular(Circular {
             axis,
             second,
@@ -344,6 +336,27 @@ impl Parser<'_> {
         });
         self.modifiers(&mut kind, Last::Way);
         kind
+    }
+
+    /// Takes a direction, or the middle of two.
+    fn ways(&mut self, way: fn(Kind) -> Option<Direction>) -> (Direction, Option<Direction>) {
+        let first = self.way(way);
+        let between =
+            self.next_is(0, Kind::Between) && self.kind(self.at + 1).and_then(way).is_some();
+        self.at += usize::from(between);
+        (first, between.then(|| self.way(way)))
+    }
+
+    /// Takes one symbol of a direction, or the two that stand for a corner.
+    fn way(&mut self, way: fn(Kind) -> Option<Direction>) -> Direction {
+        let at = |parser: &Self, ahead| parser.kind(parser.at + ahead).and_then(way);
+        let first = at(self, 0).unwrap_or(Direction::OUT);
+        let corner = at(self, 1).and_then(|second| {
+            let corner = first.corner_with(second)?;
+            (corner.corner_parts() == Some((first, second))).then_some(corner)
+        });
+        self.at += 1 + usize::from(corner.is_some());
+        corner.unwrap_or(first)
     }
 
     /// Takes marks of manner, and such of size and form as come after them.
@@ -561,9 +574,11 @@ impl Parser<'_> {
         let opened = self.at;
         self.at += 1;
         let mut repetition = self.repetition();
-        if let Some(Kind::Move(direction)) = self.peek() {
-            self.at += 1;
-            repetition.shift = Some(direction);
+        if let Some(Kind::Move(_)) = self.peek() {
+            repetition.shift = Some(self.way(|kind| match kind {
+                Kind::Move(direction) => Some(direction),
+                _ => None,
+            }));
             repetition.shift_size = self.eat_size();
             repetition.shift_growth = self.growth();
         } else if !matches!(self.peek(), Some(Kind::Close(_))) {

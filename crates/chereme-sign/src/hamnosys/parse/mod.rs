@@ -12,7 +12,7 @@ use super::error::{Finding, HamnosysError};
 use super::lex::{self, Lexed, Token};
 use super::print::{self, Write};
 use super::symbol::{Bracket, Kind, Symbol};
-use super::tree::{Bend, BodyAction, HandsUsed, Manual, Sign, Size, Symmetry, Written};
+use super::tree::{Bend, BodyAction, HandsUsed, Manual, Posture, Sign, Size, Symmetry, Written};
 
 /// How deep brackets, and things done to things done, may nest.
 pub const MAX_DEPTH: usize = 48;
@@ -170,7 +170,7 @@ impl<'a> Parser<'a> {
             ..Manual::default()
         };
         self.two = matches!(part.hands, HandsUsed::Both(_));
-        while self.at_body_action() {
+        while self.at_body_action() || self.at_body_part() {
             part.body.push(self.body_action()?.0);
         }
         part.posture = self.posture()?;
@@ -208,24 +208,38 @@ impl<'a> Parser<'a> {
         Ok(HandsUsed::Both(symmetry))
     }
 
-    /// Tells whether a part of the body acts here before the hands are described.
+    /// Tells whether a part of the body moves here.
     fn at_body_action(&self) -> bool {
+        self.after_body_site()
+            .and_then(|at| self.kind(at))
+            .is_some_and(is_motion)
+    }
+
+    /// Tells whether a part of the body is held here before the hands are described.
+    fn at_body_part(&self) -> bool {
+        self.after_body_site()
+            .is_some_and(|at| match self.kind(at) {
+                Some(Kind::Base(_)) => true,
+                Some(Kind::Open(Bracket::Par)) => self.is_split_config(at, &Posture::default()),
+                _ => false,
+            })
+    }
+
+    /// Returns what comes after a place on the body with its side, where there is one.
+    fn after_body_site(&self) -> Option<usize> {
+        let side = |at: usize| matches!(self.kind(at), Some(Kind::At | Kind::Beside));
         let mut at = self.at;
-        while matches!(self.kind(at), Some(Kind::At | Kind::Beside)) {
+        while side(at) {
             at += 1;
         }
         if !matches!(self.kind(at), Some(Kind::Body(_))) {
-            return false;
+            return None;
         }
         at += 1;
-        while matches!(self.kind(at), Some(Kind::At | Kind::Beside)) {
+        while side(at) || matches!(self.kind(at), Some(Kind::Bend(_))) {
             at += 1;
         }
-        match self.kind(at) {
-            Some(Kind::Base(_)) => true,
-            Some(kind) => is_motion(kind),
-            None => false,
-        }
+        Some(at)
     }
 
     fn body_action(&mut self) -> Parsed<(BodyAction, usize)> {

@@ -5,7 +5,7 @@ use crate::hamnosys::direction::{Compass, Direction};
 use crate::hamnosys::symbol::{Bracket, Kind};
 use crate::hamnosys::tree::{
     Aim, Bend, Digit, Digits, Each, FingerContact, Form, Frame, HandClass, Handshape, Opening,
-    Posture, ThumbExtra, ThumbPosition,
+    Posture, Size, ThumbExtra, ThumbPosition,
 };
 
 /// What one half of a split says.
@@ -46,7 +46,11 @@ impl Parser<'_> {
 
     /// Tells whether a group is a configuration for each hand, of parts not said yet.
     pub(super) fn at_split_config(&self, posture: &Posture) -> bool {
-        let (inside, Some(plus)) = self.group(self.at) else {
+        self.is_split_config(self.at, posture)
+    }
+
+    pub(super) fn is_split_config(&self, at: usize, posture: &Posture) -> bool {
+        let (inside, Some(plus)) = self.group(at) else {
             return false;
         };
         let first = inside
@@ -209,11 +213,7 @@ impl Parser<'_> {
                     }
                 }
                 Some(Kind::Part(part))
-                    if shape.thumb.is_none()
-                        && matches!(
-                            self.kind(self.at + 1),
-                            Some(Kind::Extended(_) | Kind::Palm(_))
-                        ) =>
+                    if shape.thumb.is_none() && ends_shape(self.kind(self.at + 1)) =>
                 {
                     shape.thumb = Some(ThumbExtra::Contact(part));
                     self.at += 1;
@@ -309,11 +309,16 @@ impl Parser<'_> {
                 shape.bends[digit as usize] = Some(self.bend(bend));
                 return true;
             }
-            Some(Kind::Thumb(ThumbPosition::Opposed)) if opposes(shape.form.class) => {
-                shape.opposed = Some(digit);
+            Some(Kind::Size(Size::Big)) => {
+                if shape.opposed.is_some() {
+                    self.at += 1;
+                    self.note("a second finger that the thumb meets", "mark one", true);
+                    self.at -= 1;
+                }
+                shape.opposed = shape.opposed.or(Some(digit));
                 self.at += 1;
             }
-            Some(Kind::Part(_)) if matches!(two, Some(Kind::Extended(_) | Kind::Palm(_))) => {}
+            Some(Kind::Part(_)) if ends_shape(two) => {}
             Some(Kind::Part(_) | Kind::Contact(_)) => return false,
             Some(Kind::Open(Bracket::Seq)) if matches!(two, Some(Kind::Contact(_))) => {
                 return false;
@@ -345,6 +350,16 @@ impl Parser<'_> {
 
 const CROSS: Kind = Kind::Contact(crate::hamnosys::tree::Contact::Cross);
 
+/// Tells whether this is what comes after a whole handshape, so that a part of a finger before it is
+/// the handshape's own.
+fn ends_shape(kind: Option<Kind>) -> bool {
+    use Kind as K;
+    matches!(
+        kind,
+        Some(K::Extended(_) | K::Palm(_) | K::Plus | K::Close(_))
+    )
+}
+
 fn split<T>(each: &mut Each<T>, dominant: Option<T>, other: Option<T>) {
     if dominant.is_some() || other.is_some() {
         *each = Each::Split(dominant, other);
@@ -363,12 +378,6 @@ fn opening(class: HandClass, thumb: ThumbPosition) -> Option<Opening> {
 fn is_cee(class: HandClass) -> bool {
     use HandClass as C;
     matches!(class, C::Cee12 | C::Cee12Open | C::CeeAll)
-}
-
-/// Tells whether the thumb of the class meets one finger, so that digits choose which.
-fn opposes(class: HandClass) -> bool {
-    use HandClass as C;
-    matches!(class, C::Pinch12 | C::Pinch12Open | C::Cee12 | C::Cee12Open)
 }
 
 /// Tells which of the digits after a handshape are meant instead of its own, and which the bend

@@ -39,7 +39,7 @@ fn what_is_written_as_printed_reads_and_prints_without_loss() {
         "finger2 pinky extfingero palml",
         "finger23spread ringfinger pinky extfingero palml",
         "pinch12 middlefinger ringfinger extfingero palml",
-        "cee12open middlefinger thumbopenmod extfingero palml",
+        "cee12open middlefinger largemod extfingero palml",
         "flathand thumb fingerbendmod ringfinger doublebent extfingero palml",
         "finger23 indexfinger fingernail middlefinger extfingero palml",
         "finger23 middlefinger cross indexfinger extfingero palml",
@@ -78,6 +78,7 @@ fn what_is_written_as_printed_reads_and_prints_without_loss() {
         "fist extfingeru palmd moveo smallmod between largemod arcd arcl",
         "fist extfingeru palmd circlel between circleul largemod ellipsev smallmod clocku clockd clockfull clockfull zigzag decreasing largemod",
         "fist extfingeru palmd circleo increasing smallmod",
+        "fist extfingeru palmd moveuo moveol between moveur circledi circleir",
         "fist extfingeru palmd nodding smallmod swinging twisting stircw stirccw largemod",
         "fist extfingeru palmd fingerplay indexfinger middlefinger slow",
         "fist extfingeru palmd movecross movex nomotion",
@@ -301,6 +302,11 @@ fn overloaded_symbols_mean_what_their_place_says() {
             let aim = p.posture.extended.dominant().expect("an aim");
             aim.first == Direction::UP && aim.second == Some(Direction::LEFT)
         }),
+        ("fist moveuo moveol", |p| {
+            directed(p).direction.to_string() == "uol"
+        }),
+        ("fist moveol moveuo", |p| p.actions.len() == 2),
+        ("fist moveuo smallmod moveol", |p| p.actions.len() == 2),
         ("fist extfingeruo extfingerol", |p| {
             let aim = p.posture.extended.dominant().expect("an aim");
             aim.first.to_string() == "uol" && aim.second.is_none()
@@ -372,7 +378,7 @@ fn overloaded_symbols_mean_what_their_place_says() {
         ("fist thumbacrossmod", |p| {
             shape(p).form.thumb == Some(ThumbPosition::Across)
         }),
-        ("cee12 middlefinger thumbopenmod", |p| {
+        ("cee12 middlefinger largemod", |p| {
             shape(p).opposed == Some(Digit::Middle)
         }),
         ("fist shoulders moveu", |p| {
@@ -606,13 +612,14 @@ fn nesting_is_bounded() {
 fn losses_are_said() {
     let mut part = first("fist extfingeru palmd moveo");
     part.actions[0].manner.speed = Some(0.5);
-    if let MotionKind::Directed(way) = &mut part.actions[0].kind {
-        way.direction = "uol".parse().expect("a direction");
-    }
+    let Each::Shared(shape) = &mut part.posture.shape else {
+        panic!("a shape for both hands");
+    };
+    shape.form.bend = Some(Bend::Joints([4.0, 1.0, 0.0]));
     let printed = print(&Sign { parts: vec![part] });
     assert_eq!(
         printed.text,
-        text("fist extfingeru palmd moveuo between moveol")
+        text("fist fingerstraightmod extfingeru palmd moveo")
     );
     assert_eq!(printed.losses.len(), 2, "{:#?}", printed.losses);
 }

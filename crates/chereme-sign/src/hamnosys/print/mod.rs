@@ -284,7 +284,7 @@ impl Write {
             }
             self.symbol(Kind::Digit(*digit));
             if shape.opposed == Some(*digit) {
-                self.symbol(Kind::Thumb(ThumbPosition::Opposed));
+                self.symbol(Kind::Size(Size::Big));
             }
         }
     }

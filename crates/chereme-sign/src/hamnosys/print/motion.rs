@@ -110,16 +110,12 @@ impl Write {
         }
     }
 
-    /// Writes a direction of a movement; a corner as the middle of its two neighbours.
+    /// Writes a direction of a movement; a corner by the two symbols that stand for it.
     fn way(&mut self, direction: Direction, kind: fn(Direction) -> Kind) {
         match direction.corner_parts() {
             None => self.symbol(kind(direction)),
             Some((one, two)) => {
-                self.lose(
-                    "a movement into a corner has no symbol; the middle of two stands for it",
-                );
                 self.symbol(kind(one));
-                self.symbol(Kind::Between);
                 self.symbol(kind(two));
             }
         }
