@@ -72,7 +72,7 @@ impl Reach {
 }
 
 /// Brings the wrist of `side` to `targets`, one a frame in model space, the hand turned in the world
-/// as `hands` says, or as it was.
+/// as `hands` says, or as it was; `columns` are those of the hand as it is.
 ///
 /// What is where it should be is not touched. The elbow keeps the source's swivel; where that has no
 /// meaning (a source arm that is straight, or points away from where the arm goes) or turns faster
@@ -82,11 +82,12 @@ impl Reach {
 pub(crate) fn move_wrist(
     work: &mut Work,
     side: Side,
+    columns: &Columns,
     targets: &[DVec3],
     hands: Option<&[DQuat]>,
     solver: Solver,
 ) -> Option<Reach> {
-    let source = Source::of(work, side)?;
+    let source = Source::of(work, side, columns)?;
     let helps: Vec<Option<Help>> = (0..work.frames)
         .map(|frame| source.help(frame, targets[frame]))
         .collect();
@@ -115,9 +116,9 @@ pub(crate) fn move_wrist(
 }
 
 /// An arm as it is, over all frames in model space.
-struct Source {
+struct Source<'a> {
     arm: ArmChain,
-    columns: Columns,
+    columns: &'a Columns,
     /// The joints above collar bone, upper arm, forearm and hand.
     above: [Option<usize>; 4],
     pole: Pole,
@@ -169,8 +170,8 @@ struct Turns {
     told: f64,
 }
 
-impl Source {
-    fn of(work: &Work, side: Side) -> Option<Self> {
+impl<'a> Source<'a> {
+    fn of(work: &Work, side: Side, columns: &'a Columns) -> Option<Self> {
         let arm = work.anatomy.arm(side)?;
         let pole = match work.anatomy.elbow(side) {
             Some(out) => Pole::Arm(out),
@@ -178,7 +179,7 @@ impl Source {
         };
         let above = |joint| work.skeleton.parent(joint);
         Some(Self {
-            columns: Columns::of(work, [arm.hand]),
+            columns,
             above: [
                 arm.clavicle.and_then(above),
                 above(arm.upper),
@@ -572,8 +573,9 @@ pub(crate) fn raise_arm(
     hands: &[DQuat],
     outside: DVec3,
 ) -> Option<Reach> {
-    move_wrist(work, side, targets, Some(hands), Solver::Analytic)?;
     let arm = work.anatomy.arm(side)?;
+    let columns = Columns::of(work, [arm.hand]);
+    move_wrist(work, side, &columns, targets, Some(hands), Solver::Analytic)?;
     let columns = Columns::of(work, [arm.hand]);
     let [shoulders, elbows, wrists] =
         [arm.upper, arm.forearm, arm.hand].map(|j| columns.positions(j));
@@ -595,5 +597,6 @@ pub(crate) fn raise_arm(
         };
         work.channels[arm.upper].rotations[frame] = (above.inverse() * model).normalize();
     }
-    move_wrist(work, side, targets, Some(hands), Solver::Analytic)
+    let columns = Columns::of(work, [arm.hand]);
+    move_wrist(work, side, &columns, targets, Some(hands), Solver::Analytic)
 }

@@ -21,6 +21,8 @@ const BODY: f64 = 0.06;
 /// The farthest that a point of a hand is from its palm's middle, in lengths of the hand, and that
 /// length in metres where the body does not tell.
 const HAND: (f64, f64) = (0.9, 0.2);
+/// How often contacts are looked for, in seconds.
+const LOOK: f64 = 1.0 / 60.0;
 /// Contacts that are apart for less than this are one, in seconds.
 const PAUSE: f64 = 0.1;
 /// How far a contact may move and still be where it was, in metres.
@@ -90,14 +92,15 @@ pub(crate) fn touches(work: &Work) -> Contacts {
     let measures = work.anatomy.measures();
     let reach = HAND.0 * measures.map_or(HAND.1, |measures| measures.hand);
     let mut near: [Vec<Near>; PAIRS.len()] = Default::default();
-    for frame in 0..work.frames {
+    let look = (LOOK / work.rate.frame_time()).round().max(1.0) as usize;
+    for frame in (0..work.frames).step_by(look) {
         let at = At::of(&tracks, frame, reach + BODY);
         for (near, (side, other, limit)) in near.iter_mut().zip(PAIRS) {
             let found = at.nearest(side, other, limit + reach);
             near.extend(found.filter(|found| found.distance < limit));
         }
     }
-    let pause = (PAUSE / work.rate.frame_time()).round().max(1.0) as usize;
+    let pause = ((PAUSE / work.rate.frame_time()).round() as usize).max(look);
     let mut found = Vec::new();
     for (near, (side, other, _)) in near.iter().zip(PAIRS) {
         for run in near.chunk_by(|a, b| b.frame - a.frame <= pause) {

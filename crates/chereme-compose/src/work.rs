@@ -215,14 +215,14 @@ impl Columns {
                 ),
                 Some(parent) => {
                     let (above, turned) = (columns.positions(parent), columns.rotations(parent));
-                    let positions = (0..work.frames)
-                        .map(|f| above[f] + turned[f] * at(f))
-                        .collect();
-                    let turn = |(a, b): (&DQuat, &DQuat)| *a * *b;
-                    (
-                        positions,
-                        turned.iter().zip(&channel.rotations).map(turn).collect(),
-                    )
+                    let mut positions = Vec::with_capacity(work.frames);
+                    let mut rotations = Vec::with_capacity(work.frames);
+                    let local = above.iter().zip(turned).zip(&channel.rotations);
+                    for (frame, ((above, turned), own)) in local.enumerate() {
+                        positions.push(*above + *turned * at(frame));
+                        rotations.push(*turned * *own);
+                    }
+                    (positions, rotations)
                 }
             };
             columns.positions[joint] = Some(positions);

@@ -109,7 +109,7 @@ pub(crate) fn mend(
         let columns = Columns::of(work, [hand]);
         let wrists = columns.positions(hand).iter().zip(&ways);
         let targets: Vec<DVec3> = wrists.map(|(wrist, way)| *wrist + *way).collect();
-        arm::move_wrist(work, side, &targets, None, Solver::Analytic);
+        arm::move_wrist(work, side, &columns, &targets, None, Solver::Analytic);
         work.changed([Group::Arm(side)], &format!("{operator} (contact kept)"));
     }
     did

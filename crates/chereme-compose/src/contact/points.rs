@@ -105,12 +105,13 @@ impl Anchors {
 
     /// Follows the points through the movement.
     pub(super) fn tracks<'a>(&'a self, work: &'a Work) -> Tracks<'a> {
-        let hands = Side::BOTH.map(|side| work.anatomy.arm(side).map(|arm| arm.hand));
+        let wrists = Side::BOTH.map(|side| work.anatomy.arm(side).map(|arm| arm.hand));
         let body = self.body.iter().flatten().map(|anchor| anchor.joint);
-        let columns = Columns::of(work, hands.into_iter().flatten().chain(body));
+        let columns = Columns::of(work, wrists.into_iter().flatten().chain(body));
         let step = work.frames.div_ceil(SAMPLES).max(1);
         let mut tracks = Tracks {
             work,
+            wrists,
             anchors: self,
             columns,
             step,
@@ -172,6 +173,7 @@ fn twisted(work: &Work, way: f64) -> ModelPose {
 /// Where points of hands and places on the body are at each frame, as far as one asks.
 pub(super) struct Tracks<'a> {
     work: &'a Work,
+    wrists: [Option<usize>; 2],
     anchors: &'a Anchors,
     columns: Columns,
     /// What moves in its joint's space, every so many frames.
@@ -185,7 +187,7 @@ impl Tracks<'_> {
         let hand = usize::from(side == Side::Left);
         let anchor = self.anchors.hands[hand][point]?;
         let mut at = self.local(anchor, hand * POINTS.len() + point, frame)?;
-        let (mut joint, wrist) = (anchor.joint, self.work.anatomy.arm(side)?.hand);
+        let (mut joint, wrist) = (anchor.joint, self.wrists[hand]?);
         while joint != wrist {
             at = self.work.translation(joint, frame)
                 + self.work.channels[joint].rotations[frame] * at;

@@ -5,9 +5,10 @@
 //! trunk is `D = (C C₀⁻¹)⁻¹ R_j R_j0⁻¹`. Its mirror image `S D S` (S reflects across the plane between
 //! the shoulders at rest) is given to m: `R_m = C C₀⁻¹ · S D S · K · R_m0`, where K, the shortest
 //! turn, makes up for arms whose bones do not lie symmetrically at rest. Doing it again gives R back.
+//! All this is done joint by joint in local space.
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Part, Side};
+use chereme_motion::{Part, Side, Skeleton};
 use chereme_sign::Reading;
 
 use crate::error::Cause;
@@ -17,11 +18,8 @@ use crate::work::{Columns, Group, Work};
 /// Exchanges what the arms do.
 pub(crate) fn swap(work: &mut Work) -> Result<Vec<String>, Cause> {
     let plan = Plan::of(work)?;
-    let mirrored: Vec<(usize, Column)> = plan
-        .pairs
-        .iter()
-        .map(|pair| plan.image(work, pair))
-        .collect();
+    let images = plan.pairs.iter().map(|pair| (pair, plan.image(work, pair)));
+    let mirrored: Vec<(&Pair, Column)> = images.collect();
     let did = plan.write(work, mirrored);
     for note in &mut work.notes {
         turn_over(note);
@@ -34,7 +32,8 @@ pub(crate) fn swap(work: &mut Work) -> Result<Vec<String>, Cause> {
 pub(crate) fn mirror(work: &mut Work, from: Side) -> Result<Vec<String>, Cause> {
     let plan = Plan::of(work)?;
     let copied = plan.pairs.iter().filter(|pair| pair.side == from);
-    let mirrored: Vec<(usize, Column)> = copied.map(|pair| plan.image(work, pair)).collect();
+    let images = copied.map(|pair| (pair, plan.image(work, pair)));
+    let mirrored: Vec<(&Pair, Column)> = images.collect();
     let mut did = plan.write(work, mirrored);
     did.extend(crossing(work, &plan));
     work.notes.retain(|note| note.hand != Some(from.other()));
@@ -116,18 +115,20 @@ struct Pair {
     other: usize,
     /// Turns the counterpart's bone at rest to where the mirror image of this joint's bone is.
     even: DQuat,
+    /// What the mirror image of the joint's rotation, both in the space of the pair above, is
+    /// multiplied by to be the counterpart's.
+    around: [DQuat; 2],
+    /// Joints between the joint, or its counterpart, and the pair above; the lowest first.
+    between: [Vec<usize>; 2],
 }
 
 struct Plan {
-    /// The joint that carries both arms.
-    trunk: usize,
     /// The normal of the sagittal plane at rest in model space.
     normal: DVec3,
     rest: Vec<DQuat>,
     /// Both ways, parents first.
     pairs: Vec<Pair>,
     alone: Vec<String>,
-    columns: Columns,
 }
 
 impl Plan {
@@ -157,12 +158,10 @@ impl Plan {
         };
         let map = anatomy.mirror_map(skeleton);
         let mut plan = Self {
-            trunk,
             normal,
             rest: rest.rotations().to_vec(),
             pairs: Vec::new(),
             alone: Vec::new(),
-            columns: Columns::of(work, tops.iter().flat_map(|&top| skeleton.subtree(top))),
         };
         for (&top, side) in tops.iter().zip(Side::BOTH) {
             for joint in skeleton.subtree(top) {
@@ -174,6 +173,8 @@ impl Plan {
                             joint,
                             other,
                             even,
+                            around: [DQuat::IDENTITY; 2],
+                            between: [Vec::new(), Vec::new()],
                         });
                     }
                     None => plan.alone.push(skeleton.joint(joint).name.clone()),
@@ -181,7 +182,39 @@ impl Plan {
             }
         }
         plan.pairs.sort_by_key(|pair| pair.other);
+        for n in 0..plan.pairs.len() {
+            let (around, between) = plan.hung(skeleton, &plan.pairs[n], trunk);
+            (plan.pairs[n].around, plan.pairs[n].between) = (around, between);
+        }
         Ok(plan)
+    }
+
+    /// Hangs a pair on the nearest pair above it, or on the trunk.
+    ///
+    /// With a the joint of that pair, b its counterpart and V the rotation of j in the space of a,
+    /// the first formula of this module gives m in the space of b as
+    /// `R_b0⁻¹ K_a⁻¹ · S R_a0 V R_j0⁻¹ S · K R_m0`: the trunk's rotation cancels out.
+    fn hung(
+        &self,
+        skeleton: &Skeleton,
+        pair: &Pair,
+        trunk: usize,
+    ) -> ([DQuat; 2], [Vec<usize>; 2]) {
+        let up = |joint: usize| skeleton.ancestors(joint).skip(1);
+        let is_above = |above: &&Pair| {
+            up(pair.joint).any(|joint| joint == above.joint)
+                && up(pair.other).any(|joint| joint == above.other)
+        };
+        // Parents stand before their children, so that the nearest pair has the last joint.
+        let above = self.pairs.iter().filter(is_above).max_by_key(|it| it.joint);
+        let (a, b, even) = above.map_or((trunk, trunk, DQuat::IDENTITY), |it| {
+            (it.joint, it.other, it.even)
+        });
+        let before = self.rest[b].inverse() * even.inverse() * self.reflected(self.rest[a]);
+        let after = self.reflected(self.rest[pair.joint].inverse());
+        let between = [(pair.joint, a), (pair.other, b)]
+            .map(|(joint, top)| up(joint).take_while(|&joint| joint != top).collect());
+        ([before, after * pair.even * self.rest[pair.other]], between)
     }
 
     fn reflect(&self, v: DVec3) -> DVec3 {
@@ -215,24 +248,15 @@ impl Plan {
         }
     }
 
-    /// Returns the model rotations of a joint's counterpart, and its places where the joint moves.
-    fn image(&self, work: &Work, pair: &Pair) -> (usize, Column) {
-        let trunk = self.columns.rotations(self.trunk);
-        let at_rest = self.rest[self.trunk].inverse();
-        let (back, onto) = (
-            self.rest[pair.joint].inverse(),
-            pair.even * self.rest[pair.other],
-        );
-        let rotations = self
-            .columns
-            .rotations(pair.joint)
-            .iter()
-            .zip(trunk)
-            .map(|(r, c)| {
-                let carried = *c * at_rest;
-                let moved = carried.inverse() * *r * back;
-                carried * self.reflected(moved) * onto
-            });
+    /// Returns the rotations of a joint's counterpart in the space of the pair above, and its places
+    /// where the joint moves.
+    fn image(&self, work: &Work, pair: &Pair) -> Column {
+        let own = &work.channels[pair.joint].rotations;
+        let [before, after] = pair.around;
+        let rotations = (0..work.frames).map(|frame| {
+            let turned = below(work, &pair.between[0], frame) * own[frame];
+            before * self.reflected(turned) * after
+        });
         let above = |joint: usize| {
             work.skeleton
                 .parent(joint)
@@ -251,36 +275,22 @@ impl Plan {
                     |at: &DVec3| there.offset + to * self.reflect(from * (*at - here.offset));
                 places.iter().map(moved).collect()
             });
-        (
-            pair.other,
-            Column {
-                rotations: rotations.collect(),
-                translations,
-            },
-        )
+        Column {
+            rotations: rotations.collect(),
+            translations,
+        }
     }
 
-    /// Writes model rotations into local channels, parents first.
-    fn write(&self, work: &mut Work, mirrored: Vec<(usize, Column)>) -> Vec<String> {
-        let mut new: Vec<Option<Vec<DQuat>>> = vec![None; work.skeleton.len()];
-        for (joint, column) in mirrored {
+    /// Gives counterparts their rotations, parents first.
+    fn write(&self, work: &mut Work, mirrored: Vec<(&Pair, Column)>) -> Vec<String> {
+        for (pair, column) in mirrored {
+            let turned = column.rotations.into_iter().enumerate();
             // A joint with no counterpart between two that have one is carried along.
-            let parent = work.skeleton.parent(joint);
-            let local = column
-                .rotations
-                .iter()
-                .enumerate()
-                .map(|(frame, rotation)| {
-                    let above = parent.map_or(DQuat::IDENTITY, |parent| match &new[parent] {
-                        Some(turned) => turned[frame],
-                        None => self.carried(work, &new, parent, frame),
-                    });
-                    (above.inverse() * *rotation).normalize()
-                });
-            let local: Vec<DQuat> = local.collect();
-            work.channels[joint].rotations = local;
-            work.channels[joint].translations = column.translations;
-            new[joint] = Some(column.rotations);
+            let local = turned.map(|(frame, rotation)| {
+                (below(work, &pair.between[1], frame).inverse() * rotation).normalize()
+            });
+            work.channels[pair.other].rotations = local.collect();
+            work.channels[pair.other].translations = column.translations;
         }
         if self.alone.is_empty() {
             return Vec::new();
@@ -290,24 +300,10 @@ impl Plan {
             self.alone.join(", ")
         )]
     }
+}
 
-    fn carried(
-        &self,
-        work: &Work,
-        new: &[Option<Vec<DQuat>>],
-        joint: usize,
-        frame: usize,
-    ) -> DQuat {
-        let mut below = DQuat::IDENTITY;
-        for above in work.skeleton.ancestors(joint) {
-            if let Some(turned) = &new[above] {
-                return turned[frame] * below;
-            }
-            if above == self.trunk {
-                return self.columns.rotations(above)[frame] * below;
-            }
-            below = work.channels[above].rotations[frame] * below;
-        }
-        below
-    }
+/// Returns the rotation of joints below one another, the lowest first.
+fn below(work: &Work, joints: &[usize], frame: usize) -> DQuat {
+    let local = |&joint: &usize| work.channels[joint].rotations[frame];
+    joints.iter().rev().map(local).product()
 }

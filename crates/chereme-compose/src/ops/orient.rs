@@ -33,7 +33,14 @@ pub(crate) fn orient(
         let columns = Columns::of(work, [hand]);
         let hands: Vec<DQuat> = columns.rotations(hand).iter().map(|q| turn * *q).collect();
         let targets = columns.positions(hand).to_vec();
-        let reach = arm::move_wrist(work, side, &targets, Some(&hands), Solver::Analytic);
+        let reach = arm::move_wrist(
+            work,
+            side,
+            &columns,
+            &targets,
+            Some(&hands),
+            Solver::Analytic,
+        );
         worst = worst.worse(reach.ok_or(Cause::NoArm(side))?);
         let angle = DQuat::IDENTITY.angle_between(turn).to_degrees();
         did.push(format!("the {} hand is turned by {angle:.0}°", side.name()));

@@ -102,13 +102,15 @@ pub(crate) fn wrists(
     target: impl Fn(Side, usize, DVec3) -> DVec3,
 ) -> Result<Reach, Cause> {
     let mut worst = Reach::default();
-    for &side in sides {
-        let hand = work.anatomy.arm(side).ok_or(Cause::NoArm(side))?.hand;
-        let columns = Columns::of(work, [hand]);
+    let hand = |side: Side| work.anatomy.arm(side).map(|arm| arm.hand);
+    let hands: Vec<Option<usize>> = sides.iter().map(|&side| hand(side)).collect();
+    let columns = Columns::of(work, hands.iter().flatten().copied());
+    for (&side, hand) in sides.iter().zip(hands) {
+        let hand = hand.ok_or(Cause::NoArm(side))?;
         let at = columns.positions(hand).iter().enumerate();
         let targets: Vec<DVec3> = at.map(|(frame, &at)| target(side, frame, at)).collect();
-        let reach =
-            arm::move_wrist(work, side, &targets, None, solver).ok_or(Cause::NoArm(side))?;
+        let reach = arm::move_wrist(work, side, &columns, &targets, None, solver)
+            .ok_or(Cause::NoArm(side))?;
         check(side, &reach)?;
         worst = worst.worse(reach);
     }

@@ -222,7 +222,7 @@ fn wrists(work: &Work, out: &mut Work) {
         return;
     };
     let there = Columns::of(work, [r.hand, l.hand]);
-    let here = Columns::of(out, [right.upper, left.upper]);
+    let here = Columns::of(out, [right.hand, left.hand]);
     let middle = |columns: &Columns, a: usize, b: usize, frame: usize| {
         (columns.positions(a)[frame] + columns.positions(b)[frame]) / 2.0
     };
@@ -232,7 +232,7 @@ fn wrists(work: &Work, out: &mut Work) {
             middle(&here, right.upper, left.upper, frame) + way * ratio
         };
         let targets: Vec<DVec3> = (0..work.frames).map(target).collect();
-        arm::move_wrist(out, side, &targets, None, Solver::Analytic);
+        arm::move_wrist(out, side, &here, &targets, None, Solver::Analytic);
     }
 }
 

@@ -163,8 +163,15 @@ pub(crate) fn indicate(
                 from.lerp(to, shares[f]) + turn * (path[f] - line)
             })
             .collect();
-        let reach = arm::move_wrist(work, side, &targets, Some(&hands), Solver::Analytic)
-            .ok_or(Cause::NoArm(side))?;
+        let reach = arm::move_wrist(
+            work,
+            side,
+            &columns,
+            &targets,
+            Some(&hands),
+            Solver::Analytic,
+        )
+        .ok_or(Cause::NoArm(side))?;
         place::check(side, &reach)?;
         worst = worst.worse(reach);
     }
