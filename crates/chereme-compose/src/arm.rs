@@ -91,11 +91,12 @@ pub(crate) fn move_wrist(
     let helps: Vec<Option<Help>> = (0..work.frames)
         .map(|frame| source.help(frame, targets[frame]))
         .collect();
-    let soft = source.soft(targets, &helps, work.rate.frame_time());
+    let [soft, near] = source.soft(targets, &helps, work.rate.frame_time());
     let mut steps = Vec::with_capacity(work.frames);
     for (frame, help) in helps.into_iter().enumerate() {
         let moves = hands.is_some() || source.wrists()[frame] != targets[frame];
-        steps.push(source.step(frame, targets[frame], help, moves, soft[frame], solver)?);
+        let target = source.kept_off(frame, targets[frame], help, near[frame]);
+        steps.push(source.step(frame, target, help, moves, soft[frame], solver)?);
     }
     if solver == Solver::Analytic {
         swivel(&mut steps, work.rate.frame_time());
@@ -235,38 +236,36 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// Returns the soft end of the reach at each frame: the least where no target leaves the reach,
-    /// else, about where one does, as much as keeps the elbow from opening too fast.
-    ///
-    /// An elbow of an arm that is extended to `1 - s` opens by `√(2/s)` times what the wrist goes
-    /// outwards, in arm lengths.
-    fn soft(&self, targets: &[DVec3], helps: &[Option<Help>], frame_time: f64) -> Vec<f64> {
+    /// Returns the soft ends of the reach at each frame, far and near: the least where no target
+    /// leaves the reach, else, about where one does, as much as keeps the elbow from opening too fast.
+    fn soft(&self, targets: &[DVec3], helps: &[Option<Help>], frame_time: f64) -> [Vec<f64>; 2] {
         let extension = |frame: usize| {
             let points = self.points(frame);
             let shoulder = helps[frame].map_or(points[0], |help| help.shoulder);
             shoulder.distance(targets[frame]) / length(points)
         };
-        let extensions: Vec<f64> = (0..targets.len()).map(extension).collect();
-        let leaves = extensions.iter().any(|&extension| extension > 1.0 - SOFT.0);
-        let mut soft = vec![SOFT.0; targets.len()];
-        if !leaves {
-            return soft;
+        let far: Vec<f64> = (0..targets.len()).map(extension).collect();
+        let near = far.iter().enumerate().map(|(frame, extension)| {
+            let points = self.points(frame);
+            1.0 + folded(points) / length(points) - extension
+        });
+        let near: Vec<f64> = near.collect();
+        [&far, &near].map(|extensions| softened(extensions, frame_time))
+    }
+
+    /// Returns the target, or, where it is nearer to the shoulder than the folded arm's wrist, a place
+    /// in the same direction that is softly kept off; `soft` is a share of the arm's length.
+    fn kept_off(&self, frame: usize, target: DVec3, help: Option<Help>, soft: f64) -> DVec3 {
+        let points = self.points(frame);
+        let shoulder = help.map_or(points[0], |help| help.shoulder);
+        let soft = soft * length(points);
+        let (way, edge) = (target - shoulder, folded(points) + soft);
+        let distance = way.length();
+        if distance >= edge {
+            return target;
         }
-        let near = (AROUND / frame_time).round() as usize;
-        for frame in 1..extensions.len() {
-            let [before, now] = [extensions[frame - 1], extensions[frame]];
-            if before.max(now) < 1.0 - SOFT.1 || before.min(now) > 1.0 + SOFT.1 {
-                continue;
-            }
-            let speed = (now - before).abs() / frame_time;
-            let wanted = (2.0 * (speed / OPENING).powi(2)).clamp(SOFT.0, SOFT.1);
-            for at in frame.saturating_sub(near)..(frame + near).min(soft.len()) {
-                let away = at.abs_diff(frame) as f64 / near.max(1) as f64;
-                let share = smooth(2.0 - 2.0 * away);
-                soft[at] = soft[at].max(SOFT.0 + (wanted - SOFT.0) * share);
-            }
-        }
-        soft
+        let kept = edge - soft + soft * ((distance - edge) / soft).exp();
+        shoulder + way.normalize_or(line(points)) * kept
     }
 
     fn step(
@@ -394,6 +393,40 @@ impl<'a> Source<'a> {
         }
         reach
     }
+}
+
+/// Returns the soft end at each frame for how far arms are extended, as shares of their length.
+///
+/// An elbow of an arm that is extended to `1 - s` opens by `√(2/s)` times what the wrist goes
+/// outwards, in arm lengths.
+fn softened(extensions: &[f64], frame_time: f64) -> Vec<f64> {
+    let mut soft = vec![SOFT.0; extensions.len()];
+    if extensions
+        .iter()
+        .all(|&extension| extension <= 1.0 - SOFT.0)
+    {
+        return soft;
+    }
+    let near = (AROUND / frame_time).round() as usize;
+    for frame in 1..extensions.len() {
+        let [before, now] = [extensions[frame - 1], extensions[frame]];
+        if before.max(now) < 1.0 - SOFT.1 || before.min(now) > 1.0 + SOFT.1 {
+            continue;
+        }
+        let speed = (now - before).abs() / frame_time;
+        let wanted = (2.0 * (speed / OPENING).powi(2)).clamp(SOFT.0, SOFT.1);
+        for at in frame.saturating_sub(near)..(frame + near).min(soft.len()) {
+            let away = at.abs_diff(frame) as f64 / near.max(1) as f64;
+            let share = smooth(2.0 - 2.0 * away);
+            soft[at] = soft[at].max(SOFT.0 + (wanted - SOFT.0) * share);
+        }
+    }
+    soft
+}
+
+/// Returns the distance from shoulder to wrist of the folded arm.
+fn folded([shoulder, elbow, wrist]: [DVec3; 3]) -> f64 {
+    (shoulder.distance(elbow) - elbow.distance(wrist)).abs()
 }
 
 fn length([shoulder, elbow, wrist]: [DVec3; 3]) -> f64 {
@@ -599,4 +632,23 @@ pub(crate) fn raise_arm(
     }
     let columns = Columns::of(work, [arm.hand]);
     move_wrist(work, side, &columns, targets, Some(hands), Solver::Analytic)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_soft_end_is_longer_where_the_reach_is_left_fast() {
+        let within = softened(&[0.5; 50], 1.0 / 120.0);
+        assert_eq!(within, vec![SOFT.0; 50]);
+        let leaving = |per_frame: f64| {
+            let way = (0..300).map(|n| 1.0 + per_frame * (f64::from(n) - 150.0));
+            softened(&way.collect::<Vec<f64>>(), 1.0 / 120.0)
+        };
+        let (slow, fast) = (leaving(1e-4), leaving(0.02));
+        assert!(slow.iter().all(|soft| (soft - SOFT.0).abs() < 1e-9));
+        assert_eq!((fast[0], fast[299]), (SOFT.0, SOFT.0));
+        assert!((fast[150] - SOFT.1).abs() < 1e-9);
+    }
 }

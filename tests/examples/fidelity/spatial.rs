@@ -2,7 +2,7 @@
 
 use chereme_compose::Made;
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Clip, ModelPose, Rate, Side};
+use chereme_motion::{ArmChain, Clip, ModelPose, Rate, Side};
 
 use crate::Result;
 use crate::capture::Capture;
@@ -13,21 +13,19 @@ const HEAD: [&str; 11] = [
     "capture",
     "targets",
     "in reach",
-    "residual to 92 %, mm",
-    "residual to 100 %, mm",
+    "residual well inside, mm",
+    "residual, mm",
     "hand turned, °",
     "elbow jumps, 10 cm",
     "elbow jumps, 25 cm",
-    "by the shoulder",
-    "largest, °",
+    "the wrist asks for",
+    "largest other, °",
     "clips out of reach, told",
 ];
 /// By how many degrees more than in the source a joint turns from a frame to the next in a jump.
 const JUMP: f64 = 5.0;
 /// A turn in the source, in degrees, that no arm makes: the capture is cut there.
 const CUT: f64 = 15.0;
-/// A wrist nearer to the shoulder than this share of the arm's length is by the shoulder.
-const BESIDE: f64 = 0.35;
 /// The longest soft end of the reach.
 const SOFT: f64 = 0.08;
 
@@ -38,9 +36,10 @@ struct Found {
     /// Largest residuals: of targets nearer than the longest soft end, and of all in reach.
     residual: [f64; 2],
     turned: f64,
-    /// Jumps with hands moved by 10 and by 25 cm, and those of them by the shoulder.
+    /// Jumps with hands moved by 10 and by 25 cm, and those that any arm would make whose wrist goes
+    /// so.
     jumps: [usize; 2],
-    beside: usize,
+    asked: usize,
     largest: f64,
     /// Clips with targets out of reach, and those of them whose report says so.
     beyond: [usize; 2],
@@ -67,11 +66,12 @@ pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
     Ok(format!(
         "### Hands placed 10 and 25 cm to the left, right, up and down\n\nAt 120 Hz. A target is in \
          reach where it is no farther from the shoulder than the arm is long; residuals are those of \
-         targets to 92 % of its length, where the longest soft end begins, and of all in reach. A \
+         targets that lie more than 8 % of its length, the longest soft end, inside the arm's reach, \
+         far and near, and of all in reach. A \
          jump is a turn of upper arm or forearm from a frame to the next that is more than {JUMP}° \
-         larger than the source's, where nothing of the source's arm turns by more than {CUT}°; by the shoulder are \
-         those with the wrist nearer to it than {:.0} % of the arm's length.\n\n{}",
-        BESIDE * 100.0,
+         larger than the source's, where nothing of the source's arm turns by more than {CUT}°. Those \
+         that the wrist asks for are counted apart: there the line from shoulder to wrist, or the \
+         elbow's angle, which follow from the wrist's place, already turn by that much.\n\n{}",
         markdown(&HEAD, rows)
     ))
 }
@@ -80,7 +80,7 @@ impl Found {
     fn add(&mut self, other: &Self) {
         self.targets += other.targets;
         self.in_reach += other.in_reach;
-        self.beside += other.beside;
+        self.asked += other.asked;
         self.turned = self.turned.max(other.turned);
         self.largest = self.largest.max(other.largest);
         self.refused += other.refused;
@@ -111,7 +111,7 @@ impl Found {
             format!("{:.4}", self.turned.to_degrees()),
             self.jumps[0].to_string(),
             self.jumps[1].to_string(),
-            self.beside.to_string(),
+            self.asked.to_string(),
             format!("{:.1}", self.largest.to_degrees()),
             beyond,
         ]
@@ -203,7 +203,8 @@ fn arm(
         if distance <= first + second && distance >= (first - second).abs() {
             found.in_reach += 1;
             found.residual[1] = found.residual[1].max(residual);
-            if distance <= (1.0 - SOFT) * (first + second) {
+            let (whole, folded) = (first + second, (first - second).abs());
+            if distance <= (1.0 - SOFT) * whole && distance >= folded + SOFT * whole {
                 found.residual[0] = found.residual[0].max(residual);
             }
         } else {
@@ -239,16 +240,47 @@ fn jumps(capture: &Capture, clip: &Clip, made: &Clip, side: Side, found: &mut Fo
             if fastest[frame] > CUT.to_radians() {
                 continue;
             }
+            let [before, after] = [frame, frame + 1].map(|frame| Bend::of(made, &arm, frame));
+            let least = match joint == arm.upper {
+                true => {
+                    before.line.angle_between(after.line) - (after.shoulder - before.shoulder).abs()
+                }
+                false => (after.elbow - before.elbow).abs(),
+            };
+            if least - source > JUMP.to_radians() {
+                found.asked += 1;
+                continue;
+            }
             found.largest = found.largest.max(turn - source);
             if turn - source > JUMP.to_radians() {
-                let model = made.model_pose(frame + 1);
-                let at = |joint: usize| model.position(joint);
-                let bones = at(arm.upper).distance(at(arm.forearm))
-                    + at(arm.forearm).distance(at(arm.hand));
                 found.jumps[far] += 1;
-                let near = at(arm.upper).distance(at(arm.hand)) < BESIDE * bones;
-                found.beside += usize::from(near);
             }
+        }
+    }
+}
+
+/// How an arm is bent: the line from shoulder to wrist, and the angles that shoulder and elbow have
+/// with it in the plane of the arm.
+///
+/// These follow from where the wrist is. As the upper arm turns with the line but for the change of
+/// its angle, and the forearm in the space of the upper arm at least by that of the elbow's, no arm
+/// with these bones can turn less.
+struct Bend {
+    line: DVec3,
+    shoulder: f64,
+    elbow: f64,
+}
+
+impl Bend {
+    fn of(clip: &Clip, arm: &ArmChain, frame: usize) -> Self {
+        let model = clip.model_pose(frame);
+        let [shoulder, elbow, wrist] =
+            [arm.upper, arm.forearm, arm.hand].map(|j| model.position(j));
+        let (line, upper) = (wrist - shoulder, elbow - shoulder);
+        Self {
+            line,
+            shoulder: line.angle_between(upper),
+            elbow: upper.angle_between(wrist - elbow),
         }
     }
 }
