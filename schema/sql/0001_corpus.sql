@@ -157,6 +157,9 @@ CREATE TABLE annotation (
     CHECK (start_us <= end_us)
 ) STRICT;
 CREATE INDEX annotation_tier ON annotation (tier_id, start_us);
+-- The longest of a tier bounds how far before a moment one can start that still goes on there.
+CREATE INDEX annotation_length ON annotation (tier_id, end_us - start_us);
+CREATE INDEX annotation_external ON annotation (external_id) WHERE external_id IS NOT NULL;
 CREATE INDEX annotation_parent ON annotation (parent_id) WHERE parent_id IS NOT NULL;
 
 CREATE TABLE sign (
@@ -191,7 +194,10 @@ CREATE TABLE token (
     CHECK (start_us <= end_us)
 ) STRICT;
 CREATE INDEX token_sign ON token (sign_id);
+CREATE INDEX token_citation ON token (sign_id) WHERE citation = 1;
 CREATE INDEX token_recording ON token (recording_id, start_us) WHERE recording_id IS NOT NULL;
+CREATE INDEX token_length ON token (recording_id, end_us - start_us)
+    WHERE recording_id IS NOT NULL;
 
 CREATE TABLE token_value (
     id            INTEGER PRIMARY KEY,

@@ -68,7 +68,7 @@ fn of_two_that_make_the_same_corpus_one_does_and_both_can_work() {
         let (first, second) = (first.hear().expect("heard"), second.hear().expect("heard"));
         for said in [&first, &second] {
             assert!(
-                said.ended || said.errors.contains("exists"),
+                said.ended || said.errors.contains("there already"),
                 "{}",
                 said.errors
             );

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 #[non_exhaustive]
 pub enum Error {
     /// A file could not be read or written.
-    #[error("{path}: {source}")]
+    #[error("{path}: {}", said(source))]
     File {
         /// The file.
         path: PathBuf,
@@ -124,9 +124,7 @@ impl Error {
     pub fn remedy(&self) -> Option<String> {
         match self {
             Self::File { source, .. } => match source.kind() {
-                std::io::ErrorKind::NotFound => Some(
-                    "check the spelling of the path; `chereme new` makes an empty corpus".into(),
-                ),
+                std::io::ErrorKind::NotFound => Some("check the spelling of the path".into()),
                 std::io::ErrorKind::PermissionDenied => {
                     Some("the file or its folder may not be read or written by you".into())
                 }
@@ -145,6 +143,15 @@ impl Error {
             Self::Several { errors } => errors.first().and_then(Self::remedy),
             Self::Stopped => None,
         }
+    }
+}
+
+/// What the system said, in the words of people where it is common.
+fn said(error: &std::io::Error) -> String {
+    match error.kind() {
+        std::io::ErrorKind::NotFound => "there is nothing of this name".to_owned(),
+        std::io::ErrorKind::AlreadyExists => "something of this name is there already".to_owned(),
+        _ => error.to_string(),
     }
 }
 
@@ -179,7 +186,7 @@ fn database_remedy(error: &rusqlite::Error) -> Option<String> {
         ErrorCode::DiskFull => "the disk is full; make room and try again, nothing was lost",
         ErrorCode::ReadOnly => "the file or its folder may not be written by you",
         ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase => {
-            "the file is damaged; `chereme check` tells where, and a backup may be whole"
+            "the file is damaged; `chereme check` tells where if it can still be opened, and a backup may be whole"
         }
         _ => return None,
     };

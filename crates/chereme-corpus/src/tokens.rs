@@ -15,7 +15,8 @@ use crate::inventories::StoredInventory;
 
 /// Brings the tokens of a recording to what its tiers say; those that stay keep their rows.
 ///
-/// Each annotation of a gloss tier with a value is a token. With `window` only the tokens near that
+/// Each annotation of a gloss tier with a value is a token. What the component tiers say of it are its
+/// values, but for phases of movement: preparation, stroke and retraction cut up time. With `window` only the tokens near that
 /// time are looked at: enough after a change inside it. Values become the ids that the tiers'
 /// inventories have for them.
 pub(crate) fn derive(
@@ -77,9 +78,7 @@ fn write_token(
             Ok(token.id)
         }
         None => {
-            token.citation = !signs::tokens_of_sign(connection, sign_id)?
-                .iter()
-                .any(|token| token.citation && token.recording_id.is_some());
+            token.citation = !signs::is_cited(connection, sign_id)?;
             signs::insert_token(connection, &token)
         }
     }
@@ -115,7 +114,10 @@ impl Said {
         inventories: &[StoredInventory],
     ) -> Result<Self> {
         let all = tiers::tiers(connection, recording.id)?;
-        let of = |role: &'static str| all.iter().filter(move |tier| tier.role == role);
+        let of = |role: &'static str| {
+            let said = move |tier: &&TierRow| tier.role == role && !tier.is_of_phases();
+            all.iter().filter(said)
+        };
         let mut said = Self {
             handedness: handedness(connection, recording)?,
             glosses: Vec::new(),

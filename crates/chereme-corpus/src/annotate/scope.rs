@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use chereme_formats::table::annotations::Moment;
 use chereme_motion::{Instant, Rate, Span};
 use chereme_sign::tier::{Annotation, AnnotationId, Change, Tier, TierId, TierSet};
-use chereme_sign::{Reading, Stereotype, TierRole};
+use chereme_sign::{Reading, Stereotype};
 use rusqlite::Connection;
 
 use super::{handle, signed, span_of, unsigned};
@@ -197,17 +197,6 @@ pub(super) fn hull(a: Span, b: Span) -> Span {
 
 /// Returns a stored tier as the tier rules know it; values are checked against inventories elsewhere.
 pub(super) fn sign_tier(row: &TierRow) -> Tier {
-    let component = row.component.as_deref().and_then(|name| name.parse().ok());
-    let role = match (row.role.as_str(), component) {
-        ("component", Some(component)) => TierRole::Component {
-            component,
-            feature: row.feature.clone(),
-        },
-        ("gloss", _) => TierRole::Gloss,
-        ("translation", _) => TierRole::Translation,
-        ("comment", _) => TierRole::Comment,
-        _ => TierRole::Free,
-    };
     let stereotype = row
         .stereotype
         .as_deref()
@@ -215,7 +204,7 @@ pub(super) fn sign_tier(row: &TierRow) -> Tier {
     Tier {
         id: TierId(unsigned(row.id)),
         name: row.name.clone(),
-        role,
+        role: row.role(),
         hand: row.hand.as_deref().and_then(|hand| hand.parse().ok()),
         parent: row.parent_id.map(|id| TierId(unsigned(id))).zip(stereotype),
         vocabulary: None,

@@ -3,9 +3,10 @@
 use std::path::Path;
 
 use rusqlite::types::ValueRef;
-use rusqlite::{Connection, params};
+use rusqlite::{Connection, OpenFlags, params};
 
 use super::motion::hex;
+use super::open;
 use crate::error::Result;
 
 /// The tables that a reader of the data wants, in the order in which they build on each other.
@@ -34,6 +35,15 @@ pub(crate) const TABLES: [&str; 18] = [
 pub(crate) fn copy(connection: &Connection, to: &Path) -> Result<()> {
     connection.execute("VACUUM INTO ?1", params![to.to_string_lossy()])?;
     Ok(())
+}
+
+/// Opens such a copy, to read it; that leaves its bytes as they are.
+pub(crate) fn read_copy(path: &Path) -> Result<Connection> {
+    let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    let connection = Connection::open_with_flags(path, flags)?;
+    open::configure(&connection)?;
+    connection.execute_batch("BEGIN")?;
+    Ok(connection)
 }
 
 /// Calls `take` with the names of a table's columns, then with each row as text; what is not set is

@@ -68,33 +68,30 @@ const TRACKED: [(&str, &[(&str, &str)]); 17] = [
 ];
 
 /// Changes that alter what the search index holds of tokens: table, event, and which tokens.
-const TOUCHING: [(&str, &str, &str); 10] = [
+const TOUCHING: [(&str, &str, &str); 7] = [
     ("sign", "UPDATE", "WHERE t.sign_id = NEW.id"),
     ("sign_text", "INSERT", "WHERE t.sign_id = NEW.sign_id"),
     ("sign_text", "UPDATE", "WHERE t.sign_id = NEW.sign_id"),
     ("sign_text", "DELETE", "WHERE t.sign_id = OLD.sign_id"),
     ("recording", "UPDATE", "WHERE t.recording_id = NEW.id"),
-    ("signer", "UPDATE", "JOIN main.recording r ON r.id = t.recording_id WHERE r.signer_id = NEW.id"),
-    ("tier", "UPDATE", "WHERE t.recording_id = NEW.recording_id"),
     (
-        "annotation",
-        "INSERT",
-        "JOIN main.tier i ON i.recording_id = t.recording_id WHERE i.id = NEW.tier_id
-         AND i.role IN ('translation', 'comment') AND t.start_us < NEW.end_us AND t.end_us > NEW.start_us",
-    ),
-    (
-        "annotation",
+        "signer",
         "UPDATE",
-        "JOIN main.tier i ON i.recording_id = t.recording_id WHERE i.id = NEW.tier_id
-         AND i.role IN ('translation', 'comment')
-         AND t.start_us < max(OLD.end_us, NEW.end_us) AND t.end_us > min(OLD.start_us, NEW.start_us)",
+        "JOIN main.recording r ON r.id = t.recording_id WHERE r.signer_id = NEW.id",
     ),
+    ("tier", "UPDATE", "WHERE t.recording_id = NEW.recording_id"),
+];
+
+/// What is said while a token lasts is found by search too: event, row, start and end of the change.
+const SAYING: [(&str, &str, &str, &str); 3] = [
+    ("INSERT", "NEW", "NEW.start_us", "NEW.end_us"),
     (
-        "annotation",
-        "DELETE",
-        "JOIN main.tier i ON i.recording_id = t.recording_id WHERE i.id = OLD.tier_id
-         AND i.role IN ('translation', 'comment') AND t.start_us < OLD.end_us AND t.end_us > OLD.start_us",
+        "UPDATE",
+        "NEW",
+        "min(OLD.start_us, NEW.start_us)",
+        "max(OLD.end_us, NEW.end_us)",
     ),
+    ("DELETE", "OLD", "OLD.start_us", "OLD.end_us"),
 ];
 
 const PART_BYTES: usize = 4 << 20;
@@ -185,6 +182,18 @@ pub(super) fn record_changes(connection: &Connection) -> Result<()> {
                  INSERT OR IGNORE INTO temp.touched VALUES ({row}.{column}); END;"
             ));
         }
+    }
+    for (event, row, start, end) in SAYING {
+        sql.push_str(&format!(
+            "CREATE TEMP TRIGGER touch_annotation_{event} AFTER {event} ON main.annotation BEGIN
+             INSERT OR IGNORE INTO temp.touched SELECT t.id
+             FROM main.tier i JOIN main.token t ON t.recording_id = i.recording_id
+             WHERE i.id = {row}.tier_id AND i.role IN ('translation', 'comment')
+               AND t.end_us > {start} AND t.start_us < {end} AND t.start_us > {start} -
+                   (SELECT o.end_us - o.start_us FROM main.token o
+                    WHERE o.recording_id = i.recording_id
+                    ORDER BY o.end_us - o.start_us DESC LIMIT 1); END;"
+        ));
     }
     for (table, event, tokens) in TOUCHING {
         sql.push_str(&format!(

@@ -299,6 +299,9 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("x");
         assert!(Store::open(&path, "A").is_err_and(|e| e.remedy().is_some()));
+        std::fs::write(&path, "").expect("written");
+        assert!(Store::open(&path, "A").is_err_and(|e| e.to_string().contains("it is empty")));
+        assert!(Store::open(folder.path(), "A").is_err_and(|e| e.to_string().contains("a folder")));
         std::fs::write(&path, "rubbish, rubbish, rubbish").expect("written");
         assert!(Store::open(&path, "A").is_err_and(|e| matches!(e, Error::NotACorpus { .. })));
         let other = folder.path().join("other.db");
@@ -308,6 +311,9 @@ mod tests {
         assert!(Store::open(&other, "A").is_err_and(|e| e.to_string().contains("another program")));
         let evil = folder.path().join("evil.chereme");
         drop(Store::create(&evil, "A", |_| Ok(())).expect("made"));
+        let bytes = std::fs::read(&evil).expect("read");
+        std::fs::write(&path, &bytes[..bytes.len() / 2]).expect("written");
+        assert!(Store::open(&path, "A").is_err_and(|e| e.to_string().contains("cut short")));
         assert!(Store::create(&evil, "A", |_| Ok(())).is_err());
         rusqlite::Connection::open(&evil)
             .and_then(|c| {

@@ -1,7 +1,7 @@
 //! Making, opening and raising a corpus file.
 
 use std::fs;
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Read as _};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -94,19 +94,64 @@ impl Drop for Making {
     }
 }
 
-pub(super) fn open(path: &Path) -> Result<Connection> {
-    if !path.is_file() {
-        return Err(Error::file(path, std::io::ErrorKind::NotFound.into()));
+const CHOOSE: &str = "choose a file that `chereme new` or `chereme import` made";
+
+/// Returns why a file can be no whole corpus, and what would be right, as far as its size tells.
+fn outwardly_wrong(path: &Path) -> Result<Option<(String, &'static str)>> {
+    let fault = |error| Error::file(path, error);
+    let data = match fs::metadata(path) {
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            let remedy = "check the spelling of the path; `chereme new` makes an empty corpus";
+            return Ok(Some(("there is nothing of this name".to_owned(), remedy)));
+        }
+        other => other.map_err(fault)?,
+    };
+    if !data.is_file() {
+        return Ok(Some(("it is a folder or a device".to_owned(), CHOOSE)));
     }
-    let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-    let mut connection = Connection::open_with_flags(path, flags)?;
+    if data.len() == 0 {
+        return Ok(Some(("it is empty".to_owned(), CHOOSE)));
+    }
+    let mut head = [0; 100];
+    let mut file = fs::File::open(path).map_err(fault)?;
+    let whole = file.read_exact(&mut head).is_ok() && head.starts_with(b"SQLite format 3\0");
+    let word = |at: usize| {
+        u64::from(u32::from_be_bytes([
+            head[at],
+            head[at + 1],
+            head[at + 2],
+            head[at + 3],
+        ]))
+    };
+    // <https://www.sqlite.org/fileformat2.html>, 1.3: the count of pages holds where both words agree; a
+    // checkpoint that was cut short has yet to write them, from a log that is still there.
+    let page = match u64::from(u16::from_be_bytes([head[16], head[17]])) {
+        1 => 65536,
+        size => size,
+    };
+    let size = page * word(28);
+    let mut log = path.as_os_str().to_owned();
+    log.push("-wal");
+    let logged = fs::metadata(log).is_ok_and(|log| log.len() > 0);
+    if whole && !logged && word(24) == word(92) && data.len() < size {
+        let reason = format!("it is cut short: {} bytes are there of {size}", data.len());
+        return Ok(Some((reason, "copy it again, or take it from a backup")));
+    }
+    Ok(None)
+}
+
+pub(super) fn open(path: &Path) -> Result<Connection> {
     let refuse = |reason: String, remedy: &str| Error::NotACorpus {
         path: path.to_owned(),
         reason,
         remedy: remedy.to_owned(),
     };
+    if let Some((reason, remedy)) = outwardly_wrong(path)? {
+        return Err(refuse(reason, remedy));
+    }
+    let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    let mut connection = Connection::open_with_flags(path, flags)?;
     let pragma = |name: &str| connection.pragma_query_value(None, name, |row| row.get::<_, i32>(0));
-    const CHOOSE: &str = "choose a file that `chereme new` or `chereme import` made";
     let application = configure(&connection)
         .and_then(|()| Ok(pragma("application_id")?))
         .map_err(|error| match &error {
@@ -150,14 +195,18 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
             "take the file as untrusted: somebody has put code into it",
         ));
     }
-    raise(&mut connection, |_| Ok(()))?;
+    if version < SCHEMA_VERSION {
+        raise(&mut connection, |_| Ok(()))?;
+    }
     Ok(connection)
 }
 
-fn configure(connection: &Connection) -> Result<()> {
+pub(super) fn configure(connection: &Connection) -> Result<()> {
     connection.busy_timeout(Duration::from_secs(20))?;
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true)?;
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
+    // Without it statements are parsed anew whenever a parameter changes.
+    connection.set_db_config(DbConfig::SQLITE_DBCONFIG_ENABLE_QPSG, true)?;
     connection.set_limit(Limit::SQLITE_LIMIT_LENGTH, LARGEST_VALUE)?;
     connection.set_prepared_statement_cache_capacity(128);
     connection.execute_batch(

@@ -1,5 +1,7 @@
 //! Rows of signs, their texts, tokens and token values.
 
+use std::collections::BTreeMap;
+
 use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
 
@@ -247,28 +249,48 @@ pub(crate) fn set_values(
     Ok(())
 }
 
+/// Returns the values of several tokens by token, in the order in which they were written.
+pub(crate) fn values_of(
+    connection: &Connection,
+    tokens: &[i64],
+) -> Result<BTreeMap<i64, Vec<TokenValueRow>>> {
+    let mut statement = connection.prepare_cached(&format!(
+        "{VALUE}, token_id FROM token_value
+         WHERE token_id IN (SELECT value FROM json_each(?1)) ORDER BY token_id, id"
+    ))?;
+    let mut values: BTreeMap<i64, Vec<TokenValueRow>> = BTreeMap::new();
+    let mut rows = statement.query([json_list(tokens)])?;
+    while let Some(row) = rows.next()? {
+        values.entry(row.get(9)?).or_default().push(value_row(row)?);
+    }
+    Ok(values)
+}
+
 /// Returns the values of a token, in the order in which they were written.
 pub(crate) fn values(connection: &Connection, token: i64) -> Result<Vec<TokenValueRow>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT hand, component, feature, phase, position, state, value, inventory_id, annotation_id
-         FROM token_value WHERE token_id = ?1 ORDER BY id",
-    )?;
+    let sql = format!("{VALUE} FROM token_value WHERE token_id = ?1 ORDER BY id");
+    let mut statement = connection.prepare_cached(&sql)?;
     let rows = statement
-        .query_map([token], |row| {
-            Ok(TokenValueRow {
-                hand: row.get(0)?,
-                component: row.get(1)?,
-                feature: row.get(2)?,
-                phase: row.get(3)?,
-                position: row.get(4)?,
-                state: row.get(5)?,
-                value: row.get(6)?,
-                inventory_id: row.get(7)?,
-                annotation_id: row.get(8)?,
-            })
-        })?
+        .query_map([token], value_row)?
         .collect::<rusqlite::Result<_>>()?;
     Ok(rows)
+}
+
+const VALUE: &str = "SELECT hand, component, feature, phase, position, state, value, inventory_id,
+    annotation_id";
+
+fn value_row(row: &Row<'_>) -> rusqlite::Result<TokenValueRow> {
+    Ok(TokenValueRow {
+        hand: row.get(0)?,
+        component: row.get(1)?,
+        feature: row.get(2)?,
+        phase: row.get(3)?,
+        position: row.get(4)?,
+        state: row.get(5)?,
+        value: row.get(6)?,
+        inventory_id: row.get(7)?,
+        annotation_id: row.get(8)?,
+    })
 }
 
 const TOKEN: &str = "
@@ -306,6 +328,24 @@ pub(crate) fn token(connection: &Connection, id: i64) -> Result<TokenRow> {
         })
 }
 
+/// How many rows are asked for at once where a list of them is read.
+pub(crate) const AT_ONCE: usize = 512;
+
+/// Returns the tokens of these rows that are there, by row.
+pub(crate) fn tokens(connection: &Connection, ids: &[i64]) -> Result<BTreeMap<i64, TokenRow>> {
+    let sql = format!("{TOKEN} WHERE t.id IN (SELECT value FROM json_each(?1))");
+    let mut statement = connection.prepare_cached(&sql)?;
+    let rows = statement
+        .query_map([json_list(ids)], |row| Ok((row.get(0)?, token_row(row)?)))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+fn json_list(ids: &[i64]) -> String {
+    let ids: Vec<String> = ids.iter().map(i64::to_string).collect();
+    format!("[{}]", ids.join(","))
+}
+
 /// Returns the tokens of a recording by time.
 pub(crate) fn tokens_of_recording(
     connection: &Connection,
@@ -327,7 +367,10 @@ pub(crate) fn tokens_near(
     end_us: i64,
 ) -> Result<Vec<TokenRow>> {
     let sql = format!(
-        "{TOKEN} WHERE t.recording_id = ?1 AND t.start_us <= ?3 AND t.end_us >= ?2
+        "{TOKEN} WHERE t.recording_id = ?1 AND t.end_us >= ?2 AND t.start_us <= ?3
+             AND t.start_us >= ?2 - (SELECT o.end_us - o.start_us FROM token o
+                                     WHERE o.recording_id = ?1
+                                     ORDER BY o.end_us - o.start_us DESC LIMIT 1)
          ORDER BY t.start_us, t.id"
     );
     let mut statement = connection.prepare_cached(&sql)?;
@@ -345,6 +388,15 @@ pub(crate) fn tokens_of_sign(connection: &Connection, sign: i64) -> Result<Vec<T
         .query_map([sign], token_row)?
         .collect::<rusqlite::Result<_>>()?;
     Ok(rows)
+}
+
+/// Tells whether a sign has a citation form that moves.
+pub(crate) fn is_cited(connection: &Connection, sign: i64) -> Result<bool> {
+    Ok(connection
+        .prepare_cached(
+            "SELECT 1 FROM token WHERE sign_id = ?1 AND citation = 1 AND recording_id IS NOT NULL",
+        )?
+        .exists([sign])?)
 }
 
 /// A token of a recording that holds a value.

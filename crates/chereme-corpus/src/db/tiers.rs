@@ -1,5 +1,6 @@
 //! Rows of tiers and annotations.
 
+use chereme_sign::TierRole;
 use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
 
@@ -38,6 +39,28 @@ pub struct TierRow {
     pub inventory_id: Option<i64>,
     /// What its file said beyond this, as JSON.
     pub source: Option<String>,
+}
+
+impl TierRow {
+    /// Returns what its annotations say.
+    pub(crate) fn role(&self) -> TierRole {
+        let component = self.component.as_deref().and_then(|name| name.parse().ok());
+        match (self.role.as_str(), component) {
+            ("component", Some(component)) => TierRole::Component {
+                component,
+                feature: self.feature.clone(),
+            },
+            ("gloss", _) => TierRole::Gloss,
+            ("translation", _) => TierRole::Translation,
+            ("comment", _) => TierRole::Comment,
+            _ => TierRole::Free,
+        }
+    }
+
+    /// Tells whether it cuts movement into phases; these are of a stretch of signing, not of a sign.
+    pub(crate) fn is_of_phases(&self) -> bool {
+        self.component.as_deref() == Some("movement") && self.feature.as_deref() == Some("phase")
+    }
 }
 
 /// An annotation.
@@ -320,6 +343,9 @@ pub(crate) fn configuration_spans(
 }
 
 /// Returns the annotations of a tier that share time with a span or touch it, by time.
+///
+/// None that starts earlier than the tier's longest is long can reach the span: however many there
+/// are, few rows are looked at.
 pub(crate) fn annotations_near(
     connection: &Connection,
     tier: i64,
@@ -327,7 +353,9 @@ pub(crate) fn annotations_near(
     end_us: i64,
 ) -> Result<Vec<AnnotationRow>> {
     let sql = format!(
-        "{ANNOTATION} WHERE tier_id = ?1 AND start_us <= ?3 AND end_us >= ?2
+        "{ANNOTATION} WHERE tier_id = ?1 AND end_us >= ?2 AND start_us <= ?3
+             AND start_us >= ?2 - (SELECT a.end_us - a.start_us FROM annotation a WHERE a.tier_id = ?1
+                                   ORDER BY a.end_us - a.start_us DESC LIMIT 1)
          ORDER BY start_us, position, id"
     );
     collect(connection, &sql, params![tier, start_us, end_us])
@@ -349,4 +377,59 @@ fn collect(
         .query_map(params, annotation_row)?
         .collect::<rusqlite::Result<_>>()?;
     Ok(rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn tier_of(spans: &[(i64, i64)]) -> Connection {
+        let connection = Connection::open_in_memory().expect("opened");
+        connection
+            .execute_batch(include_str!("../../../../schema/sql/0001_corpus.sql"))
+            .and_then(|()| {
+                connection.execute_batch(
+                    "INSERT INTO recording (id, name, origin) VALUES (1, 'R', 'captured');
+                     INSERT INTO tier (id, recording_id, name, position, role)
+                         VALUES (1, 1, 'A', 0, 'free'), (2, 1, 'B', 1, 'free')",
+                )
+            })
+            .expect("made");
+        for &(start_us, end_us) in spans {
+            let row = AnnotationRow {
+                tier_id: 1,
+                start_us,
+                end_us,
+                state: "value".into(),
+                origin: "file".into(),
+                ..AnnotationRow::default()
+            };
+            insert_annotation(&connection, &row).expect("written");
+        }
+        connection
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+
+        #[test]
+        fn those_near_are_those_that_touch(
+            spans in proptest::collection::vec((-50i64..50, 0i64..40), 0..20),
+            (start, length) in (-60i64..60, 0i64..30),
+        ) {
+            let spans: Vec<_> = spans.iter().map(|(from, long)| (*from, from + long)).collect();
+            let connection = tier_of(&spans);
+            let end = start + length;
+            let near = annotations_near(&connection, 1, start, end).expect("read");
+            let mut near: Vec<_> = near.iter().map(|row| (row.start_us, row.end_us)).collect();
+            let touches = |span: &&(i64, i64)| span.0 <= end && span.1 >= start;
+            let mut want: Vec<_> = spans.iter().filter(touches).copied().collect();
+            near.sort_unstable();
+            want.sort_unstable();
+            prop_assert_eq!(near, want);
+            prop_assert!(annotations_near(&connection, 2, start, end).expect("read").is_empty());
+        }
+    }
 }

@@ -52,14 +52,23 @@ pub(super) fn tokens(
     let mut columns: BTreeSet<Column> = BTreeSet::new();
     let mut languages: BTreeMap<String, usize> = BTreeMap::new();
     let mut unclear = 0;
-    for (done, id) in tokens.iter().enumerate() {
-        let token = signs::token(connection, *id)?;
-        columns.extend(cells(&signs::values(connection, *id)?, &mut unclear).into_keys());
-        for (language, texts) in texts(connection, token.sign_id)? {
+    let mut signs: BTreeSet<i64> = BTreeSet::new();
+    for (part, ids) in tokens.chunks(signs::AT_ONCE).enumerate() {
+        for values in signs::values_of(connection, ids)?.values() {
+            columns.extend(cells(values, &mut unclear).into_keys());
+        }
+        signs.extend(
+            signs::tokens(connection, ids)?
+                .values()
+                .map(|token| token.sign_id),
+        );
+        tell(progress, part * signs::AT_ONCE, tokens.len() * 2)?;
+    }
+    for sign in &signs {
+        for (language, texts) in texts(connection, *sign)? {
             let most = languages.entry(language).or_default();
             *most = texts.len().max(*most);
         }
-        tell(progress, done, tokens.len() * 2)?;
     }
     if unclear > 0 {
         notes.push(format!(
@@ -73,20 +82,36 @@ pub(super) fn tokens(
         .flat_map(|(language, most)| std::iter::repeat_n(translation(language), *most));
     let titles = titles.chain(translations).chain(columns.iter().map(title));
     table.write_record(titles).map_err(fault)?;
-    for (done, id) in tokens.iter().enumerate() {
-        let token = signs::token(connection, *id)?;
-        let mut row = fixed(&token, &signers);
-        let mut texts = texts(connection, token.sign_id)?;
-        for (language, most) in &languages {
-            let mut own = texts.remove(language).unwrap_or_default();
-            own.resize(*most, String::new());
-            row.append(&mut own);
+    for (part, ids) in tokens.chunks(signs::AT_ONCE).enumerate() {
+        let rows = signs::tokens(connection, ids)?;
+        let values = signs::values_of(connection, ids)?;
+        for id in ids {
+            let token = rows
+                .get(id)
+                .map_or_else(|| signs::token(connection, *id), |row| Ok(row.clone()))?;
+            let mut row = fixed(&token, &signers);
+            let mut texts = texts(connection, token.sign_id)?;
+            for (language, most) in &languages {
+                let mut own = texts.remove(language).unwrap_or_default();
+                own.resize(*most, String::new());
+                row.append(&mut own);
+            }
+            let mut cells = values
+                .get(id)
+                .map(|values| cells(values, &mut 0))
+                .unwrap_or_default();
+            row.extend(
+                columns
+                    .iter()
+                    .map(|column| cells.remove(column).unwrap_or_default()),
+            );
+            table.write_record(row).map_err(fault)?;
         }
-        let cells = cells(&signs::values(connection, *id)?, &mut 0);
-        let cell = |column| cells.get(column).cloned().unwrap_or_default();
-        row.extend(columns.iter().map(cell));
-        table.write_record(row).map_err(fault)?;
-        tell(progress, tokens.len() + done, tokens.len() * 2)?;
+        tell(
+            progress,
+            tokens.len() + part * signs::AT_ONCE,
+            tokens.len() * 2,
+        )?;
     }
     table.flush().map_err(|error| fault(error.into()))
 }
@@ -160,9 +185,6 @@ fn fault(error: ::csv::Error) -> Error {
 }
 
 fn tell(progress: &mut Progress<'_>, done: usize, total: usize) -> Result<()> {
-    if !done.is_multiple_of(1024) {
-        return Ok(());
-    }
     progress.tell(Step {
         task: "tokens",
         done: done as u64,

@@ -29,12 +29,14 @@ pub(super) fn write(
     progress: &mut Progress<'_>,
 ) -> Result<Vec<PathBuf>> {
     if to.exists() {
-        return Err(Error::file(to, std::io::ErrorKind::AlreadyExists.into()));
+        return Err(Error::wrong(
+            "something of this name is there already, and no folder is replaced",
+        )
+        .at(to.display().to_string())
+        .advise("choose another name, or move the existing one away"));
     }
-    let part = to.with_extension("part");
-    if part.exists() {
-        fs::remove_dir_all(&part).map_err(|error| Error::file(&part, error))?;
-    }
+    super::check_folder(to)?;
+    let part = super::unfinished(to);
     let folder = Folder {
         root: part.clone(),
         files: Vec::new(),
@@ -61,7 +63,10 @@ struct Folder {
 impl Folder {
     fn fill(mut self, connection: &Connection, progress: &mut Progress<'_>) -> Result<Vec<String>> {
         self.text("README.md", ABOUT)?;
-        dump::copy(connection, &self.make("corpus.chereme")?)?;
+        let copy = self.make("corpus.chereme")?;
+        dump::copy(connection, &copy)?;
+        // The other files come from the copy, so that all of the folder is of one moment.
+        let connection = &dump::read_copy(&copy)?;
         for table in dump::TABLES {
             self.table(connection, table)?;
         }

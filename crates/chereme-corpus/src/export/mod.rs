@@ -14,10 +14,12 @@ use std::path::{Path, PathBuf};
 use rusqlite::Connection;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
+use uuid::Uuid;
 
 use crate::Corpus;
 use crate::address::{self, Address, Name, Stretch};
 use crate::db::motion::hex;
+use crate::db::search as rows;
 use crate::db::{list, recordings, signs};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
@@ -86,45 +88,77 @@ impl Corpus {
         let extension = to
             .extension()
             .map(|text| text.to_string_lossy().to_lowercase());
-        let mut notes = Vec::new();
-        let file = |write: &mut dyn FnMut(&mut dyn Write) -> Result<()>| {
-            whole(to, options.force, write).map(|file| vec![file])
-        };
-        let files = match extension.as_deref() {
-            Some(kind @ ("csv" | "tsv")) => {
-                let delimiter = if kind == "csv" { b',' } else { b'\t' };
-                file(&mut |out| match what {
-                    ExportWhat::Address(Address::Tier(tier)) => {
-                        csv::annotations(connection, *tier, delimiter, out)
-                    }
-                    _ => {
-                        let tokens = tokens(connection, what)?;
-                        csv::tokens(connection, &tokens, delimiter, out, &mut notes, progress)
-                    }
-                })?
+        let mut report = ExportReport::default();
+        match (extension.as_deref(), what) {
+            (None, ExportWhat::All) => {
+                let files = enriched::write(connection, to, progress)?;
+                report.files = files.into_iter().map(exported).collect::<Result<_>>()?;
             }
-            Some("eaf") => {
-                let stretch = stretch(connection, what)?;
-                if stretch.token.is_some() {
-                    let name = &stretch.recording.name;
-                    notes.push(format!("the file holds all of the recording {name:?}"));
-                }
-                file(&mut |out| eaf::write(connection, &stretch.recording, out))?
+            (None, _) => return Err(no_format(to, "only everything can be written as a folder")),
+            (Some(extension), _) => {
+                let reading = rows::begin_reading(connection)?;
+                let format = Format::of(extension)
+                    .ok_or_else(|| no_format(to, &format!("{extension:?} is no format")))?;
+                let file = whole(to, options.force, &mut |out| {
+                    let notes = &mut report.notes;
+                    write_file(&reading, what, format, out, notes, progress)
+                })?;
+                report.files.push(file);
             }
-            Some("bvh") => {
-                let stretch = stretch(connection, what)?;
-                file(&mut |out| bvh::write(connection, &stretch, out, progress).map(|_| ()))?
+        }
+        Ok(report)
+    }
+}
+
+/// A format of single files.
+#[derive(Debug, Clone, Copy)]
+enum Format {
+    /// A table with this between its cells.
+    Table(u8),
+    Eaf,
+    Bvh,
+}
+
+impl Format {
+    fn of(extension: &str) -> Option<Self> {
+        match extension {
+            "csv" => Some(Self::Table(b',')),
+            "tsv" => Some(Self::Table(b'\t')),
+            "eaf" => Some(Self::Eaf),
+            "bvh" => Some(Self::Bvh),
+            _ => None,
+        }
+    }
+}
+
+fn write_file(
+    connection: &Connection,
+    what: &ExportWhat,
+    format: Format,
+    out: &mut dyn Write,
+    notes: &mut Vec<String>,
+    progress: &mut Progress<'_>,
+) -> Result<()> {
+    match (format, what) {
+        (Format::Table(delimiter), ExportWhat::Address(Address::Tier(tier))) => {
+            csv::annotations(connection, *tier, delimiter, out)
+        }
+        (Format::Table(delimiter), _) => {
+            let tokens = tokens(connection, what)?;
+            csv::tokens(connection, &tokens, delimiter, out, notes, progress)
+        }
+        (Format::Eaf, _) => {
+            let stretch = stretch(connection, what)?;
+            if stretch.token.is_some() {
+                let name = &stretch.recording.name;
+                notes.push(format!("the file holds all of the recording {name:?}"));
             }
-            None => match what {
-                ExportWhat::All => enriched::write(connection, to, progress)?
-                    .into_iter()
-                    .map(exported)
-                    .collect::<Result<_>>()?,
-                _ => return Err(no_format(to, "only everything can be written as a folder")),
-            },
-            Some(other) => return Err(no_format(to, &format!("{other:?} is no format"))),
-        };
-        Ok(ExportReport { files, notes })
+            eaf::write(connection, &stretch.recording, out)
+        }
+        (Format::Bvh, _) => {
+            let stretch = stretch(connection, what)?;
+            bvh::write(connection, &stretch, out, progress).map(|_| ())
+        }
     }
 }
 
@@ -189,9 +223,8 @@ fn whole(
     if to.is_dir() || (to.exists() && !force) {
         return Err(Error::file(to, io::ErrorKind::AlreadyExists.into()));
     }
-    let mut name = to.file_name().unwrap_or_default().to_owned();
-    name.push(".part");
-    let part = to.with_file_name(name);
+    check_folder(to)?;
+    let part = unfinished(to);
     let done = fill(&part, write).and_then(|file| {
         fs::rename(&part, to).map_err(|error| Error::file(to, error))?;
         Ok(ExportedFile {
@@ -204,6 +237,22 @@ fn whole(
         let _ = fs::remove_file(&part);
     }
     done
+}
+
+/// Refuses a place in a folder that is not there.
+fn check_folder(to: &Path) -> Result<()> {
+    let folder = to.parent().unwrap_or(to);
+    if folder.as_os_str().is_empty() || folder.is_dir() {
+        return Ok(());
+    }
+    let message = format!("the folder {} is not there", folder.display());
+    Err(Error::wrong(message).advise("make it first, or choose another place"))
+}
+
+/// Returns the name beside `to` under which it is made until it is whole.
+fn unfinished(to: &Path) -> PathBuf {
+    let name = to.file_name().unwrap_or_default().to_string_lossy();
+    to.with_file_name(format!(".{name}.{}", Uuid::now_v7().simple()))
 }
 
 fn fill(part: &Path, write: &mut dyn FnMut(&mut dyn Write) -> Result<()>) -> Result<ExportedFile> {

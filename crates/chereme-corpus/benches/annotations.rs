@@ -1,0 +1,268 @@
+//! An annotation file of many annotations imported, edited one by one, and its tokens exported:
+//! `cargo bench -p chereme-corpus --bench annotations [-- SIGNS]`.
+//!
+//! A session of 100,000 signs by default: a gloss tier, three component tiers below it, and a
+//! translation over every eight signs. The peer of the import in the same run is plain SQLite given the
+//! same annotations, ready in memory, with the schema's indexes. Edits are whole operations, history and
+//! search index and the write to disk included, in that session and in one of 2,000 signs.
+#![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::time::{Duration, Instant as Clock};
+
+use chereme_corpus::{
+    AnnotateOptions, AnnotationAction, AnnotationName, Corpus, ExportOptions, ExportWhat,
+    ImportOptions, Moment, Progress, TierName, unheard,
+};
+use chereme_motion::Instant;
+
+/// The tiers below the glosses.
+const COMPONENTS: [&str; 3] = ["RH Configuration", "RH Placement", "LH Configuration"];
+/// From the start of one sign to that of the next, in milliseconds.
+const STEP: usize = 600;
+/// How long a sign is, in milliseconds.
+const SIGN: usize = 450;
+
+fn main() {
+    let signs = std::env::args()
+        .skip(1)
+        .find_map(|arg| arg.parse::<usize>().ok())
+        .unwrap_or(100_000);
+    let folder = tempfile::tempdir().expect("a folder");
+    for signs in [2000, signs] {
+        let text = folder.path().join(format!("session-{signs}.eaf"));
+        std::fs::write(&text, eaf(signs)).expect("written");
+        let path = folder.path().join(format!("{signs}.chereme"));
+        let mut corpus = import(&text, &path, signs);
+        edits(&mut corpus, signs);
+        export(&corpus, folder.path(), signs);
+    }
+}
+
+fn import(text: &Path, path: &Path, signs: usize) -> Corpus {
+    let clock = Clock::now();
+    let mut corpus = Corpus::create(path, "bench").expect("made");
+    let mut hear = unheard;
+    let files = [text.to_owned()];
+    let report = corpus
+        .import(
+            &files,
+            &ImportOptions::default(),
+            &mut Progress::new(&mut hear),
+        )
+        .expect("imported");
+    let ours = clock.elapsed();
+    assert!(!report.has_refusals(), "{report:?}");
+    let count = report.created["annotations"] as usize;
+    assert_eq!(report.created["tokens"] as usize, signs);
+    let peer = plain_rows(&path.with_extension("db"), count);
+    println!(
+        "{count} annotations, {signs} tokens: import {}, rows alone {}, {:.1}x",
+        shown(ours),
+        shown(peer),
+        ours.as_secs_f64() / peer.as_secs_f64()
+    );
+    corpus
+}
+
+/// Writes as many rows of annotations into a database without history, tokens or search index.
+fn plain_rows(path: &Path, count: usize) -> Duration {
+    let connection = rusqlite::Connection::open(path).expect("opened");
+    let clock = Clock::now();
+    connection
+        .execute_batch(
+            "PRAGMA journal_mode = WAL;
+             CREATE TABLE annotation (id INTEGER PRIMARY KEY, tier INTEGER, start INTEGER, end INTEGER,
+                 value TEXT, parent INTEGER);
+             CREATE INDEX a ON annotation (tier, start); CREATE INDEX b ON annotation (parent);
+             BEGIN",
+        )
+        .expect("made");
+    let mut insert = connection
+        .prepare(
+            "INSERT INTO annotation (tier, start, end, value, parent) VALUES (?1, ?2, ?3, ?4, ?5)",
+        )
+        .expect("sql");
+    for row in 0..count {
+        let start = (row * STEP) as i64;
+        let value = configuration(row);
+        insert
+            .execute((
+                row as i64 % 5,
+                start,
+                start + SIGN as i64,
+                value,
+                row as i64 / 4,
+            ))
+            .expect("written");
+    }
+    drop(insert);
+    connection
+        .execute_batch("COMMIT; PRAGMA wal_checkpoint(TRUNCATE)")
+        .expect("written");
+    clock.elapsed()
+}
+
+fn edits(corpus: &mut Corpus, signs: usize) {
+    for (what, change) in [
+        ("another value", value as fn(usize) -> AnnotationAction),
+        ("another end", end),
+    ] {
+        let mut times: Vec<Duration> = (0..9)
+            .map(|edit| {
+                let action = change((signs - 1) * edit / 8);
+                let clock = Clock::now();
+                let mut hear = unheard;
+                corpus
+                    .annotate(
+                        &[action.into()],
+                        &AnnotateOptions::default(),
+                        &mut Progress::new(&mut hear),
+                    )
+                    .expect("changed");
+                clock.elapsed()
+            })
+            .collect();
+        times.sort_unstable();
+        println!(
+            "  {what} of one gloss in {signs}: median {}, longest {}",
+            shown(times[4]),
+            shown(times[8])
+        );
+    }
+}
+
+fn gloss_at(sign: usize) -> AnnotationName {
+    let start = Instant::from_micros((sign * STEP * 1000) as i64);
+    AnnotationName::At {
+        tier: TierName::Number(1),
+        start: Moment::Time(start),
+    }
+}
+
+fn value(sign: usize) -> AnnotationAction {
+    AnnotationAction::Set {
+        annotation: gloss_at(sign),
+        start: None,
+        end: None,
+        value: Some("MAISON".to_owned()),
+    }
+}
+
+fn end(sign: usize) -> AnnotationAction {
+    let end = Instant::from_micros(((sign * STEP + SIGN - 40) * 1000) as i64);
+    AnnotationAction::Set {
+        annotation: gloss_at(sign),
+        start: None,
+        end: Some(Moment::Time(end)),
+        value: None,
+    }
+}
+
+fn export(corpus: &Corpus, folder: &Path, signs: usize) {
+    for to in ["tokens.csv", "session.eaf"] {
+        let to = folder.join(format!("{signs}-{to}"));
+        let what = match to.extension() {
+            Some(kind) if kind == "eaf" => {
+                ExportWhat::Address("recording:1".parse().expect("an address"))
+            }
+            _ => ExportWhat::All,
+        };
+        let clock = Clock::now();
+        let mut hear = unheard;
+        let options = ExportOptions::default();
+        let report = corpus
+            .export(&what, &to, &options, &mut Progress::new(&mut hear))
+            .expect("written");
+        println!(
+            "  {} written: {}, {:.1} MB",
+            to.extension().unwrap_or_default().to_string_lossy(),
+            shown(clock.elapsed()),
+            report.files[0].bytes as f64 / 1e6
+        );
+    }
+}
+
+fn configuration(sign: usize) -> &'static str {
+    ["flat", "5", "Y", "S", "U", "1", "B-round", "beak"][sign % 8]
+}
+
+fn placement(sign: usize) -> &'static str {
+    ["chin", "chest", "temple", "neutral", "forehead"][sign % 5]
+}
+
+fn eaf(signs: usize) -> String {
+    let mut text = String::from(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ANNOTATION_DOCUMENT AUTHOR=\"\" \
+         DATE=\"2024-01-01T00:00:00+00:00\" FORMAT=\"3.0\" VERSION=\"3.0\">\n\
+         <HEADER MEDIA_FILE=\"\" TIME_UNITS=\"milliseconds\"/>\n<TIME_ORDER>\n",
+    );
+    for sign in 0..signs {
+        for (end, time) in [(0, sign * STEP), (1, sign * STEP + SIGN)] {
+            let _ = writeln!(
+                text,
+                "<TIME_SLOT TIME_SLOT_ID=\"ts{}\" TIME_VALUE=\"{time}\"/>",
+                sign * 2 + end
+            );
+        }
+    }
+    text.push_str("</TIME_ORDER>\n");
+    let mut next = 0;
+    text.push_str("<TIER LINGUISTIC_TYPE_REF=\"free\" TIER_ID=\"Gloss\">\n");
+    for sign in 0..signs {
+        let value = format!("SIGN-{}", sign % 997);
+        alignable(&mut text, &mut next, sign * 2, sign * 2 + 1, &value);
+    }
+    text.push_str("</TIER>\n<TIER LINGUISTIC_TYPE_REF=\"free\" TIER_ID=\"Translation\">\n");
+    for sign in (0..signs).step_by(8) {
+        let last = (sign + 7).min(signs - 1) * 2 + 1;
+        alignable(&mut text, &mut next, sign * 2, last, "the cat goes home");
+    }
+    text.push_str("</TIER>\n");
+    for (place, tier) in COMPONENTS.iter().enumerate() {
+        let _ = writeln!(
+            text,
+            "<TIER LINGUISTIC_TYPE_REF=\"below\" PARENT_REF=\"Gloss\" TIER_ID=\"{tier}\">"
+        );
+        for sign in 0..signs {
+            let value = match place {
+                1 => placement(sign),
+                _ => configuration(sign + place),
+            };
+            next += 1;
+            let _ = writeln!(
+                text,
+                "<ANNOTATION><REF_ANNOTATION ANNOTATION_ID=\"a{next}\" ANNOTATION_REF=\"a{}\">\
+                 <ANNOTATION_VALUE>{value}</ANNOTATION_VALUE></REF_ANNOTATION></ANNOTATION>",
+                sign + 1
+            );
+        }
+        text.push_str("</TIER>\n");
+    }
+    text.push_str(
+        "<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID=\"free\" TIME_ALIGNABLE=\"true\" \
+         GRAPHIC_REFERENCES=\"false\"/>\n<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID=\"below\" \
+         TIME_ALIGNABLE=\"false\" GRAPHIC_REFERENCES=\"false\" CONSTRAINTS=\"Symbolic_Association\"/>\n\
+         <CONSTRAINT STEREOTYPE=\"Symbolic_Association\" DESCRIPTION=\"1-1\"/>\n\
+         </ANNOTATION_DOCUMENT>\n",
+    );
+    text
+}
+
+fn alignable(text: &mut String, next: &mut usize, start: usize, end: usize, value: &str) {
+    *next += 1;
+    let _ = writeln!(
+        text,
+        "<ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID=\"a{next}\" TIME_SLOT_REF1=\"ts{start}\" \
+         TIME_SLOT_REF2=\"ts{end}\"><ANNOTATION_VALUE>{value}</ANNOTATION_VALUE>\
+         </ALIGNABLE_ANNOTATION></ANNOTATION>"
+    );
+}
+
+fn shown(time: Duration) -> String {
+    match time.as_secs_f64() {
+        seconds if seconds < 1.0 => format!("{:.1} ms", seconds * 1e3),
+        seconds => format!("{seconds:.2} s"),
+    }
+}
