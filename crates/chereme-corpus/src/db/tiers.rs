@@ -228,6 +228,17 @@ pub(crate) fn tiers(connection: &Connection, recording: i64) -> Result<Vec<TierR
     Ok(rows)
 }
 
+/// Returns one tier of each role and hand that tiers of a name have, without those that are free.
+pub(crate) fn roles_named(connection: &Connection, name: &str) -> Result<Vec<TierRow>> {
+    let mut statement = connection.prepare_cached(&format!(
+        "{TIER} WHERE name = ?1 AND role <> 'free' GROUP BY role, component, feature, hand ORDER BY id"
+    ))?;
+    let rows = statement
+        .query_map([name], tier_row)?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
 /// Writes an annotation and returns its row; its `id` is not looked at.
 pub(crate) fn insert_annotation(connection: &Connection, row: &AnnotationRow) -> Result<i64> {
     connection

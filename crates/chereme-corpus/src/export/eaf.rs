@@ -12,10 +12,11 @@ use chereme_formats::eaf::convert::{
     Annotation, Entry, EntryValue, Media, Place, Tier, Timing, Transcript, Vocabulary,
 };
 use chereme_formats::eaf::{from_raw, raw, to_raw};
+use chereme_formats::roles::{self, Hands, Mapping};
 use chereme_motion::{Instant, Span};
 use chereme_sign::Stereotype;
 use rusqlite::Connection;
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use crate::db::recordings::{self, RecordingRow};
 use crate::db::tiers::{self, AnnotationRow, TierRow};
@@ -142,7 +143,38 @@ fn describe(
     say(properties::LICENCE, recording.licence.clone(), false);
     say(properties::SIGNER, name, guessed);
     say(properties::HANDEDNESS, handedness, false);
+    let roles = roles_of_tiers(connection, recording, transcript)?;
+    transcript
+        .properties
+        .retain(|(key, _)| key != properties::TIERS);
+    if !roles.is_empty() {
+        let text = Value::Object(roles).to_string();
+        transcript
+            .properties
+            .push((properties::TIERS.to_owned(), text));
+    }
     Ok(())
+}
+
+/// What the tiers are whose names would be understood otherwise, as a mapping spells it.
+fn roles_of_tiers(
+    connection: &Connection,
+    recording: &RecordingRow,
+    transcript: &Transcript,
+) -> Result<Map<String, Value>> {
+    let guesses = roles::guess_tiers(transcript, &Mapping::default());
+    let mut roles = Map::new();
+    for (row, guess) in tiers::tiers(connection, recording.id)?.iter().zip(guesses) {
+        let (role, hand) = (row.role(), row.hand.as_deref());
+        if guess.role.unwrap_or_default() != role || guess.hand.map(Hands::name) != hand {
+            let hand = hand.map(|hand| format!("{hand}.")).unwrap_or_default();
+            roles.insert(
+                row.name.clone(),
+                Value::from(format!("{hand}{}", role.name())),
+            );
+        }
+    }
+    Ok(roles)
 }
 
 struct Writing<'a> {

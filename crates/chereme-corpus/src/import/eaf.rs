@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::eaf;
 use chereme_formats::eaf::convert::{Annotation, Place, Tier, Timing, Transcript, Vocabulary};
-use chereme_formats::roles::{self, TierGuess};
+use chereme_formats::roles::{self, Hands, Mapping, TierGuess};
+use chereme_motion::Instant;
 use chereme_sign::text::fold;
 use chereme_sign::{Component, Inventory, InventoryValue, TierRole, inventory};
 use serde_json::json;
@@ -22,6 +23,11 @@ pub(crate) const ORIGIN: &str = "chereme.origin";
 pub(crate) const LICENCE: &str = "chereme.licence";
 pub(crate) const SIGNER: &str = "chereme.signer";
 pub(crate) const HANDEDNESS: &str = "chereme.handedness";
+/// The property by which a file says what its tiers are: the `tiers` of a [`Mapping`], as JSON.
+pub(crate) const TIERS: &str = "chereme.tiers";
+
+/// How long after the end of the movement annotations may end without a word.
+const BEYOND: i64 = 1_000_000;
 
 pub(super) fn import(job: &mut Job<'_>) -> Result<FileReport> {
     if recordings::source_file_hashed(job.connection, &job.hash)?.is_some() {
@@ -34,9 +40,10 @@ pub(super) fn import(job: &mut Job<'_>) -> Result<FileReport> {
     report
         .findings
         .extend(findings.into_iter().map(ReportFinding::from));
-    let guesses = roles::guess_tiers(&transcript, &job.options.mapping);
+    let guesses = guess(job, &transcript, &mut report)?;
     report.understand("tiers", &guesses);
     let recording = recording(job, &transcript)?;
+    warn_of_length(job, recording, &transcript, &mut report)?;
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
     refuse_double_tiers(job, recording, &transcript)?;
     let tier_rows = write_tiers(job, recording, &transcript, &guesses, &mut report)?;
@@ -63,6 +70,66 @@ pub(super) fn import(job: &mut Job<'_>) -> Result<FileReport> {
         ));
     }
     Ok(report)
+}
+
+/// What the tiers are: as the caller says, else the file, else by their names; those whose names say
+/// nothing are what tiers of that name are elsewhere in the corpus.
+fn guess(
+    job: &Job<'_>,
+    transcript: &Transcript,
+    report: &mut FileReport,
+) -> Result<Vec<TierGuess>> {
+    let property = transcript.properties.iter().find(|(key, _)| key == TIERS);
+    let own = property.map(|(_, text)| Mapping::from_json(&format!("{{\"tiers\": {text}}}")));
+    let mapping = match own {
+        Some(Ok(own)) => job.options.mapping.completed_by(&own),
+        Some(Err(error)) => {
+            report.findings.push(ReportFinding::warning(
+                format!("its property {TIERS:?} is not understood: {error}"),
+                "tiers are taken for what their names say",
+            ));
+            job.options.mapping.clone()
+        }
+        None => job.options.mapping.clone(),
+    };
+    let mut guesses = roles::guess_tiers(transcript, &mapping);
+    for guess in guesses.iter_mut().filter(|guess| guess.role.is_none()) {
+        let known = tiers::roles_named(job.connection, &guess.tier)?;
+        let [one] = known.as_slice() else { continue };
+        guess.role = Some(one.role());
+        guess.hand = one.hand.as_deref().and_then(Hands::of);
+        guess.confidence = 0.5;
+        guess.why = "tiers of this name in the corpus are".to_owned();
+    }
+    Ok(guesses)
+}
+
+/// Warns where the annotations go on long after the movement.
+fn warn_of_length(
+    job: &Job<'_>,
+    recording: i64,
+    transcript: &Transcript,
+    report: &mut FileReport,
+) -> Result<()> {
+    if recordings::motion_track(job.connection, recording)?.is_none() {
+        return Ok(());
+    }
+    let row = recordings::recording(job.connection, recording)?;
+    let spans = transcript.tiers.iter().flat_map(|tier| &tier.annotations);
+    let end = spans.map(|annotation| annotation.span.end()).max();
+    let end = end.unwrap_or(Instant::ZERO);
+    if end.micros() > row.duration_us.saturating_add(BEYOND) {
+        let length = Instant::from_micros(row.duration_us);
+        report.findings.push(ReportFinding::warning(
+            format!(
+                "its annotations end at {end}, but the movement of the recording {:?} at {length}",
+                row.name
+            ),
+            "see whether both are of the same take; `chereme undo`, and another name for the file, \
+             keeps them apart",
+        ));
+    }
+    Ok(())
 }
 
 /// The recording that the annotations are about: that of the same stem, or a new one without movement.

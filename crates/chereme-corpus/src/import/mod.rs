@@ -8,6 +8,8 @@ pub(crate) mod eaf;
 mod inventory;
 mod lexicon;
 mod report;
+#[cfg(test)]
+mod tests;
 
 use std::collections::BTreeMap;
 use std::fs;

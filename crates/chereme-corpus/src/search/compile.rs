@@ -132,11 +132,24 @@ fn inner(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
     }
 }
 
+fn phase_of_no_token(at: std::ops::Range<usize>) -> QueryError {
+    QueryError {
+        at,
+        message: "phases of movement are values of no token: they cut up the time of signing"
+            .to_owned(),
+        remedy: "say how the token lies to them: overlaps movement.phase=stroke".to_owned(),
+        suggestion: None,
+    }
+}
+
 /// Returns the plan for one comparison.
 pub(crate) fn test(ask: &Ask<'_>, test: &Test) -> Asked<Plan> {
     match &test.what {
         What::Component(field, comparison) => {
             let range = test.subject_at.range();
+            if field.component == Component::Movement && field.feature.as_deref() == Some("phase") {
+                return Err(phase_of_no_token(range).into());
+            }
             ComponentTest::new(ask, field, comparison, range)?.plan(ask)
         }
         What::Property(property, comparison) => self::property(ask, *property, comparison),

@@ -104,6 +104,15 @@ impl Mapping {
         Ok(mapping)
     }
 
+    /// Returns this mapping with the entries for tiers of `other` of whose names it says nothing.
+    #[must_use]
+    pub fn completed_by(&self, other: &Self) -> Self {
+        let mut both = self.clone();
+        let new = |(name, _): &&(String, Target)| self.tier(name).is_none();
+        both.tiers.extend(other.tiers.iter().filter(new).cloned());
+        both
+    }
+
     /// Returns the entry for a tier of this name, and what it says.
     #[must_use]
     pub fn tier(&self, name: &str) -> Option<(&str, &Target)> {
@@ -254,6 +263,17 @@ mod tests {
             Some("en")
         );
         assert_eq!(mapping.column("NL gloss"), None);
+    }
+
+    #[test]
+    fn a_mapping_goes_before_the_one_that_completes_it() {
+        let mapping = |text| Mapping::from_json(text).expect("a mapping");
+        let own = mapping(r#"{"tiers": {"K*": "left.configuration"}}"#);
+        let other = mapping(r#"{"tiers": {"K1": "right.gloss", "L1": "right.gloss"}}"#);
+        let both = own.completed_by(&other);
+        for (name, entry) in [("K1", Some("K*")), ("L1", Some("L1")), ("M1", None)] {
+            assert_eq!(both.tier(name).map(|it| it.0), entry, "{name}");
+        }
     }
 
     #[test]

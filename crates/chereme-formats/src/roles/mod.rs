@@ -37,6 +37,15 @@ impl Hands {
         }
     }
 
+    /// Returns the hands of that name.
+    #[must_use]
+    pub fn of(name: &str) -> Option<Self> {
+        match name {
+            "both" => Some(Self::Both),
+            one => one.parse().ok().map(Self::One),
+        }
+    }
+
     /// Returns the one hand, where it is one.
     #[must_use]
     pub fn one(self) -> Option<HandRef> {

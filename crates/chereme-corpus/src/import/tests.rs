@@ -1,0 +1,195 @@
+//! What annotation files are understood as.
+
+use std::path::{Path, PathBuf};
+
+use super::*;
+use crate::export::{ExportOptions, ExportWhat};
+use crate::progress::unheard;
+use crate::{ListFilter, ListKind, SearchOptions};
+
+/// A BVH file of one joint and two frames, 0.2 s long.
+const MOVEMENT: &str = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 3 Zrotation Xrotation Yrotation\n\
+     End Site\n{\nOFFSET 0 1 0\n}\n}\nMOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0\n0 0 1\n";
+
+/// An annotation file of root tiers with one annotation each: tier, start and end in ms, value.
+fn eaf(tiers: &[(&str, i64, i64, &str)]) -> String {
+    let (mut slots, mut body) = (String::new(), String::new());
+    for (at, (tier, start, end, value)) in tiers.iter().enumerate() {
+        slots += &format!(
+            "<TIME_SLOT TIME_SLOT_ID=\"s{at}\" TIME_VALUE=\"{start}\"/><TIME_SLOT TIME_SLOT_ID=\"e{at}\" TIME_VALUE=\"{end}\"/>"
+        );
+        body += &format!(
+            "<TIER TIER_ID=\"{tier}\" LINGUISTIC_TYPE_REF=\"t\"><ANNOTATION><ALIGNABLE_ANNOTATION \
+             ANNOTATION_ID=\"a{at}\" TIME_SLOT_REF1=\"s{at}\" TIME_SLOT_REF2=\"e{at}\"><ANNOTATION_VALUE>{value}\
+             </ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION></TIER>"
+        );
+    }
+    format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?><ANNOTATION_DOCUMENT AUTHOR=\"\" \
+         DATE=\"2024-01-01T00:00:00Z\" FORMAT=\"3.0\" VERSION=\"3.0\"><HEADER MEDIA_FILE=\"\" \
+         TIME_UNITS=\"milliseconds\"/><TIME_ORDER>{slots}</TIME_ORDER>{body}\
+         <LINGUISTIC_TYPE LINGUISTIC_TYPE_ID=\"t\" TIME_ALIGNABLE=\"true\"/></ANNOTATION_DOCUMENT>"
+    )
+}
+
+struct Desk {
+    folder: tempfile::TempDir,
+}
+
+impl Desk {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        Self { folder }
+    }
+
+    fn file(&self, name: &str, text: &str) -> PathBuf {
+        let path = self.folder.path().join(name);
+        fs::write(&path, text).expect("written");
+        path
+    }
+
+    fn corpus(&self, name: &str) -> Corpus {
+        Corpus::create(&self.folder.path().join(name), "A").expect("made")
+    }
+}
+
+fn import(corpus: &mut Corpus, file: &Path, mapping: &str) -> FileReport {
+    let options = ImportOptions {
+        mapping: Mapping::from_json(mapping).expect("a mapping"),
+        ..ImportOptions::default()
+    };
+    let mut hear = unheard;
+    let report = corpus.import(&[file.to_owned()], &options, &mut Progress::new(&mut hear));
+    report.expect("imported").files.remove(0)
+}
+
+/// Role and hand of each tier, by recording and position.
+fn roles(corpus: &Corpus) -> Vec<String> {
+    let recordings = recordings_of(corpus);
+    let tiers = recordings
+        .into_iter()
+        .flat_map(|id| crate::db::tiers::tiers(corpus.store.read(), id).expect("tiers"));
+    tiers
+        .map(|row| {
+            let hand = row.hand.clone().unwrap_or_default();
+            format!("{}: {hand} {}", row.name, row.role().name())
+        })
+        .collect()
+}
+
+fn recordings_of(corpus: &Corpus) -> Vec<i64> {
+    let all = crate::db::recordings::recordings(corpus.store.read()).expect("recordings");
+    all.iter().map(|row| row.id).collect()
+}
+
+#[test]
+fn what_tiers_of_odd_names_are_is_remembered() {
+    let desk = Desk::new();
+    let odd = [
+        ("QX1", 0, 500, "BOL"),
+        ("QX2", 0, 500, "S"),
+        ("Gloss", 0, 500, "x"),
+    ];
+    let take = desk.file("one.eaf", &eaf(&odd));
+    let mapping =
+        r#"{"tiers": {"QX1": "right.gloss", "QX2": "left.configuration", "Gloss": "comment"}}"#;
+    let mut corpus = desk.corpus("a.chereme");
+    import(&mut corpus, &take, mapping);
+    let known = [
+        "QX1: right gloss",
+        "QX2: left configuration",
+        "Gloss:  comment",
+    ];
+    assert_eq!(roles(&corpus), known);
+
+    let out = desk.folder.path().join("out.eaf");
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let options = ExportOptions::default();
+    corpus
+        .export(&ExportWhat::All, &out, &options, progress)
+        .expect("exported");
+    let mut elsewhere = desk.corpus("b.chereme");
+    import(&mut elsewhere, &out, "{}");
+    assert_eq!(roles(&elsewhere), known, "the file says so itself");
+    let mut otherwise = desk.corpus("c.chereme");
+    import(&mut otherwise, &out, r#"{"tiers": {"QX*": "free"}}"#);
+    assert_eq!(
+        roles(&otherwise),
+        ["QX1:  free", "QX2:  free", "Gloss:  comment"],
+        "the caller knows better"
+    );
+
+    let next = desk.file(
+        "two.eaf",
+        &eaf(&[("QX2", 0, 400, "S"), ("QX3", 0, 400, "S")]),
+    );
+    let report = import(&mut corpus, &next, "{}");
+    assert_eq!(
+        roles(&corpus)[3..],
+        ["QX2: left configuration", "QX3:  free"],
+        "names known from another recording: {:?}",
+        report.understood
+    );
+}
+
+#[test]
+fn a_property_that_is_not_understood_is_told() {
+    let desk = Desk::new();
+    let text = eaf(&[("Gloss", 0, 500, "BOL")]).replace(
+        "TIME_UNITS=\"milliseconds\"/>",
+        "TIME_UNITS=\"milliseconds\"><PROPERTY NAME=\"chereme.tiers\">{\"Gloss\": 3</PROPERTY></HEADER>",
+    );
+    let mut corpus = desk.corpus("a.chereme");
+    let report = import(&mut corpus, &desk.file("one.eaf", &text), "{}");
+    assert!(
+        report
+            .findings
+            .iter()
+            .any(|it| it.message.contains("chereme.tiers"))
+    );
+    assert_eq!(roles(&corpus), ["Gloss:  gloss"]);
+}
+
+#[test]
+fn annotations_long_after_the_movement_are_told() {
+    let desk = Desk::new();
+    for (name, end, told) in [("short", 1100, false), ("long", 1300, true)] {
+        let mut corpus = desk.corpus(&format!("{name}.chereme"));
+        import(
+            &mut corpus,
+            &desk.file(&format!("{name}.bvh"), MOVEMENT),
+            "{}",
+        );
+        let file = desk.file(&format!("{name}.eaf"), &eaf(&[("Gloss", 0, end, "BOL")]));
+        let report = import(&mut corpus, &file, "{}");
+        let warned = report
+            .findings
+            .iter()
+            .any(|it| it.message.contains("annotations end at"));
+        assert_eq!(warned, told, "{name}: {:?}", report.findings);
+    }
+}
+
+#[test]
+fn phases_of_movement_cut_time_and_are_no_values_of_a_token() {
+    let desk = Desk::new();
+    let text = eaf(&[
+        ("Gloss", 0, 500, "BOL"),
+        ("Handshape RH", 0, 500, "S"),
+        ("Phase RH", 0, 500, "stroke"),
+    ]);
+    let mut corpus = desk.corpus("a.chereme");
+    import(&mut corpus, &desk.file("one.eaf", &text), "{}");
+    assert_eq!(roles(&corpus)[2], "Phase RH: right movement.phase");
+    let options = SearchOptions::default();
+    let answer = corpus.search("gloss=BOL", &options).expect("answered");
+    let fields: Vec<&String> = answer.hits[0].components.keys().collect();
+    assert_eq!(fields, ["right.configuration"]);
+    let beside = corpus.search("equals right.movement.phase=stroke", &options);
+    assert_eq!(beside.expect("answered").total, 1);
+    let alone = corpus.search("movement.phase=stroke", &options);
+    assert!(alone.is_err_and(|error| error.remedy().is_some_and(|it| it.contains("overlaps"))));
+    let all = corpus.list(ListKind::Annotations, &ListFilter::default());
+    assert_eq!(all.expect("listed").total, 3);
+}
