@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use chereme_corpus::{Corpus, Progress, SearchOptions, unheard};
-use chereme_tests::repository;
+use chereme_corpus::{
+    Corpus, ExportOptions, ExportWhat, ListFilter, ListKind, Progress, SearchOptions, unheard,
+};
+use chereme_tests::{files, repository};
 
 /// Returns the stored corpora by their version of the schema.
 fn stores() -> BTreeMap<usize, PathBuf> {
@@ -58,10 +60,58 @@ fn corpora_of_earlier_versions_open_whole() {
         let bowl = "recording:\"bowl and cat\"".parse().expect("an address");
         let moving = corpus.movement(&bowl).expect("movement");
         assert_eq!(moving.clip.frames(), 200, "version {version}");
+        lists(&corpus, version);
+        exports(&corpus, folder.path(), version);
         let operations = corpus.log(usize::MAX).expect("log").len();
-        assert_eq!(operations, 4, "version {version}");
+        assert_eq!(operations, 6, "version {version}");
+        corpus.redo().expect("what was undone is done again");
+        corpus.undo().expect("and taken back");
         corpus.undo().expect("the made sign is taken back");
         corpus.undo().expect("the import is taken back");
         assert!(corpus.undo().is_err(), "version {version}");
     }
+}
+
+fn lists(corpus: &Corpus, version: usize) {
+    for (kind, total) in [
+        (ListKind::Recordings, 2),
+        (ListKind::Signs, 6),
+        (ListKind::Tokens, 7),
+        (ListKind::Tiers, 11),
+        (ListKind::Annotations, 14),
+        (ListKind::Signers, 1),
+    ] {
+        let listing = corpus.list(kind, &ListFilter::default()).expect("listed");
+        assert_eq!(listing.total, total, "version {version}: {kind:?}");
+    }
+}
+
+/// The folder of everything, and the movement number by number as it was.
+fn exports(corpus: &Corpus, folder: &Path, version: usize) {
+    let options = ExportOptions::default();
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let all = folder.join("all");
+    let report = corpus
+        .export(&ExportWhat::All, &all, &options, progress)
+        .expect("exported");
+    assert!(
+        report.files.iter().all(|file| file.bytes > 0),
+        "version {version}"
+    );
+    let moved = fs::read_to_string(all.join("recordings/bowl and cat.bvh")).expect("movement");
+    let numbers = |text: &str| -> Vec<f64> {
+        let rows = text
+            .lines()
+            .skip_while(|line| !line.starts_with("Frame Time"));
+        rows.skip(1)
+            .flat_map(str::split_whitespace)
+            .filter_map(|it| it.parse().ok())
+            .collect()
+    };
+    assert_eq!(
+        numbers(&moved),
+        numbers(&files::bvh(200, 1)),
+        "version {version}"
+    );
 }
