@@ -3,6 +3,60 @@
 //! One tree serves both: HamNoSys text (one symbol after another) and gestural SiGML (elements with
 //! attributes) are two spellings of it. Everything is from the signer's own point of view, and where
 //! a sign is two-handed with symmetry, what is said is about the dominant hand.
+//!
+//! ```
+//! use chereme_sign::hamnosys::{parse, parse_lenient, print};
+//!
+//! let read = parse("hamsymmlr hamflathand hamextfingero hampalmd hamchest hammovel hamfast")?;
+//! assert_eq!(read.sign.parts[0].actions.len(), 1);
+//! assert_eq!(print(&read.sign).text, "\u{e0e9}\u{e001}\u{e029}\u{e03c}\u{e052}\u{e086}\u{e0c8}");
+//!
+//! let error = parse("hamfist hamsmallmod").expect_err("a size of nothing");
+//! assert!(error.to_string().starts_with("symbol 1 is hamsmallmod, but expected a movement"));
+//! assert_eq!(parse_lenient("hamfist hamsmallmod").sign.parts.len(), 1);
+//! # Ok::<(), chereme_sign::hamnosys::HamnosysError>(())
+//! ```
+//!
+//! # Reading and writing text
+//!
+//! [`parse()`] refuses what cannot be, naming the symbol; [`parse_lenient`] leaves it out and says so.
+//! Either way what was read prints to the byte as it was: [`print()`] has one canonical order, and each
+//! part that text spelled otherwise remembers its own symbols ([`Written`]). What the text says and the
+//! tree does not hold is a [`Finding`]; what the tree says and text cannot is a [`Loss`].
+//!
+//! The grammar, in canonical order (`?` may be left out, `*` any number, `|` or; capitals are symbols):
+//!
+//! | what | how it is written |
+//! |---|---|
+//! | sign | part (PLUS part)* |
+//! | part | hands? (site movement?)? posture movement* |
+//! | hands | (SYMMPAR or SYMMLR) STRAIGHTMOD? (out and in) LARGEMOD? (up and down) ALTERNATING? NONIPSI? \| NONDOMINANT |
+//! | posture | shape extended palm place; parts that differ by hand in one PAR dominant PLUS other PAREND |
+//! | shape | form (BETWEEN form)? ETC? (digit LARGEMOD? \| digit bend)* (digit part digit \| digit CROSS digit)* thumb? |
+//! | form | class thumb? bend?; bend may be two with BETWEEN: their middle |
+//! | digits | selected or left out by the bend, by class; with LARGEMOD the one that the thumb meets |
+//! | thumb | BETWEEN digit digit (between them) \| BETWEEN (enclosed) \| part (touched) |
+//! | extended, palm | direction (BETWEEN direction)? ETC? RELATIVE?; two symbols `uo ol` are the corner `uol` |
+//! | place | body \| hand \| hands \| PAR place? PLUS place? PAREND \| COREFREF (1 to 5 times) |
+//! | body | side? location level? side? ETC? (BETWEEN the same)? BEHIND? contact? COREFTAG*; level is DOUBLEBENT (upper), DOUBLEHOOKED (lower) |
+//! | hand | side? (part digit* \| digits) (side or PALM, HANDBACK, THUMBSIDE, PINKYSIDE)? ETC? (BETWEEN the same)? contact? |
+//! | hands by each other | (PAR hand PLUS hand PAREND)? contact body? |
+//! | contact | TOUCH, CLOSE, CROSS, INTERLOCK, ARMEXTENDED \| SEQ contact hand SEQEND |
+//! | movement | (way \| circle \| wrist \| play \| cross \| NOMOTION \| REPLACE posture \| group) then manner*, place, repetition, each again |
+//! | way | MOVE (BETWEEN MOVE)? size? (ARC ARC? size?)? ((WAVY or ZIGZAG) size? growth?)? ELLIPSE? |
+//! | circle | CIRCLE (BETWEEN CIRCLE)? size? (ELLIPSE size?)? CLOCK? CLOCK? CLOCKFULL* zigzag? growth? |
+//! | group | SEQ movement* SEQEND \| FUSION movement* FUSIONEND \| PAR movement* PAREND \| PAR movement? PLUS movement? PAREND \| site movement |
+//! | brushing | SEQ BRUSHING place SEQEND, the place with its contact |
+//! | repetition | repeat repeat? growth? ETC? \| SEQ repeat repeat? growth? ETC? MOVE size? growth? SEQEND |
+//! | manner | FAST SLOW TENSE REST HALT ALTERNATING ALTERNATING |
+//!
+//! Accepted besides: marks in any order, digits before the part of a finger, a bare contact group for
+//! both hands alike, configurations without REPLACE, parts without PLUS, blanks anywhere; punctuation,
+//! mime and all alternatives but the first stay in the text only.
+//!
+//! Sources: the symbols of the HamNoSys4TeX font (University of Hamburg); the structures that the
+//! University of East Anglia's stylesheet from HamNoSys to SiGML names; openly published lexicons of
+//! German, Greek, French, Polish and British Sign Language for the order in which transcribers write.
 
 pub mod components;
 pub mod direction;

@@ -422,7 +422,7 @@ pub enum Place {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct BodyPlace {
-    /// The place; nothing where only neutral space or a contact is said.
+    /// The place; nothing where only neutral space is said.
     pub site: Option<Site<BodyLocation>>,
     /// A second one where half-way between is meant.
     pub second: Option<Site<BodyLocation>>,
@@ -576,6 +576,9 @@ pub enum Contact {
 }
 
 /// The two hands by each other, and where they are together.
+///
+/// With neither site, a contact alone is with whatever the hand has before it: the other hand, or the
+/// place it was close to.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Constellation {

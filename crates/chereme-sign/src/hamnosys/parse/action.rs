@@ -246,7 +246,6 @@ impl Parser<'_> {
     }
 
     fn split_action(&mut self) -> Parsed<(MotionKind, usize)> {
-        self.two = true;
         let opened = self.at;
         self.at += 1;
         let dominant = self.deeper(Self::half_action)?;

@@ -108,8 +108,6 @@ struct Parser<'a> {
     lenient: bool,
     /// Parts that print differently remember their symbols.
     remember: bool,
-    /// Two hands act in the part that is read.
-    two: bool,
     findings: Vec<Finding>,
 }
 
@@ -123,7 +121,6 @@ impl<'a> Parser<'a> {
             depth: 0,
             lenient,
             remember,
-            two: false,
             findings: Vec::new(),
         }
     }
@@ -169,7 +166,6 @@ impl<'a> Parser<'a> {
             hands: self.hands()?,
             ..Manual::default()
         };
-        self.two = matches!(part.hands, HandsUsed::Both(_));
         while self.at_body_action() || self.at_body_part() {
             part.body.push(self.body_action()?.0);
         }

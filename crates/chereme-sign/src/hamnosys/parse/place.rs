@@ -66,7 +66,6 @@ impl Parser<'_> {
     fn split_place(&mut self) -> Parsed<Place> {
         let from = self.at;
         self.at += 1;
-        self.two = true;
         let dominant = self.half_place()?;
         if !self.eat(Kind::Plus) {
             self.missing("hamplus between the places of the two hands")?;
@@ -105,33 +104,21 @@ impl Parser<'_> {
         }
     }
 
-    /// Reads a contact that no place comes before.
+    /// Reads a contact that no place comes before: of the two hands, or with what was met last.
     fn bare_contact(&mut self) -> Parsed<Place> {
         let from = self.at;
-        let grouped = self.next_is(0, Kind::Open(Bracket::Seq));
         let Some((contact, by)) = self.contact()? else {
             self.missing("a contact")?;
             return Ok(Place::Body(BodyPlace::default()));
         };
-        if self.two && contact != Contact::ArmExtended {
+        if contact != Contact::ArmExtended {
             return self.constellation(from, by.clone(), by, Some((contact, None)));
         }
-        if !grouped && self.at_hand_site() {
-            let mut site = self.hand_site()?;
-            site.contact = Some(contact);
-            site.written = self.written(from, |out| out.hand_site(&site));
-            return Ok(Place::Hand(site));
-        }
-        let mut place = if self.at_body_site() && by.is_none() {
-            self.body_place()?
-        } else {
-            BodyPlace::default()
+        let mut place = BodyPlace {
+            contact: Some(contact),
+            by,
+            ..BodyPlace::default()
         };
-        if place.contact.is_some() {
-            self.note("a second contact at the same place", "write one", true);
-        }
-        place.contact = place.contact.or(Some(contact));
-        place.by = place.by.or(by);
         place.written = self.written(from, |out| out.body_place(&place));
         Ok(Place::Body(place))
     }

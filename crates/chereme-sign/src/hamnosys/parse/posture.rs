@@ -73,7 +73,6 @@ impl Parser<'_> {
     }
 
     fn split_config(&mut self, posture: &mut Posture) -> Parsed<()> {
-        self.two = true;
         let opened = self.at;
         self.at += 1;
         let dominant = self.half()?;
