@@ -1,0 +1,234 @@
+//! Handshapes: a class, with what modifies it.
+
+use serde::{Deserialize, Serialize};
+
+use super::Written;
+
+/// A handshape: its class with what modifies it.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Handshape {
+    /// The class with its thumb and bend.
+    pub form: Form,
+    /// A second form where half-way between is meant.
+    pub between: Option<Form>,
+    /// Only roughly so.
+    pub approx: bool,
+    /// How far fingers are spread: 0, 1 or 2; as is the class's nature where unset.
+    pub splay: Option<u8>,
+    /// The fingers selected, where not the class's own.
+    pub special: Digits,
+    /// Fingers that the bend does not apply to.
+    pub exempt: Digits,
+    /// The digit that the thumb meets, where not the class's own.
+    pub opposed: Option<Digit>,
+    /// Bends of single digits, thumb first.
+    pub bends: [Option<Bend>; 5],
+    /// Fingers that touch each other or are crossed; two at most.
+    pub contacts: Vec<FingerContact>,
+    /// Where the thumb is, beyond its position.
+    pub thumb: Option<ThumbExtra>,
+    /// How text spelled it, where not as the printer would.
+    #[serde(skip)]
+    pub written: Written,
+}
+
+/// A class of handshapes with thumb position and bend.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Form {
+    /// The class.
+    pub class: HandClass,
+    /// Where the thumb is; alongside where unset.
+    pub thumb: Option<ThumbPosition>,
+    /// The bend of the selected fingers.
+    pub bend: Option<Bend>,
+    /// How far a cee is open; text writes it as the thumb's position.
+    pub opening: Option<Opening>,
+}
+
+/// The twelve classes of handshapes.
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default, Serialize, Deserialize,
+)]
+#[serde(rename_all = "lowercase")]
+pub enum HandClass {
+    /// All fingers closed.
+    #[default]
+    Fist,
+    /// All fingers extended, side by side.
+    Flat,
+    /// The index finger extended.
+    Finger2,
+    /// Index and middle finger extended, side by side.
+    Finger23,
+    /// Index and middle finger extended and spread.
+    Finger23Spread,
+    /// Four fingers extended and spread.
+    Finger2345,
+    /// Thumb and index finger pinched, the others closed.
+    Pinch12,
+    /// Thumb and index finger pinched, the others extended.
+    Pinch12Open,
+    /// The thumb pinched against all fingers.
+    PinchAll,
+    /// Thumb and index finger curved towards each other, the others closed.
+    Cee12,
+    /// Thumb and index finger curved towards each other, the others extended.
+    Cee12Open,
+    /// The thumb and all fingers curved towards each other.
+    CeeAll,
+}
+
+/// Where the thumb is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ThumbPosition {
+    /// Stretched out sideways.
+    Out,
+    /// Across the palm or the closed fingers.
+    Across,
+    /// Opposed to the fingers.
+    Opposed,
+}
+
+/// How far the thumb of a cee is from the fingers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Opening {
+    /// Nearer than usual.
+    Tight,
+    /// Further than usual.
+    Slack,
+}
+
+/// How far a finger's three joints are bent, from the palm outwards: 0 straight, 4 as far as goes.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Bend {
+    /// At the base joint: 4 0 0.
+    Bent,
+    /// At all joints a little: 2 2 2.
+    Round,
+    /// At the middle and end joints: 0 4 4.
+    Hooked,
+    /// At base and middle joints: 4 4 0.
+    DoubleBent,
+    /// At all joints: 4 4 4.
+    DoubleHooked,
+    /// At the base joint, half-way: 2 0 0.
+    HalfBent,
+    /// As given, joint by joint.
+    Joints([f64; 3]),
+}
+
+impl Bend {
+    /// Returns how far each joint is bent, from the palm outwards: 0 straight, 4 as far as goes.
+    #[must_use]
+    pub fn joints(self) -> [f64; 3] {
+        match self {
+            Self::Bent => [4.0, 0.0, 0.0],
+            Self::Round => [2.0, 2.0, 2.0],
+            Self::Hooked => [0.0, 4.0, 4.0],
+            Self::DoubleBent => [4.0, 4.0, 0.0],
+            Self::DoubleHooked => [4.0, 4.0, 4.0],
+            Self::HalfBent => [2.0, 0.0, 0.0],
+            Self::Joints(joints) => joints,
+        }
+    }
+}
+
+/// A digit, thumb first as notation counts them: 1 to 5.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Digit {
+    /// The thumb, 1.
+    Thumb,
+    /// The index finger, 2.
+    Index,
+    /// The middle finger, 3.
+    Middle,
+    /// The ring finger, 4.
+    Ring,
+    /// The little finger, 5.
+    Little,
+}
+
+impl Digit {
+    /// Every digit from the thumb.
+    pub const ALL: [Self; 5] = [
+        Self::Thumb,
+        Self::Index,
+        Self::Middle,
+        Self::Ring,
+        Self::Little,
+    ];
+
+    /// Returns the number notation gives it, 1 to 5.
+    #[must_use]
+    pub fn number(self) -> u8 {
+        self as u8 + 1
+    }
+}
+
+/// Digits of a hand, in the order they are written, none twice.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Digits(pub Vec<Digit>);
+
+impl Digits {
+    /// Tells whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Tells whether this digit is among them.
+    #[must_use]
+    pub fn contains(&self, digit: Digit) -> bool {
+        self.0.contains(&digit)
+    }
+}
+
+/// Two digits of a hand that touch or cross.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FingerContact {
+    /// The digit that lies upon the other.
+    pub first: Digit,
+    /// The other.
+    pub second: Digit,
+    /// The part of the second digit that is met.
+    #[serde(default)]
+    pub part: Option<FingerPart>,
+}
+
+/// Where the thumb is, beyond its position.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ThumbExtra {
+    /// Between two fingers.
+    Between(Digit, Digit),
+    /// Enclosed by the fingers.
+    Enclosed,
+    /// It touches this part of the fingers.
+    Contact(FingerPart),
+}
+
+/// A part of a finger.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FingerPart {
+    /// The tip.
+    Tip,
+    /// The nail.
+    Nail,
+    /// The pad.
+    Pad,
+    /// The middle joint.
+    MidJoint,
+    /// The base.
+    Base,
+    /// The side.
+    Side,
+}

@@ -1,0 +1,203 @@
+//! The tree of a sign as notation describes it.
+//!
+//! The parts and their names follow gestural SiGML 1.2; HamNoSys text says the same in symbols. What
+//! a spelling leaves unsaid is `None` here, never a default: a reader of the tree decides.
+
+mod hand;
+mod motion;
+mod place;
+
+pub use hand::{
+    Bend, Digit, Digits, FingerContact, FingerPart, Form, HandClass, Handshape, Opening,
+    ThumbExtra, ThumbPosition,
+};
+pub use motion::{
+    Amount, BodyAction, Circular, Clock, Curve, Directed, Ellipse, Growth, Manner, Motion,
+    MotionKind, Repeat, Repetition, Size, WristMotion, Zigzag,
+};
+pub use place::{
+    BodyLocation, BodyPlace, Constellation, Contact, HandLocation, HandSite, Place, Side, Site,
+};
+
+use serde::{Deserialize, Serialize};
+
+use super::direction::{Compass, Direction};
+
+/// A sign: what the hands do, part after part.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sign {
+    /// The parts of a compound in their order; one for a simple sign.
+    pub parts: Vec<Manual>,
+}
+
+/// What the hands do in one part of a sign.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Manual {
+    /// Which hands act.
+    pub hands: HandsUsed,
+    /// The hands keep what the part before ended with.
+    pub holdover: bool,
+    /// What the body does while the sign begins.
+    pub body: Vec<BodyAction>,
+    /// The posture it begins with.
+    pub posture: Posture,
+    /// What is done from there, in order.
+    pub actions: Vec<Motion>,
+    /// How text spelled this part, where it is not as the printer would.
+    #[serde(skip)]
+    pub written: Written,
+}
+
+/// Which hands act in a sign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HandsUsed {
+    /// The dominant hand alone.
+    #[default]
+    Dominant,
+    /// The other hand alone.
+    Nondominant,
+    /// Both, the second following the first by a symmetry.
+    Both(Symmetry),
+}
+
+/// How the second hand follows the dominant one.
+///
+/// Without any of the mirrors both do the same (parallel).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Symmetry {
+    /// Left and right are exchanged.
+    pub left_right: bool,
+    /// Up and down are exchanged.
+    pub up_down: bool,
+    /// Out and in are exchanged.
+    pub out_in: bool,
+    /// The second hand is half a period behind.
+    pub out_of_phase: bool,
+    /// Places are meant in real space, not on each hand's own side.
+    pub real_space: bool,
+}
+
+/// What is said of the hands: nothing, one thing for both, or a thing for each.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Each<T> {
+    /// Nothing is said: as it was, or as is usual.
+    #[default]
+    Unset,
+    /// For every acting hand; the second takes it through the symmetry.
+    Shared(T),
+    /// For the dominant hand, then for the other; what is missing stays as it was.
+    Split(Option<T>, Option<T>),
+}
+
+impl<T> Each<T> {
+    /// Returns what is said of the dominant hand.
+    #[must_use]
+    pub fn dominant(&self) -> Option<&T> {
+        match self {
+            Self::Unset => None,
+            Self::Shared(one) => Some(one),
+            Self::Split(dominant, _) => dominant.as_ref(),
+        }
+    }
+
+    /// Returns what is said of the other hand in words of its own, no symmetry needed.
+    #[must_use]
+    pub fn other(&self) -> Option<&T> {
+        match self {
+            Self::Split(_, other) => other.as_ref(),
+            _ => None,
+        }
+    }
+
+    /// Tells whether nothing is said.
+    #[must_use]
+    pub fn is_unset(&self) -> bool {
+        matches!(self, Self::Unset)
+    }
+}
+
+/// A posture of the hands, part by part; what is unset stays as it was.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Posture {
+    /// The handshape.
+    pub shape: Each<Handshape>,
+    /// Where the hand's own axis points, from the wrist to the middle knuckle.
+    pub extended: Each<Aim<Direction>>,
+    /// Where the palm faces, as an angle about that axis.
+    pub palm: Each<Aim<Compass>>,
+    /// Where the hands are.
+    pub place: Option<Place>,
+}
+
+impl Posture {
+    /// Tells whether it says nothing at all.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+/// A direction, or the middle of two.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Aim<D> {
+    /// The direction.
+    pub first: D,
+    /// The second one where half-way between is meant.
+    #[serde(default = "none", skip_serializing_if = "Option::is_none")]
+    pub second: Option<D>,
+    /// Only roughly so.
+    #[serde(default)]
+    pub approx: bool,
+    /// What it is relative to.
+    #[serde(default)]
+    pub frame: Frame,
+}
+
+fn none<D>() -> Option<D> {
+    None
+}
+
+impl<D> Aim<D> {
+    /// Returns an aim straight in one direction.
+    pub const fn at(first: D) -> Self {
+        Self {
+            first,
+            second: None,
+            approx: false,
+            frame: Frame::Plain,
+        }
+    }
+}
+
+/// What a direction is relative to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Frame {
+    /// As usual: the signer's body.
+    #[default]
+    Plain,
+    /// The body, said expressly.
+    Absolute,
+    /// The movement's direction, or the place on the body.
+    Relative,
+}
+
+/// The symbols that text spelled a part with, where they are not those the printer would choose.
+///
+/// Two parts are equal whatever their spelling. Whoever changes a part drops its spelling
+/// (`Written::default()`).
+#[derive(Debug, Clone, Default)]
+pub struct Written(pub Option<Box<str>>);
+
+impl PartialEq for Written {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}

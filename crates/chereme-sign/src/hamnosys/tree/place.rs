@@ -1,0 +1,200 @@
+//! Where hands are: on the body, on a hand, or by each other.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Digits, Written};
+
+/// Where the hands are.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Place {
+    /// On or before the body, or in the space before it.
+    Body(BodyPlace),
+    /// On a hand.
+    Hand(HandSite),
+    /// The two hands by each other.
+    Hands(Constellation),
+    /// A place of its own for the dominant hand and for the other; what is missing stays as it was.
+    Split(Option<Box<Place>>, Option<Box<Place>>),
+    /// A place that the sign named before, 1 to 5.
+    Named(u8),
+}
+
+/// A place on the body or in the space before it.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct BodyPlace {
+    /// The place; nothing where only neutral space is said.
+    pub site: Option<Site<BodyLocation>>,
+    /// A second one where half-way between is meant.
+    pub second: Option<Site<BodyLocation>>,
+    /// Behind it.
+    pub behind: bool,
+    /// How near the hand comes.
+    pub contact: Option<Contact>,
+    /// Which part of the hand is meant.
+    pub by: Option<HandSite>,
+    /// The number under which the place is called up later, 1 to 5.
+    pub define: Option<u8>,
+    /// How text spelled it, where not as the printer would.
+    #[serde(skip)]
+    pub written: Written,
+}
+
+/// A location with the side of it that is meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Site<L> {
+    /// The location.
+    pub at: L,
+    /// The side.
+    #[serde(default)]
+    pub side: Option<Side>,
+    /// Only roughly there.
+    #[serde(default)]
+    pub approx: bool,
+}
+
+/// Locations of the body and the arms.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[expect(missing_docs, reason = "each is what its name says")]
+pub enum BodyLocation {
+    Head,
+    HeadTop,
+    Forehead,
+    Eyebrows,
+    Eyes,
+    UpperEyelid,
+    LowerEyelid,
+    Nose,
+    Nostrils,
+    Lips,
+    UpperLip,
+    LowerLip,
+    Tongue,
+    Teeth,
+    UpperTeeth,
+    LowerTeeth,
+    Chin,
+    UnderChin,
+    Neck,
+    Shoulders,
+    ShoulderTop,
+    Chest,
+    Stomach,
+    BelowStomach,
+    Ear,
+    EarLobe,
+    Cheek,
+    UpperArm,
+    Elbow,
+    ElbowInside,
+    LowerArm,
+    NeutralSpace,
+}
+
+/// A site on a hand or arm: the part, and of which digits.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct HandSite {
+    /// The part; nothing where whole digits are meant.
+    pub at: Option<HandLocation>,
+    /// The digits, where it is a part of digits.
+    pub digits: Digits,
+    /// The side.
+    pub side: Option<Side>,
+    /// Only roughly there.
+    pub approx: bool,
+    /// A second site where half-way between is meant.
+    pub second: Option<Box<HandSite>>,
+    /// How near the other hand comes.
+    pub contact: Option<Contact>,
+    /// Which part of the acting hand is meant.
+    pub by: Option<Box<HandSite>>,
+    /// The number under which the place is called up later, 1 to 5.
+    pub define: Option<u8>,
+    /// How text spelled it, where not as the printer would.
+    #[serde(skip)]
+    pub written: Written,
+}
+
+/// Parts of the hand and the arm.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[expect(missing_docs, reason = "each is what its name says")]
+pub enum HandLocation {
+    UpperArm,
+    Elbow,
+    ElbowInside,
+    LowerArm,
+    WristBack,
+    ThumbBall,
+    Palm,
+    HandBack,
+    ThumbSide,
+    PinkySide,
+    Tip,
+    Nail,
+    Pad,
+    MidJoint,
+    Base,
+    Side,
+}
+
+/// A side of a location, always the signer's own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[expect(missing_docs, reason = "each is what its name says")]
+pub enum Side {
+    LeftBeside,
+    LeftAt,
+    RightAt,
+    RightBeside,
+    Front,
+    Back,
+    Dorsal,
+    Palmar,
+    Radial,
+    Ulnar,
+}
+
+/// How near the hand comes to a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Contact {
+    /// It touches.
+    Touch,
+    /// It is close.
+    Close,
+    /// The hands interlock.
+    Interlock,
+    /// The hands cross.
+    Cross,
+    /// As far as the arm reaches.
+    ArmExtended,
+    /// It brushes along.
+    Brushing,
+}
+
+/// The two hands by each other, and where they are together.
+///
+/// With neither site, a contact alone is with whatever the hand has before it: the other hand, or the
+/// place it was close to.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Constellation {
+    /// The site of the dominant hand.
+    pub dominant: Option<HandSite>,
+    /// The site of the other hand.
+    pub other: Option<HandSite>,
+    /// How near they come to each other.
+    pub contact: Option<Contact>,
+    /// Where the two are.
+    pub at: Option<BodyPlace>,
+    /// The number under which the place is called up later, 1 to 5.
+    pub define: Option<u8>,
+    /// How text spelled it, where not as the printer would.
+    #[serde(skip)]
+    pub written: Written,
+}
