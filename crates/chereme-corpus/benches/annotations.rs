@@ -37,6 +37,7 @@ fn main() {
         let mut corpus = import(&text, &path, signs);
         edits(&mut corpus, signs);
         export(&corpus, folder.path(), signs);
+        take_back(&mut corpus);
     }
 }
 
@@ -182,6 +183,17 @@ fn export(corpus: &Corpus, folder: &Path, signs: usize) {
             report.files[0].bytes as f64 / 1e6
         );
     }
+}
+
+/// Takes back everything, the import last.
+fn take_back(corpus: &mut Corpus) {
+    let edits = corpus.log(usize::MAX).expect("log").len() - 1;
+    for _ in 0..edits {
+        corpus.undo().expect("undone");
+    }
+    let clock = Clock::now();
+    corpus.undo().expect("undone");
+    println!("  the import taken back: {}", shown(clock.elapsed()));
 }
 
 fn configuration(sign: usize) -> &'static str {

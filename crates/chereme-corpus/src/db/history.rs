@@ -5,6 +5,8 @@
 //! `[table, kind, before, after, uids of the rows referred to]`. Undo applies the inverse as a new
 //! operation, redo the inverse of that.
 
+use std::collections::BTreeMap;
+
 use rusqlite::{Connection, OptionalExtension, params};
 use serde::Serialize;
 use serde_json::Value;
@@ -377,11 +379,15 @@ fn invert(
         |row| row.get(0),
     )?;
     let operation = insert_operation(connection, author, kind, Some(target), &name)?;
+    let mut statements = BTreeMap::new();
+    for (table, _) in TRACKED {
+        statements.insert(table, Inverse::of(connection, table)?);
+    }
     for part in (0..parts).rev() {
         let lines = read_part(connection, source, part)?;
         let lines: Vec<&str> = lines.lines().collect();
         for line in lines.into_iter().rev() {
-            invert_change(connection, source, line)?;
+            invert_change(connection, source, line, &statements)?;
         }
     }
     finish(connection, operation, &summary)?;
@@ -412,52 +418,79 @@ fn read_part(connection: &Connection, operation: i64, part: i64) -> Result<Strin
     String::from_utf8(lines).map_err(|_| damaged(place(), "it is no text"))
 }
 
-fn invert_change(connection: &Connection, operation: i64, line: &str) -> Result<()> {
+/// The statements that take changes of a table's rows back; `?1` and `?2` are rows as JSON.
+struct Inverse {
+    key: String,
+    /// The row that has the key of `?1`, as JSON.
+    find: String,
+    delete: String,
+    insert: String,
+    /// Writes `?1` over the row that has the key of `?2`.
+    update: String,
+}
+
+impl Inverse {
+    fn of(connection: &Connection, table: &str) -> Result<Self> {
+        let columns = columns(connection, table)?;
+        let key = columns[0].name.clone();
+        let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
+        let values: Vec<String> = columns.iter().map(from_image).collect();
+        let settings: Vec<String> = columns
+            .iter()
+            .map(|column| format!("{} = {}", column.name, from_image(column)))
+            .collect();
+        Ok(Self {
+            find: format!(
+                "SELECT {} FROM main.{table} AS r WHERE {key} = json_extract(?1, '$.{key}')",
+                row_image(&columns, "r")
+            ),
+            delete: format!("DELETE FROM main.{table} WHERE {key} = json_extract(?1, '$.{key}')"),
+            insert: format!(
+                "INSERT INTO main.{table} ({}) VALUES ({})",
+                names.join(","),
+                values.join(",")
+            ),
+            update: format!(
+                "UPDATE main.{table} SET {} WHERE {key} = json_extract(?2, '$.{key}')",
+                settings.join(",")
+            ),
+            key,
+        })
+    }
+}
+
+fn invert_change(
+    connection: &Connection,
+    operation: i64,
+    line: &str,
+    statements: &BTreeMap<&str, Inverse>,
+) -> Result<()> {
     let place = || format!("changeset {operation}");
     let change: (String, String, Value, Value, Value) =
         serde_json::from_str(line).map_err(|error| damaged(place(), error.to_string()))?;
     let (table, kind, before, after, _) = change;
-    let Some((table, _)) = TRACKED.iter().find(|(name, _)| *name == table) else {
-        return Err(damaged(
-            place(),
-            format!("it names the unknown table {table:?}"),
-        ));
-    };
-    let columns = columns(connection, table)?;
-    let key = columns[0].name.as_str();
+    let inverse = statements
+        .get(table.as_str())
+        .ok_or_else(|| damaged(place(), format!("it names the unknown table {table:?}")))?;
     match kind.as_str() {
         "i" => {
-            expect_row(connection, table, &columns, &after)?;
-            let sql = format!("DELETE FROM main.{table} WHERE {key} = json_extract(?1, '$.{key}')");
+            let after_text = after.to_string();
+            expect_row(connection, &table, inverse, &after, &after_text)?;
             connection
-                .prepare_cached(&sql)?
-                .execute([after.to_string()])?;
+                .prepare_cached(&inverse.delete)?
+                .execute([after_text])?;
         }
         "d" => {
-            let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
-            let values: Vec<String> = columns.iter().map(from_image).collect();
-            let sql = format!(
-                "INSERT INTO main.{table} ({}) VALUES ({})",
-                names.join(","),
-                values.join(",")
-            );
             connection
-                .prepare_cached(&sql)?
+                .prepare_cached(&inverse.insert)?
                 .execute([before.to_string()])?;
         }
         "u" => {
-            expect_row(connection, table, &columns, &after)?;
-            let settings: Vec<String> = columns
-                .iter()
-                .map(|column| format!("{} = {}", column.name, from_image(column)))
-                .collect();
-            let sql = format!(
-                "UPDATE main.{table} SET {} WHERE {key} = json_extract(?2, '$.{key}')",
-                settings.join(",")
-            );
+            let after_text = after.to_string();
+            expect_row(connection, &table, inverse, &after, &after_text)?;
             connection
-                .prepare_cached(&sql)?
-                .execute([before.to_string(), after.to_string()])?;
+                .prepare_cached(&inverse.update)?
+                .execute([before.to_string(), after_text])?;
         }
         other => {
             return Err(damaged(
@@ -482,17 +515,13 @@ fn from_image(column: &Column) -> String {
 fn expect_row(
     connection: &Connection,
     table: &str,
-    columns: &[Column],
+    inverse: &Inverse,
     want: &Value,
+    text: &str,
 ) -> Result<()> {
-    let key = columns[0].name.as_str();
-    let sql = format!(
-        "SELECT {} FROM main.{table} AS r WHERE {key} = json_extract(?1, '$.{key}')",
-        row_image(columns, "r")
-    );
     let found: Option<String> = connection
-        .prepare_cached(&sql)?
-        .query_row([want.to_string()], |row| row.get(0))
+        .prepare_cached(&inverse.find)?
+        .query_row([text], |row| row.get(0))
         .optional()?;
     let same =
         found.is_some_and(|text| serde_json::from_str::<Value>(&text).is_ok_and(|v| v == *want));
@@ -501,7 +530,7 @@ fn expect_row(
     }
     Err(Error::wrong(format!(
         "the row {} of {table} was changed by something else since, so this cannot be taken back",
-        want.get(key).unwrap_or(&Value::Null)
+        want.get(&inverse.key).unwrap_or(&Value::Null)
     ))
     .advise("`chereme log` shows what was done; `chereme check` looks for damage"))
 }

@@ -48,7 +48,7 @@ pub struct ImportOptions {
     pub roles: Option<Roles>,
     /// Whether root columns that lie in another order than their header says are read as they lie.
     pub mend_root: bool,
-    /// What tiers and columns mean.
+    /// What tiers and columns mean; it goes before what an annotation file says of its tiers itself.
     pub mapping: Mapping,
     /// `captured`, `made` or `generated`.
     pub origin: Option<String>,
