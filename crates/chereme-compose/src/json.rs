@@ -39,10 +39,29 @@ impl TryFrom<Versioned> for Recipe {
                 message: format!("unknown field {unknown:?}; a recipe has version and make"),
             });
         }
+        one_key("make", &make)?;
         let root: Node = serde_json::from_value(make).map_err(|error| RecipeError::Field {
             message: error.to_string(),
         })?;
         Self::new(root)
+    }
+}
+
+/// Refuses an object that should hold one thing and holds more, naming the rest.
+fn one_key(name: &str, object: &Value) -> Result<(), RecipeError> {
+    let keys: Vec<&str> = object
+        .as_object()
+        .into_iter()
+        .flat_map(Map::keys)
+        .map(String::as_str)
+        .collect();
+    match keys.as_slice() {
+        [first, second, ..] => Err(RecipeError::Field {
+            message: format!(
+                "{name:?} holds one thing, but {first:?} and {second:?} are given; leave one out"
+            ),
+        }),
+        _ => Ok(()),
     }
 }
 

@@ -43,24 +43,19 @@ pub fn value_in<'a>(
 /// are passed over. Without a name the first inventory that has letters is the alphabet.
 ///
 /// # Errors
-/// [`SourceError::UnknownValue`] naming the alphabet or the first letter that there is not.
+/// [`SourceError::UnknownAlphabet`], or [`SourceError::UnknownLetter`] naming the first that there is
+/// not.
 pub fn letters_in<'a>(
     inventories: impl IntoIterator<Item = &'a Inventory>,
     alphabet: Option<&str>,
     word: &str,
 ) -> Result<Vec<Letter>, SourceError> {
     let all: Vec<&Inventory> = inventories.into_iter().collect();
-    let unknown = |text: &str, nearest: Option<String>| SourceError::UnknownValue {
-        component: Component::Configuration,
-        text: text.to_owned(),
-        nearest,
-    };
     let alphabets: Vec<&Inventory> = all
         .iter()
         .copied()
         .filter(|inventory| inventory.values.iter().any(|value| value.letter.is_some()))
         .collect();
-    let names = || alphabets.iter().map(|inventory| inventory.id.as_str());
     let chosen = match alphabet {
         None => alphabets.first(),
         Some(name) => alphabets.iter().find(|inventory| {
@@ -69,9 +64,10 @@ pub fn letters_in<'a>(
         }),
     };
     let Some(chosen) = chosen else {
-        let name = alphabet.unwrap_or("an alphabet");
-        let nearest = chereme_sign::text::nearest(name, names()).map(str::to_owned);
-        return Err(unknown(name, nearest));
+        return Err(SourceError::UnknownAlphabet {
+            name: alphabet.unwrap_or_default().to_owned(),
+            known: alphabets.iter().map(|it| it.id.clone()).collect(),
+        });
     };
     fold(word)
         .chars()
@@ -86,9 +82,18 @@ pub fn letters_in<'a>(
             let value = chosen.values.iter().find(is);
             value
                 .map(|value| letter(&all, chosen, value))
-                .ok_or_else(|| unknown(&c.to_uppercase().to_string(), None))
+                .ok_or_else(|| SourceError::UnknownLetter {
+                    letter: c.to_uppercase().to_string(),
+                    alphabet: chosen.id.clone(),
+                    known: known_letters(chosen),
+                })
         })
         .collect()
+}
+
+fn known_letters(alphabet: &Inventory) -> String {
+    let letters = alphabet.values.iter().filter_map(|it| it.letter.as_deref());
+    letters.collect::<Vec<_>>().join(" ")
 }
 
 /// Returns a value with the posture of the configuration it names where it has none of its own.

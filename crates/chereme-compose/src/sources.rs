@@ -53,7 +53,8 @@ pub trait Sources {
     /// Returns the letters of `word` in an alphabet, or in the corpus's usual one.
     ///
     /// # Errors
-    /// [`SourceError::UnknownValue`] naming the first letter that the alphabet does not have.
+    /// [`SourceError::UnknownAlphabet`], or [`SourceError::UnknownLetter`] naming the first letter that
+    /// the alphabet does not have.
     fn letters(&self, alphabet: Option<&str>, word: &str) -> Result<Vec<Letter>, SourceError>;
 
     /// Returns the usual courses of the corpus's own transitions; nothing where it shows too few.
@@ -304,6 +305,24 @@ pub enum SourceError {
         text: String,
         /// A value near to it.
         nearest: Option<String>,
+    },
+    /// No inventory with this name has letters.
+    #[error("{name:?} is no manual alphabet; there {}", match known.as_slice() { [] => "is none".to_owned(), known => format!("is {}", known.join(", ")) })]
+    UnknownAlphabet {
+        /// The name as written.
+        name: String,
+        /// The inventories that have letters.
+        known: Vec<String>,
+    },
+    /// An alphabet does not have a letter.
+    #[error("{letter:?} is no letter of the manual alphabet {alphabet:?}; spell with {known} only")]
+    UnknownLetter {
+        /// The letter.
+        letter: String,
+        /// The inventory.
+        alphabet: String,
+        /// The letters that it has.
+        known: String,
     },
     /// A query is not understood.
     #[error("the query {query:?} is not understood: {message}")]

@@ -107,8 +107,11 @@ impl Corpus {
 /// Reads a recipe as text, or as JSON where it begins with a brace.
 fn read(text: &str) -> Result<Recipe> {
     if text.trim_start().starts_with('{') {
-        return serde_json::from_str(text)
-            .map_err(|error| Error::wrong(format!("the recipe cannot be read: {error}")).at(text));
+        return serde_json::from_str(text).map_err(|error| {
+            Error::wrong(format!("the recipe cannot be read: {error}"))
+                .at(text)
+                .advise("a recipe in JSON is, for example, {\"version\": 1, \"make\": {\"sign\": \"BOL\"}}")
+        });
     }
     text.parse().map_err(|error: chereme_compose::RecipeError| {
         let pointed = match &error {

@@ -139,6 +139,18 @@ impl CorpusSources<'_> {
         Ok(held)
     }
 
+    fn no_signer(&self, address: Option<&str>) -> SourceError {
+        let signers = recordings::signers(self.connection).unwrap_or_default();
+        let known = signers
+            .into_iter()
+            .map(|it| Address::Signer(Name::Text(it.name)).to_string());
+        let (address, known) = (address.unwrap_or_default(), known.collect::<Vec<_>>());
+        SourceError::Missing {
+            address: address.to_owned(),
+            nearest: nearest(address, known.iter().map(String::as_str)).map(str::to_owned),
+        }
+    }
+
     fn all(&self) -> impl Iterator<Item = &Inventory> {
         self.inventories.iter().map(|stored| &stored.inventory)
     }
@@ -178,13 +190,10 @@ impl Sources for CorpusSources<'_> {
         let wanted = match signer.map(str::parse) {
             Some(Ok(Address::Signer(name))) => {
                 let row = address::signer(self.connection, &name);
-                Some(row.map_err(|error| unreadable(&error))?.id)
+                Some(row.map_err(|_| self.no_signer(signer))?.id)
             }
             Some(_) => {
-                return Err(SourceError::Missing {
-                    address: signer.unwrap_or_default().to_owned(),
-                    nearest: None,
-                });
+                return Err(self.no_signer(signer));
             }
             None => None,
         };
