@@ -92,12 +92,13 @@ pub(crate) fn mend(
             for (slot, way) in slots.iter_mut().zip(shift) {
                 *slot = Some(way);
             }
+            let was = contact.names();
             if contact.side == side {
                 contact.point = point;
             } else {
                 contact.place = point;
             }
-            did.push(told(contact, side, most));
+            did.push(told(contact, &was, side, most));
         }
         if shifts.iter().all(Option::is_none) {
             continue;
@@ -153,10 +154,16 @@ fn shift(contact: &Contact, tracks: &Tracks<'_>, side: Side) -> Option<(Vec<DVec
     (most <= MOST).then_some((best, point))
 }
 
-fn told(contact: &Contact, side: Side, most: f64) -> String {
-    let (point, place) = contact.names();
+fn told(contact: &Contact, was: &(String, String), side: Side, most: f64) -> String {
+    let now = contact.names();
+    let instead = match now == *was {
+        true => String::new(),
+        false => format!(" instead of {} and {}", was.0, was.1),
+    };
     format!(
-        "contact kept: {point} and {place}; the {} wrist is moved by up to {:.1} cm for it",
+        "contact kept: {} and {}{instead}; the {} wrist is moved by up to {:.1} cm for it",
+        now.0,
+        now.1,
         side.name(),
         most * 100.0
     )
