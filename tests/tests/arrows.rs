@@ -74,7 +74,7 @@ const NEVER: [(&str, &[&str], &str); 10] = [
 ];
 
 /// Licences under which a crate may come in.
-const LICENCES: [&str; 14] = [
+const LICENCES: [&str; 16] = [
     "0BSD",
     "Apache-2.0",
     "Apache-2.0 WITH LLVM-exception",
@@ -85,6 +85,8 @@ const LICENCES: [&str; 14] = [
     "ISC",
     "MIT",
     "MIT-0",
+    "OFL-1.1",
+    "Ubuntu-font-1.0",
     "Unicode-3.0",
     "Unicode-DFS-2016",
     "Unlicense",

@@ -66,7 +66,7 @@ pub(crate) fn load_of(connection: &Connection, recording: i64) -> Result<Vec<Sto
         .collect()
 }
 
-fn read(row: rows::InventoryRow) -> Result<StoredInventory> {
+pub(crate) fn read(row: rows::InventoryRow) -> Result<StoredInventory> {
     let place = || format!("inventory {:?}", row.key);
     let parse = |text: &str| {
         serde_json::from_str::<Value>(text).map_err(|error| damaged(place(), error.to_string()))

@@ -7,6 +7,7 @@ mod address;
 mod annotate;
 mod check;
 pub(crate) mod codec;
+mod contents;
 pub(crate) mod db;
 mod edit;
 mod error;
@@ -43,7 +44,10 @@ pub use annotate::{
 };
 pub use check::{CheckReport, Fault};
 pub use chereme_analysis::{Score, ScoreOptions};
-pub use db::recordings::{RecordingRow, SignerRow};
+pub use contents::{
+    AnnotationColumns, Contents, Overview, RecordingGlance, SignGlance, TierContents, ValueState,
+};
+pub use db::recordings::{MediaTrackRow, RecordingRow, SignerRow};
 pub use db::signs::TokenRow;
 pub use db::tiers::TierRow;
 pub use db::{OperationKind, OperationRow};

@@ -12,6 +12,8 @@ mod recombine;
 mod render;
 mod score;
 mod search;
+#[cfg(feature = "studio")]
+mod studio;
 mod suggest;
 mod tiers;
 
@@ -42,6 +44,8 @@ pub(crate) enum Command {
     Undo(history::UndoArgs),
     Redo(history::RedoArgs),
     Log(history::LogArgs),
+    #[cfg(feature = "studio")]
+    Studio(studio::Args),
 }
 
 /// Runs the command.
@@ -63,6 +67,8 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Undo(args) => history::undo(cli, args, output),
         Command::Redo(args) => history::redo(cli, args, output),
         Command::Log(args) => history::log(cli, args, output),
+        #[cfg(feature = "studio")]
+        Command::Studio(args) => studio::run(cli, args),
     }?;
     Ok(ExitCode::SUCCESS)
 }

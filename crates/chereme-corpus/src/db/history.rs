@@ -542,7 +542,7 @@ pub(crate) fn newest(connection: &Connection) -> Result<Option<i64>> {
 }
 
 /// Returns the newest operations first.
-pub(super) fn log(connection: &Connection, limit: usize) -> Result<Vec<OperationRow>> {
+pub(crate) fn log(connection: &Connection, limit: usize) -> Result<Vec<OperationRow>> {
     let (done, _) = stacks(connection)?;
     let mut statement = connection.prepare_cached(
         "SELECT id, at, author, kind, target, name, summary, changes

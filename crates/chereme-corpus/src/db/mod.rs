@@ -4,6 +4,7 @@
 //! in one transaction, records the rows before and after, and brings the search index along.
 
 pub(crate) mod check;
+pub(crate) mod contents;
 pub(crate) mod dump;
 pub(crate) mod edits;
 pub(crate) mod history;
@@ -25,6 +26,7 @@ use rusqlite::{Connection, TransactionBehavior};
 use crate::error::{Error, Result};
 use crate::search::index::SearchIndex;
 
+pub(crate) use history::log as history_log;
 pub use history::{OperationKind, OperationRow};
 pub(crate) use open::SCHEMA_VERSION;
 

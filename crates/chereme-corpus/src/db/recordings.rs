@@ -82,7 +82,7 @@ pub(crate) struct MotionTrackRow {
 
 /// A track of a recording that is a file beside it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub(crate) struct MediaTrackRow {
+pub struct MediaTrackRow {
     /// The row.
     pub id: i64,
     /// The recording's row.

@@ -1,0 +1,47 @@
+//! `chereme studio`.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::Error;
+use chereme_studio::{Folders, Language, Options};
+
+use crate::args::Cli;
+
+/// Open the workbench: annotate, search and recombine in a window
+///
+/// Without a corpus it offers the starter corpus, recent ones, and to import a folder. Settings lie in the
+/// platform's folder for them, in chereme/studio.json. F1 shows the keys: ELAN's, Praat's or a video editor's.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The corpus to open
+    corpus: Option<PathBuf>,
+    /// The folder for the settings and the starter corpus, in place of the platform's
+    #[arg(long, value_name = "DIR")]
+    folder: Option<PathBuf>,
+}
+
+pub(super) fn run(cli: &Cli, args: &Args) -> Result<()> {
+    let variable = |name: &str| std::env::var(name).ok();
+    let folders = match &args.folder {
+        Some(folder) => Folders {
+            config: Some(folder.clone()),
+            data: Some(folder.clone()),
+        },
+        None => Folders::of_platform(variable),
+    };
+    let locale = ["LC_ALL", "LC_MESSAGES", "LANG"]
+        .into_iter()
+        .filter_map(variable)
+        .find(|locale| !locale.is_empty());
+    let options = Options {
+        corpus: args.corpus.clone(),
+        author: cli.author(),
+        folders,
+        language: Language::of_locale(&locale.unwrap_or_default()),
+    };
+    chereme_studio::run(options).map_err(|error| {
+        let remedy = error.remedy().to_owned();
+        Error::wrong(error.to_string()).advise(remedy).into()
+    })
+}

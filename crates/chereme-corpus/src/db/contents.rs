@@ -1,0 +1,119 @@
+//! Rows as a window shows them: many at once, little of each.
+
+use chereme_motion::Rate;
+use rusqlite::Connection;
+
+use super::damaged;
+use super::recordings::RecordingRow;
+use crate::contents::{AnnotationColumns, RecordingGlance, SignGlance, ValueState};
+use crate::error::Result;
+
+/// Returns the number of the newest operation; 0 where there is none.
+pub(crate) fn generation(connection: &Connection) -> Result<i64> {
+    let sql = "SELECT coalesce(max(id), 0) FROM operation";
+    Ok(connection
+        .prepare_cached(sql)?
+        .query_row([], |row| row.get(0))?)
+}
+
+/// Returns all recordings in the order in which they were stored.
+pub(crate) fn recordings(connection: &Connection) -> Result<Vec<RecordingGlance>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT r.id, r.name, r.signer_id, g.name, r.origin, r.duration_us, r.licence, r.notes,
+                coalesce(k.frames, 0), k.rate_frames, k.rate_seconds, coalesce(k.offset_us, 0),
+                (SELECT count(*) FROM tier t WHERE t.recording_id = r.id),
+                (SELECT count(*) FROM token t WHERE t.recording_id = r.id),
+                (SELECT text FROM recipe p WHERE p.recording_id = r.id)
+         FROM recording r LEFT JOIN signer g ON g.id = r.signer_id
+              LEFT JOIN track k ON k.id = (SELECT min(id) FROM track
+                  WHERE recording_id = r.id AND kind = 'skeleton')
+         ORDER BY r.id",
+    )?;
+    let mut rows = statement.query([])?;
+    let mut recordings = Vec::new();
+    while let Some(row) = rows.next()? {
+        let rate: Option<(u32, u32)> = row.get::<_, Option<u32>>(9)?.zip(row.get(10)?);
+        recordings.push(RecordingGlance {
+            row: RecordingRow {
+                id: row.get(0)?,
+                name: row.get(1)?,
+                signer_id: row.get(2)?,
+                signer: row.get(3)?,
+                origin: row.get(4)?,
+                duration_us: row.get(5)?,
+                licence: row.get(6)?,
+                notes: row.get(7)?,
+            },
+            frames: count(row.get(8)?),
+            rate: rate.and_then(|(frames, seconds)| Rate::new(frames, seconds).ok()),
+            offset_us: row.get(11)?,
+            tiers: count(row.get(12)?),
+            tokens: count(row.get(13)?),
+            recipe: row.get(14)?,
+        });
+    }
+    Ok(recordings)
+}
+
+/// Returns all signs by gloss.
+pub(crate) fn signs(connection: &Connection) -> Result<Vec<SignGlance>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT s.id, s.gloss, s.notes, (SELECT count(*) FROM token t WHERE t.sign_id = s.id),
+                (SELECT t.id FROM token t WHERE t.sign_id = s.id AND t.citation = 1
+                 ORDER BY t.recording_id IS NULL, t.id LIMIT 1)
+         FROM sign s ORDER BY s.gloss",
+    )?;
+    let signs = statement
+        .query_map([], |row| {
+            Ok(SignGlance {
+                id: row.get(0)?,
+                gloss: row.get(1)?,
+                notes: row.get(2)?,
+                tokens: count(row.get(3)?),
+                citation: row.get(4)?,
+            })
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(signs)
+}
+
+/// Returns the annotations of a tier, by time.
+pub(crate) fn annotations(connection: &Connection, tier: i64) -> Result<AnnotationColumns> {
+    let mut statement = connection.prepare_cached(
+        "SELECT id, start_us, end_us, state, value, parent_id, confidence FROM annotation
+         WHERE tier_id = ?1 ORDER BY start_us, position, id",
+    )?;
+    let mut rows = statement.query([tier])?;
+    let mut columns = AnnotationColumns::default();
+    while let Some(row) = rows.next()? {
+        let id: i64 = row.get(0)?;
+        columns.ids.push(id);
+        columns.starts.push(row.get(1)?);
+        columns.ends.push(row.get(2)?);
+        columns.states.push(state(
+            id,
+            row.get_ref(3)?.as_str().map_err(rusqlite::Error::from)?,
+        )?);
+        columns.values.push(row.get::<_, Box<str>>(4)?);
+        columns.parents.push(row.get(5)?);
+        columns.confidences.push(row.get(6)?);
+    }
+    Ok(columns)
+}
+
+fn state(annotation: i64, name: &str) -> Result<ValueState> {
+    match name {
+        "value" => Ok(ValueState::Value),
+        "unset" => Ok(ValueState::Unset),
+        "not-applicable" => Ok(ValueState::NotApplicable),
+        "unclear" => Ok(ValueState::Unclear),
+        _ => Err(damaged(
+            format!("annotation {annotation}"),
+            format!("its state is {name:?}"),
+        )),
+    }
+}
+
+fn count(number: i64) -> u64 {
+    u64::try_from(number).unwrap_or_default()
+}

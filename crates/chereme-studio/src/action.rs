@@ -1,0 +1,162 @@
+//! What keys, menus and the command palette can ask for: one table, each row an [`Action`].
+//!
+//! An action carries nothing; what it is about is what is selected. To add one, write a row here and
+//! an arm in [`perform`](crate::perform); give it keys in [`keys::table`](crate::keys::table).
+
+use crate::panes::PaneKind;
+use crate::words::{Text, actions as words, shell};
+
+/// Where an action is found in the menu bar.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(crate) enum Menu {
+    File,
+    Edit,
+    Annotation,
+    Play,
+    View,
+    Panes,
+    Help,
+}
+
+impl Menu {
+    pub(crate) const ALL: [(Self, Text); 7] = [
+        (Self::File, shell::MENU_FILE),
+        (Self::Edit, shell::MENU_EDIT),
+        (Self::Annotation, shell::MENU_ANNOTATION),
+        (Self::Play, shell::MENU_PLAY),
+        (Self::View, shell::MENU_VIEW),
+        (Self::Panes, shell::MENU_PANES),
+        (Self::Help, shell::MENU_HELP),
+    ];
+}
+
+/// Where the keys of an action count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Context {
+    /// Wherever one is.
+    Everywhere,
+    /// Only with a corpus open.
+    Corpus,
+    /// Only in that pane; there it goes before the others.
+    #[allow(dead_code, reason = "the keys of a pane of its own")]
+    Pane(PaneKind),
+}
+
+/// A row of the table of actions.
+#[derive(Debug)]
+pub(crate) struct ActionRow {
+    pub(crate) action: Action,
+    /// The name under which the settings file knows it; never changed.
+    pub(crate) id: &'static str,
+    pub(crate) name: Text,
+    pub(crate) menu: Menu,
+    pub(crate) context: Context,
+    /// Whether holding its key repeats it.
+    pub(crate) repeats: bool,
+}
+
+macro_rules! actions {
+    ($($action:ident $id:literal $name:ident $menu:ident $context:ident $($repeats:ident)?;)*) => {
+        /// Something a person can ask for without further words.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub(crate) enum Action {
+            $(#[doc = concat!("`", $id, "`")] $action,)*
+        }
+
+        /// Every action, in the order of the menus.
+        pub(crate) const ACTIONS: &[ActionRow] = &[
+            $(ActionRow {
+                action: Action::$action,
+                id: $id,
+                name: words::$name,
+                menu: Menu::$menu,
+                context: Context::$context,
+                repeats: actions!(@ $($repeats)?),
+            },)*
+        ];
+    };
+    (@ repeats) => { true };
+    (@) => { false };
+}
+
+actions! {
+    OpenStarter "file.starter" STARTER File Everywhere;
+    Open "file.open" OPEN File Everywhere;
+    Import "file.import" SHOW_IMPORT File Corpus;
+    Close "file.close" CLOSE File Corpus;
+    Settings "file.settings" SETTINGS File Everywhere;
+    Quit "file.quit" QUIT File Everywhere;
+    Undo "edit.undo" UNDO Edit Corpus repeats;
+    Redo "edit.redo" REDO Edit Corpus repeats;
+    Search "edit.search" SHOW_SEARCH Edit Corpus;
+    ClearSelection "edit.clear-selection" SELECTION_CLEAR Edit Corpus;
+    NewAnnotation "annotation.new" ANNOTATION_NEW Annotation Corpus;
+    SplitAnnotation "annotation.split" ANNOTATION_SPLIT Annotation Corpus;
+    DeleteAnnotation "annotation.delete" ANNOTATION_DELETE Annotation Corpus;
+    NextAnnotation "annotation.next" ANNOTATION_NEXT Annotation Corpus repeats;
+    PreviousAnnotation "annotation.previous" ANNOTATION_PREVIOUS Annotation Corpus repeats;
+    NextTier "tier.next" TIER_NEXT Annotation Corpus repeats;
+    PreviousTier "tier.previous" TIER_PREVIOUS Annotation Corpus repeats;
+    Play "play.toggle" PLAY Play Corpus;
+    PlaySelection "play.selection" PLAY_SELECTION Play Corpus;
+    Loop "play.loop" LOOP Play Corpus;
+    ShuttleBack "play.shuttle-back" SHUTTLE_BACK Play Corpus;
+    ShuttleStop "play.shuttle-stop" SHUTTLE_STOP Play Corpus;
+    ShuttleForward "play.shuttle-forward" SHUTTLE_FORWARD Play Corpus;
+    FrameBack "play.frame-back" FRAME_BACK Play Corpus repeats;
+    FrameForward "play.frame-forward" FRAME_FORWARD Play Corpus repeats;
+    SecondBack "play.second-back" SECOND_BACK Play Corpus repeats;
+    SecondForward "play.second-forward" SECOND_FORWARD Play Corpus repeats;
+    ToStart "play.to-start" TO_START Play Corpus;
+    ToEnd "play.to-end" TO_END Play Corpus;
+    Slower "play.slower" SLOWER Play Corpus repeats;
+    Faster "play.faster" FASTER Play Corpus repeats;
+    NormalSpeed "play.normal-speed" NORMAL_SPEED Play Corpus;
+    NextRecording "play.next-recording" RECORDING_NEXT Play Corpus repeats;
+    PreviousRecording "play.previous-recording" RECORDING_PREVIOUS Play Corpus repeats;
+    ViewFront "view.front" VIEW_FRONT View Corpus;
+    ViewSigner "view.signer" VIEW_SIGNER View Corpus;
+    ViewLeft "view.left" VIEW_LEFT View Corpus;
+    ViewRight "view.right" VIEW_RIGHT View Corpus;
+    ViewTop "view.top" VIEW_TOP View Corpus;
+    ViewRightHand "view.right-hand" VIEW_RIGHT_HAND View Corpus;
+    ViewLeftHand "view.left-hand" VIEW_LEFT_HAND View Corpus;
+    ZoomIn "view.zoom-in" ZOOM_IN View Corpus repeats;
+    ZoomOut "view.zoom-out" ZOOM_OUT View Corpus repeats;
+    ZoomAll "view.zoom-all" ZOOM_ALL View Corpus;
+    Larger "view.larger" LARGER View Everywhere repeats;
+    Smaller "view.smaller" SMALLER View Everywhere repeats;
+    Theme "view.theme" THEME View Everywhere;
+    ShowLibrary "pane.library" SHOW_LIBRARY Panes Corpus;
+    ShowStage "pane.stage" SHOW_STAGE Panes Corpus;
+    ShowTimeline "pane.timeline" SHOW_TIMELINE Panes Corpus;
+    ShowRecombine "pane.recombine" SHOW_RECOMBINE Panes Corpus;
+    ShowInspector "pane.inspector" SHOW_INSPECTOR Panes Corpus;
+    ShowHistory "pane.history" SHOW_HISTORY Panes Corpus;
+    ResetLayout "pane.reset" LAYOUT_RESET Panes Corpus;
+    Palette "help.palette" PALETTE Help Everywhere;
+    Keys "help.keys" KEYS Help Everywhere;
+}
+
+impl Action {
+    /// Returns the row of the table.
+    pub(crate) fn row(self) -> &'static ActionRow {
+        &ACTIONS[self as usize]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn rows_are_found_by_their_action_and_ids_are_taken_once() {
+        let ids: BTreeSet<&str> = ACTIONS.iter().map(|row| row.id).collect();
+        assert_eq!(ids.len(), ACTIONS.len());
+        for row in ACTIONS {
+            assert_eq!(row.action.row().id, row.id);
+        }
+    }
+}

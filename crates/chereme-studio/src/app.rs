@@ -1,0 +1,382 @@
+//! The window: one frame after the other.
+
+use std::path::PathBuf;
+use std::sync::{Arc, OnceLock};
+
+use chereme_motion::Instant;
+use eframe::egui::{self, CentralPanel, Context, Frame, Panel, Ui};
+use egui_tiles::{Behavior, SimplificationOptions, TileId, Tree, UiResponse};
+
+use crate::Options;
+use crate::command::Command;
+use crate::context::{Outbox, Seen, Shown};
+use crate::keys::{Keys, Place};
+use crate::model::Snapshot;
+use crate::model::reel::Reel;
+use crate::overlay::Overlays;
+use crate::panes::{PaneKind, Panes};
+use crate::settings::{Folders, Settings};
+use crate::start::Start;
+use crate::work::begin::{Begin, Beginning};
+use crate::work::desk::{Desk, News, Wake};
+use crate::work::{Outcome, Work};
+use crate::{layout, theme};
+
+/// The window's whole state; [`ui`](Self::ui) is one frame of it.
+pub struct Studio {
+    pub(crate) author: String,
+    pub(crate) folders: Folders,
+    pub(crate) settings: Settings,
+    /// The settings as the file has them.
+    pub(crate) saved: Settings,
+    pub(crate) keys: Keys,
+    pub(crate) desk: Option<Desk>,
+    pub(crate) beginning: Option<Beginning>,
+    /// Nothing before the corpus was first read.
+    pub(crate) snapshot: Option<Snapshot>,
+    pub(crate) shown: Shown,
+    pub(crate) reel: Reel,
+    pub(crate) tree: Tree<PaneKind>,
+    pub(crate) panes: Panes,
+    /// The pane that was used last.
+    pub(crate) pane: Option<PaneKind>,
+    pub(crate) start: Start,
+    pub(crate) overlays: Overlays,
+    pub(crate) out: Outbox,
+    pub(crate) wake: Wake,
+    ctx: Arc<OnceLock<Context>>,
+    /// When the last frame was, in seconds of the window's clock.
+    clock: Option<f64>,
+}
+
+impl Studio {
+    /// Returns the window's state before its first frame.
+    #[must_use]
+    pub fn new(options: Options) -> Self {
+        let Options {
+            corpus,
+            author,
+            folders,
+            language,
+        } = options;
+        let usual = Settings {
+            language,
+            ..Settings::default()
+        };
+        let file = folders.settings_file();
+        let settings = file.as_deref().and_then(Settings::read).unwrap_or(usual);
+        let ctx: Arc<OnceLock<Context>> = Arc::default();
+        let waked = ctx.clone();
+        let wake: Wake = Arc::new(move || {
+            if let Some(ctx) = waked.get() {
+                ctx.request_repaint();
+            }
+        });
+        let mut out = Outbox::default();
+        if let Some(path) = corpus {
+            out.send(Command::Begin(Begin::Open(path)));
+        }
+        Self {
+            author,
+            folders,
+            keys: Keys::new(settings.keymap, &settings.keys),
+            tree: layout::remembered(settings.layout.as_ref()),
+            saved: settings.clone(),
+            settings,
+            desk: None,
+            beginning: None,
+            snapshot: None,
+            shown: Shown::default(),
+            reel: Reel::default(),
+            panes: Panes::default(),
+            pane: None,
+            start: Start::default(),
+            overlays: Overlays::default(),
+            out,
+            wake,
+            ctx,
+            clock: None,
+        }
+    }
+
+    /// Draws one frame, takes what was done in it, and carries it out.
+    pub fn ui(&mut self, ui: &mut Ui) {
+        let ctx = ui.ctx().clone();
+        if self.ctx.set(ctx.clone()).is_ok() {
+            theme::install(&ctx);
+        }
+        theme::apply(&ctx, &self.settings);
+        self.listen();
+        self.tick(&ctx);
+        self.take_keys(&ctx);
+        self.take_dropped(&ctx);
+        self.bars(ui);
+        if self.desk.is_some() {
+            self.workbench(ui);
+        } else {
+            CentralPanel::default().show(ui, |ui| self.start_page(ui));
+        }
+        self.overlays(&ctx);
+        self.carry_out(&ctx);
+        self.remember(&ctx);
+    }
+
+    /// Returns where the playhead is.
+    #[must_use]
+    pub fn playhead(&self) -> Instant {
+        self.shown.player.playhead()
+    }
+
+    /// Returns the open corpus's file.
+    #[must_use]
+    pub fn corpus(&self) -> Option<&PathBuf> {
+        self.desk.as_ref().map(|desk| &desk.path)
+    }
+
+    /// Returns whether nothing is being done: no work, no opening, the corpus read.
+    #[must_use]
+    pub fn is_idle(&self) -> bool {
+        let working = self
+            .desk
+            .as_ref()
+            .is_some_and(|desk| !desk.running.is_empty());
+        self.beginning.is_none() && !working && self.desk.is_some() == self.snapshot.is_some()
+    }
+
+    /// Runs `draw` with what panes see.
+    pub(crate) fn seen(&self, ctx: &Context) -> Option<Seen<'_>> {
+        Some(Seen {
+            snapshot: self.snapshot.as_ref()?,
+            shown: &self.shown,
+            reel: &self.reel,
+            keys: &self.keys,
+            language: self.settings.language,
+            dark: theme::is_dark(ctx),
+            running: &self.desk.as_ref()?.running,
+        })
+    }
+
+    /// Hears what the threads tell.
+    fn listen(&mut self) {
+        let ended = self.beginning.as_mut().and_then(Beginning::ended);
+        if let Some(ended) = ended {
+            self.beginning = None;
+            match ended {
+                Ok(path) => self.open(&path),
+                Err(error) => self
+                    .overlays
+                    .notices
+                    .trouble(&error, self.settings.language),
+            }
+        }
+        let news = self.desk.as_mut().map(Desk::news).unwrap_or_default();
+        for news in news {
+            match news {
+                News::Read(snapshot, own) => self.take_snapshot(snapshot, own),
+                News::Unread(error) => self
+                    .overlays
+                    .notices
+                    .trouble(&error, self.settings.language),
+                News::Far(..) => {}
+                News::Ended(id, ended) => {
+                    self.panes.hear(id, &ended);
+                    self.hear(ended);
+                }
+            }
+        }
+    }
+
+    /// Lets the playhead move with the clock, and has movement loaded where it goes.
+    fn tick(&mut self, ctx: &Context) {
+        let now = ctx.input(|input| input.time);
+        let passed = self.clock.map_or(0.0, |clock| now - clock);
+        self.clock = Some(now);
+        let player = &mut self.shown.player;
+        if player.is_playing() {
+            // A window that was hidden for a while goes on where it was.
+            player.advance(passed.min(0.5));
+            ctx.request_repaint();
+        }
+        let (at, direction) = (player.playhead(), player.direction());
+        if let Some((recording, piece, span)) = self.reel.wanted(at, direction) {
+            self.out.work(Work::Movement {
+                recording,
+                piece,
+                span,
+            });
+        }
+    }
+
+    fn take_keys(&mut self, ctx: &Context) {
+        if self.overlays.takes_keys() {
+            return;
+        }
+        let typing = ctx.text_edit_focused();
+        let focused = ctx.memory(|memory| memory.focused().is_some());
+        let place = Place {
+            corpus: self.snapshot.is_some(),
+            pane: self.pane,
+            typing,
+            focused,
+        };
+        for action in ctx.input_mut(|input| self.keys.take(input, place)) {
+            self.out.send(Command::Do(action));
+        }
+    }
+
+    fn take_dropped(&mut self, ctx: &Context) {
+        let dropped: Vec<PathBuf> = ctx.input(|input| {
+            let files = input.raw.dropped_files.iter();
+            files.map(|file| file.path().to_owned()).collect()
+        });
+        let one = match dropped.as_slice() {
+            [] => return,
+            [one] => Some(one.clone()),
+            _ => None,
+        };
+        let corpus = |path: &PathBuf| path.extension().is_some_and(|it| it == "chereme");
+        self.out.send(match one {
+            Some(path) if corpus(&path) => Command::Begin(Begin::Open(path)),
+            Some(path) if self.desk.is_none() && path.is_dir() => {
+                Command::Begin(Begin::Folder(path))
+            }
+            _ => Command::Import(dropped),
+        });
+    }
+
+    fn workbench(&mut self, ui: &mut Ui) {
+        let frame = Frame::new().fill(ui.visuals().extreme_bg_color);
+        CentralPanel::default().frame(frame).show(ui, |ui| {
+            let Self {
+                tree,
+                panes,
+                snapshot,
+                shown,
+                reel,
+                keys,
+                settings,
+                desk,
+                out,
+                pane,
+                ..
+            } = self;
+            let (Some(snapshot), Some(desk)) = (snapshot.as_ref(), desk.as_ref()) else {
+                let words = crate::words::shell::READING.of(settings.language);
+                ui.centered_and_justified(|ui| ui.label(words));
+                return;
+            };
+            let seen = Seen {
+                snapshot,
+                shown,
+                reel,
+                keys,
+                language: settings.language,
+                dark: theme::is_dark(ui.ctx()),
+                running: &desk.running,
+            };
+            tree.ui(
+                &mut Workbench {
+                    panes,
+                    seen,
+                    out,
+                    pane,
+                },
+                ui,
+            );
+        });
+    }
+
+    fn bars(&mut self, ui: &mut Ui) {
+        Panel::top("menus").show(ui, |ui| self.menus(ui));
+        Panel::bottom("status").show(ui, |ui| self.status(ui));
+    }
+
+    /// Writes the settings where they changed, when nothing is being dragged.
+    fn remember(&mut self, ctx: &Context) {
+        if self.desk.is_some() && self.settings.layout.as_ref() != Some(&self.tree) {
+            self.settings.layout = Some(self.tree.clone());
+        }
+        let settled = !ctx.input(|input| input.pointer.any_down());
+        if self.settings == self.saved || !settled {
+            return;
+        }
+        self.saved = self.settings.clone();
+        let written = self
+            .folders
+            .settings_file()
+            .map(|file| self.settings.write(&file));
+        if let Some(Err(error)) = written {
+            self.overlays
+                .notices
+                .unsaved(&error, self.settings.language);
+        }
+    }
+
+    fn hear(&mut self, ended: Result<Outcome, chereme_corpus::Error>) {
+        let language = self.settings.language;
+        match ended {
+            Err(error) => self.overlays.notices.trouble(&error, language),
+            Ok(Outcome::Moved {
+                recording,
+                piece,
+                moving,
+            }) => self.reel.put(recording, piece, moving),
+            Ok(outcome) => self.overlays.notices.of(&outcome, language),
+        }
+    }
+}
+
+impl eframe::App for Studio {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        Self::ui(self, ui);
+    }
+}
+
+/// The panes as the layout asks for them.
+struct Workbench<'a> {
+    panes: &'a mut Panes,
+    seen: Seen<'a>,
+    out: &'a mut Outbox,
+    pane: &'a mut Option<PaneKind>,
+}
+
+impl Behavior<PaneKind> for Workbench<'_> {
+    fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, kind: &mut PaneKind) -> UiResponse {
+        let fill = ui.visuals().panel_fill;
+        Frame::new().fill(fill).inner_margin(8).show(ui, |ui| {
+            let rect = ui.available_rect_before_wrap();
+            let pressed = ui.input(|input| {
+                input.pointer.any_pressed()
+                    && input
+                        .pointer
+                        .interact_pos()
+                        .is_some_and(|at| rect.contains(at))
+            });
+            if pressed {
+                *self.pane = Some(*kind);
+            }
+            self.panes.get_mut(*kind).ui(ui, &self.seen, self.out);
+            ui.allocate_space(ui.available_size());
+        });
+        UiResponse::None
+    }
+
+    fn tab_title_for_pane(&mut self, kind: &PaneKind) -> egui::WidgetText {
+        self.seen.say(kind.title()).into()
+    }
+
+    fn simplification_options(&self) -> SimplificationOptions {
+        SimplificationOptions {
+            all_panes_must_have_tabs: true,
+            ..SimplificationOptions::default()
+        }
+    }
+
+    fn tab_bar_height(&self, _style: &egui::Style) -> f32 {
+        28.0
+    }
+
+    fn gap_width(&self, _style: &egui::Style) -> f32 {
+        4.0
+    }
+}

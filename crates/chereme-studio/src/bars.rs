@@ -1,0 +1,84 @@
+//! The menu bar above, and the status line below.
+
+use eframe::egui::{Button, MenuBar, ProgressBar, Ui};
+
+use crate::action::{ACTIONS, Context, Menu};
+use crate::app::Studio;
+use crate::command::Command;
+use crate::words::{fill, shell as words};
+use crate::work::Lane;
+use crate::work::begin::Begin;
+
+impl Studio {
+    pub(crate) fn menus(&mut self, ui: &mut Ui) {
+        let language = self.settings.language;
+        MenuBar::new().ui(ui, |ui| {
+            for (menu, title) in Menu::ALL {
+                ui.menu_button(title.of(language), |ui| {
+                    self.menu(ui, menu);
+                    if menu == Menu::File {
+                        self.recent_menu(ui);
+                    }
+                });
+            }
+        });
+    }
+
+    fn menu(&mut self, ui: &mut Ui, menu: Menu) {
+        let open = self.snapshot.is_some();
+        for row in ACTIONS.iter().filter(|row| row.menu == menu) {
+            let counts = open || row.context == Context::Everywhere;
+            let button = Button::new(row.name.of(self.settings.language))
+                .shortcut_text(self.keys.text(row.action));
+            if ui.add_enabled(counts, button).clicked() {
+                self.out.send(Command::Do(row.action));
+            }
+        }
+    }
+
+    fn recent_menu(&mut self, ui: &mut Ui) {
+        if self.settings.recent.is_empty() {
+            return;
+        }
+        ui.menu_button(words::RECENT.of(self.settings.language), |ui| {
+            for path in &self.settings.recent {
+                if ui.button(path.display().to_string()).clicked() {
+                    self.out.send(Command::Begin(Begin::Open(path.clone())));
+                }
+            }
+        });
+    }
+
+    pub(crate) fn status(&mut self, ui: &mut Ui) {
+        let language = self.settings.language;
+        ui.horizontal(|ui| {
+            let (Some(desk), Some(snapshot)) = (&self.desk, &self.snapshot) else {
+                ui.weak(words::NOTHING_OPEN.of(language));
+                return;
+            };
+            let name = desk.path.file_name().unwrap_or_default().to_string_lossy();
+            ui.label(name)
+                .on_hover_text(desk.path.display().to_string());
+            let overview = &snapshot.overview;
+            let counts: [(&str, &dyn std::fmt::Display); 2] = [
+                ("recordings", &overview.recordings.len()),
+                ("signs", &overview.signs.len()),
+            ];
+            ui.weak(fill(words::STATUS_COUNTS.of(language), &counts));
+            for (id, running) in &desk.running {
+                if running.lane == Lane::Movement {
+                    continue;
+                }
+                ui.separator();
+                ui.label(running.task.of(language));
+                match running.far.share() {
+                    Some(share) => drop(ui.add(ProgressBar::new(share).desired_width(120.0))),
+                    None => drop(ui.spinner()),
+                }
+                if ui.small_button(words::CANCEL.of(language)).clicked() {
+                    self.out.send(Command::Stop(*id));
+                }
+            }
+        });
+    }
+}

@@ -1,0 +1,46 @@
+//! Everything that can be asked for, as one value: menus, keys, palette and panes send the same.
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
+use chereme_motion::{Instant, Span};
+
+use crate::action::Action;
+use crate::settings::Settings;
+use crate::work::begin::Begin;
+use crate::work::{Work, WorkId};
+
+/// Something asked for.
+#[derive(Debug, Clone)]
+pub(crate) enum Command {
+    /// What keys, menus and the palette can ask for.
+    Do(Action),
+    /// A use case of the corpus.
+    Work(WorkId, Work),
+    /// Stop a piece of work.
+    Stop(WorkId),
+    /// Open a corpus.
+    Begin(Begin),
+    /// Stop opening.
+    StopBeginning,
+    /// Show a recording, from its start.
+    Recording(i64),
+    /// Show a span of a recording, selected, with the playhead at its start.
+    Place(i64, Span),
+    /// Select a tier.
+    Tier(Option<i64>),
+    /// Select annotations.
+    Annotations(BTreeSet<i64>),
+    /// Select a span of time.
+    Span(Option<Span>),
+    /// Move the playhead.
+    Seek(Instant),
+    /// Play that many times as fast.
+    Speed(f64),
+    /// Have these files and folders taken in: opens the import with them.
+    Import(Vec<PathBuf>),
+    /// Change what is remembered.
+    Settings(Box<Settings>),
+    /// Put a notice away.
+    Dismiss(u64),
+}

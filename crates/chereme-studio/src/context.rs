@@ -1,0 +1,105 @@
+//! What a pane sees, what it may ask for, and what is shown and selected.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use chereme_motion::{Instant, Span};
+
+use crate::command::Command;
+use crate::keys::Keys;
+use crate::model::Snapshot;
+use crate::model::reel::Reel;
+use crate::player::Player;
+use crate::theme::Colours;
+use crate::words::{Language, Text};
+use crate::work::desk::Running;
+use crate::work::{Work, WorkId};
+
+/// What is shown and selected; only commands change it.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Shown {
+    /// The recording.
+    pub(crate) recording: Option<i64>,
+    /// The tier that edits are about.
+    pub(crate) tier: Option<i64>,
+    /// The annotations that edits are about.
+    pub(crate) annotations: BTreeSet<i64>,
+    /// The selected time, which is not the playhead.
+    pub(crate) span: Option<Span>,
+    /// The playhead and how it moves.
+    pub(crate) player: Player,
+}
+
+impl Shown {
+    /// Returns the annotation that is selected alone.
+    pub(crate) fn annotation(&self) -> Option<i64> {
+        (self.annotations.len() == 1)
+            .then(|| self.annotations.first().copied())
+            .flatten()
+    }
+}
+
+/// What a pane sees while it draws.
+#[derive(Clone, Copy)]
+pub(crate) struct Seen<'a> {
+    pub(crate) snapshot: &'a Snapshot,
+    pub(crate) shown: &'a Shown,
+    pub(crate) reel: &'a Reel,
+    pub(crate) keys: &'a Keys,
+    pub(crate) language: Language,
+    pub(crate) dark: bool,
+    /// Work that was given out and has not ended.
+    pub(crate) running: &'a BTreeMap<WorkId, Running>,
+}
+
+impl Seen<'_> {
+    /// Returns words in the window's language.
+    pub(crate) fn say(&self, text: Text) -> &'static str {
+        text.of(self.language)
+    }
+
+    pub(crate) fn colours(&self) -> &'static Colours {
+        Colours::of(self.dark)
+    }
+
+    pub(crate) fn is_running(&self, work: Option<WorkId>) -> bool {
+        work.is_some_and(|id| self.running.contains_key(&id))
+    }
+}
+
+/// What was asked for in a frame; carried out after it, in order.
+#[derive(Debug, Default)]
+pub(crate) struct Outbox {
+    commands: Vec<Command>,
+    next: u64,
+}
+
+impl Outbox {
+    /// Returns an empty one that goes on counting where `other` is.
+    pub(crate) fn after(other: &Self) -> Self {
+        Self {
+            commands: Vec::new(),
+            next: other.next,
+        }
+    }
+
+    pub(crate) fn send(&mut self, command: Command) {
+        self.commands.push(command);
+    }
+
+    /// Asks for work, and returns the number under which its outcome is told.
+    pub(crate) fn work(&mut self, work: Work) -> WorkId {
+        self.next += 1;
+        let id = WorkId(self.next);
+        self.commands.push(Command::Work(id, work));
+        id
+    }
+
+    /// Moves the playhead.
+    pub(crate) fn seek(&mut self, at: Instant) {
+        self.commands.push(Command::Seek(at));
+    }
+
+    pub(crate) fn take(&mut self) -> Vec<Command> {
+        std::mem::take(&mut self.commands)
+    }
+}

@@ -1,0 +1,40 @@
+//! What keeps the window from opening.
+
+/// A failure of the window itself; what fails inside it is told there.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The system gave no window.
+    #[error("no window can be opened: {reason}")]
+    Window {
+        /// What the system said.
+        reason: String,
+        /// What would be right.
+        remedy: String,
+    },
+}
+
+impl Error {
+    pub(crate) fn window(error: eframe::Error) -> Self {
+        let reason = error.to_string();
+        let remedy = if cfg!(target_os = "linux") {
+            "a display (X11 or Wayland) with OpenGL is needed; on Debian: apt-get install libgl1 \
+             libegl1 libxkbcommon-x11-0 libxcursor1 libxi6 libx11-xcb1. Every other command of \
+             chereme works without a window"
+        } else {
+            "a display with OpenGL is needed. Every other command of chereme works without a window"
+        };
+        Self::Window {
+            reason,
+            remedy: remedy.to_owned(),
+        }
+    }
+
+    /// Returns what would be right.
+    #[must_use]
+    pub fn remedy(&self) -> &str {
+        match self {
+            Self::Window { remedy, .. } => remedy,
+        }
+    }
+}

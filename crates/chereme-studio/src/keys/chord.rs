@@ -1,0 +1,147 @@
+//! A key with its modifiers, as people write it.
+
+use std::fmt;
+use std::str::FromStr;
+
+use eframe::egui::{Key, Modifiers};
+use serde::{Deserialize, Serialize};
+
+/// A key with its modifiers: `Ctrl+Shift+Space`. Ctrl is the command key on a Mac.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub(crate) struct Chord {
+    pub(crate) ctrl: bool,
+    pub(crate) alt: bool,
+    pub(crate) shift: bool,
+    pub(crate) key: Key,
+}
+
+/// A text that is no [`Chord`].
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0:?} is no key: write one like Ctrl+Shift+Space")]
+pub(crate) struct NoChord(String);
+
+impl Chord {
+    pub(crate) fn new(key: Key, modifiers: Modifiers) -> Self {
+        Self {
+            ctrl: modifiers.command || modifiers.ctrl,
+            alt: modifiers.alt,
+            shift: modifiers.shift,
+            key,
+        }
+    }
+
+    /// Returns whether a text field does something with it.
+    pub(crate) fn is_for_text(self) -> bool {
+        const EDITING: [Key; 14] = [
+            Key::A,
+            Key::C,
+            Key::V,
+            Key::X,
+            Key::Y,
+            Key::Z,
+            Key::Backspace,
+            Key::Delete,
+            Key::ArrowLeft,
+            Key::ArrowRight,
+            Key::ArrowUp,
+            Key::ArrowDown,
+            Key::Home,
+            Key::End,
+        ];
+        let function = self.key >= Key::F1 && self.key <= Key::F35;
+        if self.ctrl {
+            return EDITING.contains(&self.key) && !self.alt;
+        }
+        !function && !self.alt
+    }
+
+    /// Returns whether a button, a list or a slider that has the focus does something with it.
+    pub(crate) fn is_for_widgets(self) -> bool {
+        const MOVING: [Key; 7] = [
+            Key::Space,
+            Key::Enter,
+            Key::Tab,
+            Key::ArrowLeft,
+            Key::ArrowRight,
+            Key::ArrowUp,
+            Key::ArrowDown,
+        ];
+        !self.ctrl && !self.alt && MOVING.contains(&self.key)
+    }
+}
+
+impl fmt::Display for Chord {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (held, name) in [
+            (self.ctrl, "Ctrl+"),
+            (self.shift, "Shift+"),
+            (self.alt, "Alt+"),
+        ] {
+            if held {
+                f.write_str(name)?;
+            }
+        }
+        f.write_str(self.key.name())
+    }
+}
+
+impl FromStr for Chord {
+    type Err = NoChord;
+
+    fn from_str(text: &str) -> Result<Self, NoChord> {
+        let wrong = || NoChord(text.to_owned());
+        let mut modifiers = Modifiers::NONE;
+        let mut rest = text.trim();
+        while let Some((word, after)) = rest.split_once('+').filter(|(_, after)| !after.is_empty())
+        {
+            match word {
+                "Ctrl" => modifiers.ctrl = true,
+                "Shift" => modifiers.shift = true,
+                "Alt" => modifiers.alt = true,
+                _ => return Err(wrong()),
+            }
+            rest = after;
+        }
+        let key = Key::from_name(rest).ok_or_else(wrong)?;
+        Ok(Self::new(key, modifiers))
+    }
+}
+
+impl TryFrom<String> for Chord {
+    type Error = NoChord;
+
+    fn try_from(text: String) -> Result<Self, NoChord> {
+        text.parse()
+    }
+}
+
+impl From<Chord> for String {
+    fn from(chord: Chord) -> Self {
+        chord.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chords_read_as_they_are_written() {
+        for text in [
+            "Ctrl+Shift+Space",
+            "L",
+            "Alt+Left",
+            "Shift+Alt+N",
+            "F1",
+            "Ctrl+Plus",
+            "Comma",
+        ] {
+            assert_eq!(text.parse::<Chord>().expect("a chord").to_string(), text);
+        }
+        assert_eq!("Ctrl++".parse::<Chord>().map(|it| it.key), Ok(Key::Plus));
+        for bad in ["", "Ctrl+", "Hyper+A", "NoKey"] {
+            assert!(bad.parse::<Chord>().is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,226 @@
+//! Which keys mean which action: default keymaps as a table, changes of the user's, and matching.
+
+pub(crate) mod chord;
+pub(crate) mod table;
+
+use std::collections::BTreeMap;
+
+use eframe::egui::{Event, InputState};
+use serde::{Deserialize, Serialize};
+
+use crate::action::{ACTIONS, Action, Context};
+use crate::panes::PaneKind;
+use crate::words::{Text, shell};
+use chord::Chord;
+
+/// A set of default keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Keymap {
+    /// Those of ELAN.
+    #[default]
+    Elan,
+    /// Those of Praat, where it has any.
+    Praat,
+    /// Those of video editors: J, K, L.
+    Editor,
+}
+
+impl Keymap {
+    pub(crate) const ALL: [(Self, Text); 3] = [
+        (Self::Elan, shell::KEYMAP_ELAN),
+        (Self::Praat, shell::KEYMAP_PRAAT),
+        (Self::Editor, shell::KEYMAP_EDITOR),
+    ];
+}
+
+/// The keys of every action: a keymap with the user's own changes, by action id.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct Keys {
+    bound: BTreeMap<Action, Vec<Chord>>,
+}
+
+/// Keys that the user gave to actions, by action id; an empty list takes all keys away.
+pub(crate) type Rebound = BTreeMap<String, Vec<Chord>>;
+
+/// Where a key is pressed.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place {
+    /// Whether a corpus is open.
+    pub(crate) corpus: bool,
+    /// The pane that was used last.
+    pub(crate) pane: Option<PaneKind>,
+    /// Whether a text field takes what is typed.
+    pub(crate) typing: bool,
+    /// Whether some other widget has the focus of the keyboard.
+    pub(crate) focused: bool,
+}
+
+impl Keys {
+    /// Returns the keys of a keymap with the user's changes; a key the user gave to one action is
+    /// taken from the others of the same context.
+    pub(crate) fn new(keymap: Keymap, rebound: &Rebound) -> Self {
+        let mut bound = BTreeMap::new();
+        for row in ACTIONS {
+            let own = rebound.get(row.id).cloned();
+            bound.insert(
+                row.action,
+                own.unwrap_or_else(|| table::defaults(keymap, row.action)),
+            );
+        }
+        for (id, chords) in rebound {
+            let Some(row) = ACTIONS.iter().find(|row| row.id == id) else {
+                continue;
+            };
+            for other in ACTIONS
+                .iter()
+                .filter(|it| it.id != id && it.context == row.context)
+            {
+                if let Some(all) = bound.get_mut(&other.action)
+                    && !rebound.contains_key(other.id)
+                {
+                    all.retain(|chord| !chords.contains(chord));
+                }
+            }
+        }
+        Self { bound }
+    }
+
+    /// Returns the keys of an action.
+    pub(crate) fn of(&self, action: Action) -> &[Chord] {
+        self.bound.get(&action).map_or(&[], Vec::as_slice)
+    }
+
+    /// Returns the keys of an action as people read them, such as `Ctrl+Z`; empty where it has none.
+    pub(crate) fn text(&self, action: Action) -> String {
+        let all: Vec<String> = self.of(action).iter().map(Chord::to_string).collect();
+        all.join(", ")
+    }
+
+    /// Returns the action that `chord` means at `place`: the pane's own before the others.
+    pub(crate) fn action(&self, chord: Chord, place: Place) -> Option<Action> {
+        let taken =
+            (place.typing && chord.is_for_text()) || (place.focused && chord.is_for_widgets());
+        if taken {
+            return None;
+        }
+        let counts = |context: Context| match context {
+            Context::Everywhere => true,
+            Context::Corpus => place.corpus,
+            Context::Pane(pane) => place.corpus && place.pane == Some(pane),
+        };
+        let mut found = ACTIONS
+            .iter()
+            .filter(|row| counts(row.context) && self.of(row.action).contains(&chord));
+        found
+            .clone()
+            .find(|row| matches!(row.context, Context::Pane(_)))
+            .or_else(|| found.next())
+            .map(|row| row.action)
+    }
+
+    /// Takes the pressed keys that mean an action out of the input, and returns the actions.
+    pub(crate) fn take(&self, input: &mut InputState, place: Place) -> Vec<Action> {
+        let mut actions = Vec::new();
+        input.events.retain(|event| {
+            let Event::Key {
+                key,
+                pressed: true,
+                repeat,
+                modifiers,
+                ..
+            } = event
+            else {
+                return true;
+            };
+            let Some(action) = self.action(Chord::new(*key, *modifiers), place) else {
+                return true;
+            };
+            if !repeat || action.row().repeats {
+                actions.push(action);
+            }
+            false
+        });
+        actions
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const AT: Place = Place {
+        corpus: true,
+        pane: None,
+        typing: false,
+        focused: false,
+    };
+
+    fn chord(text: &str) -> Chord {
+        text.parse().expect("a chord")
+    }
+
+    #[test]
+    fn no_key_means_two_things_in_one_context() {
+        for (keymap, _) in Keymap::ALL {
+            let keys = Keys::new(keymap, &Rebound::new());
+            for (at, row) in ACTIONS.iter().enumerate() {
+                for other in &ACTIONS[at + 1..] {
+                    let both = keys
+                        .of(row.action)
+                        .iter()
+                        .find(|it| keys.of(other.action).contains(it));
+                    let apart = matches!((row.context, other.context), (Context::Pane(a), Context::Pane(b)) if a != b);
+                    assert!(
+                        both.is_none() || apart,
+                        "{keymap:?}: {} and {}: {both:?}",
+                        row.id,
+                        other.id
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_users_keys_go_before_the_keymap() {
+        let rebound = Rebound::from([("play.toggle".to_owned(), vec![chord("Ctrl+Z")])]);
+        let keys = Keys::new(Keymap::Elan, &rebound);
+        assert_eq!(keys.action(chord("Ctrl+Z"), AT), Some(Action::Play));
+        assert_eq!(keys.action(chord("Ctrl+Space"), AT), None);
+        assert!(keys.of(Action::Undo).is_empty());
+    }
+
+    #[test]
+    fn typing_keeps_its_keys() {
+        let keys = Keys::new(Keymap::Editor, &Rebound::new());
+        let typing = Place { typing: true, ..AT };
+        assert_eq!(keys.action(chord("L"), AT), Some(Action::ShuttleForward));
+        assert_eq!(keys.action(chord("L"), typing), None);
+        assert_eq!(keys.action(chord("Ctrl+Z"), typing), None);
+        assert_eq!(
+            keys.action(chord("Ctrl+Shift+P"), typing),
+            Some(Action::Palette)
+        );
+        assert_eq!(
+            keys.action(
+                chord("Space"),
+                Place {
+                    focused: true,
+                    ..AT
+                }
+            ),
+            None
+        );
+        assert_eq!(
+            keys.action(
+                chord("L"),
+                Place {
+                    corpus: false,
+                    ..AT
+                }
+            ),
+            None
+        );
+    }
+}

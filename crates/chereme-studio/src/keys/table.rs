@@ -1,0 +1,103 @@
+//! The default keys: for each action those of ELAN 6.9, of Praat, and of video editors.
+//!
+//! Several keys are parted by blanks; `none` is none; `=` is the same as ELAN's.
+
+use super::Keymap;
+use crate::action::Action;
+use crate::keys::chord::Chord;
+
+/// Rows of action, ELAN, Praat, video editor.
+pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
+    (Action::Open, ["Ctrl+O", "=", "="]),
+    (Action::Import, ["Ctrl+Shift+I", "=", "Ctrl+I"]),
+    (Action::Close, ["Ctrl+W", "=", "="]),
+    (Action::Settings, ["Ctrl+Comma", "=", "="]),
+    (Action::Quit, ["Ctrl+Q", "=", "="]),
+    (Action::Undo, ["Ctrl+Z", "=", "="]),
+    (Action::Redo, ["Ctrl+Y Ctrl+Shift+Z", "=", "="]),
+    (Action::Search, ["Ctrl+F", "=", "="]),
+    (Action::ClearSelection, ["Shift+Alt+C", "=", "Ctrl+D"]),
+    (Action::NewAnnotation, ["Ctrl+Alt+N", "Enter", "Enter"]),
+    (
+        Action::SplitAnnotation,
+        ["Ctrl+Alt+S", "Ctrl+Alt+S", "Ctrl+B S"],
+    ),
+    (
+        Action::DeleteAnnotation,
+        ["Ctrl+Alt+D", "Alt+Backspace", "Delete"],
+    ),
+    (Action::NextAnnotation, ["Alt+Right", "=", "Tab"]),
+    (Action::PreviousAnnotation, ["Alt+Left", "=", "Shift+Tab"]),
+    (Action::NextTier, ["Ctrl+Down", "=", "="]),
+    (Action::PreviousTier, ["Ctrl+Up", "=", "="]),
+    (Action::Play, ["Ctrl+Space", "Tab", "Space"]),
+    (Action::PlaySelection, ["Shift+Space", "=", "Shift+Space"]),
+    (Action::Loop, ["Ctrl+L", "=", "Ctrl+L"]),
+    (Action::ShuttleBack, ["none", "none", "J"]),
+    (Action::ShuttleStop, ["none", "none", "K"]),
+    (Action::ShuttleForward, ["none", "none", "L"]),
+    (Action::FrameBack, ["Ctrl+Left", "=", "Left Comma"]),
+    (Action::FrameForward, ["Ctrl+Right", "=", "Right Period"]),
+    (Action::SecondBack, ["Shift+Left", "=", "="]),
+    (Action::SecondForward, ["Shift+Right", "=", "="]),
+    (Action::ToStart, ["Ctrl+B Home", "Home", "Home"]),
+    (Action::ToEnd, ["Ctrl+E End", "End", "End"]),
+    (Action::Slower, ["Ctrl+5", "=", "OpenBracket"]),
+    (Action::Faster, ["Ctrl+6", "=", "CloseBracket"]),
+    (Action::NormalSpeed, ["Ctrl+Alt+0", "=", "="]),
+    (Action::NextRecording, ["Ctrl+PageDown", "=", "="]),
+    (Action::PreviousRecording, ["Ctrl+PageUp", "=", "="]),
+    (Action::ViewFront, ["Alt+1", "=", "1"]),
+    (Action::ViewSigner, ["Alt+2", "=", "2"]),
+    (Action::ViewLeft, ["Alt+3", "=", "3"]),
+    (Action::ViewRight, ["Alt+4", "=", "4"]),
+    (Action::ViewTop, ["Alt+5", "=", "5"]),
+    (Action::ViewRightHand, ["Alt+6", "=", "6"]),
+    (Action::ViewLeftHand, ["Alt+7", "=", "7"]),
+    (Action::ZoomIn, ["Ctrl+Equals Ctrl+Plus", "Ctrl+I", "="]),
+    (Action::ZoomOut, ["Ctrl+Minus", "=", "="]),
+    (Action::ZoomAll, ["Ctrl+0", "Ctrl+A", "="]),
+    (Action::Larger, ["Ctrl+Alt+Equals Ctrl+Alt+Plus", "=", "="]),
+    (Action::Smaller, ["Ctrl+Alt+Minus", "=", "="]),
+    (Action::ShowLibrary, ["Shift+F1", "=", "="]),
+    (Action::ShowStage, ["Shift+F2", "=", "="]),
+    (Action::ShowTimeline, ["Shift+F3", "=", "="]),
+    (Action::ShowRecombine, ["Ctrl+R", "=", "="]),
+    (Action::ShowInspector, ["Shift+F4", "=", "="]),
+    (Action::ShowHistory, ["Ctrl+H", "=", "="]),
+    (Action::Palette, ["Ctrl+Shift+P", "=", "="]),
+    (Action::Keys, ["F1", "=", "="]),
+];
+
+/// Returns the keys that a keymap gives an action.
+pub(crate) fn defaults(keymap: Keymap, action: Action) -> Vec<Chord> {
+    let Some((_, keys)) = DEFAULTS.iter().find(|(of, _)| *of == action) else {
+        return Vec::new();
+    };
+    let text = match (keymap, keys) {
+        (Keymap::Elan, [elan, ..])
+        | (Keymap::Praat, [elan, "=", _])
+        | (Keymap::Editor, [elan, _, "="]) => elan,
+        (Keymap::Praat, [_, praat, _]) => praat,
+        (Keymap::Editor, [_, _, editor]) => editor,
+    };
+    text.split_whitespace()
+        .filter(|word| *word != "none")
+        .filter_map(|chord| chord.parse().ok())
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_key_of_the_table_is_one() {
+        for (action, keys) in DEFAULTS {
+            for text in keys.iter().flat_map(|keys| keys.split_whitespace()) {
+                let known = text == "=" || text == "none" || text.parse::<Chord>().is_ok();
+                assert!(known, "{action:?}: {text}");
+            }
+        }
+    }
+}

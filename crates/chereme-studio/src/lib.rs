@@ -1,0 +1,83 @@
+//! The window skin: stage, timeline, search, recombination, history.
+//!
+//! [`run`] opens the window. It shows a [`model`] snapshot that a thread reads from
+//! [`chereme_corpus`], and never waits for it; everything a person does is a
+//! [command](command::Command), carried out after the frame or by a thread beside it.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`app`] | the window: one frame after the other |
+//! | [`action`] | what keys, menus and palette can ask for: a table |
+//! | [`command`], [`perform`] | everything that can be asked for, and the one place that does it |
+//! | [`context`] | what a pane sees, what it may ask for, what is selected |
+//! | [`model`] | the corpus at one moment; movement in pieces around the playhead |
+//! | [`work`] | use cases of the corpus on threads, with progress and stopping |
+//! | [`keys`] | default keymaps as a table, the user's changes, matching |
+//! | [`words`] | every text in English and French |
+//! | [`player`] | the transport |
+//! | [`settings`], [`layout`], [`theme`] | what is remembered, where panes are, how it looks |
+//! | [`panes`] | one module each: rows by plain functions in `data`, widgets in `ui` |
+//! | [`bars`], [`start`], [`overlay`] | menus and status, the page without a corpus, what lies above |
+
+mod action;
+mod app;
+mod bars;
+mod command;
+mod context;
+mod error;
+mod keys;
+mod layout;
+mod model;
+mod overlay;
+mod panes;
+mod perform;
+mod player;
+mod settings;
+mod start;
+mod theme;
+mod words;
+mod work;
+
+use std::path::PathBuf;
+
+pub use app::Studio;
+pub use error::Error;
+pub use settings::Folders;
+pub use words::Language;
+
+use eframe::egui::ViewportBuilder;
+
+/// What the window starts with.
+#[derive(Debug, Clone, Default)]
+pub struct Options {
+    /// The corpus to open; the start page where there is none.
+    pub corpus: Option<PathBuf>,
+    /// Who does the work, for the history.
+    pub author: String,
+    /// Where settings and the starter corpus are kept.
+    pub folders: Folders,
+    /// The language where the settings say nothing yet.
+    pub language: Language,
+}
+
+/// Opens the window, and returns when it is closed.
+///
+/// # Errors
+/// [`Error::Window`] where the system has no display, or none that can draw.
+pub fn run(options: Options) -> Result<(), Error> {
+    let native = eframe::NativeOptions {
+        viewport: ViewportBuilder::default()
+            .with_title("Chereme")
+            .with_app_id("chereme")
+            .with_inner_size([1280.0, 800.0])
+            .with_min_inner_size([640.0, 420.0])
+            .with_drag_and_drop(true),
+        ..eframe::NativeOptions::default()
+    };
+    let started = eframe::run_native(
+        "chereme",
+        native,
+        Box::new(move |_| Ok(Box::new(Studio::new(options)))),
+    );
+    started.map_err(Error::window)
+}

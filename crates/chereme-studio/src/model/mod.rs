@@ -1,0 +1,73 @@
+//! What the window knows of the corpus: a snapshot that never changes, and the movement that is shown.
+
+pub(crate) mod reel;
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use chereme_corpus::{Contents, Overview, RecordingGlance, TierContents};
+
+/// The corpus at one moment, and what is said about the recording that is shown.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Snapshot {
+    pub(crate) overview: Arc<Overview>,
+    pub(crate) open: Option<Arc<Opened>>,
+}
+
+/// What is said about a recording, and where each annotation is in it.
+#[derive(Debug)]
+pub(crate) struct Opened {
+    pub(crate) contents: Contents,
+    /// The tier and the place in its columns of every annotation.
+    places: HashMap<i64, (usize, usize)>,
+}
+
+impl Opened {
+    pub(crate) fn new(contents: Contents) -> Self {
+        let mut places = HashMap::new();
+        for (tier, it) in contents.tiers.iter().enumerate() {
+            let ids = it.annotations.ids.iter().enumerate();
+            places.extend(ids.map(|(at, id)| (*id, (tier, at))));
+        }
+        Self { contents, places }
+    }
+}
+
+/// An annotation in a snapshot.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Found<'a> {
+    pub(crate) tier: &'a TierContents,
+    /// Its place in the tier's columns.
+    pub(crate) at: usize,
+}
+
+impl Snapshot {
+    /// Returns the recording of that row at a glance.
+    pub(crate) fn recording(&self, id: i64) -> Option<&RecordingGlance> {
+        self.overview.recordings.iter().find(|it| it.row.id == id)
+    }
+
+    /// Returns the recording of that name at a glance.
+    pub(crate) fn recording_named(&self, name: &str) -> Option<&RecordingGlance> {
+        self.overview
+            .recordings
+            .iter()
+            .find(|it| it.row.name == name)
+    }
+
+    /// Returns what is said about that recording, where it is the one that was read.
+    pub(crate) fn contents(&self, recording: i64) -> Option<&Contents> {
+        let contents = &self.open.as_deref()?.contents;
+        (contents.recording.id == recording).then_some(contents)
+    }
+
+    /// Returns the annotation of that row, where it is in the recording that was read.
+    pub(crate) fn annotation(&self, id: i64) -> Option<Found<'_>> {
+        let open = self.open.as_deref()?;
+        let (tier, at) = *open.places.get(&id)?;
+        Some(Found {
+            tier: &open.contents.tiers[tier],
+            at,
+        })
+    }
+}

@@ -1,0 +1,224 @@
+//! Movement of the recording that is shown, loaded in pieces around the playhead.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use chereme_corpus::{Moving, RecordingGlance};
+use chereme_motion::{Instant, Pose, Rate, Span};
+
+/// Frames of a piece.
+const PIECE: usize = 1200;
+/// How many pieces are kept.
+const KEPT: usize = 12;
+
+/// The movement of one recording, as far as it is loaded.
+#[derive(Debug, Default)]
+pub(crate) struct Reel {
+    /// The recording's row, its frames, their rate, and where the first lies on its clock.
+    source: Option<Source>,
+    /// The piece loaded first, whose skeleton and anatomy are those of all.
+    first: Option<Arc<Moving>>,
+    pieces: BTreeMap<usize, Arc<Moving>>,
+    asked: BTreeSet<usize>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Source {
+    recording: i64,
+    frames: usize,
+    rate: Rate,
+    offset: i64,
+}
+
+impl Reel {
+    /// Turns to a recording; what is loaded of it stays where its movement is the same.
+    pub(crate) fn load(&mut self, recording: Option<&RecordingGlance>) {
+        let source = recording.and_then(|it| {
+            Some(Source {
+                recording: it.row.id,
+                frames: usize::try_from(it.frames)
+                    .ok()
+                    .filter(|frames| *frames > 0)?,
+                rate: it.rate?,
+                offset: it.offset_us,
+            })
+        });
+        if source != self.source {
+            *self = Self {
+                source,
+                ..Self::default()
+            };
+        }
+    }
+
+    /// Returns whether the recording holds movement at all.
+    pub(crate) fn has_movement(&self) -> bool {
+        self.source.is_some()
+    }
+
+    /// Returns the rate of its frames.
+    pub(crate) fn rate(&self) -> Option<Rate> {
+        self.source.map(|source| source.rate)
+    }
+
+    /// Returns a loaded piece for its skeleton and anatomy.
+    pub(crate) fn sample(&self) -> Option<&Arc<Moving>> {
+        self.first.as_ref()
+    }
+
+    /// Returns the posture at that moment of the recording, where its piece is loaded.
+    pub(crate) fn pose(&self, at: Instant) -> Option<Pose> {
+        let source = self.source?;
+        let frame = source.frame(at);
+        let moving = self.pieces.get(&(frame / PIECE))?;
+        let start = source.rate.instant(frame / PIECE * PIECE).micros();
+        let inside = at.micros() - source.offset - start;
+        Some(moving.clip.sample(Instant::from_micros(inside.max(0))))
+    }
+
+    /// Returns the next piece to load for a playhead there that moves that way, and marks it asked.
+    pub(crate) fn wanted(&mut self, at: Instant, direction: f64) -> Option<(i64, usize, Span)> {
+        let source = self.source?;
+        let here = source.frame(at) / PIECE;
+        let last = (source.frames - 1) / PIECE;
+        let next = if direction < 0.0 {
+            here.checked_sub(1)
+        } else {
+            Some(here + 1)
+        };
+        let piece = [Some(here), next]
+            .into_iter()
+            .flatten()
+            .filter(|piece| *piece <= last)
+            .find(|piece| !self.pieces.contains_key(piece) && !self.asked.contains(piece))?;
+        self.asked.insert(piece);
+        let frames = piece * PIECE..((piece + 1) * PIECE).min(source.frames);
+        Some((
+            source.recording,
+            piece,
+            source.rate.span(frames).shifted(source.offset),
+        ))
+    }
+
+    /// Takes a piece in, and lets those go that are farthest from it.
+    pub(crate) fn put(&mut self, recording: i64, piece: usize, moving: Arc<Moving>) {
+        if self
+            .source
+            .is_none_or(|source| source.recording != recording)
+        {
+            return;
+        }
+        self.asked.remove(&piece);
+        self.first.get_or_insert_with(|| moving.clone());
+        self.pieces.insert(piece, moving);
+        while self.pieces.len() > KEPT {
+            let far = self
+                .pieces
+                .keys()
+                .copied()
+                .max_by_key(|it| it.abs_diff(piece));
+            self.pieces.remove(&far.unwrap_or(piece));
+        }
+    }
+}
+
+impl Source {
+    fn frame(&self, at: Instant) -> usize {
+        let own = Instant::from_micros((at.micros() - self.offset).max(0));
+        self.rate.frame_at(own).min(self.frames - 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_corpus::{RecordingRow, Stretch};
+    use chereme_motion::{Anatomy, Clip, Joint, Skeleton, glam::DVec3};
+
+    fn glance(frames: u64) -> RecordingGlance {
+        let row = RecordingRow {
+            id: 7,
+            name: "r".into(),
+            signer_id: None,
+            signer: None,
+            origin: "captured".into(),
+            duration_us: 1,
+            licence: None,
+            notes: None,
+        };
+        let rate = Rate::new(100, 1).ok();
+        RecordingGlance {
+            row,
+            frames,
+            rate,
+            offset_us: 500_000,
+            tiers: 0,
+            tokens: 0,
+            recipe: None,
+        }
+    }
+
+    fn piece(reel: &mut Reel, at: i64) -> Option<(usize, Span)> {
+        reel.wanted(Instant::from_micros(at), 1.0)
+            .map(|(_, piece, span)| (piece, span))
+    }
+
+    #[test]
+    fn pieces_around_the_playhead_are_asked_for_once_and_cover_every_frame() {
+        let mut reel = Reel::default();
+        reel.load(Some(&glance(3000)));
+        let span =
+            |start, end| Span::between(Instant::from_micros(start), Instant::from_micros(end));
+        assert_eq!(piece(&mut reel, 0), Some((0, span(500_000, 12_500_000))));
+        assert_eq!(piece(&mut reel, 0), Some((1, span(12_500_000, 24_500_000))));
+        assert_eq!(piece(&mut reel, 0), None);
+        assert_eq!(
+            piece(&mut reel, 99_000_000),
+            Some((2, span(24_500_000, 30_500_000)))
+        );
+        assert_eq!(piece(&mut reel, 99_000_000), None);
+        reel.load(Some(&glance(0)));
+        assert!(!reel.has_movement());
+    }
+
+    #[test]
+    fn the_posture_is_that_of_the_moment() {
+        let joint = Joint::new("root", None, DVec3::ZERO);
+        let skeleton: Arc<Skeleton> = Skeleton::new(vec![joint]).expect("a skeleton").into();
+        let rate = Rate::new(100, 1).expect("a rate");
+        let poses: Vec<Pose> = (0..600)
+            .map(|frame| {
+                let mut pose = Clip::still(skeleton.clone(), rate, 1).pose(0);
+                pose.translations[0].x = f64::from(1200 + frame);
+                pose
+            })
+            .collect();
+        let clip = Clip::from_poses(skeleton.clone(), rate, &poses).expect("a clip");
+        let stretch = Stretch {
+            recording: glance(1).row,
+            span: Span::default(),
+            token: None,
+        };
+        let anatomy = Anatomy::detect(&skeleton);
+        let mut reel = Reel::default();
+        reel.load(Some(&glance(1800)));
+        reel.put(
+            7,
+            1,
+            Arc::new(Moving {
+                stretch,
+                clip,
+                anatomy,
+            }),
+        );
+        let x = |reel: &Reel, at| {
+            reel.pose(Instant::from_micros(at))
+                .map(|it| it.translations[0].x)
+        };
+        assert_eq!(x(&reel, 12_500_000), Some(1200.0));
+        assert_eq!(x(&reel, 15_500_000), Some(1500.0));
+        assert_eq!(x(&reel, 1_000_000), None);
+        reel.put(8, 0, reel.sample().expect("one").clone());
+        assert_eq!(reel.pieces.len(), 1);
+    }
+}

@@ -1,0 +1,137 @@
+//! The keys: which keymap, every action with its keys, and changing them.
+
+use eframe::egui::{
+    Button, ComboBox, Context, Event, Grid, Id, Key, Role, ScrollArea, Ui, WidgetInfo, Window,
+};
+
+use crate::action::{ACTIONS, Action, Menu};
+use crate::command::Command;
+use crate::context::Outbox;
+use crate::keys::chord::Chord;
+use crate::keys::{Keymap, Keys};
+use crate::settings::Settings;
+use crate::words::{fill, shell as words};
+
+/// The window that shows and changes keys.
+#[derive(Debug, Default)]
+pub(crate) struct KeysHelp {
+    open: bool,
+    /// The action that waits for its new key.
+    listening: Option<Action>,
+}
+
+impl KeysHelp {
+    pub(crate) fn toggle(&mut self) {
+        self.open = !self.open;
+        self.listening = None;
+    }
+
+    pub(crate) fn is_listening(&self) -> bool {
+        self.open && self.listening.is_some()
+    }
+
+    pub(crate) fn ui(&mut self, ctx: &Context, keys: &Keys, settings: &Settings, out: &mut Outbox) {
+        if !self.open {
+            return;
+        }
+        self.listen(ctx, settings, out);
+        let mut open = true;
+        let language = settings.language;
+        Window::new(words::KEYS_TITLE.of(language))
+            .id(Id::unique("keys"))
+            .open(&mut open)
+            .default_size([560.0, 480.0])
+            .show(ctx, |ui| {
+                keymaps(ui, settings, out);
+                ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                    for (menu, title) in Menu::ALL {
+                        ui.add_space(6.0);
+                        ui.strong(title.of(language));
+                        self.table(ui, menu, keys, settings);
+                    }
+                });
+            });
+        self.open &= open;
+    }
+
+    fn table(&mut self, ui: &mut Ui, menu: Menu, keys: &Keys, settings: &Settings) {
+        let language = settings.language;
+        Grid::new(("keys", menu))
+            .num_columns(2)
+            .striped(true)
+            .min_col_width(240.0)
+            .show(ui, |ui| {
+                for row in ACTIONS.iter().filter(|row| row.menu == menu) {
+                    let name = row.name.of(language);
+                    ui.label(name);
+                    let text = match keys.text(row.action) {
+                        _ if self.listening == Some(row.action) => {
+                            words::KEY_PRESS.of(language).to_owned()
+                        }
+                        text if text.is_empty() => words::KEY_NONE.of(language).to_owned(),
+                        text => text,
+                    };
+                    let response = ui.add(Button::new(text));
+                    let label = fill(words::KEY_CHANGE.of(language), &[("action", &name)]);
+                    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
+                    if response.clicked() {
+                        self.listening = Some(row.action);
+                    }
+                    ui.end_row();
+                }
+            });
+    }
+
+    /// Takes the next key for the action that waits: Escape leaves it, Backspace takes its keys away.
+    fn listen(&mut self, ctx: &Context, settings: &Settings, out: &mut Outbox) {
+        let Some(action) = self.listening else { return };
+        let pressed = ctx.input_mut(|input| {
+            let at = input
+                .events
+                .iter()
+                .position(|it| matches!(it, Event::Key { pressed: true, .. }))?;
+            match input.events.remove(at) {
+                Event::Key { key, modifiers, .. } => Some(Chord::new(key, modifiers)),
+                _ => None,
+            }
+        });
+        let Some(chord) = pressed else { return };
+        self.listening = None;
+        let chords = match chord.key {
+            Key::Escape => return,
+            Key::Backspace if !chord.ctrl && !chord.alt => Vec::new(),
+            _ => vec![chord],
+        };
+        let mut settings = settings.clone();
+        settings.keys.insert(action.row().id.to_owned(), chords);
+        out.send(Command::Settings(Box::new(settings)));
+    }
+}
+
+fn keymaps(ui: &mut Ui, settings: &Settings, out: &mut Outbox) {
+    let language = settings.language;
+    let called = |keymap: Keymap| {
+        let found = Keymap::ALL.iter().find(|(it, _)| *it == keymap);
+        found.map_or("", |(_, text)| text.of(language))
+    };
+    ui.horizontal(|ui| {
+        let label = ui.label(words::KEYMAP.of(language));
+        let mut keymap = settings.keymap;
+        let combo = ComboBox::from_id_salt("keymap")
+            .selected_text(called(keymap))
+            .show_ui(ui, |ui| {
+                for (it, text) in Keymap::ALL {
+                    ui.selectable_value(&mut keymap, it, text.of(language));
+                }
+            });
+        combo.response.labelled_by(label.id);
+        let mut changed = settings.clone();
+        changed.keymap = keymap;
+        if ui.button(words::KEY_RESET.of(language)).clicked() {
+            changed.keys.clear();
+        }
+        if changed != *settings {
+            out.send(Command::Settings(Box::new(changed)));
+        }
+    });
+}

@@ -1,0 +1,46 @@
+//! What lies above the panes: notices, the command palette, the keys, the settings.
+
+pub(crate) mod keys;
+pub(crate) mod notices;
+pub(crate) mod palette;
+pub(crate) mod settings;
+
+use eframe::egui::Context;
+
+use crate::app::Studio;
+
+/// All of them.
+#[derive(Debug, Default)]
+pub(crate) struct Overlays {
+    pub(crate) notices: notices::Notices,
+    pub(crate) palette: palette::Palette,
+    pub(crate) keys: keys::KeysHelp,
+    pub(crate) settings: settings::SettingsWindow,
+}
+
+impl Overlays {
+    /// Returns whether one of them takes every key now.
+    pub(crate) fn takes_keys(&self) -> bool {
+        self.palette.is_open() || self.keys.is_listening()
+    }
+}
+
+impl Studio {
+    /// Draws those that are open.
+    pub(crate) fn overlays(&mut self, ctx: &Context) {
+        let place = self.snapshot.is_some();
+        let Self {
+            overlays,
+            keys,
+            settings,
+            out,
+            ..
+        } = self;
+        overlays.notices.ui(ctx, settings.language, out);
+        overlays
+            .palette
+            .ui(ctx, keys, settings.language, place, out);
+        overlays.keys.ui(ctx, keys, settings, out);
+        overlays.settings.ui(ctx, settings, out);
+    }
+}

@@ -1,0 +1,175 @@
+//! Notices: what happened, and what went wrong with what helps; they never stand in the way.
+
+use std::fmt::Display;
+
+use chereme_corpus::Error;
+use eframe::egui::{Align2, Area, Context, Frame, Id, Order, RichText, vec2};
+
+use crate::command::Command;
+use crate::context::Outbox;
+use crate::theme;
+use crate::theme::Colours;
+use crate::words::{Language, fill, shell as words};
+use crate::work::Outcome;
+
+/// How long good news is shown, in seconds.
+const SHORT: f64 = 5.0;
+/// How many are shown at once.
+const MOST: usize = 4;
+
+/// A notice.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Notice {
+    id: u64,
+    pub(crate) text: String,
+    pub(crate) remedy: Option<String>,
+    /// Whether it stays until it is put away.
+    pub(crate) stays: bool,
+    /// When it was first seen, on the window's clock.
+    since: Option<f64>,
+}
+
+/// The notices that are shown.
+#[derive(Debug, Default)]
+pub(crate) struct Notices {
+    pub(crate) all: Vec<Notice>,
+    next: u64,
+}
+
+impl Notices {
+    /// Says something that goes away by itself.
+    pub(crate) fn hint(&mut self, text: impl Into<String>) {
+        self.add(text.into(), None, false);
+    }
+
+    /// Says something that stays.
+    pub(crate) fn say(&mut self, text: &str, remedy: Option<&str>) {
+        self.add(text.to_owned(), remedy.map(str::to_owned), true);
+    }
+
+    /// Tells what went wrong, and what helps.
+    pub(crate) fn trouble(&mut self, error: &Error, language: Language) {
+        if matches!(error, Error::Stopped) {
+            self.hint(words::STOPPED.of(language));
+            return;
+        }
+        let remedy = error
+            .remedy()
+            .map(|remedy| fill(words::REMEDY.of(language), &[("remedy", &remedy)]));
+        self.add(error.to_string(), remedy, true);
+    }
+
+    /// Tells that the settings could not be written.
+    pub(crate) fn unsaved(&mut self, error: &dyn Display, language: Language) {
+        self.add(
+            words::SETTINGS_UNSAVED.of(language).to_owned(),
+            Some(error.to_string()),
+            true,
+        );
+    }
+
+    /// Tells what came of work, where that is worth a word.
+    pub(crate) fn of(&mut self, outcome: &Outcome, language: Language) {
+        let text = match outcome {
+            Outcome::Recombined(made) => {
+                fill(words::NOTICE_STORED.of(language), &[("gloss", &made.gloss)])
+            }
+            Outcome::Undone(row) => {
+                fill(words::NOTICE_UNDONE.of(language), &[("what", &row.summary)])
+            }
+            Outcome::Redone(row) => {
+                fill(words::NOTICE_REDONE.of(language), &[("what", &row.summary)])
+            }
+            Outcome::Exported(report) => match report.files.first() {
+                Some(file) => fill(
+                    words::NOTICE_EXPORTED.of(language),
+                    &[("path", &file.path.display())],
+                ),
+                None => return,
+            },
+            _ => return,
+        };
+        self.hint(text);
+    }
+
+    pub(crate) fn dismiss(&mut self, id: u64) {
+        self.all.retain(|notice| notice.id != id);
+    }
+
+    fn add(&mut self, text: String, remedy: Option<String>, stays: bool) {
+        self.all.retain(|notice| notice.text != text);
+        self.next += 1;
+        self.all.push(Notice {
+            id: self.next,
+            text,
+            remedy,
+            stays,
+            since: None,
+        });
+        while self.all.len() > MOST {
+            self.all.remove(0);
+        }
+    }
+
+    pub(crate) fn ui(&mut self, ctx: &Context, language: Language, out: &mut Outbox) {
+        let now = ctx.input(|input| input.time);
+        for notice in &mut self.all {
+            notice.since.get_or_insert(now);
+        }
+        let old = |notice: &Notice| {
+            !notice.stays && notice.since.is_some_and(|since| now - since > SHORT)
+        };
+        self.all.retain(|notice| !old(notice));
+        if self.all.is_empty() {
+            return;
+        }
+        ctx.request_repaint_after(std::time::Duration::from_millis(500));
+        let area = Area::new(Id::unique("notices"))
+            .order(Order::Foreground)
+            .anchor(Align2::RIGHT_BOTTOM, vec2(-16.0, -44.0));
+        area.show(ctx, |ui| {
+            ui.set_max_width(420.0);
+            let colours = Colours::of(theme::is_dark(ctx));
+            for notice in &self.all {
+                Frame::popup(ui.style()).show(ui, |ui| {
+                    let edge = if notice.stays {
+                        colours.trouble
+                    } else {
+                        colours.good
+                    };
+                    ui.horizontal_wrapped(|ui| {
+                        ui.label(RichText::new("●").color(edge));
+                        ui.label(&notice.text);
+                    });
+                    if let Some(remedy) = &notice.remedy {
+                        ui.weak(remedy);
+                    }
+                    if notice.stays && ui.button(words::CLOSE.of(language)).clicked() {
+                        out.send(Command::Dismiss(notice.id));
+                    }
+                });
+            }
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn trouble_comes_with_what_helps_and_is_told_once() {
+        let mut notices = Notices::default();
+        let error = || Error::wrong("no").advise("yes");
+        notices.trouble(&error(), Language::French);
+        notices.trouble(&error(), Language::French);
+        assert_eq!(notices.all.len(), 1);
+        assert_eq!(notices.all[0].remedy.as_deref(), Some("Ce qui aide : yes"));
+        notices.trouble(&Error::Stopped, Language::English);
+        assert!(!notices.all[1].stays);
+        for at in 0..9 {
+            notices.hint(at.to_string());
+        }
+        assert_eq!(notices.all.len(), MOST);
+    }
+}

@@ -1,0 +1,145 @@
+//! The command palette: every action by its name.
+
+use chereme_sign::text::fold;
+use eframe::egui::{
+    Align2, Button, Context, Id, Key, Modifiers, ScrollArea, TextEdit, Window, vec2,
+};
+
+use crate::action::{ACTIONS, ActionRow, Context as Where};
+use crate::command::Command;
+use crate::context::Outbox;
+use crate::keys::Keys;
+use crate::words::{Language, shell as words};
+
+/// The palette.
+#[derive(Debug, Default)]
+pub(crate) struct Palette {
+    open: bool,
+    fresh: bool,
+    text: String,
+    chosen: usize,
+}
+
+/// Returns the actions whose name holds every word of `text`, whatever its case and accents, those
+/// that begin with it first.
+pub(crate) fn rows(text: &str, language: Language, corpus: bool) -> Vec<&'static ActionRow> {
+    let wanted = fold(text.trim());
+    let fits = |row: &&ActionRow| {
+        let name = fold(row.name.of(language));
+        let counts = corpus || row.context == Where::Everywhere;
+        counts && wanted.split_whitespace().all(|word| name.contains(word))
+    };
+    let mut rows: Vec<&ActionRow> = ACTIONS.iter().filter(fits).collect();
+    rows.sort_by_key(|row| !fold(row.name.of(language)).starts_with(&wanted));
+    rows
+}
+
+impl Palette {
+    pub(crate) fn toggle(&mut self) {
+        *self = Self {
+            open: !self.open,
+            fresh: true,
+            ..Self::default()
+        };
+    }
+
+    pub(crate) fn is_open(&self) -> bool {
+        self.open
+    }
+
+    pub(crate) fn ui(
+        &mut self,
+        ctx: &Context,
+        keys: &Keys,
+        language: Language,
+        corpus: bool,
+        out: &mut Outbox,
+    ) {
+        if !self.open {
+            return;
+        }
+        let pressed = |key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+        let (up, down) = (pressed(Key::ArrowUp), pressed(Key::ArrowDown));
+        let (enter, escape) = (pressed(Key::Enter), pressed(Key::Escape));
+        let rows = rows(&self.text, language, corpus);
+        let last = rows.len().saturating_sub(1);
+        self.chosen = match (up, down) {
+            (true, _) => self.chosen.saturating_sub(1),
+            (_, true) => self.chosen + 1,
+            _ => self.chosen,
+        }
+        .min(last);
+        let mut done = enter
+            .then(|| rows.get(self.chosen))
+            .flatten()
+            .map(|row| row.action);
+        let window = Window::new(words_title(language))
+            .id(Id::unique("palette"))
+            .title_bar(false)
+            .resizable(false)
+            .anchor(Align2::CENTER_TOP, vec2(0.0, 72.0))
+            .fixed_size(vec2(440.0, 360.0));
+        window.show(ctx, |ui| {
+            let field = TextEdit::singleline(&mut self.text)
+                .hint_text(words::PALETTE_HINT.of(language))
+                .desired_width(f32::INFINITY);
+            let response = ui.add(field);
+            response.widget_info(|| {
+                let role = eframe::egui::Role::TextInput;
+                eframe::egui::WidgetInfo::labeled(role, true, words::PALETTE_HINT.of(language))
+            });
+            if std::mem::take(&mut self.fresh) {
+                response.request_focus();
+            }
+            if response.changed() {
+                self.chosen = 0;
+            }
+            if rows.is_empty() {
+                ui.weak(words::PALETTE_NONE.of(language));
+            }
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                for (at, row) in rows.iter().enumerate() {
+                    let button = Button::selectable(at == self.chosen, row.name.of(language))
+                        .shortcut_text(keys.text(row.action))
+                        .min_size(vec2(ui.available_width(), 0.0));
+                    let response = ui.add(button);
+                    if at == self.chosen && (up || down) {
+                        response.scroll_to_me(None);
+                    }
+                    if response.clicked() {
+                        done = Some(row.action);
+                    }
+                }
+            });
+        });
+        if let Some(action) = done {
+            out.send(Command::Do(action));
+        }
+        self.open = !(escape || done.is_some());
+    }
+}
+
+fn words_title(language: Language) -> &'static str {
+    crate::words::actions::PALETTE.of(language)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::action::Action;
+
+    #[test]
+    fn actions_are_found_by_any_of_their_words() {
+        let found = |text, language| -> Vec<Action> {
+            rows(text, language, true)
+                .iter()
+                .map(|row| row.action)
+                .collect()
+        };
+        assert_eq!(found("undo", Language::English), [Action::Undo]);
+        assert_eq!(found("RETABLIR", Language::French), [Action::Redo]);
+        assert_eq!(found("tier next", Language::English), [Action::NextTier]);
+        assert!(rows("", Language::English, true).len() == ACTIONS.len());
+        assert!(rows("undo", Language::English, false).is_empty());
+    }
+}

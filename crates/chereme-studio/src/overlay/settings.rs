@@ -1,0 +1,73 @@
+//! The settings: language, theme, scale.
+
+use eframe::egui::{Context, Grid, Id, Slider, Window};
+
+use crate::command::Command;
+use crate::context::Outbox;
+use crate::settings::{Settings, ThemeChoice};
+use crate::words::{Language, shell as words};
+
+/// The window with the settings.
+#[derive(Debug, Default)]
+pub(crate) struct SettingsWindow {
+    open: bool,
+    /// The scale while it is being dragged.
+    scale: Option<f32>,
+}
+
+impl SettingsWindow {
+    pub(crate) fn toggle(&mut self) {
+        self.open = !self.open;
+    }
+
+    pub(crate) fn ui(&mut self, ctx: &Context, settings: &Settings, out: &mut Outbox) {
+        if !self.open {
+            return;
+        }
+        let mut changed = settings.clone();
+        let mut open = true;
+        let language = settings.language;
+        let window = Window::new(words::SETTINGS_TITLE.of(language))
+            .id(Id::unique("settings"))
+            .open(&mut open)
+            .resizable(false);
+        window.show(ctx, |ui| {
+            Grid::new("settings")
+                .num_columns(2)
+                .spacing([16.0, 10.0])
+                .show(ui, |ui| {
+                    ui.label(words::LANGUAGE.of(language));
+                    ui.horizontal(|ui| {
+                        for (it, name) in Language::ALL {
+                            ui.selectable_value(&mut changed.language, it, name);
+                        }
+                    });
+                    ui.end_row();
+                    ui.label(words::THEME.of(language));
+                    ui.horizontal(|ui| {
+                        for (it, text) in [
+                            (ThemeChoice::System, words::THEME_SYSTEM),
+                            (ThemeChoice::Light, words::THEME_LIGHT),
+                            (ThemeChoice::Dark, words::THEME_DARK),
+                        ] {
+                            ui.selectable_value(&mut changed.theme, it, text.of(language));
+                        }
+                    });
+                    ui.end_row();
+                    let label = ui.label(words::SCALE.of(language));
+                    let mut scale = self.scale.unwrap_or(settings.scale);
+                    let slider = ui.add(Slider::new(&mut scale, 0.5..=3.0).step_by(0.1));
+                    let slider = slider.labelled_by(label.id);
+                    self.scale = slider.dragged().then_some(scale);
+                    if slider.drag_stopped() || (slider.changed() && !slider.dragged()) {
+                        changed.scale = scale;
+                    }
+                    ui.end_row();
+                });
+        });
+        if changed != *settings {
+            out.send(Command::Settings(Box::new(changed)));
+        }
+        self.open = open;
+    }
+}

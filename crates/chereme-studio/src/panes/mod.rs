@@ -1,0 +1,180 @@
+//! The panes: each a module with rows computed by plain functions (`data`) and widgets (`ui`).
+//!
+//! To add one: a variant of [`PaneKind`] with its title, a field of [`Panes`] with its arms, a place
+//! in [`layout::usual`](crate::layout::usual), and an action that shows it.
+
+pub(crate) mod history;
+pub(crate) mod import;
+pub(crate) mod inspector;
+pub(crate) mod library;
+pub(crate) mod recombine;
+pub(crate) mod search;
+pub(crate) mod stage;
+pub(crate) mod timeline;
+
+use eframe::egui::{Align2, Response, Role, Sense, StrokeKind, TextStyle, Ui, WidgetInfo, vec2};
+use serde::{Deserialize, Serialize};
+
+use crate::action::Action;
+use crate::context::{Outbox, Seen};
+use crate::words::{self, Text};
+use crate::work::{Ended, WorkId};
+
+/// One of the panes; its name stands in remembered layouts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum PaneKind {
+    Library,
+    Stage,
+    Timeline,
+    Search,
+    Recombine,
+    Inspector,
+    History,
+    Import,
+}
+
+impl PaneKind {
+    pub(crate) const ALL: [Self; 8] = [
+        Self::Library,
+        Self::Stage,
+        Self::Timeline,
+        Self::Search,
+        Self::Recombine,
+        Self::Inspector,
+        Self::History,
+        Self::Import,
+    ];
+
+    pub(crate) fn title(self) -> Text {
+        match self {
+            Self::Library => words::library::TITLE,
+            Self::Stage => words::stage::TITLE,
+            Self::Timeline => words::timeline::TITLE,
+            Self::Search => words::search::TITLE,
+            Self::Recombine => words::recombine::TITLE,
+            Self::Inspector => words::inspector::TITLE,
+            Self::History => words::history::TITLE,
+            Self::Import => words::import::TITLE,
+        }
+    }
+}
+
+/// What became of an action that was offered to a pane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Acted {
+    /// It is not this pane's.
+    No,
+    /// It was done.
+    Yes,
+    /// It cannot be done now, and this is why.
+    Cannot(Text),
+}
+
+/// What every pane does.
+pub(crate) trait Pane {
+    /// Draws it, and asks for what a person does in it.
+    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox);
+
+    /// Does an action that is this pane's.
+    fn act(&mut self, _action: Action, _seen: &Seen<'_>, _out: &mut Outbox) -> Acted {
+        Acted::No
+    }
+
+    /// Hears what came of work, its own or that of others.
+    fn hear(&mut self, _id: WorkId, _ended: &Ended) {}
+
+    /// It was brought to the front by an action: what is typed shall go to it.
+    fn come(&mut self) {}
+}
+
+/// Every pane.
+#[derive(Default)]
+pub(crate) struct Panes {
+    pub(crate) library: library::Library,
+    pub(crate) stage: stage::Stage,
+    pub(crate) timeline: timeline::Timeline,
+    pub(crate) search: search::Search,
+    pub(crate) recombine: recombine::Recombine,
+    pub(crate) inspector: inspector::Inspector,
+    pub(crate) history: history::History,
+    pub(crate) import: import::Import,
+}
+
+impl Panes {
+    pub(crate) fn get_mut(&mut self, kind: PaneKind) -> &mut dyn Pane {
+        match kind {
+            PaneKind::Library => &mut self.library,
+            PaneKind::Stage => &mut self.stage,
+            PaneKind::Timeline => &mut self.timeline,
+            PaneKind::Search => &mut self.search,
+            PaneKind::Recombine => &mut self.recombine,
+            PaneKind::Inspector => &mut self.inspector,
+            PaneKind::History => &mut self.history,
+            PaneKind::Import => &mut self.import,
+        }
+    }
+
+    pub(crate) fn hear(&mut self, id: WorkId, ended: &Ended) {
+        for kind in PaneKind::ALL {
+            self.get_mut(kind).hear(id, ended);
+        }
+    }
+
+    /// Offers an action to each pane; returns why it cannot be done, where that is so.
+    pub(crate) fn act(
+        &mut self,
+        action: Action,
+        seen: &Seen<'_>,
+        out: &mut Outbox,
+    ) -> Option<Text> {
+        for kind in PaneKind::ALL {
+            match self.get_mut(kind).act(action, seen, out) {
+                Acted::No => {}
+                Acted::Yes => return None,
+                Acted::Cannot(why) => return Some(why),
+            }
+        }
+        None
+    }
+}
+
+/// Shows a row of a list: a name, with something about it below; clicked, or Enter when it has the focus.
+pub(crate) fn list_row(
+    ui: &mut Ui,
+    height: f32,
+    chosen: bool,
+    name: &str,
+    about: &str,
+) -> Response {
+    let size = vec2(ui.available_width(), height);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, name));
+    if !ui.is_rect_visible(rect) {
+        return response;
+    }
+    let visuals = ui.style().interact_selectable(&response, chosen);
+    if chosen || response.hovered() || response.has_focus() {
+        ui.painter().rect(
+            rect,
+            5.0,
+            visuals.weak_bg_fill,
+            visuals.bg_stroke,
+            StrokeKind::Inside,
+        );
+    }
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    let at = rect.left_center() + vec2(8.0, 0.0);
+    let (body, small) = (
+        TextStyle::Body.resolve(ui.style()),
+        TextStyle::Small.resolve(ui.style()),
+    );
+    if about.is_empty() {
+        painter.text(at, Align2::LEFT_CENTER, name, body, visuals.text_color());
+    } else {
+        painter.text(at, Align2::LEFT_BOTTOM, name, body, visuals.text_color());
+        let weak = visuals.text_color().gamma_multiply(0.75);
+        painter.text(at + vec2(0.0, 2.0), Align2::LEFT_TOP, about, small, weak);
+    }
+    response
+}

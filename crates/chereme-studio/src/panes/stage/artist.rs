@@ -1,0 +1,159 @@
+//! Pictures of figures, drawn on a thread of their own: the window never waits for one.
+//!
+//! The newest wish is the one that is drawn; wishes that were overtaken are not.
+
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use chereme_figure::Body;
+use chereme_figure::camera::Camera;
+use chereme_figure::mesh::Mesh;
+use chereme_figure::raster::{Raster, Style};
+use chereme_motion::ModelPose;
+use eframe::egui::{Color32, ColorImage};
+
+/// A picture that is wished for.
+pub(super) struct Wish {
+    /// Bodies, each in its posture.
+    pub(super) figures: Vec<(Arc<Body>, ModelPose)>,
+    pub(super) camera: Camera,
+    /// Columns and rows.
+    pub(super) size: [usize; 2],
+    pub(super) style: Style,
+}
+
+/// A picture.
+pub(super) struct Drawn {
+    pub(super) image: ColorImage,
+    /// How long it took.
+    pub(super) took: Duration,
+}
+
+/// The thread that draws.
+pub(super) struct Artist {
+    shared: Arc<Shared>,
+    thread: Option<JoinHandle<()>>,
+}
+
+#[derive(Default)]
+struct Shared {
+    wish: Mutex<Wished>,
+    wished: Condvar,
+    drawn: Mutex<Option<Drawn>>,
+}
+
+#[derive(Default)]
+struct Wished {
+    next: Option<Wish>,
+    over: bool,
+}
+
+impl Artist {
+    /// Begins; `wake` is called when a picture is ready.
+    pub(super) fn new(wake: impl Fn() + Send + 'static) -> Self {
+        let shared = Arc::<Shared>::default();
+        let own = shared.clone();
+        let thread = std::thread::spawn(move || {
+            let mut hand = Hand::default();
+            while let Some(wish) = own.next() {
+                let drawn = hand.draw(&wish);
+                *held(&own.drawn) = Some(drawn);
+                wake();
+            }
+        });
+        Self {
+            shared,
+            thread: Some(thread),
+        }
+    }
+
+    /// Wishes for a picture; one wished for before and not begun is forgotten.
+    pub(super) fn wish(&self, wish: Wish) {
+        held(&self.shared.wish).next = Some(wish);
+        self.shared.wished.notify_one();
+    }
+
+    /// Returns the newest picture that was not taken yet.
+    pub(super) fn take(&self) -> Option<Drawn> {
+        held(&self.shared.drawn).take()
+    }
+}
+
+impl Drop for Artist {
+    fn drop(&mut self) {
+        held(&self.shared.wish).over = true;
+        self.shared.wished.notify_one();
+        if let Some(thread) = self.thread.take() {
+            // A thread that panicked has nothing left to do.
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Shared {
+    fn next(&self) -> Option<Wish> {
+        let mut wish = held(&self.wish);
+        loop {
+            if wish.over {
+                return None;
+            }
+            if let Some(next) = wish.next.take() {
+                return Some(next);
+            }
+            wish = self
+                .wished
+                .wait(wish)
+                .unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+}
+
+/// What is behind a lock, also where another thread died with it.
+fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Buffers kept from picture to picture.
+#[derive(Default)]
+struct Hand {
+    raster: Raster,
+    meshes: Vec<(Option<Arc<Body>>, Mesh)>,
+    all: Mesh,
+}
+
+impl Hand {
+    fn draw(&mut self, wish: &Wish) -> Drawn {
+        let begun = Instant::now();
+        self.meshes
+            .resize_with(wish.figures.len(), Default::default);
+        for ((body, pose), (of, mesh)) in wish.figures.iter().zip(&mut self.meshes) {
+            if of.as_ref().is_some_and(|of| Arc::ptr_eq(of, body)) {
+                body.shape(pose, mesh);
+            } else {
+                *mesh = body.mesh(pose);
+                *of = Some(body.clone());
+            }
+        }
+        let mesh = match self.meshes.as_slice() {
+            [(_, one)] => one,
+            several => {
+                self.all.vertices.clear();
+                self.all.triangles.clear();
+                for (_, mesh) in several {
+                    self.all.append(mesh);
+                }
+                &self.all
+            }
+        };
+        let image = self.raster.draw(mesh, &wish.camera, wish.size, &wish.style);
+        let pixels = image
+            .pixels()
+            .iter()
+            .map(|it| Color32::from_rgb(it.0[0], it.0[1], it.0[2]));
+        Drawn {
+            image: ColorImage::new(wish.size, pixels.collect()),
+            took: begun.elapsed(),
+        }
+    }
+}

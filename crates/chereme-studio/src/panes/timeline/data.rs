@@ -1,0 +1,337 @@
+//! What the timeline shows, without a window: which time is where, ticks, rows, and bars.
+
+use chereme_corpus::{AnnotationColumns, TierContents, ValueState};
+use chereme_motion::{Instant, Span};
+
+/// How much wider than a recording the widest window is.
+const MARGIN: f64 = 1.02;
+
+/// The part of a recording that is to be seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Window {
+    /// The time at the left edge, in microseconds.
+    pub(crate) start: f64,
+    /// How many microseconds a point is wide.
+    pub(crate) scale: f64,
+}
+
+impl Window {
+    /// Returns the window that shows all of `whole`.
+    pub(crate) fn whole(whole: Span, width: f32) -> Self {
+        let micros = (whole.micros() as f64 * MARGIN).max(1000.0);
+        Self {
+            start: whole.start().micros() as f64,
+            scale: micros / f64::from(width.max(1.0)),
+        }
+    }
+
+    /// Returns where a time is, in points from the left edge.
+    pub(crate) fn x(&self, micros: f64) -> f32 {
+        ((micros - self.start) / self.scale) as f32
+    }
+
+    /// Returns the time that many points from the left edge, in microseconds.
+    pub(crate) fn micros(&self, x: f32) -> f64 {
+        self.start + f64::from(x) * self.scale
+    }
+
+    /// Returns the window with times `factor` as wide, that of `around` where it was; never wider
+    /// than `whole`, never nearer than a tenth of a millisecond a point.
+    pub(crate) fn zoomed(&self, factor: f64, around: f64, whole: Span, width: f32) -> Self {
+        let widest = Self::whole(whole, width).scale;
+        let scale = (self.scale * factor).clamp(100.0_f64.min(widest), widest);
+        let start = around - (around - self.start) * scale / self.scale;
+        Self { start, scale }.within(whole, width)
+    }
+
+    /// Returns the window moved by that many points, no farther than `whole` reaches.
+    pub(crate) fn panned(&self, points: f32, whole: Span, width: f32) -> Self {
+        let start = self.start + f64::from(points) * self.scale;
+        Self { start, ..*self }.within(whole, width)
+    }
+
+    /// Returns the window so that `micros` is in it: a page on where it is not.
+    pub(crate) fn following(&self, micros: f64, whole: Span, width: f32) -> Self {
+        let x = self.x(micros);
+        if (0.0..=width).contains(&x) {
+            return *self;
+        }
+        let start = micros - f64::from(width) * self.scale * 0.1;
+        Self { start, ..*self }.within(whole, width)
+    }
+
+    fn within(self, whole: Span, width: f32) -> Self {
+        let (first, end) = (whole.start().micros() as f64, whole.end().micros() as f64);
+        let last = (end - f64::from(width) * self.scale / MARGIN).max(first);
+        Self {
+            start: self.start.clamp(first, last),
+            ..self
+        }
+    }
+}
+
+/// A mark of the ruler.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Tick {
+    pub(crate) micros: i64,
+    /// What it says; nothing at the small ones.
+    pub(crate) text: Option<String>,
+}
+
+/// Returns the marks of a ruler `width` points wide, those with text at least 80 points apart.
+pub(crate) fn ticks(window: &Window, width: f32) -> Vec<Tick> {
+    const STEPS: [i64; 16] = [
+        1_000,
+        2_000,
+        5_000,
+        10_000,
+        20_000,
+        50_000,
+        100_000,
+        200_000,
+        500_000,
+        1_000_000,
+        2_000_000,
+        5_000_000,
+        10_000_000,
+        30_000_000,
+        60_000_000,
+        300_000_000,
+    ];
+    let least = window.scale * 80.0;
+    let fits = STEPS.into_iter().find(|step| *step as f64 >= least);
+    let step = fits.unwrap_or_else(|| {
+        let hours = (least / 600e6).ceil().max(1.0);
+        600_000_000 * hours as i64
+    });
+    let small = (step / 5).max(1);
+    let first = (window.start / small as f64).ceil() as i64;
+    let last = (window.micros(width) / small as f64).floor() as i64;
+    (first..=last.min(first + 2000))
+        .map(|at| {
+            let micros = at * small;
+            let text = (micros % step == 0).then(|| time_text(Instant::from_micros(micros)));
+            Tick { micros, text }
+        })
+        .collect()
+}
+
+/// Returns a time as people read it: `0:01.250`, `1:02:03.000`.
+pub(crate) fn time_text(at: Instant) -> String {
+    let micros = at.micros();
+    let sign = if micros < 0 { "-" } else { "" };
+    let millis = micros.unsigned_abs() / 1000;
+    let (seconds, rest) = (millis / 1000, millis % 1000);
+    let (minutes, hours) = (seconds / 60, seconds / 3600);
+    if hours > 0 {
+        format!(
+            "{sign}{hours}:{:02}:{:02}.{rest:03}",
+            minutes % 60,
+            seconds % 60
+        )
+    } else {
+        format!("{sign}{minutes}:{:02}.{rest:03}", seconds % 60)
+    }
+}
+
+/// Returns how deep each tier hangs below others, in the order of the tiers.
+pub(crate) fn depths(tiers: &[TierContents]) -> Vec<usize> {
+    let parent = |id: i64| {
+        tiers
+            .iter()
+            .find(|it| it.row.id == id)
+            .and_then(|it| it.row.parent_id)
+    };
+    let depth = |tier: &TierContents| {
+        let mut above = tier.row.parent_id;
+        let mut depth = 0;
+        while let Some(id) = above.filter(|_| depth < tiers.len()) {
+            depth += 1;
+            above = parent(id);
+        }
+        depth
+    };
+    tiers.iter().map(depth).collect()
+}
+
+/// An annotation on the timeline, or several too narrow to be told apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Bar {
+    /// The place of the first in the tier's columns.
+    pub(crate) at: usize,
+    /// How many there are.
+    pub(crate) count: usize,
+    /// Where the first starts and the last ends, in microseconds.
+    pub(crate) start: i64,
+    pub(crate) end: i64,
+}
+
+/// Returns the bars of a tier that lie in `from..to`; annotations that would be narrower than
+/// `narrow` microseconds are drawn as one with those beside them.
+///
+/// The time it takes grows with how many bars there are, not with how many annotations.
+pub(crate) fn bars(columns: &AnnotationColumns, from: i64, to: i64, narrow: i64) -> Vec<Bar> {
+    let (starts, ends) = (&columns.starts, &columns.ends);
+    let mut at = starts.partition_point(|start| *start < from);
+    while at > 0 && ends[at - 1] > from {
+        at -= 1;
+    }
+    let last = starts.partition_point(|start| *start < to);
+    let mut bars = Vec::new();
+    while at < last {
+        let (start, end) = (starts[at], ends[at]);
+        let next = if end - start >= narrow {
+            at + 1
+        } else {
+            let limit = start + narrow;
+            let near = starts[at..last].partition_point(|start| *start < limit);
+            let wide = (at + 1..at + near).find(|it| ends[*it] - starts[*it] >= narrow);
+            wide.unwrap_or(at + near).max(at + 1)
+        };
+        bars.push(Bar {
+            at,
+            count: next - at,
+            start,
+            end: ends[next - 1].max(end),
+        });
+        at = next;
+    }
+    bars
+}
+
+/// Returns the annotation of a tier at a moment, as its place in the columns.
+pub(crate) fn at(columns: &AnnotationColumns, micros: i64) -> Option<usize> {
+    let after = columns.starts.partition_point(|start| *start <= micros);
+    let at = after.checked_sub(1)?;
+    (columns.ends[at] > micros || columns.starts[at] == micros).then_some(at)
+}
+
+/// Returns what an annotation says, `missing` telling how a value is missing.
+pub(crate) fn value_text<'a>(
+    columns: &'a AnnotationColumns,
+    at: usize,
+    missing: impl Fn(ValueState) -> &'a str,
+) -> &'a str {
+    match columns.states[at] {
+        ValueState::Value => &columns.values[at],
+        state => missing(state),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_corpus::TierRow;
+
+    fn columns(spans: &[(i64, i64)]) -> AnnotationColumns {
+        let count = spans.len();
+        AnnotationColumns {
+            ids: (1..=count as i64).collect(),
+            starts: spans.iter().map(|it| it.0).collect(),
+            ends: spans.iter().map(|it| it.1).collect(),
+            states: vec![ValueState::Value; count],
+            values: vec!["A".into(); count],
+            parents: vec![None; count],
+            confidences: vec![None; count],
+        }
+    }
+
+    fn span(start: i64, end: i64) -> Span {
+        Span::between(Instant::from_micros(start), Instant::from_micros(end))
+    }
+
+    #[test]
+    fn bars_are_those_in_sight_and_the_narrow_ones_are_one() {
+        let all = columns(&[(0, 100), (100, 110), (110, 112), (112, 300), (400, 500)]);
+        let shown = |from, to, narrow| -> Vec<(usize, usize)> {
+            bars(&all, from, to, narrow)
+                .iter()
+                .map(|bar| (bar.at, bar.count))
+                .collect()
+        };
+        assert_eq!(shown(0, 1000, 1), [(0, 1), (1, 1), (2, 1), (3, 1), (4, 1)]);
+        assert_eq!(shown(0, 1000, 20), [(0, 1), (1, 2), (3, 1), (4, 1)]);
+        assert_eq!(shown(50, 105, 1), [(0, 1), (1, 1)]);
+        assert_eq!(shown(300, 400, 1), []);
+        assert_eq!(shown(0, 1000, 100_000), [(0, 5)]);
+        assert_eq!(bars(&all, 0, 1000, 100_000)[0].end, 500);
+        assert_eq!(bars(&columns(&[]), 0, 10, 1), []);
+    }
+
+    #[test]
+    fn the_annotation_under_the_pointer_is_found() {
+        let all = columns(&[(0, 100), (100, 200), (300, 400)]);
+        for (micros, want) in [
+            (0, Some(0)),
+            (99, Some(0)),
+            (100, Some(1)),
+            (250, None),
+            (399, Some(2)),
+            (400, None),
+            (-1, None),
+        ] {
+            assert_eq!(at(&all, micros), want, "{micros}");
+        }
+    }
+
+    #[test]
+    fn a_window_keeps_its_place_when_zoomed_and_stays_within_the_recording() {
+        let whole = span(0, 10_000_000);
+        let window = Window::whole(whole, 1000.0);
+        let near = window.zoomed(0.1, 5_000_000.0, whole, 1000.0);
+        assert!((near.x(5_000_000.0) - window.x(5_000_000.0)).abs() < 0.01);
+        assert!((near.micros(near.x(4_000_000.0)) - 4_000_000.0).abs() < 2000.0);
+        let wide = near.zoomed(100.0, 0.0, whole, 1000.0);
+        assert_eq!(wide.scale, window.scale);
+        assert!(wide.start.abs() < 1e-3);
+        assert_eq!(near.panned(-1e9, whole, 1000.0).start, 0.0);
+        let end = near.panned(1e9, whole, 1000.0);
+        assert!(end.x(10_000_000.0) < 1000.0 && end.x(10_000_000.0) > 900.0);
+        let followed = near.following(9_000_000.0, whole, 1000.0);
+        assert!((0.0..1000.0).contains(&followed.x(9_000_000.0)));
+        assert_eq!(near.following(5_000_000.0, whole, 1000.0), near);
+    }
+
+    #[test]
+    fn the_ruler_has_texts_wide_enough_apart() {
+        for scale in [150.0, 1_000.0, 77_777.0, 1e6, 3e9] {
+            let window = Window {
+                start: 123_456.0,
+                scale,
+            };
+            let all = ticks(&window, 900.0);
+            let texts: Vec<&Tick> = all.iter().filter(|tick| tick.text.is_some()).collect();
+            assert!(!all.is_empty() && all.len() < 100, "{scale}: {}", all.len());
+            for pair in texts.windows(2) {
+                assert!(window.x(pair[1].micros as f64) - window.x(pair[0].micros as f64) >= 79.9);
+            }
+        }
+        for (micros, want) in [
+            (0, "0:00.000"),
+            (61_250_000, "1:01.250"),
+            (3_723_004_000, "1:02:03.004"),
+            (-1_500_000, "-0:01.500"),
+        ] {
+            assert_eq!(time_text(Instant::from_micros(micros)), want);
+        }
+    }
+
+    #[test]
+    fn depth_follows_the_parents() {
+        let tier = |id, parent_id| TierContents {
+            row: TierRow {
+                id,
+                parent_id,
+                ..TierRow::default()
+            },
+            annotations: columns(&[]),
+        };
+        let all = [
+            tier(1, None),
+            tier(2, Some(3)),
+            tier(3, Some(1)),
+            tier(4, Some(4)),
+        ];
+        assert_eq!(depths(&all), [0, 2, 1, 4]);
+    }
+}

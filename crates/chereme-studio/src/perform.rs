@@ -1,0 +1,280 @@
+//! The one place where commands are carried out, after the frame that asked for them.
+
+use std::path::Path;
+
+use chereme_motion::{Instant, Rate, Span};
+use eframe::egui::{Context, ViewportCommand};
+
+use crate::action::Action;
+use crate::app::Studio;
+use crate::command::Command;
+use crate::context::{Outbox, Shown};
+use crate::keys::Keys;
+use crate::layout;
+use crate::model::Snapshot;
+use crate::model::reel::Reel;
+use crate::panes::PaneKind;
+use crate::settings::ThemeChoice;
+use crate::theme;
+use crate::words::shell as words;
+use crate::work::Work;
+use crate::work::begin::{Begin, Beginning};
+use crate::work::desk::Desk;
+
+const SECOND: i64 = 1_000_000;
+/// How a frame is stepped where a recording has no movement.
+const NO_FRAMES: u32 = 25;
+
+impl Studio {
+    /// Carries out what was asked for in this frame.
+    pub(crate) fn carry_out(&mut self, ctx: &Context) {
+        let commands = self.out.take();
+        if !commands.is_empty() {
+            ctx.request_repaint();
+        }
+        for command in commands {
+            self.command(command, ctx);
+        }
+    }
+
+    fn command(&mut self, command: Command, ctx: &Context) {
+        match command {
+            Command::Do(action) => self.act(action, ctx),
+            Command::Work(id, work) => {
+                if let Some(desk) = &mut self.desk {
+                    desk.give(id, work);
+                }
+            }
+            Command::Stop(id) => {
+                if let Some(desk) = &self.desk {
+                    desk.stop(id);
+                }
+            }
+            Command::Begin(begin) => {
+                self.beginning = Some(Beginning::start(begin, &self.author, &self.wake));
+            }
+            Command::StopBeginning => {
+                if let Some(beginning) = &self.beginning {
+                    beginning.stop();
+                }
+            }
+            Command::Recording(id) => self.turn_to(id),
+            Command::Place(id, span) => {
+                self.turn_to(id);
+                self.shown.span = Some(span);
+                self.shown.player.seek(span.start());
+            }
+            Command::Tier(tier) => self.shown.tier = tier,
+            Command::Annotations(annotations) => self.shown.annotations = annotations,
+            Command::Span(span) => self.shown.span = span,
+            Command::Seek(at) => self.shown.player.seek(at),
+            Command::Speed(speed) => self.shown.player.speed = speed,
+            Command::Import(paths) => {
+                self.panes.import.propose(&paths);
+                self.bring(PaneKind::Import);
+            }
+            Command::Settings(settings) => {
+                self.settings = *settings;
+                self.keys = Keys::new(self.settings.keymap, &self.settings.keys);
+            }
+            Command::Dismiss(notice) => self.overlays.notices.dismiss(notice),
+        }
+    }
+
+    fn act(&mut self, action: Action, ctx: &Context) {
+        if self.act_on_window(action, ctx) || self.act_on_player(action) || self.desk.is_none() {
+            return;
+        }
+        match action {
+            Action::Undo => drop(self.out.work(Work::Undo)),
+            Action::Redo => drop(self.out.work(Work::Redo)),
+            Action::ClearSelection => {
+                self.shown.span = None;
+                self.shown.annotations.clear();
+            }
+            Action::NextRecording => self.walk_recordings(1),
+            Action::PreviousRecording => self.walk_recordings(-1),
+            other => self.act_in_panes(other, ctx),
+        }
+    }
+
+    /// Offers an action to the panes; the first that knows it does it.
+    fn act_in_panes(&mut self, action: Action, ctx: &Context) {
+        let mut panes = std::mem::take(&mut self.panes);
+        let mut out = std::mem::take(&mut self.out);
+        if let Some(seen) = self.seen(ctx) {
+            let said = panes.act(action, &seen, &mut out);
+            if let Some(text) = said {
+                self.overlays.notices.hint(text.of(self.settings.language));
+            }
+        }
+        (self.panes, self.out) = (panes, out);
+    }
+
+    fn act_on_window(&mut self, action: Action, ctx: &Context) -> bool {
+        match action {
+            Action::OpenStarter => self.open_starter(),
+            Action::Open => self.close(),
+            Action::Close => self.close(),
+            Action::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
+            Action::Settings => self.overlays.settings.toggle(),
+            Action::Keys => self.overlays.keys.toggle(),
+            Action::Palette => self.overlays.palette.toggle(),
+            Action::Theme => {
+                let dark = theme::is_dark(ctx);
+                self.settings.theme = if dark {
+                    ThemeChoice::Light
+                } else {
+                    ThemeChoice::Dark
+                };
+            }
+            Action::Larger => self.scale(0.1),
+            Action::Smaller => self.scale(-0.1),
+            Action::ResetLayout => self.tree = layout::usual(),
+            Action::Import => self.bring(PaneKind::Import),
+            Action::Search => self.bring(PaneKind::Search),
+            Action::ShowLibrary => self.bring(PaneKind::Library),
+            Action::ShowStage => self.bring(PaneKind::Stage),
+            Action::ShowTimeline => self.bring(PaneKind::Timeline),
+            Action::ShowRecombine => self.bring(PaneKind::Recombine),
+            Action::ShowInspector => self.bring(PaneKind::Inspector),
+            Action::ShowHistory => self.bring(PaneKind::History),
+            _ => return false,
+        }
+        true
+    }
+
+    fn act_on_player(&mut self, action: Action) -> bool {
+        let rate = self.reel.rate().or_else(|| Rate::new(NO_FRAMES, 1).ok());
+        let player = &mut self.shown.player;
+        let (at, whole) = (player.playhead(), player.whole);
+        match action {
+            Action::Play => player.toggle(),
+            Action::PlaySelection => player.play_part(self.shown.span.unwrap_or(whole)),
+            Action::Loop => player.looping = !player.looping,
+            Action::ShuttleBack => player.shuttle(-1.0),
+            Action::ShuttleForward => player.shuttle(1.0),
+            Action::ShuttleStop => player.stop(),
+            Action::FrameBack | Action::FrameForward => {
+                let frames = if action == Action::FrameBack { -1 } else { 1 };
+                if let Some(rate) = rate {
+                    player.step(frames, rate);
+                }
+            }
+            Action::SecondBack => player.seek(at.shifted(-SECOND)),
+            Action::SecondForward => player.seek(at.shifted(SECOND)),
+            Action::ToStart => player.seek(whole.start()),
+            Action::ToEnd => player.seek(whole.end()),
+            Action::Slower => player.step_speed(false),
+            Action::Faster => player.step_speed(true),
+            Action::NormalSpeed => player.speed = 1.0,
+            _ => return false,
+        }
+        true
+    }
+
+    fn scale(&mut self, by: f32) {
+        self.settings.scale = ((self.settings.scale + by) * 10.0).round().clamp(5.0, 30.0) / 10.0;
+    }
+
+    fn bring(&mut self, pane: PaneKind) {
+        layout::bring(&mut self.tree, pane);
+        self.pane = Some(pane);
+        self.panes.get_mut(pane).come();
+    }
+
+    fn walk_recordings(&mut self, by: isize) {
+        let Some(snapshot) = &self.snapshot else {
+            return;
+        };
+        let all = &snapshot.overview.recordings;
+        let here = all
+            .iter()
+            .position(|it| Some(it.row.id) == self.shown.recording);
+        let next = here.map_or(Some(0), |here| here.checked_add_signed(by));
+        if let Some(id) = next.and_then(|next| all.get(next)).map(|it| it.row.id) {
+            self.turn_to(id);
+        }
+    }
+
+    /// Shows a recording; one that is shown already stays as it is.
+    fn turn_to(&mut self, id: i64) {
+        let Some(glance) = self.snapshot.as_ref().and_then(|it| it.recording(id)) else {
+            return;
+        };
+        if self.shown.recording == Some(id) {
+            return;
+        }
+        let speed = self.shown.player.speed;
+        let looping = self.shown.player.looping;
+        self.shown = Shown {
+            recording: Some(id),
+            ..Shown::default()
+        };
+        let end = Instant::from_micros(glance.row.duration_us);
+        self.shown.player.load(Span::between(Instant::ZERO, end));
+        (self.shown.player.speed, self.shown.player.looping) = (speed, looping);
+        self.reel.load(Some(glance));
+        if let Some(desk) = &self.desk {
+            desk.watch(Some(id));
+        }
+    }
+
+    fn open_starter(&mut self) {
+        let language = self.settings.language;
+        match &self.folders.data {
+            Some(folder) => self
+                .out
+                .send(Command::Begin(Begin::Starter(folder.join("starter")))),
+            None => self.overlays.notices.say(
+                words::STARTER_MISSING_PLACE.of(language),
+                Some(words::STARTER_MISSING_REMEDY.of(language)),
+            ),
+        }
+    }
+
+    /// Shows the corpus at `path`.
+    pub(crate) fn open(&mut self, path: &Path) {
+        self.close();
+        self.desk = Some(Desk::open(path, &self.author, &self.wake));
+        let absolute = std::path::absolute(path);
+        self.settings.opened(absolute.as_deref().unwrap_or(path));
+    }
+
+    fn close(&mut self) {
+        self.desk = None;
+        self.snapshot = None;
+        self.shown = Shown::default();
+        self.reel = Reel::default();
+        self.panes = crate::panes::Panes::default();
+        self.out = Outbox::after(&self.out);
+    }
+
+    /// Takes a newer snapshot in; what is gone from it is not selected any more.
+    pub(crate) fn take_snapshot(&mut self, snapshot: Snapshot, own: bool) {
+        if !own && self.snapshot.is_some() {
+            let words = words::NOTICE_CHANGED_ELSEWHERE.of(self.settings.language);
+            self.overlays.notices.hint(words);
+        }
+        let glance = self.shown.recording.and_then(|id| snapshot.recording(id));
+        self.reel.load(glance);
+        if glance.is_none() {
+            self.shown = Shown::default();
+        }
+        if let Some(open) = &snapshot.open {
+            let tiers = &open.contents.tiers;
+            self.shown.tier = self
+                .shown
+                .tier
+                .filter(|id| tiers.iter().any(|it| it.row.id == *id));
+            self.shown
+                .annotations
+                .retain(|id| snapshot.annotation(*id).is_some());
+        }
+        let first = snapshot.overview.recordings.first().map(|it| it.row.id);
+        self.snapshot = Some(snapshot);
+        if let (None, Some(first)) = (self.shown.recording, first) {
+            self.turn_to(first);
+        }
+    }
+}

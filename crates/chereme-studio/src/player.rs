@@ -1,0 +1,222 @@
+//! The transport: where the playhead is, and how it moves with the clock.
+
+use chereme_motion::{Instant, Rate, Span};
+
+/// Speeds that slower and faster step through.
+pub(crate) const SPEEDS: [f64; 11] = [0.1, 0.2, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0];
+
+/// Where the playhead is, and how it moves.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Player {
+    /// The playhead, in microseconds with fractions, so that slow play does not stand still.
+    at: f64,
+    /// The whole of what is played.
+    pub(crate) whole: Span,
+    /// The part that is played and looped, where there is one.
+    pub(crate) part: Option<Span>,
+    /// 1 forwards, -1 backwards, more when shuttling; 0 still.
+    direction: f64,
+    /// How fast, 1 being the recorded speed.
+    pub(crate) speed: f64,
+    /// Whether it begins again at the end.
+    pub(crate) looping: bool,
+}
+
+impl Default for Player {
+    fn default() -> Self {
+        Self {
+            at: 0.0,
+            whole: Span::default(),
+            part: None,
+            direction: 0.0,
+            speed: 1.0,
+            looping: false,
+        }
+    }
+}
+
+impl Player {
+    /// Turns to another recording, from its start.
+    pub(crate) fn load(&mut self, whole: Span) {
+        self.at = whole.start().micros() as f64;
+        self.whole = whole;
+        self.part = None;
+        self.direction = 0.0;
+    }
+
+    /// Returns where the playhead is.
+    pub(crate) fn playhead(&self) -> Instant {
+        Instant::from_micros(self.at as i64)
+    }
+
+    pub(crate) fn is_playing(&self) -> bool {
+        self.direction != 0.0
+    }
+
+    /// Returns which way it plays: negative backwards, 0 still.
+    pub(crate) fn direction(&self) -> f64 {
+        self.direction
+    }
+
+    /// Puts the playhead there, within the recording.
+    pub(crate) fn seek(&mut self, at: Instant) {
+        self.at = self.clamped(at.micros() as f64);
+    }
+
+    /// Plays on, or pauses; at the end it begins again.
+    pub(crate) fn toggle(&mut self) {
+        if self.is_playing() {
+            self.stop();
+            return;
+        }
+        self.part = None;
+        if self.at >= self.last() {
+            self.at = self.whole.start().micros() as f64;
+        }
+        self.direction = 1.0;
+    }
+
+    /// Plays a part from its start.
+    pub(crate) fn play_part(&mut self, part: Span) {
+        if let Some(part) = part.intersection(self.whole) {
+            self.at = part.start().micros() as f64;
+            self.part = Some(part);
+            self.direction = 1.0;
+        }
+    }
+
+    pub(crate) fn stop(&mut self) {
+        self.direction = 0.0;
+    }
+
+    /// Shuttles: pressed again the same way it doubles, up to eight times.
+    pub(crate) fn shuttle(&mut self, sign: f64) {
+        self.part = None;
+        self.direction = if self.direction * sign > 0.0 {
+            (self.direction * 2.0).clamp(-8.0, 8.0)
+        } else {
+            sign
+        };
+    }
+
+    /// Takes the next slower or faster of [`SPEEDS`].
+    pub(crate) fn step_speed(&mut self, faster: bool) {
+        let mut near = SPEEDS.iter().copied();
+        let next = if faster {
+            near.find(|speed| *speed > self.speed + 1e-9)
+        } else {
+            near.rev().find(|speed| *speed < self.speed - 1e-9)
+        };
+        self.speed = next.unwrap_or(self.speed);
+    }
+
+    /// Stops, and goes `frames` frames on to the start of a frame.
+    pub(crate) fn step(&mut self, frames: i64, rate: Rate) {
+        self.stop();
+        let now = rate.frame_at(self.playhead()) as i64;
+        let next = usize::try_from((now + frames).max(0)).unwrap_or_default();
+        self.seek(rate.instant(next));
+    }
+
+    /// Moves with the clock by `seconds`.
+    pub(crate) fn advance(&mut self, seconds: f64) {
+        if !self.is_playing() || self.whole.is_empty() {
+            return;
+        }
+        let span = self.part.unwrap_or(self.whole);
+        let (start, end) = (span.start().micros() as f64, span.end().micros() as f64);
+        self.at += seconds * 1e6 * self.direction * self.speed;
+        let over = if self.direction > 0.0 {
+            self.at >= end
+        } else {
+            self.at < start
+        };
+        if !over {
+            return;
+        }
+        if self.looping {
+            self.at = start + (self.at - start).rem_euclid((end - start).max(1.0));
+        } else {
+            self.at = self.clamped(if self.direction > 0.0 { end } else { start });
+            self.stop();
+        }
+    }
+
+    fn last(&self) -> f64 {
+        (self.whole.end().micros() - 1).max(self.whole.start().micros()) as f64
+    }
+
+    fn clamped(&self, at: f64) -> f64 {
+        at.max(self.whole.start().micros() as f64).min(self.last())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn span(start: i64, end: i64) -> Span {
+        Span::between(Instant::from_micros(start), Instant::from_micros(end))
+    }
+
+    fn player() -> Player {
+        let mut player = Player::default();
+        player.load(span(0, 2_000_000));
+        player
+    }
+
+    #[test]
+    fn it_plays_to_the_end_and_begins_again_when_asked() {
+        let mut player = player();
+        player.toggle();
+        player.advance(0.5);
+        assert_eq!(player.playhead().micros(), 500_000);
+        player.speed = 0.1;
+        player.advance(0.5);
+        assert_eq!(player.playhead().micros(), 550_000);
+        player.speed = 4.0;
+        player.advance(9.0);
+        assert!(!player.is_playing());
+        assert_eq!(player.playhead().micros(), 1_999_999);
+        player.toggle();
+        assert_eq!(player.playhead().micros(), 0);
+    }
+
+    #[test]
+    fn a_part_is_looped() {
+        let mut player = player();
+        player.looping = true;
+        player.play_part(span(500_000, 1_000_000));
+        player.advance(0.6);
+        assert_eq!(player.playhead().micros(), 600_000);
+        player.shuttle(-1.0);
+        assert!(player.direction() < 0.0 && player.part.is_none());
+    }
+
+    #[test]
+    fn steps_land_on_frames() {
+        let mut player = player();
+        let rate = Rate::new(30, 1).expect("a rate");
+        player.seek(Instant::from_micros(500_001));
+        player.step(1, rate);
+        assert_eq!(player.playhead(), rate.instant(16));
+        player.step(-40, rate);
+        assert_eq!(player.playhead().micros(), 0);
+        player.step(1000, rate);
+        assert_eq!(player.playhead().micros(), 1_999_999);
+    }
+
+    #[test]
+    fn speeds_and_shuttles_have_ends() {
+        let mut player = player();
+        for _ in 0..20 {
+            player.step_speed(true);
+            player.shuttle(1.0);
+        }
+        assert_eq!((player.speed, player.direction()), (4.0, 8.0));
+        for _ in 0..20 {
+            player.step_speed(false);
+        }
+        assert_eq!(player.speed, 0.1);
+    }
+}

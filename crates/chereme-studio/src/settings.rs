@@ -1,0 +1,215 @@
+//! What the window remembers between sittings: a JSON file in the platform's folder for settings.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use egui_tiles::Tree;
+use serde::{Deserialize, Serialize};
+
+use crate::keys::{Keymap, Rebound};
+use crate::panes::PaneKind;
+use crate::words::Language;
+
+/// How many corpora are remembered.
+const RECENT: usize = 12;
+
+/// Light, dark, or as the system has it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum ThemeChoice {
+    #[default]
+    System,
+    Light,
+    Dark,
+}
+
+/// What is remembered.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Settings {
+    pub(crate) language: Language,
+    pub(crate) theme: ThemeChoice,
+    /// How large the interface is, 1 being usual.
+    pub(crate) scale: f32,
+    pub(crate) keymap: Keymap,
+    /// Keys of the user's own, by action id.
+    pub(crate) keys: Rebound,
+    /// Corpora opened before, the newest first.
+    pub(crate) recent: Vec<PathBuf>,
+    /// Where the panes are; the usual layout where nothing is said.
+    pub(crate) layout: Option<Tree<PaneKind>>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            language: Language::default(),
+            theme: ThemeChoice::default(),
+            scale: 1.0,
+            keymap: Keymap::default(),
+            keys: Rebound::new(),
+            recent: Vec::new(),
+            layout: None,
+        }
+    }
+}
+
+impl Settings {
+    /// Reads the file; what is missing or cannot be understood is as usual.
+    pub(crate) fn read(path: &Path) -> Option<Self> {
+        let text = fs::read_to_string(path).ok()?;
+        let mut value: serde_json::Value = serde_json::from_str(&text).ok()?;
+        loop {
+            match serde_json::from_value::<Self>(value.clone()) {
+                Ok(settings) => return Some(settings.checked()),
+                Err(_) => forget_what_is_wrong(&mut value)?,
+            }
+        }
+    }
+
+    /// Writes the file, whole or not at all.
+    pub(crate) fn write(&self, path: &Path) -> io::Result<()> {
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder)?;
+        }
+        let text = serde_json::to_string_pretty(self)?;
+        let beside = path.with_extension("json.new");
+        fs::write(&beside, text)?;
+        fs::rename(&beside, path)
+    }
+
+    /// Puts a corpus at the head of those opened before.
+    pub(crate) fn opened(&mut self, path: &Path) {
+        self.recent.retain(|known| known != path);
+        self.recent.insert(0, path.to_owned());
+        self.recent.truncate(RECENT);
+    }
+
+    fn checked(mut self) -> Self {
+        self.scale = if self.scale.is_finite() {
+            self.scale.clamp(0.5, 3.0)
+        } else {
+            1.0
+        };
+        self
+    }
+}
+
+/// Takes the first entry away that cannot be read by itself; nothing where none is left to take.
+fn forget_what_is_wrong(value: &mut serde_json::Value) -> Option<()> {
+    let map = value.as_object_mut()?;
+    let wrong = map.iter().find_map(|(key, entry)| {
+        let alone = serde_json::json!({ key.as_str(): entry });
+        serde_json::from_value::<Settings>(alone)
+            .is_err()
+            .then(|| key.clone())
+    })?;
+    map.remove(&wrong);
+    Some(())
+}
+
+/// The folders where the window keeps what is its own.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Folders {
+    /// Of the settings file; nothing is remembered without.
+    pub config: Option<PathBuf>,
+    /// Of the starter corpus.
+    pub data: Option<PathBuf>,
+}
+
+impl Folders {
+    /// Returns the platform's own folders, from `variable`, which reads the environment.
+    #[must_use]
+    pub fn of_platform(variable: impl Fn(&str) -> Option<String>) -> Self {
+        let folder = |name: &str| {
+            variable(name)
+                .map(PathBuf::from)
+                .filter(|path| path.is_absolute())
+        };
+        let home = folder("HOME");
+        let below = |path: &str| home.as_ref().map(|home| home.join(path));
+        let (config, data) = if cfg!(target_os = "windows") {
+            (
+                folder("APPDATA"),
+                folder("LOCALAPPDATA").or_else(|| folder("APPDATA")),
+            )
+        } else if cfg!(target_os = "macos") {
+            let support = below("Library/Application Support");
+            (support.clone(), support)
+        } else {
+            (
+                folder("XDG_CONFIG_HOME").or_else(|| below(".config")),
+                folder("XDG_DATA_HOME").or_else(|| below(".local/share")),
+            )
+        };
+        let own = |path: Option<PathBuf>| path.map(|path| path.join("chereme"));
+        Self {
+            config: own(config),
+            data: own(data),
+        }
+    }
+
+    pub(crate) fn settings_file(&self) -> Option<PathBuf> {
+        self.config
+            .as_ref()
+            .map(|folder| folder.join("studio.json"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_are_read_as_they_were_written_and_bad_entries_forgotten() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("deep/studio.json");
+        assert_eq!(Settings::read(&path), None);
+        let mut settings = Settings {
+            language: Language::French,
+            scale: 1.25,
+            ..Settings::default()
+        };
+        settings
+            .keys
+            .insert("play.toggle".into(), vec!["F5".parse().expect("a chord")]);
+        settings.opened(Path::new("a.chereme"));
+        settings.opened(Path::new("b.chereme"));
+        settings.opened(Path::new("a.chereme"));
+        settings.layout = Some(crate::layout::usual());
+        settings.write(&path).expect("written");
+        assert_eq!(Settings::read(&path), Some(settings));
+        let text =
+            r#"{ "language": "french", "scale": 99, "keymap": "vi", "layout": 7, "more": 1 }"#;
+        fs::write(&path, text).expect("written");
+        let read = Settings::read(&path).expect("read");
+        assert_eq!(
+            (read.language, read.scale, read.keymap),
+            (Language::French, 3.0, Keymap::Elan)
+        );
+        fs::write(&path, "[").expect("written");
+        assert_eq!(Settings::read(&path), None);
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn folders_are_those_of_the_platform() {
+        let of = |pairs: &'static [(&str, &str)]| {
+            Folders::of_platform(move |name| {
+                pairs
+                    .iter()
+                    .find(|(known, _)| *known == name)
+                    .map(|(_, value)| (*value).to_owned())
+            })
+        };
+        let folders = of(&[
+            ("HOME", "/h"),
+            ("XDG_DATA_HOME", "/d"),
+            ("XDG_CONFIG_HOME", "relative"),
+        ]);
+        assert_eq!(folders.config, Some(PathBuf::from("/h/.config/chereme")));
+        assert_eq!(folders.data, Some(PathBuf::from("/d/chereme")));
+        assert_eq!(of(&[]), Folders::default());
+    }
+}

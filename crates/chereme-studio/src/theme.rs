@@ -1,0 +1,196 @@
+//! Colours, fonts and spacing.
+//!
+//! Hues are those of Okabe and Ito, which people with any colour vision can tell apart.
+
+use eframe::egui::{
+    Color32, Context, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Style,
+    TextStyle, Theme, ThemePreference, Vec2,
+};
+
+use crate::settings::{Settings, ThemeChoice};
+
+/// Colours with a meaning of their own.
+#[derive(Debug)]
+pub(crate) struct Colours {
+    /// What is selected, and what one is asked to do.
+    pub(crate) accent: Color32,
+    /// The selected time.
+    pub(crate) selection: Color32,
+    pub(crate) playhead: Color32,
+    /// Annotations by the role of their tier.
+    pub(crate) gloss: Color32,
+    pub(crate) component: Color32,
+    pub(crate) words: Color32,
+    pub(crate) free: Color32,
+    /// Text on annotations.
+    pub(crate) on_annotation: Color32,
+    /// Lines between tiers, and every other tier.
+    pub(crate) rule: Color32,
+    pub(crate) stripe: Color32,
+    pub(crate) trouble: Color32,
+    pub(crate) good: Color32,
+}
+
+const LIGHT: Colours = Colours {
+    accent: Color32::from_rgb(0x00, 0x62, 0xA3),
+    selection: Color32::from_rgb(0xBF, 0xDD, 0xF2),
+    playhead: Color32::from_rgb(0xC2, 0x41, 0x00),
+    gloss: Color32::from_rgb(0xF2, 0xC9, 0x6B),
+    component: Color32::from_rgb(0x9C, 0xCB, 0xEE),
+    words: Color32::from_rgb(0x9D, 0xD8, 0xC3),
+    free: Color32::from_rgb(0xD5, 0xD2, 0xDB),
+    on_annotation: Color32::from_rgb(0x16, 0x1B, 0x22),
+    rule: Color32::from_rgb(0xD3, 0xD8, 0xE0),
+    stripe: Color32::from_rgb(0xEE, 0xF1, 0xF4),
+    trouble: Color32::from_rgb(0xA8, 0x32, 0x00),
+    good: Color32::from_rgb(0x00, 0x6B, 0x4F),
+};
+
+const DARK: Colours = Colours {
+    accent: Color32::from_rgb(0x6D, 0xB9, 0xEA),
+    selection: Color32::from_rgb(0x27, 0x4A, 0x66),
+    playhead: Color32::from_rgb(0xFF, 0x95, 0x4F),
+    gloss: Color32::from_rgb(0xE0, 0xA8, 0x2E),
+    component: Color32::from_rgb(0x5F, 0xA8, 0xD9),
+    words: Color32::from_rgb(0x3E, 0xAF, 0x8A),
+    free: Color32::from_rgb(0x83, 0x87, 0x93),
+    on_annotation: Color32::from_rgb(0x0C, 0x0F, 0x14),
+    rule: Color32::from_rgb(0x33, 0x3A, 0x46),
+    stripe: Color32::from_rgb(0x20, 0x25, 0x2D),
+    trouble: Color32::from_rgb(0xFF, 0x9A, 0x70),
+    good: Color32::from_rgb(0x5F, 0xD0, 0xA8),
+};
+
+impl Colours {
+    pub(crate) fn of(dark: bool) -> &'static Self {
+        if dark { &DARK } else { &LIGHT }
+    }
+
+    /// Returns the colour of annotations of a tier with that role.
+    pub(crate) fn role(&self, role: &str) -> Color32 {
+        match role {
+            "gloss" => self.gloss,
+            "component" => self.component,
+            "translation" | "comment" => self.words,
+            _ => self.free,
+        }
+    }
+}
+
+/// Gives a context our fonts and spacing, once.
+pub(crate) fn install(ctx: &Context) {
+    ctx.set_fonts(fonts());
+    ctx.style_mut_of(Theme::Light, |style| refine(style, false));
+    ctx.style_mut_of(Theme::Dark, |style| refine(style, true));
+}
+
+/// Applies theme and scale.
+pub(crate) fn apply(ctx: &Context, settings: &Settings) {
+    ctx.set_theme(match settings.theme {
+        ThemeChoice::System => ThemePreference::System,
+        ThemeChoice::Light => ThemePreference::Light,
+        ThemeChoice::Dark => ThemePreference::Dark,
+    });
+    if (ctx.zoom_factor() - settings.scale).abs() > 1e-3 {
+        ctx.set_zoom_factor(settings.scale);
+    }
+}
+
+/// Noto Sans, which knows phonetic letters, before the usual fonts, which have the signs that it lacks.
+fn fonts() -> FontDefinitions {
+    const NOTO: &str = "Noto Sans";
+    let mut fonts = FontDefinitions::default();
+    let data = FontData::from_static(notosans::REGULAR_TTF);
+    fonts.font_data.insert(NOTO.to_owned(), data.into());
+    let usual = fonts.families.entry(FontFamily::Proportional).or_default();
+    usual.insert(0, NOTO.to_owned());
+    usual.push("Hack".to_owned());
+    let fixed = fonts.families.entry(FontFamily::Monospace).or_default();
+    fixed.push(NOTO.to_owned());
+    fonts
+}
+
+fn refine(style: &mut Style, dark: bool) {
+    let colours = Colours::of(dark);
+    for (text, size) in [
+        (TextStyle::Small, 11.5),
+        (TextStyle::Body, 14.0),
+        (TextStyle::Button, 14.0),
+        (TextStyle::Heading, 19.0),
+    ] {
+        style.text_styles.insert(text, FontId::proportional(size));
+    }
+    style
+        .text_styles
+        .insert(TextStyle::Monospace, FontId::monospace(13.0));
+    style.spacing.item_spacing = Vec2::new(8.0, 6.0);
+    style.spacing.button_padding = Vec2::new(8.0, 4.0);
+    style.spacing.interact_size.y = 24.0;
+    let visuals = &mut style.visuals;
+    visuals.selection.bg_fill = colours.selection;
+    visuals.selection.stroke.color = if dark {
+        Color32::WHITE
+    } else {
+        colours.on_annotation
+    };
+    visuals.hyperlink_color = colours.accent;
+    let (panel, edge, text) = if dark {
+        (
+            Color32::from_rgb(0x1A, 0x1E, 0x25),
+            Color32::from_rgb(0x12, 0x15, 0x1A),
+            Color32::from_rgb(0xDF, 0xE4, 0xEA),
+        )
+    } else {
+        (
+            Color32::from_rgb(0xF7, 0xF8, 0xFA),
+            Color32::WHITE,
+            Color32::from_rgb(0x22, 0x29, 0x33),
+        )
+    };
+    visuals.panel_fill = panel;
+    visuals.window_fill = panel;
+    visuals.extreme_bg_color = edge;
+    visuals.widgets.noninteractive.fg_stroke.color = text;
+    visuals.widgets.noninteractive.bg_stroke.color = colours.rule;
+    visuals.widgets.inactive.fg_stroke.color = text;
+    for widget in [
+        &mut visuals.widgets.inactive,
+        &mut visuals.widgets.hovered,
+        &mut visuals.widgets.active,
+    ] {
+        widget.corner_radius = CornerRadius::same(5);
+    }
+    visuals.widgets.active.fg_stroke.color = text;
+}
+
+/// Returns whether the context is dark now.
+pub(crate) fn is_dark(ctx: &Context) -> bool {
+    ctx.theme() == Theme::Dark
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eframe::egui::{FontId, RawInput};
+
+    #[test]
+    fn phonetic_letters_and_all_that_the_window_says_can_be_drawn() {
+        let ctx = Context::default();
+        install(&ctx);
+        ctx.run_ui(RawInput::default(), |_| {})
+            .textures_delta
+            .clear();
+        ctx.run_ui(RawInput::default(), |_| {})
+            .textures_delta
+            .clear();
+        let text = "ɛɔəʃʒŋθðʔɑɪʊ éèêëàçùœÉŒ …’·→←↑↓×²°±≤≥";
+        let missing: Vec<char> = text
+            .chars()
+            .filter(|letter| {
+                !letter.is_whitespace()
+                    && !ctx.fonts_mut(|fonts| fonts.has_glyph(&FontId::proportional(14.0), *letter))
+            })
+            .collect();
+        assert!(missing.is_empty(), "{missing:?}");
+    }
+}

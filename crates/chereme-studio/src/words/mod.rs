@@ -1,0 +1,127 @@
+//! Every word the window says, in English and French; one file for each part of it.
+//!
+//! A text is a constant of its table; `{name}` in it is filled by [`fill`]. To add one, write a line
+//! into the table of its part; to add a table, name it in `TABLES` of the tests below.
+
+use std::fmt::Display;
+
+use serde::{Deserialize, Serialize};
+
+/// Declares the texts of one part of the window.
+macro_rules! texts {
+    ($($name:ident: $en:literal, $fr:literal;)*) => {
+        $(pub(crate) const $name: crate::words::Text = crate::words::Text { en: $en, fr: $fr };)*
+        #[cfg(test)]
+        pub(super) const ALL: &[(&str, crate::words::Text)] = &[$((stringify!($name), $name)),*];
+    };
+}
+
+pub(crate) mod actions;
+pub(crate) mod history;
+pub(crate) mod import;
+pub(crate) mod inspector;
+pub(crate) mod library;
+pub(crate) mod recombine;
+pub(crate) mod search;
+pub(crate) mod shell;
+pub(crate) mod stage;
+pub(crate) mod timeline;
+
+/// A language of the window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Language {
+    /// English.
+    #[default]
+    English,
+    /// French.
+    French,
+}
+
+impl Language {
+    /// Every language with its own name for itself.
+    pub const ALL: [(Self, &'static str); 2] =
+        [(Self::English, "English"), (Self::French, "Français")];
+
+    /// Returns the language that a locale such as `fr_FR.UTF-8` asks for.
+    #[must_use]
+    pub fn of_locale(locale: &str) -> Self {
+        if locale.to_lowercase().starts_with("fr") {
+            Self::French
+        } else {
+            Self::English
+        }
+    }
+}
+
+/// Words in every language of the window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Text {
+    pub(crate) en: &'static str,
+    pub(crate) fr: &'static str,
+}
+
+impl Text {
+    /// Returns the words in `language`.
+    pub(crate) const fn of(self, language: Language) -> &'static str {
+        match language {
+            Language::English => self.en,
+            Language::French => self.fr,
+        }
+    }
+}
+
+/// Returns `text` with every `{name}` of `values` filled in.
+pub(crate) fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
+    let mut filled = text.to_owned();
+    for (name, value) in values {
+        filled = filled.replace(&format!("{{{name}}}"), &value.to_string());
+    }
+    filled
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TABLES: [&[(&str, Text)]; 10] = [
+        actions::ALL,
+        history::ALL,
+        import::ALL,
+        inspector::ALL,
+        library::ALL,
+        recombine::ALL,
+        search::ALL,
+        shell::ALL,
+        stage::ALL,
+        timeline::ALL,
+    ];
+
+    fn blanks(text: &str) -> Vec<&str> {
+        let mut names: Vec<&str> = text
+            .split('{')
+            .skip(1)
+            .filter_map(|rest| rest.split_once('}').map(|(name, _)| name))
+            .collect();
+        names.sort_unstable();
+        names
+    }
+
+    #[test]
+    fn every_text_is_there_in_both_languages_with_the_same_blanks() {
+        for (name, text) in TABLES.into_iter().flatten() {
+            assert!(
+                !text.en.trim().is_empty() && !text.fr.trim().is_empty(),
+                "{name}"
+            );
+            assert_eq!(blanks(text.en), blanks(text.fr), "{name}");
+        }
+    }
+
+    #[test]
+    fn blanks_are_filled() {
+        assert_eq!(fill("{n} of {all}", &[("n", &2), ("all", &"x")]), "2 of x");
+        assert_eq!(Language::of_locale("fr_CH"), Language::French);
+        assert_eq!(Language::of_locale("C"), Language::English);
+    }
+}

@@ -1,0 +1,171 @@
+//! Opening: which corpus the window is to show, made first where there is none.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, channel};
+
+use chereme_corpus::{Corpus, Error, ImportOptions, Progress, Result, Step, unpack_starter};
+
+use super::Far;
+use super::desk::Wake;
+
+/// A corpus to be opened.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Begin {
+    /// One that is there.
+    Open(PathBuf),
+    /// A new, empty one.
+    New(PathBuf),
+    /// The starter corpus, made in this folder where it is not there yet.
+    Starter(PathBuf),
+    /// A new one beside this folder, with all that is in it.
+    Folder(PathBuf),
+}
+
+/// An opening that has not ended.
+pub(crate) struct Beginning {
+    news: Receiver<Telling>,
+    pub(crate) far: Far,
+    stop: Arc<AtomicBool>,
+}
+
+enum Telling {
+    Far(Far),
+    Ended(Result<PathBuf>),
+}
+
+impl Beginning {
+    /// Begins on a thread of its own.
+    pub(crate) fn start(begin: Begin, author: &str, wake: &Wake) -> Self {
+        let (tell, news) = channel();
+        let (author, wake) = (author.to_owned(), wake.clone());
+        let stop = Arc::new(AtomicBool::new(false));
+        let stopped = stop.clone();
+        std::thread::spawn(move || {
+            let mut hear = |step: Step<'_>| {
+                let _ = tell.send(Telling::Far(Far::of(&step)));
+                wake();
+                if stopped.load(Ordering::Relaxed) {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            };
+            let ended = begin.carry_out(&author, &mut Progress::new(&mut hear));
+            let _ = tell.send(Telling::Ended(ended));
+            wake();
+        });
+        Self {
+            news,
+            far: Far::default(),
+            stop,
+        }
+    }
+
+    pub(crate) fn stop(&self) {
+        self.stop.store(true, Ordering::Relaxed);
+    }
+
+    /// Returns the path of the corpus, or why there is none, when it has ended.
+    pub(crate) fn ended(&mut self) -> Option<Result<PathBuf>> {
+        while let Ok(step) = self.news.try_recv() {
+            match step {
+                Telling::Far(far) => self.far = far,
+                Telling::Ended(ended) => return Some(ended),
+            }
+        }
+        None
+    }
+}
+
+impl Begin {
+    fn carry_out(self, author: &str, progress: &mut Progress<'_>) -> Result<PathBuf> {
+        match self {
+            Self::Open(path) => Corpus::open(&path, author).map(|_| path),
+            Self::New(path) => {
+                let path = with_extension(path);
+                Corpus::create(&path, author).map(|_| path)
+            }
+            Self::Starter(folder) => starter(&folder, author, progress),
+            Self::Folder(folder) => {
+                let name = folder.file_name().unwrap_or_default();
+                let path = with_extension(folder.with_file_name(name));
+                filled(&path, &folder, author, progress)?;
+                Ok(path)
+            }
+        }
+    }
+}
+
+/// Opens the starter corpus in `folder`, made first where it is not there.
+fn starter(folder: &Path, author: &str, progress: &mut Progress<'_>) -> Result<PathBuf> {
+    let path = folder.join("starter.chereme");
+    if path.is_file() {
+        return Corpus::open(&path, author).map(|_| path);
+    }
+    let files = folder.join("starter");
+    unpack_starter(&files)?;
+    filled(&path, &files, author, progress)?;
+    Ok(path)
+}
+
+/// Makes a corpus with all that is in `folder`; one that could not be filled does not stay.
+fn filled(path: &Path, folder: &Path, author: &str, progress: &mut Progress<'_>) -> Result<()> {
+    if !folder.is_dir() {
+        return Err(Error::file(folder, std::io::ErrorKind::NotFound.into()));
+    }
+    let mut corpus = Corpus::create(path, author)?;
+    let done = corpus.import(&[folder.to_owned()], &ImportOptions::default(), progress);
+    drop(corpus);
+    if done.is_err() {
+        // What is left is an empty corpus that nobody has seen.
+        let _ = std::fs::remove_file(path);
+    }
+    done.map(|_| ())
+}
+
+fn with_extension(path: PathBuf) -> PathBuf {
+    if path
+        .extension()
+        .is_some_and(|extension| extension == "chereme")
+    {
+        return path;
+    }
+    let mut name = path.into_os_string();
+    name.push(".chereme");
+    PathBuf::from(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_corpus::unheard;
+
+    fn begin(what: Begin) -> Result<PathBuf> {
+        let mut hear = unheard;
+        what.carry_out("A", &mut Progress::new(&mut hear))
+    }
+
+    #[test]
+    fn a_new_corpus_gets_its_ending_and_is_never_written_over() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = begin(Begin::New(folder.path().join("v1.2"))).expect("made");
+        assert_eq!(path, folder.path().join("v1.2.chereme"));
+        assert!(begin(Begin::New(path.clone())).is_err());
+        assert_eq!(begin(Begin::Open(path.clone())).expect("opened"), path);
+        assert!(begin(Begin::Open(folder.path().join("gone"))).is_err());
+    }
+
+    #[test]
+    fn a_stopped_import_leaves_no_corpus_behind() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let files = folder.path().join("mine");
+        unpack_starter(&files).expect("unpacked");
+        let mut stop = |_: Step<'_>| ControlFlow::Break(());
+        let done = Begin::Folder(files).carry_out("A", &mut Progress::new(&mut stop));
+        assert!(matches!(done, Err(Error::Stopped)));
+        assert!(!folder.path().join("mine.chereme").exists());
+    }
+}

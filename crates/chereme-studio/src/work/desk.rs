@@ -1,0 +1,299 @@
+//! The threads of an open corpus: one for each lane of work, and one that reads what there is.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use chereme_corpus::{Corpus, Error, Progress, Step};
+
+use super::carry::carry;
+use super::{Ended, Far, Lane, Work, WorkId};
+use crate::model::{Opened, Snapshot};
+use crate::words::Text;
+
+/// How often another program's changes are looked for.
+const LOOK: Duration = Duration::from_millis(300);
+/// How many operations the history shows.
+const OPERATIONS: usize = 2000;
+
+/// Wakes the window; called from any thread.
+pub(crate) type Wake = Arc<dyn Fn() + Send + Sync>;
+
+/// What the threads tell the window.
+#[derive(Debug)]
+pub(crate) enum News {
+    /// The corpus as it is now, and whether this window's own work changed it.
+    Read(Snapshot, bool),
+    /// It could not be read.
+    Unread(Error),
+    /// A piece of work is that far.
+    Far(WorkId, Far),
+    /// A piece of work ended.
+    Ended(WorkId, Ended),
+}
+
+/// Work that was given out and has not ended.
+#[derive(Debug)]
+pub(crate) struct Running {
+    pub(crate) task: Text,
+    pub(crate) lane: Lane,
+    pub(crate) far: Far,
+    may_stop: bool,
+    stop: Arc<AtomicBool>,
+}
+
+struct Order {
+    id: WorkId,
+    work: Work,
+    stop: Arc<AtomicBool>,
+}
+
+enum Wish {
+    /// Read again, after work of this window.
+    Again,
+    /// Read this recording too.
+    Recording(Option<i64>),
+}
+
+/// An open corpus with its threads; dropping it waits for what was typed to be stored.
+pub(crate) struct Desk {
+    pub(crate) path: PathBuf,
+    lanes: BTreeMap<Lane, Sender<Box<Order>>>,
+    reader: Option<Sender<Wish>>,
+    news: Receiver<News>,
+    pub(crate) running: BTreeMap<WorkId, Running>,
+    threads: Vec<JoinHandle<()>>,
+}
+
+impl Desk {
+    /// Opens the corpus at `path` on every thread; what fails is told as news.
+    pub(crate) fn open(path: &Path, author: &str, wake: &Wake) -> Self {
+        let (tell, news) = channel();
+        let station = Station {
+            path: path.to_owned(),
+            author: author.to_owned(),
+            tell,
+            wake: wake.clone(),
+        };
+        let (reader, wishes) = channel();
+        let mut threads = Vec::new();
+        let mut lanes = BTreeMap::new();
+        for lane in Lane::ALL {
+            let (give, orders) = channel();
+            let (station, reader) = (station.clone(), reader.clone());
+            threads.push(std::thread::spawn(move || {
+                station.work(&orders, lane, &reader)
+            }));
+            lanes.insert(lane, give);
+        }
+        threads.push(std::thread::spawn(move || station.read(&wishes)));
+        Self {
+            path: path.to_owned(),
+            lanes,
+            reader: Some(reader),
+            news,
+            running: BTreeMap::new(),
+            threads,
+        }
+    }
+
+    /// Gives work out.
+    pub(crate) fn give(&mut self, id: WorkId, work: Work) {
+        let lane = work.lane();
+        let stop = Arc::new(AtomicBool::new(false));
+        let running = Running {
+            task: work.task(),
+            lane,
+            far: Far::default(),
+            may_stop: work.may_stop(),
+            stop: stop.clone(),
+        };
+        let order = Order { id, work, stop };
+        let lane = self.lanes.get(&lane);
+        if lane.is_some_and(|lane| lane.send(Box::new(order)).is_ok()) {
+            self.running.insert(id, running);
+        }
+    }
+
+    /// Stops a piece of work, begun or not.
+    pub(crate) fn stop(&self, id: WorkId) {
+        if let Some(running) = self.running.get(&id) {
+            running.stop.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// Has the snapshots hold that recording's tiers too.
+    pub(crate) fn watch(&self, recording: Option<i64>) {
+        if let Some(reader) = &self.reader {
+            // A reader that is gone has said why.
+            let _ = reader.send(Wish::Recording(recording));
+        }
+    }
+
+    /// Returns what came in since it was last asked.
+    pub(crate) fn news(&mut self) -> Vec<News> {
+        let mut all = Vec::new();
+        while let Ok(news) = self.news.try_recv() {
+            match &news {
+                News::Far(id, far) => {
+                    if let Some(running) = self.running.get_mut(id) {
+                        running.far = far.clone();
+                    }
+                }
+                News::Ended(id, _) => {
+                    self.running.remove(id);
+                }
+                _ => {}
+            }
+            all.push(news);
+        }
+        all
+    }
+}
+
+impl Drop for Desk {
+    fn drop(&mut self) {
+        for running in self.running.values().filter(|running| running.may_stop) {
+            running.stop.store(true, Ordering::Relaxed);
+        }
+        self.lanes.clear();
+        self.reader = None;
+        for thread in self.threads.drain(..) {
+            // A thread that panicked has nothing left to store.
+            let _ = thread.join();
+        }
+    }
+}
+
+/// What a thread needs.
+#[derive(Clone)]
+struct Station {
+    path: PathBuf,
+    author: String,
+    tell: Sender<News>,
+    wake: Wake,
+}
+
+impl Station {
+    fn say(&self, news: News) {
+        // Nobody listens any more when the window is closing.
+        let _ = self.tell.send(news);
+        (self.wake)();
+    }
+
+    fn work(&self, orders: &Receiver<Box<Order>>, lane: Lane, reader: &Sender<Wish>) {
+        let mut corpus = None;
+        while let Ok(order) = orders.recv() {
+            let Order { id, work, stop } = *order;
+            let ended = self.carry_out(&mut corpus, id, work, &stop);
+            if lane == Lane::Edit {
+                let _ = reader.send(Wish::Again);
+            }
+            self.say(News::Ended(id, ended));
+        }
+    }
+
+    fn carry_out(
+        &self,
+        corpus: &mut Option<Corpus>,
+        id: WorkId,
+        work: Work,
+        stop: &AtomicBool,
+    ) -> Ended {
+        if stop.load(Ordering::Relaxed) {
+            return Err(Error::Stopped);
+        }
+        let corpus = match corpus {
+            Some(corpus) => corpus,
+            None => corpus.insert(Corpus::open(&self.path, &self.author)?),
+        };
+        let mut last = std::time::Instant::now();
+        let mut hear = |step: Step<'_>| {
+            if last.elapsed() > Duration::from_millis(50) {
+                last = std::time::Instant::now();
+                self.say(News::Far(id, Far::of(&step)));
+            }
+            if stop.load(Ordering::Relaxed) {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        carry(corpus, work, &mut Progress::new(&mut hear))
+    }
+
+    fn read(&self, wishes: &Receiver<Wish>) {
+        let corpus = match Corpus::open(&self.path, &self.author) {
+            Ok(corpus) => corpus,
+            Err(error) => return self.say(News::Unread(error)),
+        };
+        let mut reading = Reading {
+            corpus,
+            recording: None,
+            seen: None,
+            snapshot: Snapshot::default(),
+        };
+        let mut own = true;
+        loop {
+            match reading.again() {
+                Ok(true) => self.say(News::Read(reading.snapshot.clone(), own)),
+                Ok(false) => {}
+                Err(error) => self.say(News::Unread(error)),
+            }
+            own = false;
+            let mut next = wishes.recv_timeout(LOOK);
+            while let Ok(wish) = next {
+                own = true;
+                match wish {
+                    Wish::Again => {}
+                    Wish::Recording(recording) => reading.recording = recording,
+                }
+                next = wishes.try_recv().map_err(|error| match error {
+                    std::sync::mpsc::TryRecvError::Empty => RecvTimeoutError::Timeout,
+                    std::sync::mpsc::TryRecvError::Disconnected => RecvTimeoutError::Disconnected,
+                });
+            }
+            if matches!(next, Err(RecvTimeoutError::Disconnected)) {
+                return;
+            }
+        }
+    }
+}
+
+/// What the reading thread knows.
+struct Reading {
+    corpus: Corpus,
+    /// The recording whose tiers are wanted.
+    recording: Option<i64>,
+    /// The generation and recording of the last snapshot.
+    seen: Option<(i64, Option<i64>)>,
+    snapshot: Snapshot,
+}
+
+impl Reading {
+    /// Reads what changed; whether anything did.
+    fn again(&mut self) -> Result<bool, Error> {
+        let now = (self.corpus.generation()?, self.recording);
+        if self.seen == Some(now) {
+            return Ok(false);
+        }
+        if self.seen.is_none_or(|(generation, _)| generation != now.0) {
+            self.snapshot.overview = Arc::new(self.corpus.overview(OPERATIONS)?);
+        }
+        let there = |id: &i64| {
+            let recordings = &self.snapshot.overview.recordings;
+            recordings.iter().any(|recording| recording.row.id == *id)
+        };
+        self.snapshot.open = match self.recording.filter(there) {
+            Some(recording) => Some(Arc::new(Opened::new(self.corpus.contents(recording)?))),
+            None => None,
+        };
+        self.seen = Some(now);
+        Ok(true)
+    }
+}

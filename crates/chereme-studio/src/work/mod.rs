@@ -1,0 +1,186 @@
+//! Work beside the window: each use case of the corpus is a value that a thread carries out.
+//!
+//! [`Work`] says what to do, [`Outcome`] what came of it. To add a use case, add a variant to both
+//! (or to `Work` alone where an outcome fits), its lane in [`Work::lane`], and an arm in
+//! [`carry`](carry::carry).
+
+pub(crate) mod begin;
+mod carry;
+pub(crate) mod desk;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use chereme_corpus::{
+    Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Error, ExportOptions,
+    ExportReport, ExportWhat, ImportOptions, ImportReport, Moving, NewTier, OperationRow,
+    Recombination, SearchOptions, Suggestions, TierChange, TierName, Unit,
+};
+use chereme_motion::Span;
+
+use crate::words::{Text, shell};
+
+/// The number of a piece of work, counted up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct WorkId(pub(crate) u64);
+
+/// A use case of the corpus with all it needs.
+#[derive(Debug, Clone)]
+#[allow(dead_code, reason = "every use case, asked for or not")]
+pub(crate) enum Work {
+    /// Changes annotations.
+    Annotate(Vec<AnnotationChange>, AnnotateOptions),
+    /// Adds a tier.
+    AddTier(Box<NewTier>),
+    /// Changes a tier.
+    ChangeTier(TierName, TierChange),
+    /// Removes a tier.
+    RemoveTier(TierName),
+    /// Makes a sign by a recipe and stores it.
+    Recombine {
+        /// The recipe.
+        recipe: String,
+        /// The gloss of the new sign.
+        gloss: String,
+    },
+    /// Takes files in.
+    Import(Vec<PathBuf>, Box<ImportOptions>),
+    /// Takes the newest operation back.
+    Undo,
+    /// Does it again.
+    Redo,
+    /// Finds tokens.
+    Search(String, SearchOptions),
+    /// Makes the movement of a recipe and stores nothing.
+    Preview(String),
+    /// Says what could be made from a token.
+    Suggest(Address),
+    /// Writes files.
+    Export(ExportWhat, PathBuf, ExportOptions),
+    /// Loads a piece of movement of a recording.
+    Movement {
+        /// The recording's row.
+        recording: i64,
+        /// The piece's number.
+        piece: usize,
+        /// Its span.
+        span: Span,
+    },
+}
+
+/// What came of a piece of [`Work`].
+#[derive(Debug)]
+#[allow(dead_code, reason = "panes read what they need")]
+pub(crate) enum Outcome {
+    /// Annotations were changed.
+    Annotated(AnnotateReport),
+    /// Something was changed that the next snapshot shows.
+    Changed,
+    /// A sign was made and stored.
+    Recombined(Box<Recombination>),
+    /// Files were taken in, or looked at.
+    Imported(ImportReport),
+    /// An operation was taken back.
+    Undone(OperationRow),
+    /// An operation was done again.
+    Redone(OperationRow),
+    /// Tokens were found.
+    Found(Answer),
+    /// Movement was made.
+    Previewed(Box<Recombination>),
+    /// What could be made.
+    Suggested(Suggestions),
+    /// Files were written.
+    Exported(ExportReport),
+    /// A piece of movement.
+    Moved {
+        /// The recording's row.
+        recording: i64,
+        /// The piece's number.
+        piece: usize,
+        /// The movement.
+        moving: Arc<Moving>,
+    },
+}
+
+/// A thread with a connection of its own; what is in one lane is done in order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Lane {
+    /// Changes of the corpus.
+    Edit,
+    /// Questions that people wait for.
+    Ask,
+    /// Movement to look at.
+    Movement,
+    /// Files written.
+    Export,
+}
+
+impl Lane {
+    pub(crate) const ALL: [Self; 4] = [Self::Edit, Self::Ask, Self::Movement, Self::Export];
+}
+
+impl Work {
+    pub(crate) fn lane(&self) -> Lane {
+        match self {
+            Self::Annotate(..)
+            | Self::AddTier(_)
+            | Self::ChangeTier(..)
+            | Self::RemoveTier(_)
+            | Self::Recombine { .. }
+            | Self::Import(..)
+            | Self::Undo
+            | Self::Redo => Lane::Edit,
+            Self::Search(..) | Self::Preview(_) | Self::Suggest(_) => Lane::Ask,
+            Self::Movement { .. } => Lane::Movement,
+            Self::Export(..) => Lane::Export,
+        }
+    }
+
+    /// Returns what it is called while it runs.
+    pub(crate) fn task(&self) -> Text {
+        match self {
+            Self::Import(_, options) if options.dry_run => shell::TASK_LOOKING,
+            Self::Import(..) => shell::TASK_IMPORT,
+            Self::Search(..) | Self::Suggest(_) => shell::TASK_SEARCH,
+            Self::Recombine { .. } | Self::Preview(_) => shell::TASK_RECOMBINE,
+            Self::Export(..) => shell::TASK_EXPORT,
+            Self::Movement { .. } => shell::TASK_MOVEMENT,
+            _ => shell::TASK_EDIT,
+        }
+    }
+
+    /// Returns whether it may be stopped when the window closes: what a person has typed may not.
+    pub(crate) fn may_stop(&self) -> bool {
+        self.lane() != Lane::Edit || matches!(self, Self::Import(..))
+    }
+}
+
+/// How far a piece of work is.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct Far {
+    /// What is being done, such as a file's name.
+    pub(crate) task: String,
+    pub(crate) done: u64,
+    pub(crate) total: Option<u64>,
+}
+
+impl Far {
+    fn of(step: &chereme_corpus::Step<'_>) -> Self {
+        let scale = if step.unit == Unit::Bytes { 1024 } else { 1 };
+        Self {
+            task: step.task.to_owned(),
+            done: step.done / scale,
+            total: step.total.map(|total| total / scale),
+        }
+    }
+
+    /// Returns the share that is done, where the whole is known.
+    pub(crate) fn share(&self) -> Option<f32> {
+        let total = self.total.filter(|total| *total > 0)?;
+        Some((self.done as f64 / total as f64).min(1.0) as f32)
+    }
+}
+
+/// What a piece of work ended with.
+pub(crate) type Ended = Result<Outcome, Error>;
