@@ -15,7 +15,30 @@ use crate::inventories;
 ///
 /// A name means every value that has it as its id, alias or name, in whichever inventory of the
 /// component: values of the same name are one value to a query.
-pub(crate) struct Vocabulary(Vec<Inventory>);
+pub(crate) struct Vocabulary(Vec<Known>);
+
+/// An inventory, and the folded spellings of each of its values.
+struct Known {
+    inventory: Inventory,
+    folded: Vec<Vec<String>>,
+}
+
+impl Known {
+    fn new(inventory: Inventory) -> Self {
+        let values = inventory.values.iter();
+        let folded = values.map(|value| value.spellings().map(fold).collect());
+        Self {
+            folded: folded.collect(),
+            inventory,
+        }
+    }
+
+    /// Returns the values with their folded spellings.
+    fn values(&self) -> impl Iterator<Item = (&InventoryValue, &[String])> {
+        let folded = self.folded.iter().map(Vec::as_slice);
+        self.inventory.values.iter().zip(folded)
+    }
+}
 
 /// The stored values that pass for one wanted value.
 pub(crate) struct Accepted {
@@ -54,7 +77,8 @@ impl Vocabulary {
     /// Reads the inventories of a corpus.
     pub(crate) fn load(connection: &Connection) -> Result<Self> {
         let stored = inventories::load(connection)?;
-        Ok(Self(stored.into_iter().map(|one| one.inventory).collect()))
+        let known = stored.into_iter().map(|one| Known::new(one.inventory));
+        Ok(Self(known.collect()))
     }
 
     /// Returns the inventories of a part of a component.
@@ -63,26 +87,37 @@ impl Vocabulary {
         component: Component,
         part: Option<&'a str>,
     ) -> impl Iterator<Item = &'a Inventory> {
-        self.0.iter().filter(move |inventory| {
-            inventory.component == component && inventory.feature.as_deref() == part
+        self.known(component, part).map(|known| &known.inventory)
+    }
+
+    fn known<'a>(
+        &'a self,
+        component: Component,
+        part: Option<&'a str>,
+    ) -> impl Iterator<Item = &'a Known> {
+        self.0.iter().filter(move |known| {
+            known.inventory.component == component && known.inventory.feature.as_deref() == part
         })
+    }
+
+    fn all(&self) -> impl Iterator<Item = &Inventory> {
+        self.0.iter().map(|known| &known.inventory)
     }
 
     /// Returns the parts of a component that there are inventories for.
     pub(crate) fn parts(&self, component: Component) -> BTreeSet<Option<String>> {
-        let own = self.0.iter().filter(|one| one.component == component);
+        let own = self.all().filter(|one| one.component == component);
         own.map(|one| one.feature.clone()).collect()
     }
 
     /// Returns the ids of all inventories.
     pub(crate) fn ids(&self) -> impl Iterator<Item = &str> {
-        self.0.iter().map(|inventory| inventory.id.as_str())
+        self.all().map(|inventory| inventory.id.as_str())
     }
 
     /// Returns the names of the features that values of a component have.
     pub(crate) fn features(&self, component: Component, part: Option<&str>) -> BTreeSet<&str> {
-        self.0
-            .iter()
+        self.all()
             .filter(|one| one.component == component)
             .filter(|one| part.is_none() || one.feature.as_deref() == part)
             .flat_map(Inventory::features)
@@ -108,23 +143,29 @@ impl Vocabulary {
         match wanted {
             Wanted::Named(pattern) if exactly => {
                 let glob = Glob::exact(pattern);
-                self.add(&mut accepted, (component, part), Reach::Letters, |value| {
-                    value.spellings().any(|text| glob.matches(text))
-                });
+                self.add(
+                    &mut accepted,
+                    (component, part),
+                    Reach::Letters,
+                    |value, _| value.spellings().any(|text| glob.matches(text)),
+                );
                 accepted.exact_glob = Some(glob);
             }
             Wanted::Named(pattern) => {
                 let glob = Glob::whole(pattern);
-                self.add(&mut accepted, (component, part), Reach::Narrower, |value| {
-                    value.spellings().any(|text| glob.matches(&fold(text)))
-                });
+                self.add(
+                    &mut accepted,
+                    (component, part),
+                    Reach::Narrower,
+                    |_, folded| folded.iter().any(|text| glob.matches(text)),
+                );
                 match glob.literal() {
                     Some(text) => _ = accepted.folded.insert(text.to_owned()),
                     None => accepted.folded_glob = Some(glob),
                 }
             }
             Wanted::Features(features) => {
-                self.add(&mut accepted, (component, part), Reach::Own, |value| {
+                self.add(&mut accepted, (component, part), Reach::Own, |value, _| {
                     has(value, features, exactly)
                 });
             }
@@ -138,43 +179,42 @@ impl Vocabulary {
         accepted: &mut Accepted,
         (component, part): (Component, Option<&str>),
         reach: Reach,
-        meant: impl Fn(&InventoryValue) -> bool,
+        meant: impl Fn(&InventoryValue, &[String]) -> bool,
     ) {
-        let (mut within, mut beside) = (BTreeSet::new(), BTreeSet::new());
-        for inventory in self.of(component, part) {
-            let meant: BTreeSet<&str> = inventory
-                .values
-                .iter()
-                .filter(|value| meant(value))
-                .map(|value| value.id.as_str())
+        let mut within: BTreeSet<String> = BTreeSet::new();
+        let mut beside: Vec<&[String]> = Vec::new();
+        for known in self.known(component, part) {
+            let meant: BTreeSet<&str> = known
+                .values()
+                .filter(|(value, folded)| meant(value, folded))
+                .map(|(value, _)| value.id.as_str())
                 .collect();
             if meant.is_empty() {
                 continue;
             }
             accepted.known = true;
             let is_meant = |value: &InventoryValue| meant.contains(value.id.as_str());
-            for value in &inventory.values {
+            for (value, folded) in known.values() {
                 match reach {
                     Reach::Letters if is_meant(value) => {
                         accepted.exact.extend(value.spellings().map(str::to_owned));
                     }
-                    Reach::Own if is_meant(value) => {
-                        accepted.folded.extend(value.spellings().map(fold));
+                    Reach::Own | Reach::Narrower if is_meant(value) => {
+                        accepted.folded.extend(folded.iter().cloned());
                     }
-                    Reach::Narrower if is_meant(value) => {
-                        accepted.folded.extend(value.spellings().map(fold));
+                    Reach::Narrower if known.inventory.chain(&value.id).any(is_meant) => {
+                        within.extend(folded.iter().cloned());
                     }
-                    Reach::Narrower if inventory.chain(&value.id).any(is_meant) => {
-                        within.extend(value.spellings().map(fold));
-                    }
-                    Reach::Narrower => beside.extend(value.spellings().map(fold)),
+                    Reach::Narrower => beside.push(folded),
                     _ => {}
                 }
             }
         }
-        accepted
-            .folded
-            .extend(within.into_iter().filter(|text| !beside.contains(text)));
+        if !within.is_empty() {
+            let beside: BTreeSet<&String> = beside.into_iter().flatten().collect();
+            within.retain(|text| !beside.contains(text));
+            accepted.folded.append(&mut within);
+        }
     }
 }
 
