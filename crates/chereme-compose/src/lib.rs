@@ -22,6 +22,7 @@
 //! | [`units`] | lengths, times, directions and hands as recipes write them |
 //! | [`sources`] | what is asked of a corpus, and its answers |
 //! | [`made`] | movement with its notes and its report |
+//! | [`notation`] | movement from HamNoSys and SiGML |
 //!
 //! The rest is reached through functions: [`resolve`] and [`restore`], [`evaluate`],
 //! [`value_in`] and [`letters_in`] for a corpus's answers, [`learn_course`] and [`bridge`] for courses
@@ -42,6 +43,7 @@ mod json;
 mod learn;
 mod lookup;
 pub mod made;
+pub mod notation;
 mod ops;
 mod poses;
 pub mod recipe;

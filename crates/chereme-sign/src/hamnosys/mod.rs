@@ -58,19 +58,23 @@
 //! University of East Anglia's stylesheet from HamNoSys to SiGML names; openly published lexicons of
 //! German, Greek, French, Polish and British Sign Language for the order in which transcribers write.
 
+pub mod angles;
 pub mod components;
 pub mod direction;
 mod error;
+pub mod language;
 mod lex;
 pub mod nonmanual;
 mod notated;
 mod parse;
 mod print;
+pub mod sites;
 pub mod symbol;
 pub mod tree;
 
 pub use direction::{Compass, Direction};
 pub use error::{Finding, HamnosysError};
+pub use language::{BodyLanguage, LanguageError};
 pub use lex::{MAX_SYMBOLS, from_names, to_names};
 pub use nonmanual::{Act, Nonmanual, NonmanualPart, NonmanualTier, TierEnd, TierKind, TierStart};
 pub use notated::Notated;

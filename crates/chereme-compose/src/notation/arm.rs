@@ -1,0 +1,421 @@
+//! Where the elbow goes: the rules of Kennaway, section 4.2, in closed form.
+//!
+//! The plane of the arm makes an angle with the vertical one through shoulder and wrist, small before
+//! the own shoulder, larger across the body; it gives way where the wrist would bend or the forearm
+//! turn too far, and where the upper arm would enter the trunk. Beyond most of its reach the collar
+//! bone helps. What the wrist cannot do, the hand does not: its orientation gives way last.
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Anatomy, ArmChain, ModelPose, Pose, Side, Skeleton};
+use chereme_sign::hamnosys::BodyLanguage;
+
+use super::stage::Torso;
+
+/// The share of the arm's length before full extension from which the elbow opens softly.
+const SOFT: f64 = 0.012;
+/// Turns of the arm's plane that are weighed, in degrees against the rule's.
+const TURNS: [f64; 9] = [-45.0, -30.0, -15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 80.0];
+
+/// The bones of an arm on a body that stands still.
+pub(crate) struct Rig {
+    pub(crate) side: Side,
+    pub(crate) chain: ArmChain,
+    /// Where the shoulder is while the collar bone rests, in model space.
+    pub(crate) shoulder: DVec3,
+    /// From shoulder to elbow and from elbow to wrist, in metres.
+    pub(crate) lengths: [f64; 2],
+    /// Which way the elbow points at rest, in model space.
+    pub(crate) elbow_axis: DVec3,
+    clavicle: Option<Clavicle>,
+    /// The rotations at rest above the upper arm, from it to the forearm's joint, and on to the hand's.
+    above: DQuat,
+    between: [DQuat; 2],
+    /// The bones and the elbow's direction in the space of their joints.
+    bones: [DVec3; 2],
+    elbow: DVec3,
+    /// The forearm's and hand's local rotations at rest.
+    rest: [DQuat; 2],
+    outside: DVec3,
+    forward: DVec3,
+}
+
+struct Clavicle {
+    joint: usize,
+    at: DVec3,
+    /// Its rotation in model space and that of its parent.
+    turned: DQuat,
+    above: DQuat,
+    /// What is between it and the upper arm.
+    between: DQuat,
+}
+
+/// What a wrist can do, from the body language, in radians.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Limits {
+    flexion: [f64; 2],
+    deviation: [f64; 2],
+    pronation: [f64; 2],
+    elbow: f64,
+    own: f64,
+    across: f64,
+    help: (f64, f64),
+}
+
+impl Limits {
+    pub(crate) fn of(language: &BodyLanguage) -> Self {
+        let angle = f64::to_radians;
+        Self {
+            flexion: [
+                angle(language.limit_extension),
+                angle(language.limit_flexion),
+            ],
+            deviation: [angle(language.limit_ulnar), angle(language.limit_radial)],
+            pronation: [
+                angle(language.limit_pronation),
+                angle(language.limit_supination),
+            ],
+            elbow: angle(language.limit_elbow),
+            own: angle(language.elbow_own_side),
+            across: angle(language.elbow_across),
+            help: (language.clavicle_from, angle(language.clavicle_most)),
+        }
+    }
+
+    /// Returns how far a forearm turns palm down and palm up from thumb up.
+    pub(crate) fn most_turned(&self) -> [f64; 2] {
+        self.pronation
+    }
+}
+
+/// How a hand hangs on its forearm, in radians.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct WristAngles {
+    /// Towards the palm.
+    pub(crate) flexion: f64,
+    /// Towards the thumb.
+    pub(crate) deviation: f64,
+    /// From thumb up: negative palm down.
+    pub(crate) turn: f64,
+}
+
+impl WristAngles {
+    /// Returns how far out of its range the wrist is bent, 1 at its end.
+    pub(crate) fn bend(&self, limits: &Limits) -> f64 {
+        let part = |angle: f64, range: [f64; 2]| angle / range[usize::from(angle > 0.0)];
+        part(self.flexion, limits.flexion).hypot(part(self.deviation, limits.deviation))
+    }
+
+    /// Returns how far out of its range the forearm is turned, 1 at its end.
+    pub(crate) fn turned(&self, limits: &Limits) -> f64 {
+        self.turn.abs() / limits.pronation[usize::from(self.turn > 0.0)]
+    }
+}
+
+/// An arm in one posture.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Posed {
+    pub(crate) shoulder: DVec3,
+    pub(crate) elbow: DVec3,
+    pub(crate) wrist: DVec3,
+    /// The collar bone's turn in model space against its rest.
+    help: DQuat,
+}
+
+/// The hand as the wrist is asked to hold it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Held {
+    /// The hand's directions in the space of its joint.
+    pub(crate) along: DVec3,
+    pub(crate) palm: DVec3,
+    pub(crate) radial: DVec3,
+}
+
+impl Rig {
+    pub(crate) fn of(
+        skeleton: &Skeleton,
+        anatomy: &Anatomy,
+        base: &Pose,
+        model: &ModelPose,
+        side: Side,
+        [left, forward]: [DVec3; 2],
+    ) -> Option<Self> {
+        let chain = anatomy.arm(side)?;
+        let parent = |joint: usize| skeleton.parent(joint);
+        let turned = |joint: Option<usize>| joint.map_or(DQuat::IDENTITY, |j| model.rotation(j));
+        let relative = |from: usize, to: usize| {
+            // What stands between two joints of the chain, `to`'s own rotation left out.
+            (model.rotation(from).inverse() * turned(parent(to))).normalize()
+        };
+        let [shoulder, elbow, wrist] =
+            [chain.upper, chain.forearm, chain.hand].map(|joint| model.position(joint));
+        let lengths = [shoulder.distance(elbow), elbow.distance(wrist)];
+        let bone = |joint: usize, from: DVec3, to: DVec3| {
+            Some(model.rotation(joint).inverse() * (to - from).try_normalize()?)
+        };
+        let bones = [
+            bone(chain.upper, shoulder, elbow)?,
+            bone(chain.forearm, elbow, wrist)?,
+        ];
+        let outside = left * side.sign();
+        let own = anatomy
+            .elbow(side)
+            .unwrap_or_else(|| model.rotation(chain.upper).inverse() * (-forward - DVec3::Y * 0.3));
+        let elbow_local = own
+            .reject_from_normalized(bones[0])
+            .normalize_or(bones[0].any_orthonormal_vector());
+        let clavicle = chain.clavicle.map(|joint| Clavicle {
+            joint,
+            at: model.position(joint),
+            turned: model.rotation(joint),
+            above: turned(parent(joint)),
+            between: relative(joint, chain.upper),
+        });
+        Some(Self {
+            side,
+            chain,
+            shoulder,
+            lengths,
+            elbow_axis: model.rotation(chain.upper) * elbow_local,
+            clavicle,
+            above: turned(parent(chain.upper)),
+            between: [
+                relative(chain.upper, chain.forearm),
+                relative(chain.forearm, chain.hand),
+            ],
+            bones,
+            elbow: elbow_local,
+            rest: [chain.forearm, chain.hand].map(|joint| base.rotations[joint]),
+            outside,
+            forward,
+        })
+    }
+
+    /// Returns the joints that an arm's posture turns: collar bone, upper arm, forearm, hand.
+    pub(crate) fn joints(&self) -> [Option<usize>; 4] {
+        let chain = &self.chain;
+        [
+            self.clavicle.as_ref().map(|clavicle| clavicle.joint),
+            Some(chain.upper),
+            Some(chain.forearm),
+            Some(chain.hand),
+        ]
+    }
+
+    /// Returns the arm's length in metres.
+    pub(crate) fn length(&self) -> f64 {
+        self.lengths[0] + self.lengths[1]
+    }
+
+    /// Brings the wrist to a place, the arm's plane turned by `turn` against the rule's.
+    pub(crate) fn reach(&self, wrist: DVec3, turn: f64, limits: &Limits) -> Posed {
+        let (shoulder, help) = self.shoulder_for(wrist, limits);
+        let way = wrist - shoulder;
+        let length = self.length();
+        let line = way.normalize_or(self.forward);
+        let reach = self.soften(way.length(), limits);
+        let [first, second] = self.lengths;
+        let x = ((first * first - second * second + reach * reach) / (2.0 * reach))
+            .clamp(-first, first);
+        let off = (first * first - x * x).max(0.0).sqrt();
+        let crossed = -(wrist - self.shoulder).dot(self.outside) / (0.6 * length);
+        let crossed = smooth(crossed);
+        let angle = limits.own + (limits.across - limits.own) * crossed + turn;
+        let (sin, cos) = angle.sin_cos();
+        let pole = self.outside * sin - DVec3::Y * cos;
+        let pole = DQuat::from_rotation_arc(self.forward, line) * pole;
+        let pole = pole.reject_from_normalized(line).normalize_or(pole);
+        Posed {
+            shoulder,
+            elbow: shoulder + line * x + pole * off,
+            wrist: shoulder + line * reach,
+            help,
+        }
+    }
+
+    /// Returns how far to reach for a distance: softly up to the arm's length, not nearer than the
+    /// elbow bends.
+    fn soften(&self, wanted: f64, limits: &Limits) -> f64 {
+        let length = self.length();
+        let [a, b] = self.lengths;
+        let near = (a * a + b * b + 2.0 * a * b * limits.elbow.cos()).sqrt();
+        let from = length * (1.0 - SOFT);
+        if wanted > from {
+            let left = length - from;
+            length - left * (-(wanted - from) / left).exp()
+        } else {
+            wanted.max(near)
+        }
+    }
+
+    fn shoulder_for(&self, wrist: DVec3, limits: &Limits) -> (DVec3, DQuat) {
+        let still = (self.shoulder, DQuat::IDENTITY);
+        let Some(clavicle) = &self.clavicle else {
+            return still;
+        };
+        let missing = self.shoulder.distance(wrist) - limits.help.0 * self.length();
+        let bone = self.shoulder - clavicle.at;
+        if missing <= 0.0 || bone.length() < 1e-6 || limits.help.1 <= 0.0 {
+            return still;
+        }
+        let Some(axis) = bone.cross(wrist - clavicle.at).try_normalize() else {
+            return still;
+        };
+        let wanted = missing / bone.length() * bone.angle_between(wrist - clavicle.at).sin();
+        let turn = DQuat::from_axis_angle(axis, limits.help.1 * (wanted / limits.help.1).tanh());
+        (clavicle.at + turn * bone, turn)
+    }
+
+    /// Returns how the wrist hangs in a posture with the hand turned so in model space.
+    pub(crate) fn wrist(&self, posed: &Posed, hand: DQuat, held: &Held) -> WristAngles {
+        let forearm = (posed.wrist - posed.elbow).normalize_or(self.forward);
+        let in_hand = hand.inverse() * forearm;
+        let [a, p, r] = [held.along, held.palm, held.radial].map(|axis| in_hand.dot(axis));
+        let deviation = (-r).clamp(-1.0, 1.0).asin();
+        // Bent back by more than a right angle the deviation alone does not tell.
+        let flexion = (-p).atan2(a);
+        let straight = hand * held.along;
+        let aligned = arc(straight, forearm) * (hand * held.palm);
+        let out = self.elbow_out(posed, forearm);
+        let inner = forearm.cross(out) * -self.side.sign();
+        let turn = forearm.dot(inner.cross(aligned)).atan2(inner.dot(aligned)) * -self.side.sign();
+        WristAngles {
+            flexion,
+            deviation,
+            turn,
+        }
+    }
+
+    /// Returns where the elbow points across the forearm.
+    fn elbow_out(&self, posed: &Posed, forearm: DVec3) -> DVec3 {
+        let line = (posed.wrist - posed.shoulder).normalize_or(self.forward);
+        let out = (posed.elbow - posed.shoulder).reject_from_normalized(line);
+        out.reject_from_normalized(forearm)
+            .try_normalize()
+            .unwrap_or_else(|| forearm.any_orthonormal_vector())
+    }
+
+    /// Returns by how much the arm's plane should give way for the hand and the trunk, in radians:
+    /// the mean of turns weighed by how well each suits, so that it follows the hand without jumps.
+    pub(crate) fn turn(
+        &self,
+        wrist: DVec3,
+        hand: DQuat,
+        held: &Held,
+        limits: &Limits,
+        torso: &Torso,
+    ) -> f64 {
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for degrees in TURNS {
+            let turn = degrees.to_radians();
+            let posed = self.reach(wrist, turn, limits);
+            let angles = self.wrist(&posed, hand, held);
+            let bend = (angles.bend(limits) - 0.6).max(0.0);
+            let twist = (angles.turned(limits) - 0.75).max(0.0);
+            let mut cost = (degrees / 45.0).powi(2) + 14.0 * bend * bend + 14.0 * twist * twist;
+            for share in [0.6, 1.0] {
+                let at = posed.shoulder.lerp(posed.elbow, share);
+                let depth = torso.depth(at, 0.035).max(0.0) / self.length();
+                cost += 4000.0 * depth * depth;
+            }
+            let weight = (-3.0 * cost).exp().max(1e-30);
+            sum += turn * weight;
+            weights += weight;
+        }
+        sum / weights
+    }
+
+    /// Returns the orientation nearest to the hand's that wrist and forearm allow in a posture, and
+    /// the forearm's turn; `turn` is the forearm's turn that is wanted, in radians.
+    pub(crate) fn allowed(
+        &self,
+        posed: &Posed,
+        hand: DQuat,
+        held: &Held,
+        limits: &Limits,
+        turn: f64,
+    ) -> DQuat {
+        let angles = self.wrist(posed, hand, held);
+        let turn = turn.clamp(-limits.pronation[0], limits.pronation[1]);
+        let bend = angles.bend(limits);
+        if bend <= 1.0 && (angles.turn - turn).abs() < 1e-6 {
+            return hand;
+        }
+        let forearm = (posed.wrist - posed.elbow).normalize_or(self.forward);
+        let swing = arc(forearm, hand * held.along);
+        let straight = swing.inverse() * hand;
+        let more = (turn - angles.turn) * -self.side.sign();
+        let straight = DQuat::from_axis_angle(forearm, more) * straight;
+        // The swing keeps its direction against the hand, not against the world.
+        let swing =
+            DQuat::from_axis_angle(forearm, more) * swing * DQuat::from_axis_angle(forearm, -more);
+        let mut turned = swing * straight;
+        let mut share = 1.0;
+        for _ in 0..12 {
+            let bend = self.wrist(posed, turned, held).bend(limits);
+            if bend <= 1.0 {
+                break;
+            }
+            share *= (0.995 / bend).clamp(0.2, 0.99);
+            turned = DQuat::IDENTITY.slerp(swing, share) * straight;
+        }
+        turned.normalize()
+    }
+
+    /// Returns the local rotations of [`joints`](Self::joints) for a posture and the hand's rotation
+    /// in model space.
+    pub(crate) fn rotations(&self, posed: &Posed, hand: DQuat) -> [DQuat; 4] {
+        let (clavicle, above) = match &self.clavicle {
+            Some(clavicle) => {
+                let turned = posed.help * clavicle.turned;
+                (clavicle.above.inverse() * turned, turned * clavicle.between)
+            }
+            None => (DQuat::IDENTITY, self.above),
+        };
+        let up = (posed.elbow - posed.shoulder).normalize_or(self.forward);
+        let fore = (posed.wrist - posed.elbow).normalize_or(up);
+        let line = (posed.wrist - posed.shoulder).normalize_or(self.forward);
+        let out = (posed.elbow - posed.shoulder).reject_from_normalized(line);
+        let out = out
+            .reject_from_normalized(up)
+            .try_normalize()
+            .unwrap_or_else(|| up.any_orthonormal_vector());
+        let upper = basis(up, out) * basis(self.bones[0], self.elbow).inverse();
+        let base = upper * self.between[0] * self.rest[0];
+        let forearm = arc(base * self.bones[1], fore) * base;
+        let rest = forearm * self.between[1] * self.rest[1];
+        let twist = twist(hand * rest.inverse(), fore);
+        let forearm = twist * forearm;
+        [
+            clavicle.normalize(),
+            (above.inverse() * upper).normalize(),
+            ((upper * self.between[0]).inverse() * forearm).normalize(),
+            ((forearm * self.between[1]).inverse() * hand).normalize(),
+        ]
+    }
+}
+
+/// Returns the rotation of a right-handed frame of two unit vectors at right angles.
+fn basis(a: DVec3, b: DVec3) -> DQuat {
+    DQuat::from_mat3(&chereme_motion::glam::DMat3::from_cols(a, b, a.cross(b))).normalize()
+}
+
+/// Returns the least rotation from one unit vector to another.
+fn arc(from: DVec3, to: DVec3) -> DQuat {
+    DQuat::from_rotation_arc(from, to)
+}
+
+fn smooth(share: f64) -> f64 {
+    let share = share.clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}
+
+/// Returns the part of a rotation that turns about a unit vector.
+fn twist(q: DQuat, axis: DVec3) -> DQuat {
+    let along = axis * q.xyz().dot(axis);
+    let twist = DQuat::from_xyzw(along.x, along.y, along.z, q.w);
+    if twist.length_squared() > 1e-12 {
+        twist.normalize()
+    } else {
+        DQuat::IDENTITY
+    }
+}

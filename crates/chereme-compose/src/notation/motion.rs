@@ -1,0 +1,802 @@
+//! Motions as events: ways, turns of wrists, playing fingers; in sequence, at once, and again.
+
+use std::f64::consts::TAU;
+
+use chereme_motion::glam::DVec3;
+use chereme_sign::hamnosys::{
+    Amount, BodyAction, Circular, Curve, Digit, Digits, Directed, Growth, Manner, Motion,
+    MotionKind, Place, Posture, Repeat, Repetition, Size, WristMotion,
+};
+
+use super::pace::Pace;
+use super::path::Path;
+use super::plan::{Act, Event, Frame, HandState, PhaseKind, Planner, Who, about, mean, shortest};
+
+/// What holds for a motion from outside of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Env {
+    /// Its time against the usual.
+    pub(crate) slower: f64,
+    /// Its size against the usual.
+    pub(crate) size: f64,
+    /// How often more a motion that goes round is done.
+    pub(crate) rounds: f64,
+    /// It is done backwards.
+    pub(crate) back: bool,
+}
+
+impl Default for Env {
+    fn default() -> Self {
+        Self {
+            slower: 1.0,
+            size: 1.0,
+            rounds: 0.0,
+            back: false,
+        }
+    }
+}
+
+impl Planner<'_> {
+    /// Plans a motion from `time` on for those who act; returns when it is over.
+    pub(crate) fn motion(&mut self, motion: &Motion, who: Who, time: f64, env: &Env) -> f64 {
+        let manner = &motion.manner;
+        let time = if manner.rest {
+            time + self.language.time_rest
+        } else {
+            time
+        };
+        let who = alternated(manner, who);
+        let env = Env {
+            slower: env.slower * self.slower(manner),
+            ..*env
+        };
+        let end = self.kind(&motion.kind, manner, who, time, &env);
+        if manner.bouncing {
+            return self.bounce(who, time, end);
+        }
+        end
+    }
+
+    /// Returns by how much longer a manner makes a motion.
+    fn slower(&self, manner: &Manner) -> f64 {
+        let l = self.language;
+        let mut slower = 1.0;
+        if manner.fast {
+            slower *= l.manner_fast;
+        }
+        if manner.slow {
+            slower *= l.manner_slow;
+        }
+        if manner.tense {
+            slower *= l.manner_tense;
+        }
+        if manner.halt {
+            slower *= l.manner_halt;
+        }
+        let speed = manner
+            .speed
+            .filter(|speed| speed.is_finite() && *speed > 0.0);
+        slower / speed.unwrap_or(1.0).clamp(0.1, 10.0)
+    }
+
+    fn kind(&mut self, kind: &MotionKind, manner: &Manner, who: Who, time: f64, env: &Env) -> f64 {
+        match kind {
+            MotionKind::Directed(directed) => self.directed(directed, manner, who, time, env),
+            MotionKind::Circular(circular) => self.circular(circular, manner, who, time, env),
+            MotionKind::Wrist { motion, size } => {
+                self.wrist(*motion, *size, manner, who, time, env)
+            }
+            MotionKind::Cross { diagonal } => self.crossing(*diagonal, manner, who, time, env),
+            MotionKind::FingerPlay(digits) => self.play(digits, who, time, env),
+            MotionKind::Still => {
+                let end = time + self.language.time_still * env.slower;
+                self.told(who, PhaseKind::Hold, time, end, "still");
+                end
+            }
+            MotionKind::Body(action) => self.body(action, time),
+            MotionKind::Split(a, b) => {
+                let own = self.own_frame();
+                let mut end = time;
+                for (n, motion) in [a, b].into_iter().enumerate() {
+                    let mut only: Who = [None, None];
+                    only[n] = Some(Frame {
+                        behind: false,
+                        ..own
+                    });
+                    if let Some(motion) = motion {
+                        end = end.max(self.motion(motion, only, time, env));
+                    }
+                }
+                end
+            }
+            MotionKind::Sequence { motions, fused } => {
+                self.sequence(motions, *fused, who, time, env)
+            }
+            MotionKind::Parallel(motions) => self.parallel(motions, who, time, env),
+            MotionKind::Target { motion, posture } => {
+                self.target(motion.as_deref(), posture, manner, who, time, env)
+            }
+            MotionKind::Repeated { motion, repetition } => {
+                self.repeated(motion, repetition, who, time, env)
+            }
+        }
+    }
+
+    /// Lets those who act go along a way, told for the dominant hand to the left, up and forward.
+    fn along(&mut self, path: &Path, who: Who, [from, to]: [f64; 2], pace: Pace) {
+        for n in 0..2 {
+            let Some(frame) = who[n] else { continue };
+            let sign = if frame.behind { -1.0 } else { 1.0 };
+            let stage = self.stage;
+            let own = path.map(|v| stage.direction(v * frame.axes * sign));
+            self.state[n].point += own.end();
+            self.state[n].used = true;
+            self.plan.events[n].push(Event {
+                from,
+                to,
+                pace,
+                act: Act::Move(own),
+            });
+        }
+    }
+
+    fn told(&mut self, who: Who, kind: PhaseKind, from: f64, to: f64, says: &str) {
+        for n in 0..2 {
+            if who[n].is_some() {
+                self.phase(n, kind, from, to, says);
+            }
+        }
+    }
+
+    /// Returns how long a way takes: as usual, or longer where it would be too fast.
+    fn timed(&self, usual: f64, length: f64, env: &Env) -> f64 {
+        // The fastest moment of a targetted movement is 2.6 times its mean.
+        let least = 2.6 * length / (self.language.speed_most * self.stage.arm);
+        (usual * env.slower).max(least)
+    }
+
+    fn directed(
+        &mut self,
+        directed: &Directed,
+        manner: &Manner,
+        who: Who,
+        time: f64,
+        env: &Env,
+    ) -> f64 {
+        let l = self.language;
+        let size = amount(&directed.size, [l.move_small, l.move_normal, l.move_big]);
+        let way = mean(directed.direction, directed.second);
+        let sign = if env.back { -1.0 } else { 1.0 };
+        let chord = way * (size * env.size * self.stage.arm * sign);
+        let usual = if directed.curve.is_some() || directed.zigzag.is_some() {
+            l.time_arc
+        } else {
+            l.time_straight
+        };
+        let path = match &directed.curve {
+            Some(curve) => Path::Arc {
+                chord,
+                bow: self.bow(way, curve) * chord.length(),
+            },
+            None => Path::Line(chord),
+        };
+        let end = time + self.timed(usual, path.length(), env);
+        let pace = Pace::of(manner, Pace::Targetted);
+        self.along(&path, who, [time, end], pace);
+        if let Some(zigzag) = &directed.zigzag {
+            let wide = sized(zigzag.size, [l.zigzag_small, l.zigzag_normal, l.zigzag_big]);
+            let wave = Path::Wave {
+                side: across(way) * (wide * env.size * self.stage.arm),
+                waves: l.zigzag_waves,
+                wavy: zigzag.wavy,
+                grown: grown(zigzag.growth, 2.0 * l.growth),
+            };
+            self.along(&wave, who, [time, end], pace);
+        }
+        let says = format!(
+            "{}{}",
+            if directed.curve.is_some() { "arc " } else { "" },
+            directed.direction
+        );
+        self.told(who, PhaseKind::Stroke, time, end, &says);
+        end
+    }
+
+    /// Returns the way an arc bulges, as long as its depth against its chord.
+    fn bow(&self, way: DVec3, curve: &Curve) -> DVec3 {
+        let l = self.language;
+        let deep = sized(curve.size, [l.arc_small, l.arc_normal, l.arc_big]);
+        let bow = shortest(way) * about(curve.to.angle());
+        // Along a way sideways or out, a bow up or down is up or down.
+        bow * deep
+    }
+
+    fn circular(
+        &mut self,
+        circular: &Circular,
+        manner: &Manner,
+        who: Who,
+        time: f64,
+        env: &Env,
+    ) -> f64 {
+        let l = self.language;
+        let radius = amount(
+            &circular.size,
+            [l.circle_small, l.circle_normal, l.circle_big],
+        );
+        let turns = turns(circular) + env.rounds;
+        let (start, quarter) = self.rim(circular, radius * env.size);
+        let path = Path::Circle {
+            start,
+            quarter: if env.back { -quarter } else { quarter },
+            angle: turns * TAU,
+            grown: grown(circular.growth, l.growth * turns),
+        };
+        let usual = l.time_circle * turns.max(0.4);
+        let end = time + self.timed(usual, path.length(), env);
+        self.along(&path, who, [time, end], Pace::of(manner, Pace::Linear));
+        let says = format!("circle {}", circular.axis);
+        self.told(who, PhaseKind::Stroke, time, end, &says);
+        end
+    }
+
+    /// Returns the ways from a circle's centre to where it begins and to a quarter on.
+    fn rim(&self, circular: &Circular, radius: f64) -> (DVec3, DVec3) {
+        let l = self.language;
+        let axis = mean(circular.axis, circular.second);
+        let start = circular
+            .clock
+            .start
+            .map_or(std::f64::consts::PI, |at| at.angle());
+        let turned = shortest(axis);
+        let mut spokes = [start, start + std::f64::consts::FRAC_PI_2].map(about);
+        // A quarter on is where the right-hand rule goes about forward.
+        spokes[1] = DVec3::Z.cross(spokes[0]);
+        if let Some(ellipse) = circular.ellipse {
+            use chereme_sign::hamnosys::Ellipse;
+            let long = match ellipse {
+                Ellipse::Horizontal => DVec3::X,
+                Ellipse::Vertical => DVec3::Y,
+                Ellipse::UpRight => DVec3::new(-1.0, 1.0, 0.0).normalize(),
+                Ellipse::UpLeft => DVec3::new(1.0, 1.0, 0.0).normalize(),
+            };
+            let narrow = sized(
+                circular.ellipse_size,
+                [l.ellipse_small, l.ellipse_normal, l.ellipse_big],
+            );
+            let squeeze = |v: DVec3| {
+                let along = long * v.dot(long);
+                along + (v - along) * narrow
+            };
+            spokes = spokes.map(squeeze);
+        }
+        let size = radius * self.stage.arm;
+        (turned * spokes[0] * size, turned * spokes[1] * size)
+    }
+
+    /// Lets a second hand that is half a period behind begin on the other side of its circle.
+    pub(crate) fn start_behind(&mut self, part: &chereme_sign::hamnosys::Manual, who: Who) {
+        let Some(frame) = who[1].filter(|frame| frame.behind) else {
+            return;
+        };
+        fn circle(motion: &Motion) -> Option<&Circular> {
+            match &motion.kind {
+                MotionKind::Circular(circular) => Some(circular),
+                MotionKind::Repeated { motion, .. } => circle(motion),
+                MotionKind::Parallel(all) | MotionKind::Sequence { motions: all, .. } => {
+                    all.iter().find_map(circle)
+                }
+                MotionKind::Target { motion, .. } => circle(motion.as_deref()?),
+                _ => None,
+            }
+        }
+        let Some(circular) = part.actions.first().and_then(circle) else {
+            return;
+        };
+        let l = self.language;
+        let radius = amount(
+            &circular.size,
+            [l.circle_small, l.circle_normal, l.circle_big],
+        );
+        let (start, _) = self.rim(circular, radius);
+        let by = self.stage.direction(start * frame.axes * -2.0);
+        self.state[1].point += by;
+    }
+
+    fn wrist(
+        &mut self,
+        motion: WristMotion,
+        size: Option<Size>,
+        manner: &Manner,
+        who: Who,
+        time: f64,
+        env: &Env,
+    ) -> f64 {
+        let l = self.language;
+        let scale = sized(size, [l.wrist_small, 1.0, l.wrist_big]) * env.size;
+        let cycles = if env.rounds > 0.0 {
+            env.rounds + 1.0
+        } else {
+            l.wrist_cycles
+        };
+        let end = time + l.time_wrist * cycles * env.slower;
+        for n in 0..2 {
+            let Some(frame) = who[n] else { continue };
+            let Some(hand) = self.stage.hand(self.sides[n]) else {
+                continue;
+            };
+            let own = -hand.side.sign() * if frame.behind { -1.0 } else { 1.0 };
+            let nod = hand.along.cross(hand.palm);
+            let swing = hand.palm * own;
+            let angle = |degrees: f64| (degrees * scale).to_radians();
+            let axes = match motion {
+                WristMotion::Nodding => [nod * angle(l.wrist_nodding), DVec3::ZERO],
+                WristMotion::Swinging => [swing * angle(l.wrist_swinging), DVec3::ZERO],
+                WristMotion::Twisting => {
+                    [hand.along * (own * angle(l.wrist_twisting)), DVec3::ZERO]
+                }
+                WristMotion::StirCw => [nod, swing].map(|axis| axis * angle(l.wrist_stirring)),
+                WristMotion::StirCcw => [nod, -swing].map(|axis| axis * angle(l.wrist_stirring)),
+            };
+            self.plan.events[n].push(Event {
+                from: time,
+                to: end,
+                pace: Pace::of(manner, Pace::Linear),
+                act: Act::Wrist { axes, cycles },
+            });
+        }
+        self.told(who, PhaseKind::Stroke, time, end, wrist_name(motion));
+        end
+    }
+
+    fn crossing(&mut self, diagonal: bool, manner: &Manner, who: Who, time: f64, env: &Env) -> f64 {
+        let l = self.language;
+        let size = l.cross_size * env.size * self.stage.arm;
+        let points = if diagonal {
+            [[1.0, -1.0], [1.0, 0.0], [0.0, -1.0]]
+        } else {
+            [[0.0, -1.0], [0.5, -0.5], [-0.5, -0.5]]
+        };
+        let path = Path::Through(points.map(|[x, y]| DVec3::new(x, y, 0.0) * size).to_vec());
+        let end = time + self.timed(2.2 * l.time_straight, path.length(), env);
+        self.along(&path, who, [time, end], Pace::of(manner, Pace::Linear));
+        self.told(who, PhaseKind::Stroke, time, end, "cross");
+        end
+    }
+
+    fn play(&mut self, digits: &Digits, who: Who, time: f64, env: &Env) -> f64 {
+        let l = self.language;
+        let cycles = l.play_cycles + env.rounds;
+        let end = time + l.time_play * cycles * env.slower;
+        let playing = if digits.is_empty() {
+            [false, true, true, true, true]
+        } else {
+            Digit::ALL.map(|digit| digits.contains(digit))
+        };
+        for n in 0..2 {
+            if who[n].is_none() {
+                continue;
+            }
+            self.plan.events[n].push(Event {
+                from: time,
+                to: end,
+                pace: Pace::Linear,
+                act: Act::Play {
+                    digits: playing,
+                    angle: l.play_angle.to_radians(),
+                    cycles,
+                },
+            });
+        }
+        self.told(who, PhaseKind::Stroke, time, end, "fingers play");
+        end
+    }
+
+    /// Plans what the body does instead of a hand: it is told, not moved.
+    pub(crate) fn body(&mut self, action: &BodyAction, time: f64) -> f64 {
+        self.remark("movements of the body in place of a hand are told, not moved");
+        let _ = action;
+        time + self.language.time_body
+    }
+
+    fn sequence(&mut self, motions: &[Motion], fused: bool, who: Who, time: f64, env: &Env) -> f64 {
+        let mut now = time;
+        let last = motions.len().saturating_sub(1);
+        let order: Vec<&Motion> = if env.back {
+            motions.iter().rev().collect()
+        } else {
+            motions.iter().collect()
+        };
+        for (n, motion) in order.into_iter().enumerate() {
+            let end = self.motion(motion, who, now, env);
+            now = if fused && n < last {
+                end - (end - now) * self.language.fused
+            } else {
+                end
+            };
+        }
+        now
+    }
+
+    fn parallel(&mut self, motions: &[Motion], who: Who, time: f64, env: &Env) -> f64 {
+        let lengths: Vec<f64> = motions
+            .iter()
+            .map(|motion| self.length_of(motion, who, env))
+            .collect();
+        let longest = lengths.iter().copied().fold(0.0, f64::max);
+        // Ways go first, so that postures at their end are met from where they lead.
+        let (ways, ends): (Vec<_>, Vec<_>) = motions
+            .iter()
+            .zip(lengths)
+            .partition(|(motion, _)| !matches!(motion.kind, MotionKind::Target { .. }));
+        for (motion, length) in ways.into_iter().chain(ends) {
+            let stretch = if length > 1e-6 { longest / length } else { 1.0 };
+            let env = Env {
+                slower: env.slower * stretch,
+                ..*env
+            };
+            self.motion(motion, who, time, &env);
+        }
+        time + longest
+    }
+
+    /// Returns how long a motion takes, planning it on the side.
+    fn length_of(&mut self, motion: &Motion, who: Who, env: &Env) -> f64 {
+        let state = self.state.clone();
+        let events = [0, 1].map(|n| self.plan.events[n].len());
+        let phases = self.plan.phases.len();
+        let named = self.named.clone();
+        let end = self.motion(motion, who, 0.0, env);
+        self.state = state;
+        self.named = named;
+        for n in 0..2 {
+            self.plan.events[n].truncate(events[n]);
+        }
+        self.plan.phases.truncate(phases);
+        end
+    }
+
+    fn target(
+        &mut self,
+        motion: Option<&Motion>,
+        posture: &Posture,
+        manner: &Manner,
+        who: Who,
+        time: f64,
+        env: &Env,
+    ) -> f64 {
+        let named = self.addressed(posture, who);
+        for n in 0..2 {
+            if named[n].is_some() && !self.state[n].used {
+                self.raise(n);
+            }
+        }
+        let before = self.state.clone();
+        let planned = motion.map(|motion| self.motion(motion, who, time, env));
+        let now = self.state.clone();
+        self.assume(posture, named);
+        let goal = self.state.clone();
+        let contact = posture.place.as_ref().is_some_and(meets);
+        let usual = if posture.place.is_some() {
+            let far = (0..2).map(|n| before[n].wrist().distance(goal[n].wrist()));
+            let far = far.fold(0.0, f64::max);
+            self.timed(self.language.time_straight, far, env)
+        } else {
+            self.language.time_replace * env.slower
+        };
+        let end = planned.unwrap_or(time + usual).max(time + 1e-3);
+        let end = match planned {
+            Some(_) => end,
+            None => end.max(time + 0.6 * self.longest(&before, &goal)),
+        };
+        let pace = Pace::of(
+            manner,
+            if contact {
+                Pace::Contact
+            } else {
+                Pace::Targetted
+            },
+        );
+        if contact {
+            self.hasten(&before, time, pace, who);
+        }
+        self.state = now;
+        for n in 0..2 {
+            if named[n].is_some() {
+                self.go(n, &goal[n], time, end, pace);
+                if motion.is_none() {
+                    self.phase(n, PhaseKind::Stroke, time, end, "to a posture");
+                }
+            }
+        }
+        if contact {
+            end + self.language.time_contact
+        } else {
+            end
+        }
+    }
+
+    fn longest(&self, a: &[HandState; 2], b: &[HandState; 2]) -> f64 {
+        (0..2)
+            .map(|n| self.length_between(&a[n], &b[n], n))
+            .fold(0.0, f64::max)
+    }
+
+    /// Gives the ways that began at `time` the course of what they lead to.
+    fn hasten(&mut self, _before: &[HandState; 2], time: f64, pace: Pace, who: Who) {
+        for n in 0..2 {
+            if who[n].is_none() {
+                continue;
+            }
+            for event in self.plan.events[n].iter_mut().rev() {
+                if event.from < time - 1e-9 {
+                    break;
+                }
+                if event.pace == Pace::Targetted {
+                    event.pace = pace;
+                }
+            }
+        }
+    }
+
+    fn repeated(
+        &mut self,
+        motion: &Motion,
+        repetition: &Repetition,
+        who: Who,
+        time: f64,
+        env: &Env,
+    ) -> f64 {
+        let l = self.language;
+        let second = repetition.second.is_some();
+        let count = |repeat: Repeat| match repeat {
+            Repeat::FromStart
+            | Repeat::Continue
+            | Repeat::Reverse
+            | Repeat::ToFro
+            | Repeat::Swap => 1.0,
+            Repeat::FromStartSeveral | Repeat::ContinueSeveral => l.repeat_several,
+            Repeat::ManyRandom => l.repeat_random,
+        };
+        let more = count(repetition.repeat) + repetition.second.map_or(0.0, count);
+        let steady = is_round(motion) && repetition.shift.is_none() && repetition.growth.is_none();
+        if steady && repetition.repeat != Repeat::Reverse {
+            let env = Env {
+                rounds: env.rounds + more,
+                ..*env
+            };
+            return self.motion(motion, who, time, &env);
+        }
+        let _ = second;
+        let start = self.state.clone();
+        let mut env = *env;
+        let mut now = self.motion(motion, who, time, &env);
+        let mut origin = start;
+        for round in 0..more as usize {
+            if let Some(growth) = repetition.growth {
+                let by = l.growth * sized(growth.size, [0.5, 1.0, 1.5]);
+                env.size *= if growth.increasing {
+                    1.0 + by
+                } else {
+                    1.0 / (1.0 + by)
+                };
+            }
+            now = self.again(motion, repetition, who, now, &env, &mut origin, round);
+        }
+        now
+    }
+
+    /// Plans one more round of a repeated motion.
+    #[expect(clippy::too_many_arguments, reason = "one round of the loop above")]
+    fn again(
+        &mut self,
+        motion: &Motion,
+        repetition: &Repetition,
+        who: Who,
+        time: f64,
+        env: &Env,
+        origin: &mut [HandState; 2],
+        round: usize,
+    ) -> f64 {
+        let l = self.language;
+        if let Some(shift) = repetition.shift {
+            let by = DVec3::from(shift.vector())
+                * (l.repeat_shift * sized(repetition.shift_size, [0.6, 1.0, 1.6]) * self.stage.arm);
+            for n in 0..2 {
+                if let Some(frame) = who[n] {
+                    origin[n].point += self.stage.direction(by * frame.axes);
+                }
+            }
+        }
+        match repetition.repeat {
+            Repeat::Continue | Repeat::ContinueSeveral => self.motion(motion, who, time, env),
+            Repeat::Reverse => self.back_to(origin, who, time, env, motion, Pace::Targetted),
+            Repeat::ToFro => {
+                let now = self.back_to(origin, who, time, env, motion, Pace::Targetted);
+                self.motion(motion, who, now, env)
+            }
+            Repeat::Swap => {
+                let swapped = [0, 1].map(|n| {
+                    who[n].map(|frame| Frame {
+                        behind: !frame.behind,
+                        ..frame
+                    })
+                });
+                let now = self.back_to(origin, who, time, env, motion, Pace::Lax);
+                self.motion(motion, swapped, now, env)
+            }
+            Repeat::FromStart | Repeat::FromStartSeveral | Repeat::ManyRandom => {
+                let now = self.back_to(origin, who, time, env, motion, Pace::Lax);
+                let unlike = if repetition.repeat == Repeat::ManyRandom {
+                    // Not at random: the same notation gives the same movement.
+                    [1.15, 0.85, 1.05, 0.9][round % 4]
+                } else {
+                    1.0
+                };
+                let env = Env {
+                    size: env.size * unlike,
+                    ..*env
+                };
+                self.motion(motion, who, now, &env)
+            }
+        }
+    }
+
+    /// Brings hands back to where a motion began; curved ways go back as they came.
+    fn back_to(
+        &mut self,
+        origin: &[HandState; 2],
+        who: Who,
+        time: f64,
+        env: &Env,
+        motion: &Motion,
+        pace: Pace,
+    ) -> f64 {
+        let both = [0, 1].map(|n| who[n].is_some() || self.state[n] != origin[n]);
+        let far = (0..2)
+            .map(|n| self.state[n].wrist().distance(origin[n].wrist()))
+            .fold(0.0, f64::max);
+        let usual = if pace == Pace::Lax {
+            self.language.time_return
+        } else {
+            self.language.time_straight
+        };
+        let end = time + self.timed(usual * self.slower(&motion.manner), far, env);
+        for n in 0..2 {
+            if both[n] {
+                let used = self.state[n].used;
+                self.go(n, &origin[n].clone(), time, end, pace);
+                self.state[n].used = used;
+                let kind = if pace == Pace::Lax {
+                    PhaseKind::Transition
+                } else {
+                    PhaseKind::Stroke
+                };
+                self.phase(n, kind, time, end, "back");
+            }
+        }
+        end
+    }
+
+    fn bounce(&mut self, who: Who, from: f64, end: f64) -> f64 {
+        let l = self.language;
+        let mut to = end;
+        for n in 0..2 {
+            if who[n].is_none() {
+                continue;
+            }
+            let ways = self.plan.events[n]
+                .iter()
+                .filter(|event| event.from >= from - 1e-9);
+            let way: DVec3 = ways
+                .map(|event| match &event.act {
+                    Act::Move(path) => path.end(),
+                    _ => DVec3::ZERO,
+                })
+                .sum();
+            if way.length() < 1e-6 {
+                continue;
+            }
+            to = end + l.time_return;
+            self.plan.events[n].push(Event {
+                from: end,
+                to,
+                pace: Pace::Linear,
+                act: Act::Move(Path::Spring(way * -l.bounce)),
+            });
+        }
+        to
+    }
+}
+
+/// Returns who acts in an alternating motion: the second hand half a period behind.
+fn alternated(manner: &Manner, mut who: Who) -> Who {
+    if (manner.alternating || manner.second_alternating) && who[0].is_some() {
+        who[1] = who[1].map(|frame| Frame {
+            behind: true,
+            ..frame
+        });
+    }
+    who
+}
+
+fn meets(place: &Place) -> bool {
+    use chereme_sign::hamnosys::Contact::{Cross, Interlock, Touch};
+    match place {
+        Place::Body(body) => body.contact == Some(Touch),
+        Place::Hand(site) => matches!(site.contact, Some(Touch | Cross | Interlock) | None),
+        Place::Hands(hands) => matches!(hands.contact, Some(Touch | Cross | Interlock)),
+        Place::Split(a, b) => [a, b].into_iter().flatten().any(|place| meets(place)),
+        Place::Named(_) => false,
+    }
+}
+
+/// Tells whether a motion is done again by going on: circles, wrists, playing fingers.
+fn is_round(motion: &Motion) -> bool {
+    match &motion.kind {
+        MotionKind::Circular(circular) => {
+            circular.growth.is_none() && (turns(circular).fract() < 1e-9)
+        }
+        MotionKind::Wrist { .. } | MotionKind::FingerPlay(_) => true,
+        MotionKind::Parallel(all) => all.iter().all(is_round),
+        _ => false,
+    }
+}
+
+/// Returns how many turns a circle makes.
+fn turns(circular: &Circular) -> f64 {
+    let clock = &circular.clock;
+    let full = f64::from(clock.full);
+    match (clock.start, clock.end) {
+        (Some(start), Some(end)) if start != end => {
+            // About forward the right-hand rule goes from down over left.
+            let part = (start.angle() - end.angle()).rem_euclid(TAU) / TAU;
+            full + part
+        }
+        _ => full + 1.0,
+    }
+}
+
+fn amount(amount: &Amount, sizes: [f64; 3]) -> f64 {
+    let first = sized(amount.first, sizes);
+    amount
+        .second
+        .map_or(first, |second| (first + sized(Some(second), sizes)) / 2.0)
+}
+
+fn sized(size: Option<Size>, [small, normal, big]: [f64; 3]) -> f64 {
+    match size {
+        Some(Size::Small) => small,
+        None => normal,
+        Some(Size::Big) => big,
+    }
+}
+
+fn grown(growth: Option<Growth>, by: f64) -> f64 {
+    match growth {
+        Some(Growth {
+            increasing: true, ..
+        }) => 1.0 + by,
+        Some(_) => 1.0 / (1.0 + by),
+        None => 1.0,
+    }
+}
+
+/// Returns a direction across a way: level, or to the left of one that is upright.
+fn across(way: DVec3) -> DVec3 {
+    if way.y.abs() > 0.9 {
+        DVec3::X
+    } else {
+        DVec3::Y.cross(way).normalize_or(DVec3::X)
+    }
+}
+
+fn wrist_name(motion: WristMotion) -> &'static str {
+    match motion {
+        WristMotion::Nodding => "nodding",
+        WristMotion::Swinging => "swinging",
+        WristMotion::Twisting => "twisting",
+        WristMotion::StirCw => "stirring clockwise",
+        WristMotion::StirCcw => "stirring counter-clockwise",
+    }
+}

@@ -1,0 +1,184 @@
+//! How a movement runs in time: the two-level controller of Kennaway, section 4.5, as tables.
+
+use chereme_sign::hamnosys::{BodyLanguage, Manner};
+
+/// How many steps a table has.
+const STEPS: usize = 256;
+
+/// The kinds of course.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Pace {
+    /// Meaningful movement: late peak, short deceleration.
+    Targetted,
+    /// Movement without meaning: transitions and returns.
+    Lax,
+    /// Into contact: an abrupt stop.
+    Contact,
+    /// A notated sudden stop.
+    Halt,
+    /// Slow and steady.
+    Tense,
+    /// Constant speed but for both ends: circles.
+    Linear,
+}
+
+impl Pace {
+    /// Returns the course of a movement done in a manner.
+    pub(crate) fn of(manner: &Manner, usual: Self) -> Self {
+        if manner.halt {
+            Self::Halt
+        } else if manner.tense {
+            Self::Tense
+        } else {
+            usual
+        }
+    }
+}
+
+/// The courses of a body language.
+#[derive(Debug, Clone)]
+pub(crate) struct Paces {
+    tables: [Vec<f64>; 6],
+}
+
+impl Paces {
+    pub(crate) fn of(language: &BodyLanguage) -> Self {
+        let l = language;
+        let ramp = linear(l.linear_ramp);
+        let grown = |gain: f64, power: f64, ratio: f64| {
+            if gain == 0.0 {
+                linear(2.0 * l.linear_ramp)
+            } else {
+                controlled(gain, power, ratio)
+            }
+        };
+        Self {
+            tables: [
+                grown(l.targetted_gain, l.targetted_power, l.targetted_ratio),
+                grown(l.lax_gain, l.lax_power, l.lax_ratio),
+                grown(l.contact_gain, l.contact_power, l.contact_ratio),
+                grown(l.halt_gain, l.halt_power, l.halt_ratio),
+                grown(l.tense_gain, l.tense_power, l.tense_ratio),
+                ramp,
+            ],
+        }
+    }
+
+    /// Returns the share of the way done when the share `time` of the time is over.
+    pub(crate) fn share(&self, pace: Pace, time: f64) -> f64 {
+        let table = &self.tables[pace as usize];
+        let at = time.clamp(0.0, 1.0) * STEPS as f64;
+        let first = (at as usize).min(STEPS - 1);
+        table[first] + (table[first + 1] - table[first]) * (at - first as f64)
+    }
+}
+
+/// Runs the controller: `x'' = k'(k(1 - x) - x')` with `k = 1 + gain·x^power` and `k' = ratio·k`, until
+/// it has arrived (or to within 1 %), time and way then scaled to 1.
+fn controlled(gain: f64, power: f64, ratio: f64) -> Vec<f64> {
+    const STEP: f64 = 1e-3;
+    let arrival = if ratio < 4.0 { 1.0 } else { 0.99 };
+    let (mut x, mut v) = (0.0_f64, 0.0_f64);
+    let mut way = vec![0.0];
+    while x < arrival && way.len() < 40_000 {
+        let push = |x: f64, v: f64| {
+            let k = 1.0 + gain * x.clamp(0.0, 1.0).powf(power);
+            ratio * k * (k * (1.0 - x) - v)
+        };
+        let half = (x + v * STEP / 2.0, v + push(x, v) * STEP / 2.0);
+        x += half.1 * STEP;
+        v += push(half.0, half.1) * STEP;
+        way.push(x);
+    }
+    sampled(|time| {
+        let at = time * (way.len() - 1) as f64;
+        let first = (at as usize).min(way.len() - 2);
+        way[first] + (way[first + 1] - way[first]) * (at - first as f64)
+    })
+}
+
+/// Constant speed, reached and lost smoothly over the share `ramp` of the time at both ends.
+fn linear(ramp: f64) -> Vec<f64> {
+    let ramp = ramp.clamp(0.01, 0.5);
+    // The integral of a smoothstep over the ramp is half of it.
+    let rise = |t: f64| {
+        let u = (t / ramp).clamp(0.0, 1.0);
+        ramp * (u * u * u - 0.5 * u * u * u * u) + (t - ramp).max(0.0)
+    };
+    sampled(|time| {
+        if time <= 0.5 {
+            rise(time)
+        } else {
+            1.0 - ramp - rise(1.0 - time)
+        }
+    })
+}
+
+fn sampled(at: impl Fn(f64) -> f64) -> Vec<f64> {
+    let whole = at(1.0);
+    let mut table: Vec<f64> = (0..=STEPS)
+        .map(|n| at(n as f64 / STEPS as f64) / whole)
+        .collect();
+    table[0] = 0.0;
+    table[STEPS] = 1.0;
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [Pace; 6] = [
+        Pace::Targetted,
+        Pace::Lax,
+        Pace::Contact,
+        Pace::Halt,
+        Pace::Tense,
+        Pace::Linear,
+    ];
+
+    fn peak(paces: &Paces, pace: Pace) -> (f64, f64) {
+        let speed = |n: usize| {
+            let at = |n: usize| paces.share(pace, n as f64 / 200.0);
+            (at(n + 1) - at(n)) * 200.0
+        };
+        let best = (0..200).max_by(|&a, &b| speed(a).total_cmp(&speed(b)));
+        let at = best.expect("steps");
+        ((at as f64 + 0.5) / 200.0, speed(at))
+    }
+
+    #[test]
+    fn courses_run_from_nothing_to_all_and_never_back() {
+        let paces = Paces::of(BodyLanguage::usual());
+        for pace in ALL {
+            assert_eq!(paces.share(pace, 0.0), 0.0, "{pace:?}");
+            assert_eq!(paces.share(pace, 1.0), 1.0, "{pace:?}");
+            let mut before = 0.0;
+            for n in 1..=500 {
+                let now = paces.share(pace, f64::from(n) / 500.0);
+                assert!(now >= before - 1e-9, "{pace:?} at {n}");
+                before = now;
+            }
+        }
+    }
+
+    #[test]
+    fn peaks_lie_where_the_paper_and_the_measured_tables_have_them() {
+        let paces = Paces::of(BodyLanguage::usual());
+        let near = |pace: Pace, shares: [f64; 3]| {
+            for (time, share) in [0.25, 0.5, 0.75].into_iter().zip(shares) {
+                let is = paces.share(pace, time);
+                assert!((is - share).abs() < 0.02, "{pace:?} at {time}: {is}");
+            }
+        };
+        near(Pace::Lax, [0.19, 0.62, 0.92]);
+        near(Pace::Targetted, [0.07, 0.34, 0.84]);
+        assert!((peak(&paces, Pace::Lax).0 - 0.43).abs() < 0.04);
+        assert!((peak(&paces, Pace::Targetted).0 - 0.62).abs() < 0.04);
+        assert!((peak(&paces, Pace::Halt).0 - 0.91).abs() < 0.05);
+        let end = (1.0 - paces.share(Pace::Halt, 0.99)) * 100.0;
+        assert!((end - 1.9).abs() < 0.4, "{end}");
+        let even = paces.share(Pace::Linear, 0.6) - paces.share(Pace::Linear, 0.4);
+        assert!((even - 0.2 / 0.85).abs() < 1e-3, "{even}");
+    }
+}

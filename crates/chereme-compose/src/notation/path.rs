@@ -1,0 +1,201 @@
+//! Ways through space: how far a hand is from where it began.
+
+use std::f64::consts::{PI, TAU};
+
+use chereme_motion::glam::DVec3;
+
+/// A way, from nothing; lengths in metres.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Path {
+    /// Straight.
+    Line(DVec3),
+    /// The arc of a circle over a chord, as deep as `bow` is long, on its side.
+    Arc { chord: DVec3, bow: DVec3 },
+    /// To and fro across a way, as far as `side` is long; corners or waves, growing from 1 to `grown`.
+    Wave {
+        side: DVec3,
+        waves: f64,
+        wavy: bool,
+        grown: f64,
+    },
+    /// Round a circle or ellipse: the way from its centre to the start and a quarter on, by an angle,
+    /// growing from 1 to `grown`.
+    Circle {
+        start: DVec3,
+        quarter: DVec3,
+        angle: f64,
+        grown: f64,
+    },
+    /// Along straight lines through points.
+    Through(Vec<DVec3>),
+    /// Out and back.
+    Spring(DVec3),
+}
+
+impl Path {
+    /// Returns where one is when the share `s` of its length is done.
+    pub(crate) fn at(&self, s: f64) -> DVec3 {
+        match self {
+            Self::Line(way) => *way * s,
+            Self::Arc { chord, bow } => arc(*chord, *bow, s),
+            Self::Wave {
+                side,
+                waves,
+                wavy,
+                grown,
+            } => {
+                let turn = s * waves;
+                let wave = if *wavy {
+                    (TAU * turn).sin()
+                } else {
+                    // A triangle of the same phase as the sine.
+                    (2.0 / PI) * (TAU * turn).sin().asin()
+                };
+                // Both ends lie on the way.
+                let ends = (8.0 * s.min(1.0 - s)).clamp(0.0, 1.0);
+                *side * (wave * (1.0 + (grown - 1.0) * s) * ends)
+            }
+            Self::Circle {
+                start,
+                quarter,
+                angle,
+                grown,
+            } => {
+                let (sin, cos) = (angle * s).sin_cos();
+                let size = 1.0 + (grown - 1.0) * s;
+                (*start * cos + *quarter * sin) * size - *start
+            }
+            Self::Through(points) => through(points, s),
+            Self::Spring(way) => *way * (PI * s).sin(),
+        }
+    }
+
+    /// Returns the whole way.
+    pub(crate) fn end(&self) -> DVec3 {
+        self.at(1.0)
+    }
+
+    /// Returns about how long it is.
+    pub(crate) fn length(&self) -> f64 {
+        let at = |n: i32| self.at(f64::from(n) / 16.0);
+        (0..16).map(|n| at(n).distance(at(n + 1))).sum()
+    }
+
+    /// Returns the same way with every vector passed through `f`, which is linear.
+    pub(crate) fn map(&self, f: impl Fn(DVec3) -> DVec3) -> Self {
+        match self {
+            Self::Line(way) => Self::Line(f(*way)),
+            Self::Arc { chord, bow } => Self::Arc {
+                chord: f(*chord),
+                bow: f(*bow),
+            },
+            Self::Wave {
+                side,
+                waves,
+                wavy,
+                grown,
+            } => Self::Wave {
+                side: f(*side),
+                waves: *waves,
+                wavy: *wavy,
+                grown: *grown,
+            },
+            Self::Circle {
+                start,
+                quarter,
+                angle,
+                grown,
+            } => Self::Circle {
+                start: f(*start),
+                quarter: f(*quarter),
+                angle: *angle,
+                grown: *grown,
+            },
+            Self::Through(points) => Self::Through(points.iter().map(|&point| f(point)).collect()),
+            Self::Spring(way) => Self::Spring(f(*way)),
+        }
+    }
+}
+
+fn arc(chord: DVec3, bow: DVec3, s: f64) -> DVec3 {
+    let (length, depth) = (chord.length(), bow.length());
+    if depth < 1e-9 || length < 1e-9 {
+        return chord * s;
+    }
+    let radius = (length * length / 4.0 + depth * depth) / (2.0 * depth);
+    let half = 2.0 * (2.0 * depth / length).atan();
+    let angle = half * (2.0 * s - 1.0);
+    let along = 0.5 + radius * angle.sin() / length;
+    let up = (radius * angle.cos() - (radius - depth)) / depth;
+    chord * along + bow * up
+}
+
+fn through(points: &[DVec3], s: f64) -> DVec3 {
+    let mut from = DVec3::ZERO;
+    let starts = std::iter::once(DVec3::ZERO).chain(points.iter().copied());
+    let whole: f64 = starts.zip(points).map(|(a, b)| a.distance(*b)).sum();
+    let mut left = s * whole;
+    for &to in points {
+        let length = from.distance(to);
+        if left <= length {
+            return from.lerp(to, if length > 0.0 { left / length } else { 1.0 });
+        }
+        left -= length;
+        from = to;
+    }
+    from
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ways_begin_at_nothing_and_arcs_are_arcs() {
+        let (chord, bow) = (DVec3::new(0.2, 0.0, 0.0), DVec3::new(0.0, 0.06, 0.0));
+        let arc = Path::Arc { chord, bow };
+        assert!(arc.at(0.0).length() < 1e-12 && arc.end().distance(chord) < 1e-12);
+        assert!(arc.at(0.5).distance(chord / 2.0 + bow) < 1e-12);
+        let centre = DVec3::new(0.1, 0.06 - (0.01 + 0.0036) / 0.12, 0.0);
+        for n in 0..=10 {
+            let at = arc.at(f64::from(n) / 10.0);
+            assert!((at.distance(centre) - (0.01 + 0.0036) / 0.12).abs() < 1e-9);
+        }
+        let steps: Vec<f64> = (0..10)
+            .map(|n| {
+                arc.at(f64::from(n) / 10.0)
+                    .distance(arc.at(f64::from(n + 1) / 10.0))
+            })
+            .collect();
+        assert!(
+            steps.iter().all(|step| (step - steps[0]).abs() < 1e-12),
+            "even speed"
+        );
+    }
+
+    #[test]
+    fn circles_close_and_waves_end_on_the_way() {
+        let circle = Path::Circle {
+            start: DVec3::Y * 0.1,
+            quarter: DVec3::X * 0.05,
+            angle: TAU,
+            grown: 1.0,
+        };
+        assert!(circle.end().length() < 1e-12);
+        assert!(circle.at(0.25).distance(DVec3::new(0.05, -0.1, 0.0)) < 1e-12);
+        for wavy in [true, false] {
+            let wave = Path::Wave {
+                side: DVec3::X,
+                waves: 2.0,
+                wavy,
+                grown: 1.5,
+            };
+            assert!(wave.at(0.0).length() < 1e-12 && wave.end().length() < 1e-9);
+        }
+        let cross = Path::Through(vec![DVec3::X, DVec3::new(1.0, 1.0, 0.0)]);
+        assert!(cross.at(0.75).distance(DVec3::new(1.0, 0.5, 0.0)) < 1e-12);
+        let mirrored = circle.map(|v| DVec3::new(-v.x, v.y, v.z));
+        let at = circle.at(0.3);
+        assert!(mirrored.at(0.3).distance(DVec3::new(-at.x, at.y, at.z)) < 1e-12);
+    }
+}

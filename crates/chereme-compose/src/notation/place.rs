@@ -1,0 +1,449 @@
+//! Where hands are: places on the body and in space, on the other hand, and the two by each other.
+//!
+//! Which point of a hand is meant is guessed as Kennaway discusses in section 4.1: the middle of the
+//! palm in free space, at a place on the body what comes to it first as the hand is turned.
+
+use chereme_motion::Side;
+use chereme_motion::glam::DVec3;
+use chereme_sign::hamnosys::sites::{BodySite, Face, HandPoint, Region, body_site, hand_points};
+use chereme_sign::hamnosys::{
+    BodyLocation, BodyPlace, Constellation, Contact, Digit, HandClass, HandSite, Handshape, Place,
+    Site, ThumbPosition,
+};
+
+use super::plan::{Frame, Planner, Who};
+
+/// Where a point of a hand should be.
+#[derive(Debug, Clone)]
+struct Goal {
+    at: DVec3,
+    points: Vec<HandPoint>,
+}
+
+impl Planner<'_> {
+    /// Gives hands their place, as planned.
+    pub(crate) fn place(&mut self, place: &Place, named: Who) {
+        match place {
+            Place::Body(body) => {
+                for n in 0..2 {
+                    if let Some(frame) = named[n] {
+                        let goal = self.on_body(n, body, frame, true);
+                        self.settle(n, &goal);
+                        self.define(body.define, n);
+                    }
+                }
+            }
+            Place::Hand(site) => self.on_hand(site, named),
+            Place::Hands(constellation) => self.by_each_other(constellation, named),
+            Place::Split(a, b) => {
+                for (n, place) in [a, b].into_iter().enumerate() {
+                    let Some(place) = place else { continue };
+                    let mut only: Who = [None, None];
+                    let mut frame = named[n].unwrap_or_else(|| self.own_frame());
+                    // Sides in words of its own are the signer's.
+                    frame.mirrored = self.own_frame().mirrored;
+                    only[n] = Some(frame);
+                    self.place(place, only);
+                }
+            }
+            Place::Named(number) => {
+                let at = self.named.get(number).copied().unwrap_or_default();
+                for n in 0..2 {
+                    if let (Some(_), Some(at)) = (named[n], at[n]) {
+                        self.state[n].point = at;
+                    }
+                }
+            }
+        }
+    }
+
+    fn define(&mut self, number: Option<u8>, n: usize) {
+        if let Some(number) = number {
+            self.named.entry(number).or_default()[n] = Some(self.state[n].point);
+        }
+    }
+
+    /// Puts points of a hand, taken together, where they should be.
+    fn settle(&mut self, n: usize, goal: &Goal) {
+        self.state[n].offset = self.offset(n, &goal.points);
+        self.state[n].point = goal.at;
+    }
+
+    /// Returns where a hand is for a place on the body or in space.
+    fn on_body(&mut self, n: usize, place: &BodyPlace, frame: Frame, apart: bool) -> Goal {
+        let side = self.sides[n];
+        let neutral = Site {
+            at: BodyLocation::NeutralSpace,
+            side: None,
+            approx: false,
+        };
+        let first = place.site.unwrap_or(neutral);
+        let mut site = self.site(n, &first, frame);
+        if let Some(second) = &place.second {
+            site = middle(&site, &self.site(n, second, frame));
+        }
+        let contact = place.contact;
+        let touching = matches!(
+            contact,
+            Some(Contact::Touch | Contact::Interlock | Contact::Cross | Contact::Brushing)
+        ) && !site.site.beside;
+        let near = touching || contact == Some(Contact::Close);
+        let facing = site.out * if place.behind { -1.0 } else { 1.0 };
+        let points = match &place.by {
+            Some(by) => hand_points(by, side, frame.mirrored),
+            None if touching || (near && site.site.region != Region::Trunk) => {
+                vec![self.facing(n, -facing, site.site.region)]
+            }
+            None => vec![HandPoint::Palm],
+        };
+        let at = self.before(&site, contact, touching, place.behind);
+        let at = if apart && self.symmetric && !touching && site.site.lateral == 0.0 {
+            self.apart(n, at)
+        } else {
+            at
+        };
+        Goal { at, points }
+    }
+
+    /// Moves a place in the middle to before a hand's own shoulder.
+    fn apart(&self, n: usize, at: DVec3) -> DVec3 {
+        let stage = self.stage;
+        let by = self.sides[n].sign() * self.language.hands_apart * stage.shoulders;
+        at + stage.left * by
+    }
+
+    /// Returns where before a place a hand is.
+    fn before(
+        &self,
+        site: &Placed,
+        contact: Option<Contact>,
+        touching: bool,
+        behind: bool,
+    ) -> DVec3 {
+        let (stage, l) = (self.stage, self.language);
+        if behind {
+            let by = -stage.forward * (0.5 * stage.shoulders);
+            return site.at + by + site.out * (0.05 * stage.shoulders);
+        }
+        if touching {
+            return site.at;
+        }
+        let face = matches!(site.site.region, Region::Face | Region::Arm(_));
+        let far = match contact {
+            Some(Contact::ArmExtended) => l.far,
+            Some(Contact::Close) if face => l.near_face,
+            Some(Contact::Close) => l.near_trunk,
+            _ if face => l.medium_face,
+            _ => l.medium_trunk,
+        } * stage.arm;
+        if site.site.region == Region::Trunk {
+            let middle = stage.middle();
+            let level = site.at - middle;
+            let to_left = site.site.lateral * stage.shoulders;
+            let beside = if site.site.beside { 0.5 } else { 1.0 };
+            let front = 0.33 * stage.shoulders;
+            return middle
+                + DVec3::Y * level.y
+                + stage.left * to_left
+                + stage.forward * (front + far * beside);
+        }
+        let aside = if contact == Some(Contact::Close) || site.site.beside {
+            0.0
+        } else {
+            0.5 * site.site.lateral * stage.shoulders
+        };
+        site.at + site.out * far + stage.left * aside
+    }
+
+    fn site(&self, n: usize, site: &Site<BodyLocation>, frame: Frame) -> Placed {
+        let stage = self.stage;
+        let found = body_site(site, self.sides[n], frame.mirrored);
+        let root = match found.region {
+            Region::Arm(side) => self.arm_part(side, &found.landmark),
+            _ => None,
+        };
+        let root = root.or_else(|| stage.landmark(&found.landmark));
+        let root =
+            root.unwrap_or_else(|| stage.middle() + stage.forward * (0.33 * stage.shoulders));
+        let out = stage
+            .direction(DVec3::from(found.out))
+            .normalize_or(stage.forward);
+        let flesh = match found.region {
+            Region::Arm(_) => out * (0.08 * stage.arm),
+            _ => DVec3::ZERO,
+        };
+        let offset = stage.direction(DVec3::from(found.offset) * stage.shoulders);
+        Placed {
+            at: root + offset + flesh,
+            out,
+            site: found,
+        }
+    }
+
+    /// Returns where a part of an arm is as that arm is planned.
+    fn arm_part(&self, side: Side, landmark: &str) -> Option<DVec3> {
+        let hand = self.stage.hand(side)?;
+        let n = usize::from(self.sides[1] == side);
+        let state = &self.state[n];
+        let held = hand.held();
+        let torso = &self.stage.torso;
+        let turn = hand
+            .rig
+            .turn(state.wrist(), state.rotation, &held, &self.limits, torso);
+        let posed = hand.rig.reach(state.wrist(), turn, &self.limits);
+        Some(match landmark.rsplit_once('-')?.1 {
+            "elbow" => posed.elbow,
+            "forearm" => posed.elbow.lerp(posed.wrist, 0.5),
+            _ => posed.shoulder.lerp(posed.elbow, 0.55),
+        })
+    }
+
+    /// Returns the point of a hand that comes first where it goes along `way`, in model space.
+    fn facing(&self, n: usize, way: DVec3, region: Region) -> HandPoint {
+        let Some(hand) = self.stage.hand(self.sides[n]) else {
+            return HandPoint::Palm;
+        };
+        let state = &self.state[n];
+        let v = state.rotation.inverse() * way;
+        let [along, palm, radial] = [hand.along, hand.palm, hand.radial].map(|axis| v.dot(axis));
+        let shape = &state.handshape;
+        let digit = leading(shape);
+        let small = region != Region::Trunk;
+        let thumb =
+            shape.form.class == HandClass::Fist && shape.form.thumb == Some(ThumbPosition::Out);
+        let pinch = is_pinch(shape.form.class);
+        let candidates = [
+            (
+                along + 0.15,
+                match digit {
+                    Some(digit) => HandPoint::Tip(digit, Face::Middle),
+                    None => HandPoint::Middle(Digit::Middle, Face::Dorsal),
+                },
+            ),
+            (
+                palm + 0.05,
+                match (digit, pinch || small) {
+                    (Some(digit), true) => HandPoint::Tip(digit, Face::Palmar),
+                    (None, _) => HandPoint::Middle(Digit::Middle, Face::Dorsal),
+                    _ => HandPoint::Palm,
+                },
+            ),
+            (
+                -palm,
+                match (digit, small) {
+                    (Some(digit), true) => HandPoint::Middle(digit, Face::Dorsal),
+                    _ => HandPoint::Back,
+                },
+            ),
+            (
+                radial,
+                match (thumb, digit, small) {
+                    (true, ..) => HandPoint::Tip(Digit::Thumb, Face::Middle),
+                    (false, Some(Digit::Index | Digit::Middle), true) => {
+                        HandPoint::Middle(Digit::Index, Face::Radial)
+                    }
+                    _ => HandPoint::Radial,
+                },
+            ),
+            (-radial, HandPoint::Ulnar),
+            (-along - 0.2, HandPoint::Wrist(Face::Palmar)),
+        ];
+        let best = candidates.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        best.map_or(HandPoint::Palm, |(_, point)| point)
+    }
+
+    /// Returns where points of a hand are, as planned, and the unit vector out of it there.
+    fn at_hand(&self, n: usize, points: &[HandPoint]) -> (DVec3, DVec3) {
+        let state = &self.state[n];
+        let offset = self.offset(n, points);
+        let at = state.wrist() + state.rotation * offset;
+        let Some(hand) = self.stage.hand(self.sides[n]) else {
+            return (at, DVec3::Y);
+        };
+        let shape = &self.plan.shapes[n][state.shape];
+        let out: DVec3 = points
+            .iter()
+            .map(|&point| self.stage.outward(hand, shape, point))
+            .sum();
+        (at, (state.rotation * out).normalize_or(DVec3::Y))
+    }
+
+    /// Brings an acting hand to a site of the other.
+    fn on_hand(&mut self, site: &HandSite, named: Who) {
+        let acting = usize::from(named[0].is_none());
+        let other = 1 - acting;
+        let frame = named[acting].unwrap_or_else(|| self.own_frame());
+        if !self.state[other].used {
+            self.raise(other);
+        }
+        let touched = self.site_points(other, site, frame);
+        let (at, out) = self.at_hand(other, &touched);
+        let points = match &site.by {
+            Some(by) => self.site_points(acting, by, frame),
+            None => vec![self.facing(acting, -out, Region::Arm(self.sides[other]))],
+        };
+        let far = match site.contact {
+            Some(Contact::Close) => self.language.hands_near * self.stage.arm,
+            _ => 0.0,
+        };
+        let goal = Goal {
+            at: at + out * far,
+            points,
+        };
+        self.settle(acting, &goal);
+        self.define(site.define, acting);
+    }
+
+    fn site_points(&self, n: usize, site: &HandSite, frame: Frame) -> Vec<HandPoint> {
+        let side = self.sides[n];
+        let mut points = hand_points(site, side, frame.mirrored);
+        if let Some(second) = &site.second {
+            points.extend(hand_points(second, side, frame.mirrored));
+        }
+        points
+    }
+
+    /// Brings the hands to each other, and the two to a place.
+    fn by_each_other(&mut self, hands: &Constellation, named: Who) {
+        for n in 0..2 {
+            if !self.state[n].used {
+                self.raise(n);
+            }
+        }
+        let frames = named.map(|frame| frame.unwrap_or_else(|| self.own_frame()));
+        let centre = self.centre(hands, frames[0]);
+        let across = self.stage.left * self.sides[0].sign();
+        let mirrored = frames[1].axes.x * frames[0].axes.x < 0.0
+            && frames[1].axes.y > 0.0
+            && frames[1].axes.z > 0.0;
+        let far = self.language.hands_near * self.stage.arm;
+        let apart = match hands.contact {
+            Some(Contact::Touch | Contact::Interlock | Contact::Cross) => 0.0,
+            Some(Contact::Brushing) => 0.0,
+            Some(Contact::Close) => far,
+            _ => 2.0 * far,
+        };
+        let crossed = matches!(hands.contact, Some(Contact::Cross | Contact::Interlock));
+        let (points, way) = if mirrored {
+            let point = |n: usize, site: &Option<HandSite>, way: DVec3| match site {
+                Some(site) => self.site_points(n, site, frames[n]),
+                None if crossed => vec![HandPoint::Wrist(Face::Palmar)],
+                None => vec![self.facing(n, way, Region::Arm(self.sides[1 - n]))],
+            };
+            let other = hands.other.as_ref().or(hands.dominant.as_ref()).cloned();
+            (
+                [point(0, &hands.dominant, -across), point(1, &other, across)],
+                across,
+            )
+        } else {
+            self.unlike(hands, frames, across)
+        };
+        let goals = points.map(|points| Goal { at: centre, points });
+        let [mut first, mut second] = goals;
+        first.at += way * (apart / 2.0);
+        second.at -= way * (apart / 2.0);
+        self.settle(0, &first);
+        self.settle(1, &second);
+        for n in 0..2 {
+            self.define(hands.define, n);
+        }
+    }
+
+    /// Returns the points of hands that do not mirror each other, and the way from the other's to the
+    /// dominant's: out of what is touched.
+    fn unlike(
+        &self,
+        hands: &Constellation,
+        frames: [Frame; 2],
+        across: DVec3,
+    ) -> ([Vec<HandPoint>; 2], DVec3) {
+        let region = Region::Arm(self.sides[1]);
+        let own = hands
+            .dominant
+            .as_ref()
+            .map(|site| self.site_points(0, site, frames[0]));
+        let other = match &hands.other {
+            Some(site) => self.site_points(1, site, frames[1]),
+            None => {
+                let way = match &own {
+                    Some(points) => -self.at_hand(0, points).1,
+                    None => (DVec3::Y + across * 0.6 + self.stage.forward * 0.3).normalize(),
+                };
+                vec![self.facing(1, way, Region::Trunk)]
+            }
+        };
+        let out = self.at_hand(1, &other).1;
+        let own = own.unwrap_or_else(|| vec![self.facing(0, -out, region)]);
+        let facing = self.at_hand(0, &own).1;
+        let way = (out - facing).try_normalize().unwrap_or(across);
+        ([own, other], way)
+    }
+
+    /// Returns where two hands are together: at their place, else where they are, else before the chest.
+    fn centre(&mut self, hands: &Constellation, frame: Frame) -> DVec3 {
+        if let Some(place) = &hands.at {
+            return self.on_body(0, place, frame, false).at;
+        }
+        let moved = self.plan.events.iter().any(|events| !events.is_empty());
+        if moved && self.state.iter().all(|state| state.used) && self.settled() {
+            return (self.state[0].point + self.state[1].point) / 2.0;
+        }
+        self.on_body(0, &BodyPlace::default(), frame, false).at
+    }
+
+    /// Tells whether both hands have left their rest before now.
+    fn settled(&self) -> bool {
+        (0..2).all(|n| !self.plan.events[n].is_empty())
+    }
+}
+
+/// A place on the body with where it is.
+#[derive(Debug, Clone)]
+struct Placed {
+    at: DVec3,
+    out: DVec3,
+    site: BodySite,
+}
+
+fn middle(a: &Placed, b: &Placed) -> Placed {
+    Placed {
+        at: (a.at + b.at) / 2.0,
+        out: (a.out + b.out).normalize_or(a.out),
+        site: BodySite {
+            lateral: (a.site.lateral + b.site.lateral) / 2.0,
+            beside: a.site.beside && b.site.beside,
+            ..a.site.clone()
+        },
+    }
+}
+
+/// Returns the digit that a handshape points or touches with; nothing for a closed fist.
+fn leading(shape: &Handshape) -> Option<Digit> {
+    use HandClass::{
+        Cee12, Cee12Open, Finger2, Finger23, Finger23Spread, Fist, Pinch12, Pinch12Open,
+    };
+    let first = shape
+        .special
+        .0
+        .iter()
+        .copied()
+        .find(|&digit| digit != Digit::Thumb);
+    match shape.form.class {
+        Fist => shape.exempt.0.first().copied(),
+        Finger2 | Pinch12 | Pinch12Open | Cee12 | Cee12Open => Some(first.unwrap_or(Digit::Index)),
+        Finger23 | Finger23Spread => Some(first.unwrap_or(Digit::Index)),
+        _ => Some(Digit::Middle),
+    }
+}
+
+fn is_pinch(class: HandClass) -> bool {
+    matches!(
+        class,
+        HandClass::Pinch12
+            | HandClass::Pinch12Open
+            | HandClass::PinchAll
+            | HandClass::Cee12
+            | HandClass::Cee12Open
+            | HandClass::CeeAll
+    )
+}

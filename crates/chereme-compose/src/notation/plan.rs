@@ -1,0 +1,631 @@
+//! From the tree to what each hand does when.
+
+use std::collections::BTreeMap;
+
+use chereme_motion::Side;
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_sign::Handedness;
+use chereme_sign::hamnosys::angles::hand_angles;
+use chereme_sign::hamnosys::sites::HandPoint;
+use chereme_sign::hamnosys::{
+    Aim, BodyLanguage, Compass, Direction, Each, HandsUsed, Handshape, Manual, Notated, Place, Posture,
+    Symmetry,
+};
+
+use super::arm::Limits;
+use super::pace::Pace;
+use super::path::Path;
+use super::stage::{Shape, Stage};
+use super::thumb;
+
+/// Something a hand does over a stretch of time, in seconds.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Event {
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+    pub(crate) pace: Pace,
+    pub(crate) act: Act,
+}
+
+/// What a hand does.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Act {
+    /// Its point goes along a way; ways at the same time add up.
+    Move(Path),
+    /// It turns to an orientation in model space.
+    Turn(DQuat),
+    /// Another of its points is what is placed: where that is in the hand's space.
+    Point(DVec3),
+    /// It takes a posture, by its number among the plan's.
+    Shape(usize),
+    /// It turns to and fro about the wrist: two axes in the hand's space as long as the angles in
+    /// radians, a quarter of a cycle apart, and how often.
+    Wrist { axes: [DVec3; 2], cycles: f64 },
+    /// Fingers play, thumb first, so far at the base joint in radians, and how often.
+    Play {
+        digits: [bool; 5],
+        angle: f64,
+        cycles: f64,
+    },
+}
+
+/// What a hand is about over a stretch of time, in seconds.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Phase {
+    /// The dominant hand, 0, or the other, 1.
+    pub(crate) hand: usize,
+    pub(crate) kind: PhaseKind,
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+    pub(crate) says: String,
+}
+
+/// What a stretch of time is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PhaseKind {
+    Transition,
+    Stroke,
+    Hold,
+}
+
+/// A hand as planned so far.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct HandState {
+    /// Where the point is that is placed, in model space.
+    pub(crate) point: DVec3,
+    /// How the hand is turned in model space.
+    pub(crate) rotation: DQuat,
+    /// Where the point is in the hand's space.
+    pub(crate) offset: DVec3,
+    pub(crate) shape: usize,
+    /// What was said of it: its shape, its direction and palm in the frame of the dominant hand.
+    pub(crate) handshape: Handshape,
+    pub(crate) direction: DVec3,
+    pub(crate) palm: f64,
+    /// Whether it takes part in the sign.
+    pub(crate) used: bool,
+}
+
+impl HandState {
+    /// Returns where the wrist is.
+    pub(crate) fn wrist(&self) -> DVec3 {
+        self.point - self.rotation * self.offset
+    }
+}
+
+/// One sign on the time line.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SignSpan {
+    pub(crate) gloss: String,
+    /// When its first posture is reached and its last is left, in seconds.
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+}
+
+/// What hands do, and when.
+pub(crate) struct Plan {
+    pub(crate) start: [HandState; 2],
+    pub(crate) events: [Vec<Event>; 2],
+    pub(crate) shapes: [Vec<Shape>; 2],
+    pub(crate) phases: Vec<Phase>,
+    pub(crate) signs: Vec<SignSpan>,
+    pub(crate) end: f64,
+    /// What was approximated or left out, each once.
+    pub(crate) remarks: Vec<String>,
+}
+
+/// The frame of an acting hand: what its directions and its sides are against what is written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Frame {
+    /// Signs of left, up and forward.
+    pub(crate) axes: DVec3,
+    /// Left and right of places are exchanged.
+    pub(crate) mirrored: bool,
+    /// Half a period behind.
+    pub(crate) behind: bool,
+}
+
+/// Who acts: the dominant hand and the other, each in its frame.
+pub(crate) type Who = [Option<Frame>; 2];
+
+pub(crate) struct Planner<'a> {
+    pub(crate) stage: &'a Stage,
+    pub(crate) language: &'a BodyLanguage,
+    pub(crate) limits: Limits,
+    /// The dominant side, then the other.
+    pub(crate) sides: [Side; 2],
+    pub(crate) state: [HandState; 2],
+    rest: [HandState; 2],
+    pub(crate) named: BTreeMap<u8, [Option<DVec3>; 2]>,
+    pub(crate) symmetric: bool,
+    speed: f64,
+    pub(crate) plan: Plan,
+}
+
+impl<'a> Planner<'a> {
+    pub(crate) fn new(
+        stage: &'a Stage,
+        language: &'a BodyLanguage,
+        handedness: Handedness,
+    ) -> Self {
+        let dominant = handedness.dominant();
+        let sides = [dominant, dominant.other()];
+        let (mut start, mut shapes) = (Vec::new(), [Vec::new(), Vec::new()]);
+        for (n, side) in sides.into_iter().enumerate() {
+            let (state, shape) = super::rest::resting(stage, side);
+            shapes[n].push(shape);
+            start.push(state);
+        }
+        let start: [HandState; 2] = [start[0].clone(), start[1].clone()];
+        Self {
+            stage,
+            language,
+            limits: Limits::of(language),
+            sides,
+            state: start.clone(),
+            rest: start.clone(),
+            named: BTreeMap::new(),
+            symmetric: false,
+            speed: 1.0,
+            plan: Plan {
+                start,
+                events: [Vec::new(), Vec::new()],
+                shapes,
+                phases: Vec::new(),
+                signs: Vec::new(),
+                end: 0.0,
+                remarks: Vec::new(),
+            },
+        }
+    }
+
+    /// Plans signs one after the other, from rest and back to it.
+    pub(crate) fn signs(mut self, signs: &[&Notated]) -> Plan {
+        let mut time = 0.0;
+        for notated in signs {
+            let mut from = None;
+            self.named.clear();
+            self.speed = speed(notated);
+            for part in &notated.sign.parts {
+                let began;
+                (began, time) = self.part(part, time);
+                from = from.or(Some(began));
+            }
+            self.plan.signs.push(SignSpan {
+                gloss: notated.gloss.clone(),
+                from: from.unwrap_or(time),
+                to: time,
+            });
+        }
+        self.plan.end = self.relax([true, true], time, None);
+        self.plan
+    }
+
+    pub(crate) fn remark(&mut self, text: &str) {
+        if !self.plan.remarks.iter().any(|known| known == text) {
+            self.plan.remarks.push(text.to_owned());
+        }
+    }
+
+    /// Plans one part: the way to its first posture, its actions, the end; returns when the posture
+    /// is reached and when the part is over.
+    fn part(&mut self, part: &Manual, time: f64) -> (f64, f64) {
+        let who = self.who(part.hands);
+        self.symmetric = who[0].is_some() && who[1].is_some();
+        let moves = !part.actions.is_empty();
+        let named = self.addressed(&part.posture, who);
+        let before = self.state.clone();
+        for n in 0..2 {
+            if !self.state[n].used && named[n].is_some() {
+                self.raise(n);
+            }
+        }
+        let posture = self.begun(&part.posture);
+        if !part.holdover || !part.posture.is_empty() {
+            self.assume(&posture, named);
+        }
+        self.start_behind(part, who);
+        let (goal, dropped) = (
+            self.state.clone(),
+            [0, 1]
+                .map(|n| named[n].is_none() && before[n].used && !part.holdover && self.lone(part)),
+        );
+        let length = (0..2)
+            .map(|n| self.length_between(&before[n], &goal[n], n))
+            .fold(0.0, f64::max);
+        self.state = before;
+        let reached = time + length;
+        let touching = touches(&posture);
+        let pace = match (moves, touching) {
+            (true, _) => Pace::Lax,
+            (false, true) => Pace::Contact,
+            (false, false) => Pace::Targetted,
+        };
+        for n in 0..2 {
+            if named[n].is_some() {
+                self.go(n, &goal[n], time, reached, pace);
+                self.phase(n, PhaseKind::Transition, time, reached, "");
+            }
+        }
+        if dropped.iter().any(|&drop| drop) {
+            self.relax(dropped, time, Some(reached));
+        }
+        let mut now = reached;
+        for body in &part.body {
+            now = now.max(self.body(body, reached));
+        }
+        for action in &part.actions {
+            let env = super::motion::Env {
+                slower: 1.0 / self.speed,
+                ..super::motion::Env::default()
+            };
+            now = self.motion(action, who, now, &env);
+        }
+        let hold = if moves {
+            self.language.time_end
+        } else {
+            self.language.time_hold
+        };
+        for n in 0..2 {
+            if named[n].is_some() || who[n].is_some() {
+                self.phase(n, PhaseKind::Hold, now, now + hold, "");
+            }
+        }
+        (reached, now + hold)
+    }
+
+    /// Tells whether a part leaves the other hand out altogether.
+    fn lone(&self, part: &Manual) -> bool {
+        !matches!(part.hands, HandsUsed::Both(_))
+    }
+
+    /// Returns the posture a part begins with: in neutral space where nothing is said.
+    fn begun(&self, posture: &Posture) -> Posture {
+        let mut begun = posture.clone();
+        if begun.place.is_none() {
+            begun.place = Some(Place::Body(chereme_sign::hamnosys::BodyPlace::default()));
+        }
+        begun
+    }
+
+    /// Returns who acts in a part, each in its frame.
+    fn who(&self, hands: HandsUsed) -> Who {
+        let own = self.own_frame();
+        match hands {
+            HandsUsed::Dominant => [Some(own), None],
+            HandsUsed::Nondominant => [None, Some(own)],
+            HandsUsed::Both(symmetry) => [Some(own), Some(second(own, symmetry))],
+        }
+    }
+
+    /// Returns the frame of what is written without a symmetry: mirrored for left-handed signers.
+    pub(crate) fn own_frame(&self) -> Frame {
+        let mirrored = self.sides[0] == Side::Left;
+        Frame {
+            axes: DVec3::new(if mirrored { -1.0 } else { 1.0 }, 1.0, 1.0),
+            mirrored,
+            behind: false,
+        }
+    }
+
+    /// Returns whom a posture speaks of: those who act, and both where it has a thing for each.
+    pub(crate) fn addressed(&self, posture: &Posture, who: Who) -> Who {
+        let own = self.own_frame();
+        let mut named = who;
+        let [shape, extended, palm] = [
+            split(&posture.shape),
+            split(&posture.extended),
+            split(&posture.palm),
+        ];
+        let place = match &posture.place {
+            Some(Place::Split(a, b)) => [a.is_some(), b.is_some()],
+            Some(Place::Hands(_)) => [true, true],
+            Some(Place::Hand(_)) => [who[0].is_none(), who[1].is_none()],
+            _ => [false, false],
+        };
+        for n in 0..2 {
+            if named[n].is_none() && (shape[n] || extended[n] || palm[n] || place[n]) {
+                named[n] = Some(own);
+            }
+        }
+        named
+    }
+
+    /// Brings a hand that hung at rest before the body, as what nothing more is said of.
+    pub(crate) fn raise(&mut self, n: usize) {
+        let mut frame = self.own_frame();
+        if n == 1 {
+            frame.axes.x = -frame.axes.x;
+        }
+        let stage = self.stage;
+        let at = DVec3::new(
+            -0.45 * frame.axes.x * stage.shoulders,
+            -0.85 * stage.shoulders,
+            self.language.medium_trunk * stage.arm,
+        );
+        self.state[n].used = true;
+        self.state[n].direction = DVec3::new(0.5, 0.0, 0.87).normalize();
+        self.state[n].palm = 0.0;
+        self.turn(n, frame);
+        self.state[n].offset = self.palm_offset(n);
+        self.state[n].point = stage.middle() + stage.direction(at);
+    }
+
+    fn palm_offset(&self, n: usize) -> DVec3 {
+        self.offset(n, &[HandPoint::Palm])
+    }
+
+    /// Returns the middle of points of a hand in its space.
+    pub(crate) fn offset(&self, n: usize, points: &[HandPoint]) -> DVec3 {
+        let Some(hand) = self.stage.hand(self.sides[n]) else {
+            return DVec3::ZERO;
+        };
+        let shape = &self.plan.shapes[n][self.state[n].shape];
+        let sum: DVec3 = points
+            .iter()
+            .map(|&point| self.stage.point(hand, shape, point))
+            .sum();
+        sum / points.len().max(1) as f64
+    }
+
+    /// Gives hands a posture at once, as planned: shape, orientation, place.
+    pub(crate) fn assume(&mut self, posture: &Posture, named: Who) {
+        for n in 0..2 {
+            let Some(frame) = named[n] else { continue };
+            self.state[n].used = true;
+            if let Some(shape) = pick(&posture.shape, n) {
+                self.reshape(n, shape);
+            }
+            let extended = pick(&posture.extended, n);
+            let palm = pick(&posture.palm, n);
+            if let Some(aim) = extended {
+                self.state[n].direction = towards(aim);
+            }
+            if let Some(aim) = palm {
+                self.state[n].palm = palm_angle(aim);
+            }
+            if extended.is_some() || palm.is_some() {
+                let own = own_words(&posture.extended, n) || own_words(&posture.palm, n);
+                let frame = if own { self.own_frame() } else { frame };
+                self.turn(n, frame);
+            }
+        }
+        if let Some(place) = &posture.place {
+            self.place(place, named);
+        }
+    }
+
+    /// Gives a hand another shape; its point stays the same part of it.
+    fn reshape(&mut self, n: usize, shape: &Handshape) {
+        if self.state[n].handshape == *shape && self.state[n].shape > 0 {
+            return;
+        }
+        let side = self.sides[n];
+        let angles = hand_angles(shape, self.language);
+        let posed = thumb::met(self.stage, side, shape, &angles);
+        let known = self.plan.shapes[n].iter().position(|known| *known == posed);
+        let index = known.unwrap_or_else(|| {
+            self.plan.shapes[n].push(posed);
+            self.plan.shapes[n].len() - 1
+        });
+        self.state[n].shape = index;
+        self.state[n].handshape = shape.clone();
+    }
+
+    /// Turns a hand as its direction and palm say, in a frame.
+    pub(crate) fn turn(&mut self, n: usize, frame: Frame) {
+        let state = &self.state[n];
+        let [direction, palm] =
+            oriented(state.direction, state.palm).map(|v| self.stage.direction(v * frame.axes));
+        if let Some(rotation) = self.stage.turned(self.sides[n], direction, palm) {
+            self.state[n].rotation = rotation;
+        }
+    }
+
+    /// Plans the way of a hand from where it is to another state, over a stretch of time.
+    pub(crate) fn go(&mut self, n: usize, goal: &HandState, from: f64, to: f64, pace: Pace) {
+        let was = self.state[n].clone();
+        let mut act = |act| {
+            self.plan.events[n].push(Event {
+                from,
+                to,
+                pace,
+                act,
+            });
+        };
+        if was.offset != goal.offset {
+            act(Act::Point(goal.offset));
+        }
+        if was.rotation != goal.rotation {
+            act(Act::Turn(goal.rotation));
+        }
+        if was.shape != goal.shape {
+            act(Act::Shape(goal.shape));
+        }
+        let way = goal.point - was.point;
+        if way.length() > 1e-9 {
+            act(Act::Move(Path::Line(way)));
+        }
+        self.state[n] = goal.clone();
+    }
+
+    /// Returns how long a way between two states takes as a transition.
+    pub(crate) fn length_between(&self, a: &HandState, b: &HandState, _n: usize) -> f64 {
+        if a == b {
+            return 0.0;
+        }
+        let l = self.language;
+        let far = a.wrist().distance(b.wrist()) / self.stage.arm;
+        let turn = a.rotation.angle_between(b.rotation) / std::f64::consts::FRAC_PI_2;
+        l.time_transition + l.time_transition_arm * far + l.time_turn * turn
+    }
+
+    /// Sends hands back to rest; returns when they are there.
+    fn relax(&mut self, hands: [bool; 2], from: f64, to: Option<f64>) -> f64 {
+        let mut end = from;
+        for n in 0..2 {
+            if !hands[n] || !self.state[n].used {
+                continue;
+            }
+            let rest = self.rest[n].clone();
+            let length = 1.25 * self.length_between(&self.state[n], &rest, n);
+            let to = to.map_or(from + length, |to| to.max(from + length));
+            self.go(n, &rest, from, to, Pace::Lax);
+            self.phase(n, PhaseKind::Transition, from, to, "");
+            end = end.max(to);
+        }
+        end
+    }
+
+    pub(crate) fn phase(&mut self, hand: usize, kind: PhaseKind, from: f64, to: f64, says: &str) {
+        self.plan.phases.push(Phase {
+            hand,
+            kind,
+            from,
+            to,
+            says: says.to_owned(),
+        });
+    }
+}
+
+/// Returns the speed of a whole sign against the usual.
+fn speed(notated: &Notated) -> f64 {
+    let legal = |factor: &f64| factor.is_finite() && *factor > 0.0;
+    let speed = notated.speed.filter(legal).unwrap_or(1.0);
+    let stretch = notated.timescale.filter(legal).unwrap_or(1.0);
+    (speed / stretch).clamp(0.1, 10.0)
+}
+
+/// Returns the frame of the second hand under a symmetry.
+fn second(own: Frame, symmetry: Symmetry) -> Frame {
+    let sign = |mirrored: bool| if mirrored { -1.0 } else { 1.0 };
+    Frame {
+        axes: own.axes
+            * DVec3::new(
+                sign(symmetry.left_right),
+                sign(symmetry.up_down),
+                sign(symmetry.out_in),
+            ),
+        mirrored: own.mirrored != !symmetry.real_space,
+        behind: symmetry.out_of_phase,
+    }
+}
+
+/// Returns what is said of a hand: for both, or for it alone.
+pub(crate) fn pick<T>(each: &Each<T>, n: usize) -> Option<&T> {
+    match each {
+        Each::Split(dominant, other) => [dominant, other][n].as_ref(),
+        shared => shared.dominant(),
+    }
+}
+
+fn split<T>(each: &Each<T>) -> [bool; 2] {
+    match each {
+        Each::Split(a, b) => [a.is_some(), b.is_some()],
+        _ => [false, false],
+    }
+}
+
+/// Tells whether something is said of the other hand in words of its own.
+fn own_words<T>(each: &Each<T>, n: usize) -> bool {
+    n == 1 && each.other().is_some()
+}
+
+fn touches(posture: &Posture) -> bool {
+    use chereme_sign::hamnosys::Contact;
+    fn touching(place: &Place) -> bool {
+        match place {
+            Place::Body(body) => body.contact == Some(Contact::Touch),
+            Place::Hand(_) => true,
+            Place::Hands(hands) => hands.contact.is_some_and(|c| c != Contact::Close),
+            Place::Split(a, b) => [a, b].into_iter().flatten().any(|place| touching(place)),
+            Place::Named(_) => false,
+        }
+    }
+    posture.place.as_ref().is_some_and(touching)
+}
+
+/// Returns an aim as a unit vector to the left, up and forward.
+pub(crate) fn towards(aim: &Aim<Direction>) -> DVec3 {
+    mean(aim.first, aim.second)
+}
+
+/// Returns the middle of two directions as a unit vector.
+pub(crate) fn mean(first: Direction, second: Option<Direction>) -> DVec3 {
+    let first = DVec3::from(first.vector());
+    let Some(second) = second else { return first };
+    (first + DVec3::from(second.vector())).normalize_or(first)
+}
+
+/// Returns the angle of a palm, the middle on the shorter side where there are two.
+fn palm_angle(aim: &Aim<Compass>) -> f64 {
+    let first = aim.first.angle();
+    let Some(second) = aim.second else {
+        return first;
+    };
+    let apart = second.angle() - first;
+    let turns = (apart / std::f64::consts::TAU).round();
+    first + (apart - turns * std::f64::consts::TAU) / 2.0
+}
+
+/// Returns the rotation that takes forward to a direction by the shortest way; straight back goes
+/// over up.
+pub(crate) fn shortest(direction: DVec3) -> DQuat {
+    if direction.z < -1.0 + 1e-9 {
+        return DQuat::from_axis_angle(DVec3::X, std::f64::consts::PI);
+    }
+    DQuat::from_rotation_arc(DVec3::Z, direction)
+}
+
+/// Returns a compass direction about forward: down at 0, right a quarter on; left, up, forward.
+pub(crate) fn about(angle: f64) -> DVec3 {
+    DVec3::new(-angle.sin(), -angle.cos(), 0.0)
+}
+
+/// Returns where a hand points and where its palm faces, to the left, up and forward.
+fn oriented(direction: DVec3, palm: f64) -> [DVec3; 2] {
+    [direction, shortest(direction) * about(palm)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn faces(direction: &str, palm: &str) -> DVec3 {
+        let direction: Direction = direction.parse().expect("a direction");
+        let palm: Compass = palm.parse().expect("a palm");
+        oriented(DVec3::from(direction.vector()), palm.angle())[1]
+    }
+
+    #[test]
+    fn palms_face_where_the_shortest_turn_leaves_them() {
+        for (direction, palm, is) in [
+            ("o", "d", DVec3::NEG_Y),
+            ("o", "l", DVec3::X),
+            ("u", "d", DVec3::Z),
+            ("u", "u", DVec3::NEG_Z),
+            ("u", "l", DVec3::X),
+            ("l", "d", DVec3::NEG_Y),
+            ("l", "l", DVec3::NEG_Z),
+            ("d", "u", DVec3::Z),
+            ("i", "d", DVec3::Y),
+            ("i", "l", DVec3::X),
+        ] {
+            assert!(
+                faces(direction, palm).distance(is) < 1e-9,
+                "{direction} {palm}: {}",
+                faces(direction, palm)
+            );
+        }
+    }
+
+    #[test]
+    fn palms_are_across_the_hand_for_all_directions() {
+        for direction in Direction::all() {
+            for palm in Compass::ALL {
+                let [along, palm] = oriented(DVec3::from(direction.vector()), palm.angle());
+                assert!(along.dot(palm).abs() < 1e-9 && (palm.length() - 1.0).abs() < 1e-9);
+            }
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! Hands at rest.
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{FingerAngles, HandAngles, Side, ThumbAngles};
+use chereme_sign::hamnosys::Handshape;
+
+use super::plan::HandState;
+use super::stage::{Shape, Stage};
+
+/// Returns a hand that hangs beside the body, as it stands on the stage where it hangs there.
+pub(crate) fn resting(stage: &Stage, side: Side) -> (HandState, Shape) {
+    let angles = relaxed();
+    let shape = stage.shape(side, &angles);
+    let mut state = HandState {
+        point: DVec3::ZERO,
+        rotation: DQuat::IDENTITY,
+        offset: DVec3::ZERO,
+        shape: 0,
+        handshape: Handshape::default(),
+        direction: DVec3::Z,
+        palm: 0.0,
+        used: false,
+    };
+    let Some(hand) = stage.hand(side) else {
+        return (state, shape);
+    };
+    let wrist = stage.model.position(hand.joint());
+    let down = (hand.rig.shoulder - wrist).dot(DVec3::Y);
+    if down > 0.75 * hand.rig.length() {
+        state.point = wrist;
+        state.rotation = stage.model.rotation(hand.joint());
+        return (state, stage.shape_of(side, angles, &stage.base));
+    }
+    let outside = stage.left * side.sign();
+    let way = DVec3::NEG_Y + outside * 0.16 + stage.forward * 0.10;
+    state.point = hand.rig.shoulder + way.normalize() * (0.965 * hand.rig.length());
+    let direction = (DVec3::NEG_Y + stage.forward * 0.18 - outside * 0.02).normalize();
+    let palm = -outside - stage.forward * 0.35;
+    if let Some(turned) = stage.turned(side, direction, palm) {
+        state.rotation = turned;
+    }
+    (state, shape)
+}
+
+/// Returns the posture of a hand at ease.
+fn relaxed() -> HandAngles {
+    let degrees = |flexion: [f64; 3], spread: f64| FingerAngles { spread, flexion };
+    HandAngles {
+        thumb: ThumbAngles {
+            radial: 28.0,
+            palmar: 30.0,
+            opposition: 15.0,
+            flexion: [12.0, 15.0],
+        },
+        fingers: [
+            degrees([18.0, 25.0, 12.0], 2.0),
+            degrees([24.0, 30.0, 14.0], 0.0),
+            degrees([28.0, 33.0, 16.0], -2.0),
+            degrees([30.0, 34.0, 18.0], -5.0),
+        ],
+    }
+    .map(f64::to_radians)
+}

@@ -1,0 +1,424 @@
+//! The body that signs: its directions, its surface, and points of its hands.
+
+use std::sync::Arc;
+
+use chereme_motion::anatomy::BodyFrame;
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Anatomy, Finger, HandAngles, ModelPose, Part, Pose, Side, Skeleton};
+use chereme_sign::hamnosys::Digit;
+use chereme_sign::hamnosys::sites::{Face, HandPoint};
+
+use super::arm::{Held, Rig};
+use crate::sources::Material;
+
+/// A body in the posture it stands in.
+pub(crate) struct Stage {
+    pub(crate) skeleton: Arc<Skeleton>,
+    pub(crate) anatomy: Arc<Anatomy>,
+    pub(crate) base: Pose,
+    pub(crate) model: ModelPose,
+    /// To the signer's left, level.
+    pub(crate) left: DVec3,
+    /// To where the signer faces, level.
+    pub(crate) forward: DVec3,
+    /// The shoulders' width and the arm's length in metres.
+    pub(crate) shoulders: f64,
+    pub(crate) arm: f64,
+    pub(crate) torso: Torso,
+    /// Right and left.
+    pub(crate) hands: [Option<Hand>; 2],
+}
+
+/// A hand at the end of its arm.
+pub(crate) struct Hand {
+    pub(crate) side: Side,
+    pub(crate) rig: Rig,
+    /// The joints below the wrist, parents first.
+    pub(crate) fingers: Vec<usize>,
+    /// The hand's directions in the space of its joint.
+    pub(crate) along: DVec3,
+    pub(crate) palm: DVec3,
+    pub(crate) radial: DVec3,
+    /// From the wrist to the end of the middle finger, in metres.
+    length: f64,
+    /// From the wrist to the middle finger's base, in metres.
+    base: f64,
+    joint: usize,
+}
+
+/// A posture of the fingers of one hand.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Shape {
+    pub(crate) angles: HandAngles,
+    /// The local rotations of [`Hand::fingers`].
+    pub(crate) rotations: Vec<DQuat>,
+    /// Where joints are and how they are turned in the hand's space, as [`Hand::fingers`] are.
+    places: Vec<(DVec3, DQuat)>,
+    /// Points of the hand's outline in its space: knuckles, middle joints, tips.
+    pub(crate) outline: Vec<DVec3>,
+}
+
+impl Stage {
+    /// Puts a body on the stage: the first frame of its material. Nothing where it has no arm.
+    pub(crate) fn of(material: &Material) -> Option<Self> {
+        let clip = &material.clip;
+        if clip.frames() == 0 {
+            return None;
+        }
+        let (skeleton, anatomy) = (Arc::clone(clip.skeleton()), Arc::clone(&material.anatomy));
+        let base = clip.pose(0);
+        let model = ModelPose::of(&skeleton, &base);
+        let measures = anatomy.measures()?;
+        let body = anatomy.body_frame(&model);
+        let forward = body.map_or(DVec3::Z, |body| body.forward);
+        let forward = DVec3::new(forward.x, 0.0, forward.z).normalize_or(DVec3::Z);
+        let left = DVec3::Y.cross(forward);
+        let torso = Torso::of(body, measures.trunk);
+        let hands = Side::BOTH
+            .map(|side| Hand::of(&skeleton, &anatomy, &base, &model, side, [left, forward]));
+        if hands.iter().all(Option::is_none) {
+            return None;
+        }
+        Some(Self {
+            skeleton,
+            anatomy,
+            base,
+            model,
+            left,
+            forward,
+            shoulders: measures.shoulder_width,
+            arm: measures.arm,
+            torso,
+            hands,
+        })
+    }
+
+    /// Returns the hand of a side.
+    pub(crate) fn hand(&self, side: Side) -> Option<&Hand> {
+        self.hands[usize::from(side == Side::Left)].as_ref()
+    }
+
+    /// Returns a vector to the left, up and forward in model space.
+    pub(crate) fn direction(&self, v: DVec3) -> DVec3 {
+        self.left * v.x + DVec3::Y * v.y + self.forward * v.z
+    }
+
+    /// Returns a place on the body as it stands.
+    pub(crate) fn landmark(&self, name: &str) -> Option<DVec3> {
+        self.anatomy.landmark(&self.skeleton, &self.model, name)
+    }
+
+    /// Returns the middle between the shoulder joints.
+    pub(crate) fn middle(&self) -> DVec3 {
+        let at = self.hands.iter().flatten().map(|hand| hand.rig.shoulder);
+        let (sum, count) = at.fold((DVec3::ZERO, 0.0), |(sum, n), at| (sum + at, n + 1.0));
+        let middle = sum / count;
+        match (&self.hands[0], &self.hands[1]) {
+            (Some(_), Some(_)) => middle,
+            (Some(_), None) => middle + self.left * (0.5 * self.shoulders),
+            _ => middle - self.left * (0.5 * self.shoulders),
+        }
+    }
+
+    /// Returns the posture of fingers for joint angles.
+    pub(crate) fn shape(&self, side: Side, angles: &HandAngles) -> Shape {
+        let mut pose = self.base.clone();
+        self.anatomy
+            .set_hand_angles(&self.skeleton, side, angles, &mut pose);
+        self.shape_of(side, *angles, &pose)
+    }
+
+    /// Returns the posture of fingers that a posture of the body has.
+    pub(crate) fn shape_of(&self, side: Side, angles: HandAngles, pose: &Pose) -> Shape {
+        let Some(hand) = self.hand(side) else {
+            return Shape {
+                angles,
+                rotations: Vec::new(),
+                places: Vec::new(),
+                outline: Vec::new(),
+            };
+        };
+        let rotations: Vec<DQuat> = hand.fingers.iter().map(|&j| pose.rotations[j]).collect();
+        let mut places: Vec<(DVec3, DQuat)> = Vec::with_capacity(rotations.len());
+        for (&joint, &turn) in hand.fingers.iter().zip(&rotations) {
+            let parent = self.skeleton.parent(joint);
+            let above = hand.fingers.iter().position(|&j| Some(j) == parent);
+            let (at, turned) = above.map_or((DVec3::ZERO, DQuat::IDENTITY), |n| places[n]);
+            places.push((at + turned * pose.translations[joint], turned * turn));
+        }
+        let mut shape = Shape {
+            angles,
+            rotations,
+            places,
+            outline: Vec::new(),
+        };
+        let mut outline = vec![DVec3::ZERO, hand.along * (0.55 * hand.base)];
+        for digit in Digit::ALL {
+            for point in [
+                HandPoint::Base(digit, Face::Middle),
+                HandPoint::Middle(digit, Face::Middle),
+                HandPoint::Tip(digit, Face::Middle),
+            ] {
+                outline.push(self.point(hand, &shape, point));
+            }
+        }
+        shape.outline = outline;
+        shape
+    }
+
+    /// Returns where a point of the hand is in the space of its joint.
+    pub(crate) fn point(&self, hand: &Hand, shape: &Shape, point: HandPoint) -> DVec3 {
+        let middle = hand.along * (0.55 * hand.base);
+        let breadth = 0.22 * hand.length;
+        let thick = 0.08 * hand.length;
+        match point {
+            HandPoint::Palm => middle + hand.palm * thick,
+            HandPoint::Back => middle - hand.palm * thick,
+            HandPoint::Radial => middle + hand.radial * breadth,
+            HandPoint::Ulnar => middle - hand.radial * breadth,
+            HandPoint::ThumbBall => {
+                hand.along * (0.3 * hand.base)
+                    + hand.palm * (1.4 * thick)
+                    + hand.radial * (0.6 * breadth)
+            }
+            HandPoint::Wrist(face) => self.faced(hand, face, hand.along) * (0.14 * hand.length),
+            HandPoint::Tip(digit, face) => self.on_digit(hand, shape, digit, 3, face),
+            HandPoint::Middle(digit, face) => self.on_digit(hand, shape, digit, 2, face),
+            HandPoint::Base(digit, face) => self.on_digit(hand, shape, digit, 1, face),
+            HandPoint::Elbow => -hand.along * hand.rig.lengths[1],
+            HandPoint::Forearm => -hand.along * (0.5 * hand.rig.lengths[1]),
+            HandPoint::UpperArm => -hand.along * (1.3 * hand.rig.lengths[1]),
+        }
+    }
+
+    /// Returns the unit vector out of the hand at a point, in the space of its joint.
+    pub(crate) fn outward(&self, hand: &Hand, shape: &Shape, point: HandPoint) -> DVec3 {
+        match point {
+            HandPoint::Palm | HandPoint::ThumbBall => hand.palm,
+            HandPoint::Back => -hand.palm,
+            HandPoint::Radial => hand.radial,
+            HandPoint::Ulnar => -hand.radial,
+            HandPoint::Wrist(face) => self.faced(hand, face, hand.along),
+            HandPoint::Tip(digit, Face::Middle) => self.bone(hand, shape, digit),
+            HandPoint::Tip(digit, face) => self.faced(hand, face, self.bone(hand, shape, digit)),
+            HandPoint::Middle(digit, face) | HandPoint::Base(digit, face) => {
+                let _ = digit;
+                let face = if face == Face::Middle {
+                    Face::Dorsal
+                } else {
+                    face
+                };
+                self.faced(hand, face, hand.along)
+            }
+            HandPoint::Elbow | HandPoint::Forearm | HandPoint::UpperArm => -hand.palm,
+        }
+    }
+
+    /// Returns where a face of the hand or a digit looks to whose bone points along `bone`.
+    fn faced(&self, hand: &Hand, face: Face, bone: DVec3) -> DVec3 {
+        let across = hand.along.cross(hand.palm);
+        match face {
+            Face::Middle => DVec3::ZERO,
+            Face::Palmar => across.cross(bone).normalize_or(hand.palm),
+            Face::Dorsal => -across.cross(bone).normalize_or(hand.palm),
+            Face::Radial => hand.radial,
+            Face::Ulnar => -hand.radial,
+        }
+    }
+
+    /// Returns the direction of a digit's last bone in the hand's space.
+    pub(crate) fn bone(&self, hand: &Hand, shape: &Shape, digit: Digit) -> DVec3 {
+        let tip = self.end(hand, shape, digit, 3);
+        let before = self.end(hand, shape, digit, 2);
+        match (tip, before) {
+            (Some(tip), Some(before)) => (tip - before).normalize_or(hand.along),
+            _ => hand.along,
+        }
+    }
+
+    /// Returns a point on a digit: 1 its base joint, 2 its middle joint, 3 its tip.
+    fn on_digit(&self, hand: &Hand, shape: &Shape, digit: Digit, which: u8, face: Face) -> DVec3 {
+        let at = self.end(hand, shape, digit, which);
+        let at = at.unwrap_or(hand.along * (hand.base * if which == 1 { 1.0 } else { 1.6 }));
+        if face == Face::Middle {
+            return at;
+        }
+        let bone = if which == 1 {
+            hand.along
+        } else {
+            self.bone(hand, shape, digit)
+        };
+        let radius = if which == 1 { 0.06 } else { 0.042 };
+        // A pad or nail lies a little before the very end.
+        let back = if which == 3 { 0.03 } else { 0.0 };
+        at + (self.faced(hand, face, bone) * radius - bone * back) * hand.length
+    }
+
+    /// Returns where the base joint (1), the middle joint (2) or the tip (3) of a digit is.
+    fn end(&self, hand: &Hand, shape: &Shape, digit: Digit, which: u8) -> Option<DVec3> {
+        let part = |n: u8| match digit {
+            Digit::Thumb => Part::Thumb(hand.side, n - 1),
+            Digit::Index => Part::Finger(hand.side, Finger::Index, n),
+            Digit::Middle => Part::Finger(hand.side, Finger::Middle, n),
+            Digit::Ring => Part::Finger(hand.side, Finger::Ring, n),
+            Digit::Little => Part::Finger(hand.side, Finger::Little, n),
+        };
+        let place = |joint: usize| {
+            let n = hand.fingers.iter().position(|&j| j == joint)?;
+            Some(shape.places[n])
+        };
+        if which < 3 {
+            let which = if digit == Digit::Thumb {
+                which + 1
+            } else {
+                which
+            };
+            return Some(place(self.anatomy.joint(part(which))?)?.0);
+        }
+        let last = (1..4).rev().find_map(|n| self.anatomy.joint(part(n)))?;
+        let (at, turned) = place(last)?;
+        if let Some(tip) = self.skeleton.joint(last).tip {
+            return Some(at + turned * tip);
+        }
+        if let [child] = *self.skeleton.children(last) {
+            return Some(place(child)?.0);
+        }
+        let from = place(self.skeleton.parent(last)?)?.0;
+        Some(at + (at - from) * 0.8)
+    }
+
+    /// Returns the rotation of a hand's joint for which it points along `direction` with its palm
+    /// towards `palm`, both in model space.
+    pub(crate) fn turned(&self, side: Side, direction: DVec3, palm: DVec3) -> Option<DQuat> {
+        let own = self.anatomy.hand_rotation(side, direction, palm);
+        own.or_else(|| {
+            let hand = self.hand(side)?;
+            let columns =
+                |a: DVec3, p: DVec3| chereme_motion::glam::DMat3::from_cols(a, p, a.cross(p));
+            let palm = palm.reject_from_normalized(direction).try_normalize()?;
+            let turn = columns(direction, palm) * columns(hand.along, hand.palm).transpose();
+            Some(DQuat::from_mat3(&turn).normalize())
+        })
+    }
+}
+
+impl Hand {
+    fn of(
+        skeleton: &Arc<Skeleton>,
+        anatomy: &Anatomy,
+        base: &Pose,
+        model: &ModelPose,
+        side: Side,
+        [left, forward]: [DVec3; 2],
+    ) -> Option<Self> {
+        let rig = Rig::of(skeleton, anatomy, base, model, side, [left, forward])?;
+        let joint = rig.chain.hand;
+        let back = model.rotation(joint).inverse();
+        let along = (back * anatomy.hand_direction(side, model)?).normalize();
+        let palm = match anatomy.palm_normal(side, model) {
+            Some(palm) => back * palm,
+            None => {
+                let down = back * (rig.elbow_axis * -side.sign());
+                down.reject_from_normalized(along)
+                    .normalize_or(along.any_orthonormal_vector())
+            }
+        };
+        let measures = anatomy.measures()?;
+        let knuckle = anatomy.joint(Part::Finger(side, Finger::Middle, 1));
+        let at = |joint: usize| {
+            model
+                .position(joint)
+                .distance(model.position(rig.chain.hand))
+        };
+        Some(Self {
+            side,
+            fingers: anatomy.fingers(side),
+            along,
+            palm,
+            radial: palm.cross(along) * -side.sign(),
+            length: measures.hand,
+            base: knuckle.map_or(0.5 * measures.hand, at),
+            joint,
+            rig,
+        })
+    }
+
+    /// Returns the hand's directions in the space of its joint.
+    pub(crate) fn held(&self) -> Held {
+        Held {
+            along: self.along,
+            palm: self.palm,
+            radial: self.radial,
+        }
+    }
+
+    /// Returns the hand's joint.
+    pub(crate) fn joint(&self) -> usize {
+        self.joint
+    }
+
+    /// Returns the hand's length in metres.
+    pub(crate) fn length(&self) -> f64 {
+        self.length
+    }
+}
+
+/// The trunk as what nothing may enter: an ellipse at each height.
+pub(crate) struct Torso {
+    body: Option<BodyFrame>,
+    trunk: f64,
+}
+
+/// Heights in trunk lengths above the shoulders, the front there, and half the width, in shoulder
+/// widths; the front goes through the landmarks of the trunk.
+const OUTLINE: [(f64, f64, f64); 9] = [
+    (0.22, 0.10, 0.16),
+    (0.12, 0.16, 0.24),
+    (0.02, 0.22, 0.38),
+    (-0.08, 0.27, 0.45),
+    (-0.28, 0.325, 0.46),
+    (-0.58, 0.325, 0.43),
+    (-0.72, 0.335, 0.42),
+    (-0.88, 0.315, 0.43),
+    (-1.05, 0.29, 0.46),
+];
+
+impl Torso {
+    fn of(body: Option<BodyFrame>, trunk: f64) -> Self {
+        Self { body, trunk }
+    }
+
+    /// Returns how far forward a point must go to leave the trunk, in metres; at most 0 where it is
+    /// not in it.
+    pub(crate) fn depth(&self, at: DVec3, margin: f64) -> f64 {
+        let Some(body) = &self.body else { return 0.0 };
+        let v = at - body.origin;
+        let y = v.dot(body.up) / self.trunk;
+        let (top, bottom) = (OUTLINE[0].0, OUTLINE[OUTLINE.len() - 1].0);
+        if y >= top || y <= bottom {
+            return 0.0;
+        }
+        let n = OUTLINE
+            .partition_point(|row| row.0 >= y)
+            .clamp(1, OUTLINE.len() - 1);
+        let (above, below) = (OUTLINE[n - 1], OUTLINE[n]);
+        let w = (above.0 - y) / (above.0 - below.0);
+        let mix = |a: f64, b: f64| a + (b - a) * w;
+        let front = mix(above.1, below.1) + margin / body.scale;
+        let wide = mix(above.2, below.2) + margin / body.scale;
+        let x = v.dot(body.left) / body.scale;
+        let z = v.dot(body.forward) / body.scale;
+        let across = 1.0 - (x / wide).powi(2);
+        if across <= 0.0 || z < -0.25 {
+            return 0.0;
+        }
+        // What is behind the middle of the body is not pushed to its front all at once.
+        let fade = ((z + 0.25) / 0.25).clamp(0.0, 1.0);
+        (front * across.sqrt() - z) * body.scale * fade
+    }
+
+    /// Returns the direction in which depth is told.
+    pub(crate) fn forward(&self) -> DVec3 {
+        self.body.map_or(DVec3::Z, |body| body.forward)
+    }
+}

@@ -1,0 +1,443 @@
+//! From events to frames: where each wrist is, how each hand is turned, how fingers are bent.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use chereme_motion::glam::{DQuat, DVec3};
+
+use super::arm::{Held, Limits};
+use super::pace::{Pace, Paces};
+use super::plan::{Act, Event, Plan};
+use super::stage::{Hand, Stage};
+
+/// How often the arm's plane is weighed, in seconds; between, it goes smoothly.
+const WEIGHED: f64 = 1.0 / 30.0;
+/// How fast a forearm turns about its length at most, in radians per second.
+const TURNING: f64 = 20.0;
+/// How near to the trunk's surface points of a hand come, in metres.
+const MARGIN: f64 = 0.004;
+
+/// The movement of one arm and hand, a row a frame.
+pub(crate) struct Track {
+    /// The local rotations of collar bone, upper arm, forearm and hand.
+    pub(crate) arm: [Vec<DQuat>; 4],
+    /// The local rotations of the joints below the wrist.
+    pub(crate) fingers: Vec<Vec<DQuat>>,
+    /// How well it came where it should.
+    pub(crate) fit: Fit,
+}
+
+/// How well a hand came where it should.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Fit {
+    /// The largest distance of its point from where it should be, in metres, and the frame.
+    pub(crate) residual: f64,
+    pub(crate) frame: usize,
+    /// The largest angle by which its orientation gave way to the wrist, in radians.
+    pub(crate) turned: f64,
+    /// The farthest it was moved out of the trunk, in metres.
+    pub(crate) pushed: f64,
+}
+
+/// What a hand should do at each frame.
+struct Wanted {
+    points: Vec<DVec3>,
+    turns: Vec<DQuat>,
+    offsets: Vec<DVec3>,
+    /// The turn about the wrist, and from which frames it is one at all.
+    wrist: Vec<Option<DQuat>>,
+}
+
+/// The frames that a stretch of time covers: those at or after its start and before its end.
+fn frames(event: &Event, rate: f64, total: usize) -> Range<usize> {
+    let at = |time: f64| (time * rate - 1e-9).ceil().max(0.0) as usize;
+    at(event.from).min(total)..at(event.to).min(total)
+}
+
+fn share(event: &Event, frame: usize, rate: f64) -> f64 {
+    (frame as f64 / rate - event.from) / (event.to - event.from).max(1e-9)
+}
+
+/// How time runs.
+pub(crate) struct Timing<'a> {
+    pub(crate) paces: &'a Paces,
+    /// Frames a second.
+    pub(crate) rate: f64,
+    /// Frames in all.
+    pub(crate) total: usize,
+}
+
+/// Makes the frames of one hand.
+pub(crate) fn track(
+    stage: &Stage,
+    hand: &Hand,
+    plan: &Plan,
+    n: usize,
+    limits: &Limits,
+    timing: &Timing<'_>,
+) -> Track {
+    let wanted = wanted(plan, n, timing);
+    let fingers = fingers(stage, hand, plan, n, timing);
+    let outlines = outlines(plan, n, timing);
+    let (arm, fit) = arms(stage, hand, &wanted, &outlines, limits, timing.rate);
+    Track { arm, fingers, fit }
+}
+
+fn wanted(plan: &Plan, n: usize, timing: &Timing<'_>) -> Wanted {
+    let &Timing { paces, rate, total } = timing;
+    let start = &plan.start[n];
+    let mut order: Vec<&Event> = plan.events[n].iter().collect();
+    order.sort_by(|a, b| a.from.total_cmp(&b.from));
+    let mut points = vec![DVec3::ZERO; total];
+    let mut ends = vec![DVec3::ZERO; total + 1];
+    let mut turns = Steps::new(start.rotation, total);
+    let mut offsets = Steps::new(start.offset, total);
+    let mut wrist = vec![None; total];
+    for event in order {
+        let span = frames(event, rate, total);
+        match &event.act {
+            Act::Move(path) => {
+                for frame in span.clone() {
+                    points[frame] += path.at(paces.share(event.pace, share(event, frame, rate)));
+                }
+                ends[span.end] += path.end();
+            }
+            Act::Turn(to) => turns.go(
+                span,
+                *to,
+                |from, to, s| from.slerp(to, s),
+                |frame| paces.share(event.pace, share(event, frame, rate)),
+            ),
+            Act::Point(to) => offsets.go(
+                span,
+                *to,
+                |from, to, s| from.lerp(to, s),
+                |frame| paces.share(event.pace, share(event, frame, rate)),
+            ),
+            Act::Wrist { axes, cycles } => {
+                for frame in span {
+                    let time = share(event, frame, rate);
+                    let turn = TAU * cycles * time;
+                    let ends = (time.min(1.0 - time) * cycles * 4.0).clamp(0.0, 1.0);
+                    let ends = ends * ends * (3.0 - 2.0 * ends);
+                    let about = (axes[0] * turn.sin() + axes[1] * turn.cos()) * ends;
+                    wrist[frame] = Some(DQuat::from_scaled_axis(about));
+                }
+            }
+            Act::Shape(_) | Act::Play { .. } => {}
+        }
+    }
+    let mut sum = start.point;
+    for (point, end) in points.iter_mut().zip(&ends) {
+        sum += *end;
+        *point += sum;
+    }
+    Wanted {
+        points,
+        turns: turns.done(),
+        offsets: offsets.done(),
+        wrist,
+    }
+}
+
+/// A value that goes from one to the next, each from where it is.
+struct Steps<T> {
+    values: Vec<T>,
+    filled: usize,
+    now: T,
+}
+
+impl<T: Copy> Steps<T> {
+    fn new(start: T, total: usize) -> Self {
+        Self {
+            values: Vec::with_capacity(total),
+            filled: total,
+            now: start,
+        }
+    }
+
+    fn go(
+        &mut self,
+        span: Range<usize>,
+        to: T,
+        mix: impl Fn(T, T, f64) -> T,
+        share: impl Fn(usize) -> f64,
+    ) {
+        // What runs already is cut off where the next one begins.
+        if span.start < self.values.len() {
+            self.now = self.values[span.start];
+            self.values.truncate(span.start);
+        }
+        self.values.resize(span.start, self.now);
+        let from = self.now;
+        self.values
+            .extend(span.map(|frame| mix(from, to, share(frame))));
+        self.now = to;
+    }
+
+    fn done(mut self) -> Vec<T> {
+        self.values.resize(self.filled, self.now);
+        self.values
+    }
+}
+
+/// Returns the shapes that a hand has at each frame: one, or the way from one to another.
+fn shape_spans<'a>(
+    events: &'a [Event],
+    rate: f64,
+    total: usize,
+) -> Vec<(Range<usize>, usize, &'a Event)> {
+    let mut spans: Vec<(Range<usize>, usize, &Event)> = events
+        .iter()
+        .filter_map(|event| match event.act {
+            Act::Shape(shape) => Some((frames(event, rate, total), shape, event)),
+            _ => None,
+        })
+        .collect();
+    spans.sort_by_key(|(span, ..)| span.start);
+    spans
+}
+
+fn fingers(
+    stage: &Stage,
+    hand: &Hand,
+    plan: &Plan,
+    n: usize,
+    timing: &Timing<'_>,
+) -> Vec<Vec<DQuat>> {
+    let &Timing { paces, rate, total } = timing;
+    let shapes = &plan.shapes[n];
+    let spans = shape_spans(&plan.events[n], rate, total);
+    // Hands take their shape in the first part of a way without meaning.
+    let early = |event: &Event, frame: usize| {
+        let time = share(event, frame, rate);
+        let time = if event.pace == Pace::Lax {
+            time * 1.4
+        } else {
+            time
+        };
+        paces.share(event.pace, time)
+    };
+    let mut all: Vec<Vec<DQuat>> = (0..hand.fingers.len())
+        .map(|joint| {
+            let mut steps = Steps::new(shapes[plan.start[n].shape].rotations[joint], total);
+            for (span, shape, event) in &spans {
+                let to = shapes[*shape].rotations[joint];
+                steps.go(span.clone(), to, nlerp, |frame| early(event, frame));
+            }
+            steps.done()
+        })
+        .collect();
+    for event in &plan.events[n] {
+        if let Act::Play {
+            digits,
+            angle,
+            cycles,
+        } = event.act
+        {
+            let span = frames(event, rate, total);
+            play(stage, hand, &mut all, span, digits, |frame, digit| {
+                let time = share(event, frame, rate);
+                let ends = (time.min(1.0 - time) * cycles * 3.0).clamp(0.0, 1.0);
+                angle * ends * (TAU * (cycles * time - digit as f64 * 0.17)).sin()
+            });
+        }
+    }
+    all
+}
+
+fn nlerp(from: DQuat, to: DQuat, share: f64) -> DQuat {
+    let to = if from.dot(to) < 0.0 { -to } else { to };
+    (from * (1.0 - share) + to * share).normalize()
+}
+
+/// Bends base joints of fingers about the axis across the hand.
+fn play(
+    stage: &Stage,
+    hand: &Hand,
+    all: &mut [Vec<DQuat>],
+    span: Range<usize>,
+    digits: [bool; 5],
+    angle: impl Fn(usize, usize) -> f64,
+) {
+    use chereme_motion::{Finger, Part};
+    let across = hand.along.cross(hand.palm);
+    for (digit, _) in digits.into_iter().enumerate().filter(|(_, plays)| *plays) {
+        let part = match digit {
+            0 => Part::Thumb(hand.side, 1),
+            n => Part::Finger(hand.side, Finger::ALL[n - 1], 1),
+        };
+        let joint = stage.anatomy.joint(part);
+        let Some(row) = hand.fingers.iter().position(|&j| Some(j) == joint) else {
+            continue;
+        };
+        let above = stage
+            .skeleton
+            .ancestors(hand.fingers[row])
+            .skip(1)
+            .take_while(|&j| j != hand.joint())
+            .fold(DQuat::IDENTITY, |turned, j| {
+                stage.base.rotations[j] * turned
+            });
+        let axis = above.inverse() * across;
+        for frame in span.clone() {
+            let turn = DQuat::from_axis_angle(axis, angle(frame, digit));
+            all[row][frame] = (turn * all[row][frame]).normalize();
+        }
+    }
+}
+
+/// Returns the outlines of a hand, and from which frame on which two hold.
+struct Outlines<'a> {
+    from: Vec<(usize, &'a [DVec3], &'a [DVec3])>,
+}
+
+fn outlines<'a>(plan: &'a Plan, n: usize, timing: &Timing<'_>) -> Outlines<'a> {
+    let of = |shape: usize| plan.shapes[n][shape].outline.as_slice();
+    let mut now = of(plan.start[n].shape);
+    let mut from = vec![(0, now, now)];
+    for (span, shape, _) in shape_spans(&plan.events[n], timing.rate, timing.total) {
+        let next = of(shape);
+        from.push((span.start, now, next));
+        from.push((span.end, next, next));
+        now = next;
+    }
+    Outlines { from }
+}
+
+impl Outlines<'_> {
+    fn at(&self, frame: usize, cursor: &mut usize) -> [&[DVec3]; 2] {
+        while self
+            .from
+            .get(*cursor + 1)
+            .is_some_and(|next| next.0 <= frame)
+        {
+            *cursor += 1;
+        }
+        let (_, a, b) = self.from[*cursor];
+        [a, b]
+    }
+}
+
+fn arms(
+    stage: &Stage,
+    hand: &Hand,
+    wanted: &Wanted,
+    outlines: &Outlines<'_>,
+    limits: &Limits,
+    rate: f64,
+) -> ([Vec<DQuat>; 4], Fit) {
+    let total = wanted.points.len();
+    let held = hand.held();
+    let rig = &hand.rig;
+    let reach = 1.3 * hand.length();
+    let mut fit = Fit::default();
+    // The wrist as wanted, moved out of the trunk.
+    let mut wrists = Vec::with_capacity(total);
+    let mut cursor = 0;
+    for frame in 0..total {
+        let turned = wanted.turns[frame];
+        let mut wrist = wanted.points[frame] - turned * wanted.offsets[frame];
+        let near = stage.torso.depth(wrist, reach) > 0.0;
+        if near {
+            let turned = wanted.wrist[frame].map_or(turned, |turn| turned * turn);
+            let mut deepest = 0.0_f64;
+            let [a, b] = outlines.at(frame, &mut cursor);
+            let same = std::ptr::eq(a, b);
+            for outline in [a, b].into_iter().take(if same { 1 } else { 2 }) {
+                for &point in outline {
+                    deepest = deepest.max(stage.torso.depth(wrist + turned * point, MARGIN));
+                }
+            }
+            fit.pushed = fit.pushed.max(deepest);
+            wrist += stage.torso.forward() * deepest;
+        }
+        wrists.push(wrist);
+    }
+    let turns = planes(stage, hand, wanted, &wrists, limits, rate);
+    let mut arm: [Vec<DQuat>; 4] = std::array::from_fn(|_| Vec::with_capacity(total));
+    let most = TURNING / rate;
+    let mut before: Option<f64> = None;
+    for frame in 0..total {
+        let full = match wanted.wrist[frame] {
+            Some(turn) => (wanted.turns[frame] * turn).normalize(),
+            None => wanted.turns[frame].normalize(),
+        };
+        let point = wrists[frame] + wanted.turns[frame] * wanted.offsets[frame];
+        let mut posed = rig.reach(wrists[frame], turns[frame], limits);
+        let angles = rig.wrist(&posed, full, &held);
+        let asked = angles
+            .turn
+            .clamp(-limits.most_turned()[0], limits.most_turned()[1]);
+        let turn = match before {
+            Some(before) => before + (asked - before).clamp(-most, most),
+            None => asked,
+        };
+        before = Some(turn);
+        let mut given = full;
+        if angles.bend(limits) > 1.0 || (angles.turn - turn).abs() > 1e-6 {
+            // The hand gives way, its point stays: so the wrist moves, and the arm with it.
+            for _ in 0..4 {
+                given = rig.allowed(&posed, full, &held, limits, turn);
+                let wrist = point - given * wanted.offsets[frame];
+                posed = rig.reach(wrist, turns[frame], limits);
+            }
+            fit.turned = fit.turned.max(given.angle_between(full));
+        }
+        let is = posed.wrist + given * wanted.offsets[frame];
+        let residual = is.distance(point);
+        if residual > fit.residual {
+            (fit.residual, fit.frame) = (residual, frame);
+        }
+        let rotations = rig.rotations(&posed, given);
+        for (column, rotation) in arm.iter_mut().zip(rotations) {
+            column.push(rotation);
+        }
+    }
+    (arm, fit)
+}
+
+/// Returns the turn of the arm's plane at each frame: weighed now and then, smooth between.
+fn planes(
+    stage: &Stage,
+    hand: &Hand,
+    wanted: &Wanted,
+    wrists: &[DVec3],
+    limits: &Limits,
+    rate: f64,
+) -> Vec<f64> {
+    let total = wrists.len();
+    let step = ((WEIGHED * rate).round() as usize).max(1);
+    let held: Held = hand.held();
+    let mut last: Option<(DVec3, DQuat, f64)> = None;
+    let keys: Vec<f64> = (0..total.div_ceil(step) + 1)
+        .map(|n| {
+            let frame = (n * step).min(total - 1);
+            let (wrist, turned) = (wrists[frame], wanted.turns[frame]);
+            if let Some((at, how, turn)) = last
+                && at == wrist
+                && how == turned
+            {
+                return turn;
+            }
+            let turn = hand.rig.turn(wrist, turned, &held, limits, &stage.torso);
+            last = Some((wrist, turned, turn));
+            turn
+        })
+        .collect();
+    let key = |n: isize| keys[n.clamp(0, keys.len() as isize - 1) as usize];
+    (0..total)
+        .map(|frame| {
+            let n = (frame / step) as isize;
+            let t = (frame % step) as f64 / step as f64;
+            // A uniform cubic B-spline: smoother than its keys.
+            let [a, b, c, d] = [n - 1, n, n + 1, n + 2].map(key);
+            let u = 1.0 - t;
+            (u * u * u * a
+                + (3.0 * t * t * t - 6.0 * t * t + 4.0) * b
+                + (3.0 * u * u * u - 6.0 * u * u + 4.0) * c
+                + t * t * t * d)
+                / 6.0
+        })
+        .collect()
+}

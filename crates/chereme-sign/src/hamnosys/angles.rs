@@ -1,0 +1,471 @@
+//! Handshapes as joint angles.
+//!
+//! A bend is told in units from 0 to 4 at each of a finger's three joints, as the tables of animation
+//! engines do; what 4 means is [`BodyLanguage`]'s. Recognition compares with the same angles. After
+//! Kennaway, *Avatar-independent scripting for real-time gesture animation*, section 4.3.
+
+use chereme_motion::{Finger, FingerAngles, HandAngles, ThumbAngles};
+
+use super::language::BodyLanguage;
+use super::tree::{
+    Bend, Digit, FingerContact, Form, HandClass, Handshape, Opening, ThumbExtra, ThumbPosition,
+};
+
+/// The bends of three joints in units of a quarter of the most.
+type Units = [f64; 3];
+
+const STRAIGHT: Units = [0.0, 0.1, 0.1];
+const CLOSED: Units = [3.86, 3.85, 3.82];
+/// Fingers beside a pinch or a cee that stay open.
+const OPEN: Units = [0.0, 0.25, 0.2];
+/// The spread of fingers in degrees towards the thumb, as in the inventory's spread hand.
+const SPREAD: [f64; 4] = [14.0, 3.0, -9.0, -20.0];
+/// The spread of two fingers apart.
+const SPREAD_TWO: [f64; 4] = [12.0, -9.0, 0.0, 0.0];
+/// How far the fingers of a flat hand and of a fist lean from the hand's axis, in degrees towards the
+/// thumb: fingers taper in the flat hand, and in the fist point to the root of the thumb.
+const FLAT: [f64; 4] = [-1.5, 0.0, 1.5, 3.0];
+const FIST: [f64; 4] = [-4.0, 0.0, 5.0, 11.0];
+
+/// Returns the finger of a digit; nothing for the thumb.
+#[must_use]
+pub fn finger_of(digit: Digit) -> Option<Finger> {
+    match digit {
+        Digit::Thumb => None,
+        Digit::Index => Some(Finger::Index),
+        Digit::Middle => Some(Finger::Middle),
+        Digit::Ring => Some(Finger::Ring),
+        Digit::Little => Some(Finger::Little),
+    }
+}
+
+/// A hand before its units become angles: what betweenness averages.
+#[derive(Debug, Clone, Copy)]
+struct Shape {
+    bends: [Units; 4],
+    /// Degrees towards the thumb with the fingers straight.
+    spread: [f64; 4],
+    /// Radial, palmar, opposition, and two flexions in degrees.
+    thumb: [f64; 5],
+}
+
+/// Returns the joint angles of a handshape in radians, as [`HandAngles`] counts them.
+///
+/// Betweenness averages bends, spreads and the thumb before they become rotations. What depends on
+/// the lengths of a hand's bones (the tip of the thumb on that of a finger) is that of the
+/// inventory's hand; an animator may refine it.
+#[must_use]
+pub fn hand_angles(shape: &Handshape, language: &BodyLanguage) -> HandAngles {
+    let mut hand = form(&shape.form, shape);
+    if let Some(second) = &shape.between {
+        hand = middle(&hand, &form(second, shape));
+    }
+    for (finger, bend) in hand.bends.iter_mut().zip(&shape.bends[1..]) {
+        if let Some(bend) = bend {
+            *finger = units(*bend, shape.form.class);
+        }
+    }
+    if let Some(splay) = shape.splay {
+        let wide = match splay {
+            0 => 0.0,
+            1 => language.splay,
+            _ => language.splay * language.splay_more,
+        };
+        hand.spread = SPREAD.map(|spread| spread * wide);
+    } else {
+        hand.spread = hand.spread.map(|spread| spread * language.splay);
+    }
+    for contact in &shape.contacts {
+        cross(&mut hand, contact);
+    }
+    thumb_extra(&mut hand, shape);
+    if let Some(bend) = shape.bends[0] {
+        let [_, middle, end] = bend_units(bend);
+        hand.thumb[3] = middle / 4.0 * language.bend_thumb_middle;
+        hand.thumb[4] = end / 4.0 * language.bend_thumb_end;
+    }
+    angles(&hand, language)
+}
+
+/// Returns the fingers that a form of a class selects: those that its bend applies to.
+#[must_use]
+pub fn selected(class: HandClass, special: &[Digit]) -> [bool; 4] {
+    let own = match class {
+        HandClass::Fist
+        | HandClass::Flat
+        | HandClass::Finger2345
+        | HandClass::PinchAll
+        | HandClass::CeeAll => [true; 4],
+        HandClass::Finger2
+        | HandClass::Pinch12
+        | HandClass::Pinch12Open
+        | HandClass::Cee12
+        | HandClass::Cee12Open => [true, false, false, false],
+        HandClass::Finger23 | HandClass::Finger23Spread => [true, true, false, false],
+    };
+    let fingers: Vec<Finger> = special.iter().copied().filter_map(finger_of).collect();
+    if fingers.is_empty() || own == [true; 4] {
+        return own;
+    }
+    Finger::ALL.map(|finger| fingers.contains(&finger))
+}
+
+/// Returns a bend in units of a quarter of the most, from the palm outwards.
+#[must_use]
+pub fn bend_units(bend: Bend) -> [f64; 3] {
+    match bend {
+        Bend::Bent => [4.0, 0.0, 0.0],
+        Bend::Round => [2.0, 2.0, 2.0],
+        Bend::Hooked => [0.0, 4.0, 4.0],
+        Bend::DoubleBent => [4.0, 4.0, 0.0],
+        Bend::DoubleHooked => [4.0, 4.0, 4.0],
+        Bend::HalfBent => [2.0, 0.0, 0.0],
+        Bend::Joints(units) => units.map(|unit| unit.clamp(-1.0, 4.0)),
+    }
+}
+
+/// Returns a bend as a class takes it: in pinches and cees the tips must still meet.
+fn units(bend: Bend, class: HandClass) -> Units {
+    let pinch = matches!(
+        class,
+        HandClass::Pinch12 | HandClass::Pinch12Open | HandClass::PinchAll
+    );
+    let cee = matches!(
+        class,
+        HandClass::Cee12 | HandClass::Cee12Open | HandClass::CeeAll
+    );
+    match bend {
+        Bend::Bent if pinch => [3.4, 0.6, 0.4],
+        Bend::Round if pinch => [2.3, 2.4, 2.2],
+        Bend::Hooked if pinch => [2.0, 3.2, 2.9],
+        Bend::DoubleBent if pinch => [2.8, 2.4, 1.0],
+        Bend::DoubleHooked if pinch => [2.6, 3.2, 2.8],
+        Bend::Bent if cee => [3.0, 0.4, 0.4],
+        Bend::Round if cee => [1.0, 3.0, 3.0],
+        Bend::Hooked if cee => [2.0, 4.0, 4.0],
+        Bend::DoubleBent if cee => [2.0, 3.0, 2.0],
+        Bend::DoubleHooked if cee => [2.0, 3.0, 3.0],
+        // Fingers bent at two joints meet the palm before the joints' own ends.
+        Bend::DoubleBent => [3.3, 3.75, 0.4],
+        other => bend_units(other),
+    }
+}
+
+fn form(form: &Form, shape: &Handshape) -> Shape {
+    let class = form.class;
+    let chosen = selected(class, &shape.special.0);
+    let (own, rest, spread) = match class {
+        HandClass::Fist => (CLOSED, CLOSED, [0.0; 4]),
+        HandClass::Flat => (STRAIGHT, STRAIGHT, [0.0; 4]),
+        HandClass::Finger2 | HandClass::Finger23 => (STRAIGHT, CLOSED, [0.0; 4]),
+        HandClass::Finger23Spread => (STRAIGHT, CLOSED, two_apart(chosen)),
+        HandClass::Finger2345 => (STRAIGHT, STRAIGHT, SPREAD),
+        HandClass::Pinch12 => ([2.4, 1.8, 1.2], CLOSED, [0.0; 4]),
+        HandClass::Pinch12Open => ([2.4, 1.8, 1.2], OPEN, beside(chosen)),
+        HandClass::PinchAll => ([2.4, 1.8, 1.2], CLOSED, [0.0; 4]),
+        HandClass::Cee12 => ([1.5, 1.8, 1.9], CLOSED, [0.0; 4]),
+        HandClass::Cee12Open => ([1.5, 1.8, 1.9], OPEN, beside(chosen)),
+        HandClass::CeeAll => ([1.2, 1.8, 1.9], CLOSED, [0.0; 4]),
+    };
+    let mut selected_bend = form.bend.map_or(own, |bend| units(bend, class));
+    match form.opening {
+        Some(Opening::Tight) => selected_bend[0] += 0.6,
+        Some(Opening::Slack) => selected_bend[0] -= 0.8,
+        None => {}
+    }
+    let open = matches!(
+        class,
+        HandClass::Flat | HandClass::Finger2345 | HandClass::Fist
+    );
+    let bends = Finger::ALL.map(|finger| {
+        let digit = Digit::ALL[finger.index() + 1];
+        if shape.exempt.contains(digit) {
+            return if class == HandClass::Fist {
+                STRAIGHT
+            } else if open {
+                own
+            } else {
+                OPEN
+            };
+        }
+        if chosen[finger.index()] {
+            selected_bend
+        } else {
+            rest
+        }
+    });
+    Shape {
+        bends,
+        spread,
+        thumb: thumb(form, shape, chosen),
+    }
+}
+
+/// Spreads the first and last of the fingers that are chosen, those between evenly.
+fn two_apart(chosen: [bool; 4]) -> [f64; 4] {
+    if chosen == [true, true, false, false] {
+        return SPREAD_TWO;
+    }
+    let places: Vec<usize> = (0..4).filter(|&n| chosen[n]).collect();
+    let mut spread = [0.0; 4];
+    let last = places.len().saturating_sub(1).max(1) as f64;
+    for (n, &place) in places.iter().enumerate() {
+        spread[place] = 13.0 - 26.0 * n as f64 / last;
+    }
+    spread
+}
+
+/// Spreads the fingers beside a pinch.
+fn beside(chosen: [bool; 4]) -> [f64; 4] {
+    std::array::from_fn(|n| if chosen[n] { 0.0 } else { SPREAD[n] })
+}
+
+fn thumb(form: &Form, shape: &Handshape, chosen: [bool; 4]) -> [f64; 5] {
+    use HandClass::{
+        Cee12, Cee12Open, CeeAll, Finger2, Finger23, Finger23Spread, Finger2345, Fist, Flat,
+        Pinch12, Pinch12Open, PinchAll,
+    };
+    let at = match (form.class, form.thumb) {
+        (Pinch12 | Pinch12Open, _) => match form.bend {
+            None => [24.0, 58.0, 50.0, 22.0, 36.0],
+            Some(Bend::Bent | Bend::HalfBent) => [14.0, 52.0, 42.0, 0.0, 26.0],
+            Some(Bend::Hooked | Bend::DoubleHooked) => [36.0, 60.0, 45.0, 44.0, 69.0],
+            Some(_) => [39.0, 62.0, 36.0, 36.0, 58.0],
+        },
+        (PinchAll, _) => match form.bend {
+            None => [14.0, 52.0, 38.0, 14.0, 28.0],
+            Some(Bend::Bent | Bend::HalfBent) => [1.0, 52.0, 58.0, 4.0, 7.0],
+            Some(_) => [30.0, 62.0, 36.0, 36.0, 50.0],
+        },
+        (Cee12 | Cee12Open | CeeAll, _) => match form.opening {
+            None => [32.0, 56.0, 62.0, 8.0, 18.0],
+            Some(Opening::Tight) => [28.0, 50.0, 62.0, 14.0, 26.0],
+            Some(Opening::Slack) => [38.0, 62.0, 62.0, 2.0, 6.0],
+        },
+        (Fist, Some(ThumbPosition::Out)) => [62.0, 5.0, 0.0, -5.0, -5.0],
+        (Fist, Some(ThumbPosition::Across)) => [21.0, 58.0, 12.0, 42.0, 59.0],
+        (Fist, Some(ThumbPosition::Opposed)) => [30.0, 62.0, 55.0, 5.0, 10.0],
+        (Fist, None) => [15.0, 8.0, 0.0, 5.0, 10.0],
+        (_, Some(ThumbPosition::Out)) => [60.0, 8.0, 0.0, 0.0, 0.0],
+        (_, Some(ThumbPosition::Opposed)) => [35.0, 60.0, 60.0, 5.0, 8.0],
+        (Flat | Finger2345, Some(ThumbPosition::Across)) => [15.0, 36.0, 20.0, 56.0, 70.0],
+        (Finger2, Some(ThumbPosition::Across)) if chosen[0] => [36.0, 62.0, 14.0, 42.0, 55.0],
+        (Finger2 | Finger23 | Finger23Spread, Some(ThumbPosition::Across)) => {
+            [16.0, 58.0, 14.0, 47.0, 49.0]
+        }
+        (Finger2 | Finger23 | Finger23Spread, None) if !chosen[0] => [15.0, 8.0, 0.0, 5.0, 10.0],
+        (_, None) => [12.0, 2.0, 0.0, 0.0, 0.0],
+    };
+    opposed(at, form.class, shape)
+}
+
+/// Brings the thumb of a pinch or cee over to the digit it meets.
+fn opposed(mut thumb: [f64; 5], class: HandClass, shape: &Handshape) -> [f64; 5] {
+    let pinches = matches!(
+        class,
+        HandClass::Pinch12 | HandClass::Pinch12Open | HandClass::Cee12 | HandClass::Cee12Open
+    );
+    let met = shape.opposed.or_else(|| shape.special.0.first().copied());
+    let over = match met.filter(|_| pinches).and_then(finger_of) {
+        Some(Finger::Middle) => 1.0,
+        Some(Finger::Ring) => 2.0,
+        Some(Finger::Little) => 3.0,
+        Some(Finger::Index) | None => 0.0,
+    };
+    thumb[0] -= 9.0 * over;
+    thumb[2] += 7.0 * over;
+    thumb[4] += 6.0 * over;
+    thumb
+}
+
+fn middle(a: &Shape, b: &Shape) -> Shape {
+    let mean = |x: f64, y: f64| (x + y) / 2.0;
+    Shape {
+        bends: std::array::from_fn(|f| std::array::from_fn(|j| mean(a.bends[f][j], b.bends[f][j]))),
+        spread: std::array::from_fn(|f| mean(a.spread[f], b.spread[f])),
+        thumb: std::array::from_fn(|n| mean(a.thumb[n], b.thumb[n])),
+    }
+}
+
+/// Lays one finger over another, or brings them together where a part of the other is met.
+fn cross(hand: &mut Shape, contact: &FingerContact) {
+    let (Some(upper), Some(lower)) = (finger_of(contact.first), finger_of(contact.second)) else {
+        return;
+    };
+    let (upper, lower) = (upper.index(), lower.index());
+    let towards = if upper < lower { -1.0 } else { 1.0 };
+    let far = if contact.part.is_some() { 4.0 } else { 8.0 };
+    hand.spread[upper] = towards * (far + 1.0);
+    hand.spread[lower] = -towards * (far - 1.0);
+    if contact.part.is_none() {
+        let lift: Units = [0.64, 0.46, 0.35];
+        for (joint, by) in hand.bends[upper].iter_mut().zip(lift) {
+            *joint = (*joint + by).min(4.0);
+        }
+    }
+}
+
+fn thumb_extra(hand: &mut Shape, shape: &Handshape) {
+    match shape.thumb {
+        Some(ThumbExtra::Between(a, b)) => {
+            let over = f64::from(a.number().min(b.number())) - 2.0;
+            hand.thumb = [14.0 - 5.0 * over, 34.0 + 5.0 * over, 30.0, 12.0, 16.0];
+        }
+        Some(ThumbExtra::Enclosed) => hand.thumb = [14.0, 50.0, 20.0, 50.0, 55.0],
+        Some(ThumbExtra::Contact(_)) => hand.thumb = [21.0, 58.0, 14.0, 42.0, 55.0],
+        None => {}
+    }
+}
+
+fn angles(hand: &Shape, language: &BodyLanguage) -> HandAngles {
+    let [radial, palmar, opposition, middle, end] = hand.thumb.map(f64::to_radians);
+    HandAngles {
+        thumb: ThumbAngles {
+            radial,
+            palmar,
+            opposition,
+            flexion: [middle, end],
+        },
+        fingers: std::array::from_fn(|n| finger_angles(n, hand.bends[n], hand.spread[n], language)),
+    }
+}
+
+/// Returns a finger's angles by the base joint's formula: with b the bend, s the spread, b' = 2b/π
+/// and rotations of the palm's plane σ and across the hand β,
+/// `(σ, s(1 - b')) · (β, b) · (σ, flat(1 - b') + fist·b')`.
+///
+/// The formula's last factor, a twist of some degrees about the finger, is left to the skeleton: the
+/// angles here have none. Bend limits spread; both are told by where the finger's first bone points.
+fn finger_angles(
+    finger: usize,
+    units: Units,
+    spread: f64,
+    language: &BodyLanguage,
+) -> FingerAngles {
+    let most = [language.bend_base, language.bend_middle, language.bend_end];
+    let bend = |joint: usize| (units[joint] / 4.0 * most[joint]).to_radians();
+    let base = bend(0);
+    let share = (base / std::f64::consts::FRAC_PI_2).clamp(0.0, 1.0);
+    let lean = (FLAT[finger] * (1.0 - share) + FIST[finger] * share).to_radians();
+    let spread = spread.to_radians() * (1.0 - share);
+    // Along, towards the thumb, out of the palm.
+    let leant = [lean.cos(), lean.sin(), 0.0];
+    let bent = [leant[0] * base.cos(), leant[1], leant[0] * base.sin()];
+    let along = bent[0] * spread.cos() - bent[1] * spread.sin();
+    let radial = bent[0] * spread.sin() + bent[1] * spread.cos();
+    FingerAngles {
+        spread: radial.clamp(-1.0, 1.0).asin(),
+        flexion: [bent[2].atan2(along), bend(1), bend(2)],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hamnosys::tree::Digits;
+
+    fn of(class: HandClass, change: impl FnOnce(&mut Handshape)) -> HandAngles {
+        let mut shape = Handshape::default();
+        shape.form.class = class;
+        change(&mut shape);
+        hand_angles(&shape, BodyLanguage::usual())
+    }
+
+    #[test]
+    fn classes_and_bends_are_near_the_inventory() {
+        let inventory = crate::inventory::builtin_by_id("configurations").expect("built in");
+        let pose = |id: &str| {
+            inventory
+                .get(id)
+                .and_then(|value| value.pose)
+                .expect("a pose")
+        };
+        let across = |shape: &mut Handshape| shape.form.thumb = Some(ThumbPosition::Across);
+        let bend = |bend| move |shape: &mut Handshape| shape.form.bend = Some(bend);
+        let cases = [
+            ("A", of(HandClass::Fist, |_| {})),
+            ("S", of(HandClass::Fist, across)),
+            ("flat", of(HandClass::Flat, |_| {})),
+            ("B", of(HandClass::Flat, across)),
+            ("B-bent", of(HandClass::Flat, bend(Bend::Bent))),
+            ("B-round", of(HandClass::Flat, bend(Bend::Round))),
+            ("1", of(HandClass::Finger2, across)),
+            (
+                "X",
+                of(HandClass::Finger2, |shape| {
+                    across(shape);
+                    shape.form.bend = Some(Bend::Hooked);
+                }),
+            ),
+            ("U", of(HandClass::Finger23, across)),
+            ("V", of(HandClass::Finger23Spread, across)),
+            ("4", of(HandClass::Finger2345, across)),
+            ("F", of(HandClass::Pinch12Open, |_| {})),
+            ("F-round", of(HandClass::Pinch12Open, bend(Bend::Round))),
+            ("pinch-bent", of(HandClass::Pinch12, bend(Bend::Bent))),
+            ("beak", of(HandClass::PinchAll, |_| {})),
+            ("C-small", of(HandClass::Cee12, |_| {})),
+            ("C", of(HandClass::CeeAll, |_| {})),
+            (
+                "I",
+                of(HandClass::Finger2, |shape| {
+                    across(shape);
+                    shape.special = Digits(vec![Digit::Little]);
+                }),
+            ),
+        ];
+        for (id, hand) in cases {
+            let own = pose(id).to_array();
+            let hand = hand.to_array();
+            let apart = hand.iter().zip(own).map(|(a, b)| (a - b).abs());
+            let far = apart.fold(0.0, f64::max).to_degrees();
+            assert!(far < 12.5, "{id}: {far:.1}°");
+        }
+    }
+
+    #[test]
+    fn base_joints_follow_the_formula_at_both_ends() {
+        let language = BodyLanguage::usual();
+        let flat = finger_angles(3, [0.0; 3], -20.0, language);
+        assert!((flat.spread.to_degrees() - (FLAT[3] - 20.0)).abs() < 1e-9);
+        assert!(flat.flexion[0].abs() < 1e-9);
+        let mut full = language.clone();
+        full.bend_base = 90.0;
+        let (wide, none) = (
+            finger_angles(3, [4.0; 3], -20.0, &full),
+            finger_angles(3, [4.0; 3], 0.0, &full),
+        );
+        assert!(
+            (wide.spread - none.spread).abs() < 1e-9,
+            "full bend takes the spread away"
+        );
+        assert!((wide.spread.to_degrees() - FIST[3]).abs() < 1e-9);
+        assert!((wide.flexion[0].to_degrees() - 90.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn between_is_the_mean_and_single_digits_go_first() {
+        let between = of(HandClass::Flat, |shape| {
+            shape.between = Some(Form {
+                bend: Some(Bend::Bent),
+                ..shape.form
+            });
+        });
+        let [base, ..] = between.fingers[1].flexion;
+        assert!(
+            (base.to_degrees() - 44.0).abs() < 1.0,
+            "{}",
+            base.to_degrees()
+        );
+        let single = of(HandClass::Flat, |shape| shape.bends[2] = Some(Bend::Bent));
+        assert!(single.fingers[1].flexion[0] > 1.4 && single.fingers[0].flexion[0].abs() < 0.1);
+        let crossed = of(HandClass::Finger23, |shape| {
+            shape.contacts = vec![FingerContact {
+                first: Digit::Middle,
+                second: Digit::Index,
+                part: None,
+            }];
+        });
+        assert!(crossed.fingers[1].spread > 0.1 && crossed.fingers[0].spread < -0.1);
+    }
+}

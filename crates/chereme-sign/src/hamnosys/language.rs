@@ -1,0 +1,335 @@
+//! Body language: what the categories of notation mean in numbers.
+//!
+//! After Kennaway, *Avatar-independent scripting for real-time gesture animation* (section 4): such
+//! numbers belong to a person, not to a body, so that lengths are in lengths of the body. One file,
+//! `schema/notation/body_language.json`, holds each number with its unit and source; another file of
+//! the same form may replace some of them.
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use serde::{Deserialize, Serialize};
+
+/// The form of body-language files that this program reads.
+const VERSION: u32 = 1;
+
+/// Why a file of body language is refused.
+#[derive(Debug, thiserror::Error)]
+pub enum LanguageError {
+    /// It is no JSON of this form.
+    #[error("not a file of body language: {0}; its form is that of body_language.json")]
+    Form(#[from] serde_json::Error),
+    /// It is newer than this program.
+    #[error("body language of version {0} is unknown; this program reads version {VERSION}")]
+    Version(u32),
+    /// A name that means nothing.
+    #[error("{name:?} is no value of body language{}", crate::text::did_you_mean(nearest.as_deref()))]
+    Unknown {
+        /// The name.
+        name: String,
+        /// One near to it.
+        nearest: Option<String>,
+    },
+    /// A value is missing from the file that must hold all.
+    #[error("{0:?} is missing")]
+    Missing(&'static str),
+    /// A number is not finite, negative or beyond what is possible.
+    #[error("{name} is {value}; it must be from 0 to {most}")]
+    Range {
+        /// The name.
+        name: String,
+        /// The number.
+        value: f64,
+        /// The largest possible one.
+        most: f64,
+    },
+    /// A unit is another than the value has.
+    #[error("{name} is in {found:?}; it must be in {unit:?}")]
+    Unit {
+        /// The name.
+        name: String,
+        /// The unit in the file.
+        found: String,
+        /// The right one.
+        unit: &'static str,
+    },
+}
+
+#[derive(Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    version: u32,
+    #[serde(default)]
+    description: String,
+    values: BTreeMap<String, (f64, String, String)>,
+}
+
+macro_rules! body_language {
+    ($($name:literal $field:ident $unit:literal $doc:literal)*) => {
+        /// What the categories of notation mean in numbers.
+        ///
+        /// Lengths are shares of the arm from shoulder to wrist unless said otherwise, angles degrees,
+        /// times seconds. Where the numbers come from stands beside each in the file.
+        #[derive(Debug, Clone, PartialEq)]
+        pub struct BodyLanguage {
+            $(#[doc = $doc] pub $field: f64,)*
+        }
+
+        impl BodyLanguage {
+            /// Every value's name and unit, in the order of the file.
+            pub const NAMES: &'static [(&'static str, &'static str)] = &[$(($name, $unit)),*];
+
+            fn complete(values: &BTreeMap<String, (f64, String, String)>) -> Result<Self, LanguageError> {
+                Ok(Self {
+                    $($field: values.get($name).ok_or(LanguageError::Missing($name))?.0,)*
+                })
+            }
+
+            fn slot(&mut self, name: &str) -> Option<&mut f64> {
+                match name {
+                    $($name => Some(&mut self.$field),)*
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+body_language! {
+    "distance.near-trunk" near_trunk "arm" "From the trunk to a hand close to it."
+    "distance.medium-trunk" medium_trunk "arm" "From the trunk to a hand in the space before it."
+    "distance.near-face" near_face "arm" "From the face to a hand close to it."
+    "distance.medium-face" medium_face "arm" "From the face to a hand before it."
+    "distance.far" far "arm" "From the trunk to a hand held far."
+    "distance.hands-near" hands_near "arm" "Between hands that are close."
+    "distance.hands-apart" hands_apart "shoulder" "From the middle to each of two hands of which nothing more is said, in shoulder widths."
+    "distance.beside" beside "shoulder" "How far beside the body `beside` is, in shoulder widths."
+    "move.small" move_small "arm" "A small straight movement."
+    "move.normal" move_normal "arm" "A straight movement."
+    "move.big" move_big "arm" "A big straight movement."
+    "arc.small" arc_small "share" "The depth of a shallow arc against its chord."
+    "arc.normal" arc_normal "share" "The depth of an arc against its chord."
+    "arc.big" arc_big "share" "The depth of a deep arc against its chord."
+    "zigzag.small" zigzag_small "arm" "Half the width of a small zigzag."
+    "zigzag.normal" zigzag_normal "arm" "Half the width of a zigzag."
+    "zigzag.big" zigzag_big "arm" "Half the width of a big zigzag."
+    "zigzag.waves" zigzag_waves "count" "How many waves a zigzag has."
+    "circle.small" circle_small "arm" "The radius of a small circle."
+    "circle.normal" circle_normal "arm" "The radius of a circle."
+    "circle.big" circle_big "arm" "The radius of a big circle."
+    "ellipse.small" ellipse_small "share" "The short axis of a slightly narrow ellipse against the long one."
+    "ellipse.normal" ellipse_normal "share" "The short axis of an ellipse against the long one."
+    "ellipse.big" ellipse_big "share" "The short axis of a narrow ellipse against the long one."
+    "growth" growth "share" "By how much of itself something grows or shrinks from one to the next."
+    "wrist.nodding" wrist_nodding "deg" "How far a hand nods to either side."
+    "wrist.swinging" wrist_swinging "deg" "How far a hand swings to either side."
+    "wrist.twisting" wrist_twisting "deg" "How far a forearm twists to either side."
+    "wrist.stirring" wrist_stirring "deg" "Half the opening of the cone of a stirring hand."
+    "wrist.small" wrist_small "share" "A small wrist movement against a usual one."
+    "wrist.big" wrist_big "share" "A big wrist movement against a usual one."
+    "wrist.cycles" wrist_cycles "count" "How often a wrist goes to and fro."
+    "play.angle" play_angle "deg" "How far fingers play at their base joints."
+    "play.cycles" play_cycles "count" "How often each finger plays."
+    "bounce" bounce "share" "How much of its way a bouncing hand springs back."
+    "cross.size" cross_size "arm" "The length of a stroke of a cross."
+    "time.straight" time_straight "s" "A straight movement."
+    "time.arc" time_arc "s" "A curved movement."
+    "time.circle" time_circle "s" "A turn of a circle."
+    "time.wrist" time_wrist "s" "A wrist once to and fro."
+    "time.play" time_play "s" "A finger once to and fro."
+    "time.replace" time_replace "s" "A change of hand shape or orientation."
+    "time.return" time_return "s" "The way back before a repetition."
+    "time.still" time_still "s" "A movement in which nothing moves."
+    "time.hold" time_hold "s" "A posture that is a sign."
+    "time.end" time_end "s" "How long the end of a movement is held."
+    "time.contact" time_contact "s" "The dwell after a hard contact."
+    "time.rest" time_rest "s" "A rest before a movement."
+    "time.transition" time_transition "s" "A transition, before what its size adds."
+    "time.transition-arm" time_transition_arm "s" "What each arm's length adds to a transition."
+    "time.slowest-turn" time_turn "s" "What each right angle of the hand adds to a transition."
+    "time.body" time_body "s" "A movement of the body."
+    "time.attack" time_attack "s" "A non-manual from nothing to all of it."
+    "time.release" time_release "s" "A non-manual back to nothing."
+    "speed.most" speed_most "arm/s" "The highest speed of a hand."
+    "manner.fast" manner_fast "share" "The time of what is fast against the usual."
+    "manner.slow" manner_slow "share" "The time of what is slow against the usual."
+    "manner.tense" manner_tense "share" "The time of what is tense against the usual."
+    "manner.halt" manner_halt "share" "The time of what stops suddenly against the usual."
+    "repeat.several" repeat_several "count" "How often several times is, after the first."
+    "repeat.random" repeat_random "count" "How often many times is, after the first."
+    "repeat.shift" repeat_shift "arm" "How far on each repetition begins."
+    "fused" fused "share" "How much of its time a movement shares with the next one it is fused with."
+    "bend.base" bend_base "deg" "A base joint bent as far as goes."
+    "bend.middle" bend_middle "deg" "A middle joint bent as far as goes."
+    "bend.end" bend_end "deg" "An end joint bent as far as goes."
+    "bend.thumb-middle" bend_thumb_middle "deg" "The thumb's middle joint bent as far as goes."
+    "bend.thumb-end" bend_thumb_end "deg" "The thumb's end joint bent as far as goes."
+    "splay" splay "share" "The spread of fingers against that of the spread hand."
+    "splay.more" splay_more "share" "A wide spread against a usual one."
+    "elbow.own-side" elbow_own_side "deg" "The arm's plane against the vertical with the hand before its own shoulder."
+    "elbow.across" elbow_across "deg" "The arm's plane against the vertical with the hand before the other shoulder."
+    "clavicle.from" clavicle_from "share" "The share of the arm's length from which on the collar bone helps."
+    "clavicle.most" clavicle_most "deg" "The turn that a collar bone approaches."
+    "limit.flexion" limit_flexion "deg" "How far a wrist bends towards the palm."
+    "limit.extension" limit_extension "deg" "How far a wrist bends towards the back of the hand."
+    "limit.radial" limit_radial "deg" "How far a wrist bends towards the thumb."
+    "limit.ulnar" limit_ulnar "deg" "How far a wrist bends towards the little finger."
+    "limit.pronation" limit_pronation "deg" "How far a forearm turns the palm down from thumb up."
+    "limit.supination" limit_supination "deg" "How far a forearm turns the palm up from thumb up."
+    "limit.elbow" limit_elbow "deg" "How far an elbow bends."
+    "course.targetted.gain" targetted_gain "count" "How stiffness grows in a targetted movement."
+    "course.targetted.power" targetted_power "count" "With which power of the way it grows."
+    "course.targetted.ratio" targetted_ratio "count" "The ratio of the two gains: 4 is critical."
+    "course.lax.gain" lax_gain "count" "How stiffness grows in a lax movement."
+    "course.lax.power" lax_power "count" "With which power of the way it grows."
+    "course.lax.ratio" lax_ratio "count" "The ratio of the two gains."
+    "course.contact.gain" contact_gain "count" "How stiffness grows in a movement into contact."
+    "course.contact.power" contact_power "count" "With which power of the way it grows."
+    "course.contact.ratio" contact_ratio "count" "The ratio of the two gains."
+    "course.halt.gain" halt_gain "count" "How stiffness grows before a sudden stop."
+    "course.halt.power" halt_power "count" "With which power of the way it grows."
+    "course.halt.ratio" halt_ratio "count" "The ratio of the two gains."
+    "course.tense.gain" tense_gain "count" "How stiffness grows in a tense movement; 0 for a steady one."
+    "course.tense.power" tense_power "count" "With which power of the way it grows."
+    "course.tense.ratio" tense_ratio "count" "The ratio of the two gains."
+    "course.linear.ramp" linear_ramp "share" "The share of the time in which a linear movement comes up to speed, and down."
+}
+
+impl Default for BodyLanguage {
+    fn default() -> Self {
+        Self::usual().clone()
+    }
+}
+
+impl BodyLanguage {
+    /// Returns the body language of the program's own file.
+    #[must_use]
+    pub fn usual() -> &'static Self {
+        static USUAL: OnceLock<BodyLanguage> = OnceLock::new();
+        USUAL.get_or_init(|| {
+            let text = include_str!("../../../../schema/notation/body_language.json");
+            Self::parse(text).expect("the program's own body language is whole")
+        })
+    }
+
+    fn parse(text: &str) -> Result<Self, LanguageError> {
+        let file = read(text)?;
+        Self::complete(&file.values)
+    }
+
+    /// Returns this body language with the values that a file of the same form holds.
+    ///
+    /// # Errors
+    /// [`LanguageError`] naming what is unknown, in another unit, or out of range.
+    pub fn with_file(&self, text: &str) -> Result<Self, LanguageError> {
+        let mut changed = self.clone();
+        for (name, (value, ..)) in read(text)?.values {
+            if let Some(slot) = changed.slot(&name) {
+                *slot = value;
+            }
+        }
+        Ok(changed)
+    }
+
+    /// Returns this body language with measured values in place of some of its own, such as those
+    /// found in captured signs; names are those of [`NAMES`](Self::NAMES).
+    ///
+    /// # Errors
+    /// [`LanguageError`] where a name is unknown or a number out of range.
+    pub fn with_measured<'a>(
+        &self,
+        values: impl IntoIterator<Item = (&'a str, f64)>,
+    ) -> Result<Self, LanguageError> {
+        let mut changed = self.clone();
+        for (name, value) in values {
+            check(name, value, None)?;
+            if let Some(slot) = changed.slot(name) {
+                *slot = value;
+            }
+        }
+        Ok(changed)
+    }
+}
+
+fn read(text: &str) -> Result<File, LanguageError> {
+    let file: File = serde_json::from_str(text)?;
+    if file.version != VERSION {
+        return Err(LanguageError::Version(file.version));
+    }
+    for (name, (value, unit, _)) in &file.values {
+        check(name, *value, Some(unit))?;
+    }
+    Ok(file)
+}
+
+fn check(name: &str, value: f64, found: Option<&str>) -> Result<(), LanguageError> {
+    let known = BodyLanguage::NAMES.iter().find(|(known, _)| *known == name);
+    let Some(&(_, unit)) = known else {
+        let names = BodyLanguage::NAMES.iter().map(|(name, _)| *name);
+        return Err(LanguageError::Unknown {
+            name: name.to_owned(),
+            nearest: crate::text::nearest(name, names).map(str::to_owned),
+        });
+    };
+    if let Some(found) = found.filter(|found| *found != unit) {
+        return Err(LanguageError::Unit {
+            name: name.to_owned(),
+            found: found.to_owned(),
+            unit,
+        });
+    }
+    let most = match unit {
+        "deg" => 180.0,
+        "s" => 10.0,
+        "arm" | "shoulder" => 3.0,
+        "arm/s" | "count" => 100.0,
+        _ => 10.0,
+    };
+    if !(0.0..=most).contains(&value) {
+        return Err(LanguageError::Range {
+            name: name.to_owned(),
+            value,
+            most,
+        });
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_own_file_names_exactly_the_values_with_their_units() {
+        let text = include_str!("../../../../schema/notation/body_language.json");
+        let file = read(text).expect("the own file");
+        assert_eq!(file.values.len(), BodyLanguage::NAMES.len());
+        assert!(BodyLanguage::usual().move_small < BodyLanguage::usual().move_big);
+    }
+
+    #[test]
+    fn another_file_replaces_some_and_odd_ones_are_refused() {
+        let usual = BodyLanguage::usual();
+        let file = |name: &str, value: f64, unit: &str| {
+            format!(r#"{{"version": 1, "values": {{"{name}": [{value}, "{unit}", "mine"]}}}}"#)
+        };
+        let mine = usual.with_file(&file("time.arc", 0.5, "s")).expect("mine");
+        assert_eq!(
+            (mine.time_arc, mine.time_straight),
+            (0.5, usual.time_straight)
+        );
+        let says = |text: &str| usual.with_file(text).expect_err("refused").to_string();
+        assert!(says(&file("time.ark", 0.5, "s")).contains("time.arc"));
+        assert!(says(&file("time.arc", 0.5, "ms")).contains("\"s\""));
+        assert!(says(&file("time.arc", -1.0, "s")).contains("from 0 to 10"));
+        assert!(says(r#"{"version": 2, "values": {}}"#).contains("version 2"));
+        assert!(usual.with_measured([("move.big", f64::NAN)]).is_err());
+        assert_eq!(
+            usual
+                .with_measured([("move.big", 0.5)])
+                .expect("0.5")
+                .move_big,
+            0.5
+        );
+    }
+}

@@ -1,0 +1,421 @@
+//! Locations of notation as places on a body: a landmark with an offset, and a way out from it.
+//!
+//! Offsets and directions are to the signer's left, up and forward; offsets in shoulder widths. The
+//! landmarks' names are those of `chereme_motion::Anatomy::landmark`.
+
+use chereme_motion::Side as Half;
+
+use super::tree::{BodyLocation, Digit, FingerPart, HandLocation, HandSite, Side, Site};
+
+/// What a place belongs to; distances from it depend on that.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Region {
+    /// The trunk and the space before it.
+    Trunk,
+    /// The head.
+    Face,
+    /// An arm.
+    Arm(Half),
+}
+
+/// A place on the body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodySite {
+    /// The landmark's name.
+    pub landmark: String,
+    /// From the landmark to the place, left, up and forward in shoulder widths.
+    pub offset: [f64; 3],
+    /// The unit vector out of the body there: left, up, forward.
+    pub out: [f64; 3],
+    /// What it belongs to.
+    pub region: Region,
+    /// How far to the left of the middle a hand is that is not at the body but before it at this
+    /// place, in shoulder widths.
+    pub lateral: f64,
+    /// Whether it is a place beside the body, which nothing touches.
+    pub beside: bool,
+}
+
+/// How far from the middle `at` a side of the trunk is, in shoulder widths.
+const AT: f64 = 0.30;
+/// How far from the middle a hand is before such a place.
+const BEFORE: f64 = 0.45;
+/// How far from the middle a hand is beside the body.
+const BESIDE: f64 = 0.80;
+
+/// Returns the place that a location of the body means for a hand.
+///
+/// `acting` is the hand for which places that exist on both sides are meant where nothing is said;
+/// on arms that is the other one. With `mirrored`, left and right are exchanged in what is said.
+#[must_use]
+pub fn body_site(site: &Site<BodyLocation>, acting: Half, mirrored: bool) -> BodySite {
+    let half = said(site.side, mirrored);
+    let beside = matches!(site.side, Some(Side::LeftBeside | Side::RightBeside));
+    let sign = half.map_or(0.0, Half::sign);
+    let own = half.unwrap_or(acting);
+    let trunk = |landmark: &str, up: f64| {
+        let far = if beside { BESIDE } else { AT };
+        let back = if half.is_some() { -0.04 } else { 0.0 };
+        BodySite {
+            landmark: landmark.to_owned(),
+            offset: [sign * far, up, back],
+            out: [0.0, 0.0, 1.0],
+            region: Region::Trunk,
+            lateral: sign * if beside { BESIDE } else { BEFORE },
+            beside,
+        }
+    };
+    let face = |landmark: String, offset: [f64; 3], out: [f64; 3]| BodySite {
+        landmark,
+        offset: [
+            offset[0] + if beside { sign * 0.30 } else { 0.0 },
+            offset[1],
+            offset[2],
+        ],
+        out: if beside { [sign, 0.0, 0.0] } else { unit(out) },
+        region: Region::Face,
+        lateral: sign * if beside { 0.62 } else { 0.30 },
+        beside,
+    };
+    let sided = |name: &str| format!("{}-{name}", own.name());
+    let or = |middle: &str, side: &str| match half {
+        Some(half) => format!("{}-{side}", half.name()),
+        None => middle.to_owned(),
+    };
+    let front = [0.35 * sign, 0.0, 1.0];
+    let shifted = |by: f64| [sign * by, 0.0, if half.is_some() { -0.03 } else { 0.0 }];
+    match site.at {
+        BodyLocation::NeutralSpace => trunk("chest", -0.12),
+        BodyLocation::Shoulders => trunk("upper-chest", 0.10),
+        BodyLocation::Chest => trunk("chest", 0.0),
+        BodyLocation::Stomach => trunk("stomach", 0.0),
+        BodyLocation::BelowStomach => trunk("abdomen", 0.0),
+        BodyLocation::ShoulderTop => match half {
+            Some(_) if !beside => BodySite {
+                landmark: sided("shoulder"),
+                offset: [-0.08 * sign, 0.20, 0.06],
+                out: [0.0, 1.0, 0.0],
+                lateral: sign * BEFORE,
+                ..trunk("throat", 0.0)
+            },
+            _ => trunk("throat", -0.06),
+        },
+        BodyLocation::Neck => match half {
+            Some(_) if !beside => BodySite {
+                out: unit([0.6 * sign, 0.0, 1.0]),
+                landmark: sided("neck-side"),
+                offset: [0.0, -0.02, 0.10],
+                lateral: sign * BEFORE,
+                ..trunk("throat", 0.0)
+            },
+            _ => trunk("throat", 0.02),
+        },
+        BodyLocation::Head => match half {
+            Some(_) => face(sided("temple"), [0.0, 0.0, 0.0], [sign, 0.0, 0.3]),
+            None => face("eyebrows".into(), [0.0; 3], front),
+        },
+        BodyLocation::HeadTop => face("head-top".into(), shifted(0.16), [0.25 * sign, 1.0, 0.0]),
+        BodyLocation::Forehead => face("forehead".into(), shifted(0.14), front),
+        BodyLocation::Eyebrows => face(or("eyebrows", "eyebrow"), [0.0; 3], front),
+        BodyLocation::Eyes => face(or("eyes", "eye"), [0.0; 3], front),
+        BodyLocation::UpperEyelid => face(or("eyes", "eye"), [0.0, 0.02, 0.01], front),
+        BodyLocation::LowerEyelid => face(or("eyes", "eye"), [0.0, -0.03, 0.01], front),
+        BodyLocation::Nose => face("nose".into(), shifted(0.04), front),
+        BodyLocation::Nostrils => face(or("nose", "nostril"), [0.0, -0.03, 0.0], [0.0, -0.5, 1.0]),
+        BodyLocation::Lips | BodyLocation::Teeth => {
+            face(or("mouth", "mouth-corner"), [0.0; 3], front)
+        }
+        BodyLocation::Tongue => face(or("mouth", "mouth-corner"), [0.0, -0.01, 0.03], front),
+        BodyLocation::UpperLip | BodyLocation::UpperTeeth => {
+            face(or("mouth", "mouth-corner"), [0.0, 0.025, 0.0], front)
+        }
+        BodyLocation::LowerLip | BodyLocation::LowerTeeth => {
+            face(or("mouth", "mouth-corner"), [0.0, -0.025, 0.0], front)
+        }
+        BodyLocation::Chin => face("chin".into(), shifted(0.10), front),
+        BodyLocation::UnderChin => face("under-chin".into(), shifted(0.08), [0.0, -1.0, 0.35]),
+        BodyLocation::Ear => face(sided("ear"), [0.0; 3], [own.sign(), 0.0, 0.1]),
+        BodyLocation::EarLobe => face(sided("earlobe"), [0.0; 3], [own.sign(), -0.2, 0.1]),
+        BodyLocation::Cheek => face(sided("cheek"), [0.0; 3], [0.7 * own.sign(), 0.0, 0.7]),
+        BodyLocation::UpperArm => arm(site.side, acting, "upper-arm", mirrored),
+        BodyLocation::Elbow => arm(site.side, acting, "elbow", mirrored),
+        BodyLocation::ElbowInside => arm(
+            Some(site.side.unwrap_or(Side::Front)),
+            acting,
+            "elbow",
+            mirrored,
+        ),
+        BodyLocation::LowerArm => arm(site.side, acting, "forearm", mirrored),
+    }
+}
+
+/// Returns a place on the arm that an acting hand reaches for: the other one.
+fn arm(side: Option<Side>, acting: Half, part: &str, mirrored: bool) -> BodySite {
+    let half = said(side, mirrored).unwrap_or(acting.other());
+    let outside = half.sign();
+    let out = match side {
+        Some(Side::Palmar | Side::Front) => [-0.3 * outside, 0.2, 1.0],
+        Some(Side::Back) => [0.3 * outside, 0.0, -1.0],
+        Some(Side::Ulnar) => [0.0, -1.0, 0.2],
+        Some(Side::Radial | Side::Dorsal) => [0.2 * outside, 1.0, 0.4],
+        _ => match part {
+            "forearm" | "elbow" => [0.2 * outside, 1.0, 0.4],
+            _ => [0.8 * outside, 0.0, 0.7],
+        },
+    };
+    BodySite {
+        landmark: format!("{}-{part}", half.name()),
+        offset: [0.0; 3],
+        out: unit(out),
+        region: Region::Arm(half),
+        lateral: half.sign() * BEFORE,
+        beside: false,
+    }
+}
+
+/// Returns which half of the body a side says.
+#[must_use]
+pub fn said(side: Option<Side>, mirrored: bool) -> Option<Half> {
+    let half = match side? {
+        Side::LeftAt | Side::LeftBeside => Half::Left,
+        Side::RightAt | Side::RightBeside => Half::Right,
+        _ => return None,
+    };
+    Some(if mirrored { half.other() } else { half })
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let length = v.iter().map(|part| part * part).sum::<f64>().sqrt();
+    v.map(|part| part / length)
+}
+
+/// A point of a hand or of its arm.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum HandPoint {
+    /// The middle of the palm.
+    Palm,
+    /// The middle of the back of the hand.
+    Back,
+    /// The edge on the thumb's side.
+    Radial,
+    /// The edge on the little finger's side.
+    Ulnar,
+    /// The ball of the thumb.
+    ThumbBall,
+    /// The wrist: at its palmar side, at its back, or in its middle.
+    Wrist(Face),
+    /// The end of a digit: its tip, its pad, or its nail.
+    Tip(Digit, Face),
+    /// The middle joint of a digit.
+    Middle(Digit, Face),
+    /// The base of a digit.
+    Base(Digit, Face),
+    /// The elbow.
+    Elbow,
+    /// The middle of the forearm.
+    Forearm,
+    /// The middle of the upper arm.
+    UpperArm,
+}
+
+/// Which face of a digit or wrist is meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Face {
+    /// None in particular: the middle, or the very tip.
+    Middle,
+    /// That of the palm.
+    Palmar,
+    /// That of the back.
+    Dorsal,
+    /// That towards the thumb.
+    Radial,
+    /// That towards the little finger.
+    Ulnar,
+}
+
+/// Returns the points that a site of a hand names: one for each digit, all meant together.
+///
+/// `of` is the hand; left and right say the sides of a hand whose palm faces down.
+#[must_use]
+pub fn hand_points(site: &HandSite, of: Half, mirrored: bool) -> Vec<HandPoint> {
+    let face = face(site.side, of, mirrored);
+    let each = |point: &dyn Fn(Digit) -> HandPoint, usual: Digit| -> Vec<HandPoint> {
+        if site.digits.is_empty() {
+            vec![point(usual)]
+        } else {
+            site.digits.0.iter().map(|&digit| point(digit)).collect()
+        }
+    };
+    let Some(at) = site.at else {
+        return each(&|digit| HandPoint::Middle(digit, face), Digit::Index);
+    };
+    match at {
+        HandLocation::Palm => vec![HandPoint::Palm],
+        HandLocation::HandBack => vec![HandPoint::Back],
+        HandLocation::ThumbSide => vec![HandPoint::Radial],
+        HandLocation::PinkySide => vec![HandPoint::Ulnar],
+        HandLocation::ThumbBall => vec![HandPoint::ThumbBall],
+        HandLocation::WristBack => vec![HandPoint::Wrist(match face {
+            Face::Middle => Face::Dorsal,
+            face => face,
+        })],
+        HandLocation::Elbow | HandLocation::ElbowInside => vec![HandPoint::Elbow],
+        HandLocation::LowerArm => vec![HandPoint::Forearm],
+        HandLocation::UpperArm => vec![HandPoint::UpperArm],
+        HandLocation::Tip => each(&|digit| HandPoint::Tip(digit, face), Digit::Middle),
+        HandLocation::Pad => each(&|digit| HandPoint::Tip(digit, Face::Palmar), Digit::Middle),
+        HandLocation::Nail => {
+            let face = if face == Face::Middle {
+                Face::Dorsal
+            } else {
+                face
+            };
+            each(&|digit| HandPoint::Tip(digit, face), Digit::Middle)
+        }
+        HandLocation::MidJoint => each(&|digit| HandPoint::Middle(digit, face), Digit::Middle),
+        HandLocation::Base => each(&|digit| HandPoint::Base(digit, face), Digit::Middle),
+        HandLocation::Side => {
+            let face = if face == Face::Middle {
+                Face::Radial
+            } else {
+                face
+            };
+            each(&|digit| HandPoint::Middle(digit, face), Digit::Index)
+        }
+    }
+}
+
+/// Returns the part of a finger that a contact of fingers names.
+#[must_use]
+pub fn finger_point(digit: Digit, part: FingerPart) -> HandPoint {
+    match part {
+        FingerPart::Tip => HandPoint::Tip(digit, Face::Middle),
+        FingerPart::Nail => HandPoint::Tip(digit, Face::Dorsal),
+        FingerPart::Pad => HandPoint::Tip(digit, Face::Palmar),
+        FingerPart::MidJoint => HandPoint::Middle(digit, Face::Middle),
+        FingerPart::Base => HandPoint::Base(digit, Face::Middle),
+        FingerPart::Side => HandPoint::Middle(digit, Face::Radial),
+    }
+}
+
+fn face(side: Option<Side>, of: Half, mirrored: bool) -> Face {
+    match side {
+        None => Face::Middle,
+        Some(Side::Palmar | Side::Front) => Face::Palmar,
+        Some(Side::Dorsal | Side::Back) => Face::Dorsal,
+        Some(Side::Radial) => Face::Radial,
+        Some(Side::Ulnar) => Face::Ulnar,
+        Some(side) => match said(Some(side), mirrored) {
+            // The thumb of a right hand, palm down, is at its left.
+            Some(half) if half == of => Face::Ulnar,
+            _ => Face::Radial,
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_motion::Anatomy;
+
+    const ALL: [BodyLocation; 32] = [
+        BodyLocation::Head,
+        BodyLocation::HeadTop,
+        BodyLocation::Forehead,
+        BodyLocation::Eyebrows,
+        BodyLocation::Eyes,
+        BodyLocation::UpperEyelid,
+        BodyLocation::LowerEyelid,
+        BodyLocation::Nose,
+        BodyLocation::Nostrils,
+        BodyLocation::Lips,
+        BodyLocation::UpperLip,
+        BodyLocation::LowerLip,
+        BodyLocation::Tongue,
+        BodyLocation::Teeth,
+        BodyLocation::UpperTeeth,
+        BodyLocation::LowerTeeth,
+        BodyLocation::Chin,
+        BodyLocation::UnderChin,
+        BodyLocation::Neck,
+        BodyLocation::Shoulders,
+        BodyLocation::ShoulderTop,
+        BodyLocation::Chest,
+        BodyLocation::Stomach,
+        BodyLocation::BelowStomach,
+        BodyLocation::Ear,
+        BodyLocation::EarLobe,
+        BodyLocation::Cheek,
+        BodyLocation::UpperArm,
+        BodyLocation::Elbow,
+        BodyLocation::ElbowInside,
+        BodyLocation::LowerArm,
+        BodyLocation::NeutralSpace,
+    ];
+
+    #[test]
+    fn every_location_has_a_landmark_and_its_mirror_image_is_that_of_the_other_hand() {
+        let landmarks = Anatomy::landmarks();
+        let sides = [
+            None,
+            Some(Side::LeftAt),
+            Some(Side::RightAt),
+            Some(Side::LeftBeside),
+            Some(Side::RightBeside),
+            Some(Side::Front),
+        ];
+        for at in ALL {
+            for side in sides {
+                let site = Site {
+                    at,
+                    side,
+                    approx: false,
+                };
+                let right = body_site(&site, Half::Right, false);
+                let left = body_site(&site, Half::Left, true);
+                assert!(landmarks.contains(&right.landmark), "{}", right.landmark);
+                assert_eq!(
+                    right.offset,
+                    [-left.offset[0], left.offset[1], left.offset[2]],
+                    "{at:?}"
+                );
+                assert_eq!(
+                    right.out,
+                    [-left.out[0], left.out[1], left.out[2]],
+                    "{at:?}"
+                );
+                assert_eq!(right.lateral, -left.lateral);
+                let length = right.out.iter().map(|x| x * x).sum::<f64>();
+                assert!((length - 1.0).abs() < 1e-9);
+            }
+        }
+    }
+
+    #[test]
+    fn sites_of_hands_name_points() {
+        let site = HandSite {
+            at: Some(HandLocation::Tip),
+            digits: crate::hamnosys::Digits(vec![Digit::Index, Digit::Middle]),
+            ..HandSite::default()
+        };
+        let points = hand_points(&site, Half::Right, false);
+        assert_eq!(
+            points,
+            [Digit::Index, Digit::Middle].map(|digit| HandPoint::Tip(digit, Face::Middle))
+        );
+        let beside = HandSite {
+            at: Some(HandLocation::MidJoint),
+            side: Some(Side::RightBeside),
+            ..HandSite::default()
+        };
+        let of = |half, mirrored| hand_points(&beside, half, mirrored)[0];
+        assert_eq!(
+            of(Half::Right, false),
+            HandPoint::Middle(Digit::Middle, Face::Ulnar)
+        );
+        assert_eq!(
+            of(Half::Left, true),
+            HandPoint::Middle(Digit::Middle, Face::Ulnar)
+        );
+    }
+}
