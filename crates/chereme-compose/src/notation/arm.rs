@@ -14,7 +14,7 @@ use super::stage::Torso;
 /// The share of the arm's length before full extension from which the elbow opens softly.
 const SOFT: f64 = 0.012;
 /// Turns of the arm's plane that are weighed, in degrees against the rule's.
-const TURNS: [f64; 9] = [-45.0, -30.0, -15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 80.0];
+const TURNS: [f64; 9] = [-40.0, -27.0, -13.0, 0.0, 13.0, 27.0, 41.0, 55.0, 70.0];
 
 /// The bones of an arm on a body that stands still.
 pub(crate) struct Rig {
@@ -80,11 +80,6 @@ impl Limits {
             help: (language.clavicle_from, angle(language.clavicle_most)),
         }
     }
-
-    /// Returns how far a forearm turns palm down and palm up from thumb up.
-    pub(crate) fn most_turned(&self) -> [f64; 2] {
-        self.pronation
-    }
 }
 
 /// How a hand hangs on its forearm, in radians.
@@ -105,6 +100,25 @@ impl WristAngles {
         part(self.flexion, limits.flexion).hypot(part(self.deviation, limits.deviation))
     }
 
+    /// Returns the angles nearest to these within the ranges of wrist and forearm, and within `most`
+    /// of those before.
+    pub(crate) fn allowed(&self, limits: &Limits, before: Option<&Self>, most: f64) -> Self {
+        let bend = self.bend(limits).max(1.0);
+        let near = |angle: f64, before: f64| before + (angle - before).clamp(-most, most);
+        let [less, more] = limits.pronation;
+        let mut allowed = Self {
+            flexion: self.flexion / bend,
+            deviation: self.deviation / bend,
+            turn: self.turn.clamp(-less, more),
+        };
+        if let Some(before) = before {
+            allowed.flexion = near(allowed.flexion, before.flexion);
+            allowed.deviation = near(allowed.deviation, before.deviation);
+            allowed.turn = near(allowed.turn, before.turn);
+        }
+        allowed
+    }
+
     /// Returns how far out of its range the forearm is turned, 1 at its end.
     pub(crate) fn turned(&self, limits: &Limits) -> f64 {
         self.turn.abs() / limits.pronation[usize::from(self.turn > 0.0)]
@@ -117,6 +131,8 @@ pub(crate) struct Posed {
     pub(crate) shoulder: DVec3,
     pub(crate) elbow: DVec3,
     pub(crate) wrist: DVec3,
+    /// From the line between shoulder and wrist to the elbow, a unit vector also where it is straight.
+    pole: DVec3,
     /// The collar bone's turn in model space against its rest.
     help: DQuat,
 }
@@ -209,10 +225,10 @@ impl Rig {
     /// Brings the wrist to a place, the arm's plane turned by `turn` against the rule's.
     pub(crate) fn reach(&self, wrist: DVec3, turn: f64, limits: &Limits) -> Posed {
         let (shoulder, help) = self.shoulder_for(wrist, limits);
-        let way = wrist - shoulder;
+        let way = self.not_too_near(wrist - shoulder, limits);
         let length = self.length();
         let line = way.normalize_or(self.forward);
-        let reach = self.soften(way.length(), limits);
+        let reach = self.soften(way.length());
         let [first, second] = self.lengths;
         let x = ((first * first - second * second + reach * reach) / (2.0 * reach))
             .clamp(-first, first);
@@ -228,22 +244,34 @@ impl Rig {
             shoulder,
             elbow: shoulder + line * x + pole * off,
             wrist: shoulder + line * reach,
+            pole,
             help,
         }
     }
 
-    /// Returns how far to reach for a distance: softly up to the arm's length, not nearer than the
-    /// elbow bends.
-    fn soften(&self, wanted: f64, limits: &Limits) -> f64 {
-        let length = self.length();
+    /// Returns the way from shoulder to wrist, moved out and forward where the elbow cannot bend as
+    /// much as it would have to.
+    fn not_too_near(&self, way: DVec3, limits: &Limits) -> DVec3 {
         let [a, b] = self.lengths;
-        let near = (a * a + b * b + 2.0 * a * b * limits.elbow.cos()).sqrt();
+        let near = a * a + b * b + 2.0 * a * b * limits.elbow.cos();
+        let missing = way.length_squared() - near;
+        if missing >= 0.0 {
+            return way;
+        }
+        let out = (self.forward * 0.8 + self.outside * 0.6).normalize();
+        let along = way.dot(out);
+        way + out * ((along * along - missing).sqrt() - along)
+    }
+
+    /// Returns how far to reach for a distance: softly up to the arm's length.
+    fn soften(&self, wanted: f64) -> f64 {
+        let length = self.length();
         let from = length * (1.0 - SOFT);
         if wanted > from {
             let left = length - from;
             length - left * (-(wanted - from) / left).exp()
         } else {
-            wanted.max(near)
+            wanted
         }
     }
 
@@ -266,7 +294,13 @@ impl Rig {
     }
 
     /// Returns how the wrist hangs in a posture with the hand turned so in model space.
-    pub(crate) fn wrist(&self, posed: &Posed, hand: DQuat, held: &Held) -> WristAngles {
+    pub(crate) fn wrist(
+        &self,
+        posed: &Posed,
+        hand: DQuat,
+        held: &Held,
+        limits: &Limits,
+    ) -> WristAngles {
         let forearm = (posed.wrist - posed.elbow).normalize_or(self.forward);
         let in_hand = hand.inverse() * forearm;
         let [a, p, r] = [held.along, held.palm, held.radial].map(|axis| in_hand.dot(axis));
@@ -278,6 +312,12 @@ impl Rig {
         let out = self.elbow_out(posed, forearm);
         let inner = forearm.cross(out) * -self.side.sign();
         let turn = forearm.dot(inner.cross(aligned)).atan2(inner.dot(aligned)) * -self.side.sign();
+        // Past its range a forearm is rather turned palm down too far than palm up.
+        let turn = if turn > limits.pronation[1] * 1.1 {
+            turn - std::f64::consts::TAU
+        } else {
+            turn
+        };
         WristAngles {
             flexion,
             deviation,
@@ -287,9 +327,9 @@ impl Rig {
 
     /// Returns where the elbow points across the forearm.
     fn elbow_out(&self, posed: &Posed, forearm: DVec3) -> DVec3 {
-        let line = (posed.wrist - posed.shoulder).normalize_or(self.forward);
-        let out = (posed.elbow - posed.shoulder).reject_from_normalized(line);
-        out.reject_from_normalized(forearm)
+        posed
+            .pole
+            .reject_from_normalized(forearm)
             .try_normalize()
             .unwrap_or_else(|| forearm.any_orthonormal_vector())
     }
@@ -308,10 +348,10 @@ impl Rig {
         for degrees in TURNS {
             let turn = degrees.to_radians();
             let posed = self.reach(wrist, turn, limits);
-            let angles = self.wrist(&posed, hand, held);
+            let angles = self.wrist(&posed, hand, held, limits);
             let bend = (angles.bend(limits) - 0.6).max(0.0);
             let twist = (angles.turned(limits) - 0.75).max(0.0);
-            let mut cost = (degrees / 45.0).powi(2) + 14.0 * bend * bend + 14.0 * twist * twist;
+            let mut cost = (degrees / 36.0).powi(2) + 14.0 * bend * bend + 14.0 * twist * twist;
             for share in [0.6, 1.0] {
                 let at = posed.shoulder.lerp(posed.elbow, share);
                 let depth = torso.depth(at, 0.035).max(0.0) / self.length();
@@ -324,41 +364,20 @@ impl Rig {
         sum / weights
     }
 
-    /// Returns the orientation nearest to the hand's that wrist and forearm allow in a posture, and
-    /// the forearm's turn; `turn` is the forearm's turn that is wanted, in radians.
-    pub(crate) fn allowed(
-        &self,
-        posed: &Posed,
-        hand: DQuat,
-        held: &Held,
-        limits: &Limits,
-        turn: f64,
-    ) -> DQuat {
-        let angles = self.wrist(posed, hand, held);
-        let turn = turn.clamp(-limits.pronation[0], limits.pronation[1]);
-        let bend = angles.bend(limits);
-        if bend <= 1.0 && (angles.turn - turn).abs() < 1e-6 {
-            return hand;
-        }
+    /// Returns the rotation in model space of a hand that hangs on its forearm like this.
+    pub(crate) fn hung(&self, posed: &Posed, angles: &WristAngles, held: &Held) -> DQuat {
         let forearm = (posed.wrist - posed.elbow).normalize_or(self.forward);
-        let swing = arc(forearm, hand * held.along);
-        let straight = swing.inverse() * hand;
-        let more = (turn - angles.turn) * -self.side.sign();
-        let straight = DQuat::from_axis_angle(forearm, more) * straight;
-        // The swing keeps its direction against the hand, not against the world.
-        let swing =
-            DQuat::from_axis_angle(forearm, more) * swing * DQuat::from_axis_angle(forearm, -more);
-        let mut turned = swing * straight;
-        let mut share = 1.0;
-        for _ in 0..12 {
-            let bend = self.wrist(posed, turned, held).bend(limits);
-            if bend <= 1.0 {
-                break;
-            }
-            share *= (0.995 / bend).clamp(0.2, 0.99);
-            turned = DQuat::IDENTITY.slerp(swing, share) * straight;
-        }
-        turned.normalize()
+        let out = self.elbow_out(posed, forearm);
+        let inner = forearm.cross(out) * -self.side.sign();
+        let (sin, cos) = (angles.turn * -self.side.sign()).sin_cos();
+        let palm = inner * cos + forearm.cross(inner) * sin;
+        let straight = basis(forearm, palm) * basis(held.along, held.palm).inverse();
+        let (sin, cos) = angles.flexion.sin_cos();
+        let across = angles.deviation.cos();
+        let in_hand = held.along * (across * cos)
+            - held.palm * (across * sin)
+            - held.radial * angles.deviation.sin();
+        (straight * arc(in_hand.normalize(), held.along)).normalize()
     }
 
     /// Returns the local rotations of [`joints`](Self::joints) for a posture and the hand's rotation
@@ -373,9 +392,8 @@ impl Rig {
         };
         let up = (posed.elbow - posed.shoulder).normalize_or(self.forward);
         let fore = (posed.wrist - posed.elbow).normalize_or(up);
-        let line = (posed.wrist - posed.shoulder).normalize_or(self.forward);
-        let out = (posed.elbow - posed.shoulder).reject_from_normalized(line);
-        let out = out
+        let out = posed
+            .pole
             .reject_from_normalized(up)
             .try_normalize()
             .unwrap_or_else(|| up.any_orthonormal_vector());

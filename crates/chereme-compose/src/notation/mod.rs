@@ -163,12 +163,7 @@ fn lay(channels: &mut [Channel], hand: &stage::Hand, track: Track) {
     }
 }
 
-fn report(
-    signs: &[&Notated],
-    plan: &Plan,
-    sides: [Side; 2],
-    fits: [Option<Fit>; 2],
-) -> Report {
+fn report(signs: &[&Notated], plan: &Plan, sides: [Side; 2], fits: [Option<Fit>; 2]) -> Report {
     let mut report = Report::default();
     for (n, sign) in signs.iter().enumerate() {
         let span = &plan.signs[n];

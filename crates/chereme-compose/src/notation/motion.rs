@@ -10,7 +10,9 @@ use chereme_sign::hamnosys::{
 
 use super::pace::Pace;
 use super::path::Path;
-use super::plan::{Act, Event, Frame, HandState, PhaseKind, Planner, Who, about, mean, shortest};
+use super::plan::{
+    Act, Event, Frame, HandState, PhaseKind, Planner, Who, about, acting, mean, shortest,
+};
 
 /// What holds for a motion from outside of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -124,8 +126,7 @@ impl Planner<'_> {
 
     /// Lets those who act go along a way, told for the dominant hand to the left, up and forward.
     fn along(&mut self, path: &Path, who: Who, [from, to]: [f64; 2], pace: Pace) {
-        for n in 0..2 {
-            let Some(frame) = who[n] else { continue };
+        for (n, frame) in acting(who) {
             let sign = if frame.behind { -1.0 } else { 1.0 };
             let stage = self.stage;
             let own = path.map(|v| stage.direction(v * frame.axes * sign));
@@ -141,10 +142,8 @@ impl Planner<'_> {
     }
 
     fn told(&mut self, who: Who, kind: PhaseKind, from: f64, to: f64, says: &str) {
-        for n in 0..2 {
-            if who[n].is_some() {
-                self.phase(n, kind, from, to, says);
-            }
+        for (n, _) in acting(who) {
+            self.phase(n, kind, from, to, says);
         }
     }
 
@@ -206,9 +205,7 @@ impl Planner<'_> {
     fn bow(&self, way: DVec3, curve: &Curve) -> DVec3 {
         let l = self.language;
         let deep = sized(curve.size, [l.arc_small, l.arc_normal, l.arc_big]);
-        let bow = shortest(way) * about(curve.to.angle());
-        // Along a way sideways or out, a bow up or down is up or down.
-        bow * deep
+        shortest(way) * about(curve.to.angle()) * deep
     }
 
     fn circular(
@@ -320,8 +317,7 @@ impl Planner<'_> {
             l.wrist_cycles
         };
         let end = time + l.time_wrist * cycles * env.slower;
-        for n in 0..2 {
-            let Some(frame) = who[n] else { continue };
+        for (n, frame) in acting(who) {
             let Some(hand) = self.stage.hand(self.sides[n]) else {
                 continue;
             };
@@ -373,10 +369,7 @@ impl Planner<'_> {
         } else {
             Digit::ALL.map(|digit| digits.contains(digit))
         };
-        for n in 0..2 {
-            if who[n].is_none() {
-                continue;
-            }
+        for (n, _) in acting(who) {
             self.plan.events[n].push(Event {
                 from: time,
                 to: end,
@@ -395,8 +388,15 @@ impl Planner<'_> {
     /// Plans what the body does instead of a hand: it is told, not moved.
     pub(crate) fn body(&mut self, action: &BodyAction, time: f64) -> f64 {
         self.remark("movements of the body in place of a hand are told, not moved");
-        let _ = action;
-        time + self.language.time_body
+        let end = time + self.language.time_body;
+        self.phase(
+            0,
+            PhaseKind::Stroke,
+            time,
+            end,
+            &format!("the body moves: {:?}", action.part),
+        );
+        end
     }
 
     fn sequence(&mut self, motions: &[Motion], fused: bool, who: Who, time: f64, env: &Env) -> f64 {
@@ -445,12 +445,13 @@ impl Planner<'_> {
         let state = self.state.clone();
         let events = [0, 1].map(|n| self.plan.events[n].len());
         let phases = self.plan.phases.len();
-        let named = self.named.clone();
+        let (named, together) = (self.named.clone(), self.together.clone());
         let end = self.motion(motion, who, 0.0, env);
         self.state = state;
         self.named = named;
-        for n in 0..2 {
-            self.plan.events[n].truncate(events[n]);
+        self.together = together;
+        for (planned, length) in self.plan.events.iter_mut().zip(events) {
+            planned.truncate(length);
         }
         self.plan.phases.truncate(phases);
         end
@@ -466,8 +467,8 @@ impl Planner<'_> {
         env: &Env,
     ) -> f64 {
         let named = self.addressed(posture, who);
-        for n in 0..2 {
-            if named[n].is_some() && !self.state[n].used {
+        for (n, _) in acting(named) {
+            if !self.state[n].used {
                 self.raise(n);
             }
         }
@@ -498,15 +499,13 @@ impl Planner<'_> {
             },
         );
         if contact {
-            self.hasten(&before, time, pace, who);
+            self.hasten(time, pace, who);
         }
         self.state = now;
-        for n in 0..2 {
-            if named[n].is_some() {
-                self.go(n, &goal[n], time, end, pace);
-                if motion.is_none() {
-                    self.phase(n, PhaseKind::Stroke, time, end, "to a posture");
-                }
+        for (n, _) in acting(named) {
+            self.go(n, &goal[n], time, end, pace);
+            if motion.is_none() {
+                self.phase(n, PhaseKind::Stroke, time, end, "to a posture");
             }
         }
         if contact {
@@ -523,11 +522,8 @@ impl Planner<'_> {
     }
 
     /// Gives the ways that began at `time` the course of what they lead to.
-    fn hasten(&mut self, _before: &[HandState; 2], time: f64, pace: Pace, who: Who) {
-        for n in 0..2 {
-            if who[n].is_none() {
-                continue;
-            }
+    fn hasten(&mut self, time: f64, pace: Pace, who: Who) {
+        for (n, _) in acting(who) {
             for event in self.plan.events[n].iter_mut().rev() {
                 if event.from < time - 1e-9 {
                     break;
@@ -548,7 +544,6 @@ impl Planner<'_> {
         env: &Env,
     ) -> f64 {
         let l = self.language;
-        let second = repetition.second.is_some();
         let count = |repeat: Repeat| match repeat {
             Repeat::FromStart
             | Repeat::Continue
@@ -567,7 +562,6 @@ impl Planner<'_> {
             };
             return self.motion(motion, who, time, &env);
         }
-        let _ = second;
         let start = self.state.clone();
         let mut env = *env;
         let mut now = self.motion(motion, who, time, &env);
@@ -602,10 +596,8 @@ impl Planner<'_> {
         if let Some(shift) = repetition.shift {
             let by = DVec3::from(shift.vector())
                 * (l.repeat_shift * sized(repetition.shift_size, [0.6, 1.0, 1.6]) * self.stage.arm);
-            for n in 0..2 {
-                if let Some(frame) = who[n] {
-                    origin[n].point += self.stage.direction(by * frame.axes);
-                }
+            for (n, frame) in acting(who) {
+                origin[n].point += self.stage.direction(by * frame.axes);
             }
         }
         match repetition.repeat {
@@ -681,10 +673,7 @@ impl Planner<'_> {
     fn bounce(&mut self, who: Who, from: f64, end: f64) -> f64 {
         let l = self.language;
         let mut to = end;
-        for n in 0..2 {
-            if who[n].is_none() {
-                continue;
-            }
+        for (n, _) in acting(who) {
             let ways = self.plan.events[n]
                 .iter()
                 .filter(|event| event.from >= from - 1e-9);

@@ -8,12 +8,7 @@ use super::plan::{PhaseKind, Plan};
 use crate::made::{About, Note};
 
 /// Returns the glosses, the strokes and holds of either hand, and the transitions.
-pub(crate) fn notes(
-    signs: &[&Notated],
-    plan: &Plan,
-    sides: [Side; 2],
-    clip: &Clip,
-) -> Vec<Note> {
+pub(crate) fn notes(signs: &[&Notated], plan: &Plan, sides: [Side; 2], clip: &Clip) -> Vec<Note> {
     let span = |from: f64, to: f64| {
         let span = Span::between(Instant::from_seconds(from), Instant::from_seconds(to));
         span.intersection(clip.span()).unwrap_or(span)
@@ -60,7 +55,7 @@ pub(crate) fn notes(
             about,
             value,
             span: span(phase.from, phase.to),
-            origin: format!("notation of {}", sign.gloss),
+            origin: format!("notation of {gloss}"),
         });
     }
     notes.sort_by_key(|note| (note.span.start(), note.span.end()));

@@ -11,7 +11,7 @@ use chereme_sign::hamnosys::{
     Site, ThumbPosition,
 };
 
-use super::plan::{Frame, Planner, Who};
+use super::plan::{Frame, Planner, Who, acting};
 
 /// Where a point of a hand should be.
 #[derive(Debug, Clone)]
@@ -25,12 +25,10 @@ impl Planner<'_> {
     pub(crate) fn place(&mut self, place: &Place, named: Who) {
         match place {
             Place::Body(body) => {
-                for n in 0..2 {
-                    if let Some(frame) = named[n] {
-                        let goal = self.on_body(n, body, frame, true);
-                        self.settle(n, &goal);
-                        self.define(body.define, n);
-                    }
+                for (n, frame) in acting(named) {
+                    let goal = self.on_body(n, body, frame, true);
+                    self.settle(n, &goal);
+                    self.define(body.define, n);
                 }
             }
             Place::Hand(site) => self.on_hand(site, named),
@@ -48,8 +46,8 @@ impl Planner<'_> {
             }
             Place::Named(number) => {
                 let at = self.named.get(number).copied().unwrap_or_default();
-                for n in 0..2 {
-                    if let (Some(_), Some(at)) = (named[n], at[n]) {
+                for (n, _) in acting(named) {
+                    if let Some(at) = at[n] {
                         self.state[n].point = at;
                     }
                 }
@@ -305,6 +303,7 @@ impl Planner<'_> {
 
     /// Brings the hands to each other, and the two to a place.
     fn by_each_other(&mut self, hands: &Constellation, named: Who) {
+        let hands = &self.remembered(hands);
         for n in 0..2 {
             if !self.state[n].used {
                 self.raise(n);
@@ -347,6 +346,20 @@ impl Planner<'_> {
         for n in 0..2 {
             self.define(hands.define, n);
         }
+    }
+
+    /// Returns a constellation with the sites of the one before in this sign where it names none.
+    fn remembered(&mut self, hands: &Constellation) -> Constellation {
+        let mut known = hands.clone();
+        if known.dominant.is_none() && known.other.is_none() {
+            if let Some(before) = &self.together {
+                known.dominant.clone_from(&before.dominant);
+                known.other.clone_from(&before.other);
+            }
+        } else {
+            self.together = Some(known.clone());
+        }
+        known
     }
 
     /// Returns the points of hands that do not mirror each other, and the way from the other's to the

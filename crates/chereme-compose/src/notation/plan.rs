@@ -6,10 +6,11 @@ use chereme_motion::Side;
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::Handedness;
 use chereme_sign::hamnosys::angles::hand_angles;
+use chereme_sign::hamnosys::orientation;
 use chereme_sign::hamnosys::sites::HandPoint;
 use chereme_sign::hamnosys::{
-    Aim, BodyLanguage, Compass, Direction, Each, HandsUsed, Handshape, Manual, Notated, Place, Posture,
-    Symmetry,
+    Aim, BodyLanguage, Compass, Constellation, Direction, Each, HandsUsed, Handshape, Manual,
+    Notated, Place, Posture, Symmetry,
 };
 
 use super::arm::Limits;
@@ -138,8 +139,16 @@ pub(crate) struct Planner<'a> {
     rest: [HandState; 2],
     pub(crate) named: BTreeMap<u8, [Option<DVec3>; 2]>,
     pub(crate) symmetric: bool,
+    /// How the hands were together last in this sign.
+    pub(crate) together: Option<Constellation>,
     speed: f64,
     pub(crate) plan: Plan,
+}
+
+/// Returns those who act, each with its frame.
+pub(crate) fn acting(who: Who) -> impl Iterator<Item = (usize, Frame)> {
+    let both = who.into_iter().enumerate();
+    both.filter_map(|(n, frame)| Some((n, frame?)))
 }
 
 impl<'a> Planner<'a> {
@@ -166,6 +175,7 @@ impl<'a> Planner<'a> {
             rest: start.clone(),
             named: BTreeMap::new(),
             symmetric: false,
+            together: None,
             speed: 1.0,
             plan: Plan {
                 start,
@@ -185,6 +195,7 @@ impl<'a> Planner<'a> {
         for notated in signs {
             let mut from = None;
             self.named.clear();
+            self.together = None;
             self.speed = speed(notated);
             for part in &notated.sign.parts {
                 let began;
@@ -215,8 +226,8 @@ impl<'a> Planner<'a> {
         let moves = !part.actions.is_empty();
         let named = self.addressed(&part.posture, who);
         let before = self.state.clone();
-        for n in 0..2 {
-            if !self.state[n].used && named[n].is_some() {
+        for (n, _) in acting(named) {
+            if !self.state[n].used {
                 self.raise(n);
             }
         }
@@ -241,11 +252,9 @@ impl<'a> Planner<'a> {
             (false, true) => Pace::Contact,
             (false, false) => Pace::Targetted,
         };
-        for n in 0..2 {
-            if named[n].is_some() {
-                self.go(n, &goal[n], time, reached, pace);
-                self.phase(n, PhaseKind::Transition, time, reached, "");
-            }
+        for (n, _) in acting(named) {
+            self.go(n, &goal[n], time, reached, pace);
+            self.phase(n, PhaseKind::Transition, time, reached, "");
         }
         if dropped.iter().any(|&drop| drop) {
             self.relax(dropped, time, Some(reached));
@@ -370,8 +379,7 @@ impl<'a> Planner<'a> {
 
     /// Gives hands a posture at once, as planned: shape, orientation, place.
     pub(crate) fn assume(&mut self, posture: &Posture, named: Who) {
-        for n in 0..2 {
-            let Some(frame) = named[n] else { continue };
+        for (n, frame) in acting(named) {
             self.state[n].used = true;
             if let Some(shape) = pick(&posture.shape, n) {
                 self.reshape(n, shape);
@@ -463,8 +471,8 @@ impl<'a> Planner<'a> {
     /// Sends hands back to rest; returns when they are there.
     fn relax(&mut self, hands: [bool; 2], from: f64, to: Option<f64>) -> f64 {
         let mut end = from;
-        for n in 0..2 {
-            if !hands[n] || !self.state[n].used {
+        for (n, drops) in hands.into_iter().enumerate() {
+            if !drops || !self.state[n].used {
                 continue;
             }
             let rest = self.rest[n].clone();
@@ -506,7 +514,7 @@ fn second(own: Frame, symmetry: Symmetry) -> Frame {
                 sign(symmetry.up_down),
                 sign(symmetry.out_in),
             ),
-        mirrored: own.mirrored != !symmetry.real_space,
+        mirrored: own.mirrored == symmetry.real_space,
         behind: symmetry.out_of_phase,
     }
 }
@@ -584,48 +592,6 @@ pub(crate) fn about(angle: f64) -> DVec3 {
 
 /// Returns where a hand points and where its palm faces, to the left, up and forward.
 fn oriented(direction: DVec3, palm: f64) -> [DVec3; 2] {
-    [direction, shortest(direction) * about(palm)]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn faces(direction: &str, palm: &str) -> DVec3 {
-        let direction: Direction = direction.parse().expect("a direction");
-        let palm: Compass = palm.parse().expect("a palm");
-        oriented(DVec3::from(direction.vector()), palm.angle())[1]
-    }
-
-    #[test]
-    fn palms_face_where_the_shortest_turn_leaves_them() {
-        for (direction, palm, is) in [
-            ("o", "d", DVec3::NEG_Y),
-            ("o", "l", DVec3::X),
-            ("u", "d", DVec3::Z),
-            ("u", "u", DVec3::NEG_Z),
-            ("u", "l", DVec3::X),
-            ("l", "d", DVec3::NEG_Y),
-            ("l", "l", DVec3::NEG_Z),
-            ("d", "u", DVec3::Z),
-            ("i", "d", DVec3::Y),
-            ("i", "l", DVec3::X),
-        ] {
-            assert!(
-                faces(direction, palm).distance(is) < 1e-9,
-                "{direction} {palm}: {}",
-                faces(direction, palm)
-            );
-        }
-    }
-
-    #[test]
-    fn palms_are_across_the_hand_for_all_directions() {
-        for direction in Direction::all() {
-            for palm in Compass::ALL {
-                let [along, palm] = oriented(DVec3::from(direction.vector()), palm.angle());
-                assert!(along.dot(palm).abs() < 1e-9 && (palm.length() - 1.0).abs() < 1e-9);
-            }
-        }
-    }
+    let faces = orientation::palm(direction.to_array(), palm);
+    [direction, DVec3::from(faces)]
 }

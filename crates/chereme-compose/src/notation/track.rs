@@ -5,15 +5,16 @@ use std::ops::Range;
 
 use chereme_motion::glam::{DQuat, DVec3};
 
-use super::arm::{Held, Limits};
+use super::arm::{Held, Limits, Posed, WristAngles};
 use super::pace::{Pace, Paces};
 use super::plan::{Act, Event, Plan};
 use super::stage::{Hand, Stage};
 
 /// How often the arm's plane is weighed, in seconds; between, it goes smoothly.
 const WEIGHED: f64 = 1.0 / 30.0;
-/// How fast a forearm turns about its length at most, in radians per second.
-const TURNING: f64 = 20.0;
+/// How fast a wrist bends and a forearm turns at most, in radians per second, and the arm's plane.
+const BENDING: f64 = 28.0;
+const SWIVEL: f64 = 7.0;
 /// How near to the trunk's surface points of a hand come, in metres.
 const MARGIN: f64 = 0.004;
 
@@ -27,7 +28,7 @@ pub(crate) struct Track {
     pub(crate) fit: Fit,
 }
 
-/// How well a hand came where it should.
+/// How well a hand came where it should during signs, transitions left out.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Fit {
     /// The largest distance of its point from where it should be, in metres, and the frame.
@@ -79,7 +80,7 @@ pub(crate) fn track(
     let wanted = wanted(plan, n, timing);
     let fingers = fingers(stage, hand, plan, n, timing);
     let outlines = outlines(plan, n, timing);
-    let (arm, fit) = arms(stage, hand, &wanted, &outlines, limits, timing.rate);
+    let (arm, fit) = arms(stage, hand, plan, &wanted, &outlines, limits, timing.rate);
     Track { arm, fingers, fit }
 }
 
@@ -182,11 +183,7 @@ impl<T: Copy> Steps<T> {
 }
 
 /// Returns the shapes that a hand has at each frame: one, or the way from one to another.
-fn shape_spans<'a>(
-    events: &'a [Event],
-    rate: f64,
-    total: usize,
-) -> Vec<(Range<usize>, usize, &'a Event)> {
+fn shape_spans(events: &[Event], rate: f64, total: usize) -> Vec<(Range<usize>, usize, &Event)> {
     let mut spans: Vec<(Range<usize>, usize, &Event)> = events
         .iter()
         .filter_map(|event| match event.act {
@@ -322,6 +319,7 @@ impl Outlines<'_> {
 fn arms(
     stage: &Stage,
     hand: &Hand,
+    plan: &Plan,
     wanted: &Wanted,
     outlines: &Outlines<'_>,
     limits: &Limits,
@@ -329,67 +327,42 @@ fn arms(
 ) -> ([Vec<DQuat>; 4], Fit) {
     let total = wanted.points.len();
     let held = hand.held();
-    let rig = &hand.rig;
-    let reach = 1.3 * hand.length();
     let mut fit = Fit::default();
-    // The wrist as wanted, moved out of the trunk.
-    let mut wrists = Vec::with_capacity(total);
-    let mut cursor = 0;
-    for frame in 0..total {
-        let turned = wanted.turns[frame];
-        let mut wrist = wanted.points[frame] - turned * wanted.offsets[frame];
-        let near = stage.torso.depth(wrist, reach) > 0.0;
-        if near {
-            let turned = wanted.wrist[frame].map_or(turned, |turn| turned * turn);
-            let mut deepest = 0.0_f64;
-            let [a, b] = outlines.at(frame, &mut cursor);
-            let same = std::ptr::eq(a, b);
-            for outline in [a, b].into_iter().take(if same { 1 } else { 2 }) {
-                for &point in outline {
-                    deepest = deepest.max(stage.torso.depth(wrist + turned * point, MARGIN));
-                }
-            }
-            fit.pushed = fit.pushed.max(deepest);
-            wrist += stage.torso.forward() * deepest;
-        }
-        wrists.push(wrist);
-    }
-    let turns = planes(stage, hand, wanted, &wrists, limits, rate);
+    let turns = planes(stage, hand, wanted, limits, rate);
     let mut arm: [Vec<DQuat>; 4] = std::array::from_fn(|_| Vec::with_capacity(total));
-    let most = TURNING / rate;
-    let mut before: Option<f64> = None;
-    for frame in 0..total {
-        let full = match wanted.wrist[frame] {
-            Some(turn) => (wanted.turns[frame] * turn).normalize(),
-            None => wanted.turns[frame].normalize(),
+    let most = BENDING / rate;
+    let mut before: Option<WristAngles> = None;
+    let mut cursor = 0;
+    for (frame, &plane) in turns.iter().enumerate() {
+        let overlay = wanted.wrist[frame];
+        let aim = Aim {
+            stage,
+            hand,
+            held: &held,
+            limits,
+            point: wanted.points[frame],
+            // The point is placed by the hand as it is without its turns about the wrist.
+            offset: match overlay {
+                Some(turn) => turn.inverse() * wanted.offsets[frame],
+                None => wanted.offsets[frame],
+            },
+            turned: match overlay {
+                Some(turn) => (wanted.turns[frame] * turn).normalize(),
+                None => wanted.turns[frame].normalize(),
+            },
+            plane,
+            outlines: outlines.at(frame, &mut cursor),
         };
-        let point = wrists[frame] + wanted.turns[frame] * wanted.offsets[frame];
-        let mut posed = rig.reach(wrists[frame], turns[frame], limits);
-        let angles = rig.wrist(&posed, full, &held);
-        let asked = angles
-            .turn
-            .clamp(-limits.most_turned()[0], limits.most_turned()[1]);
-        let turn = match before {
-            Some(before) => before + (asked - before).clamp(-most, most),
-            None => asked,
-        };
-        before = Some(turn);
-        let mut given = full;
-        if angles.bend(limits) > 1.0 || (angles.turn - turn).abs() > 1e-6 {
-            // The hand gives way, its point stays: so the wrist moves, and the arm with it.
-            for _ in 0..4 {
-                given = rig.allowed(&posed, full, &held, limits, turn);
-                let wrist = point - given * wanted.offsets[frame];
-                posed = rig.reach(wrist, turns[frame], limits);
+        let got = aim.reach(before.as_ref(), most);
+        before = Some(got.angles);
+        if signing(plan, frame as f64 / rate) {
+            fit.pushed = fit.pushed.max(got.pushed);
+            fit.turned = fit.turned.max(got.rotation.angle_between(aim.turned));
+            if got.residual > fit.residual {
+                (fit.residual, fit.frame) = (got.residual, frame);
             }
-            fit.turned = fit.turned.max(given.angle_between(full));
         }
-        let is = posed.wrist + given * wanted.offsets[frame];
-        let residual = is.distance(point);
-        if residual > fit.residual {
-            (fit.residual, fit.frame) = (residual, frame);
-        }
-        let rotations = rig.rotations(&posed, given);
+        let rotations = hand.rig.rotations(&got.posed, got.rotation);
         for (column, rotation) in arm.iter_mut().zip(rotations) {
             column.push(rotation);
         }
@@ -397,23 +370,103 @@ fn arms(
     (arm, fit)
 }
 
+/// Tells whether a sign is made at a time, not the way to it.
+fn signing(plan: &Plan, time: f64) -> bool {
+    plan.signs
+        .iter()
+        .any(|sign| (sign.from..=sign.to).contains(&time))
+}
+
+/// Where a hand should be in one frame.
+struct Aim<'a> {
+    stage: &'a Stage,
+    hand: &'a Hand,
+    held: &'a Held,
+    limits: &'a Limits,
+    point: DVec3,
+    offset: DVec3,
+    turned: DQuat,
+    plane: f64,
+    outlines: [&'a [DVec3]; 2],
+}
+
+/// Where it came.
+struct Got {
+    posed: Posed,
+    rotation: DQuat,
+    angles: WristAngles,
+    residual: f64,
+    pushed: f64,
+}
+
+/// How often a hand that gives way is brought to its place again.
+const TRIES: usize = 8;
+
+impl Aim<'_> {
+    /// Brings the arm there: the hand's orientation gives way to the wrist, its point stays, and what
+    /// would enter the trunk is moved out of it.
+    fn reach(&self, before: Option<&WristAngles>, most: f64) -> Got {
+        let rig = &self.hand.rig;
+        let out = self.stage.torso.forward();
+        let mut wrist = self.point - self.turned * self.offset;
+        let mut pushed = self.depth(wrist, self.turned).max(0.0);
+        wrist += out * pushed;
+        let mut posed = rig.reach(wrist, self.plane, self.limits);
+        let mut round = 0;
+        loop {
+            let asked = rig.wrist(&posed, self.turned, self.held, self.limits);
+            let angles = asked.allowed(self.limits, before, most);
+            let rotation = if angles == asked {
+                self.turned
+            } else {
+                rig.hung(&posed, &angles, self.held)
+            };
+            pushed += self.depth(wrist, rotation).max(0.0);
+            let goal = self.point + out * pushed;
+            let step = goal - rotation * self.offset - wrist;
+            round += 1;
+            if step.length() < 3e-4 || round == TRIES {
+                return Got {
+                    posed,
+                    rotation,
+                    angles,
+                    residual: (posed.wrist + rotation * self.offset).distance(goal),
+                    pushed,
+                };
+            }
+            wrist += step * 0.7;
+            posed = rig.reach(wrist, self.plane, self.limits);
+        }
+    }
+
+    /// Returns how deep the hand's outline is in the trunk.
+    fn depth(&self, wrist: DVec3, turned: DQuat) -> f64 {
+        let torso = &self.stage.torso;
+        if torso.depth(wrist, 1.3 * self.hand.length()) <= 0.0 {
+            return 0.0;
+        }
+        let [a, b] = self.outlines;
+        let count = if std::ptr::eq(a, b) { 1 } else { 2 };
+        let points = [a, b].into_iter().take(count).flatten();
+        points
+            .map(|&point| torso.depth(wrist + turned * point, MARGIN))
+            .fold(0.0, f64::max)
+    }
+}
+
 /// Returns the turn of the arm's plane at each frame: weighed now and then, smooth between.
-fn planes(
-    stage: &Stage,
-    hand: &Hand,
-    wanted: &Wanted,
-    wrists: &[DVec3],
-    limits: &Limits,
-    rate: f64,
-) -> Vec<f64> {
-    let total = wrists.len();
+fn planes(stage: &Stage, hand: &Hand, wanted: &Wanted, limits: &Limits, rate: f64) -> Vec<f64> {
+    let total = wanted.points.len();
     let step = ((WEIGHED * rate).round() as usize).max(1);
     let held: Held = hand.held();
     let mut last: Option<(DVec3, DQuat, f64)> = None;
-    let keys: Vec<f64> = (0..total.div_ceil(step) + 1)
+    let mut keys: Vec<f64> = (0..total.div_ceil(step) + 1)
         .map(|n| {
             let frame = (n * step).min(total - 1);
-            let (wrist, turned) = (wrists[frame], wanted.turns[frame]);
+            let turned = wanted.turns[frame];
+            let wrist = wanted.points[frame] - turned * wanted.offsets[frame];
+            let out = stage.torso.depth(wrist, 0.03).max(0.0);
+            let wrist = wrist + stage.torso.forward() * out;
             if let Some((at, how, turn)) = last
                 && at == wrist
                 && how == turned
@@ -425,6 +478,13 @@ fn planes(
             turn
         })
         .collect();
+    let most = SWIVEL * step as f64 / rate;
+    for n in 1..keys.len() {
+        keys[n] = keys[n].clamp(keys[n - 1] - most, keys[n - 1] + most);
+    }
+    for n in (1..keys.len()).rev() {
+        keys[n - 1] = keys[n - 1].clamp(keys[n] - most, keys[n] + most);
+    }
     let key = |n: isize| keys[n.clamp(0, keys.len() as isize - 1) as usize];
     (0..total)
         .map(|frame| {

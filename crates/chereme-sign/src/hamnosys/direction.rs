@@ -192,8 +192,8 @@ impl From<Direction> for String {
 /// One of eight directions about an axis: where a palm faces, where a curve bulges, where a circle begins.
 ///
 /// For a palm the axis is the hand's own, and the letters are those of a hand that points away from the signer: `d` faces the floor, `l` the
-/// signer's left. For a hand that points elsewhere the same angle is kept from the posture that the
-/// shortest turn from pointing away gives.
+/// signer's left. What they are for a hand that points elsewhere stands in
+/// [`orientation`](super::orientation).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Compass {

@@ -66,6 +66,7 @@ pub mod language;
 mod lex;
 pub mod nonmanual;
 mod notated;
+pub mod orientation;
 mod parse;
 mod print;
 pub mod sites;

@@ -1,0 +1,101 @@
+//! Where a palm faces: notation's letters for hands that point anywhere.
+//!
+//! For a hand that points away from the signer the eight letters are plain. For one that points to a
+//! side, up or down it is turned there by the shortest way, and the letters with it: pointing up, `d`
+//! faces away from the signer. For one that points back towards the signer the letters are those of
+//! its mirror image that points away: `r` of a right hand that points inwards and left faces the
+//! signer's chest. So transcribers use them: in signs of the sign language of the Netherlands that
+//! touch the chest with the palm's side of such a hand, it is `r`. At the plane between the halves the
+//! meaning jumps, as it does in those signs.
+
+/// A vector to the signer's left, up and away from the signer.
+type Vector = [f64; 3];
+
+/// Returns the unit vector that a palm faces: `direction` is a unit vector that the hand points to,
+/// `angle` that of [`Compass::angle`](super::Compass::angle).
+#[must_use]
+pub fn palm(direction: [f64; 3], angle: f64) -> [f64; 3] {
+    about(direction, angle)
+}
+
+/// Returns the angle of a palm that faces `palm` on a hand that points to `direction`, both unit
+/// vectors: what [`palm`] makes of it is the part of `palm` across the direction.
+#[must_use]
+pub fn palm_angle(direction: [f64; 3], palm: [f64; 3]) -> f64 {
+    let dot = |a: Vector, b: Vector| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+    let down = dot(palm, about(direction, 0.0));
+    let right = dot(palm, about(direction, std::f64::consts::FRAC_PI_2));
+    right.atan2(down)
+}
+
+/// Returns what the shortest turn from pointing away to pointing to `direction` makes of the
+/// direction across that is `angle` from down over right; mirrored for directions towards the signer.
+#[must_use]
+pub fn about(direction: [f64; 3], angle: f64) -> [f64; 3] {
+    let [x, y, z] = direction;
+    let towards = z < -1e-9;
+    let z = z.abs();
+    let (across, down) = (-angle.sin(), -angle.cos());
+    // The shortest turn from forward to (x, y, z) applied to (across, down, 0).
+    let along = across * x + down * y;
+    let turned = [
+        across - x * along / (1.0 + z),
+        down - y * along / (1.0 + z),
+        -along,
+    ];
+    if towards {
+        [turned[0], turned[1], -turned[2]]
+    } else {
+        turned
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hamnosys::{Compass, Direction};
+
+    #[test]
+    fn letters_face_where_transcribers_mean_them() {
+        let half = 0.5f64.sqrt();
+        for (direction, letter, faces) in [
+            ("o", "d", [0.0, -1.0, 0.0]),
+            ("o", "l", [1.0, 0.0, 0.0]),
+            ("u", "d", [0.0, 0.0, 1.0]),
+            ("u", "u", [0.0, 0.0, -1.0]),
+            ("u", "l", [1.0, 0.0, 0.0]),
+            ("l", "d", [0.0, -1.0, 0.0]),
+            ("l", "l", [0.0, 0.0, -1.0]),
+            ("d", "u", [0.0, 0.0, 1.0]),
+            ("i", "d", [0.0, -1.0, 0.0]),
+            ("i", "l", [1.0, 0.0, 0.0]),
+            ("il", "r", [-half, 0.0, -half]),
+            ("ui", "d", [0.0, -half, -half]),
+            ("ul", "dl", [half, -half, 0.0]),
+        ] {
+            let pointing: Direction = direction.parse().expect("a direction");
+            let angle = letter.parse::<Compass>().expect("a palm").angle();
+            let is = palm(pointing.vector(), angle);
+            let far: f64 = is.iter().zip(faces).map(|(a, b)| (a - b).abs()).sum();
+            assert!(far < 1e-9, "{direction} {letter}: {is:?}");
+        }
+    }
+
+    #[test]
+    fn palms_lie_across_the_hand_and_angles_come_back() {
+        for direction in Direction::all() {
+            let pointing = direction.vector();
+            for letter in Compass::ALL {
+                let is = palm(pointing, letter.angle());
+                let along: f64 = is.iter().zip(pointing).map(|(a, b)| a * b).sum();
+                let length: f64 = is.iter().map(|a| a * a).sum();
+                assert!(along.abs() < 1e-9 && (length - 1.0).abs() < 1e-9);
+                assert_eq!(
+                    Compass::nearest(palm_angle(pointing, is)),
+                    letter,
+                    "{direction}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! What made movement must hold, measured from its joints alone.
+
+use chereme_compose::Made;
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Anatomy, ModelPose, Part, Side, Skeleton};
+
+/// The worst that was found in a movement.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Worst {
+    /// Values that are no numbers.
+    pub(crate) nan: usize,
+    /// The largest change of a bone's length in metres.
+    pub(crate) bone: f64,
+    /// The largest bend of a wrist and turn of a forearm, 1 at the limit.
+    pub(crate) wrist: f64,
+    pub(crate) turn: f64,
+    /// The deepest that a joint of a hand, and of an elbow, lies in the trunk, in metres.
+    pub(crate) hand_depth: f64,
+    pub(crate) elbow_depth: f64,
+    /// The fastest wrist in metres per second, and elbow.
+    pub(crate) speed: f64,
+    pub(crate) elbow_speed: f64,
+    /// The fastest turn of a joint of the arm in radians per second.
+    pub(crate) turning: f64,
+}
+
+impl Worst {
+    pub(crate) fn and(self, other: Self) -> Self {
+        Self {
+            nan: self.nan + other.nan,
+            bone: self.bone.max(other.bone),
+            wrist: self.wrist.max(other.wrist),
+            turn: self.turn.max(other.turn),
+            hand_depth: self.hand_depth.max(other.hand_depth),
+            elbow_depth: self.elbow_depth.max(other.elbow_depth),
+            speed: self.speed.max(other.speed),
+            elbow_speed: self.elbow_speed.max(other.elbow_speed),
+            turning: self.turning.max(other.turning),
+        }
+    }
+}
+
+/// Measures a movement frame by frame.
+pub(crate) fn worst(made: &Made) -> Worst {
+    let (clip, anatomy) = (&made.clip, &made.anatomy);
+    let skeleton = clip.skeleton();
+    let mut worst = Worst::default();
+    let mut before: Option<ModelPose> = None;
+    let rest = clip.model_pose(0);
+    let per_second = clip.rate().per_second();
+    for frame in 0..clip.frames() {
+        let model = clip.model_pose(frame);
+        for joint in 0..skeleton.len() {
+            let (at, turned) = (model.position(joint), model.rotation(joint));
+            worst.nan += usize::from(!at.is_finite() || !turned.is_finite());
+            if let Some(parent) = skeleton.parent(joint) {
+                let length =
+                    |model: &ModelPose| model.position(joint).distance(model.position(parent));
+                worst.bone = worst.bone.max((length(&model) - length(&rest)).abs());
+            }
+        }
+        for side in Side::BOTH {
+            let Some(arm) = anatomy.arm(side) else {
+                continue;
+            };
+            let (bend, turn) = wrist(anatomy, &model, side);
+            worst.wrist = worst.wrist.max(bend);
+            worst.turn = worst.turn.max(turn);
+            let mut hand = anatomy.fingers(side);
+            hand.push(arm.hand);
+            for joint in hand {
+                let depth = depth(anatomy, skeleton, &model, model.position(joint));
+                worst.hand_depth = worst.hand_depth.max(depth);
+            }
+            let elbow = depth(anatomy, skeleton, &model, model.position(arm.forearm));
+            worst.elbow_depth = worst.elbow_depth.max(elbow);
+            if let Some(before) = &before {
+                let speed = |joint: usize| {
+                    model.position(joint).distance(before.position(joint)) * per_second
+                };
+                worst.speed = worst.speed.max(speed(arm.hand));
+                worst.elbow_speed = worst.elbow_speed.max(speed(arm.forearm));
+                for joint in [arm.upper, arm.forearm, arm.hand] {
+                    let turn = model.rotation(joint).angle_between(before.rotation(joint));
+                    worst.turning = worst.turning.max(turn * per_second);
+                }
+            }
+        }
+        before = Some(model);
+    }
+    worst
+}
+
+/// Returns how far a wrist is bent and a forearm turned, 1 at the limits of the body language.
+fn wrist(anatomy: &Anatomy, model: &ModelPose, side: Side) -> (f64, f64) {
+    let language = chereme_sign::hamnosys::BodyLanguage::usual();
+    let (Some(arm), Some(along), Some(palm)) = (
+        anatomy.arm(side),
+        anatomy.hand_direction(side, model),
+        anatomy.palm_normal(side, model),
+    ) else {
+        return (0.0, 0.0);
+    };
+    let [shoulder, elbow, wrist] = [arm.upper, arm.forearm, arm.hand].map(|j| model.position(j));
+    let forearm = (wrist - elbow).normalize();
+    let radial = palm.cross(along) * -side.sign();
+    let flexion = (-forearm.dot(palm)).atan2(forearm.dot(along)).to_degrees();
+    let deviation = (-forearm.dot(radial)).asin().to_degrees();
+    let part = |angle: f64, less: f64, more: f64| angle / if angle > 0.0 { more } else { less };
+    let bend = part(flexion, language.limit_extension, language.limit_flexion).hypot(part(
+        deviation,
+        language.limit_ulnar,
+        language.limit_radial,
+    ));
+    let out = (elbow - shoulder)
+        .reject_from(wrist - shoulder)
+        .reject_from_normalized(forearm);
+    let Some(out) = out
+        .try_normalize()
+        .filter(|_| forearm.dot((elbow - shoulder).normalize()) < 0.99)
+    else {
+        return (bend, 0.0);
+    };
+    let inner = forearm.cross(out) * -side.sign();
+    let aligned = DQuat::from_rotation_arc(along, forearm) * palm;
+    let turn = forearm.dot(inner.cross(aligned)).atan2(inner.dot(aligned)) * -side.sign();
+    let turn = part(
+        turn.to_degrees(),
+        language.limit_pronation,
+        language.limit_supination,
+    );
+    (bend, turn)
+}
+
+/// Returns how deep a point lies in the trunk: below the surface through its landmarks, an ellipse
+/// at each height.
+fn depth(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose, at: DVec3) -> f64 {
+    let Some(frame) = anatomy.body_frame(model) else {
+        return 0.0;
+    };
+    let v = frame.to_body(at);
+    let names = [
+        "throat",
+        "upper-chest",
+        "chest",
+        "stomach",
+        "belly",
+        "abdomen",
+    ];
+    let front: Vec<DVec3> = names
+        .iter()
+        .filter_map(|name| anatomy.landmark(skeleton, model, name))
+        .map(|at| frame.to_body(at))
+        .collect();
+    for pair in front.windows(2) {
+        let [above, below] = [pair[0], pair[1]];
+        if v.y > above.y || v.y < below.y {
+            continue;
+        }
+        let w = (above.y - v.y) / (above.y - below.y);
+        let half = 0.42;
+        let across = 1.0 - (v.x / half).powi(2);
+        if across <= 0.0 || v.z < -0.2 {
+            return 0.0;
+        }
+        let front = above.z + (below.z - above.z) * w;
+        return (front * across.sqrt() - v.z).max(0.0) * frame.scale;
+    }
+    0.0
+}
+
+/// Returns whether the skeleton has a wrist at all.
+#[allow(dead_code, reason = "the test uses it, the example does not")]
+pub(crate) fn has_hand(anatomy: &Anatomy) -> bool {
+    Side::BOTH
+        .iter()
+        .any(|&side| anatomy.joint(Part::Hand(side)).is_some())
+}

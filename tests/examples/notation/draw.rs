@@ -1,0 +1,54 @@
+//! Contact sheets of signs from notation.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use chereme_compose::notation::{Settings, animate};
+use chereme_figure::sheet::{Frames, SheetOptions, contact_sheet};
+use chereme_figure::writer::write_png;
+
+use crate::{Result, bodies};
+
+/// Draws a sheet `GLOSS.png` in `out` for each of these signs.
+pub(crate) fn sheets(folder: &Path, body: &Path, out: &Path, glosses: &[&str]) -> Result<()> {
+    std::fs::create_dir_all(out)?;
+    let stage = bodies::stage(body)?;
+    for (name, notated) in bodies::signs(folder)? {
+        if !glosses.contains(&name.as_str()) {
+            continue;
+        }
+        let made = animate(&[&notated], &stage, &Settings::default())?;
+        let span = made
+            .notes
+            .iter()
+            .find(|note| note.about == chereme_compose::About::Gloss)
+            .map(|note| made.clip.rate().frames_in(note.span));
+        let frames = span
+            .filter(|span| span.len() > 1)
+            .unwrap_or(0..made.clip.frames());
+        let count = 7.min(frames.len());
+        let shown = (0..count).map(|n| frames.start + n * (frames.len() - 1) / (count - 1).max(1));
+        let options = SheetOptions {
+            title: name.clone(),
+            frames: Frames::At(
+                shown
+                    .map(|frame| frame.min(made.clip.frames() - 1))
+                    .collect(),
+            ),
+            cell_height: 230,
+            ..SheetOptions::default()
+        };
+        let mut progress = |_, _| ControlFlow::Continue(());
+        let sheet = contact_sheet(&made.clip, &made.anatomy, &options, &mut progress)?;
+        let file = File::create(out.join(format!("{name}.png")))?;
+        write_png(&sheet, BufWriter::new(file))?;
+        println!(
+            "{name}: {} frames; {}",
+            made.clip.frames(),
+            made.report.warnings.join("; ")
+        );
+    }
+    Ok(())
+}

@@ -1,0 +1,29 @@
+//! Signs from notation, drawn and measured.
+//!
+//! `cargo run --release -p chereme-tests --example notation -- table FOLDER BODY.bvh...` animates every
+//! `.sigml` file of a folder on each body and prints what came of it. `... -- draw FOLDER BODY.bvh OUT
+//! GLOSS...` draws contact sheets of some.
+
+mod bodies;
+mod checks;
+mod draw;
+mod table;
+
+use std::error::Error;
+use std::path::Path;
+
+type Result<T> = std::result::Result<T, Box<dyn Error>>;
+
+fn main() -> Result<()> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match words.as_slice() {
+        ["table", folder, bodies @ ..] if !bodies.is_empty() => {
+            table::print(Path::new(folder), bodies)
+        }
+        ["draw", folder, body, out, glosses @ ..] => {
+            draw::sheets(Path::new(folder), Path::new(body), Path::new(out), glosses)
+        }
+        _ => Err("say `table FOLDER BODY.bvh...` or `draw FOLDER BODY.bvh OUT GLOSS...`".into()),
+    }
+}

@@ -1,0 +1,77 @@
+//! Every sign on every body: what holds, how far off, how fast.
+
+use std::path::Path;
+use std::time::Instant;
+
+use chereme_compose::notation::{Settings, animate};
+use chereme_motion::Rate;
+
+use crate::checks::{Worst, worst};
+use crate::{Result, bodies};
+
+pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
+    let signs = bodies::signs(folder)?;
+    for path in paths {
+        let stage = bodies::stage(Path::new(path))?;
+        let settings = Settings {
+            rate: Rate::new(120, 1)?,
+            ..Settings::default()
+        };
+        let mut all = Worst::default();
+        let (mut frames, mut failed, mut short, mut turned, mut pushed) = (0, 0, 0, 0, 0);
+        let mut spent = std::time::Duration::ZERO;
+        let mut list: Vec<(String, Worst)> = Vec::new();
+        for (name, notated) in &signs {
+            let start = Instant::now();
+            let made = match animate(&[notated], &stage, &settings) {
+                Ok(made) => made,
+                Err(error) => {
+                    println!("{name}: {error}");
+                    failed += 1;
+                    continue;
+                }
+            };
+            spent += start.elapsed();
+            frames += made.clip.frames();
+            let warned =
+                |word: &str| usize::from(made.report.warnings.iter().any(|w| w.contains(word)));
+            short += warned("short of");
+            turned += warned("turned");
+            pushed += warned("out of the trunk");
+            let own = worst(&made);
+            list.push((name.clone(), own));
+            all = all.and(own);
+        }
+        println!("{path}: {} joints", stage.clip.skeleton().len());
+        println!(
+            "  {} signs, {failed} failed, {frames} frames, {:.0} frames a second",
+            signs.len(),
+            frames as f64 / spent.as_secs_f64()
+        );
+        println!(
+            "  short of their place {short}, turned less {turned}, moved out of the trunk {pushed}"
+        );
+        println!("  worst: {all:?}");
+        let by: [(&str, f64, fn(&Worst) -> f64); 6] = [
+            ("hand in the trunk", 0.01, |worst| worst.hand_depth),
+            ("elbow in the trunk", 0.01, |worst| worst.elbow_depth),
+            ("speed", 6.0, |worst| worst.speed),
+            ("turning", 45.0, |worst| worst.turning),
+            ("wrist", 1.02, |worst| worst.wrist),
+            ("forearm", 1.02, |worst| worst.turn),
+        ];
+        for (what, limit, of) in by {
+            list.sort_by(|a, b| of(&b.1).total_cmp(&of(&a.1)));
+            let over = list.iter().filter(|(_, worst)| of(worst) > limit).count();
+            let first = list
+                .iter()
+                .take(6)
+                .map(|(name, worst)| format!("{name} {:.2}", of(worst)));
+            println!(
+                "  {what} over {limit}: {over}: {}",
+                first.collect::<Vec<_>>().join(", ")
+            );
+        }
+    }
+    Ok(())
+}
