@@ -4,6 +4,8 @@
 //! `.sigml` file of a folder on each body and prints what came of it. `... -- draw FOLDER BODY.bvh OUT
 //! GLOSS...` draws contact sheets of some.
 
+#![allow(clippy::print_stdout)]
+
 mod bodies;
 mod checks;
 mod draw;
