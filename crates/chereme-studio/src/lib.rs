@@ -1,23 +1,23 @@
 //! The window skin: stage, timeline, search, recombination, history.
 //!
-//! [`run`] opens the window. It shows a [`model`] snapshot that a thread reads from
+//! [`run`] opens the window. It shows a `model` snapshot that a thread reads from
 //! [`chereme_corpus`], and never waits for it; everything a person does is a
-//! [command](command::Command), carried out after the frame or by a thread beside it.
+//! command, carried out after the frame or by a thread beside it.
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`app`] | the window: one frame after the other |
-//! | [`action`] | what keys, menus and palette can ask for: a table |
-//! | [`command`], [`perform`] | everything that can be asked for, and the one place that does it |
-//! | [`context`] | what a pane sees, what it may ask for, what is selected |
-//! | [`model`] | the corpus at one moment; movement in pieces around the playhead |
-//! | [`work`] | use cases of the corpus on threads, with progress and stopping |
-//! | [`keys`] | default keymaps as a table, the user's changes, matching |
-//! | [`words`] | every text in English and French |
-//! | [`player`] | the transport |
-//! | [`settings`], [`layout`], [`theme`] | what is remembered, where panes are, how it looks |
-//! | [`panes`] | one module each: rows by plain functions in `data`, widgets in `ui` |
-//! | [`bars`], [`start`], [`overlay`] | menus and status, the page without a corpus, what lies above |
+//! | `app` | the window: one frame after the other |
+//! | `action` | what keys, menus and palette can ask for: a table |
+//! | `command`, `perform` | everything that can be asked for, and the one place that does it |
+//! | `context` | what a pane sees, what it may ask for, what is selected |
+//! | `model` | the corpus at one moment; movement in pieces around the playhead |
+//! | `work` | use cases of the corpus on threads, with progress and stopping |
+//! | `keys` | default keymaps as a table, the user's changes, matching |
+//! | `words` | every text in English and French |
+//! | `player` | the transport |
+//! | `settings`, `layout`, `theme` | what is remembered, where panes are, how it looks |
+//! | `panes` | one module each: rows by plain functions in `data`, widgets in `ui` |
+//! | `bars`, `start`, `overlay` | menus and status, the page without a corpus, what lies above |
 
 mod action;
 mod app;

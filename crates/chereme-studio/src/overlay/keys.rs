@@ -1,7 +1,8 @@
 //! The keys: which keymap, every action with its keys, and changing them.
 
 use eframe::egui::{
-    Button, ComboBox, Context, Event, Grid, Id, Key, Role, ScrollArea, Ui, WidgetInfo, Window,
+    Align2, Button, ComboBox, Context, Event, Grid, Id, Key, Role, ScrollArea, Ui, WidgetInfo,
+    Window,
 };
 
 use crate::action::{ACTIONS, Action, Menu};
@@ -40,6 +41,8 @@ impl KeysHelp {
         Window::new(words::KEYS_TITLE.of(language))
             .id(Id::unique("keys"))
             .open(&mut open)
+            .pivot(Align2::CENTER_CENTER)
+            .default_pos(ctx.content_rect().center())
             .default_size([560.0, 480.0])
             .show(ctx, |ui| {
                 keymaps(ui, settings, out);
@@ -51,7 +54,7 @@ impl KeysHelp {
                     }
                 });
             });
-        self.open &= open;
+        self.open &= open && (self.is_listening() || !super::escaped(ctx));
     }
 
     fn table(&mut self, ui: &mut Ui, menu: Menu, keys: &Keys, settings: &Settings) {

@@ -5,7 +5,7 @@ pub(crate) mod notices;
 pub(crate) mod palette;
 pub(crate) mod settings;
 
-use eframe::egui::Context;
+use eframe::egui::{Context, Key, Modifiers};
 
 use crate::app::Studio;
 
@@ -43,4 +43,9 @@ impl Studio {
         overlays.keys.ui(ctx, keys, settings, out);
         overlays.settings.ui(ctx, settings, out);
     }
+}
+
+/// Returns whether Escape was pressed, and takes it.
+fn escaped(ctx: &Context) -> bool {
+    ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape))
 }

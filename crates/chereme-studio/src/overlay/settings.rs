@@ -1,6 +1,6 @@
 //! The settings: language, theme, scale.
 
-use eframe::egui::{Context, Grid, Id, Slider, Window};
+use eframe::egui::{Align2, Context, Grid, Id, Slider, Window};
 
 use crate::command::Command;
 use crate::context::Outbox;
@@ -30,6 +30,8 @@ impl SettingsWindow {
         let window = Window::new(words::SETTINGS_TITLE.of(language))
             .id(Id::unique("settings"))
             .open(&mut open)
+            .pivot(Align2::CENTER_CENTER)
+            .default_pos(ctx.content_rect().center())
             .resizable(false);
         window.show(ctx, |ui| {
             Grid::new("settings")
@@ -68,6 +70,6 @@ impl SettingsWindow {
         if changed != *settings {
             out.send(Command::Settings(Box::new(changed)));
         }
-        self.open = open;
+        self.open = open && !super::escaped(ctx);
     }
 }

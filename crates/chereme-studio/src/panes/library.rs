@@ -3,7 +3,7 @@
 use chereme_corpus::RecordingGlance;
 use chereme_motion::Instant;
 use chereme_sign::text::fold;
-use eframe::egui::{Key, RichText, ScrollArea, TextEdit, Ui};
+use eframe::egui::{RichText, ScrollArea, TextEdit, Ui};
 
 use super::Pane;
 use super::timeline::data::time_text;
@@ -104,8 +104,7 @@ impl Pane for Library {
 fn show(ui: &mut Ui, row: &Row, height: f32, seen: &Seen<'_>, out: &mut Outbox) {
     let chosen = seen.shown.recording == Some(row.id);
     let response = super::list_row(ui, height, chosen, &row.name, &row.about);
-    let entered = response.has_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-    if response.clicked() || entered {
+    if response.clicked() {
         out.send(Command::Recording(row.id));
     }
 }

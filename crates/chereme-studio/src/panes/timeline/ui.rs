@@ -3,8 +3,8 @@
 use chereme_corpus::Contents;
 use chereme_motion::{Instant, Span};
 use eframe::egui::{
-    Align2, FontId, Id, Rect, Response, Role, ScrollArea, Sense, TextStyle, Ui, WidgetInfo, pos2,
-    vec2,
+    Align2, Color32, FontId, Id, Rect, Response, Role, ScrollArea, Sense, TextStyle, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
 use super::data::{self, Window, time_text};
@@ -13,7 +13,10 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::{fill, timeline as words};
 
-const NAMES: f32 = 168.0;
+/// The least width of the names of tiers; at most they take this share of the pane.
+const NAMES: f32 = 96.0;
+const NAMES_SHARE: f32 = 0.35;
+const INDENT: f32 = 12.0;
 const ROW: f32 = 26.0;
 const RULER: f32 = 22.0;
 /// How many annotations of a row are widgets of their own, for the keyboard and for assistive tools.
@@ -31,7 +34,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
     if timeline.of != Some(recording) {
         (timeline.of, timeline.window) = (Some(recording), None);
     }
-    let names = NAMES.min(ui.available_width() * 0.4);
+    let names = names_width(ui, contents);
     let width = (ui.available_width() - names).max(40.0);
     timeline.width = width;
     let player = &seen.shown.player;
@@ -55,6 +58,21 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
         return;
     }
     frame.rows(ui, contents);
+}
+
+/// Returns how wide the column of names is: as wide as the widest, within bounds.
+fn names_width(ui: &Ui, contents: &Contents) -> f32 {
+    let font = TextStyle::Body.resolve(ui.style());
+    let depths = data::depths(&contents.tiers);
+    let widths = contents.tiers.iter().zip(&depths).map(|(tier, depth)| {
+        let name = tier.row.name.clone();
+        let text = ui
+            .painter()
+            .layout_no_wrap(name, font.clone(), Color32::WHITE);
+        text.size().x + 20.0 + INDENT * *depth as f32
+    });
+    let most = (ui.available_width() * NAMES_SHARE).max(NAMES);
+    widths.fold(NAMES, f32::max).min(most)
 }
 
 struct Drawing<'a, 'b> {
@@ -143,7 +161,7 @@ impl Drawing<'_, '_> {
         } else {
             visuals.text_color()
         };
-        let from = pos2(name.left() + 8.0 + 12.0 * depth as f32, name.center().y);
+        let from = pos2(name.left() + 8.0 + INDENT * depth as f32, name.center().y);
         let font = TextStyle::Body.resolve(ui.style());
         ui.painter_at(name)
             .text(from, Align2::LEFT_CENTER, &tier.row.name, font, text);

@@ -1,0 +1,175 @@
+//! Measures frames of a real window: `cargo run --release --example frame_time -- [CORPUS] [SECONDS]`.
+//!
+//! The window opens, plays its first recording in a loop without waiting for the screen, and closes. Without
+//! a corpus one is made with a recording of the starter corpus and with 200 tiers of 500 annotations.
+//! Prints how long a frame took to compute on the window's thread, and how far apart frames were.
+
+use std::error::Error;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use chereme_corpus::{Corpus, ImportOptions, Progress, unheard, unpack_starter};
+use chereme_studio::{Folders, Options, Studio};
+use eframe::egui::{
+    Context, Event, Key, Modifiers, RawInput, Ui, ViewportBuilder, ViewportCommand,
+};
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut arguments = std::env::args().skip(1);
+    let folder = tempfile::tempdir()?;
+    let corpus = match arguments.next() {
+        Some(path) => PathBuf::from(path),
+        None => made(folder.path())?,
+    };
+    let seconds = arguments.next().map_or(Ok(10), |text| text.parse())?;
+    let mut native = eframe::NativeOptions {
+        viewport: ViewportBuilder::default()
+            .with_title("Chereme")
+            .with_position([0.0, 0.0])
+            .with_inner_size([1280.0, 800.0]),
+        ..eframe::NativeOptions::default()
+    };
+    native.glow_options.vsync = false;
+    let folders = Folders {
+        config: Some(folder.path().to_owned()),
+        data: None,
+    };
+    let options = Options {
+        corpus: Some(corpus),
+        author: "A".into(),
+        folders,
+        ..Options::default()
+    };
+    let meter = Meter {
+        studio: Studio::new(options),
+        keys: vec![Key::L, Key::Space],
+        begun: None,
+        lasts: Duration::from_secs(seconds),
+        last: None,
+        computed: Vec::new(),
+        apart: Vec::new(),
+    };
+    eframe::run_native("frame_time", native, Box::new(|_| Ok(Box::new(meter))))?;
+    Ok(())
+}
+
+/// A recording of the starter corpus with many tiers and annotations.
+fn made(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
+    let files = unpack_starter(&folder.join("files"))?;
+    let phrase = files
+        .iter()
+        .find(|path| path.ends_with("phrase.bvh"))
+        .ok_or("no phrase")?;
+    let path = folder.join("many.chereme");
+    let mut corpus = Corpus::create(&path, "A")?;
+    let beside = folder.join("phrase.bvh");
+    std::fs::copy(phrase, &beside)?;
+    let annotations = folder.join("phrase.eaf");
+    std::fs::write(&annotations, many(200, 500, 6000)?)?;
+    let mut hear = unheard;
+    let options = ImportOptions::default();
+    corpus.import(
+        &[beside, annotations],
+        &options,
+        &mut Progress::new(&mut hear),
+    )?;
+    Ok(path)
+}
+
+/// An ELAN file of `tiers` tiers with `each` annotations within `millis` milliseconds.
+fn many(tiers: usize, each: usize, millis: usize) -> Result<String, std::fmt::Error> {
+    let mut text = String::from(
+        "<ANNOTATION_DOCUMENT AUTHOR=\"\" DATE=\"2020-01-01T00:00:00Z\" FORMAT=\"3.0\" VERSION=\"3.0\">\
+         <HEADER MEDIA_FILE=\"\" TIME_UNITS=\"milliseconds\"/><TIME_ORDER>",
+    );
+    for at in 0..=each {
+        write!(
+            text,
+            "<TIME_SLOT TIME_SLOT_ID=\"ts{at}\" TIME_VALUE=\"{}\"/>",
+            at * millis / each
+        )?;
+    }
+    text += "</TIME_ORDER>";
+    for tier in 0..tiers {
+        write!(
+            text,
+            "<TIER LINGUISTIC_TYPE_REF=\"free\" TIER_ID=\"tier {tier}\">"
+        )?;
+        for at in 0..each {
+            write!(
+                text,
+                "<ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID=\"a{tier}_{at}\" \
+                 TIME_SLOT_REF1=\"ts{at}\" TIME_SLOT_REF2=\"ts{}\"><ANNOTATION_VALUE>V{at}</ANNOTATION_VALUE>\
+                 </ALIGNABLE_ANNOTATION></ANNOTATION>",
+                at + 1
+            )?;
+        }
+        text += "</TIER>";
+    }
+    text += "<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID=\"free\" TIME_ALIGNABLE=\"true\"/></ANNOTATION_DOCUMENT>";
+    Ok(text)
+}
+
+struct Meter {
+    studio: Studio,
+    /// Keys with Ctrl still to be pressed: loop, then play.
+    keys: Vec<Key>,
+    begun: Option<Instant>,
+    lasts: Duration,
+    last: Option<Instant>,
+    computed: Vec<Duration>,
+    apart: Vec<Duration>,
+}
+
+impl eframe::App for Meter {
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        let now = Instant::now();
+        self.studio.ui(ui);
+        ui.ctx().request_repaint();
+        if self.studio.playhead().micros() == 0 {
+            return;
+        }
+        let begun = *self.begun.get_or_insert(now);
+        if let Some(last) = self.last.replace(now) {
+            self.apart.push(now - last);
+            self.computed.push(now.elapsed());
+        }
+        if now - begun > self.lasts && !self.apart.is_empty() {
+            self.tell();
+            ui.ctx().send_viewport_cmd(ViewportCommand::Close);
+        }
+    }
+
+    fn raw_input_hook(&mut self, _ctx: &Context, input: &mut RawInput) {
+        if self.studio.corpus().is_none() || !self.studio.is_idle() {
+            return;
+        }
+        if let Some(key) = (!self.keys.is_empty()).then(|| self.keys.remove(0)) {
+            input.events.push(Event::Key {
+                key,
+                physical_key: None,
+                pressed: true,
+                repeat: false,
+                modifiers: Modifiers::COMMAND,
+            });
+        }
+    }
+}
+
+impl Meter {
+    #[expect(clippy::print_stdout, reason = "it tells what it measured")]
+    fn tell(&mut self) {
+        let all = [("computed", &mut self.computed), ("apart", &mut self.apart)];
+        for (name, times) in all {
+            times.sort_unstable();
+            let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
+            let (median, slow, worst) = (at(0.5), at(0.95), at(1.0));
+            println!(
+                "{name}: {} frames, median {median:?}, p95 {slow:?}, worst {worst:?}",
+                times.len()
+            );
+        }
+        self.apart.clear();
+    }
+}
