@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use rusqlite::config::DbConfig;
 use rusqlite::limits::Limit;
-use rusqlite::{Connection, OpenFlags};
+use rusqlite::{Connection, ErrorCode, OpenFlags};
 use uuid::Uuid;
 
 use crate::error::{Error, Result};
@@ -140,6 +140,42 @@ fn outwardly_wrong(path: &Path) -> Result<Option<(String, &'static str)>> {
     Ok(None)
 }
 
+/// Opens the database; where nothing may be written beside it, as a file that stays as it is.
+fn connect(path: &Path) -> Result<Connection> {
+    let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    let connection = Connection::open_with_flags(path, flags)?;
+    let read = connection.pragma_query_value(None, "schema_version", |row| row.get::<_, i32>(0));
+    let shut = |code| matches!(code, ErrorCode::ReadOnly | ErrorCode::CannotOpen);
+    match read {
+        Err(error) if error.sqlite_error_code().is_some_and(shut) => {
+            let flags = OpenFlags::SQLITE_OPEN_READ_ONLY
+                | OpenFlags::SQLITE_OPEN_NO_MUTEX
+                | OpenFlags::SQLITE_OPEN_URI;
+            Ok(Connection::open_with_flags(unchanging(path), flags)?)
+        }
+        _ => Ok(connection),
+    }
+}
+
+/// Returns the address of a file that nobody writes, see <https://www.sqlite.org/uri.html>.
+fn unchanging(path: &Path) -> String {
+    let name = path.to_string_lossy();
+    let mut name = if cfg!(windows) {
+        name.replace('\\', "/")
+    } else {
+        name.into_owned()
+    };
+    for (letter, code) in [("%", "%25"), ("?", "%3f"), ("#", "%23")] {
+        name = name.replace(letter, code);
+    }
+    let root = if cfg!(windows) && path.is_absolute() {
+        "/"
+    } else {
+        ""
+    };
+    format!("file:{root}{name}?immutable=1")
+}
+
 pub(super) fn open(path: &Path) -> Result<Connection> {
     let refuse = |reason: String, remedy: &str| Error::NotACorpus {
         path: path.to_owned(),
@@ -149,14 +185,13 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
     if let Some((reason, remedy)) = outwardly_wrong(path)? {
         return Err(refuse(reason, remedy));
     }
-    let flags = OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-    let mut connection = Connection::open_with_flags(path, flags)?;
+    let mut connection = connect(path)?;
     let pragma = |name: &str| connection.pragma_query_value(None, name, |row| row.get::<_, i32>(0));
     let application = configure(&connection)
         .and_then(|()| Ok(pragma("application_id")?))
         .map_err(|error| match &error {
             Error::Database(fault)
-                if fault.sqlite_error_code() == Some(rusqlite::ErrorCode::NotADatabase) =>
+                if fault.sqlite_error_code() == Some(ErrorCode::NotADatabase) =>
             {
                 refuse("it is no database".into(), CHOOSE)
             }
@@ -227,4 +262,38 @@ fn raise(connection: &mut Connection, fill: impl FnOnce(&Connection) -> Result<(
     transaction.pragma_update(None, "user_version", SCHEMA_VERSION)?;
     transaction.commit()?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_where_nothing_may_be_written_is_read() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let shelf = folder.path().join("50% of #1");
+        fs::create_dir(&shelf).expect("made");
+        let path = shelf.join("c.chereme");
+        drop(create(&path, |_| Ok(())).expect("made"));
+        let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
+        let still = Connection::open_with_flags(unchanging(&path), flags).expect("opened");
+        assert!(still.is_readonly("main").is_ok_and(|it| it));
+        drop(still);
+        let lock = |file: &Path, locked: bool| {
+            let mut permissions = fs::metadata(file).expect("there").permissions();
+            permissions.set_readonly(locked);
+            fs::set_permissions(file, permissions).expect("set");
+        };
+        lock(&path, true);
+        lock(&shelf, true);
+        let opened =
+            open(&path).and_then(|connection| {
+                Ok(connection
+                    .query_row("SELECT count(*) FROM sign", [], |row| row.get::<_, i64>(0))?)
+            });
+        assert_eq!(opened.ok(), Some(0));
+        // So that the folder can go.
+        lock(&shelf, false);
+        lock(&path, false);
+    }
 }
