@@ -73,6 +73,8 @@ fn check(node: &Node, depth: usize, parts: &mut usize) -> Result<(), RecipeError
     let step = match node {
         Node::Spell(_) => "spell",
         Node::Point(_) => "point",
+        Node::Hamnosys(_) => "hamnosys",
+        Node::Sigml(_) => "sigml",
         _ => "sign",
     };
     if depth > DEEPEST {
@@ -109,6 +111,14 @@ fn check(node: &Node, depth: usize, parts: &mut usize) -> Result<(), RecipeError
             optional(point.on.as_deref(), step, "the name of the signer is empty")?;
             time(step, "hold", point.hold, 60.0)?;
             via(step, &point.via)
+        }
+        Node::Hamnosys(notation) | Node::Sigml(notation) => {
+            named(step, &notation.of, "nothing is notated")?;
+            optional(
+                notation.on.as_deref(),
+                step,
+                "the name of the signer is empty",
+            )
         }
         Node::Pipe(pipe) => {
             check(&pipe.of, depth + 1, parts)?;

@@ -130,6 +130,12 @@ pub enum Cause {
     /// The corpus has no answer.
     #[error(transparent)]
     Source(#[from] SourceError),
+    /// HamNoSys that is not understood.
+    #[error(transparent)]
+    Hamnosys(#[from] chereme_sign::hamnosys::HamnosysError),
+    /// Notation that cannot be animated.
+    #[error(transparent)]
+    Notation(#[from] crate::notation::NotationError),
     /// The skeleton has no such arm.
     #[error("there is no {} arm (shoulder, elbow, wrist) in this skeleton; name its joints in a roles file, or use a recording that has one", .0.name())]
     NoArm(Side),

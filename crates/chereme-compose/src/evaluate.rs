@@ -9,6 +9,7 @@ use crate::contact::{self, Carry, Keep};
 use crate::course::{self, Courses};
 use crate::error::{Cause, MakeError};
 use crate::made::{ChannelReport, Made, Report, StepReport};
+use crate::notation;
 use crate::ops::{self, join};
 use crate::poses::HandPose;
 use crate::recipe::*;
@@ -251,8 +252,30 @@ impl Evaluator<'_> {
                 let done = ops::point::point(&mut work, settings, &given, &course)?;
                 Ok((work, done.into()))
             }
+            Node::Hamnosys(_) => self.notation(&format!("{path}/hamnosys"), leaf),
+            Node::Sigml(_) => self.notation(&format!("{path}/sigml"), leaf),
             Node::Pipe(_) | Node::Then(_) => Err(Cause::Input),
         }
+    }
+
+    fn notation(&mut self, path: &str, leaf: &Node) -> Result<(Work, Done), Cause> {
+        let Some(Input::Notation(signs)) = self.inputs.get(&format!("{path}/of")) else {
+            return Err(Cause::Input);
+        };
+        let stage = self.material(path.to_owned())?;
+        let settings = notation::Settings {
+            rate: stage.clip.rate(),
+            ..notation::Settings::default()
+        };
+        let signs: Vec<_> = signs.iter().collect();
+        let made = notation::animate(&signs, stage, &settings)?;
+        let steps = made.report.steps.iter();
+        let did = steps.flat_map(|step| step.did.iter().map(|did| format!("{} {did}", step.step)));
+        let did: Vec<String> = did.collect();
+        let residual = made.report.steps.iter().filter_map(|step| step.residual);
+        let residual = residual.fold(0.0, f64::max);
+        self.report.warnings.extend(made.report.warnings.clone());
+        Ok((Work::made(made, &leaf.to_string()), (did, residual).into()))
     }
 
     fn step(

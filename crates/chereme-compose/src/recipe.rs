@@ -27,6 +27,10 @@ pub enum Node {
     Spell(Spell),
     /// A pointing gesture.
     Point(Point),
+    /// A sign written in HamNoSys.
+    Hamnosys(Notation),
+    /// The signs of a SiGML file, or a notated sign, that the corpus knows.
+    Sigml(Notation),
     /// Movement with operators applied to it, in order.
     Pipe(Pipe),
     /// One piece of movement after another.
@@ -143,6 +147,17 @@ pub struct Spell {
     #[serde(default, skip_serializing_if = "Transition::is_default")]
     pub via: Transition,
     /// Whose body spells; without one the corpus chooses.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub on: Option<String>,
+}
+
+/// Movement from notation: `hamnosys "…" on signer:1`, `sigml HUIS`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Notation {
+    /// The symbols of the sign, or the name of what the corpus knows as notation.
+    pub of: String,
+    /// Whose body signs; without one the corpus chooses.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
 }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_motion::Side;
+use chereme_sign::hamnosys::{self, Notated};
 use chereme_sign::{Component, Handedness};
 use serde::{Deserialize, Serialize};
 
@@ -57,6 +58,8 @@ pub enum Input {
     Place(PlaceInput),
     /// The letters of a word.
     Letters(Vec<LetterInput>),
+    /// Signs as notation.
+    Notation(Vec<Notated>),
     /// Learned courses.
     Courses(LearnedProfile),
     /// How long letters are held, and how long the hand takes from one to the next.
@@ -225,6 +228,22 @@ impl Resolver<'_> {
                     .map_err(fault)?;
                 Ok(setting)
             }
+            Node::Hamnosys(notation) => {
+                let read = hamnosys::parse(&notation.of).map_err(|error| fault(error.into()))?;
+                let notated = Notated {
+                    sign: read.sign,
+                    text: Some(notation.of.clone()),
+                    ..Notated::default()
+                };
+                let at = format!("{path}/hamnosys");
+                self.notation(at, vec![notated], notation).map_err(fault)
+            }
+            Node::Sigml(notation) => {
+                let found = self.sources.notation(&notation.of);
+                let found = found.map_err(|error| fault(error.into()))?;
+                let at = format!("{path}/sigml");
+                self.notation(at, found, notation).map_err(fault)
+            }
             Node::Pipe(pipe) => {
                 let setting = self.node(&pipe.of, format!("{path}/pipe/of"))?;
                 for (n, step) in pipe.steps.iter().enumerate() {
@@ -328,6 +347,22 @@ impl Resolver<'_> {
         };
         self.inputs.0.insert(path.clone(), Input::Material(input));
         self.materials.insert(path, Arc::new(material));
+        Ok(setting)
+    }
+
+    fn notation(
+        &mut self,
+        path: String,
+        found: Vec<Notated>,
+        notation: &Notation,
+    ) -> Result<Setting, Cause> {
+        if found.is_empty() {
+            return Err(Cause::Empty(notation.of.clone()));
+        }
+        let stage = self.sources.stage(notation.on.as_deref())?;
+        let setting = self.keep(path.clone(), stage)?;
+        let at = format!("{path}/of");
+        self.inputs.0.insert(at, Input::Notation(found));
         Ok(setting)
     }
 

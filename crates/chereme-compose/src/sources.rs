@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use chereme_motion::{Anatomy, Clip, HandAngles, Side, Span};
+use chereme_sign::hamnosys::Notated;
 use chereme_sign::inventory::{Inventory, InventoryValue, Landmark};
 use chereme_sign::{Component, Handedness, Reading};
 use serde::{Deserialize, Serialize};
@@ -49,6 +50,18 @@ pub trait Sources {
     /// # Errors
     /// [`SourceError::Query`] where the query is not understood.
     fn best(&self, query: &str, signer: Option<&str>) -> Result<Vec<Example>, SourceError>;
+
+    /// Returns the signs of the notation that `name` stands for: a SiGML file that the corpus holds,
+    /// or the notation of a sign.
+    ///
+    /// # Errors
+    /// [`SourceError::Missing`] where nothing notated has that name.
+    fn notation(&self, name: &str) -> Result<Vec<Notated>, SourceError> {
+        Err(SourceError::Missing {
+            address: name.to_owned(),
+            nearest: None,
+        })
+    }
 
     /// Returns the letters of `word` in an alphabet, or in the corpus's usual one.
     ///

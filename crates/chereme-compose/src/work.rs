@@ -7,7 +7,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Anatomy, Channel, Clip, Instant, Part, Pose, Rate, Side, Skeleton, Span};
 use chereme_sign::{Component, Handedness, Reading};
 
-use crate::made::{About, Note};
+use crate::made::{About, Made, Note};
 use crate::sources::Material;
 
 /// Movement in the making.
@@ -120,6 +120,24 @@ impl Work {
             from: Group::ALL
                 .into_iter()
                 .map(|group| (group, source()))
+                .collect(),
+        }
+    }
+
+    /// Takes movement that was made from nothing but notation to work on.
+    pub(crate) fn made(made: Made, leaf: &str) -> Self {
+        Self {
+            skeleton: Arc::clone(made.clip.skeleton()),
+            anatomy: made.anatomy,
+            rate: made.clip.rate(),
+            frames: made.clip.frames(),
+            channels: made.clip.into_channels(),
+            handedness: made.handedness,
+            signer: made.signer,
+            notes: made.notes,
+            from: Group::ALL
+                .into_iter()
+                .map(|group| (group, vec![leaf.to_owned()]))
                 .collect(),
         }
     }

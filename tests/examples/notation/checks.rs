@@ -112,9 +112,9 @@ fn wrist(anatomy: &Anatomy, model: &ModelPose, side: Side) -> (f64, f64) {
         language.limit_ulnar,
         language.limit_radial,
     ));
-    let out = (elbow - shoulder)
-        .reject_from(wrist - shoulder)
-        .reject_from_normalized(forearm);
+    let line = (wrist - shoulder).normalize();
+    let across = line.cross((elbow - shoulder).reject_from_normalized(line));
+    let out = across.cross(forearm);
     let Some(out) = out
         .try_normalize()
         .filter(|_| forearm.dot((elbow - shoulder).normalize()) < 0.99)

@@ -131,8 +131,9 @@ pub(crate) struct Posed {
     pub(crate) shoulder: DVec3,
     pub(crate) elbow: DVec3,
     pub(crate) wrist: DVec3,
-    /// From the line between shoulder and wrist to the elbow, a unit vector also where it is straight.
-    pole: DVec3,
+    /// Across the arm's plane: the unit vector about which the line from shoulder to wrist turns
+    /// towards the elbow.
+    across: DVec3,
     /// The collar bone's turn in model space against its rest.
     help: DQuat,
 }
@@ -244,7 +245,7 @@ impl Rig {
             shoulder,
             elbow: shoulder + line * x + pole * off,
             wrist: shoulder + line * reach,
-            pole,
+            across: line.cross(pole).normalize_or(self.outside),
             help,
         }
     }
@@ -327,11 +328,7 @@ impl Rig {
 
     /// Returns where the elbow points across the forearm.
     fn elbow_out(&self, posed: &Posed, forearm: DVec3) -> DVec3 {
-        posed
-            .pole
-            .reject_from_normalized(forearm)
-            .try_normalize()
-            .unwrap_or_else(|| forearm.any_orthonormal_vector())
+        posed.across.cross(forearm).normalize_or(self.outside)
     }
 
     /// Returns by how much the arm's plane should give way for the hand and the trunk, in radians:
@@ -392,11 +389,7 @@ impl Rig {
         };
         let up = (posed.elbow - posed.shoulder).normalize_or(self.forward);
         let fore = (posed.wrist - posed.elbow).normalize_or(up);
-        let out = posed
-            .pole
-            .reject_from_normalized(up)
-            .try_normalize()
-            .unwrap_or_else(|| up.any_orthonormal_vector());
+        let out = posed.across.cross(up).normalize_or(self.outside);
         let upper = basis(up, out) * basis(self.bones[0], self.elbow).inverse();
         let base = upper * self.between[0] * self.rest[0];
         let forearm = arc(base * self.bones[1], fore) * base;

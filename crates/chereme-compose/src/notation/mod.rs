@@ -25,6 +25,8 @@ mod place;
 mod plan;
 mod rest;
 mod stage;
+#[cfg(test)]
+mod tests;
 mod thumb;
 mod track;
 
@@ -65,7 +67,7 @@ impl Default for Settings {
 }
 
 /// Why notation cannot be animated.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NotationError {
     /// The body has no arm.
     #[error(

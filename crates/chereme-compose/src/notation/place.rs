@@ -327,7 +327,7 @@ impl Planner<'_> {
             let point = |n: usize, site: &Option<HandSite>, way: DVec3| match site {
                 Some(site) => self.site_points(n, site, frames[n]),
                 None if crossed => vec![HandPoint::Wrist(Face::Palmar)],
-                None => vec![self.facing(n, way, Region::Arm(self.sides[1 - n]))],
+                None => vec![self.facing(n, way, Region::Trunk)],
             };
             let other = hands.other.as_ref().or(hands.dominant.as_ref()).cloned();
             (

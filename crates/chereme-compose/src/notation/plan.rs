@@ -19,6 +19,9 @@ use super::path::Path;
 use super::stage::{Shape, Stage};
 use super::thumb;
 
+/// How long hands rest before the first sign and after the last, in seconds.
+const STILL: f64 = 0.1;
+
 /// Something a hand does over a stretch of time, in seconds.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Event {
@@ -191,7 +194,7 @@ impl<'a> Planner<'a> {
 
     /// Plans signs one after the other, from rest and back to it.
     pub(crate) fn signs(mut self, signs: &[&Notated]) -> Plan {
-        let mut time = 0.0;
+        let mut time = STILL;
         for notated in signs {
             let mut from = None;
             self.named.clear();
@@ -208,7 +211,7 @@ impl<'a> Planner<'a> {
                 to: time,
             });
         }
-        self.plan.end = self.relax([true, true], time, None);
+        self.plan.end = self.relax([true, true], time, None) + STILL;
         self.plan
     }
 

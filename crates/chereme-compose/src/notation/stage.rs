@@ -371,7 +371,9 @@ pub(crate) struct Torso {
 
 /// Heights in trunk lengths above the shoulders, the front there, and half the width, in shoulder
 /// widths; the front goes through the landmarks of the trunk.
-const OUTLINE: [(f64, f64, f64); 9] = [
+const OUTLINE: [(f64, f64, f64); 11] = [
+    // Above and below the surface draws back behind the body, so that depth fades there.
+    (0.34, -0.15, 0.12),
     (0.22, 0.10, 0.16),
     (0.12, 0.16, 0.24),
     (0.02, 0.22, 0.38),
@@ -381,6 +383,7 @@ const OUTLINE: [(f64, f64, f64); 9] = [
     (-0.72, 0.335, 0.42),
     (-0.88, 0.315, 0.43),
     (-1.05, 0.29, 0.46),
+    (-1.45, -0.25, 0.46),
 ];
 
 impl Torso {
@@ -412,9 +415,14 @@ impl Torso {
         if across <= 0.0 || z < -0.25 {
             return 0.0;
         }
-        // What is behind the middle of the body is not pushed to its front all at once.
-        let fade = ((z + 0.25) / 0.25).clamp(0.0, 1.0);
-        (front * across.sqrt() - z) * body.scale * fade
+        let depth = if z >= 0.0 {
+            front * across.sqrt() - z
+        } else {
+            // What is behind the middle of the body is not pushed to its front all at once.
+            let fade = ((z + 0.25) / 0.25).clamp(0.0, 1.0);
+            (front * across.sqrt() - z * (3.0 * across).min(1.0)) * fade
+        };
+        depth * body.scale
     }
 
     /// Returns the direction in which depth is told.

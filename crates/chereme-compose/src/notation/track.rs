@@ -15,6 +15,10 @@ const WEIGHED: f64 = 1.0 / 30.0;
 /// How fast a wrist bends and a forearm turns at most, in radians per second, and the arm's plane.
 const BENDING: f64 = 28.0;
 const SWIVEL: f64 = 7.0;
+/// How fast a wrist goes at most, in arm lengths a second, and the time before and after a faster
+/// step over which it is spread, in seconds.
+const FASTEST: f64 = 11.0;
+const AROUND: f64 = 0.09;
 /// How near to the trunk's surface points of a hand come, in metres.
 const MARGIN: f64 = 0.004;
 
@@ -333,6 +337,7 @@ fn arms(
     let most = BENDING / rate;
     let mut before: Option<WristAngles> = None;
     let mut cursor = 0;
+    let mut rows: Vec<(Posed, DQuat)> = Vec::with_capacity(total);
     for (frame, &plane) in turns.iter().enumerate() {
         let overlay = wanted.wrist[frame];
         let aim = Aim {
@@ -362,12 +367,59 @@ fn arms(
                 (fit.residual, fit.frame) = (got.residual, frame);
             }
         }
-        let rotations = hand.rig.rotations(&got.posed, got.rotation);
+        rows.push((got.posed, got.rotation));
+    }
+    let most = FASTEST * hand.rig.length() / rate;
+    for frame in steady(&mut rows, most, rate) {
+        let (posed, rotation) = &mut rows[frame];
+        *posed = hand.rig.reach(posed.wrist, turns[frame], limits);
+        let angles = hand.rig.wrist(posed, *rotation, &held, limits);
+        let allowed = angles.allowed(limits, None, 0.0);
+        if allowed != angles {
+            *rotation = hand.rig.hung(posed, &allowed, &held);
+        }
+    }
+    for (posed, rotation) in &rows {
+        let rotations = hand.rig.rotations(posed, *rotation);
         for (column, rotation) in arm.iter_mut().zip(rotations) {
             column.push(rotation);
         }
     }
     (arm, fit)
+}
+
+/// Spreads what goes faster than `most` a frame over the time around it; returns the frames changed.
+///
+/// Where what a hand gives way to changes at once (the other side of a limit, the edge of the trunk),
+/// so would the hand.
+fn steady(rows: &mut [(Posed, DQuat)], most: f64, rate: f64) -> Vec<usize> {
+    let turned = BENDING * 1.4 / rate;
+    let near = ((AROUND * rate).ceil() as usize).max(1);
+    let mut changed = Vec::new();
+    for _ in 0..4 {
+        let jumps = |n: &usize| {
+            let (a, b) = (&rows[*n - 1], &rows[*n]);
+            a.0.wrist.distance(b.0.wrist) > most || a.1.angle_between(b.1) > turned
+        };
+        let found: Vec<usize> = (1..rows.len()).filter(jumps).collect();
+        if found.is_empty() {
+            break;
+        }
+        for run in found.chunk_by(|a, b| b - a <= near) {
+            let first = run[0].saturating_sub(near);
+            let last = (run[run.len() - 1] + near).min(rows.len() - 1);
+            let (from, to) = (rows[first], rows[last]);
+            for (n, row) in rows[first + 1..last].iter_mut().enumerate() {
+                let share = smooth((n + 1) as f64 / (last - first) as f64);
+                row.0.wrist = from.0.wrist.lerp(to.0.wrist, share);
+                row.1 = from.1.slerp(to.1, share).normalize();
+                changed.push(first + 1 + n);
+            }
+        }
+    }
+    changed.sort_unstable();
+    changed.dedup();
+    changed
 }
 
 /// Tells whether a sign is made at a time, not the way to it.
@@ -399,8 +451,13 @@ struct Got {
     pushed: f64,
 }
 
+fn smooth(share: f64) -> f64 {
+    let share = share.clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}
+
 /// How often a hand that gives way is brought to its place again.
-const TRIES: usize = 8;
+const TRIES: usize = 14;
 
 impl Aim<'_> {
     /// Brings the arm there: the hand's orientation gives way to the wrist, its point stays, and what
@@ -408,33 +465,56 @@ impl Aim<'_> {
     fn reach(&self, before: Option<&WristAngles>, most: f64) -> Got {
         let rig = &self.hand.rig;
         let out = self.stage.torso.forward();
-        let mut wrist = self.point - self.turned * self.offset;
-        let mut pushed = self.depth(wrist, self.turned).max(0.0);
-        wrist += out * pushed;
+        // A hand that is placed by a fingertip turns about it; one placed by its palm is moved.
+        let pivot = smooth((self.offset.length() / self.hand.length() - 0.55) / 0.25);
+        let mut turned = self.turned;
+        let mut pushed = 0.0;
+        let mut wrist = self.point - turned * self.offset;
         let mut posed = rig.reach(wrist, self.plane, self.limits);
         let mut round = 0;
         loop {
-            let asked = rig.wrist(&posed, self.turned, self.held, self.limits);
+            let asked = rig.wrist(&posed, turned, self.held, self.limits);
             let angles = asked.allowed(self.limits, before, most);
             let rotation = if angles == asked {
-                self.turned
+                turned
             } else {
                 rig.hung(&posed, &angles, self.held)
             };
-            pushed += self.depth(wrist, rotation).max(0.0);
+            let deep = self.depth(posed.wrist, rotation).max(0.0);
+            let amiss = posed.wrist - wrist + out * deep;
+            let mut about = rotation;
+            if pivot > 0.0 && amiss.length() > 1e-4 {
+                let from = (wrist - self.point).normalize_or(out);
+                let to = (wrist + amiss - self.point).normalize_or(from);
+                let turn = DQuat::from_rotation_arc(from, to);
+                let turn = DQuat::IDENTITY.slerp(turn, pivot);
+                turned = (turn * turned).normalize();
+                about = turn * rotation;
+            }
+            pushed += deep * (1.0 - pivot);
             let goal = self.point + out * pushed;
             let step = goal - rotation * self.offset - wrist;
             round += 1;
-            if step.length() < 3e-4 || round == TRIES {
+            let done =
+                step.length() < 3e-4 && deep < 1e-4 && (pivot == 0.0 || amiss.length() < 3e-4);
+            if done || round == TRIES {
+                // The point comes first: the wrist bends a little more where that takes it there.
+                posed = rig.reach(goal - rotation * self.offset, self.plane, self.limits);
+                // What turning could not bring out of the trunk is moved out after all.
+                let left = self.depth(posed.wrist, rotation).max(0.0);
+                if left > 1e-4 {
+                    pushed += left;
+                    posed = rig.reach(posed.wrist + out * left, self.plane, self.limits);
+                }
                 return Got {
                     posed,
                     rotation,
                     angles,
-                    residual: (posed.wrist + rotation * self.offset).distance(goal),
+                    residual: (posed.wrist + rotation * self.offset).distance(self.point),
                     pushed,
                 };
             }
-            wrist += step * 0.7;
+            wrist += (goal - about * self.offset - wrist) * 0.8;
             posed = rig.reach(wrist, self.plane, self.limits);
         }
     }

@@ -94,12 +94,30 @@ impl Parser<'_> {
         if self.accept("point") {
             return self.point();
         }
+        if self.accept("hamnosys") {
+            let notation = self.notation("the symbols of a sign, in quotes")?;
+            return Ok(Node::Hamnosys(notation));
+        }
+        if self.accept("sigml") {
+            let notation = self.notation("a SiGML file or a notated sign")?;
+            return Ok(Node::Sigml(notation));
+        }
         if let Some(word) = self.word().filter(|word| Step::WORDS.contains(word)) {
             let _ = word;
             return Err(self.expected("a sign, \"spell\", \"point\" or \"(\"", &[]));
         }
         self.name("a sign, \"spell\", \"point\" or \"(\"")
             .map(Node::Sign)
+    }
+
+    fn notation(&mut self, what: &'static str) -> Parsed<Notation> {
+        let of = self.name(what)?;
+        let on = if self.accept("on") {
+            Some(self.name("a signer")?)
+        } else {
+            None
+        };
+        Ok(Notation { of, on })
     }
 
     fn spell(&mut self) -> Parsed<Node> {

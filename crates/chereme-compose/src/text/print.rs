@@ -17,6 +17,8 @@ impl Display for Node {
             Self::Sign(address) => write!(f, "{}", Name(address)),
             Self::Spell(spell) => write!(f, "{spell}"),
             Self::Point(point) => write!(f, "{point}"),
+            Self::Hamnosys(notation) => write!(f, "hamnosys {notation}"),
+            Self::Sigml(notation) => write!(f, "sigml {notation}"),
             Self::Pipe(pipe) => {
                 within(f, &pipe.of, matches!(*pipe.of, Self::Then(_)))?;
                 pipe.steps
@@ -43,9 +45,11 @@ fn within(f: &mut Formatter<'_>, node: &Node, parentheses: bool) -> fmt::Result 
 }
 
 /// Words that mean something somewhere; as a name each is quoted.
-const RESERVED: [&str; 38] = [
+const RESERVED: [&str; 40] = [
     "spell",
     "point",
+    "hamnosys",
+    "sigml",
     "then",
     "via",
     "with",
@@ -155,6 +159,13 @@ impl Display for Spell {
         option(f, "with", self.alphabet.as_deref().map(Name))?;
         option(f, "hold", self.hold)?;
         write!(f, "{}", self.via)?;
+        option(f, "on", self.on.as_deref().map(Name))
+    }
+}
+
+impl Display for Notation {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", Name(&self.of))?;
         option(f, "on", self.on.as_deref().map(Name))
     }
 }

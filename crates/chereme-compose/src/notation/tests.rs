@@ -1,0 +1,336 @@
+use std::sync::Arc;
+
+use chereme_motion::glam::DVec3;
+use chereme_motion::{Anatomy, Clip, ModelPose, Side};
+use chereme_sign::Handedness;
+use chereme_sign::hamnosys::{
+    Aim, BodyLocation, BodyPlace, Constellation, Contact, Directed, Each, HandClass, HandLocation,
+    HandSite, HandsUsed, Handshape, Manual, Motion, MotionKind, Place, Posture, Repeat, Repetition,
+    Sign, Site, Size, Symmetry,
+};
+
+use super::*;
+use crate::About;
+use crate::testing::{Axes, skeleton};
+
+fn stage(axes: Axes) -> Material {
+    let skeleton = Arc::new(skeleton(axes, 1.0));
+    let anatomy = Arc::new(Anatomy::detect(&skeleton));
+    Material {
+        address: "stage".into(),
+        hash: String::new(),
+        gloss: String::new(),
+        signer: None,
+        handedness: Handedness::Right,
+        clip: Clip::still(skeleton, Rate::new(60, 1).expect("a rate"), 1),
+        anatomy,
+        held: Vec::new(),
+    }
+}
+
+fn directed(direction: &str) -> Motion {
+    Motion::new(MotionKind::Directed(Directed {
+        direction: direction.parse().expect("a direction"),
+        second: None,
+        size: chereme_sign::hamnosys::Amount::default(),
+        curve: None,
+        zigzag: None,
+        ellipse: None,
+    }))
+}
+
+fn posture(class: HandClass, extended: &str, palm: &str, place: Option<Place>) -> Posture {
+    let mut shape = Handshape::default();
+    shape.form.class = class;
+    Posture {
+        shape: Each::Shared(shape),
+        extended: Each::Shared(Aim::at(extended.parse().expect("a direction"))),
+        palm: Each::Shared(Aim::at(palm.parse().expect("a palm"))),
+        place,
+    }
+}
+
+fn at(location: BodyLocation, contact: Option<Contact>) -> Place {
+    Place::Body(BodyPlace {
+        site: Some(Site {
+            at: location,
+            side: None,
+            approx: false,
+        }),
+        contact,
+        ..BodyPlace::default()
+    })
+}
+
+fn notated(hands: HandsUsed, posture: Posture, actions: Vec<Motion>) -> Notated {
+    Notated {
+        gloss: "SIGN".into(),
+        sign: Sign {
+            parts: vec![Manual {
+                hands,
+                posture,
+                actions,
+                ..Manual::default()
+            }],
+        },
+        ..Notated::default()
+    }
+}
+
+fn mirrored() -> HandsUsed {
+    HandsUsed::Both(Symmetry {
+        left_right: true,
+        ..Symmetry::default()
+    })
+}
+
+fn made(sign: &Notated, axes: Axes) -> Made {
+    animate(&[sign], &stage(axes), &Settings::default()).expect("it can be animated")
+}
+
+/// Returns where a landmark is at a share of the sign's time.
+fn landmark(made: &Made, share: f64, name: &str) -> DVec3 {
+    let model = model(made, share);
+    let skeleton = made.clip.skeleton();
+    made.anatomy
+        .landmark(skeleton, &model, name)
+        .expect("a landmark")
+}
+
+fn model(made: &Made, share: f64) -> ModelPose {
+    let gloss = made.notes.iter().find(|note| note.about == About::Gloss);
+    let span = gloss.expect("the gloss is noted").span;
+    let from = span.start().seconds();
+    let time = from + (span.end().seconds() - from) * share;
+    let frame = (time * 60.0).round() as usize;
+    made.clip.model_pose(frame.min(made.clip.frames() - 1))
+}
+
+#[test]
+fn hands_point_and_face_as_written_on_any_axes() {
+    let sign = notated(
+        HandsUsed::Dominant,
+        posture(
+            HandClass::Flat,
+            "ol",
+            "l",
+            Some(at(BodyLocation::Chest, None)),
+        ),
+        vec![],
+    );
+    for axes in [Axes::Plain, Axes::Odd] {
+        let made = made(&sign, axes);
+        let model = model(&made, 0.5);
+        let along = made
+            .anatomy
+            .hand_direction(Side::Right, &model)
+            .expect("a hand");
+        let palm = made
+            .anatomy
+            .palm_normal(Side::Right, &model)
+            .expect("a hand");
+        let half = 0.5f64.sqrt();
+        assert!(
+            along.distance(DVec3::new(half, 0.0, half)) < 1e-6,
+            "{along}"
+        );
+        assert!(palm.distance(DVec3::new(half, 0.0, -half)) < 1e-6, "{palm}");
+    }
+}
+
+#[test]
+fn the_founding_example_moves_both_hands_down_twice() {
+    let mut down = directed("d");
+    if let MotionKind::Directed(directed) = &mut down.kind {
+        directed.size.first = Some(Size::Small);
+    }
+    let twice = Motion::new(MotionKind::Repeated {
+        motion: Box::new(down),
+        repetition: Repetition {
+            repeat: Repeat::FromStart,
+            second: None,
+            growth: None,
+            shift: None,
+            shift_size: None,
+            shift_growth: None,
+            approx: false,
+        },
+    });
+    let place = Some(at(BodyLocation::Stomach, None));
+    let here = notated(
+        mirrored(),
+        posture(HandClass::Finger2, "o", "d", place),
+        vec![twice],
+    );
+    let made = made(&here, Axes::Odd);
+    let heights: Vec<f64> = (0..=100)
+        .map(|n| landmark(&made, f64::from(n) / 100.0, "right-palm").y)
+        .collect();
+    let lows = heights
+        .windows(3)
+        .filter(|w| w[1] < w[0] && w[1] <= w[2])
+        .count();
+    let (high, low) = (
+        heights[0],
+        heights.iter().copied().fold(f64::INFINITY, f64::min),
+    );
+    let arm = made.anatomy.measures().expect("measures").arm;
+    let size = BodyLanguage::usual().move_small * arm;
+    assert!(
+        (high - low - size).abs() < 1e-3,
+        "{} for {size}",
+        high - low
+    );
+    assert!(lows >= 1 && (heights[100] - low).abs() < 1e-3);
+    for share in [0.0, 0.3, 0.6, 1.0] {
+        let [right, left] = ["right-palm", "left-palm"].map(|name| landmark(&made, share, name));
+        assert!(
+            right.distance(DVec3::new(-left.x, left.y, left.z)) < 1e-6,
+            "mirrored at {share}"
+        );
+    }
+    assert!(lows >= 2, "{lows} times down");
+}
+
+#[test]
+fn contacts_are_met() {
+    let place = Place::Body(BodyPlace {
+        by: Some(HandSite {
+            at: Some(HandLocation::Tip),
+            digits: chereme_sign::hamnosys::Digits(vec![chereme_sign::hamnosys::Digit::Index]),
+            ..HandSite::default()
+        }),
+        site: Some(Site {
+            at: BodyLocation::Nose,
+            side: None,
+            approx: false,
+        }),
+        contact: Some(Contact::Touch),
+        ..BodyPlace::default()
+    });
+    let sign = notated(
+        HandsUsed::Dominant,
+        posture(HandClass::Finger2, "ul", "l", Some(place)),
+        vec![],
+    );
+    for axes in [Axes::Plain, Axes::Odd] {
+        let made = made(&sign, axes);
+        let [tip, chin] = ["right-index-tip", "nose"].map(|name| landmark(&made, 0.5, name));
+        assert!(tip.distance(chin) < 2e-3, "{} mm", tip.distance(chin) * 1e3);
+    }
+    let together = notated(
+        mirrored(),
+        posture(
+            HandClass::Flat,
+            "uo",
+            "l",
+            Some(Place::Hands(Constellation {
+                contact: Some(Contact::Touch),
+                ..Constellation::default()
+            })),
+        ),
+        vec![],
+    );
+    let made = made(&together, Axes::Plain);
+    let [right, left] = ["right-palm", "left-palm"].map(|name| landmark(&made, 0.5, name));
+    assert!(
+        right.distance(left) < 2e-3,
+        "{} mm",
+        right.distance(left) * 1e3
+    );
+}
+
+#[test]
+fn left_handed_signers_mirror_everything() {
+    let sign = notated(
+        HandsUsed::Dominant,
+        posture(
+            HandClass::Finger2,
+            "ul",
+            "l",
+            Some(at(BodyLocation::Shoulders, None)),
+        ),
+        vec![directed("ol")],
+    );
+    let right = made(&sign, Axes::Plain);
+    let mut other = stage(Axes::Plain);
+    other.handedness = Handedness::Left;
+    let left = animate(&[&sign], &other, &Settings::default()).expect("it can be animated");
+    assert_eq!(right.clip.frames(), left.clip.frames());
+    for share in [0.0, 0.5, 1.0] {
+        let a = landmark(&right, share, "right-index-tip");
+        let b = landmark(&left, share, "left-index-tip");
+        assert!(a.distance(DVec3::new(-b.x, b.y, b.z)) < 1e-6);
+    }
+}
+
+#[test]
+fn sequences_begin_and_end_at_rest_and_are_the_same_again() {
+    let first = notated(
+        HandsUsed::Dominant,
+        posture(HandClass::Flat, "u", "d", None),
+        vec![directed("r")],
+    );
+    let second = notated(
+        mirrored(),
+        posture(HandClass::Fist, "o", "l", None),
+        vec![directed("d")],
+    );
+    let stage = stage(Axes::Odd);
+    let make = || animate(&[&first, &second], &stage, &Settings::default()).expect("animated");
+    let made = make();
+    assert_eq!(made, make());
+    assert_eq!(
+        made.notes
+            .iter()
+            .filter(|note| note.about == About::Gloss)
+            .count(),
+        2
+    );
+    let ends = [0, made.clip.frames() - 1].map(|frame| made.clip.model_pose(frame));
+    for (a, b) in ends[0].positions().iter().zip(ends[1].positions()) {
+        assert!(a.distance(*b) < 1e-6);
+    }
+    let rest = made.clip.model_pose(0);
+    for frame in 0..made.clip.frames() {
+        let model = made.clip.model_pose(frame);
+        for joint in 1..made.clip.skeleton().len() {
+            let parent = made.clip.skeleton().parent(joint).expect("one root");
+            let length = |model: &ModelPose| model.position(joint).distance(model.position(parent));
+            assert!((length(&model) - length(&rest)).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
+fn recipes_take_notation_as_text_and_as_json() {
+    let text = "hamnosys \"hamflathand,hamextfingeru,hampalmd\" on signer:1";
+    let recipe: crate::Recipe = format!("{text} | reverse").parse().expect("a recipe");
+    assert_eq!(recipe.to_string(), format!("{text} | reverse"));
+    let json = serde_json::to_string(&recipe).expect("json");
+    assert_eq!(
+        serde_json::from_str::<crate::Recipe>(&json).expect("the same"),
+        recipe
+    );
+    let file: crate::Recipe = "sigml HUIS then BOL".parse().expect("a recipe");
+    assert_eq!(file.to_string(), "sigml HUIS then BOL");
+    assert!("hamnosys".parse::<crate::Recipe>().is_err());
+}
+
+#[test]
+fn recipes_of_notation_are_made_and_kept() {
+    let corpus = crate::testing::Shelf::new();
+    let flat = chereme_sign::hamnosys::from_names(
+        "hamflathand hamextfingeru hampalmd hammover".split(' '),
+    );
+    let text = flat.expect("names of symbols");
+    let recipe: crate::Recipe = format!("hamnosys \"{text}\"").parse().expect("a recipe");
+    let resolved = crate::resolve(&recipe, &corpus).expect("it can be resolved");
+    let made = crate::evaluate(&resolved).expect("it can be made");
+    assert!(made.clip.frames() > 30);
+    let kept = serde_json::to_string(resolved.inputs()).expect("json");
+    let inputs: crate::Inputs = serde_json::from_str(&kept).expect("the same");
+    assert_eq!(&inputs, resolved.inputs());
+    let odd: crate::Recipe = "hamnosys \"abc\"".parse().expect("a recipe");
+    assert!(crate::resolve(&odd, &corpus).is_err());
+}
