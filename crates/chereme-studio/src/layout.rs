@@ -34,7 +34,7 @@ pub(crate) fn usual() -> Tree<PaneKind> {
     let root = shares(
         &mut tiles,
         LinearDir::Horizontal,
-        &[(left, 0.23), (middle, 0.57), (right, 0.20)],
+        &[(left, 0.27), (middle, 0.53), (right, 0.20)],
     );
     Tree::new(Id::unique(ID), root, tiles)
 }
