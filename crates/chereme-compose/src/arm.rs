@@ -1,8 +1,6 @@
 //! Moving wrists: the arm's postures that bring each wrist where it should be, over all frames at
 //! once, so that elbows go calmly.
 
-use std::f64::consts::TAU;
-
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::ik::{FabrikOptions, TwoBoneOptions, fabrik, two_bone};
 use chereme_motion::{ArmChain, Side};
@@ -12,8 +10,8 @@ use crate::recipe::Solver;
 use crate::work::{Columns, Work};
 
 mod calm;
-
-use calm::Angles;
+mod ease;
+mod swivel;
 
 /// The share of the arm's length beyond which the collar bone helps.
 pub(crate) const HELP_FROM: f64 = 0.9;
@@ -77,7 +75,8 @@ impl Reach {
 /// What is where it should be is not touched. The elbow keeps the source's swivel; where that has no
 /// meaning (a source arm that is straight, or points away from where the arm goes) or turns faster
 /// than the source's, it goes calmly from before to after. Where the wrist leaves the arm's reach
-/// fast, the soft end is longer, so that the elbow does not snap. Nothing where the skeleton has no
+/// fast, the soft end is longer, so that the elbow does not snap. Where elbow or bones would still jump
+/// though the source's do not, they make way before and after. Nothing where the skeleton has no
 /// such arm, or one of its bones has no length.
 pub(crate) fn move_wrist(
     work: &mut Work,
@@ -99,14 +98,15 @@ pub(crate) fn move_wrist(
         steps.push(source.step(frame, target, help, moves, soft[frame], solver)?);
     }
     if solver == Solver::Analytic {
-        swivel(&mut steps, work.rate.frame_time());
+        swivel::swivel(&mut steps, work.rate.frame_time());
+        swivel::ease(&source, &mut steps, work.rate.frame_time());
     }
     let mut turns: Vec<Turns> = steps
         .iter()
         .enumerate()
         .map(|(frame, step)| source.turns(frame, step, hands.map(|hands| hands[frame])))
         .collect();
-    twist(&steps, &mut turns, work.rate.frame_time());
+    swivel::twist(&source, &steps, &mut turns, work.rate.frame_time());
     for (frame, (step, turns)) in steps.iter().zip(&turns).enumerate() {
         if step.moves {
             source.write(work, frame, step, turns);
@@ -160,6 +160,8 @@ struct Step {
 
 /// How the arm's joints are turned in model space in one frame.
 struct Turns {
+    /// Upper arm and forearm as they were.
+    old: [DQuat; 2],
     upper: DQuat,
     forearm: DQuat,
     hand: DQuat,
@@ -203,6 +205,13 @@ impl<'a> Source<'a> {
 
     fn turned(&self, joint: usize, frame: usize) -> DQuat {
         self.columns.rotations(joint)[frame]
+    }
+
+    /// Returns the turns into the space of what the arm hangs on, collar bone or none.
+    fn trunks(&self, frames: usize) -> Vec<DQuat> {
+        let above = self.arm.clavicle.map_or(self.above[1], |_| self.above[0]);
+        let turned = |frame| above.map_or(DQuat::IDENTITY, |joint| self.turned(joint, frame));
+        (0..frames).map(|frame| turned(frame).inverse()).collect()
     }
 
     /// Returns how the collar bone turns so that the target is no farther from the shoulder than the
@@ -347,6 +356,7 @@ impl<'a> Source<'a> {
         let (was, _) = twist_about(forearm.inverse() * held, bone);
         let (now, told) = twist_about(straight.inverse() * hand, bone);
         Turns {
+            old: [upper, forearm],
             upper: (turned(first, to) * upper).normalize(),
             forearm: straight,
             hand,
@@ -455,67 +465,6 @@ fn twist_about(q: DQuat, axis: DVec3) -> (f64, f64) {
     (2.0 * along.atan2(q.w), along * along + q.w * q.w)
 }
 
-/// Turns arms about the line from shoulder to wrist so that they go calmly: first the whole arm, then
-/// the elbow alone, where it stands otherwise than by its build.
-fn swivel(steps: &mut [Step], frame_time: f64) {
-    let was = swivels(steps.iter().map(|step| (line(step.was), step.pole)));
-    let is = swivels(
-        steps
-            .iter()
-            .map(|step| (line(step.is), step.carry * step.pole)),
-    );
-    if let Some(changes) = calmed(steps, &was, is, |_| 1.0, frame_time) {
-        for (step, change) in steps.iter_mut().zip(changes).filter(|(step, _)| step.moves) {
-            step.carry = DQuat::from_axis_angle(line(step.is), change) * step.carry;
-        }
-    }
-    let was = swivels(steps.iter().map(|step| (line(step.was), step.stands)));
-    let is = swivels(
-        steps
-            .iter()
-            .map(|step| (line(step.is), step.carry * step.bends)),
-    );
-    let seen = |step: &Step| (off_line(step.was) / off_line(step.is).max(1e-9)).min(1.0);
-    let changes = calmed(steps, &was, is, seen, frame_time);
-    for (n, step) in steps.iter_mut().enumerate().filter(|(_, step)| step.moves) {
-        let line = line(step.is);
-        let mut out = step.carry * step.bends;
-        if let Some(changes) = &changes {
-            out = DQuat::from_axis_angle(line, changes[n]) * out;
-        }
-        let out = out.reject_from_normalized(line).normalize_or(out);
-        let along = (step.is[1] - step.is[0]).dot(line);
-        step.is[1] = step.is[0] + line * along + out * off_line(step.is);
-    }
-}
-
-/// Calms angles about the new lines; of the turns of those about the old ones the share `seen` is
-/// their own way.
-fn calmed(
-    steps: &[Step],
-    was: &[f64],
-    is: Vec<f64>,
-    seen: impl Fn(&Step) -> f64,
-    frame_time: f64,
-) -> Option<Vec<f64>> {
-    let own = (0..steps.len()).map(|n| match n.checked_sub(1) {
-        Some(before) => {
-            let trust = steps[before].trust.min(steps[n].trust).min(1.0);
-            let turn = was[n] - was[before];
-            (turn - TAU * (turn / TAU).round()) * trust * seen(&steps[n])
-        }
-        None => 0.0,
-    });
-    let own = own.collect();
-    let trust = steps.iter().map(|step| step.trust).collect();
-    Angles {
-        values: is,
-        trust,
-        own,
-    }
-    .calmed(frame_time)
-}
-
 /// Returns where an elbow stands across the line from shoulder to wrist; as the arm becomes straight,
 /// so that this loses meaning, the share `grown` of where it would bend to counts more and more.
 fn bend(arm: [DVec3; 3], pole: DVec3, grown: f64) -> DVec3 {
@@ -533,33 +482,6 @@ fn off_line(arm: [DVec3; 3]) -> f64 {
     (arm[1] - arm[0]).reject_from_normalized(line(arm)).length()
 }
 
-/// Returns the angle of each direction about its line, against a direction that is carried along by
-/// the least turns of the lines.
-fn swivels(arms: impl Iterator<Item = (DVec3, DVec3)>) -> Vec<f64> {
-    let mut carried: Option<(DVec3, DVec3)> = None;
-    arms.map(|(line, out)| {
-        let across = match carried {
-            Some((before, across)) => carried_along(before, line, across),
-            None => line.any_orthonormal_vector(),
-        };
-        let across = across
-            .reject_from_normalized(line)
-            .normalize_or(line.any_orthonormal_vector());
-        carried = Some((line, across));
-        line.dot(across.cross(out)).atan2(across.dot(out))
-    })
-    .collect()
-}
-
-/// Returns what the least turn from one unit vector to another makes of a vector across the first.
-fn carried_along(from: DVec3, to: DVec3, across: DVec3) -> DVec3 {
-    let opposed = 1.0 + from.dot(to);
-    if opposed < 1e-9 {
-        return least_turn(from, to) * across;
-    }
-    across - (from + to) * (to.dot(across) / opposed)
-}
-
 /// Returns how much the source's swivel means where the arm goes: nothing for an arm that is folded
 /// on the shoulder, or points opposite to where it goes.
 fn meaning(was: [DVec3; 3], is: [DVec3; 3]) -> f64 {
@@ -571,30 +493,6 @@ fn meaning(was: [DVec3; 3], is: [DVec3; 3]) -> f64 {
 fn smooth(share: f64) -> f64 {
     let share = share.clamp(0.0, 1.0);
     share * share * (3.0 - 2.0 * share)
-}
-
-/// Lets the forearms' turns about their length go calmly.
-fn twist(steps: &[Step], turns: &mut [Turns], frame_time: f64) {
-    let trust = steps.iter().zip(turns.iter());
-    let angles = Angles {
-        values: turns.iter().map(|turn| turn.twist).collect(),
-        trust: trust
-            .map(|(step, turn)| {
-                if step.moves {
-                    (2.0 * turn.told).min(1.0)
-                } else {
-                    2.0
-                }
-            })
-            .collect(),
-        own: vec![0.0; turns.len()],
-    };
-    let Some(changes) = angles.calmed(frame_time) else {
-        return;
-    };
-    for (turn, change) in turns.iter_mut().zip(changes) {
-        turn.twist += change;
-    }
 }
 
 /// Brings wrist and hand of an arm that does nothing yet to where they should be, with the elbow

@@ -70,8 +70,8 @@ pub(crate) fn tables(captures: &[Capture]) -> Result<String> {
          far and near, and of all in reach. A \
          jump is a turn of upper arm or forearm from a frame to the next that is more than {JUMP}° \
          larger than the source's, where nothing of the source's arm turns by more than {CUT}°. Those \
-         that the wrist asks for are counted apart: there the line from shoulder to wrist, or the \
-         elbow's angle, which follow from the wrist's place, already turn by that much.\n\n{}",
+         that the wrist asks for are counted apart: where it is fixed, an elbow's angle changes by \
+         that much already, or the circles on which the elbow can be lie that far apart.\n\n{}",
         markdown(&HEAD, rows)
     ))
 }
@@ -240,21 +240,20 @@ fn jumps(capture: &Capture, clip: &Clip, made: &Clip, side: Side, found: &mut Fo
             if fastest[frame] > CUT.to_radians() {
                 continue;
             }
-            let [before, after] = [frame, frame + 1].map(|frame| Bend::of(made, &arm, frame));
-            let least = match joint == arm.upper {
-                true => {
-                    before.line.angle_between(after.line) - (after.shoulder - before.shoulder).abs()
+            let jumps = turn - source > JUMP.to_radians();
+            if jumps {
+                let [before, after] = [frame, frame + 1].map(|frame| Bend::of(made, &arm, frame));
+                let least = match joint == arm.upper {
+                    true => before.upper_to(&after),
+                    false => (after.elbow - before.elbow).abs(),
+                };
+                if least - source > JUMP.to_radians() {
+                    found.asked += 1;
+                    continue;
                 }
-                false => (after.elbow - before.elbow).abs(),
-            };
-            if least - source > JUMP.to_radians() {
-                found.asked += 1;
-                continue;
             }
             found.largest = found.largest.max(turn - source);
-            if turn - source > JUMP.to_radians() {
-                found.jumps[far] += 1;
-            }
+            found.jumps[far] += usize::from(jumps);
         }
     }
 }
@@ -262,9 +261,7 @@ fn jumps(capture: &Capture, clip: &Clip, made: &Clip, side: Side, found: &mut Fo
 /// How an arm is bent: the line from shoulder to wrist, and the angles that shoulder and elbow have
 /// with it in the plane of the arm.
 ///
-/// These follow from where the wrist is. As the upper arm turns with the line but for the change of
-/// its angle, and the forearm in the space of the upper arm at least by that of the elbow's, no arm
-/// with these bones can turn less.
+/// These follow from where the wrist is; the elbow may be anywhere on a circle about the line.
 struct Bend {
     line: DVec3,
     shoulder: f64,
@@ -282,6 +279,14 @@ impl Bend {
             shoulder: line.angle_between(upper),
             elbow: upper.angle_between(wrist - elbow),
         }
+    }
+
+    /// Returns the least turn of an upper arm from the one to the other, wherever the elbow is on its
+    /// circle in each: as far as the circles lie apart, seen from the shoulder.
+    fn upper_to(&self, after: &Self) -> f64 {
+        let apart = self.line.angle_between(after.line);
+        let within = (self.shoulder - after.shoulder).abs() - apart;
+        within.max(apart - self.shoulder - after.shoulder).max(0.0)
     }
 }
 

@@ -60,10 +60,11 @@ impl Angles {
         Some(changes.collect())
     }
 
-    /// Takes whole turns out, each angle against the last one that can be trusted.
+    /// Takes whole turns out, each angle against the last one that can be trusted and its own way since.
     fn unwrap(&mut self) {
         let mut last = self.values.first().copied().unwrap_or_default();
-        for (value, trust) in self.values.iter_mut().zip(&self.trust) {
+        for ((value, trust), own) in self.values.iter_mut().zip(&self.trust).zip(&self.own) {
+            last += own;
             *value -= TAU * ((*value - last + PI) / TAU).floor();
             if *trust > 0.3 {
                 last = *value;

@@ -1,0 +1,282 @@
+//! One angle a frame that is left free, chosen so that nothing jumps that can be kept from it.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use chereme_motion::glam::{DQuat, DVec3};
+
+/// The time before and after over which angles make way, in seconds.
+const EVEN: f64 = 0.25;
+/// What a turn that is too far weighs against an angle that makes way as far.
+const TOO_FAR: f64 = 2e6;
+/// The weight of an angle that must stay.
+const FIXED: f64 = 1e9;
+/// The most steps towards the least sum, and the longest of one angle, in radians.
+const STEPS: usize = 40;
+const LONGEST: f64 = 0.3;
+
+/// By how much something turns too far from a frame to the next, in radians, and how that changes
+/// with the angle at the one and at the other.
+pub(super) type Excess = Option<(f64, [f64; 2])>;
+
+/// A direction that a free angle takes about a line; both are unit vectors.
+pub(super) struct Circle {
+    pub(super) line: DVec3,
+    /// The direction at angle nought.
+    pub(super) start: DVec3,
+}
+
+impl Circle {
+    fn at(&self, angle: f64) -> DVec3 {
+        let along = self.line * self.line.dot(self.start);
+        along + (self.start - along) * angle.cos() + self.line.cross(self.start) * angle.sin()
+    }
+
+    /// Tells whether no direction turns by more than `most` from one frame to the next.
+    pub(super) fn is_calm(all: &[Self], most: f64) -> bool {
+        let least = most.min(PI).cos();
+        all.windows(2)
+            .all(|two| two[0].start.dot(two[1].start) >= least)
+    }
+
+    /// Returns by how much more than `most` the direction turns from one frame to the next.
+    pub(super) fn excess(two: [&Self; 2], angles: [f64; 2], most: f64) -> Excess {
+        let [before, now] = [0, 1].map(|n| two[n].at(angles[n]));
+        let turn = before.angle_between(now);
+        let sine = turn.sin();
+        (turn > most && sine > 1e-9).then(|| {
+            let ways = [
+                two[0].line.cross(before).dot(now),
+                two[1].line.cross(now).dot(before),
+            ];
+            (turn - most, ways.map(|way| -way / sine))
+        })
+    }
+}
+
+/// A rotation that a free angle goes on with about a line, a unit vector.
+pub(super) struct Turned {
+    pub(super) line: DVec3,
+    /// The rotation at angle nought.
+    pub(super) start: DQuat,
+}
+
+impl Turned {
+    /// Tells whether no rotation turns by more than `most` from one frame to the next.
+    pub(super) fn is_calm(all: &[Self], most: f64) -> bool {
+        let least = (most / 2.0).min(FRAC_PI_2).cos();
+        all.windows(2)
+            .all(|two| two[0].start.dot(two[1].start).abs() >= least)
+    }
+
+    /// Returns by how much more than `most` the rotation turns from one frame to the next.
+    pub(super) fn excess(two: [&Self; 2], angles: [f64; 2], most: f64) -> Excess {
+        let at = |n: usize| DQuat::from_axis_angle(two[n].line, angles[n]) * two[n].start;
+        let way = |n: usize, at: DQuat| DQuat::from_vec4(two[n].line.extend(0.0)) * at;
+        let [before, now] = [at(0), at(1)];
+        let cosine = before.dot(now);
+        let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+        let turn = 2.0 * sine.atan2(cosine.abs());
+        (turn > most && sine > 1e-9).then(|| {
+            let ways = [way(0, before).dot(now), way(1, now).dot(before)];
+            (turn - most, ways.map(|way| -way * cosine.signum() / sine))
+        })
+    }
+}
+
+/// Returns the angles, from nought, for which as little as can be turns too far; nothing where nothing
+/// does at nought. Those that are `fixed` stay.
+///
+/// The sum of the squares of the angles, of what they change from frame to frame, and of what
+/// `excess` returns for two frames, the second of which is named, is brought down by damped
+/// Gauss-Newton steps, each a tridiagonal solution.
+pub(super) fn eased(
+    fixed: &[bool],
+    frame_time: f64,
+    excess: impl Fn(usize, [f64; 2]) -> [Excess; 2],
+) -> Option<Vec<f64>> {
+    let weights: Vec<f64> = fixed
+        .iter()
+        .map(|&fixed| if fixed { FIXED } else { 1.0 })
+        .collect();
+    let stiff = (EVEN / frame_time).powi(2);
+    let pairs = |angles: &[f64]| -> Vec<[Excess; 2]> {
+        (1..angles.len())
+            .map(|n| excess(n, [angles[n - 1], angles[n]]))
+            .collect()
+    };
+    let sum = |angles: &[f64], pairs: &[[Excess; 2]]| {
+        let places = weights
+            .iter()
+            .zip(angles)
+            .map(|(weight, angle)| weight * angle * angle);
+        let turns = angles
+            .windows(2)
+            .map(|two| stiff * (two[1] - two[0]).powi(2));
+        let far = pairs
+            .iter()
+            .flatten()
+            .flatten()
+            .map(|(excess, _)| TOO_FAR * excess * excess);
+        places.sum::<f64>() + turns.sum::<f64>() + far.sum::<f64>()
+    };
+    let mut angles = vec![0.0; fixed.len()];
+    let mut far = pairs(&angles);
+    if far.iter().flatten().all(Option::is_none) {
+        return None;
+    }
+    let mut least = sum(&angles, &far);
+    let mut damping = 1.0;
+    for _ in 0..STEPS {
+        let mut equations = Equations::new(&weights, &angles, damping);
+        for n in 1..angles.len() {
+            equations.add(n, stiff, angles[n] - angles[n - 1], [-1.0, 1.0]);
+            for &(excess, ways) in far[n - 1].iter().flatten() {
+                equations.add(n, TOO_FAR, excess, ways);
+            }
+        }
+        let steps = equations.solved().into_iter();
+        let tried = angles
+            .iter()
+            .zip(steps)
+            .map(|(angle, step)| angle + step.clamp(-LONGEST, LONGEST));
+        let tried: Vec<f64> = tried.collect();
+        let now = pairs(&tried);
+        let total = sum(&tried, &now);
+        if total >= least {
+            damping *= 10.0;
+            continue;
+        }
+        let done = least - total < 1e-4 * least;
+        (angles, far, least, damping) = (tried, now, total, damping * 0.2);
+        if done {
+            break;
+        }
+    }
+    Some(angles)
+}
+
+/// Tridiagonal equations for a step of every angle.
+struct Equations {
+    diagonal: Vec<f64>,
+    /// What stands before the diagonal.
+    beside: Vec<f64>,
+    right: Vec<f64>,
+}
+
+impl Equations {
+    fn new(weights: &[f64], angles: &[f64], damping: f64) -> Self {
+        Self {
+            diagonal: weights.iter().map(|weight| weight + damping).collect(),
+            beside: vec![0.0; weights.len()],
+            right: weights
+                .iter()
+                .zip(angles)
+                .map(|(weight, angle)| -weight * angle)
+                .collect(),
+        }
+    }
+
+    /// Adds the square of a value that changes with the angles of two frames.
+    fn add(&mut self, n: usize, weight: f64, value: f64, [before, now]: [f64; 2]) {
+        self.diagonal[n - 1] += weight * before * before;
+        self.diagonal[n] += weight * now * now;
+        self.beside[n] += weight * before * now;
+        self.right[n - 1] -= weight * value * before;
+        self.right[n] -= weight * value * now;
+    }
+
+    fn solved(mut self) -> Vec<f64> {
+        let len = self.right.len();
+        for n in 1..len {
+            let share = self.beside[n] / self.diagonal[n - 1];
+            self.diagonal[n] -= share * self.beside[n];
+            self.right[n] -= share * self.right[n - 1];
+        }
+        for n in (0..len).rev() {
+            if n + 1 < len {
+                self.right[n] -= self.beside[n + 1] * self.right[n + 1];
+            }
+            self.right[n] /= self.diagonal[n];
+        }
+        self.right
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRAME: f64 = 1.0 / 120.0;
+    const MOST: f64 = 0.07;
+
+    /// An elbow whose wrist passes above the shoulder: the line turns fastest in the middle.
+    fn passing() -> Vec<Circle> {
+        let at = |n: i32| {
+            let line = DVec3::new(f64::from(n - 120) * 0.02, 0.2, 0.0).normalize();
+            let out = DVec3::new(-line.y * 0.9, line.x * 0.9, 0.3).normalize();
+            let start = (line * 0.4 + out).normalize();
+            Circle { line, start }
+        };
+        (0..240).map(at).collect()
+    }
+
+    fn ease(circles: &[Circle], fixed: &[bool]) -> Option<Vec<f64>> {
+        eased(fixed, FRAME, |n, angles| {
+            [
+                Circle::excess([&circles[n - 1], &circles[n]], angles, MOST),
+                None,
+            ]
+        })
+    }
+
+    fn farthest(circles: &[Circle], angles: &[f64]) -> f64 {
+        let at: Vec<DVec3> = circles.iter().zip(angles).map(|(c, &a)| c.at(a)).collect();
+        let turns = at.windows(2).map(|two| two[0].angle_between(two[1]));
+        turns.fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn elbows_make_way_before_and_after() {
+        let circles = passing();
+        let fixed: Vec<bool> = (0..240).map(|n| n < 5).collect();
+        let angles = ease(&circles, &fixed).expect("it turns too far");
+        let [was, is] = [farthest(&circles, &[0.0; 240]), farthest(&circles, &angles)];
+        assert!(was > 0.09 && is < MOST + 0.01, "{was} {is}");
+        assert!(angles[..5].iter().all(|angle| angle.abs() < 1e-4));
+        let turns = angles.windows(2).map(|two| (two[1] - two[0]).abs());
+        assert!(turns.fold(0.0, f64::max) < MOST);
+    }
+
+    #[test]
+    fn what_does_not_turn_too_far_stays() {
+        assert_eq!(ease(&passing()[..60], &[false; 60]), None);
+        assert_eq!(ease(&[], &[]), None);
+    }
+
+    #[test]
+    fn excesses_change_as_their_differences_say() {
+        let lines = [DVec3::X, DVec3::new(0.6, 0.8, 0.0)];
+        let starts = [DVec3::new(0.0, 0.6, 0.8), DVec3::new(0.36, 0.48, 0.8)];
+        let circles = [0, 1].map(|n| Circle {
+            line: lines[n],
+            start: starts[n],
+        });
+        let turned = [0, 1].map(|n| Turned {
+            line: lines[n],
+            start: DQuat::from_rotation_arc(starts[n], lines[1 - n]),
+        });
+        let circle = |angles| Circle::excess([&circles[0], &circles[1]], angles, 0.01);
+        let turn = |angles| Turned::excess([&turned[0], &turned[1]], angles, 0.01);
+        let forms: [&dyn Fn([f64; 2]) -> Excess; 2] = [&circle, &turn];
+        for form in forms {
+            let value = |a, b| form([a, b]).expect("it turns").0;
+            let (_, ways) = form([0.3, -0.2]).expect("it turns");
+            let [before, now] = [
+                value(0.3 + 1e-6, -0.2) - value(0.3 - 1e-6, -0.2),
+                value(0.3, -0.2 + 1e-6) - value(0.3, -0.2 - 1e-6),
+            ];
+            assert!((ways[0] - before / 2e-6).abs() < 1e-6, "{ways:?} {before}");
+            assert!((ways[1] - now / 2e-6).abs() < 1e-6, "{ways:?} {now}");
+        }
+    }
+}

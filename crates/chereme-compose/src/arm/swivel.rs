@@ -1,0 +1,282 @@
+//! Turns of arms about the line from shoulder to wrist, and of their bones about their length, over
+//! all frames at once.
+
+use std::f64::consts::TAU;
+
+use chereme_motion::glam::{DQuat, DVec3};
+
+use super::calm::Angles;
+use super::ease::{Circle, Turned, eased};
+use super::{Source, Step, Turns, least_turn, line, off_line};
+
+/// How fast an elbow may go about its shoulder, and how fast upper arm and forearm may turn, beyond the
+/// source's, in radians per second: 3.8 and 4.5 degrees a frame at 120 Hz.
+const SWING: f64 = 7.3;
+const TURN: f64 = 9.0;
+
+/// Turns arms about the line from shoulder to wrist so that they go calmly: first the whole arm, then
+/// the elbow alone, where it stands otherwise than by its build.
+pub(super) fn swivel(steps: &mut [Step], frame_time: f64) {
+    let was = swivels(steps.iter().map(|step| (line(step.was), step.pole)));
+    let is = swivels(
+        steps
+            .iter()
+            .map(|step| (line(step.is), step.carry * step.pole)),
+    );
+    if let Some(changes) = calmed(steps, &was, is, |_| 1.0, frame_time) {
+        for (step, change) in steps.iter_mut().zip(changes).filter(|(step, _)| step.moves) {
+            step.carry = DQuat::from_axis_angle(line(step.is), change) * step.carry;
+        }
+    }
+    let was = swivels(steps.iter().map(|step| (line(step.was), step.stands)));
+    let is = swivels(
+        steps
+            .iter()
+            .map(|step| (line(step.is), step.carry * step.bends)),
+    );
+    let seen = |step: &Step| (off_line(step.was) / off_line(step.is).max(1e-9)).min(1.0);
+    let changes = calmed(steps, &was, is, seen, frame_time);
+    for (n, step) in steps.iter_mut().enumerate().filter(|(_, step)| step.moves) {
+        let line = line(step.is);
+        let mut out = step.carry * step.bends;
+        if let Some(changes) = &changes {
+            out = DQuat::from_axis_angle(line, changes[n]) * out;
+        }
+        let out = out.reject_from_normalized(line).normalize_or(out);
+        let along = (step.is[1] - step.is[0]).dot(line);
+        step.is[1] = step.is[0] + line * along + out * off_line(step.is);
+    }
+}
+
+/// Calms angles about the new lines; of the turns of those about the old ones the share `seen` is
+/// their own way.
+fn calmed(
+    steps: &[Step],
+    was: &[f64],
+    is: Vec<f64>,
+    seen: impl Fn(&Step) -> f64,
+    frame_time: f64,
+) -> Option<Vec<f64>> {
+    let own = own(was).into_iter().enumerate().map(|(n, turn)| {
+        let trust = steps[n.saturating_sub(1)].trust.min(steps[n].trust);
+        turn * trust.min(1.0) * seen(&steps[n])
+    });
+    let own = own.collect();
+    let trust = steps.iter().map(|step| step.trust).collect();
+    Angles {
+        values: is,
+        trust,
+        own,
+    }
+    .calmed(frame_time)
+}
+
+/// Returns the angle of each direction about its line, against a direction that is carried along by
+/// the least turns of the lines.
+fn swivels(arms: impl Iterator<Item = (DVec3, DVec3)>) -> Vec<f64> {
+    let mut carried: Option<(DVec3, DVec3)> = None;
+    arms.map(|(line, out)| {
+        let across = match carried {
+            Some((before, across)) => carried_along(before, line, across),
+            None => line.any_orthonormal_vector(),
+        };
+        let across = across
+            .reject_from_normalized(line)
+            .normalize_or(line.any_orthonormal_vector());
+        carried = Some((line, across));
+        line.dot(across.cross(out)).atan2(across.dot(out))
+    })
+    .collect()
+}
+
+/// Returns what the least turn from one unit vector to another makes of a vector across the first.
+fn carried_along(from: DVec3, to: DVec3, across: DVec3) -> DVec3 {
+    let opposed = 1.0 + from.dot(to);
+    if opposed < 1e-9 {
+        return least_turn(from, to) * across;
+    }
+    across - (from + to) * (to.dot(across) / opposed)
+}
+
+/// Returns by how much each angle turns from the one before, the short way.
+fn own(angles: &[f64]) -> Vec<f64> {
+    let turned = |n: usize| match n.checked_sub(1) {
+        Some(before) => {
+            let turn = angles[n] - angles[before];
+            turn - TAU * (turn / TAU).round()
+        }
+        None => 0.0,
+    };
+    (0..angles.len()).map(turned).collect()
+}
+
+/// Returns by how much `q` turns.
+fn angle(q: DQuat) -> f64 {
+    2.0 * q.xyz().length().atan2(q.w.abs())
+}
+
+/// Returns for each frame how far something may turn from the one before: by `more` than `source` says
+/// that it did.
+fn most(frames: usize, more: f64, source: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+    let most = |n: usize| {
+        n.checked_sub(1)
+            .map_or(0.0, |before| source(before, n) + more)
+    };
+    (0..frames).map(most).collect()
+}
+
+fn stay(steps: &[Step]) -> Vec<bool> {
+    steps.iter().map(|step| !step.moves).collect()
+}
+
+/// Turns arms about their lines where elbows would jump that could make way.
+pub(super) fn ease(source: &Source, steps: &mut [Step], frame_time: f64) {
+    let trunk: Vec<DQuat> = source.trunks(steps.len());
+    let circles = steps.iter().zip(&trunk).map(|(step, trunk)| Circle {
+        line: *trunk * line(step.is),
+        start: *trunk * bones(step.is)[0],
+    });
+    let circles: Vec<Circle> = circles.collect();
+    if Circle::is_calm(&circles, SWING * frame_time) {
+        return;
+    }
+    let was: Vec<DVec3> = (0..steps.len())
+        .map(|n| trunk[n] * bones(steps[n].was)[0])
+        .collect();
+    let most = most(steps.len(), SWING * frame_time, |before, n| {
+        was[before].angle_between(was[n])
+    });
+    let changes = eased(&stay(steps), frame_time, |n, angles| {
+        let two = [&circles[n - 1], &circles[n]];
+        [Circle::excess(two, angles, most[n]), None]
+    });
+    let Some(changes) = changes else {
+        return;
+    };
+    for (step, change) in steps.iter_mut().zip(changes).filter(|(step, _)| step.moves) {
+        let turn = DQuat::from_axis_angle(line(step.is), change);
+        step.is[1] = step.is[0] + turn * (step.is[1] - step.is[0]);
+        step.carry = turn * step.carry;
+    }
+}
+
+/// Lets the bones turn about their length so that neither jumps: the upper arm in the space of the
+/// trunk, the forearm in that of the upper arm.
+pub(super) fn twist(source: &Source, steps: &[Step], turns: &mut [Turns], frame_time: f64) {
+    let stay = stay(steps);
+    let more = TURN * frame_time;
+    twist_upper(source, steps, turns, &stay, frame_time);
+    let seen = |turn: &Turns| turn.old[0].inverse() * turn.old[1];
+    let was: Vec<DQuat> = turns.iter().map(seen).collect();
+    calm_forearm(&was, turns, &stay, frame_time);
+    let turned = turns.iter().map(|turn| {
+        let seen = turn.upper.inverse() * turn.forearm;
+        let line = seen * turn.bone;
+        Turned {
+            line,
+            start: DQuat::from_axis_angle(line, turn.twist) * seen,
+        }
+    });
+    let turned: Vec<Turned> = turned.collect();
+    if Turned::is_calm(&turned, more) {
+        return;
+    }
+    let most = most(turns.len(), more, |before, n| {
+        angle(was[before].inverse() * was[n])
+    });
+    let changes = eased(&stay, frame_time, |n, angles| {
+        let two = [&turned[n - 1], &turned[n]];
+        [Turned::excess(two, angles, most[n]), None]
+    });
+    for (turn, change) in turns.iter_mut().zip(changes.into_iter().flatten()) {
+        turn.twist += change;
+    }
+}
+
+/// Turns upper arms about their length where they, or forearms in their space, would jump.
+fn twist_upper(
+    source: &Source,
+    steps: &[Step],
+    turns: &mut [Turns],
+    stay: &[bool],
+    frame_time: f64,
+) {
+    let (trunk, more) = (source.trunks(steps.len()), TURN * frame_time);
+    let turned = (0..steps.len()).map(|n| Turned {
+        line: trunk[n] * bones(steps[n].is)[0],
+        start: trunk[n] * turns[n].upper,
+    });
+    let turned: Vec<Turned> = turned.collect();
+    let circles = steps.iter().zip(turns.iter()).map(|(step, turn)| {
+        let [upper, forearm] = bones(step.is).map(|bone| turn.upper.inverse() * bone);
+        Circle {
+            line: -upper,
+            start: forearm,
+        }
+    });
+    let circles: Vec<Circle> = circles.collect();
+    if Turned::is_calm(&turned, more) && Circle::is_calm(&circles, more) {
+        return;
+    }
+    let uppers = most(steps.len(), more, |a, b| {
+        angle((trunk[a] * turns[a].old[0]).inverse() * trunk[b] * turns[b].old[0])
+    });
+    let fore = |n: usize| turns[n].old[0].inverse() * bones(steps[n].was)[1];
+    let forearms = most(steps.len(), more, |a, b| fore(a).angle_between(fore(b)));
+    let changes = eased(stay, frame_time, |n, angles| {
+        [
+            Turned::excess([&turned[n - 1], &turned[n]], angles, uppers[n]),
+            Circle::excess([&circles[n - 1], &circles[n]], angles, forearms[n]),
+        ]
+    });
+    for (n, change) in changes
+        .into_iter()
+        .flatten()
+        .enumerate()
+        .filter(|(n, _)| !stay[*n])
+    {
+        let turn = DQuat::from_axis_angle(bones(steps[n].is)[0], change);
+        turns[n].upper = (turn * turns[n].upper).normalize();
+    }
+}
+
+/// Lets forearms turn about their length as calmly as the source's, which `was` has in the space of
+/// the upper arm.
+fn calm_forearm(was: &[DQuat], turns: &mut [Turns], stay: &[bool], frame_time: f64) {
+    let Some(mark) = turns.first().map(|turn| turn.bone.any_orthonormal_vector()) else {
+        return;
+    };
+    let own = own(&swivels(
+        was.iter()
+            .zip(turns.iter())
+            .map(|(was, turn)| (*was * turn.bone, *was * mark)),
+    ));
+    let values = swivels(turns.iter().map(|turn| {
+        let seen = turn.upper.inverse() * turn.forearm;
+        (seen * turn.bone, seen * mark)
+    }));
+    let trust = turns.iter().zip(stay).map(|(turn, stay)| match stay {
+        true => 2.0,
+        false => (2.0 * turn.told).min(1.0),
+    });
+    let angles = Angles {
+        trust: trust.collect(),
+        values: values
+            .iter()
+            .zip(turns.iter())
+            .map(|(value, turn)| value + turn.twist)
+            .collect(),
+        own,
+    };
+    for (turn, change) in turns
+        .iter_mut()
+        .zip(angles.calmed(frame_time).into_iter().flatten())
+    {
+        turn.twist += change;
+    }
+}
+
+/// Returns the directions of upper arm and forearm.
+fn bones([shoulder, elbow, wrist]: [DVec3; 3]) -> [DVec3; 2] {
+    [elbow - shoulder, wrist - elbow].map(DVec3::normalize_or_zero)
+}
