@@ -5,9 +5,12 @@
 //! | [`dtw`] | dynamic time warping: alignments, distances, nearest neighbours |
 //! | [`score`](mod@score) | how alike two performances are, component by component, with their alignment |
 //! | [`strokes`](mod@strokes) | transitions of wrists and fingers between two minima of their speed |
+//! | [`transcribe`](mod@transcribe) | the notation of a sign: HamNoSys with residuals |
 
 pub mod dtw;
 pub mod score;
 pub mod strokes;
+pub mod transcribe;
 
 pub use score::{Score, ScoreError, ScoreOptions, score};
+pub use transcribe::{Transcription, transcribe};

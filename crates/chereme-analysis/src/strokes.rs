@@ -124,7 +124,8 @@ fn speeds(frames: usize, clip: &Clip, distance: impl Fn(usize, usize) -> f64) ->
         .collect()
 }
 
-fn smoothed(speeds: &[f64], clip: &Clip) -> Vec<f64> {
+/// Returns speeds smoothed by a Gauss curve, so that their minima are those of the movement.
+pub(crate) fn smoothed(speeds: &[f64], clip: &Clip) -> Vec<f64> {
     let frame = clip.rate().frame_time();
     let reach = ((3.0 * SMOOTH / frame).ceil() as usize).min(speeds.len());
     let bell: Vec<f64> = (0..=reach)
@@ -145,7 +146,7 @@ fn smoothed(speeds: &[f64], clip: &Clip) -> Vec<f64> {
 }
 
 /// Returns the stretches between two minima around each peak of at least `least`.
-fn between_minima(speeds: &[f64], least: f64) -> Vec<Range<usize>> {
+pub(crate) fn between_minima(speeds: &[f64], least: f64) -> Vec<Range<usize>> {
     let peak = |n: usize| {
         let (before, after) = (n.checked_sub(1).map(|m| speeds[m]), speeds.get(n + 1));
         speeds[n] >= least

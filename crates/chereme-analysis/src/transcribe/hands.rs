@@ -1,0 +1,202 @@
+//! How the two hands go together: one alone, both alike by a symmetry, or each for itself.
+
+use std::ops::RangeInclusive;
+
+use chereme_sign::hamnosys::Symmetry;
+use glam::DVec3;
+
+use super::acts::LAP;
+use super::scene::{Scene, Track, length};
+
+/// A hand whose way is shorter than this, in arm lengths, stays where it is.
+const STAYS: f64 = 0.05;
+/// Ways are alike where what differs is less than this share of what they have.
+const ALIKE: f64 = 0.3;
+/// Postures are alike where hands point within this angle, in radians, and fingers within that.
+const POINTS: f64 = 0.6;
+const SHAPED: f64 = 0.4;
+/// Places mirror each other where they differ by less than this, in arm lengths.
+const PLACED: f64 = 0.22;
+
+/// How the other hand goes with the dominant one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Relation {
+    pub(super) kind: RelationKind,
+    /// What differs, as a share of what there is.
+    pub(super) residual: f64,
+    /// The next best, with its share.
+    pub(super) runner_up: Option<(RelationKind, f64)>,
+}
+
+/// The kinds of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum RelationKind {
+    /// It rests.
+    Alone,
+    /// It follows by a symmetry.
+    Alike(Symmetry),
+    /// It is held, or moves for itself.
+    Unlike { moves: bool },
+}
+
+impl RelationKind {
+    /// Returns it in a few words.
+    pub(super) fn words(&self) -> String {
+        match self {
+            Self::Alone => "one hand".to_owned(),
+            Self::Unlike { moves: false } => "the other is held".to_owned(),
+            Self::Unlike { moves: true } => "each for itself".to_owned(),
+            Self::Alike(symmetry) => {
+                let marks = [
+                    (symmetry.left_right, "left-right"),
+                    (symmetry.up_down, "up-down"),
+                    (symmetry.out_in, "out-in"),
+                ];
+                let mut words: Vec<&str> = marks
+                    .iter()
+                    .filter_map(|(is, word)| is.then_some(*word))
+                    .collect();
+                if words.is_empty() {
+                    words.push("parallel");
+                }
+                if symmetry.out_of_phase {
+                    words.push("alternating");
+                }
+                words.join(" ")
+            }
+        }
+    }
+}
+
+/// Returns the signs that a symmetry gives left, up and forward.
+pub(super) fn signs(symmetry: &Symmetry) -> DVec3 {
+    let sign = |mirrored: bool| if mirrored { -1.0 } else { 1.0 };
+    DVec3::new(
+        sign(symmetry.left_right),
+        sign(symmetry.up_down),
+        sign(symmetry.out_in),
+    )
+}
+
+/// The symmetries that are tried, the commoner first.
+fn symmetries() -> impl Iterator<Item = Symmetry> {
+    let of = |left_right, up_down, out_in| Symmetry {
+        left_right,
+        up_down,
+        out_in,
+        ..Symmetry::default()
+    };
+    [
+        of(true, false, false),
+        of(false, false, false),
+        of(true, true, false),
+        of(true, false, true),
+        of(true, true, true),
+        of(false, true, false),
+        of(false, false, true),
+    ]
+    .into_iter()
+    .flat_map(|plain| {
+        let behind = Symmetry {
+            out_of_phase: true,
+            ..plain
+        };
+        [plain, behind]
+    })
+}
+
+/// Returns how the other hand goes with the dominant one in a stretch of frames.
+pub(super) fn relation(scene: &Scene<'_>, frames: &RangeInclusive<usize>) -> Relation {
+    let alone = Relation {
+        kind: RelationKind::Alone,
+        residual: 0.0,
+        runner_up: None,
+    };
+    let [Some(dominant), Some(other)] = &scene.hands else {
+        return alone;
+    };
+    let (first, last) = (*frames.start(), *frames.end());
+    let middle = first + (last - first) / 2;
+    let still = |track: &Track| length(&track.palm[first..=last]) < STAYS * scene.arm;
+    let lies = still(other) && other.palm[middle].y < LAP * scene.arm;
+    let resting = [first, middle, last]
+        .iter()
+        .filter(|&&frame| other.rests[frame])
+        .count();
+    if resting >= 2 || (lies && !still(dominant)) {
+        return alone;
+    }
+    let stays = [dominant, other].map(still);
+    let mut best: Vec<(Symmetry, f64)> = symmetries()
+        .filter_map(|symmetry| {
+            let off = if stays == [true, true] {
+                held_alike(scene, [dominant, other], first, &symmetry)
+            } else if stays[0] == stays[1] {
+                moved_alike([dominant, other], first, last, &symmetry)
+            } else {
+                None
+            };
+            Some((symmetry, off?))
+        })
+        .collect();
+    best.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let unlike = RelationKind::Unlike { moves: !stays[1] };
+    match best.first() {
+        Some(&(symmetry, off)) if off < ALIKE => Relation {
+            kind: RelationKind::Alike(symmetry),
+            residual: off,
+            runner_up: best
+                .get(1)
+                .map(|&(symmetry, off)| (RelationKind::Alike(symmetry), off)),
+        },
+        other => Relation {
+            kind: unlike,
+            residual: 0.0,
+            runner_up: other.map(|&(symmetry, off)| (RelationKind::Alike(symmetry), off)),
+        },
+    }
+}
+
+/// Returns how much hands that stay differ from a symmetry: 0 where they mirror each other.
+fn held_alike(
+    scene: &Scene<'_>,
+    [a, b]: [&Track; 2],
+    frame: usize,
+    symmetry: &Symmetry,
+) -> Option<f64> {
+    if symmetry.out_of_phase || symmetry.up_down || symmetry.out_in {
+        return None;
+    }
+    let off = posture_off([a, b], frame, symmetry)?;
+    let place = a.palm[frame] * DVec3::new(-1.0, 1.0, 1.0);
+    let apart = place.distance(b.palm[frame]) / (PLACED * scene.arm);
+    (apart < 1.0).then_some(off.max(0.25 * apart))
+}
+
+/// Returns how much two postures differ from a symmetry; nothing where they are unlike.
+fn posture_off([a, b]: [&Track; 2], frame: usize, symmetry: &Symmetry) -> Option<f64> {
+    let signs = signs(symmetry);
+    let along = (a.along[frame] * signs).angle_between(b.along[frame]);
+    let normal = (a.normal[frame] * signs).angle_between(b.normal[frame]);
+    let shaped = a.known.apart(&a.angles[frame], &b.angles[frame]);
+    let off = (along / POINTS).max(normal / POINTS).max(shaped / SHAPED);
+    (off < 1.0).then_some(ALIKE * off)
+}
+
+/// Returns how much the ways of two hands differ from a symmetry, as a share of what they are; for
+/// ways that more than one symmetry fits, their postures decide.
+fn moved_alike([a, b]: [&Track; 2], first: usize, last: usize, symmetry: &Symmetry) -> Option<f64> {
+    let signs = signs(symmetry) * if symmetry.out_of_phase { -1.0 } else { 1.0 };
+    let (mut off, mut all) = (0.0, 0.0);
+    for n in first..last {
+        let (da, db) = (a.palm[n + 1] - a.palm[n], b.palm[n + 1] - b.palm[n]);
+        off += (da * signs - db).length_squared();
+        all += da.length_squared() + db.length_squared();
+    }
+    let off = off / all.max(1e-12);
+    let posture = posture_off([a, b], first, symmetry).unwrap_or(ALIKE);
+    // Of symmetries that fit the ways alike, the plainer and the one that postures have.
+    let marks = [symmetry.up_down, symmetry.out_in, symmetry.out_of_phase];
+    let marks = marks.iter().filter(|mark| **mark).count() as f64;
+    Some(off + 0.1 * posture + 0.01 * marks)
+}

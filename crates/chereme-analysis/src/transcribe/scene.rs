@@ -1,0 +1,241 @@
+//! What the hands do in the signer's own space, frame by frame.
+
+use chereme_motion::{Anatomy, Clip, HandAngles, ModelPose, Part, Side};
+use chereme_sign::hamnosys::BodyLanguage;
+use glam::{DMat3, DQuat, DVec3};
+
+use super::shape::Known;
+use super::{Options, TranscribeError};
+
+/// The signer, with the dominant hand first.
+///
+/// Vectors are to the signer's left, up and forward, level with the ground, in metres from the middle of
+/// the shoulders. For a left-handed signer left and right are exchanged, so that everything reads as
+/// if the right hand were dominant.
+pub(super) struct Scene<'a> {
+    pub(super) clip: &'a Clip,
+    pub(super) anatomy: &'a Anatomy,
+    pub(super) language: &'a BodyLanguage,
+    pub(super) dominant: Side,
+    /// The arm's length, the shoulders' width and the hand's length in metres.
+    pub(super) arm: f64,
+    pub(super) shoulders: f64,
+    pub(super) hand: f64,
+    pub(super) hands: [Option<Track>; 2],
+}
+
+/// One hand through time.
+pub(super) struct Track {
+    pub(super) side: Side,
+    pub(super) wrist: Vec<DVec3>,
+    /// The middle of the palm.
+    pub(super) palm: Vec<DVec3>,
+    /// From the wrist to the middle knuckle, of unit length.
+    pub(super) along: Vec<DVec3>,
+    /// Out of the palm, of unit length.
+    pub(super) normal: Vec<DVec3>,
+    /// Whether the skeleton tells where the palm faces.
+    pub(super) faces: bool,
+    /// The hand's own axes as a rotation.
+    pub(super) turned: Vec<DQuat>,
+    pub(super) angles: Vec<HandAngles>,
+    pub(super) known: Known,
+    pub(super) missing: Vec<Part>,
+    /// Whether the hand hangs at rest or the arm sticks out as in a reference posture.
+    pub(super) rests: Vec<bool>,
+}
+
+/// The signer's level axes in one posture.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Axes {
+    origin: DVec3,
+    left: DVec3,
+    forward: DVec3,
+}
+
+impl Axes {
+    pub(super) fn of(anatomy: &Anatomy, model: &ModelPose, dominant: Side) -> Option<Self> {
+        let body = anatomy.body_frame(model)?;
+        let level = DVec3::new(body.forward.x, 0.0, body.forward.z);
+        let forward = level.try_normalize()?;
+        let left = DVec3::Y.cross(forward);
+        Some(Self {
+            origin: body.origin,
+            left: left * -dominant.sign(),
+            forward,
+        })
+    }
+
+    /// Returns a direction of model space to the left, up and forward.
+    pub(super) fn direction(&self, v: DVec3) -> DVec3 {
+        DVec3::new(v.dot(self.left), v.y, v.dot(self.forward))
+    }
+
+    /// Returns a place of model space to the left, up and forward of the shoulders' middle.
+    pub(super) fn place(&self, at: DVec3) -> DVec3 {
+        self.direction(at - self.origin)
+    }
+}
+
+impl<'a> Scene<'a> {
+    pub(super) fn of(
+        clip: &'a Clip,
+        anatomy: &'a Anatomy,
+        options: &'a Options,
+    ) -> Result<Self, TranscribeError> {
+        let seconds = clip.span().seconds();
+        if clip.frames() == 0 {
+            return Err(TranscribeError::Empty);
+        }
+        if seconds > options.longest {
+            let most = options.longest;
+            return Err(TranscribeError::TooLong { seconds, most });
+        }
+        let measures = anatomy.measures().ok_or(TranscribeError::NoBody)?;
+        let mut scene = Self {
+            clip,
+            anatomy,
+            language: &options.language,
+            dominant: options.dominant,
+            arm: measures.arm,
+            shoulders: measures.shoulder_width,
+            hand: measures.hand,
+            hands: [None, None],
+        };
+        let mut tracks = [options.dominant, options.dominant.other()]
+            .map(|side| anatomy.arm(side).map(|_| Track::new(anatomy, side)));
+        let mut model = clip.model_pose(0);
+        for frame in 0..clip.frames() {
+            let pose = clip.pose(frame);
+            model.set(clip.skeleton(), &pose);
+            let axes =
+                Axes::of(anatomy, &model, options.dominant).ok_or(TranscribeError::NoBody)?;
+            for track in tracks.iter_mut().flatten() {
+                let angles = anatomy.hand_angles(clip.skeleton(), track.side, &pose);
+                track.angles.push(angles.unwrap_or_default());
+                scene.add(track, &model, &axes);
+            }
+        }
+        if tracks.iter().all(Option::is_none) {
+            return Err(TranscribeError::NoBody);
+        }
+        scene.hands = tracks;
+        Ok(scene)
+    }
+
+    fn add(&self, track: &mut Track, model: &ModelPose, axes: &Axes) {
+        let (anatomy, side) = (self.anatomy, track.side);
+        let Some(arm) = anatomy.arm(side) else {
+            return;
+        };
+        let wrist = model.position(arm.hand);
+        let along = anatomy.hand_direction(side, model);
+        let along = along.unwrap_or(DVec3::NEG_Y);
+        let normal = anatomy.palm_normal(side, model).unwrap_or_else(|| {
+            let any = model.rotation(arm.hand) * DVec3::Z;
+            any.reject_from_normalized(along)
+                .normalize_or(along.any_orthonormal_vector())
+        });
+        let shoulder = model.position(arm.upper);
+        let (a, n) = (axes.direction(along), axes.direction(normal));
+        track.wrist.push(axes.place(wrist));
+        let palm = anatomy.landmark(self.clip.skeleton(), model, palm_name(side));
+        track.palm.push(axes.place(palm.unwrap_or(wrist)));
+        track.along.push(a);
+        track.normal.push(n);
+        track.turned.push(rotation(a, n));
+        track
+            .rests
+            .push(self.rests(axes.direction(wrist - shoulder)));
+    }
+
+    /// Tells whether an arm hangs down, or sticks out sideways as in a reference posture.
+    fn rests(&self, reach: DVec3) -> bool {
+        let long = reach.length() / self.arm;
+        let way = reach.normalize_or(DVec3::NEG_Y);
+        let hangs = way.y < -0.78 && long > 0.8 && reach.z < 0.35 * self.arm;
+        let sticks = way.x.abs() > 0.85 && long > 0.93 && way.z.abs() < 0.4;
+        hangs || sticks
+    }
+
+    /// Returns frames for a time in seconds, one at least.
+    pub(super) fn frames(&self, seconds: f64) -> usize {
+        (seconds * self.clip.rate().per_second()).round().max(1.0) as usize
+    }
+
+    /// Returns the time between two frames in seconds.
+    pub(super) fn seconds(&self, frames: usize) -> f64 {
+        frames as f64 * self.clip.rate().frame_time()
+    }
+}
+
+impl Track {
+    fn new(anatomy: &Anatomy, side: Side) -> Self {
+        let (known, missing) = Known::of(anatomy, side);
+        Self {
+            side,
+            wrist: Vec::new(),
+            palm: Vec::new(),
+            along: Vec::new(),
+            normal: Vec::new(),
+            faces: anatomy
+                .joint(Part::Hand(side))
+                .is_some_and(|_| anatomy.hand_rotation(side, DVec3::Z, DVec3::Y).is_some()),
+            turned: Vec::new(),
+            angles: Vec::new(),
+            known,
+            missing,
+            rests: Vec::new(),
+        }
+    }
+
+    /// Returns where a point of the hand goes that is at `at` in a frame, all fingers held.
+    pub(super) fn carried(&self, at: DVec3, frame: usize) -> Vec<DVec3> {
+        let own = self.turned[frame].inverse() * (at - self.wrist[frame]);
+        self.wrist
+            .iter()
+            .zip(&self.turned)
+            .map(|(wrist, turned)| *wrist + *turned * own)
+            .collect()
+    }
+
+    /// Returns by which rotation vector the hand turned between two frames, in its own space.
+    pub(super) fn turn(&self, first: usize, last: usize) -> DVec3 {
+        let turn = self.turned[first].inverse() * self.turned[last];
+        scaled(turn)
+    }
+
+    /// Returns how far the fingers' angles are apart in two frames: the root of the mean square over
+    /// the angles that are known, in radians.
+    pub(super) fn reshaped(&self, first: usize, last: usize) -> f64 {
+        self.known.apart(&self.angles[first], &self.angles[last])
+    }
+}
+
+fn palm_name(side: Side) -> &'static str {
+    match side {
+        Side::Right => "right-palm",
+        Side::Left => "left-palm",
+    }
+}
+
+/// Returns the axis of a turn as long as its angle in radians.
+pub(super) fn scaled(turn: DQuat) -> DVec3 {
+    let turn = if turn.w < 0.0 { -turn } else { turn };
+    turn.to_scaled_axis()
+}
+
+fn rotation(along: DVec3, normal: DVec3) -> DQuat {
+    let normal = normal
+        .reject_from(along)
+        .normalize_or(along.any_orthonormal_vector());
+    DQuat::from_mat3(&DMat3::from_cols(along, normal, along.cross(normal))).normalize()
+}
+
+/// Returns how long a way through points is.
+pub(super) fn length(points: &[DVec3]) -> f64 {
+    points
+        .windows(2)
+        .map(|pair| pair[0].distance(pair[1]))
+        .sum()
+}

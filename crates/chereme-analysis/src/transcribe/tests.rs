@@ -1,0 +1,403 @@
+//! Signs built in code from the tables that notation is animated with, and read back.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use chereme_motion::{Channel, Clip, Finger, Joint, Rate, Side, Skeleton};
+use chereme_sign::hamnosys::angles::hand_angles;
+use chereme_sign::hamnosys::{
+    Aim, BodyLocation, Compass, Contact, Directed, Direction, HandClass, HandsUsed, Handshape,
+    Manual, MotionKind, Place, Repeat, Size, ThumbPosition, WristMotion, orientation,
+};
+use glam::{DQuat, DVec3};
+
+use super::*;
+
+/// Where a hand is in the signer's space, where it points and its palm faces, its shape.
+#[derive(Clone)]
+struct Held {
+    at: DVec3,
+    along: DVec3,
+    palm: DVec3,
+    shape: Handshape,
+}
+
+impl Held {
+    fn new(at: [f64; 3], along: &str, palm: &str, class: HandClass) -> Self {
+        let along: Direction = along.parse().expect("a direction");
+        let palm: Compass = palm.parse().expect("a palm");
+        let mut shape = Handshape::default();
+        shape.form.class = class;
+        Self {
+            at: at.into(),
+            along: along.vector().into(),
+            palm: orientation::palm(along.vector(), palm.angle()).into(),
+            shape,
+        }
+    }
+
+    fn moved(&self, by: DVec3) -> Self {
+        Self {
+            at: self.at + by,
+            ..self.clone()
+        }
+    }
+
+    fn turned(&self, turn: DQuat) -> Self {
+        Self {
+            along: turn * self.along,
+            palm: turn * self.palm,
+            ..self.clone()
+        }
+    }
+
+    fn mirrored(&self) -> Self {
+        let flip = |v: DVec3| DVec3::new(-v.x, v.y, v.z);
+        Self {
+            at: flip(self.at),
+            along: flip(self.along),
+            palm: flip(self.palm),
+            shape: self.shape.clone(),
+        }
+    }
+}
+
+/// A body with two arms of 52 cm and hands with all their fingers.
+fn body() -> Skeleton {
+    let mut joints = vec![Joint::new("Hips", None, DVec3::Y)];
+    for (name, up) in [("Spine", 0.2), ("Neck", 0.3), ("Head", 0.1)] {
+        let parent = joints.len() - 1;
+        joints.push(Joint::new(name, Some(parent), DVec3::Y * up));
+    }
+    for side in Side::BOTH {
+        let x = side.sign();
+        let name = if side == Side::Left { "Left" } else { "Right" };
+        let mut add = |name: String, parent: usize, at: DVec3| {
+            joints.push(Joint::new(name, Some(parent), at));
+            joints.len() - 1
+        };
+        let collar = add(
+            format!("{name}Shoulder"),
+            1,
+            DVec3::new(0.04 * x, 0.25, 0.0),
+        );
+        let arm = add(format!("{name}Arm"), collar, DVec3::new(0.13 * x, 0.0, 0.0));
+        let fore = add(
+            format!("{name}ForeArm"),
+            arm,
+            DVec3::new(0.28 * x, 0.0, 0.0),
+        );
+        let hand = add(format!("{name}Hand"), fore, DVec3::new(0.24 * x, 0.0, 0.0));
+        let digits = [
+            ("Thumb", 0.03, 0.04),
+            ("Index", 0.09, 0.025),
+            ("Middle", 0.09, 0.005),
+            ("Ring", 0.085, -0.015),
+            ("Pinky", 0.08, -0.035),
+        ];
+        for (digit, out, front) in digits {
+            let mut parent = hand;
+            for (n, long) in [out, 0.04, 0.025, 0.02].into_iter().enumerate() {
+                let at = DVec3::new(long * x, 0.0, if n == 0 { front } else { 0.0 });
+                parent = add(format!("{name}Hand{digit}{}", n + 1), parent, at);
+            }
+        }
+    }
+    Skeleton::new(joints).expect("a tree")
+}
+
+/// Makes a clip of half a second's hold, `seconds` of movement, and a hold; a hand of which nothing is
+/// said hangs at rest.
+fn clip(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> (Clip, Anatomy) {
+    let skeleton = Arc::new(body());
+    let anatomy = Anatomy::detect(&skeleton);
+    let rate = Rate::new(60, 1).expect("a rate");
+    let hold = 10;
+    let frames = (seconds * 60.0) as usize + 2 * hold;
+    let mut poses = Vec::new();
+    for frame in 0..frames {
+        let time = (frame as f64 - hold as f64) / (frames - 2 * hold) as f64;
+        let mut pose = skeleton.rest_pose();
+        for (side, held) in Side::BOTH.into_iter().zip(at(time.clamp(0.0, 1.0))) {
+            let arm = anatomy.arm(side).expect("an arm");
+            let model = chereme_motion::ModelPose::of(&skeleton, &pose);
+            let frame = anatomy.body_frame(&model).expect("a trunk");
+            let Some(held) = held else {
+                let down = DQuat::from_rotation_arc(DVec3::X * side.sign(), DVec3::NEG_Y);
+                pose.rotations[arm.upper] = down;
+                continue;
+            };
+            let angles = hand_angles(&held.shape, BodyLanguage::usual());
+            anatomy.set_hand_angles(&skeleton, side, &angles, &mut pose);
+            let turn = anatomy.hand_rotation(side, held.along, held.palm);
+            pose.rotations[arm.hand] = turn.expect("fingers");
+            // The wrist goes where the palm should be: the arm's bones are not looked at.
+            let wrist = frame.origin + held.at - held.along * 0.05;
+            pose.translations[arm.hand] = wrist - model.position(arm.forearm);
+        }
+        poses.push(pose);
+    }
+    let clip = Clip::from_poses(skeleton, rate, &poses).expect("a clip");
+    (clip, anatomy)
+}
+
+fn read(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> Manual {
+    let (clip, anatomy) = clip(seconds, at);
+    let written = transcribe(&clip, &anatomy, &Options::default()).expect("a sign");
+    written.sign.parts.into_iter().next().expect("one part")
+}
+
+fn ease(time: f64) -> f64 {
+    time * time * (3.0 - 2.0 * time)
+}
+
+const ARM: f64 = 0.52;
+
+fn before_chest(class: HandClass) -> Held {
+    Held::new([-0.15, -0.12, 0.30], "u", "l", class)
+}
+
+#[test]
+fn a_hand_that_goes_down_is_told_with_its_posture() {
+    let own = before_chest(HandClass::Flat);
+    let part = read(0.3, |time| {
+        [
+            Some(own.moved(DVec3::NEG_Y * (0.25 * ARM * ease(time)))),
+            None,
+        ]
+    });
+    assert_eq!(part.hands, HandsUsed::Dominant);
+    let shape = part.posture.shape.dominant().expect("a shape");
+    assert_eq!(shape.form.class, HandClass::Flat);
+    assert_eq!(
+        part.posture.extended.dominant(),
+        Some(&Aim::at(Direction::UP))
+    );
+    assert_eq!(part.posture.palm.dominant(), Some(&Aim::at(Compass::L)));
+    let [motion] = part.actions.as_slice() else {
+        panic!("{:?}", part.actions);
+    };
+    let MotionKind::Directed(Directed {
+        direction, size, ..
+    }) = &motion.kind
+    else {
+        panic!("{motion:?}");
+    };
+    assert_eq!((*direction, size.first), (Direction::DOWN, None));
+}
+
+#[test]
+fn repeated_and_round_movement_is_folded() {
+    let own = before_chest(HandClass::Fist);
+    let there = |time: f64| -> f64 {
+        // Out, back, and out again, each with its stop.
+        let third = (time * 3.0).min(2.999);
+        let share = ease(third.fract());
+        if third as usize == 1 {
+            1.0 - share
+        } else {
+            share
+        }
+    };
+    let part = read(0.9, |time| {
+        [Some(own.moved(DVec3::Z * (0.13 * ARM * there(time)))), None]
+    });
+    let [motion] = part.actions.as_slice() else {
+        panic!("{:?}", part.actions);
+    };
+    let MotionKind::Repeated { motion, repetition } = &motion.kind else {
+        panic!("{motion:?}");
+    };
+    assert_eq!(repetition.repeat, Repeat::FromStart);
+    let MotionKind::Directed(directed) = &motion.kind else {
+        panic!("{motion:?}");
+    };
+    assert_eq!(directed.direction, Direction::OUT);
+    assert_eq!(directed.size.first, Some(Size::Small));
+
+    let part = read(1.1, |time| {
+        let (sin, cos) = (TAU * 2.0 * ease(time)).sin_cos();
+        let at = DVec3::new(cos - 1.0, sin, 0.0) * (0.14 * ARM);
+        [Some(own.moved(at)), None]
+    });
+    let MotionKind::Repeated { motion, .. } = &part.actions[0].kind else {
+        panic!("{:?}", part.actions);
+    };
+    let MotionKind::Circular(circle) = &motion.kind else {
+        panic!("{motion:?}");
+    };
+    assert_eq!((circle.axis, circle.size.first), (Direction::OUT, None));
+}
+
+#[test]
+fn wrists_and_new_shapes_are_told_from_ways() {
+    let own = before_chest(HandClass::Fist);
+    let part = read(0.56, |time| {
+        let nod = 0.5 * (TAU * 2.0 * time).sin();
+        [Some(own.turned(DQuat::from_rotation_z(nod))), None]
+    });
+    let MotionKind::Wrist { motion, size } = &part.actions[0].kind else {
+        panic!("{:?}", part.actions);
+    };
+    assert_eq!((*motion, *size), (WristMotion::Nodding, None));
+
+    let flat = before_chest(HandClass::Flat);
+    let (a, b) = (own.clone(), flat);
+    let part = read(0.3, |time| {
+        [Some(if time < 0.5 { a.clone() } else { b.clone() }), None]
+    });
+    let MotionKind::Target {
+        motion: None,
+        posture,
+    } = &part.actions[0].kind
+    else {
+        panic!("{:?}", part.actions);
+    };
+    let shape = posture.shape.dominant().expect("a shape");
+    assert_eq!(shape.form.class, HandClass::Flat);
+}
+
+#[test]
+fn hands_that_mirror_each_other_are_told_once() {
+    let own = before_chest(HandClass::Flat);
+    let part = read(0.3, |time| {
+        let now = own.moved(DVec3::new(-0.1, 0.08, 0.0) * ease(time));
+        let other = now.mirrored();
+        [Some(now), Some(other)]
+    });
+    let HandsUsed::Both(symmetry) = part.hands else {
+        panic!("{:?}", part.hands);
+    };
+    assert!(symmetry.left_right && !symmetry.up_down && !symmetry.out_of_phase);
+    assert!(part.posture.palm.other().is_none());
+    assert_eq!(part.actions.len(), 1);
+}
+
+#[test]
+fn the_left_handed_sign_is_written_as_the_right_handed_one() {
+    let own = Held::new([-0.15, -0.12, 0.30], "ol", "dl", HandClass::Finger2);
+    let course = |time: f64| own.moved(DVec3::new(-0.1, 0.02, 0.03) * ease(time));
+    let right = read(0.3, |time| [Some(course(time)), None]);
+    let (clip, anatomy) = clip(0.3, |time| [None, Some(course(time).mirrored())]);
+    let options = Options {
+        dominant: Side::Left,
+        ..Options::default()
+    };
+    let left = transcribe(&clip, &anatomy, &options).expect("a sign");
+    assert_eq!(left.sign.parts, vec![right]);
+}
+
+#[test]
+fn a_finger_at_the_chin_touches_it() {
+    let (clip, anatomy) = clip(0.3, |_| [None, None]);
+    let model = clip.model_pose(0);
+    let chin = anatomy
+        .landmark(clip.skeleton(), &model, "chin")
+        .expect("a chin");
+    let origin = anatomy.body_frame(&model).expect("a trunk").origin;
+    // The tip of a straight index finger is 17.5 cm from the wrist and 2.5 cm to the thumb's side.
+    let mut own = Held::new([0.0; 3], "u", "l", HandClass::Finger2);
+    own.shape.form.thumb = Some(ThumbPosition::Across);
+    let tip = DVec3::Y * 0.125 - DVec3::Z * 0.025;
+    let part = read(0.3, |_| [Some(own.moved(chin - origin - tip)), None]);
+    let Some(Place::Body(place)) = &part.posture.place else {
+        panic!("{:?}", part.posture.place);
+    };
+    assert_eq!(place.site.map(|site| site.at), Some(BodyLocation::Chin));
+    assert_eq!(place.contact, Some(Contact::Touch));
+    assert!(place.by.is_some());
+    assert!(part.actions.is_empty(), "{:?}", part.actions);
+}
+
+#[test]
+fn ways_from_and_to_rest_are_left_out() {
+    let (sign, anatomy) = clip(0.3, |time| {
+        let own = before_chest(HandClass::Flat);
+        [Some(own.moved(DVec3::X * (0.13 * ease(time)))), None]
+    });
+    let (rest, _) = clip(0.1, |_| [None, None]);
+    let way = |a: &Clip, b: &Clip| -> Vec<_> {
+        let (from, to) = (a.pose(a.frames() - 1), b.pose(0));
+        (1..24)
+            .map(|n| {
+                let share = ease(f64::from(n) / 24.0);
+                let mut pose = from.clone();
+                for joint in 0..pose.rotations.len() {
+                    pose.rotations[joint] = from.rotations[joint].slerp(to.rotations[joint], share);
+                    pose.translations[joint] =
+                        from.translations[joint].lerp(to.translations[joint], share);
+                }
+                pose
+            })
+            .collect()
+    };
+    let all = |clip: &Clip| (0..clip.frames()).map(|n| clip.pose(n)).collect::<Vec<_>>();
+    let poses = [
+        all(&rest),
+        way(&rest, &sign),
+        all(&sign),
+        way(&sign, &rest),
+        all(&rest),
+    ]
+    .concat();
+    let long = Clip::from_poses(Arc::clone(sign.skeleton()), sign.rate(), &poses).expect("a clip");
+    let short = transcribe(&sign, &anatomy, &Options::default()).expect("a sign");
+    let long = transcribe(&long, &anatomy, &Options::default()).expect("a sign");
+    assert_eq!(long.sign.parts[0].actions, short.sign.parts[0].actions);
+    assert!(long.frames.0 > 20, "{:?}", long.frames);
+}
+
+#[test]
+fn what_is_no_token_is_refused_and_what_is_missing_is_said() {
+    let (whole, anatomy) = clip(0.3, |_| [Some(before_chest(HandClass::Flat)), None]);
+    let empty = whole.slice(0..0);
+    let told = |clip: &Clip, options: &Options| transcribe(clip, &anatomy, options).map(|_| ());
+    assert_eq!(
+        told(&empty, &Options::default()),
+        Err(TranscribeError::Empty)
+    );
+    let short = Options {
+        longest: 0.2,
+        ..Options::default()
+    };
+    assert!(matches!(
+        told(&whole, &short),
+        Err(TranscribeError::TooLong { .. })
+    ));
+
+    let bone = Skeleton::new(vec![Joint::new("bone", None, DVec3::ZERO)]).expect("a tree");
+    let nothing = Anatomy::detect(&bone);
+    let clip = Clip::still(Arc::new(bone), whole.rate(), 9);
+    let error = transcribe(&clip, &nothing, &Options::default());
+    assert_eq!(error.map(|_| ()), Err(TranscribeError::NoBody));
+
+    // Fingers without their outer joints: all but those are told, and the lack is said.
+    let keep = |joint: &Joint| !(joint.name.contains("Hand") && joint.name.ends_with(['3', '4']));
+    let joints: Vec<Joint> = body().joints().to_vec();
+    let kept: Vec<usize> = (0..joints.len()).filter(|&n| keep(&joints[n])).collect();
+    let place = |old: usize| kept.iter().position(|&n| n == old).expect("kept");
+    let fewer: Vec<Joint> = kept
+        .iter()
+        .map(|&n| Joint {
+            parent: joints[n].parent.map(place),
+            ..joints[n].clone()
+        })
+        .collect();
+    let channels: Vec<Channel> = kept.iter().map(|&n| whole.channel(n).clone()).collect();
+    let skeleton = Arc::new(Skeleton::new(fewer).expect("a tree"));
+    let anatomy = Anatomy::detect(&skeleton);
+    let clip = Clip::new(skeleton, whole.rate(), channels).expect("a clip");
+    let written = transcribe(&clip, &anatomy, &Options::default()).expect("a sign");
+    let part = &written.sign.parts[0];
+    let shape = part.posture.shape.dominant().expect("a shape");
+    assert_eq!(shape.form.class, HandClass::Flat);
+    let missing = format!("{} end", Finger::Index.name());
+    assert!(
+        written
+            .findings
+            .iter()
+            .any(|finding| finding.contains(&missing)),
+        "{:?}",
+        written.findings
+    );
+}

@@ -1,0 +1,802 @@
+//! The sign's tree, and its features in words.
+
+use std::fmt::Display;
+
+use chereme_sign::hamnosys::{
+    Aim, Amount, Circular, Clock, Compass, Constellation, Contact, Curve, Directed, Direction,
+    Each, Ellipse, HandsUsed, Handshape, Manual, Motion, MotionKind, Place, Posture, Repetition,
+    Sign, Size, WristMotion, Zigzag,
+};
+use glam::DVec3;
+
+use super::acts::{Act, Kind, Mover, Sway, acts, signing};
+use super::aim;
+use super::hands::{Relation, RelationKind, relation, signs};
+use super::place::{Body, Placed, Together, named};
+use super::scene::{Scene, Track};
+use super::shape::Forms;
+use super::way::Way;
+use super::words;
+use super::{Feature, FeatureKind, Found, Options, RunnerUp, Transcription, Unit};
+
+/// What is told of one hand in one frame.
+#[derive(Debug, Clone)]
+pub(super) struct Seen {
+    shape: Option<Found<Handshape>>,
+    extended: Found<Aim<Direction>>,
+    palm: Option<Found<Aim<Compass>>>,
+}
+
+/// Writes down what the hands of a scene do.
+pub(super) fn written(scene: &Scene<'_>, options: &Options) -> Transcription {
+    Writer::new(scene, options).written()
+}
+
+struct Writer<'a> {
+    scene: &'a Scene<'a>,
+    options: &'a Options,
+    forms: std::sync::Arc<Forms>,
+    features: Vec<Feature>,
+    findings: Vec<String>,
+    /// The number of the action that is written.
+    action: Option<usize>,
+}
+
+impl<'a> Writer<'a> {
+    fn new(scene: &'a Scene<'a>, options: &'a Options) -> Self {
+        Self {
+            scene,
+            options,
+            forms: Forms::of(&options.language),
+            features: Vec::new(),
+            findings: Vec::new(),
+            action: None,
+        }
+    }
+
+    fn written(mut self) -> Transcription {
+        let scene = self.scene;
+        // A skeleton with one arm signs with that.
+        let lead = usize::from(scene.hands[0].is_none());
+        let Some(track) = scene.hands[lead].as_ref() else {
+            return self.done(Manual::default(), 0, scene.clip.frames());
+        };
+        self.lacks();
+        let frames = signing(scene, track);
+        let (first, last) = (*frames.start(), *frames.end());
+        let mover = self.mover(lead, track, first, last);
+        let all = acts(scene, &mover, &frames);
+        let start = all
+            .first()
+            .map_or(first + (last - first) / 2, |act| *act.frames.start());
+        let relation = relation(scene, &frames);
+        self.told_hands(&relation, start);
+        let body = Body::of(scene, start);
+        let posture = self.posture(start, &relation, body.as_ref());
+        let mut actions: Vec<Motion> = Vec::new();
+        let other = scene.hands[1].as_ref().filter(|_| lead == 0);
+        if let (RelationKind::Unlike { moves: true }, Some(other)) = (relation.kind, other) {
+            let others = acts(scene, &self.mover(1, other, first, last), &frames);
+            actions.extend(self.split(track, &all, other, &others));
+        } else {
+            for (n, act) in all.iter().enumerate() {
+                self.action = Some(n + 1);
+                actions.push(self.motion(lead, track, act, &relation));
+            }
+        }
+        let hands = match relation.kind {
+            RelationKind::Alike(symmetry) => HandsUsed::Both(symmetry),
+            _ => HandsUsed::Dominant,
+        };
+        let manual = Manual {
+            hands,
+            posture,
+            actions,
+            ..Manual::default()
+        };
+        self.done(manual, first, last + 1)
+    }
+
+    fn done(self, manual: Manual, first: usize, end: usize) -> Transcription {
+        Transcription {
+            sign: Sign {
+                parts: vec![manual],
+            },
+            features: self.features,
+            frames: (first, end),
+            findings: self.findings,
+        }
+    }
+
+    /// Takes the parts of a hand whose ways tell what it does.
+    fn mover<'t>(&self, hand: usize, track: &'t Track, first: usize, last: usize) -> Mover<'t> {
+        let mut touching = Vec::new();
+        for frame in [first, last] {
+            if let Some(body) = Body::of(self.scene, frame) {
+                touching.extend(body.touching(hand).into_iter().map(|at| (at, frame)));
+            }
+        }
+        Mover::new(track, &touching)
+    }
+
+    /// Says what the skeleton does not show.
+    fn lacks(&mut self) {
+        for track in self.scene.hands.iter().flatten() {
+            let side = track.side.name();
+            if !track.faces {
+                self.findings.push(format!(
+                    "the {side} hand has too few fingers to tell where its palm faces"
+                ));
+            }
+            if !track.missing.is_empty() {
+                let names: Vec<String> = track.missing.iter().map(ToString::to_string).collect();
+                self.findings.push(format!(
+                    "the {side} handshape is told without {}",
+                    names.join(", ")
+                ));
+            }
+        }
+        for (n, track) in self.scene.hands.iter().enumerate() {
+            if track.is_none() {
+                let which = ["dominant", "other"][n];
+                self.findings
+                    .push(format!("the skeleton has no arm of the {which} side"));
+            }
+        }
+    }
+
+    fn told_hands(&mut self, relation: &Relation, frame: usize) {
+        self.features.push(Feature {
+            kind: FeatureKind::Hands,
+            hand: None,
+            frame,
+            action: None,
+            value: relation.kind.words(),
+            residual: relation.residual,
+            unit: Unit::Share,
+            runner_up: relation.runner_up.map(|(kind, residual)| RunnerUp {
+                value: kind.words(),
+                residual,
+            }),
+        });
+    }
+
+    /// Tells shape, direction and palm of a hand in a frame.
+    fn see(&self, track: &Track, frame: usize) -> Seen {
+        let between = self.options.between;
+        let extended = aim::nearest(track.along[frame], between);
+        let palm = track.faces.then(|| {
+            aim::palm(
+                track.along[frame],
+                track.normal[frame],
+                &extended.best,
+                between,
+            )
+        });
+        Seen {
+            shape: self.forms.nearest(&track.angles[frame], &track.known),
+            extended,
+            palm,
+        }
+    }
+
+    fn told<T>(
+        &mut self,
+        kind: FeatureKind,
+        track: Option<&Track>,
+        frame: usize,
+        found: &Found<T>,
+        words: impl Fn(&T) -> String,
+    ) {
+        let unit = match kind {
+            FeatureKind::Location | FeatureKind::Contact | FeatureKind::Movement => {
+                Unit::Centimetres
+            }
+            FeatureKind::Hands | FeatureKind::Size | FeatureKind::Repetition => Unit::Share,
+            _ => Unit::Degrees,
+        };
+        let scale = if unit == Unit::Centimetres {
+            100.0
+        } else {
+            1.0
+        };
+        self.features.push(Feature {
+            kind,
+            hand: track.map(|track| track.side),
+            frame,
+            action: self.action,
+            value: words(&found.best),
+            residual: found.residual * scale,
+            unit,
+            runner_up: found.runner_up.as_ref().map(|(value, residual)| RunnerUp {
+                value: words(value),
+                residual: residual * scale,
+            }),
+        });
+    }
+
+    fn told_seen(&mut self, track: &Track, frame: usize, seen: &Seen, which: [bool; 3]) {
+        if let Some(shape) = seen.shape.as_ref().filter(|_| which[0]) {
+            self.told(
+                FeatureKind::Handshape,
+                Some(track),
+                frame,
+                shape,
+                words::shape,
+            );
+        }
+        if which[1] {
+            let found = &seen.extended;
+            self.told(FeatureKind::Direction, Some(track), frame, found, aimed);
+        }
+        if let Some(palm) = seen.palm.as_ref().filter(|_| which[2]) {
+            self.told(FeatureKind::Palm, Some(track), frame, palm, aimed);
+        }
+    }
+
+    /// Writes the posture that the sign begins with.
+    fn posture(&mut self, frame: usize, relation: &Relation, body: Option<&Body<'_>>) -> Posture {
+        let scene = self.scene;
+        let seen = [0, 1].map(|n| {
+            let track = scene.hands[n].as_ref()?;
+            Some(self.see(track, frame))
+        });
+        let acts = [
+            scene.hands[0].is_some(),
+            scene.hands[0].is_none() || relation.kind != RelationKind::Alone,
+        ];
+        let alike = self.alike(frame, relation, &seen);
+        for (n, seen) in seen.iter().enumerate() {
+            let (Some(track), Some(seen)) = (&scene.hands[n], seen) else {
+                continue;
+            };
+            let own = if n == 0 {
+                [true; 3]
+            } else {
+                alike.map(|alike| !alike)
+            };
+            if acts[n] {
+                self.told_seen(track, frame, seen, own);
+            }
+        }
+        let posture = Posture {
+            shape: each(&seen, acts, alike[0], |seen| {
+                seen.shape.as_ref().map(|found| found.best.clone())
+            }),
+            extended: each(&seen, acts, alike[1], |seen| Some(seen.extended.best)),
+            palm: each(&seen, acts, alike[2], |seen| {
+                seen.palm.as_ref().map(|found| found.best)
+            }),
+            place: None,
+        };
+        let place = body.and_then(|body| self.place(frame, relation, body));
+        Posture { place, ..posture }
+    }
+
+    /// Tells which of shape, direction and palm the other hand takes from the dominant one.
+    fn alike(&self, frame: usize, relation: &Relation, seen: &[Option<Seen>; 2]) -> [bool; 3] {
+        let RelationKind::Alike(symmetry) = relation.kind else {
+            return [false; 3];
+        };
+        let ([Some(a), Some(b)], [Some(one), Some(other)]) = (&self.scene.hands, seen) else {
+            return [true; 3];
+        };
+        let signs = signs(&symmetry);
+        let angle = |x: &[DVec3], y: &[DVec3]| (x[frame] * signs).angle_between(y[frame]);
+        let turned = angle(&a.along, &b.along) < 0.45 && angle(&a.normal, &b.normal) < 0.6;
+        let same = match (&one.shape, &other.shape) {
+            (Some(x), Some(y)) => x.best == y.best,
+            _ => true,
+        };
+        let shaped = same || a.known.apart(&a.angles[frame], &b.angles[frame]) < 0.22;
+        [shaped, turned, turned]
+    }
+
+    /// Tells the place of the hands.
+    fn place(&mut self, frame: usize, relation: &Relation, body: &Body<'_>) -> Option<Place> {
+        let scene = self.scene;
+        let lead = usize::from(scene.hands[0].is_none());
+        if relation.kind == RelationKind::Alone {
+            let placed = body.place(lead, false)?;
+            self.told_place(scene.hands[lead].as_ref(), frame, &placed);
+            return Some(Place::Body(placed.place));
+        }
+        if let Some(together) = body.together() {
+            return Some(Place::Hands(self.constellation(frame, body, &together)));
+        }
+        if let RelationKind::Alike(_) = relation.kind {
+            let placed = body.place(0, true)?;
+            self.told_place(scene.hands[0].as_ref(), frame, &placed);
+            return Some(Place::Body(placed.place));
+        }
+        let both = [0, 1].map(|n| {
+            let placed = body.place(n, false)?;
+            self.told_place(scene.hands[n].as_ref(), frame, &placed);
+            Some(Box::new(Place::Body(placed.place)))
+        });
+        let [a, b] = both;
+        Some(Place::Split(a, b))
+    }
+
+    fn told_place(&mut self, track: Option<&Track>, frame: usize, placed: &Placed) {
+        let found = placed.found();
+        self.told(FeatureKind::Location, track, frame, &found, words::place);
+        let contact = Found {
+            best: placed.place.contact,
+            residual: placed.distance,
+            runner_up: None,
+        };
+        self.told(FeatureKind::Contact, track, frame, &contact, |contact| {
+            words::contact(*contact).to_owned()
+        });
+    }
+
+    /// Writes the two hands by each other.
+    fn constellation(
+        &mut self,
+        frame: usize,
+        body: &Body<'_>,
+        together: &Together,
+    ) -> Constellation {
+        let [dominant, other] = together.parts.map(named);
+        let at = body.shared(together.middle);
+        if let Some(at) = &at {
+            self.told(
+                FeatureKind::Location,
+                None,
+                frame,
+                &at.found(),
+                words::place,
+            );
+        }
+        let contact = Found {
+            best: (dominant.clone(), other.clone()),
+            residual: together.distance,
+            runner_up: None,
+        };
+        self.told(FeatureKind::Contact, None, frame, &contact, |(a, b)| {
+            format!(
+                "{} by {}: {}",
+                words::hand_site(a),
+                words::hand_site(b),
+                words::contact(Some(together.contact))
+            )
+        });
+        Constellation {
+            dominant: Some(dominant),
+            other: Some(other),
+            contact: Some(together.contact),
+            at: at.map(|at| at.place),
+            ..Constellation::default()
+        }
+    }
+
+    /// Writes what each hand does where they move for themselves.
+    fn split(&mut self, track: &Track, own: &[Act], other: &Track, others: &[Act]) -> Vec<Motion> {
+        let alone = Relation {
+            kind: RelationKind::Unlike { moves: true },
+            residual: 0.0,
+            runner_up: None,
+        };
+        let mut of = |lead: usize, track: &Track, acts: &[Act]| -> Vec<Motion> {
+            acts.iter()
+                .enumerate()
+                .map(|(n, act)| {
+                    self.action = Some(n + 1);
+                    self.motion(lead, track, act, &alone)
+                })
+                .collect()
+        };
+        let (a, b) = (of(0, track, own), of(1, other, others));
+        if a.is_empty() && b.is_empty() {
+            return Vec::new();
+        }
+        let split = |a: Option<Motion>, b: Option<Motion>| {
+            Motion::new(MotionKind::Split(a.map(Box::new), b.map(Box::new)))
+        };
+        if a.len() == b.len() {
+            return a
+                .into_iter()
+                .zip(b)
+                .map(|(a, b)| split(Some(a), Some(b)))
+                .collect();
+        }
+        let whole = |mut all: Vec<Motion>| match all.len() {
+            0 | 1 => all.pop(),
+            _ => Some(Motion::new(MotionKind::Sequence {
+                motions: all,
+                fused: false,
+            })),
+        };
+        vec![split(whole(a), whole(b))]
+    }
+
+    /// Writes an act.
+    fn motion(&mut self, hand: usize, track: &Track, act: &Act, relation: &Relation) -> Motion {
+        let (first, last) = (*act.frames.start(), *act.frames.end());
+        let mut motion = match &act.kind {
+            Kind::Way(_) => Some(self.way(track, act)),
+            Kind::Sway(sway) => Some(self.sway(track, sway, first)),
+            Kind::Change => {
+                self.told_movement(track, act, 0.0, None);
+                None
+            }
+        };
+        if let Some(with) = &act.with {
+            let with = self.sway(track, with, first);
+            motion = motion.map(|way| Motion::new(MotionKind::Parallel(vec![way, with])));
+        }
+        let changed = self.changed(track, act, first, last);
+        if !changed.is_empty() {
+            let target = Motion::new(MotionKind::Target {
+                motion: None,
+                posture: Box::new(changed),
+            });
+            motion = Some(match motion {
+                Some(way) => Motion::new(MotionKind::Parallel(vec![way, target])),
+                None => target,
+            });
+        }
+        if let Some(place) = self.reached(hand, act, relation, first, last) {
+            motion = Some(Motion::new(MotionKind::Target {
+                motion: motion.map(Box::new),
+                posture: Box::new(Posture {
+                    place: Some(place),
+                    ..Posture::default()
+                }),
+            }));
+        }
+        let motion = motion.unwrap_or_else(|| Motion::new(MotionKind::Still));
+        self.repeated(track, act, motion)
+    }
+
+    fn repeated(&mut self, track: &Track, act: &Act, motion: Motion) -> Motion {
+        let Some(repeat) = act.repeat else {
+            return motion;
+        };
+        let times = Found {
+            best: act.times,
+            residual: 0.0,
+            runner_up: None,
+        };
+        let first = *act.frames.start();
+        self.told(
+            FeatureKind::Repetition,
+            Some(track),
+            first,
+            &times,
+            |times| format!("{times} times"),
+        );
+        Motion::new(MotionKind::Repeated {
+            motion: Box::new(motion),
+            repetition: Repetition {
+                repeat,
+                second: None,
+                growth: None,
+                shift: None,
+                shift_size: None,
+                shift_growth: None,
+                approx: false,
+            },
+        })
+    }
+
+    fn told_movement(
+        &mut self,
+        track: &Track,
+        act: &Act,
+        residual: f64,
+        runner_up: Option<(&'static str, f64)>,
+    ) {
+        let found = Found {
+            best: act.name(),
+            residual,
+            runner_up,
+        };
+        let first = *act.frames.start();
+        self.told(FeatureKind::Movement, Some(track), first, &found, |name| {
+            (*name).to_owned()
+        });
+    }
+
+    fn told_size(&mut self, track: &Track, frame: usize, found: &Found<Option<Size>>) {
+        self.told(FeatureKind::Size, Some(track), frame, found, |size| {
+            words::size(*size).to_owned()
+        });
+    }
+
+    /// Writes a way through space.
+    fn way(&mut self, track: &Track, act: &Act) -> Motion {
+        let Kind::Way(fitted) = &act.kind else {
+            return Motion::new(MotionKind::Still);
+        };
+        self.told_movement(track, act, fitted.residual, fitted.runner_up);
+        let first = *act.frames.start();
+        let l = self.scene.language;
+        let arm = self.scene.arm;
+        let course = |writer: &mut Self, v: DVec3| {
+            let found = aim::nearest(v.normalize_or(DVec3::Z), false);
+            writer.told(FeatureKind::Course, Some(track), first, &found, aimed);
+            found.best.first
+        };
+        if let Way::Circle {
+            axis,
+            long,
+            narrow,
+            start,
+            ..
+        } = fitted.way
+        {
+            let axis = course(self, axis);
+            let size = sized(
+                long.length() / arm,
+                [l.circle_small, l.circle_normal, l.circle_big],
+            );
+            self.told_size(track, first, &size);
+            return Motion::new(MotionKind::Circular(circular(
+                axis, size.best, long, narrow, start, l,
+            )));
+        }
+        let chord = fitted.way.chord();
+        let direction = course(self, chord);
+        let size = sized(
+            chord.length() / arm,
+            [l.move_small, l.move_normal, l.move_big],
+        );
+        self.told_size(track, first, &size);
+        let mut directed = Directed {
+            direction,
+            second: None,
+            size: Amount {
+                first: size.best,
+                second: None,
+            },
+            curve: None,
+            zigzag: None,
+            ellipse: None,
+        };
+        match fitted.way {
+            Way::Arc { chord, bow } => {
+                let back = aim::from_out(DVec3::from(direction.vector())).inverse();
+                let flat = back * bow;
+                let deep = bow.length() / chord.length().max(1e-9);
+                directed.curve = Some(Curve {
+                    to: Compass::nearest((-flat.x).atan2(-flat.y)),
+                    size: sized(deep, [l.arc_small, l.arc_normal, l.arc_big]).best,
+                });
+            }
+            Way::Wave { width, wavy, .. } => {
+                directed.zigzag = Some(Zigzag {
+                    wavy,
+                    size: sized(width / arm, [l.zigzag_small, l.zigzag_normal, l.zigzag_big]).best,
+                    growth: None,
+                });
+            }
+            _ => {}
+        }
+        Motion::new(MotionKind::Directed(directed))
+    }
+
+    /// Writes a wrist or fingers going to and fro.
+    fn sway(&mut self, track: &Track, sway: &Sway, first: usize) -> Motion {
+        let l = self.scene.language;
+        let told = |writer: &mut Self, runner_up| {
+            let found = Found {
+                best: sway.name(),
+                residual: 0.0,
+                runner_up,
+            };
+            writer.told(
+                FeatureKind::Movement,
+                Some(track),
+                first,
+                &found,
+                |name: &&str| (*name).to_owned(),
+            );
+        };
+        match sway {
+            Sway::Play { digits } => {
+                told(self, None);
+                let fingers =
+                    digits.0.len() == 4 && !digits.contains(chereme_sign::hamnosys::Digit::Thumb);
+                let digits = if fingers {
+                    Default::default()
+                } else {
+                    digits.clone()
+                };
+                Motion::new(MotionKind::FingerPlay(digits))
+            }
+            Sway::Wrist {
+                motion,
+                angle,
+                cycles: _,
+                ..
+            } => {
+                told(self, None);
+                let usual = match motion {
+                    WristMotion::Nodding => l.wrist_nodding,
+                    WristMotion::Swinging => l.wrist_swinging,
+                    WristMotion::Twisting => l.wrist_twisting,
+                    WristMotion::StirCw | WristMotion::StirCcw => l.wrist_stirring,
+                };
+                let size = sized(
+                    angle.to_degrees() / usual,
+                    [l.wrist_small, 1.0, l.wrist_big],
+                );
+                self.told_size(track, first, &size);
+                Motion::new(MotionKind::Wrist {
+                    motion: *motion,
+                    size: size.best,
+                })
+            }
+        }
+    }
+
+    /// Writes what is otherwise at the end of an act: shape, direction, palm.
+    fn changed(&mut self, track: &Track, act: &Act, first: usize, last: usize) -> Posture {
+        let mut posture = Posture::default();
+        if !act.turned && !act.reshaped {
+            return posture;
+        }
+        let (before, after) = (self.see(track, first), self.see(track, last));
+        let best = |seen: &Seen| seen.shape.as_ref().map(|found| found.best.clone());
+        let mut which = [false; 3];
+        if let Some(shape) = best(&after).filter(|_| act.reshaped && best(&before) != best(&after))
+        {
+            posture.shape = Each::Shared(shape);
+            which[0] = true;
+        }
+        let palm = |seen: &Seen| seen.palm.as_ref().map(|found| found.best);
+        if act.turned {
+            which[1] = before.extended.best != after.extended.best;
+            which[2] = palm(&before) != palm(&after);
+            if which[1] {
+                posture.extended = Each::Shared(after.extended.best);
+            }
+            if let Some(palm) = palm(&after).filter(|_| which[2]) {
+                posture.palm = Each::Shared(palm);
+            }
+        }
+        self.told_seen(track, last, &after, which);
+        posture
+    }
+
+    /// Tells what is touched at the end of an act that was not at its beginning.
+    fn reached(
+        &mut self,
+        hand: usize,
+        act: &Act,
+        relation: &Relation,
+        first: usize,
+        last: usize,
+    ) -> Option<Place> {
+        if !matches!(act.kind, Kind::Way(_)) {
+            return None;
+        }
+        let (before, after) = (Body::of(self.scene, first)?, Body::of(self.scene, last)?);
+        let touching = |body: &Body<'_>| {
+            let together = body.together()?;
+            (together.contact == Contact::Touch).then_some(together)
+        };
+        if relation.kind != RelationKind::Alone
+            && hand == 0
+            && let Some(together) = touching(&after)
+            && touching(&before).is_none_or(|was| was.parts != together.parts)
+        {
+            let [dominant, other] = together.parts.map(named);
+            let contact = Found {
+                best: (),
+                residual: together.distance,
+                runner_up: None,
+            };
+            let value = format!(
+                "{} by {}: {}",
+                words::hand_site(&dominant),
+                words::hand_site(&other),
+                words::contact(Some(together.contact))
+            );
+            self.told(FeatureKind::Contact, None, last, &contact, |()| {
+                value.clone()
+            });
+            return Some(Place::Hands(Constellation {
+                dominant: Some(dominant),
+                other: Some(other),
+                contact: Some(together.contact),
+                ..Constellation::default()
+            }));
+        }
+        let touched = |body: &Body<'_>| {
+            let placed = body.place(hand, false)?;
+            (placed.place.contact == Some(Contact::Touch)).then_some(placed)
+        };
+        let placed = touched(&after)?;
+        let was = touched(&before).map(|placed| placed.place.site);
+        if was == Some(placed.place.site) {
+            return None;
+        }
+        self.told_place(self.scene.hands[hand].as_ref(), last, &placed);
+        Some(Place::Body(placed.place))
+    }
+}
+
+fn each<T: Clone + PartialEq>(
+    seen: &[Option<Seen>; 2],
+    acts: [bool; 2],
+    alike: bool,
+    pick: impl Fn(&Seen) -> Option<T>,
+) -> Each<T> {
+    let [a, b] = [0, 1].map(|n| seen[n].as_ref().filter(|_| acts[n]).and_then(&pick));
+    match (a, b) {
+        (None, None) => Each::Unset,
+        (Some(a), None) => Each::Shared(a),
+        (Some(a), Some(_)) if alike => Each::Shared(a),
+        (None, Some(b)) if !acts[0] => Each::Shared(b),
+        (a, b) => Each::Split(a, b),
+    }
+}
+
+fn circular(
+    axis: Direction,
+    size: Option<Size>,
+    long: DVec3,
+    narrow: f64,
+    start: DVec3,
+    l: &chereme_sign::hamnosys::BodyLanguage,
+) -> Circular {
+    let back = aim::from_out(DVec3::from(axis.vector())).inverse();
+    let (from, flat) = (back * start, back * long);
+    let start = Compass::nearest((-from.x).atan2(-from.y));
+    let ellipse = (narrow < (1.0 + l.ellipse_small) / 2.0).then(|| {
+        let lean = (flat.y.atan2(-flat.x).to_degrees().rem_euclid(180.0) / 45.0).round() as u8;
+        match lean % 4 {
+            0 => Ellipse::Horizontal,
+            1 => Ellipse::UpRight,
+            2 => Ellipse::Vertical,
+            _ => Ellipse::UpLeft,
+        }
+    });
+    Circular {
+        axis,
+        second: None,
+        size: Amount {
+            first: size,
+            second: None,
+        },
+        ellipse,
+        ellipse_size: ellipse.and_then(|_| {
+            // The narrower, the bigger.
+            sized(
+                1.0 / narrow,
+                [l.ellipse_small, l.ellipse_normal, l.ellipse_big].map(|x| 1.0 / x),
+            )
+            .best
+        }),
+        clock: Clock {
+            start: (start != Compass::U).then_some(start),
+            end: None,
+            full: 0,
+        },
+        zigzag: None,
+        growth: None,
+    }
+}
+
+/// Returns the size nearest to a measure by ratio; the residual is the ratio's logarithm.
+fn sized(measure: f64, sizes: [f64; 3]) -> Found<Option<Size>> {
+    let named = [Some(Size::Small), None, Some(Size::Big)];
+    let off = |size: f64| (measure.max(1e-6) / size).ln().abs();
+    Found::of(
+        named
+            .into_iter()
+            .zip(sizes)
+            .map(|(name, size)| (name, off(size), off(size)))
+            .collect(),
+    )
+}
+
+fn aimed<D: Display>(aim: &Aim<D>) -> String {
+    match &aim.second {
+        Some(second) => format!("{}|{second}", aim.first),
+        None => aim.first.to_string(),
+    }
+}

@@ -1,0 +1,373 @@
+//! Ways through space: straight, curved, in waves, or round and round.
+
+use std::f64::consts::TAU;
+
+use glam::{DMat3, DVec3};
+
+use super::scene::length;
+
+/// Ways are looked at through so many points, evenly along them.
+const POINTS: usize = 48;
+/// An arc at least so deep against its chord is one: half of the shallowest that is notated.
+const CURVED: f64 = 0.075;
+/// A way round counts as a circle from this angle on: five sixths of a turn.
+const ROUND: f64 = TAU * 0.83;
+
+/// A way there and back that is narrower than this against its length is no ellipse.
+const NARROW: f64 = 0.3;
+
+/// A way that a hand goes; lengths in metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Way {
+    /// Straight.
+    Straight {
+        /// From start to end.
+        chord: DVec3,
+    },
+    /// Part of a circle.
+    Arc {
+        /// From start to end.
+        chord: DVec3,
+        /// From the chord's middle to the arc's.
+        bow: DVec3,
+    },
+    /// To and fro across a way.
+    Wave {
+        /// From start to end.
+        chord: DVec3,
+        /// Half the width.
+        width: f64,
+        /// In waves, not in corners.
+        wavy: bool,
+    },
+    /// Round and round.
+    Circle {
+        /// The unit vector it turns about by the right-hand rule.
+        axis: DVec3,
+        /// How many turns.
+        turns: f64,
+        /// The longer radius and its direction.
+        long: DVec3,
+        /// The shorter radius against the longer one.
+        narrow: f64,
+        /// From the centre to where it begins, of unit length.
+        start: DVec3,
+    },
+}
+
+/// A way that was fitted, with how far off it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Fitted {
+    pub(super) way: Way,
+    /// The root of the mean square of the distance in metres.
+    pub(super) residual: f64,
+    /// The next simpler or deeper kind, with its residual.
+    pub(super) runner_up: Option<(&'static str, f64)>,
+}
+
+impl Way {
+    /// Returns its kind in a word.
+    pub(super) fn kind(&self) -> &'static str {
+        match self {
+            Self::Straight { .. } => "straight",
+            Self::Arc { .. } => "arc",
+            Self::Wave { wavy: false, .. } => "zigzag",
+            Self::Wave { wavy: true, .. } => "waves",
+            Self::Circle { .. } => "circle",
+        }
+    }
+
+    /// Returns where it ends against where it began.
+    pub(super) fn chord(&self) -> DVec3 {
+        match *self {
+            Self::Straight { chord } | Self::Arc { chord, .. } | Self::Wave { chord, .. } => chord,
+            Self::Circle { .. } => DVec3::ZERO,
+        }
+    }
+}
+
+/// Fits every kind of way to points in order of time and returns the best.
+pub(super) fn fit(points: &[DVec3]) -> Fitted {
+    let points = evenly(points, POINTS);
+    let (first, last) = (points[0], points[points.len() - 1]);
+    let chord = last - first;
+    let straight = Way::Straight { chord };
+    let off_straight = off(&points, |s| first + chord * s);
+    if let Some((circle, residual)) = circle(&points) {
+        return Fitted {
+            way: circle,
+            residual,
+            runner_up: Some(("straight", off_straight)),
+        };
+    }
+    if let Some((wave, residual)) = wave(&points) {
+        return Fitted {
+            way: wave,
+            residual,
+            runner_up: Some(("straight", off_straight)),
+        };
+    }
+    let middle = points[points.len() / 2].midpoint(points[(points.len() - 1) / 2]);
+    let bow = (middle - first - chord / 2.0).reject_from(chord.normalize_or(DVec3::X));
+    let arc = Way::Arc { chord, bow };
+    let off_arc = off(&points, |s| first + along_arc(chord, bow, s));
+    let curved = bow.length() > CURVED * chord.length() && off_arc < off_straight;
+    let (way, residual, other) = if curved {
+        (arc, off_arc, ("straight", off_straight))
+    } else {
+        (straight, off_straight, ("arc", off_arc))
+    };
+    Fitted {
+        way,
+        residual,
+        runner_up: Some(other),
+    }
+}
+
+/// Returns points evenly along the way through others.
+pub(super) fn evenly(points: &[DVec3], count: usize) -> Vec<DVec3> {
+    let whole = length(points);
+    if points.len() < 2 || whole <= 0.0 {
+        return vec![points.first().copied().unwrap_or_default(); count];
+    }
+    let mut even = Vec::with_capacity(count);
+    let (mut done, mut n) = (0.0, 0);
+    for k in 0..count {
+        let goal = whole * k as f64 / (count - 1) as f64;
+        while n + 2 < points.len() && done + points[n].distance(points[n + 1]) < goal {
+            done += points[n].distance(points[n + 1]);
+            n += 1;
+        }
+        let step = points[n].distance(points[n + 1]);
+        let share = if step > 0.0 {
+            ((goal - done) / step).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        even.push(points[n].lerp(points[n + 1], share));
+    }
+    even
+}
+
+/// Returns the root of the mean square of the distance to what a share of the way gives.
+fn off(points: &[DVec3], at: impl Fn(f64) -> DVec3) -> f64 {
+    let last = (points.len() - 1) as f64;
+    let squares = points
+        .iter()
+        .enumerate()
+        .map(|(n, point)| point.distance_squared(at(n as f64 / last)));
+    (squares.sum::<f64>() / points.len() as f64).sqrt()
+}
+
+/// Returns where one is on the arc over a chord, `s` of its length done.
+fn along_arc(chord: DVec3, bow: DVec3, s: f64) -> DVec3 {
+    let (width, depth) = (chord.length(), bow.length());
+    if depth < 1e-9 || width < 1e-9 {
+        return chord * s;
+    }
+    let radius = (width * width / 4.0 + depth * depth) / (2.0 * depth);
+    let angle = 2.0 * (2.0 * depth / width).atan() * (2.0 * s - 1.0);
+    let along = 0.5 + radius * angle.sin() / width;
+    chord * along + bow * ((radius * angle.cos() - (radius - depth)) / depth)
+}
+
+/// Fits a circle or ellipse; nothing where the way does not go round.
+fn circle(points: &[DVec3]) -> Option<(Way, f64)> {
+    let mean = points.iter().sum::<DVec3>() / points.len() as f64;
+    let area: DVec3 = points
+        .windows(2)
+        .map(|pair| (pair[0] - mean).cross(pair[1] - mean))
+        .sum();
+    let axis = area.try_normalize()?;
+    let centre = centred(points, axis)?;
+    let [x, y] = {
+        let x = axis.any_orthonormal_vector();
+        [x, axis.cross(x)]
+    };
+    let flat: Vec<(f64, f64)> = points
+        .iter()
+        .map(|&point| ((point - centre).dot(x), (point - centre).dot(y)))
+        .collect();
+    let swept: f64 = flat
+        .windows(2)
+        .map(|pair| {
+            let ((a, b), (c, d)) = (pair[0], pair[1]);
+            (a * d - b * c).atan2(a * c + b * d)
+        })
+        .sum();
+    if swept < ROUND {
+        return None;
+    }
+    let [sxx, sxy, syy] = flat.iter().fold([0.0; 3], |[a, b, c], &(x, y)| {
+        [a + x * x, b + x * y, c + y * y]
+    });
+    let lean = 0.5 * (2.0 * sxy).atan2(sxx - syy);
+    let (sin, cos) = lean.sin_cos();
+    let along = |&(x, y): &(f64, f64)| (x * cos + y * sin, y * cos - x * sin);
+    let most = |pick: fn((f64, f64)) -> f64| {
+        flat.iter()
+            .map(|point| pick(along(point)).abs())
+            .fold(0.0, f64::max)
+    };
+    let (long, short) = (most(|p| p.0), most(|p| p.1));
+    if short < NARROW * long || short <= 0.0 {
+        return None;
+    }
+    let squares = flat.iter().map(|point| {
+        let (u, v) = along(point);
+        let round = (u / long).hypot(v / short);
+        ((round - 1.0) * short).powi(2)
+    });
+    let lift = points
+        .iter()
+        .map(|&point| (point - centre).dot(axis).powi(2));
+    let residual = ((squares.sum::<f64>() + lift.sum::<f64>()) / points.len() as f64).sqrt();
+    (residual < 0.3 * long).then(|| {
+        let start = (points[0] - centre).reject_from_normalized(axis);
+        let way = Way::Circle {
+            axis,
+            turns: swept / TAU,
+            long: (x * cos + y * sin) * long,
+            narrow: short / long,
+            start: start.normalize_or(x),
+        };
+        (way, residual)
+    })
+}
+
+/// Returns the centre of the circle nearest to points (Kåsa's fit), in the plane across `axis`.
+fn centred(points: &[DVec3], axis: DVec3) -> Option<DVec3> {
+    let mean = points.iter().sum::<DVec3>() / points.len() as f64;
+    let x = axis.any_orthonormal_vector();
+    let y = axis.cross(x);
+    let mut normal = DMat3::ZERO;
+    let mut right = DVec3::ZERO;
+    for &point in points {
+        let (u, v) = ((point - mean).dot(x), (point - mean).dot(y));
+        let row = DVec3::new(u, v, 1.0);
+        normal += DMat3::from_cols(row * row.x, row * row.y, row * row.z);
+        right += row * (u * u + v * v);
+    }
+    let solved = (normal.determinant().abs() > 1e-18).then(|| normal.inverse() * right)?;
+    let at = mean + x * (solved.x / 2.0) + y * (solved.y / 2.0);
+    at.is_finite().then_some(at)
+}
+
+/// Fits a way to and fro; nothing where it does not go on along its chord or crosses it too rarely.
+fn wave(points: &[DVec3]) -> Option<(Way, f64)> {
+    let first = points[0];
+    let chord = points[points.len() - 1] - first;
+    let line = chord.try_normalize()?;
+    let aside: Vec<DVec3> = points
+        .iter()
+        .map(|&point| (point - first).reject_from_normalized(line))
+        .collect();
+    let widest = aside
+        .iter()
+        .copied()
+        .max_by(|a, b| a.length().total_cmp(&b.length()))?;
+    let side = widest.try_normalize()?;
+    let across: Vec<f64> = aside.iter().map(|v| v.dot(side)).collect();
+    let width = (across.iter().copied().fold(f64::MIN, f64::max)
+        - across.iter().copied().fold(f64::MAX, f64::min))
+        / 2.0;
+    let mut crossings = 0;
+    let mut was = 0.0_f64;
+    for &x in across.iter().filter(|x| x.abs() > 0.35 * width) {
+        crossings += usize::from(was * x < 0.0);
+        was = x;
+    }
+    let along: Vec<f64> = points.iter().map(|&p| (p - first).dot(line)).collect();
+    let back = along
+        .windows(2)
+        .map(|pair| (pair[0] - pair[1]).max(0.0))
+        .sum::<f64>();
+    if crossings < 2 || width < 0.06 * chord.length() || back > 0.2 * chord.length() {
+        return None;
+    }
+    let lift = aside
+        .iter()
+        .map(|v| (*v - side * v.dot(side)).length_squared());
+    let residual = (lift.sum::<f64>() / points.len() as f64).sqrt();
+    // A sine spends more of its way at its turns than corners do.
+    let far = across.iter().filter(|x| x.abs() > 0.8 * width).count();
+    let wavy = far as f64 / points.len() as f64 > 0.26;
+    Some((Way::Wave { chord, width, wavy }, residual))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn along(count: usize, at: impl Fn(f64) -> DVec3) -> Vec<DVec3> {
+        (0..count)
+            .map(|n| at(n as f64 / (count - 1) as f64))
+            .collect()
+    }
+
+    #[test]
+    fn each_kind_is_told_whatever_its_speed() {
+        let ease = |s: f64| s * s * (3.0 - 2.0 * s);
+        let line = fit(&along(30, |s| DVec3::new(0.2, 0.1, 0.0) * ease(s)));
+        assert_eq!(line.way.kind(), "straight");
+        assert!(line.residual < 1e-9);
+        let arc = fit(&along(30, |s| {
+            along_arc(DVec3::X * 0.2, DVec3::Z * 0.06, ease(s))
+        }));
+        let Way::Arc { bow, .. } = arc.way else {
+            panic!("{arc:?}");
+        };
+        assert!(bow.distance(DVec3::Z * 0.06) < 1e-3, "{bow}");
+        let wave = |wavy: bool| {
+            fit(&along(120, |s| {
+                let turn = (TAU * 2.0 * s).sin();
+                let side = if wavy { turn } else { turn.asin() / 1.571 };
+                DVec3::new(0.2 * s, 0.04 * side, 0.0)
+            }))
+        };
+        for wavy in [true, false] {
+            let Way::Wave {
+                width, wavy: is, ..
+            } = wave(wavy).way
+            else {
+                panic!("{:?}", wave(wavy));
+            };
+            assert!((width - 0.04).abs() < 4e-3 && is == wavy, "{width} {wavy}");
+        }
+    }
+
+    #[test]
+    fn circles_and_ellipses_tell_axis_turns_and_size() {
+        for (turns, narrow) in [(1.0, 1.0), (2.0, 1.0), (1.0, 0.5), (3.0, 0.75)] {
+            let found = fit(&along(60 * turns as usize, |s| {
+                let (sin, cos) = (TAU * turns * s).sin_cos();
+                DVec3::new(0.1 * cos, 0.1 * narrow * sin, 0.3)
+            }));
+            let Way::Circle {
+                axis,
+                turns: is,
+                long,
+                narrow: shape,
+                ..
+            } = found.way
+            else {
+                panic!("{found:?}");
+            };
+            assert!(axis.distance(DVec3::Z) < 1e-6, "{axis}");
+            assert!((is - turns).abs() < 0.05, "{is}");
+            assert!((long.length() - 0.1).abs() < 6e-3, "{long}");
+            assert!((shape - narrow).abs() < 0.08, "{shape}");
+        }
+    }
+
+    #[test]
+    fn what_hardly_moves_or_has_no_length_is_fitted_without_harm() {
+        for points in [
+            vec![DVec3::ONE],
+            vec![DVec3::ONE; 9],
+            vec![DVec3::ZERO, DVec3::X],
+        ] {
+            assert!(fit(&points).residual.is_finite());
+        }
+    }
+}
