@@ -26,6 +26,7 @@ mod sources;
 mod starter;
 mod suggest;
 mod tokens;
+mod transcribe;
 
 use std::cell::RefCell;
 use std::path::Path;
@@ -65,6 +66,7 @@ pub use recombine::Recombination;
 pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions};
 pub use starter::{starter_files, unpack_starter};
 pub use suggest::{Partner, Suggestions};
+pub use transcribe::{Transcribed, TranscribedFeature};
 
 /// An open corpus.
 pub struct Corpus {

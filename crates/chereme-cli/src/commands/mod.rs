@@ -16,6 +16,7 @@ mod search;
 mod studio;
 mod suggest;
 mod tiers;
+mod transcribe;
 
 use std::process::ExitCode;
 
@@ -39,6 +40,7 @@ pub(crate) enum Command {
     Render(render::Args),
     Score(score::Args),
     Suggest(suggest::Args),
+    Transcribe(transcribe::Args),
     Check(check::Args),
     Export(export::Args),
     Undo(history::UndoArgs),
@@ -61,6 +63,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Check(args) => return check::run(cli, args, output),
         Command::Score(args) => score::run(cli, args, output),
         Command::Suggest(args) => suggest::run(cli, args, output),
+        Command::Transcribe(args) => transcribe::run(cli, args, output),
         Command::Search(args) => search::run(cli, args, output),
         Command::Recombine(args) => recombine::run(cli, args, output),
         Command::Render(args) => render::run(cli, args, output),

@@ -1,0 +1,67 @@
+//! `chereme transcribe`.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{Address, TranscribedFeature};
+
+use crate::args::Cli;
+use crate::output::Output;
+
+/// Write a captured or made sign in HamNoSys, and tell how sure each feature is
+///
+/// The residual says how far the movement is from what was written, the runner-up what would have come
+/// next. The symbols are shown by the HamNoSys font only: `--names` writes their names.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// What to write: a gloss, token:41, or recording:3 where it is short
+    token: String,
+    /// Write the names of the symbols in place of the table
+    #[arg(long)]
+    names: bool,
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let corpus = cli.open(&args.corpus)?;
+    let address: Address = args.token.parse()?;
+    let written = corpus.transcribe(&address)?;
+    if args.names {
+        output.line(written.symbols.join(" "))?;
+    } else {
+        output.line(format!("{}: {}", written.gloss, written.hamnosys))?;
+        let rows: Vec<Vec<String>> = written.features.iter().map(row).collect();
+        output.table(
+            &[
+                "feature",
+                "hand",
+                "action",
+                "value",
+                "residual",
+                "runner-up",
+            ],
+            &rows,
+        )?;
+        for finding in &written.findings {
+            output.line(finding)?;
+        }
+    }
+    output.document(written)
+}
+
+fn row(feature: &TranscribedFeature) -> Vec<String> {
+    let residual = |residual: f64| format!("{residual:.1}{}", feature.unit.sign());
+    vec![
+        feature.feature.name().to_owned(),
+        feature
+            .hand
+            .map_or_else(String::new, |hand| hand.name().to_owned()),
+        feature.action.map_or_else(String::new, |n| n.to_string()),
+        feature.value.clone(),
+        residual(feature.residual),
+        feature.runner_up.as_ref().map_or_else(String::new, |next| {
+            format!("{}, {}", next.value, residual(next.residual))
+        }),
+    ]
+}

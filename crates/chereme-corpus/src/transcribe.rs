@@ -1,0 +1,146 @@
+//! The notation of stored movement.
+
+use chereme_analysis::transcribe::{Feature, FeatureKind, Options, RunnerUp, transcribe};
+use chereme_motion::{Side, Span};
+use chereme_sign::hamnosys::{Sign, print, to_names};
+use serde::Serialize;
+
+use crate::Corpus;
+use crate::address::{Address, Stretch};
+use crate::db::recordings;
+use crate::error::{Error, Result};
+use crate::movement::{ChannelGroup, Track};
+
+/// The longest stretch in seconds that is taken for one sign.
+const LONGEST: f64 = 60.0;
+
+/// A piece of movement as HamNoSys, each feature with how far the movement is from it.
+#[derive(Debug, Clone, Serialize)]
+pub struct Transcribed {
+    /// The token, where the address names one.
+    pub token: Option<i64>,
+    /// Its gloss, else the recording's name.
+    pub gloss: String,
+    /// The recording.
+    pub recording: i64,
+    /// Where the sign itself starts and ends, ways from and to rest cut off, in microseconds from the
+    /// start of the recording.
+    pub start_us: i64,
+    /// As above.
+    pub end_us: i64,
+    /// The HamNoSys text.
+    pub hamnosys: String,
+    /// The names of its symbols.
+    pub symbols: Vec<&'static str>,
+    /// The notation's tree.
+    pub sign: Sign,
+    /// What was told, in the order of the notation.
+    pub features: Vec<TranscribedFeature>,
+    /// What could not be told, and what HamNoSys has no symbols for.
+    pub findings: Vec<String>,
+}
+
+/// A feature of notation, at a moment of a recording.
+#[derive(Debug, Clone, Serialize)]
+pub struct TranscribedFeature {
+    /// What it is about: `handshape`, `palm`, `location`...
+    pub feature: FeatureKind,
+    /// The hand, where it is about one.
+    pub hand: Option<Side>,
+    /// The number of the action it belongs to, from 1; nothing for the posture at the beginning.
+    pub action: Option<usize>,
+    /// When, in microseconds from the start of the recording.
+    pub at_us: i64,
+    /// What it is.
+    pub value: String,
+    /// How far the movement is from it, in `unit`.
+    pub residual: f64,
+    /// `deg`, `cm` or `share`.
+    pub unit: chereme_analysis::transcribe::Unit,
+    /// What would have come next.
+    pub runner_up: Option<RunnerUp>,
+}
+
+impl Corpus {
+    /// Writes a token, or another short piece of movement, in HamNoSys.
+    ///
+    /// Only the frames of the token are read, so a long recording costs no more than a short one.
+    ///
+    /// # Errors
+    /// Where the address names no movement, one longer than a minute, or a skeleton without arms.
+    pub fn transcribe(&self, address: &Address) -> Result<Transcribed> {
+        let connection = self.store.read();
+        let stretch = crate::address::stretch(connection, address)?;
+        let seconds = stretch.span.seconds();
+        if seconds > LONGEST {
+            return Err(Error::wrong(format!(
+                "{address} lasts {seconds:.0} s; one sign of at most {LONGEST:.0} s is written at once"
+            ))
+            .at(address.to_string())
+            .advise("name a token in it: token:41"));
+        }
+        let track = Track::of(connection, stretch.recording.id)?;
+        let frames = track.frames_in(stretch.span);
+        let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
+        let anatomy = track.anatomy(connection)?;
+        let options = Options {
+            dominant: self.dominant(&stretch)?,
+            longest: LONGEST + 1.0,
+            ..Options::default()
+        };
+        let written = transcribe(&clip, &anatomy, &options)
+            .map_err(|error| Error::wrong(error.to_string()).at(address.to_string()))?;
+        let printed = print(&written.sign);
+        let mut findings = written.findings;
+        findings.extend(printed.losses.iter().map(|loss| loss.message.clone()));
+        let at = |frame: usize| clip.rate().instant(frames.start + frame).micros();
+        let (first, end) = written.frames;
+        Ok(Transcribed {
+            token: stretch.token.as_ref().map(|token| token.id),
+            gloss: match &stretch.token {
+                Some(token) => token.gloss.clone(),
+                None => stretch.recording.name.clone(),
+            },
+            recording: stretch.recording.id,
+            start_us: at(first),
+            end_us: at(end).min(span_end(stretch.span, at(first))),
+            symbols: to_names(&printed.text)
+                .map_err(|error| Error::wrong(format!("what was written is odd: {error}")))?,
+            hamnosys: printed.text,
+            features: written
+                .features
+                .into_iter()
+                .map(|feature| placed(feature, &at))
+                .collect(),
+            sign: written.sign,
+            findings,
+        })
+    }
+
+    /// Returns the signer's dominant hand: the right one where nothing is known.
+    fn dominant(&self, stretch: &Stretch) -> Result<Side> {
+        let signer = match stretch.recording.signer_id {
+            Some(id) => recordings::signer(self.store.read(), id)?,
+            None => None,
+        };
+        let left = signer.is_some_and(|it| it.handedness.as_deref() == Some("left"));
+        Ok(if left { Side::Left } else { Side::Right })
+    }
+}
+
+fn span_end(span: Span, least: i64) -> i64 {
+    span.end().micros().max(least)
+}
+
+fn placed(feature: Feature, at: &impl Fn(usize) -> i64) -> TranscribedFeature {
+    TranscribedFeature {
+        feature: feature.kind,
+        hand: feature.hand,
+        action: feature.action,
+        at_us: at(feature.frame),
+        value: feature.value,
+        residual: feature.residual,
+        unit: feature.unit,
+        runner_up: feature.runner_up,
+    }
+}
