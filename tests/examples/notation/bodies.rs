@@ -15,6 +15,15 @@ type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 /// Reads the body of a BVH file as a stage: its first frame.
 pub(crate) fn stage(path: &Path) -> Result<Material> {
+    let whole = movement(path)?;
+    Ok(Material {
+        clip: whole.clip.slice(0..1),
+        ..whole
+    })
+}
+
+/// Reads a BVH file with all its frames.
+pub(crate) fn movement(path: &Path) -> Result<Material> {
     let clip = match build(path, None)? {
         (_, Some(fix)) => build(path, Some(fix))?.0,
         (clip, None) => clip,
@@ -31,7 +40,7 @@ pub(crate) fn stage(path: &Path) -> Result<Material> {
         gloss: String::new(),
         signer: None,
         handedness: Handedness::Right,
-        clip: clip.slice(0..1),
+        clip,
         anatomy: Arc::new(anatomy),
         held: Vec::new(),
     })

@@ -1,0 +1,500 @@
+//! What two notations of one sign have in common, feature by feature.
+
+use chereme_motion::glam::DVec3;
+use chereme_sign::hamnosys::{
+    Aim, BodyLanguage, BodyPlace, Compass, Direction, Each, HandsUsed, Handshape, Manual, Motion,
+    MotionKind, Place, Posture, Repeat, Size, WristMotion,
+};
+
+/// What of a feature is found again.
+#[derive(Debug, Clone)]
+pub(crate) struct Verdict {
+    pub(crate) feature: &'static str,
+    pub(crate) agrees: bool,
+    pub(crate) written: String,
+    pub(crate) found: String,
+}
+
+/// Compares a part as written with the part that was found.
+pub(crate) fn compare(written: &Manual, found: &Manual) -> Vec<Verdict> {
+    let mut all = Vec::new();
+    let mut say = |feature, agrees, written: String, found: String| {
+        all.push(Verdict {
+            feature,
+            agrees,
+            written,
+            found,
+        });
+    };
+    let (a, b) = (hands(written), hands(found));
+    // A motion for each hand says with two what a symmetry says with one.
+    let split = written.actions.iter().any(names_other);
+    let agrees = a == b || (split && a != "one" && b != "one");
+    say("hands", agrees, a, b);
+    for n in 0..2 {
+        posture(n, &written.posture, &found.posture, &mut say);
+    }
+    place(&written.posture, &found.posture, &mut say);
+    movement(written, found, &mut say);
+    all
+}
+
+fn hands(part: &Manual) -> String {
+    let posture = &part.posture;
+    match part.hands {
+        HandsUsed::Both(symmetry) => {
+            let marks = [
+                (symmetry.left_right, "lr"),
+                (symmetry.up_down, "ud"),
+                (symmetry.out_in, "oi"),
+                (symmetry.out_of_phase, "alternating"),
+            ];
+            let words: Vec<&str> = marks
+                .iter()
+                .filter_map(|(is, word)| is.then_some(*word))
+                .collect();
+            format!("both {}", words.join(" "))
+        }
+        _ => {
+            let two = posture.shape.other().is_some()
+                || posture.extended.other().is_some()
+                || posture.palm.other().is_some()
+                || matches!(
+                    posture.place,
+                    Some(Place::Hands(_) | Place::Split(_, Some(_)))
+                );
+            let two = two || part.actions.iter().any(names_other);
+            if two { "two" } else { "one" }.to_owned()
+        }
+    }
+}
+
+fn names_other(motion: &Motion) -> bool {
+    match &motion.kind {
+        MotionKind::Split(_, other) => other.is_some(),
+        MotionKind::Sequence { motions, .. } | MotionKind::Parallel(motions) => {
+            motions.iter().any(names_other)
+        }
+        MotionKind::Target { motion, posture } => {
+            motion.as_deref().is_some_and(names_other)
+                || matches!(
+                    posture.place,
+                    Some(Place::Hands(_) | Place::Split(_, Some(_)))
+                )
+                || posture.shape.other().is_some()
+        }
+        MotionKind::Repeated { motion, .. } => names_other(motion),
+        _ => false,
+    }
+}
+
+fn of<T>(each: &Each<T>, n: usize) -> Option<&T> {
+    match each {
+        Each::Split(a, b) => [a, b][n].as_ref(),
+        shared if n == 0 => shared.dominant(),
+        _ => None,
+    }
+}
+
+fn posture(
+    n: usize,
+    written: &Posture,
+    found: &Posture,
+    say: &mut impl FnMut(&'static str, bool, String, String),
+) {
+    let names = [
+        [
+            "class",
+            "handshape",
+            "direction",
+            "direction near",
+            "palm",
+            "palm near",
+        ],
+        [
+            "other class",
+            "other handshape",
+            "other direction",
+            "other direction near",
+            "other palm",
+            "other palm near",
+        ],
+    ][n];
+    let language = BodyLanguage::usual();
+    if let Some(shape) = of(&written.shape, n) {
+        let other = of(&found.shape, n);
+        let same = other.is_some_and(|other| {
+            other == shape || chereme_analysis::transcribe::looks_the_same(shape, other, language)
+        });
+        let class = other.is_some_and(|other| {
+            let classes = |shape: &Handshape| {
+                let second = shape.between.map(|form| form.class);
+                let mut all = vec![shape.form.class];
+                all.extend(second.filter(|second| *second != shape.form.class));
+                all.sort();
+                all
+            };
+            same || classes(shape) == classes(other)
+        });
+        say(names[0], class, words(Some(shape)), words(other));
+        say(names[1], same, words(Some(shape)), words(other));
+    }
+    if let Some(aim) = of(&written.extended, n) {
+        let other = of(&found.extended, n);
+        let off = other.map_or(180.0, |other| {
+            vector(aim).angle_between(vector(other)).to_degrees()
+        });
+        let (a, b) = (aimed(Some(aim)), aimed(other));
+        say(names[2], off < 1.0, a.clone(), b.clone());
+        say(names[3], off < 31.0, a, b);
+    }
+    if let Some(aim) = of(&written.palm, n) {
+        let other = of(&found.palm, n);
+        let off = other.map_or(180.0, |other| {
+            let apart = (angle(aim) - angle(other)).to_degrees();
+            ((apart + 180.0).rem_euclid(360.0) - 180.0).abs()
+        });
+        let (a, b) = (aimed(Some(aim)), aimed(other));
+        say(names[4], off < 1.0, a.clone(), b.clone());
+        say(names[5], off < 23.0, a, b);
+    }
+}
+
+fn words(shape: Option<&Handshape>) -> String {
+    let Some(shape) = shape else {
+        return "none".to_owned();
+    };
+    let form = |form: &chereme_sign::hamnosys::Form| {
+        let mut words = format!("{:?}", form.class);
+        if let Some(thumb) = form.thumb {
+            words += &format!(" {thumb:?}");
+        }
+        if let Some(bend) = form.bend {
+            words += &format!(" {bend:?}");
+        }
+        if let Some(opening) = form.opening {
+            words += &format!(" {opening:?}");
+        }
+        words
+    };
+    let mut words = form(&shape.form);
+    if let Some(second) = &shape.between {
+        words += &format!(" | {}", form(second));
+    }
+    if !shape.special.is_empty() {
+        words += &format!(" special {:?}", shape.special.0);
+    }
+    if !shape.exempt.is_empty() {
+        words += &format!(" exempt {:?}", shape.exempt.0);
+    }
+    if shape.bends.iter().any(Option::is_some) {
+        words += &format!(" bends {:?}", shape.bends);
+    }
+    if !shape.contacts.is_empty() {
+        words += &format!(" contacts {}", shape.contacts.len());
+    }
+    if let Some(thumb) = shape.thumb {
+        words += &format!(" {thumb:?}");
+    }
+    words
+}
+
+fn vector(aim: &Aim<Direction>) -> DVec3 {
+    let of = |direction: Direction| DVec3::from(direction.vector());
+    match aim.second {
+        Some(second) => (of(aim.first) + of(second)).normalize_or(of(aim.first)),
+        None => of(aim.first),
+    }
+}
+
+fn angle(aim: &Aim<Compass>) -> f64 {
+    let first = aim.first.angle();
+    let Some(second) = aim.second else {
+        return first;
+    };
+    let apart = second.angle() - first;
+    let turns = (apart / std::f64::consts::TAU).round();
+    first + (apart - turns * std::f64::consts::TAU) / 2.0
+}
+
+fn aimed<D: std::fmt::Display>(aim: Option<&Aim<D>>) -> String {
+    match aim {
+        None => "none".to_owned(),
+        Some(aim) => match &aim.second {
+            Some(second) => format!("{}|{second}", aim.first),
+            None => aim.first.to_string(),
+        },
+    }
+}
+
+fn place(
+    written: &Posture,
+    found: &Posture,
+    say: &mut impl FnMut(&'static str, bool, String, String),
+) {
+    let Some(a) = &written.place else { return };
+    let (text, other) = (
+        placed(a),
+        found.place.as_ref().map_or("none".into(), placed),
+    );
+    match a {
+        Place::Body(_) | Place::Split(..) => {
+            let bodies = |place: &Place| match place {
+                Place::Body(body) => Some(body.clone()),
+                Place::Split(Some(first), _) => match first.as_ref() {
+                    Place::Body(body) => Some(body.clone()),
+                    _ => None,
+                },
+                Place::Hands(hands) => hands.at.clone(),
+                _ => None,
+            };
+            let Some(body) = bodies(a) else { return };
+            let found = found.place.as_ref().and_then(bodies);
+            let same = found.as_ref().is_some_and(|found| one_place(found, &body));
+            let level = found.as_ref().is_some_and(|found| {
+                sites(found)
+                    .iter()
+                    .any(|site| sites(&body).iter().any(|other| site.0 == other.0))
+            });
+            say("location", same, text.clone(), other.clone());
+            say("location level", level, text.clone(), other.clone());
+            let contact = found.is_some_and(|found| found.contact == body.contact);
+            say("contact", contact, text, other);
+        }
+        Place::Hands(hands) => {
+            let found = match &found.place {
+                Some(Place::Hands(found)) => Some(found),
+                _ => None,
+            };
+            let contact = found.is_some_and(|found| found.contact == hands.contact);
+            say("constellation", contact, text.clone(), other.clone());
+            if let Some(at) = &hands.at {
+                let at_found = found.and_then(|found| found.at.as_ref());
+                let same = at_found.is_some_and(|found| one_place(found, at));
+                let level = at_found.is_some_and(|found| {
+                    sites(found)
+                        .iter()
+                        .any(|site| sites(at).iter().any(|other| site.0 == other.0))
+                });
+                say("location", same, text.clone(), other.clone());
+                say("location level", level, text, other);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Tells whether two places are one: half-way from the chest to the right of the shoulders is half-way
+/// from the right of the chest to the shoulders.
+fn one_place(a: &BodyPlace, b: &BodyPlace) -> bool {
+    let split = |place: &BodyPlace| {
+        let (mut levels, mut sides): (Vec<_>, Vec<_>) = sites(place).into_iter().unzip();
+        if place.second.is_none() || levels.len() == 1 {
+            levels.extend(levels.first().cloned());
+            sides.extend(sides.first().cloned().filter(|_| sides.len() == 1));
+        }
+        levels.sort();
+        sides.sort();
+        (levels, sides)
+    };
+    split(a) == split(b)
+}
+
+fn sites(place: &BodyPlace) -> Vec<(String, String)> {
+    let mut all: Vec<(String, String)> = [place.site, place.second]
+        .iter()
+        .flatten()
+        .map(|site| (format!("{:?}", site.at), format!("{:?}", site.side)))
+        .collect();
+    all.sort();
+    all.dedup();
+    all
+}
+
+fn placed(place: &Place) -> String {
+    match place {
+        Place::Body(body) => {
+            let names: Vec<String> = [body.site, body.second]
+                .iter()
+                .flatten()
+                .map(|site| format!("{:?} {:?}", site.at, site.side).replace(" None", ""))
+                .collect();
+            let by = body
+                .by
+                .as_ref()
+                .map(|by| format!(" by {:?}{:?}", by.at, by.digits.0));
+            format!(
+                "{} {:?}{}",
+                names.join("|"),
+                body.contact,
+                by.unwrap_or_default()
+            )
+        }
+        Place::Split(a, b) => {
+            let of =
+                |place: &Option<Box<Place>>| place.as_deref().map_or("none".to_owned(), placed);
+            format!("{} + {}", of(a), of(b))
+        }
+        Place::Hands(hands) => {
+            let site = |site: &Option<chereme_sign::hamnosys::HandSite>| {
+                site.as_ref().map_or("none".to_owned(), |site| {
+                    format!("{:?}{:?}{:?}", site.at, site.digits.0, site.side)
+                })
+            };
+            let at = hands.at.as_ref().map(|at| placed(&Place::Body(at.clone())));
+            format!(
+                "hands {} {} {:?} at {}",
+                site(&hands.dominant),
+                site(&hands.other),
+                hands.contact,
+                at.unwrap_or_default()
+            )
+        }
+        Place::Hand(site) => format!("hand {:?}", site.at),
+        Place::Named(n) => format!("named {n}"),
+    }
+}
+
+/// What a hand does, one thing after the other.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct Done {
+    kind: &'static str,
+    course: Option<Direction>,
+    size: Option<Option<Size>>,
+    repeat: Option<Repeat>,
+    changes: bool,
+    meets: bool,
+}
+
+fn movement(
+    written: &Manual,
+    found: &Manual,
+    say: &mut impl FnMut(&'static str, bool, String, String),
+) {
+    let flat = |part: &Manual| -> Vec<Done> { part.actions.iter().flat_map(flat).collect() };
+    let (a, b) = (flat(written), flat(found));
+    let text = |all: &[Done]| -> String {
+        let one = |done: &Done| {
+            let mut words = done.kind.to_owned();
+            if let Some(course) = done.course {
+                words += &format!(" {course}");
+            }
+            if let Some(size) = done.size {
+                words += &format!(" {size:?}");
+            }
+            if done.changes {
+                words += " +change";
+            }
+            if done.meets {
+                words += " +place";
+            }
+            if let Some(repeat) = done.repeat {
+                words += &format!(" x{repeat:?}");
+            }
+            words
+        };
+        all.iter().map(one).collect::<Vec<_>>().join("; ")
+    };
+    let (ta, tb) = (text(&a), text(&b));
+    // There and back again, written out or folded as a repetition, is one thing.
+    let kinds = |all: &[Done]| {
+        let mut kinds: Vec<&str> = all.iter().map(|done| done.kind).collect();
+        kinds.dedup();
+        kinds
+    };
+    let main = |all: &[Done]| all.first().map_or("nothing", |done| done.kind);
+    say("movement", main(&a) == main(&b), ta.clone(), tb.clone());
+    say("movements", kinds(&a) == kinds(&b), ta.clone(), tb.clone());
+    let (Some(x), Some(y)) = (a.first(), b.first()) else {
+        return;
+    };
+    if x.kind == y.kind {
+        if x.course.is_some() {
+            say("course", x.course == y.course, ta.clone(), tb.clone());
+        }
+        if x.size.is_some() {
+            say("size", x.size == y.size, ta.clone(), tb.clone());
+        }
+        say("repetition", x.repeat == y.repeat, ta.clone(), tb.clone());
+        say("replacement", x.changes == y.changes, ta, tb);
+    }
+}
+
+/// Returns what the dominant hand does, in order.
+fn flat(motion: &Motion) -> Vec<Done> {
+    let done = |kind: &'static str| Done {
+        kind,
+        ..Done::default()
+    };
+    match &motion.kind {
+        MotionKind::Directed(directed) => vec![Done {
+            kind: match (&directed.curve, &directed.zigzag) {
+                (_, Some(_)) => "zigzag",
+                (Some(_), None) => "arc",
+                (None, None) => "straight",
+            },
+            course: Some(directed.direction),
+            size: Some(directed.size.first),
+            ..Done::default()
+        }],
+        MotionKind::Circular(circular) => vec![Done {
+            kind: "circle",
+            course: Some(circular.axis),
+            size: Some(circular.size.first),
+            ..Done::default()
+        }],
+        MotionKind::Wrist { motion, size } => vec![Done {
+            kind: match motion {
+                WristMotion::Nodding => "nodding",
+                WristMotion::Swinging => "swinging",
+                WristMotion::Twisting => "twisting",
+                WristMotion::StirCw => "stir cw",
+                WristMotion::StirCcw => "stir ccw",
+            },
+            size: Some(*size),
+            ..Done::default()
+        }],
+        MotionKind::Cross { .. } => vec![done("cross")],
+        MotionKind::FingerPlay(_) => vec![done("fingerplay")],
+        MotionKind::Still => Vec::new(),
+        MotionKind::Body(_) => Vec::new(),
+        MotionKind::Split(own, _) => own.as_deref().map(flat).unwrap_or_default(),
+        MotionKind::Sequence { motions, .. } => motions.iter().flat_map(flat).collect(),
+        MotionKind::Parallel(motions) => {
+            let mut all: Vec<Done> = motions.iter().flat_map(flat).collect();
+            let change = all.iter().any(|done| done.changes);
+            all.sort_by_key(|done| done.kind == "replacement");
+            all.retain({
+                let ways = all.iter().any(|done| done.kind != "replacement");
+                move |done| !ways || done.kind != "replacement"
+            });
+            all.truncate(1);
+            if let Some(first) = all.first_mut() {
+                first.changes |= change;
+            }
+            all
+        }
+        MotionKind::Target { motion, posture } => {
+            let place = posture.place.is_some();
+            let change = !posture.shape.is_unset()
+                || !posture.extended.is_unset()
+                || !posture.palm.is_unset();
+            let mut all = motion.as_deref().map(flat).unwrap_or_default();
+            if all.is_empty() {
+                all.push(done(if place { "straight" } else { "replacement" }));
+            }
+            if let Some(last) = all.last_mut() {
+                last.meets |= place;
+                last.changes |= change;
+            }
+            all
+        }
+        MotionKind::Repeated { motion, repetition } => {
+            let mut all = flat(motion);
+            for done in &mut all {
+                done.repeat = Some(repetition.repeat);
+            }
+            all
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! Notation to movement to notation, and movement to notation to movement.
+//!
+//! `cargo run --release -p chereme-tests --example transcribe -- notation FOLDER BODY.bvh` animates every
+//! `.sigml` file of a folder on a body, transcribes what came of it, and prints how often each feature
+//! is what was written; `... -- why FEATURE FOLDER BODY.bvh` prints where it is not. `... -- movement
+//! FILE.bvh...` transcribes captured movement, animates what was written, and prints their distance.
+
+#![allow(clippy::print_stdout)]
+
+#[path = "../notation/bodies.rs"]
+mod bodies;
+mod compare;
+mod movement;
+mod notation;
+
+use std::error::Error;
+use std::path::Path;
+
+type Result<T> = std::result::Result<T, Box<dyn Error>>;
+
+fn main() -> Result<()> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match words.as_slice() {
+        ["notation", folder, body] => notation::table(Path::new(folder), Path::new(body), None),
+        ["why", feature, folder, body] => {
+            notation::table(Path::new(folder), Path::new(body), Some(feature))
+        }
+        ["movement", files @ ..] if !files.is_empty() => movement::table(files),
+        _ => Err(
+            "say `notation FOLDER BODY.bvh`, `why FEATURE FOLDER BODY.bvh` or `movement FILE.bvh...`"
+                .into(),
+        ),
+    }
+}

@@ -1,0 +1,81 @@
+//! Movement to notation to movement.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use chereme_analysis::score::{ScoreOptions, score_as};
+use chereme_analysis::transcribe::{Options, transcribe};
+use chereme_compose::notation::{Settings, animate};
+use chereme_motion::Clip;
+use chereme_sign::hamnosys::{Notated, Sign, print, to_names};
+
+use crate::Result;
+use crate::bodies;
+
+/// Prints the notation of captured movement, and how far movement made from it is: the distance of the
+/// alignment for each step, beside that of a hand that keeps its first posture.
+pub(crate) fn table(files: &[&str]) -> Result<()> {
+    println!("| recording | seconds | symbols | distance | held still | components |");
+    println!("|---|---|---|---|---|---|");
+    for file in files {
+        let captured = bodies::movement(Path::new(file))?;
+        let anatomy = Arc::clone(&captured.anatomy);
+        let found = transcribe(&captured.clip, &anatomy, &Options::default())?;
+        let (first, end) = found.frames;
+        let sign = captured.clip.slice(first..end);
+        let names = to_names(&print(&found.sign).text)?;
+        let notated = Notated {
+            sign: found.sign.clone(),
+            ..Notated::default()
+        };
+        let again = made(&notated, &captured)?;
+        let held = made(&still(&notated), &captured)?;
+        let options = ScoreOptions::default();
+        let score = |clip: &Clip| score_as((&sign, &anatomy), (clip, &anatomy), &options);
+        let (own, held) = (score(&again)?, score(&held)?);
+        let parts: Vec<String> = own
+            .components
+            .iter()
+            .map(|(component, part)| format!("{component} {part:.2}"))
+            .collect();
+        println!(
+            "| {} | {:.2} | {} | {:.3} | {:.3} | {} |",
+            Path::new(file).file_stem().unwrap_or_default().display(),
+            sign.span().seconds(),
+            names.len(),
+            own.normalized.unwrap_or(f64::NAN),
+            held.normalized.unwrap_or(f64::NAN),
+            parts.join(", ")
+        );
+        println!("\n{}\n", names.join(" "));
+    }
+    Ok(())
+}
+
+/// Returns a sign that keeps its first posture.
+fn still(notated: &Notated) -> Notated {
+    let mut parts = notated.sign.parts.clone();
+    for part in &mut parts {
+        part.actions.clear();
+    }
+    Notated {
+        sign: Sign { parts },
+        ..notated.clone()
+    }
+}
+
+/// Animates a sign on the body that was captured, and cuts off the ways from and to rest.
+fn made(notated: &Notated, stage: &chereme_compose::Material) -> Result<Clip> {
+    let made = animate(&[notated], stage, &Settings::default())?;
+    let gloss = made
+        .notes
+        .iter()
+        .find(|note| note.about == chereme_compose::About::Gloss)
+        .ok_or("no gloss")?;
+    let rate = made.clip.rate();
+    let (first, last) = (
+        rate.frame_at(gloss.span.start()),
+        rate.frame_at(gloss.span.end()),
+    );
+    Ok(made.clip.slice(first..last + 1))
+}
