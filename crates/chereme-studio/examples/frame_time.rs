@@ -49,6 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         last: None,
         computed: Vec::new(),
         apart: Vec::new(),
+        over: false,
     };
     eframe::run_native("frame_time", native, Box::new(|_| Ok(Box::new(meter))))?;
     Ok(())
@@ -120,6 +121,7 @@ struct Meter {
     last: Option<Instant>,
     computed: Vec<Duration>,
     apart: Vec<Duration>,
+    over: bool,
 }
 
 impl eframe::App for Meter {
@@ -135,7 +137,7 @@ impl eframe::App for Meter {
             self.apart.push(now - last);
             self.computed.push(now.elapsed());
         }
-        if now - begun > self.lasts && !self.apart.is_empty() {
+        if now - begun > self.lasts && !self.over && !self.apart.is_empty() {
             self.tell();
             ui.ctx().send_viewport_cmd(ViewportCommand::Close);
         }
@@ -170,6 +172,6 @@ impl Meter {
                 times.len()
             );
         }
-        self.apart.clear();
+        self.over = true;
     }
 }
