@@ -304,7 +304,16 @@ fn sites(place: &BodyPlace) -> Vec<(String, String)> {
     let mut all: Vec<(String, String)> = [place.site, place.second]
         .iter()
         .flatten()
-        .map(|site| (format!("{:?}", site.at), format!("{:?}", site.side)))
+        .map(|site| {
+            use chereme_sign::hamnosys::{BodyLocation, Side};
+            // Of what is there twice, the own side is meant where nothing is said.
+            let twice = matches!(
+                site.at,
+                BodyLocation::Cheek | BodyLocation::Ear | BodyLocation::EarLobe
+            );
+            let side = site.side.or(twice.then_some(Side::RightAt));
+            (format!("{:?}", site.at), format!("{side:?}"))
+        })
         .collect();
     all.sort();
     all.dedup();

@@ -10,12 +10,12 @@ use super::way::{Fitted, Way, fit};
 use crate::strokes::{between_minima, smoothed};
 
 /// The least peak of speed of a way in arm lengths a second, and of a turn in radians a second.
-const LEAST: (f64, f64) = (0.2, 0.5);
+const LEAST: (f64, f64) = (0.2, 0.35);
 /// The least length of a way in arm lengths: a third of a small movement.
 const SHORT: f64 = 0.035;
 /// A hand that turns by this, or whose angles change by that, ends in another posture; in radians.
 const TURNED: f64 = 0.3;
-const RESHAPED: f64 = 0.14;
+const RESHAPED: f64 = 0.11;
 /// The least range of a hand or finger that goes to and fro, in radians.
 const SWAY: f64 = 0.12;
 /// A hand stops where it is slower than this share of its speed before and after.
@@ -289,11 +289,15 @@ fn going(
     plays: Option<&Sway>,
 ) -> Act {
     let track = mover.track;
-    let fitted = fit(mover.path(first, last));
     let wrist = wrist(track, first, last).filter(|sway| match sway {
         Sway::Wrist { cycles, .. } => *cycles >= 1.4,
         Sway::Play { .. } => false,
     });
+    // A hand that sways as it goes is carried by its wrist.
+    let fitted = match &wrist {
+        Some(_) => fit(&track.wrist[first..=last]),
+        None => fit(mover.path(first, last)),
+    };
     let with = plays.cloned().or(wrist);
     Act {
         frames: first..=last,
@@ -343,13 +347,11 @@ fn on_the_spot(
             turn.hypot(track.reshaped(a, b)) / scene.seconds((b - a).max(1))
         })
         .collect();
-    let changes = cut(scene, &speeds, LEAST.1, first);
-    if let (Some(a), Some(b)) = (changes.first(), changes.last())
-        && changes.len() >= 3
-        && let Some(sway) = wrist(track, *a.start(), *b.end())
-    {
-        return vec![act(*a.start()..=*b.end(), Kind::Sway(sway))];
+    let often = |sway: &Sway| matches!(sway, Sway::Wrist { cycles, .. } if *cycles >= 1.0);
+    if let Some(sway) = wrist(track, first, last).filter(often) {
+        return vec![act(first..=last, Kind::Sway(sway))];
     }
+    let changes = cut(scene, &speeds, LEAST.1, first);
     changes
         .into_iter()
         .map(|frames| act(frames, Kind::Change))
@@ -367,9 +369,8 @@ fn wrist(track: &Track, first: usize, last: usize) -> Option<Sway> {
     let swings = parts.each_ref().map(|part| Swing::of(part));
     let most = (0..3).max_by(|&a, &b| swings[a].range.total_cmp(&swings[b].range))?;
     let swing = swings[most];
-    let middle = (0.2..=0.8).contains(&swing.start);
     let whole = swing.net < 0.45 * swing.range;
-    if swing.range < SWAY || swing.turning < 2 || !middle || !whole {
+    if swing.range < SWAY || swing.turning < 2 || !whole {
         return None;
     }
     let motions = [
@@ -385,10 +386,11 @@ fn wrist(track: &Track, first: usize, last: usize) -> Option<Sway> {
     let narrow = y.range.min(z.range) / y.range.max(z.range).max(1e-9);
     let full = std::f64::consts::PI * y.range * z.range / 4.0;
     if most != 0 && narrow > 0.45 && round.abs() > 0.5 * full {
+        // As the signer sees it, from nodding over to swinging.
         let motion = if round > 0.0 {
-            WristMotion::StirCcw
-        } else {
             WristMotion::StirCw
+        } else {
+            WristMotion::StirCcw
         };
         return Some(Sway::Wrist {
             motion,
@@ -396,6 +398,9 @@ fn wrist(track: &Track, first: usize, last: usize) -> Option<Sway> {
             cycles: (round.abs() / full).max(1.0),
             runner_up: Some((motions[most], swing.range / 2.0)),
         });
+    }
+    if !(0.2..=0.8).contains(&swing.start) {
+        return None;
     }
     let next = (0..3)
         .filter(|&axis| axis != most)
@@ -427,7 +432,7 @@ fn play(scene: &Scene<'_>, track: &Track, first: usize, last: usize) -> Option<S
     }
     let apart = playing
         .windows(2)
-        .any(|pair| correlation(&columns[pair[0]], &columns[pair[1]]) < 0.75);
+        .any(|pair| correlation(&columns[pair[0]], &columns[pair[1]]).abs() < 0.75);
     let often = playing
         .iter()
         .any(|&digit| swings[digit].turning as f64 / scene.seconds(last - first) > 4.0);

@@ -52,13 +52,16 @@ const TOUCH: [f64; 3] = [0.05, 0.07, 0.045];
 const TOGETHER: f64 = 0.125;
 /// How much a metre forward counts against one aside or up: depth varies most between signers.
 const DEPTH: f64 = 0.6;
-/// What is said costs so much, in arm lengths: half-way between places of the trunk or of the head; a
-/// place that is rarely meant, the shoulder's top without touching it; reaching far; being close to the head without touching it.
+/// What is said costs so much, in arm lengths: half-way between places of the trunk (or touched ones) or
+/// before the head; a place that is rarely meant; the shoulder's top without touching it; reaching far;
+/// being close to the head without touching it.
 const BETWEEN: [f64; 2] = [0.008, 0.028];
 const RARE: f64 = 0.015;
-const TOP: f64 = 0.02;
+const TOP: f64 = 0.004;
 const FAR: f64 = 0.04;
 const NEAR: f64 = 0.012;
+/// A part of the hand counts as so much farther, in metres, for each step that it is less likely meant.
+const RANK: f64 = 0.004;
 /// Half-way between two places may be meant that are nearer to each other than this, in metres.
 const APART: f64 = 0.2;
 
@@ -99,7 +102,7 @@ impl<'a> Body<'a> {
     /// Looks at one frame; nothing where the skeleton tells no trunk there.
     pub(super) fn of(scene: &'a Scene<'a>, frame: usize) -> Option<Self> {
         let model = scene.clip.model_pose(frame);
-        let axes = Axes::of(scene.anatomy, &model, scene.dominant)?;
+        let axes = Axes::of(scene.anatomy, scene.alone, &model, scene.dominant)?;
         let mut body = Self {
             scene,
             axes,
@@ -143,6 +146,12 @@ impl<'a> Body<'a> {
         let root = scene
             .anatomy
             .landmark(scene.clip.skeleton(), model, &found.landmark)?;
+        // The top of a shoulder is where that shoulder is.
+        let shoulder = found.landmark.ends_with("-shoulder");
+        let root = match found.region {
+            Region::Trunk if !shoulder => self.axes.on_trunk(root),
+            _ => self.axes.place(root),
+        };
         let out = (DVec3::from(found.out) * flip).normalize_or(DVec3::Z);
         let flesh = match found.region {
             Region::Arm(_) => out * (0.08 * scene.arm),
@@ -155,7 +164,7 @@ impl<'a> Body<'a> {
         };
         Some(Spot {
             site,
-            at: self.axes.place(root) + offset + flesh,
+            at: root + offset + flesh,
             out,
             found,
         })
@@ -211,12 +220,14 @@ impl<'a> Body<'a> {
             .iter()
             .filter(|(point, _)| touches(*point))
             .min_by(|a, b| {
-                let [a, b] = [a, b].map(|(_, at)| at.distance_squared(spot.at));
-                a.total_cmp(&b)
+                let off =
+                    |(point, at): &(HandPoint, DVec3)| at.distance(spot.at) + RANK * rank(*point);
+                off(a).total_cmp(&off(b))
             });
         let Some(&(by, by_at)) = nearest else { return };
         let distance = by_at.distance(spot.at);
-        let between = second.map_or(0.0, |_| BETWEEN[usize::from(!trunk)]);
+        let touched = distance < TOUCH[usize::from(trunk)] * scene.arm && !spot.found.beside;
+        let between = second.map_or(0.0, |_| BETWEEN[usize::from(!trunk && !touched)]);
         let rare = [Some(first), second]
             .into_iter()
             .flatten()
@@ -240,10 +251,10 @@ impl<'a> Body<'a> {
             let score = residual + (cost + more) * scene.arm;
             all.push((place, residual, score, distance, at));
         };
-        let limit = TOUCH[usize::from(trunk)] * scene.arm;
-        if distance < limit && !spot.found.beside {
+        if touched {
             // What touches is told by where it is, not by where a hand before it would be.
-            add(Some(Contact::Touch), 0.5 * distance, Some(named(by)), by_at);
+            let off = distance + RANK * rank(by);
+            add(Some(Contact::Touch), off, Some(named(by)), by_at);
             return;
         }
         if second.is_some_and(|second| [first, second].iter().any(|it| is_top(it.site.at))) {
@@ -326,7 +337,7 @@ impl<'a> Body<'a> {
             for &(other, b) in &self.points[1] {
                 let distance = a.distance(b);
                 // Whole faces of the hand are sooner meant than what lies within them.
-                let score = distance + 0.004 * (rank(own) + rank(other));
+                let score = distance + RANK * (rank(own) + rank(other));
                 if score < least {
                     least = score;
                     best = Some(Together {
@@ -472,7 +483,6 @@ fn neighbours(a: &Spot, b: &Spot) -> bool {
         && apart > 1e-3
         && apart < APART
         && !opposite
-        && a.found.beside == b.found.beside
         && !matches!(a.found.region, Region::Arm(_))
 }
 
@@ -490,7 +500,6 @@ fn is_rare(at: BodyLocation) -> bool {
             | BodyLocation::LowerLip
             | BodyLocation::EarLobe
             | BodyLocation::Eyebrows
-            | BodyLocation::ShoulderTop
     )
 }
 
@@ -501,6 +510,7 @@ fn middle(a: &Spot, b: &Spot) -> Spot {
         out: (a.out + b.out).normalize_or(a.out),
         found: BodySite {
             lateral: (a.found.lateral + b.found.lateral) / 2.0,
+            beside: a.found.beside && b.found.beside,
             ..a.found.clone()
         },
     }

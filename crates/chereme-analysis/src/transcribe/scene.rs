@@ -21,6 +21,8 @@ pub(super) struct Scene<'a> {
     pub(super) arm: f64,
     pub(super) shoulders: f64,
     pub(super) hand: f64,
+    /// The side of the only arm that signs, where the other rests.
+    pub(super) alone: Option<Side>,
     pub(super) hands: [Option<Track>; 2],
 }
 
@@ -49,18 +51,34 @@ pub(super) struct Track {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Axes {
     origin: DVec3,
+    /// The middle of the shoulders where they are, from which landmarks of the trunk are measured.
+    shoulders: DVec3,
     left: DVec3,
     forward: DVec3,
 }
 
 impl Axes {
-    pub(super) fn of(anatomy: &Anatomy, model: &ModelPose, dominant: Side) -> Option<Self> {
+    /// Looks at a posture; an arm that hangs pulls its shoulder down, so that `alone` tells which
+    /// shoulder to go by where the other arm rests.
+    pub(super) fn of(
+        anatomy: &Anatomy,
+        alone: Option<Side>,
+        model: &ModelPose,
+        dominant: Side,
+    ) -> Option<Self> {
         let body = anatomy.body_frame(model)?;
         let level = DVec3::new(body.forward.x, 0.0, body.forward.z);
         let forward = level.try_normalize()?;
         let left = DVec3::Y.cross(forward);
+        let own = alone.and_then(|side| {
+            let shoulder = model.position(anatomy.arm(side)?.upper);
+            let middle = anatomy.joint(Part::Neck).or(anatomy.joint(Part::Chest))?;
+            let aside = left.dot(shoulder - model.position(middle));
+            Some(shoulder - left * aside)
+        });
         Some(Self {
-            origin: body.origin,
+            origin: own.unwrap_or(body.origin),
+            shoulders: body.origin,
             left: left * -dominant.sign(),
             forward,
         })
@@ -69,6 +87,11 @@ impl Axes {
     /// Returns a direction of model space to the left, up and forward.
     pub(super) fn direction(&self, v: DVec3) -> DVec3 {
         DVec3::new(v.dot(self.left), v.y, v.dot(self.forward))
+    }
+
+    /// Returns a landmark of the trunk to the left, up and forward of the shoulders' middle.
+    pub(super) fn on_trunk(&self, at: DVec3) -> DVec3 {
+        self.direction(at - self.shoulders)
     }
 
     /// Returns a place of model space to the left, up and forward of the shoulders' middle.
@@ -100,16 +123,18 @@ impl<'a> Scene<'a> {
             arm: measures.arm,
             shoulders: measures.shoulder_width,
             hand: measures.hand,
+            alone: None,
             hands: [None, None],
         };
+        scene.alone = scene.lone_arm();
         let mut tracks = [options.dominant, options.dominant.other()]
             .map(|side| anatomy.arm(side).map(|_| Track::new(anatomy, side)));
         let mut model = clip.model_pose(0);
         for frame in 0..clip.frames() {
             let pose = clip.pose(frame);
             model.set(clip.skeleton(), &pose);
-            let axes =
-                Axes::of(anatomy, &model, options.dominant).ok_or(TranscribeError::NoBody)?;
+            let axes = Axes::of(anatomy, scene.alone, &model, options.dominant)
+                .ok_or(TranscribeError::NoBody)?;
             for track in tracks.iter_mut().flatten() {
                 let angles = anatomy.hand_angles(clip.skeleton(), track.side, &pose);
                 track.angles.push(angles.unwrap_or_default());
@@ -121,6 +146,27 @@ impl<'a> Scene<'a> {
         }
         scene.hands = tracks;
         Ok(scene)
+    }
+
+    /// Returns the side of the only arm that signs: the other rests at the beginning, in the middle or
+    /// at the end, twice at least.
+    fn lone_arm(&self) -> Option<Side> {
+        let last = self.clip.frames() - 1;
+        let mut resting = [0, 0];
+        for frame in [0, last / 2, last] {
+            let model = self.clip.model_pose(frame);
+            let axes = Axes::of(self.anatomy, None, &model, self.dominant)?;
+            for (count, side) in resting.iter_mut().zip(Side::BOTH) {
+                let arm = self.anatomy.arm(side)?;
+                let reach = model.position(arm.hand) - model.position(arm.upper);
+                *count += usize::from(self.rests(axes.direction(reach)));
+            }
+        }
+        match resting {
+            [0 | 1, 2 | 3] => Some(Side::Right),
+            [2 | 3, 0 | 1] => Some(Side::Left),
+            _ => None,
+        }
     }
 
     fn add(&self, track: &mut Track, model: &ModelPose, axes: &Axes) {
