@@ -83,7 +83,7 @@ impl Limits {
 }
 
 /// How a hand hangs on its forearm, in radians.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct WristAngles {
     /// Towards the palm.
     pub(crate) flexion: f64,

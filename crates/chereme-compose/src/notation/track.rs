@@ -338,6 +338,7 @@ fn arms(
     let mut before: Option<WristAngles> = None;
     let mut cursor = 0;
     let mut rows: Vec<(Posed, DQuat)> = Vec::with_capacity(total);
+    let mut hangs: Vec<WristAngles> = Vec::with_capacity(total);
     for (frame, &plane) in turns.iter().enumerate() {
         let overlay = wanted.wrist[frame];
         let aim = Aim {
@@ -368,16 +369,28 @@ fn arms(
             }
         }
         rows.push((got.posed, got.rotation));
+        hangs.push(got.angles);
     }
     let most = FASTEST * hand.rig.length() / rate;
+    let mut cursor = 0;
+    let bending = BENDING / rate;
     for frame in steady(&mut rows, most, rate) {
-        let (posed, rotation) = &mut rows[frame];
-        *posed = hand.rig.reach(posed.wrist, turns[frame], limits);
-        let angles = hand.rig.wrist(posed, *rotation, &held, limits);
-        let allowed = angles.allowed(limits, None, 0.0);
-        if allowed != angles {
-            *rotation = hand.rig.hung(posed, &allowed, &held);
-        }
+        let aim = Aim {
+            stage,
+            hand,
+            held: &held,
+            limits,
+            point: wanted.points[frame],
+            offset: wanted.offsets[frame],
+            turned: rows[frame].1,
+            plane: turns[frame],
+            outlines: outlines.at(frame, &mut cursor),
+        };
+        let posed = hand.rig.reach(rows[frame].0.wrist, turns[frame], limits);
+        let before = frame.checked_sub(1).map(|before| hangs[before]);
+        let got = aim.finish(posed, rows[frame].1, before.as_ref(), bending, 0.0);
+        rows[frame] = (got.posed, got.rotation);
+        hangs[frame] = got.angles;
     }
     for (posed, rotation) in &rows {
         let rotations = hand.rig.rotations(posed, *rotation);
@@ -498,24 +511,49 @@ impl Aim<'_> {
             let done =
                 step.length() < 3e-4 && deep < 1e-4 && (pivot == 0.0 || amiss.length() < 3e-4);
             if done || round == TRIES {
-                // The point comes first: the wrist bends a little more where that takes it there.
                 posed = rig.reach(goal - rotation * self.offset, self.plane, self.limits);
-                // What turning could not bring out of the trunk is moved out after all.
-                let left = self.depth(posed.wrist, rotation).max(0.0);
-                if left > 1e-4 {
-                    pushed += left;
-                    posed = rig.reach(posed.wrist + out * left, self.plane, self.limits);
-                }
-                return Got {
-                    posed,
-                    rotation,
-                    angles,
-                    residual: (posed.wrist + rotation * self.offset).distance(self.point),
-                    pushed,
-                };
+                return self.finish(posed, rotation, before, most, pushed);
             }
             wrist += (goal - about * self.offset - wrist) * 0.8;
             posed = rig.reach(wrist, self.plane, self.limits);
+        }
+    }
+
+    /// Keeps a posture within the ranges of the wrist and out of the trunk: these two come before
+    /// the place of the point.
+    fn finish(
+        &self,
+        mut posed: Posed,
+        mut rotation: DQuat,
+        before: Option<&WristAngles>,
+        most: f64,
+        mut pushed: f64,
+    ) -> Got {
+        let rig = &self.hand.rig;
+        let asked = rotation;
+        let mut angles = WristAngles::default();
+        for round in 0..4 {
+            let hangs = rig.wrist(&posed, asked, self.held, self.limits);
+            angles = hangs.allowed(self.limits, before, most);
+            rotation = if angles == hangs {
+                asked
+            } else {
+                rig.hung(&posed, &angles, self.held)
+            };
+            let left = self.depth(posed.wrist, rotation).max(0.0);
+            if left < 1e-4 || round == 3 {
+                break;
+            }
+            pushed += left;
+            let wrist = posed.wrist + self.stage.torso.forward() * left;
+            posed = rig.reach(wrist, self.plane, self.limits);
+        }
+        Got {
+            posed,
+            rotation,
+            angles,
+            residual: (posed.wrist + rotation * self.offset).distance(self.point),
+            pushed,
         }
     }
 

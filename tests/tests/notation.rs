@@ -1,0 +1,55 @@
+//! Real notation on bodies: what must hold for every sign. Needs `CHEREME_SHARED_DATA`; the example
+//! `notation` prints the same for all of them.
+
+#[path = "../examples/notation/bodies.rs"]
+mod bodies;
+#[path = "../examples/notation/checks.rs"]
+mod checks;
+
+use std::path::{Path, PathBuf};
+
+use chereme_compose::notation::{Settings, animate};
+
+/// Every so many signs are made on each body.
+const EVERY: usize = 12;
+
+fn holds_on(body: &Path, folder: &Path, first: usize) {
+    let stage = bodies::stage(body).expect("a body that signs");
+    assert!(checks::has_hand(&stage.anatomy));
+    let signs = bodies::signs(folder).expect("a folder of notation");
+    assert!(signs.len() > 1600, "{} signs", signs.len());
+    for (name, notated) in signs.iter().skip(first).step_by(EVERY) {
+        let made = animate(&[notated], &stage, &Settings::default());
+        let made = made.unwrap_or_else(|error| panic!("{name}: {error}"));
+        let worst = checks::worst(&made);
+        assert_eq!(worst.nan, 0, "{name}");
+        assert!(
+            worst.bone < 1e-9,
+            "{name}: a bone changes by {} m",
+            worst.bone
+        );
+        assert!(
+            worst.wrist < 1.05,
+            "{name}: a wrist bends to {:.2} of its range",
+            worst.wrist
+        );
+        assert!(
+            worst.speed < 9.0,
+            "{name}: a hand goes at {:.1} m/s",
+            worst.speed
+        );
+    }
+}
+
+#[test]
+fn signs_hold_on_the_starter_body_and_on_a_captured_one() {
+    let Some(data) = std::env::var_os("CHEREME_SHARED_DATA").map(PathBuf::from) else {
+        eprintln!("CHEREME_SHARED_DATA is not set: real notation is not animated");
+        return;
+    };
+    let folder = data.join("notation/sigml");
+    let starter = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpus/chat.bvh");
+    holds_on(&starter, &folder, 0);
+    let captured = data.join("motion/bvh/upf-gti-performs/NGT Thanks.bvh");
+    holds_on(&captured, &folder, EVERY / 2);
+}
