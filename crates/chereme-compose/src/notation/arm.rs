@@ -115,6 +115,9 @@ impl WristAngles {
             allowed.flexion = near(allowed.flexion, before.flexion);
             allowed.deviation = near(allowed.deviation, before.deviation);
             allowed.turn = near(allowed.turn, before.turn);
+            let bend = allowed.bend(limits).max(1.0);
+            allowed.flexion /= bend;
+            allowed.deviation /= bend;
         }
         allowed
     }
