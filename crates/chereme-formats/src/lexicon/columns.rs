@@ -2,6 +2,7 @@
 
 use crate::finding::Finding;
 use crate::roles::{Hands, Mapping, Target, normal};
+use crate::table::Row;
 use crate::tally::Findings;
 use chereme_sign::{Component, Phase, TierRole};
 use serde::Serialize;
@@ -47,6 +48,8 @@ pub enum Meaning {
         #[serde(serialize_with = "super::phase_name")]
         phase: Option<Phase>,
     },
+    /// The sign as HamNoSys.
+    Notation,
     /// Something else, kept as it is.
     Note,
 }
@@ -83,18 +86,36 @@ fn parse(text: &str) -> Result<BTreeMap<String, Target>, String> {
     Ok(table)
 }
 
+/// Titles of columns that hold HamNoSys, as folded words.
+const NOTATION: [&str; 8] = [
+    "hamnosys",
+    "hamnosys 4",
+    "hamnosys4",
+    "hamnosys notation",
+    "hamnosys string",
+    "hamnosys text",
+    "notation",
+    "transcription",
+];
+
 /// Returns what each column is taken for. The first gloss column names the sign; further ones are
-/// translations.
+/// translations. Of columns that no title tells, those with HamNoSys's own characters are notation.
 pub(super) fn meanings(
     header: &[String],
+    rows: &[Row],
     mapping: &Mapping,
     findings: &mut Findings,
 ) -> Vec<Column> {
     let mut gloss = false;
     let mut seen = BTreeSet::new();
     let mut columns = Vec::with_capacity(header.len());
-    for title in header {
+    for (at, title) in header.iter().enumerate() {
         let mut column = column(title, mapping);
+        if column.why.is_empty() && holds_symbols(rows, at) {
+            column.meaning = Meaning::Notation;
+            column.confidence = 0.9;
+            "its cells hold HamNoSys's characters".clone_into(&mut column.why);
+        }
         if let Meaning::Gloss { language } = &column.meaning {
             if gloss {
                 column.meaning = Meaning::Translation {
@@ -141,6 +162,12 @@ fn column(title: &str, mapping: &Mapping) -> Column {
         );
     }
     let whole = normal(title);
+    if NOTATION.contains(&whole.as_str()) {
+        return Column {
+            meaning: Meaning::Notation,
+            ..column(None, None, 0.95, format!("its title is {whole:?}"))
+        };
+    }
     let language = language(&whole);
     let words: Vec<&str> = whole
         .split(' ')
@@ -170,6 +197,21 @@ fn column(title: &str, mapping: &Mapping) -> Column {
         ),
         None => column(None, None, 0.0, String::new()),
     }
+}
+
+/// Tells whether most cells of a column that hold something hold characters of HamNoSys.
+fn holds_symbols(rows: &[Row], column: usize) -> bool {
+    let symbols = |cell: &str| cell.contains(|c| ('\u{e000}'..='\u{e0f1}').contains(&c));
+    let cells = rows
+        .iter()
+        .filter_map(|row| row.cells.get(column))
+        .filter(|cell| !cell.trim().is_empty());
+    let (mut all, mut notated) = (0usize, 0usize);
+    for cell in cells {
+        all += 1;
+        notated += usize::from(symbols(cell));
+    }
+    notated * 2 > all
 }
 
 /// Returns the language that a title of several words names, and the word.

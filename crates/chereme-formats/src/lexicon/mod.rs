@@ -3,6 +3,7 @@
 //! What a column codes is guessed from its title (`schema/column_words.json`) or said by a
 //! [`Mapping`]. Compound cells are kept apart: `neutral space > head` is two successive values,
 //! `S + W` two at once, `>S` a final value alone; `-` and `N/A` are not applicable, `?` is unclear.
+//! A column of HamNoSys, told by its title or by the characters in it, is the sign's notation.
 //! The cells stay as they are beside what they mean, so that [`write()`] gives the same table back.
 //!
 //! ```
@@ -54,6 +55,8 @@ pub struct Entry {
     pub translations: Vec<(String, String)>,
     /// What the sign is coded as, in the order of the columns; unset cells give nothing.
     pub codings: Vec<Coding>,
+    /// The sign as HamNoSys, blanks at its ends left out.
+    pub notation: Option<String>,
     /// The cells as they are, one a column.
     pub cells: Vec<String>,
 }
@@ -121,7 +124,7 @@ pub struct Inventory {
 pub fn read(bytes: &[u8], mapping: &Mapping) -> Result<(Lexicon, Vec<Finding>), TableError> {
     let mut findings = Findings::default();
     let table = Cells::read(bytes, &mut findings)?;
-    let columns = columns::meanings(&table.header, mapping, &mut findings);
+    let columns = columns::meanings(&table.header, &table.rows, mapping, &mut findings);
     let gloss = columns
         .iter()
         .position(|it| matches!(it.meaning, Meaning::Gloss { .. }));
@@ -209,6 +212,7 @@ fn entry(row: Row, gloss: usize, columns: &[Column]) -> Entry {
         gloss: row.cells[gloss].trim().to_owned(),
         translations: Vec::new(),
         codings: Vec::new(),
+        notation: None,
         cells: Vec::new(),
     };
     for (at, (column, cell)) in columns.iter().zip(&row.cells).enumerate() {
@@ -216,6 +220,9 @@ fn entry(row: Row, gloss: usize, columns: &[Column]) -> Entry {
             Meaning::Translation { language } if !cell.trim().is_empty() => {
                 let language = language.clone().unwrap_or_default();
                 entry.translations.push((language, cell.trim().to_owned()));
+            }
+            Meaning::Notation if !cell.trim().is_empty() && entry.notation.is_none() => {
+                entry.notation = Some(cell.trim().to_owned());
             }
             Meaning::Coding {
                 hand,

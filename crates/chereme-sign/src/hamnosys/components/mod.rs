@@ -158,7 +158,11 @@ impl<'i> Mapper<'i> {
                     )),
                 }
             }
-            if !own.is_empty() && said.last() != Some(&own) {
+            let same = |before: &Vec<(&str, bool)>| {
+                let ids = |(a, b): (&(&str, bool), &(&str, bool))| a.0 == b.0;
+                before.len() == own.len() && before.iter().zip(&own).all(ids)
+            };
+            if !own.is_empty() && !said.last().is_some_and(same) {
                 said.push(own);
             }
         }
