@@ -148,3 +148,26 @@ pub fn lexicon() -> &'static str {
      LIMACE\tslug\tU\tB\tweak hand\n\
      JOUR\tday\tB\t\tneutral space > head\n"
 }
+
+/// Returns a SiGML file of two signs: MERCI, a flat hand that leaves the chin in an arc, and OUI.
+#[must_use]
+pub fn sigml() -> &'static str {
+    r#"<sigml>
+<hamgestural_sign gloss="MERCI">
+  <sign_nonmanual><head_tier><head_movement movement="NO"/></head_tier></sign_nonmanual>
+  <sign_manual>
+    <handconfig handshape="flat"/>
+    <handconfig extfidir="u"/>
+    <handconfig palmor="u"/>
+    <location_bodyarm location="chin" contact="touch"/>
+    <directedmotion direction="o" curve="u" size="small"/>
+  </sign_manual>
+</hamgestural_sign>
+<hns_sign gloss="OUI">
+  <hamnosys_manual>
+    <hamfist/><hamthumbacrossmod/><hamextfingero/><hampalmd/><hamnodding/><hamrepeatfromstart/>
+  </hamnosys_manual>
+</hns_sign>
+</sigml>
+"#
+}

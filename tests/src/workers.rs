@@ -112,6 +112,7 @@ pub fn small_corpus(folder: &Path, name: &str) -> Result<PathBuf, Box<dyn std::e
     std::fs::write(inbox.join("bowl and cat.bvh"), files::bvh(200, 1))?;
     std::fs::write(inbox.join("bowl and cat.eaf"), files::two_signs())?;
     std::fs::write(inbox.join("words.tsv"), files::lexicon())?;
+    std::fs::write(inbox.join("notated.sigml"), files::sigml())?;
     let path = folder.join(name);
     let mut corpus = Corpus::create(&path, "maker")?;
     let report = corpus.import(

@@ -68,6 +68,8 @@ const CASES: &[Case] = &[
     ("import @c @in/none.bvh", 1, ERROR),
     ("import @c @in/notes.txt", 1, ERROR),
     ("import @c @more/broken.bvh", 1, REFUSED),
+    ("import @d/a.chereme @in/notated.sigml", 0, FILE),
+    ("import @c @more/broken.sigml", 1, REFUSED),
     ("import @c @in/bowl.bvh --map @in/none.json", 1, ERROR),
     ("import @c @in/bowl.bvh --roles @in/notes.txt", 1, ERROR),
     ("import @c", 2, ERROR),
@@ -122,6 +124,15 @@ const CASES: &[Case] = &[
     ("list @c signers", 0, ROWS),
     ("list @c operations", 0, ROWS),
     ("list @c signs --where gloss=Z*", 0, &["/total", "/rows"]),
+    (
+        "list @c signs --where notation=*",
+        0,
+        &[
+            "/rows/0/notation/system",
+            "/rows/0/notation/file",
+            "/rows/0/notation/document/sign/parts/0",
+        ],
+    ),
     ("list @c signs --where colour=red", 1, ERROR),
     ("list @c signs --sort colour", 1, ERROR),
     ("list @c elephants", 2, ERROR),
@@ -137,6 +148,7 @@ const CASES: &[Case] = &[
         0,
         &["/total", "/hits/0/token"],
     ),
+    ("search @c 'configuration=flat placement=chin'", 0, HITS),
     ("search @c 'handform=S'", 1, ERROR),
     ("search @c 'gloss=('", 1, ERROR),
     ("search @c", 2, ERROR),
@@ -222,6 +234,14 @@ const CASES: &[Case] = &[
     ("export @c recording:1 --to @d/bowl.eaf", 0, WRITTEN),
     ("export @c query:configuration=S --to @d/s.csv", 0, WRITTEN),
     ("export @c all --to @d/all", 0, WRITTEN),
+    ("export @c all --to @d/all.sigml", 0, WRITTEN),
+    ("export @c sign:MERCI --to @d/merci.hsigml", 0, WRITTEN),
+    (
+        "export @c query:placement=chin --to @d/chin.hns",
+        0,
+        WRITTEN,
+    ),
+    ("export @c BOL --to @d/bowl.sigml", 1, ERROR),
     ("export @c all --to @d/all.docx", 1, ERROR),
     ("export @c recording:9 --to @d/nine.bvh", 1, ERROR),
     ("export @c recording:1 --to @in/bowl.bvh", 1, ERROR),
@@ -337,6 +357,7 @@ impl Desk {
             ("bowl.bvh", files::bvh(200, 1)),
             ("bowl.eaf", files::two_signs()),
             ("words.tsv", files::lexicon().to_owned()),
+            ("notated.sigml", files::sigml().to_owned()),
             ("notes.txt", "no joint is named here\n".to_owned()),
         ] {
             fs::write(inbox.join(name), text).expect("written");
@@ -351,6 +372,7 @@ impl Desk {
         assert!(done.status.success(), "{}", text(&done.stderr));
         for (name, text) in [
             ("broken.bvh", "a skeleton should be here\n".to_owned()),
+            ("broken.sigml", "<sigml>\n<hns_sign>\n".to_owned()),
             ("other.bvh", files::bvh(40, 2)),
             (
                 "changes.csv",

@@ -14,10 +14,11 @@ use crate::Corpus;
 use crate::db::check as rows;
 use crate::db::motion::hex;
 use crate::db::search::State;
-use crate::db::{recordings, tiers};
+use crate::db::{notations, recordings, tiers};
 use crate::error::Result;
 use crate::inventories;
 use crate::movement::{ChannelGroup, Track};
+use crate::notation;
 use crate::progress::{Progress, Step, Unit};
 use crate::tokens;
 
@@ -37,8 +38,8 @@ pub struct CheckReport {
 /// Something that is wrong with a corpus.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Fault {
-    /// `database`, `reference`, `block`, `movement`, `skeleton`, `inventory`, `tier`, `tokens`,
-    /// `history` or `index`.
+    /// `database`, `reference`, `block`, `movement`, `skeleton`, `inventory`, `notation`, `tier`,
+    /// `tokens`, `history` or `index`.
     pub kind: &'static str,
     /// Where.
     pub place: String,
@@ -53,7 +54,7 @@ const MEND: &str = "`chereme check --mend` puts it right";
 
 impl Corpus {
     /// Looks at everything that can be wrong: the database, references, blocks and their hashes,
-    /// skeletons, inventories, tier rules, tokens, history and the search index.
+    /// skeletons, inventories, notations, tier rules, tokens, history and the search index.
     ///
     /// With `mend` what is derived (tokens, index) is made anew where it is wrong.
     ///
@@ -70,6 +71,7 @@ impl Corpus {
         looking.blocks(connection)?;
         looking.movement(connection)?;
         looking.inventories(connection)?;
+        looking.notations(connection)?;
         looking.tiers(connection)?;
         for fault in self.store.check_history()? {
             looking.fault("history", "history", fault, BACKUP);
@@ -195,6 +197,16 @@ impl Looking<'_, '_> {
                 );
             }
             self.count("blocks")
+        })
+    }
+
+    fn notations(&mut self, connection: &Connection) -> Result<()> {
+        notations::each(connection, |row| {
+            let place = format!("notation {}", row.id);
+            if let Err(error) = notation::read(row) {
+                self.fault("notation", place, error.to_string(), BACKUP);
+            }
+            self.count("notations")
         })
     }
 

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use chereme_sign::text::{did_you_mean, nearest};
+use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -13,6 +14,7 @@ use crate::db::list::{self as rows, Holds, Table, Test, Wanted};
 use crate::db::signs::{self, TokenValueRow};
 use crate::db::tiers;
 use crate::error::{Error, Result};
+use crate::notation;
 
 /// What to list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -198,6 +200,9 @@ impl Corpus {
             wanted.sort = Some((kind.column(name)?, filter.descending));
         }
         let (total, mut listed) = rows::list(connection, kind.table(), &wanted)?;
+        if matches!(kind, ListKind::Tokens | ListKind::Signs) {
+            add_notations(connection, &mut listed)?;
+        }
         if kind == ListKind::Tokens {
             for row in &mut listed {
                 let token = row.get("id").and_then(Value::as_i64).unwrap_or_default();
@@ -229,7 +234,7 @@ impl Corpus {
                 Some(row) => Test::Row(row),
                 None => Test::Like(pattern.to_owned()),
             }),
-            Holds::Json(_) => Ok(Test::Like(format!("*{pattern}*"))),
+            Holds::Json(_) | Holds::Notation(_) => Ok(Test::Like(format!("*{pattern}*"))),
             Holds::Number => between(pattern)
                 .ok_or_else(|| unfit("write a number, >5, >=5, <5, <=5, 2..5, or none")),
             Holds::Flag => match pattern.to_lowercase().as_str() {
@@ -335,6 +340,20 @@ fn components(values: &[TokenValueRow]) -> Value {
     Value::Object(map)
 }
 
+/// Puts the notation of each token that `notation` names in its place, as JSON: `{"token", "system",
+/// "file", "line", "text", "document"}`.
+fn add_notations(connection: &Connection, rows: &mut [Map<String, Value>]) -> Result<()> {
+    let token = |row: &Map<String, Value>| row.get("notation").and_then(Value::as_i64);
+    let tokens: Vec<i64> = rows.iter().filter_map(token).collect();
+    let mut found = notation::of_tokens(connection, &tokens)?;
+    for row in rows {
+        let own = token(row).and_then(|token| found.remove(&token));
+        let own = serde_json::to_value(own).map_err(|error| Error::wrong(error.to_string()))?;
+        row.insert("notation".to_owned(), own);
+    }
+    Ok(())
+}
+
 /// Returns a cell of a row as people read it in a table.
 #[must_use]
 pub fn cell_text(value: &Value) -> String {
@@ -343,6 +362,10 @@ pub fn cell_text(value: &Value) -> String {
         Value::String(text) => text.clone(),
         Value::Bool(yes) => if *yes { "yes" } else { "no" }.to_owned(),
         Value::Array(all) => all.iter().map(cell_text).collect::<Vec<_>>().join(", "),
+        Value::Object(map) if map.contains_key("system") && map.contains_key("document") => {
+            let text = map.get("text").filter(|text| text.is_string());
+            cell_text(text.or(map.get("system")).unwrap_or(&Value::Null))
+        }
         Value::Object(map) => match (map.get("language"), map.get("text")) {
             (Some(Value::String(language)), Some(Value::String(text))) if map.len() == 2 => {
                 if language.is_empty() {

@@ -8,6 +8,7 @@ use chereme_compose::{
 };
 use chereme_motion::{Instant, Side, Span};
 use chereme_sign::Inventory;
+use chereme_sign::hamnosys::Notated;
 use chereme_sign::text::nearest;
 use chereme_sign::{Component, HandRef, Handedness, Reading};
 use rusqlite::Connection;
@@ -22,6 +23,7 @@ use crate::db::tiers;
 use crate::error::{Error, Result};
 use crate::inventories::StoredInventory;
 use crate::movement::{ChannelGroup, Track};
+use crate::notation;
 use crate::search::index::SearchIndex;
 
 mod learned;
@@ -235,6 +237,11 @@ impl Sources for CorpusSources<'_> {
                 address: signer.unwrap_or("a recording with movement").to_owned(),
                 nearest: None,
             })
+    }
+
+    fn notation(&self, name: &str) -> std::result::Result<Vec<Notated>, SourceError> {
+        let found = notation::named(self.connection, name).map_err(|error| unreadable(&error))?;
+        Ok(found.into_iter().map(|found| found.document).collect())
     }
 
     fn value(&self, component: Component, text: &str) -> std::result::Result<Value, SourceError> {

@@ -11,9 +11,10 @@ use crate::output::{Bar, Output};
 /// Take things away: movement, annotations, tables, or the whole enriched database
 ///
 /// The ending of --to says the format: .bvh (movement of a recording or token), .eaf (a recording's
-/// tiers, for ELAN), .csv or .tsv (tokens with all components), or none: a folder with the database, a
-/// table a file, the recordings, the inventories, checksums and provenance. The same corpus always
-/// gives the same bytes.
+/// tiers, for ELAN), .csv or .tsv (tokens with all components), .sigml (notated signs as gestural SiGML),
+/// .hsigml (the same as HamNoSys's symbols), .hns or .txt (as HamNoSys text, a sign a line), or none: a
+/// folder with the database, a table a file, the recordings, the inventories, checksums and provenance.
+/// The same corpus always gives the same bytes.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The corpus

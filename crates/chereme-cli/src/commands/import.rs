@@ -16,8 +16,8 @@ use crate::output::{Bar, Output};
 
 /// Take recordings, annotations, lexicons and inventories into a corpus
 ///
-/// Files: .bvh (movement), .eaf (ELAN annotations), .csv or .tsv (a lexicon of codings), .json (an
-/// inventory), or folders of them. A movement and an annotation file with the same name become one
+/// Files: .bvh (movement), .eaf (ELAN annotations), .csv or .tsv (a lexicon of codings, of HamNoSys, or
+/// both), .sigml (signs as notation), .json (an inventory), or folders of them. A movement and an annotation file with the same name become one
 /// recording. What each file was understood as is shown, and can be overridden. The corpus is made
 /// where there is none yet. One import is one operation: `chereme undo` takes it back.
 #[derive(Debug, clap::Args)]
@@ -162,9 +162,24 @@ fn options(args: &Args) -> Result<ImportOptions> {
     })
 }
 
+/// Of more files than these only those are shown that somebody should look at.
+const SHOWN: usize = 50;
+
 fn print(report: &ImportReport, output: &mut Output) -> Result<()> {
+    let many = report.files.len() > SHOWN;
+    let mut quiet = 0;
     for file in &report.files {
-        print_file(file, output)?;
+        let plain = |severity: &str| severity == "note";
+        if many && file.findings.iter().all(|finding| plain(finding.severity)) {
+            quiet += usize::from(file.status == FileStatus::Imported);
+        } else {
+            print_file(file, output)?;
+        }
+    }
+    if quiet > 0 {
+        output.line(format!(
+            "{quiet} more files were taken in without a warning; --json tells what was noted"
+        ))?;
     }
     let skipped = report
         .files

@@ -10,7 +10,7 @@ use super::open;
 use crate::error::Result;
 
 /// The tables that a reader of the data wants, in the order in which they build on each other.
-pub(crate) const TABLES: [&str; 18] = [
+pub(crate) const TABLES: [&str; 19] = [
     "meta",
     "signer",
     "skeleton",
@@ -26,6 +26,7 @@ pub(crate) const TABLES: [&str; 18] = [
     "sign_text",
     "token",
     "token_value",
+    "notation",
     "recipe",
     "recipe_input",
     "operation",

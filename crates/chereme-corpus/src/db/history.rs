@@ -15,7 +15,7 @@ use super::damaged;
 use crate::error::{Error, Result};
 
 /// The tables whose rows are recorded, and for each the columns that refer to a row with a uid.
-const TRACKED: [(&str, &[(&str, &str)]); 17] = [
+const TRACKED: [(&str, &[(&str, &str)]); 18] = [
     ("meta", &[]),
     ("signer", &[]),
     ("skeleton", &[]),
@@ -57,6 +57,10 @@ const TRACKED: [(&str, &[(&str, &str)]); 17] = [
             ("inventory_id", "inventory"),
             ("annotation_id", "annotation"),
         ],
+    ),
+    (
+        "notation",
+        &[("token_id", "token"), ("source_file_id", "source_file")],
     ),
     ("recipe", &[("recording_id", "recording")]),
     (

@@ -7,7 +7,7 @@ use rusqlite::Connection;
 use crate::error::Result;
 use crate::info::{InventoryInfo, SignerInfo};
 
-const KINDS: [(&str, &str); 12] = [
+const KINDS: [(&str, &str); 13] = [
     ("recordings", "recording"),
     ("tracks", "track"),
     ("skeletons", "skeleton"),
@@ -18,6 +18,7 @@ const KINDS: [(&str, &str); 12] = [
     ("annotations", "annotation"),
     ("inventories", "inventory"),
     ("values", "inventory_value"),
+    ("notations", "notation"),
     ("recipes", "recipe"),
     ("operations", "operation"),
 ];

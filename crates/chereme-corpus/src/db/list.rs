@@ -22,6 +22,9 @@ pub(crate) enum Holds {
     Json(&'static str),
     /// What a token is coded as, which the caller puts in from the row's `id`.
     Components,
+    /// What a token, or a sign's citation form, is as notation, which the caller puts in from the
+    /// row number that the expression gives; filtered by the text of the second expression.
+    Notation(&'static str),
 }
 
 /// A column of a list.
@@ -120,6 +123,16 @@ pub(crate) const SIGNS: Table = Table {
               FROM sign_text x WHERE x.sign_id = s.id)",
             "(SELECT group_concat(text, ' · ' ORDER BY id) FROM sign_text x WHERE x.sign_id = s.id)",
         ),
+        column(
+            "notation",
+            "(SELECT t.id FROM notation n JOIN token t ON t.id = n.token_id
+              WHERE t.sign_id = s.id ORDER BY t.citation DESC, t.id LIMIT 1)",
+            Holds::Notation(
+                "(SELECT coalesce(n.text, n.system) FROM notation n JOIN token t ON t.id = n.token_id
+                  WHERE t.sign_id = s.id ORDER BY t.citation DESC, t.id LIMIT 1)",
+            ),
+            None,
+        ),
         text("notes", "s.notes"),
     ],
     from: "sign s",
@@ -138,6 +151,14 @@ pub(crate) const TOKENS: Table = Table {
         flag("citation", "t.citation"),
         named("signer", "g.name", "g.id"),
         column("components", "NULL", Holds::Components, None),
+        column(
+            "notation",
+            "(SELECT n.token_id FROM notation n WHERE n.token_id = t.id)",
+            Holds::Notation(
+                "(SELECT coalesce(n.text, n.system) FROM notation n WHERE n.token_id = t.id)",
+            ),
+            None,
+        ),
     ],
     from: "token t JOIN sign s ON s.id = t.sign_id LEFT JOIN recording r ON r.id = t.recording_id
            LEFT JOIN signer g ON g.id = r.signer_id",
@@ -312,7 +333,7 @@ pub(crate) struct Wanted {
 impl Column {
     fn filter(&self) -> &'static str {
         match self.holds {
-            Holds::Json(text) => text,
+            Holds::Json(text) | Holds::Notation(text) => text,
             _ => self.sql,
         }
     }

@@ -12,6 +12,7 @@ pub(crate) mod info;
 pub(crate) mod inventories;
 pub(crate) mod list;
 pub(crate) mod motion;
+pub(crate) mod notations;
 mod open;
 pub(crate) mod recipes;
 pub(crate) mod recordings;

@@ -16,7 +16,10 @@ use crate::error::{Error, Result};
 const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");
 
 /// The schema's steps; a file's `user_version` is how many of them it has taken.
-const STEPS: [&str; 1] = [include_str!("../../../../schema/sql/0001_corpus.sql")];
+const STEPS: [&str; 2] = [
+    include_str!("../../../../schema/sql/0001_corpus.sql"),
+    include_str!("../../../../schema/sql/0002_notation.sql"),
+];
 
 /// The schema version that this code writes.
 pub(crate) const SCHEMA_VERSION: i32 = STEPS.len() as i32;

@@ -240,7 +240,7 @@ pub(crate) struct SourceFileRow {
     pub id: i64,
     /// The recording that it is about.
     pub recording_id: Option<i64>,
-    /// `bvh`, `eaf`, `lexicon` or `inventory`.
+    /// `bvh`, `eaf`, `lexicon`, `inventory` or `sigml`.
     pub kind: String,
     /// The file's name, without its folder.
     pub name: String,
@@ -248,12 +248,12 @@ pub(crate) struct SourceFileRow {
     pub hash: String,
 }
 
-/// Writes down a file that rows came from, with its bytes where they are kept.
+/// Writes down a file that rows came from, with its bytes where they are kept, and returns its row.
 pub(crate) fn insert_source_file(
     connection: &Connection,
     row: &SourceFileRow,
     bytes: Option<&[u8]>,
-) -> Result<()> {
+) -> Result<i64> {
     let data = bytes.map(|bytes| zstd::encode_all(bytes, 9)).transpose();
     let data = data.map_err(|error| Error::file(&row.name, error))?;
     connection
@@ -268,7 +268,7 @@ pub(crate) fn insert_source_file(
             row.hash,
             data
         ])?;
-    Ok(())
+    Ok(connection.last_insert_rowid())
 }
 
 /// Returns the files of a recording, oldest first.

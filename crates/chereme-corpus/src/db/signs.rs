@@ -193,8 +193,9 @@ pub(crate) fn update_token(connection: &Connection, row: &TokenRow) -> Result<()
     Ok(())
 }
 
-/// Deletes a token with its values.
+/// Deletes a token with its values and its notation.
 pub(crate) fn delete_token(connection: &Connection, id: i64) -> Result<()> {
+    super::notations::delete(connection, id)?;
     connection
         .prepare_cached("DELETE FROM token_value WHERE token_id = ?1")?
         .execute([id])?;
@@ -341,7 +342,8 @@ pub(crate) fn tokens(connection: &Connection, ids: &[i64]) -> Result<BTreeMap<i6
     Ok(rows)
 }
 
-fn json_list(ids: &[i64]) -> String {
+/// Returns rows as a JSON list, to be asked for at once.
+pub(super) fn json_list(ids: &[i64]) -> String {
     let ids: Vec<String> = ids.iter().map(i64::to_string).collect();
     format!("[{}]", ids.join(","))
 }

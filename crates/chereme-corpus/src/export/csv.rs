@@ -10,10 +10,12 @@ use std::io::Write;
 use ::csv::{Writer, WriterBuilder};
 use rusqlite::Connection;
 
+use crate::db::notations;
 use crate::db::recordings;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::db::tiers;
 use crate::error::{Error, Result};
+use crate::notation;
 use crate::progress::{Progress, Step, Unit};
 
 /// A column of values: component, feature, hand, and the phase where it has a column of its own.
@@ -53,10 +55,12 @@ pub(super) fn tokens(
     let mut languages: BTreeMap<String, usize> = BTreeMap::new();
     let mut unclear = 0;
     let mut signs: BTreeSet<i64> = BTreeSet::new();
+    let mut notated = false;
     for (part, ids) in tokens.chunks(signs::AT_ONCE).enumerate() {
         for values in signs::values_of(connection, ids)?.values() {
             columns.extend(cells(values, &mut unclear).into_keys());
         }
+        notated |= notations::any(connection, ids)?;
         signs.extend(
             signs::tokens(connection, ids)?
                 .values()
@@ -80,11 +84,14 @@ pub(super) fn tokens(
     let translations = languages
         .iter()
         .flat_map(|(language, most)| std::iter::repeat_n(translation(language), *most));
-    let titles = titles.chain(translations).chain(columns.iter().map(title));
+    let notation = notated.then(|| "hamnosys".to_owned());
+    let titles = titles.chain(translations).chain(notation);
+    let titles = titles.chain(columns.iter().map(title));
     table.write_record(titles).map_err(fault)?;
     for (part, ids) in tokens.chunks(signs::AT_ONCE).enumerate() {
         let rows = signs::tokens(connection, ids)?;
         let values = signs::values_of(connection, ids)?;
+        let notations = notation::of_tokens(connection, ids)?;
         for id in ids {
             let token = rows
                 .get(id)
@@ -95,6 +102,10 @@ pub(super) fn tokens(
                 let mut own = texts.remove(language).unwrap_or_default();
                 own.resize(*most, String::new());
                 row.append(&mut own);
+            }
+            if notated {
+                let own = notations.get(id);
+                row.push(own.map_or_else(String::new, |own| own.document.hamnosys().text));
             }
             let mut cells = values
                 .get(id)

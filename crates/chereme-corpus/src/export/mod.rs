@@ -4,6 +4,7 @@ mod bvh;
 mod csv;
 mod eaf;
 mod enriched;
+mod notation;
 #[cfg(test)]
 mod tests;
 
@@ -70,6 +71,9 @@ impl Corpus {
     /// | `.csv`, `.tsv` | a token a row, with its components; of a tier its annotations |
     /// | `.eaf` | the tiers of one recording, for ELAN |
     /// | `.bvh` | the movement of one recording or token |
+    /// | `.sigml` | notated tokens as gestural SiGML |
+    /// | `.hsigml` | notated tokens as H-SiGML, HamNoSys's symbols as elements |
+    /// | `.hns`, `.txt` | notated tokens as HamNoSys text, a sign a line: the gloss, a tab, the text |
     /// | none | everything, as a folder of files that anyone can read |
     ///
     /// A file appears whole or not at all.
@@ -117,6 +121,7 @@ enum Format {
     Table(u8),
     Eaf,
     Bvh,
+    Notation(notation::Form),
 }
 
 impl Format {
@@ -126,6 +131,9 @@ impl Format {
             "tsv" => Some(Self::Table(b'\t')),
             "eaf" => Some(Self::Eaf),
             "bvh" => Some(Self::Bvh),
+            "sigml" => Some(Self::Notation(notation::Form::Gestural)),
+            "hsigml" => Some(Self::Notation(notation::Form::Symbols)),
+            "hns" | "txt" => Some(Self::Notation(notation::Form::Text)),
             _ => None,
         }
     }
@@ -159,12 +167,17 @@ fn write_file(
             let stretch = stretch(connection, what)?;
             bvh::write(connection, &stretch, out, progress).map(|_| ())
         }
+        (Format::Notation(form), _) => {
+            let tokens = tokens(connection, what)?;
+            notation::write(connection, &tokens, form, out, notes, progress)
+        }
     }
 }
 
 fn no_format(to: &Path, message: &str) -> Error {
     Error::wrong(message).at(to.display().to_string()).advise(
-        "end the name in .csv, .tsv, .eaf or .bvh; a name without a dot is a folder of everything",
+        "end the name in .csv, .tsv, .eaf, .bvh, .sigml, .hsigml or .hns; a name without a dot is a \
+         folder of everything",
     )
 }
 

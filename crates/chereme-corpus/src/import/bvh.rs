@@ -327,7 +327,8 @@ fn finish(job: &mut Job<'_>, recording: i64, track: i64, frames: u64, rate: Rate
         name: job.file_name.clone(),
         hash: job.hash.clone(),
     };
-    recordings::insert_source_file(job.connection, &row, None)
+    recordings::insert_source_file(job.connection, &row, None)?;
+    Ok(())
 }
 
 /// By how much the root's places must be multiplied so that the legs reach the ground, where that is

@@ -356,7 +356,7 @@ fn tier_inventory(
                 .any(|it| it.inventory.id == inventory.id);
             let id = inventories::store(job.connection, &inventory)?;
             job.count("inventories", usize::from(new));
-            job.inventories = inventories::load(job.connection)?;
+            job.inventories = inventories::load(job.connection)?.into();
             Ok(Some(id))
         }
         None if said.is_empty() => Ok(None),

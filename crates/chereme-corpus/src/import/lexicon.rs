@@ -7,8 +7,10 @@ use chereme_sign::text::fold;
 use chereme_sign::{Component, Inventory, InventoryValue, Phase, Reading};
 use serde_json::{Map, Value, json};
 
+use super::notation::{Text, Words};
 use super::report::ReportFinding;
 use super::{FileReport, FileStatus, Job};
+use crate::db::notations;
 use crate::db::recordings::{self, SourceFileRow};
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::error::{Error, Result};
@@ -31,9 +33,29 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         .extend(findings.into_iter().map(ReportFinding::from));
     report.understand("columns", &table.columns);
     let inventories = store_inventories(job, &table)?;
+    let row = SourceFileRow {
+        id: 0,
+        recording_id: None,
+        kind: "lexicon".into(),
+        name: job.file_name.clone(),
+        hash: job.hash.clone(),
+    };
+    let file = recordings::insert_source_file(job.connection, &row, Some(&bytes))?;
+    let stored = job.inventories.clone();
+    let words = Words::new(&stored);
     let total = Some(table.entries.len() as u64);
     for (done, entry) in table.entries.iter().enumerate() {
-        import_entry(job, &table, entry, &inventories)?;
+        let token = import_entry(job, &table, entry, &inventories)?;
+        if let Some(text) = &entry.notation {
+            let notation = Text {
+                token,
+                file,
+                line: entry.line,
+                gloss: &entry.gloss,
+                text,
+            };
+            notation.import(job, &words, &mut report)?;
+        }
         if done % 256 == 0 {
             let done = done as u64;
             progress.tell(Step {
@@ -44,14 +66,6 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
             })?;
         }
     }
-    let row = SourceFileRow {
-        id: 0,
-        recording_id: None,
-        kind: "lexicon".into(),
-        name: job.file_name.clone(),
-        hash: job.hash.clone(),
-    };
-    recordings::insert_source_file(job.connection, &row, Some(&bytes))?;
     Ok(report)
 }
 
@@ -136,7 +150,7 @@ fn import_entry(
     table: &Lexicon,
     entry: &Entry,
     inventories: &BTreeMap<Part, Known>,
-) -> Result<()> {
+) -> Result<i64> {
     let connection = job.connection;
     let is_new = signs::find_sign(connection, &entry.gloss)?.is_none();
     let sign = signs::sign_glossed(connection, &entry.gloss)?;
@@ -144,8 +158,16 @@ fn import_entry(
         signs::add_text(connection, sign, language, text)?;
     }
     let tokens = signs::tokens_of_sign(connection, sign)?;
-    let token = match tokens.iter().find(|token| token.origin == "lexicon") {
-        Some(token) => token.id,
+    let mut known = None;
+    for token in tokens.iter().filter(|token| token.origin == "lexicon") {
+        // A sign of a SiGML file is an entry of its own.
+        let notation = notations::of_token(connection, token.id)?;
+        if known.is_none() && notation.is_none_or(|notation| notation.system == "hamnosys") {
+            known = Some(token.id);
+        }
+    }
+    let token = match known {
+        Some(token) => token,
         None => {
             let row = TokenRow {
                 sign_id: sign,
@@ -165,7 +187,7 @@ fn import_entry(
         .collect();
     signs::set_values(connection, token, &values)?;
     job.count("signs", usize::from(is_new));
-    Ok(())
+    Ok(token)
 }
 
 fn value_row(coding: &Coding, inventories: &BTreeMap<Part, Known>) -> TokenValueRow {

@@ -1,4 +1,4 @@
-//! Files into the corpus: recordings, annotations, lexicons, inventories, and folders of them.
+//! Files into the corpus: recordings, annotations, lexicons, notation, inventories, and folders of them.
 //!
 //! One import is one operation, whatever it takes in; a file that is refused leaves nothing behind
 //! and does not keep the others out.
@@ -7,13 +7,16 @@ mod bvh;
 pub(crate) mod eaf;
 mod inventory;
 mod lexicon;
+mod notation;
 mod report;
+mod sigml;
 #[cfg(test)]
 mod tests;
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 
 use chereme_formats::roles::Mapping;
 use chereme_motion::Axes;
@@ -25,7 +28,7 @@ use crate::Corpus;
 use crate::db::motion::hex;
 use crate::error::{Error, Result};
 use crate::inventories::{self, StoredInventory};
-use crate::progress::Progress;
+use crate::progress::{Progress, Step, Unit};
 
 pub use report::{FileReport, FileStatus, ImportReport, ReportFinding};
 
@@ -63,6 +66,7 @@ enum Kind {
     Inventory,
     Bvh,
     Lexicon,
+    Sigml,
     Eaf,
 }
 
@@ -75,7 +79,7 @@ struct Job<'a> {
     stem: String,
     file_name: String,
     hash: String,
-    inventories: Vec<StoredInventory>,
+    inventories: Rc<Vec<StoredInventory>>,
     /// Recordings of this import, by folder and stem.
     recordings: &'a mut BTreeMap<PathBuf, i64>,
     created: &'a mut BTreeMap<&'static str, u64>,
@@ -146,22 +150,34 @@ fn import_files(
     progress: &mut Progress<'_>,
 ) -> Result<()> {
     let mut recordings = BTreeMap::new();
+    let mut inventories = None;
+    let mut small = 0;
     for (path, kind) in files {
         let Some(kind) = kind else {
             report.files.push(FileReport::skipped(path));
             continue;
         };
         let mut created = report.created.clone();
+        if *kind == Kind::Sigml {
+            tell_small(&mut small, files, progress)?;
+        }
         connection.execute_batch("SAVEPOINT file")?;
         let done = import_file(
             connection,
             path,
             *kind,
             options,
-            &mut recordings,
-            &mut created,
+            Known {
+                recordings: &mut recordings,
+                created: &mut created,
+                inventories: &mut inventories,
+            },
             progress,
         );
+        // Only files of notation add no inventory.
+        if *kind != Kind::Sigml {
+            inventories = None;
+        }
         match done {
             Ok(file) => {
                 connection.execute_batch("RELEASE file")?;
@@ -179,18 +195,50 @@ fn import_files(
     Ok(())
 }
 
+/// Tells how many of many small files are done.
+fn tell_small(
+    done: &mut u64,
+    files: &[(PathBuf, Option<Kind>)],
+    progress: &mut Progress<'_>,
+) -> Result<()> {
+    if done.is_multiple_of(64) {
+        let small = files.iter().filter(|(_, kind)| *kind == Some(Kind::Sigml));
+        progress.tell(Step {
+            task: "notation",
+            done: *done,
+            total: Some(small.count() as u64),
+            unit: Unit::Items,
+        })?;
+    }
+    *done += 1;
+    Ok(())
+}
+
+/// What the files of an import share.
+struct Known<'a> {
+    recordings: &'a mut BTreeMap<PathBuf, i64>,
+    created: &'a mut BTreeMap<&'static str, u64>,
+    inventories: &'a mut Option<Rc<Vec<StoredInventory>>>,
+}
+
 fn import_file(
     connection: &Connection,
     path: &Path,
     kind: Kind,
     options: &ImportOptions,
-    recordings: &mut BTreeMap<PathBuf, i64>,
-    created: &mut BTreeMap<&'static str, u64>,
+    known: Known<'_>,
     progress: &mut Progress<'_>,
 ) -> Result<FileReport> {
     let text = |part: Option<&std::ffi::OsStr>| {
         part.map(|part| part.to_string_lossy().into_owned())
             .unwrap_or_default()
+    };
+    let inventories = match known.inventories {
+        Some(loaded) => loaded.clone(),
+        None => known
+            .inventories
+            .insert(Rc::new(inventories::load(connection)?))
+            .clone(),
     };
     let mut job = Job {
         connection,
@@ -199,14 +247,15 @@ fn import_file(
         stem: text(path.file_stem()),
         file_name: text(path.file_name()),
         hash: hash_file(path, progress)?,
-        inventories: inventories::load(connection)?,
-        recordings,
-        created,
+        inventories,
+        recordings: known.recordings,
+        created: known.created,
     };
     match kind {
         Kind::Bvh => bvh::import(&mut job, progress),
         Kind::Eaf => eaf::import(&mut job),
         Kind::Lexicon => lexicon::import(&mut job, progress),
+        Kind::Sigml => sigml::import(&mut job),
         Kind::Inventory => inventory::import(&mut job),
     }
 }
@@ -237,7 +286,8 @@ fn hash_file(path: &Path, progress: &mut Progress<'_>) -> Result<String> {
     }
 }
 
-/// Returns the files to read in the order to read them: inventories, movement, lexicons, annotations.
+/// Returns the files to read in the order to read them: inventories, movement, lexicons, notation,
+/// annotations.
 fn gather(paths: &[PathBuf]) -> Result<Vec<(PathBuf, Option<Kind>)>> {
     let mut files = Vec::new();
     for path in paths {
@@ -251,7 +301,7 @@ fn gather(paths: &[PathBuf]) -> Result<Vec<(PathBuf, Option<Kind>)>> {
                     return Err(Error::wrong("this kind of file is not known")
                         .at(path.display().to_string())
                         .advise(
-                            "files end in .bvh, .eaf, .csv, .tsv (lexicons) or .json (inventories)",
+                            "files end in .bvh, .eaf, .csv, .tsv (lexicons), .sigml (notation) or .json (inventories)",
                         ));
                 }
             }
@@ -292,6 +342,7 @@ fn kind(path: &Path) -> Option<Kind> {
         "eaf" => Some(Kind::Eaf),
         "csv" | "tsv" => Some(Kind::Lexicon),
         "json" => Some(Kind::Inventory),
+        "sigml" | "hsigml" => Some(Kind::Sigml),
         _ => None,
     }
 }

@@ -1,0 +1,156 @@
+//! Rows of notations: what a token is in HamNoSys or SiGML.
+
+use std::collections::BTreeMap;
+
+use rusqlite::{Connection, OptionalExtension, Row, params};
+
+use super::signs::json_list;
+use crate::error::Result;
+
+/// What a token is as notation.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct NotationRow {
+    /// The row.
+    pub(crate) id: i64,
+    /// The token.
+    pub(crate) token_id: i64,
+    /// The gloss of its sign.
+    pub(crate) gloss: String,
+    /// The file that it came from.
+    pub(crate) source_file_id: Option<i64>,
+    /// The name of that file.
+    pub(crate) file: Option<String>,
+    /// The line of the file on which it starts, from 1.
+    pub(crate) line: Option<i64>,
+    /// `hamnosys` or `sigml`.
+    pub(crate) system: String,
+    /// The text as it was written, where it is HamNoSys.
+    pub(crate) text: Option<String>,
+    /// The tree with all that was said beside it, as JSON.
+    pub(crate) document: String,
+}
+
+const NOTATION: &str = "
+    SELECT n.id, n.token_id, n.source_file_id, f.name, n.line, n.system, n.text, n.document, s.gloss
+    FROM notation n JOIN token t ON t.id = n.token_id JOIN sign s ON s.id = t.sign_id
+    LEFT JOIN source_file f ON f.id = n.source_file_id";
+
+fn notation_row(row: &Row<'_>) -> rusqlite::Result<NotationRow> {
+    Ok(NotationRow {
+        id: row.get(0)?,
+        token_id: row.get(1)?,
+        source_file_id: row.get(2)?,
+        file: row.get(3)?,
+        line: row.get(4)?,
+        system: row.get(5)?,
+        text: row.get(6)?,
+        document: row.get(7)?,
+        gloss: row.get(8)?,
+    })
+}
+
+/// Returns the notation of a token.
+pub(crate) fn of_token(connection: &Connection, token: i64) -> Result<Option<NotationRow>> {
+    Ok(connection
+        .prepare_cached(&format!("{NOTATION} WHERE n.token_id = ?1"))?
+        .query_row([token], notation_row)
+        .optional()?)
+}
+
+/// Tells whether any of these tokens has a notation.
+pub(crate) fn any(connection: &Connection, tokens: &[i64]) -> Result<bool> {
+    let sql = "SELECT EXISTS (SELECT 1 FROM notation WHERE token_id IN (SELECT value FROM json_each(?1)))";
+    Ok(connection
+        .prepare_cached(sql)?
+        .query_row([json_list(tokens)], |row| row.get(0))?)
+}
+
+/// Returns the notations of these tokens, by token.
+pub(crate) fn of_tokens(
+    connection: &Connection,
+    tokens: &[i64],
+) -> Result<BTreeMap<i64, NotationRow>> {
+    let sql = format!("{NOTATION} WHERE n.token_id IN (SELECT value FROM json_each(?1))");
+    let mut statement = connection.prepare_cached(&sql)?;
+    let rows = statement
+        .query_map([json_list(tokens)], |row| {
+            Ok((row.get(1)?, notation_row(row)?))
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Returns the notations that came from files of this name, by line.
+pub(crate) fn of_file(connection: &Connection, name: &str) -> Result<Vec<NotationRow>> {
+    let sql = format!("{NOTATION} WHERE f.name = ?1 ORDER BY n.line, n.id");
+    let mut statement = connection.prepare_cached(&sql)?;
+    let rows = statement
+        .query_map([name], notation_row)?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Calls `take` with every notation, in order.
+pub(crate) fn each(
+    connection: &Connection,
+    mut take: impl FnMut(NotationRow) -> Result<()>,
+) -> Result<()> {
+    let mut statement = connection.prepare(&format!("{NOTATION} ORDER BY n.id"))?;
+    let mut rows = statement.query([])?;
+    while let Some(row) = rows.next()? {
+        take(notation_row(row)?)?;
+    }
+    Ok(())
+}
+
+/// Makes this the notation of its token; one that stays as it is is not touched. The row's `id`,
+/// `gloss` and `file` are not looked at.
+pub(crate) fn set(connection: &Connection, row: &NotationRow) -> Result<()> {
+    let Some(old) = of_token(connection, row.token_id)? else {
+        connection
+            .prepare_cached(
+                "INSERT INTO notation (token_id, source_file_id, line, system, text, document)
+                 VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
+            )?
+            .execute(params![
+                row.token_id,
+                row.source_file_id,
+                row.line,
+                row.system,
+                row.text,
+                row.document
+            ])?;
+        return Ok(());
+    };
+    let new = NotationRow {
+        id: old.id,
+        file: old.file.clone(),
+        gloss: old.gloss.clone(),
+        ..row.clone()
+    };
+    if new == old {
+        return Ok(());
+    }
+    connection
+        .prepare_cached(
+            "UPDATE notation SET source_file_id = ?2, line = ?3, system = ?4, text = ?5, document = ?6
+             WHERE token_id = ?1",
+        )?
+        .execute(params![
+            row.token_id,
+            row.source_file_id,
+            row.line,
+            row.system,
+            row.text,
+            row.document
+        ])?;
+    Ok(())
+}
+
+/// Deletes the notation of a token, where it has one.
+pub(crate) fn delete(connection: &Connection, token: i64) -> Result<()> {
+    connection
+        .prepare_cached("DELETE FROM notation WHERE token_id = ?1")?
+        .execute([token])?;
+    Ok(())
+}

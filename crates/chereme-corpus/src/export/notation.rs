@@ -1,0 +1,105 @@
+//! Notated tokens as SiGML and as HamNoSys text.
+
+use std::collections::BTreeMap;
+use std::io::Write;
+
+use chereme_formats::sigml;
+use chereme_sign::hamnosys::Notated;
+use rusqlite::Connection;
+
+use crate::db::signs::AT_ONCE;
+use crate::error::{Error, Result};
+use crate::notation;
+use crate::progress::{Progress, Step, Unit};
+
+/// How notation is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Form {
+    /// Gestural SiGML.
+    Gestural,
+    /// H-SiGML.
+    Symbols,
+    /// A sign a line: the gloss, a tab, and HamNoSys.
+    Text,
+}
+
+/// Writes the notation of tokens; those without any are counted in a note.
+pub(super) fn write(
+    connection: &Connection,
+    tokens: &[i64],
+    form: Form,
+    out: &mut dyn Write,
+    notes: &mut Vec<String>,
+    progress: &mut Progress<'_>,
+) -> Result<()> {
+    let signs = notated(connection, tokens, progress)?;
+    let without = tokens.len() - signs.len();
+    if signs.is_empty() {
+        return Err(Error::wrong("none of these tokens has a notation")
+            .advise("`chereme list CORPUS tokens --where notation=*` lists those that have one"));
+    }
+    if without > 0 {
+        notes.push(format!(
+            "{without} tokens have no notation and were left out"
+        ));
+    }
+    let (bytes, lost) = match form {
+        Form::Gestural => (sigml::write_gestural(&signs), Vec::new()),
+        Form::Symbols => sigml::write_symbols(&signs),
+        Form::Text => lines(&signs),
+    };
+    tell_lost(&signs, &lost, notes);
+    out.write_all(&bytes)
+        .map_err(|error| Error::wrong(format!("the file cannot be written: {error}")))
+}
+
+fn notated(
+    connection: &Connection,
+    tokens: &[i64],
+    progress: &mut Progress<'_>,
+) -> Result<Vec<Notated>> {
+    let mut signs = Vec::new();
+    for (part, ids) in tokens.chunks(AT_ONCE).enumerate() {
+        let mut found = notation::of_tokens(connection, ids)?;
+        signs.extend(ids.iter().filter_map(|id| Some(found.remove(id)?.document)));
+        progress.tell(Step {
+            task: "notation",
+            done: (part * AT_ONCE) as u64,
+            total: Some(tokens.len() as u64),
+            unit: Unit::Items,
+        })?;
+    }
+    Ok(signs)
+}
+
+fn lines(signs: &[Notated]) -> (Vec<u8>, Vec<Vec<String>>) {
+    let (mut text, mut lost) = (String::new(), Vec::new());
+    for sign in signs {
+        let printed = sign.hamnosys();
+        let gloss = sign.gloss.replace(['\t', '\n', '\r'], " ");
+        text += &format!("{gloss}\t{}\n", printed.text);
+        let mut own: Vec<String> = printed
+            .losses
+            .into_iter()
+            .map(|loss| loss.message)
+            .collect();
+        if !sign.nonmanual.is_empty() {
+            own.push("what face and body do".to_owned());
+        }
+        lost.push(own);
+    }
+    (text.into_bytes(), lost)
+}
+
+/// Tells what the file does not say, each kind of thing with how often and the first sign it is in.
+fn tell_lost(signs: &[Notated], lost: &[Vec<String>], notes: &mut Vec<String>) {
+    let mut kinds: BTreeMap<&str, (usize, &str)> = BTreeMap::new();
+    for (sign, own) in signs.iter().zip(lost) {
+        for message in own {
+            kinds.entry(message).or_insert((0, &sign.gloss)).0 += 1;
+        }
+    }
+    notes.extend(kinds.into_iter().map(|(message, (count, gloss))| {
+        format!("left out of {count} signs, the first {gloss}: {message}")
+    }));
+}

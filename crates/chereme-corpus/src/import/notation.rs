@@ -1,0 +1,154 @@
+//! Notation as it is stored, with components from it.
+
+use std::collections::BTreeMap;
+
+use chereme_formats::Finding;
+use chereme_sign::hamnosys::components::{Mapped, MappedValue, Mapper};
+use chereme_sign::hamnosys::{Notated, parse_lenient};
+use chereme_sign::{Component, Phase};
+
+use super::report::ReportFinding;
+use super::{FileReport, Job};
+use crate::db::notations::{self, NotationRow};
+use crate::db::signs::{self, TokenValueRow};
+use crate::error::{Error, Result};
+use crate::inventories::StoredInventory;
+
+/// The HamNoSys text of a sign in a table.
+pub(super) struct Text<'t> {
+    pub(super) token: i64,
+    pub(super) file: i64,
+    pub(super) line: u64,
+    pub(super) gloss: &'t str,
+    pub(super) text: &'t str,
+}
+
+impl Text<'_> {
+    /// Stores the notation of the token, and its components where the table has no word on them.
+    pub(super) fn import(
+        &self,
+        job: &mut Job<'_>,
+        words: &Words<'_>,
+        report: &mut FileReport,
+    ) -> Result<()> {
+        let read = parse_lenient(self.text);
+        for found in &read.findings {
+            let (gloss, index) = (self.gloss, found.index);
+            let message = format!("{gloss}, symbol {index}: {}", found.message);
+            let finding = if found.dropped {
+                Finding::warning(self.line, message)
+            } else {
+                Finding::note(self.line, message)
+            };
+            report
+                .findings
+                .push(finding.with_remedy(found.remedy).into());
+        }
+        let sign = Notated {
+            gloss: self.gloss.to_owned(),
+            text: Some(self.text.to_owned()),
+            sign: read.sign,
+            ..Notated::default()
+        };
+        let mapped = words.map(&sign);
+        let mut values = signs::values(job.connection, self.token)?;
+        let own: Vec<_> = values
+            .iter()
+            .map(|row| (row.component.clone(), row.feature.clone()))
+            .collect();
+        let new = words.rows(&mapped).into_iter();
+        values
+            .extend(new.filter(|row| !own.contains(&(row.component.clone(), row.feature.clone()))));
+        signs::set_values(job.connection, self.token, &values)?;
+        let is_new = notations::of_token(job.connection, self.token)?.is_none();
+        let row = NotationRow {
+            token_id: self.token,
+            source_file_id: Some(self.file),
+            line: i64::try_from(self.line).ok(),
+            system: "hamnosys".to_owned(),
+            text: sign.text.clone(),
+            document: document(&sign)?,
+            ..NotationRow::default()
+        };
+        notations::set(job.connection, &row)?;
+        job.count("notations", usize::from(is_new));
+        report.findings.extend(lost(self.gloss, self.line, &mapped));
+        Ok(())
+    }
+}
+
+/// Returns a notated sign as it is stored.
+pub(super) fn document(sign: &Notated) -> Result<String> {
+    serde_json::to_string(sign).map_err(|error| {
+        Error::wrong(format!(
+            "the notation of {:?} cannot be stored: {error}",
+            sign.gloss
+        ))
+    })
+}
+
+/// Returns what the components of a sign leave out of its notation, as a finding.
+pub(super) fn lost(gloss: &str, line: u64, mapped: &Mapped) -> Option<ReportFinding> {
+    if mapped.lost.is_empty() {
+        return None;
+    }
+    let lost = mapped.lost.join("; ");
+    let mut note = ReportFinding::note(format!(
+        "{gloss}: the components come near the notation, but leave out {lost}"
+    ));
+    note.line = Some(line);
+    Some(note)
+}
+
+/// Notation in the words of the corpus's inventories.
+pub(super) struct Words<'i> {
+    mapper: Mapper<'i>,
+    rows: BTreeMap<(Component, Option<&'i str>), i64>,
+}
+
+impl<'i> Words<'i> {
+    pub(super) fn new(inventories: &'i [StoredInventory]) -> Self {
+        let mut rows = BTreeMap::new();
+        for stored in inventories {
+            let own = &stored.inventory;
+            rows.entry((own.component, own.feature.as_deref()))
+                .or_insert(stored.id);
+        }
+        let mapper = Mapper::new(inventories.iter().map(|stored| &stored.inventory));
+        Self { mapper, rows }
+    }
+
+    /// Returns what a sign has in each component.
+    pub(super) fn map(&self, sign: &Notated) -> Mapped {
+        self.mapper.map(sign)
+    }
+
+    /// Returns the values as they are stored.
+    pub(super) fn rows(&self, mapped: &Mapped) -> Vec<TokenValueRow> {
+        mapped.values.iter().map(|value| self.row(value)).collect()
+    }
+
+    fn row(&self, mapped: &MappedValue) -> TokenValueRow {
+        let field = &mapped.field;
+        let (phase, position) = match field.phase {
+            None => (None, 0),
+            Some(Phase::Initial) => (Some("initial"), 0),
+            Some(Phase::Middle(place)) => (Some("middle"), i64::from(place)),
+            Some(Phase::Final) => (Some("final"), 0),
+        };
+        TokenValueRow {
+            hand: field.hand.map(|hand| hand.name().to_owned()),
+            component: field.component.name().to_owned(),
+            feature: field.feature.clone(),
+            phase: phase.map(str::to_owned),
+            position,
+            state: "value".to_owned(),
+            value: Some(mapped.value.clone()),
+            inventory_id: self
+                .rows
+                .get(&(field.component, field.feature.as_deref()))
+                .copied(),
+            annotation_id: None,
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! Notated signs in a corpus: taken in, found, listed, given back, and taken in again.
+
+use std::fs;
+use std::path::PathBuf;
+
+use chereme_corpus::{
+    Corpus, ExportOptions, ExportWhat, FileStatus, ImportOptions, ImportReport, ListFilter,
+    ListKind, Progress, SearchOptions, read_notation, unheard,
+};
+use chereme_sign::hamnosys::{MotionKind, from_names};
+
+const TWO: &str = r#"<sigml>
+<hamgestural_sign gloss="MERCI">
+  <sign_nonmanual><facialexpr_tier><eye_brows movement="RB"/></facialexpr_tier></sign_nonmanual>
+  <sign_manual both_hands="true" lr_symm="true">
+    <handconfig handshape="flat"/><handconfig extfidir="uuo"/><handconfig palmor="u" second_palmor="ul"/>
+    <location_bodyarm location="chin" contact="touch"/>
+    <directedmotion direction="o" curve="u"/>
+  </sign_manual>
+</hamgestural_sign>
+<hns_sign gloss="OUI"><hamnosys_manual>
+  <hamfist/><hamthumbacrossmod/><hamextfingero/><hampalmd/><hamnodding/>
+</hamnosys_manual></hns_sign>
+</sigml>
+"#;
+
+struct Desk {
+    folder: tempfile::TempDir,
+    corpus: Corpus,
+}
+
+impl Desk {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        Self { folder, corpus }
+    }
+
+    fn write(&self, name: &str, text: &str) -> PathBuf {
+        let path = self.folder.path().join(name);
+        fs::write(&path, text).expect("written");
+        path
+    }
+
+    fn import(&mut self, name: &str, text: &str) -> ImportReport {
+        let path = self.write(name, text);
+        let options = ImportOptions::default();
+        let mut progress = unheard;
+        let report = self
+            .corpus
+            .import(&[path], &options, &mut Progress::new(&mut progress))
+            .expect("taken in");
+        assert!(!report.has_refusals(), "{report:?}");
+        report
+    }
+
+    fn glosses(&mut self, query: &str) -> Vec<String> {
+        let answer = self.corpus.search(query, &SearchOptions::default());
+        let hits = answer.expect(query).hits;
+        hits.into_iter().map(|hit| hit.gloss).collect()
+    }
+
+    fn export(&self, what: &ExportWhat, name: &str) -> (Vec<u8>, Vec<String>) {
+        let path = self.folder.path().join(name);
+        let mut progress = unheard;
+        let report = self
+            .corpus
+            .export(
+                what,
+                &path,
+                &ExportOptions { force: true },
+                &mut Progress::new(&mut progress),
+            )
+            .expect("written");
+        (fs::read(path).expect("there"), report.notes)
+    }
+
+    fn check(&mut self) {
+        let report = self.corpus.check(false, &mut Progress::new(&mut unheard));
+        let report = report.expect("checked");
+        assert!(report.ok, "{:?}", report.faults);
+    }
+
+    fn notations(&self) -> u64 {
+        self.corpus.info().expect("told").counts["notations"]
+    }
+}
+
+#[test]
+fn a_file_of_notation_becomes_signs_that_are_found_by_their_components() {
+    let mut desk = Desk::new();
+    let report = desk.import("two.sigml", TWO);
+    assert_eq!(report.created["signs"], 2);
+    assert_eq!(report.created["notations"], 2);
+    let told: Vec<_> = report.files[0]
+        .findings
+        .iter()
+        .map(|finding| (finding.line, finding.message.as_str()))
+        .collect();
+    assert_eq!(
+        told,
+        [
+            (Some(5), "extfidir=\"uuo\" was read as \"uo\""),
+            (
+                Some(2),
+                "MERCI: the components come near the notation, but leave out orientation.palm: half-way between two"
+            ),
+        ]
+    );
+    for (query, found) in [
+        ("configuration=flat placement=chin", &["MERCI"][..]),
+        ("weak.configuration=flat", &["MERCI"]),
+        ("movement=arc movement.direction=out", &["MERCI"]),
+        ("nonmanual.brows=raised", &["MERCI"]),
+        ("movement=nodding", &["OUI"]),
+        ("placement=neutral", &["OUI"]),
+        ("origin=lexicon", &["MERCI", "OUI"]),
+    ] {
+        assert_eq!(desk.glosses(query), found, "{query}");
+    }
+    let thanks = desk
+        .corpus
+        .notation(&"MERCI".parse().expect("an address"))
+        .expect("notated");
+    assert_eq!(
+        (thanks.system.as_str(), thanks.file.as_deref(), thanks.line),
+        ("sigml", Some("two.sigml"), Some(2))
+    );
+    let motion = &thanks.document.sign.parts[0].actions[0].kind;
+    assert!(matches!(motion, MotionKind::Directed(way) if way.curve.is_some()));
+    assert!(!thanks.document.nonmanual.is_empty());
+    for (name, count) in [("two.sigml", 2), ("two", 2), ("OUI", 1)] {
+        let found = desk.corpus.notations(name).expect(name);
+        assert_eq!(found.len(), count, "{name}");
+    }
+    assert!(desk.corpus.notations("three.sigml").is_err());
+    let (outside, _) = read_notation(&desk.folder.path().join("two.sigml")).expect("read");
+    assert_eq!(outside[0], thanks.document);
+    let listed = desk
+        .corpus
+        .list(ListKind::Signs, &ListFilter::default())
+        .expect("listed");
+    assert_eq!(listed.rows[0]["notation"]["document"]["gloss"], "MERCI");
+    assert_eq!(
+        listed.rows[1]["notation"]["text"]
+            .as_str()
+            .map(|text| text.chars().count()),
+        Some(5)
+    );
+    desk.check();
+}
+
+#[test]
+fn notation_is_undone_and_done_again() {
+    let mut desk = Desk::new();
+    desk.import("two.sigml", TWO);
+    desk.corpus.undo().expect("taken back");
+    assert_eq!(desk.notations(), 0);
+    assert!(desk.glosses("configuration=flat").is_empty());
+    desk.check();
+    desk.corpus.redo().expect("done again");
+    assert_eq!(desk.notations(), 2);
+    assert_eq!(desk.glosses("configuration=flat"), ["MERCI"]);
+    desk.check();
+}
+
+#[test]
+fn a_file_taken_in_again_renews_its_signs() {
+    let mut desk = Desk::new();
+    desk.import("two.sigml", TWO);
+    let again = desk.import("two.sigml", TWO);
+    assert_eq!(again.files[0].status, FileStatus::Unchanged);
+    let changed = TWO.replace("chin", "forehead").replace("OUI", "NON");
+    let report = desk.import("two.sigml", &changed);
+    assert_eq!((report.created["signs"], report.created["tokens"]), (1, 1));
+    let told = report.files[0].findings.iter();
+    let told: Vec<_> = told
+        .filter(|finding| finding.message.contains("earlier file"))
+        .collect();
+    assert_eq!(told.len(), 1, "OUI is no more in it");
+    assert!(desk.glosses("placement=chin").is_empty());
+    assert_eq!(desk.glosses("placement=forehead"), ["MERCI"]);
+    assert_eq!(desk.notations(), 3);
+    desk.import("other.sigml", &TWO.replace("chin", "nose"));
+    let all = desk
+        .corpus
+        .list(ListKind::Tokens, &ListFilter::default())
+        .expect("listed");
+    assert_eq!(
+        all.total, 5,
+        "the signs of another file are entries of their own"
+    );
+    desk.check();
+}
+
+#[test]
+fn notation_is_given_back_in_each_of_its_forms() {
+    let mut desk = Desk::new();
+    desk.import("two.sigml", TWO);
+    let (whole, notes) = desk.export(&ExportWhat::All, "all.sigml");
+    assert!(notes.is_empty(), "{notes:?}");
+    let (symbols, notes) = desk.export(&ExportWhat::All, "all.hsigml");
+    assert!(notes.is_empty(), "{notes:?}");
+    for (name, bytes) in [("whole.sigml", whole), ("symbols.sigml", symbols)] {
+        let path = desk.folder.path().join(name);
+        fs::write(&path, bytes).expect("written");
+        let (signs, findings) = read_notation(&path).expect("we wrote it");
+        assert!(findings.is_empty(), "{findings:?}");
+        for sign in signs {
+            let own = desk
+                .corpus
+                .notation(&sign.gloss.parse().expect("an address"));
+            let own = own.expect("notated").document;
+            assert_eq!(
+                (&sign.sign, &sign.nonmanual),
+                (&own.sign, &own.nonmanual),
+                "{name}"
+            );
+        }
+    }
+    let (text, notes) = desk.export(&ExportWhat::All, "all.hns");
+    assert_eq!(
+        notes,
+        ["left out of 1 signs, the first MERCI: what face and body do"]
+    );
+    let text = String::from_utf8(text).expect("text");
+    let glosses: Vec<_> = text
+        .lines()
+        .filter_map(|line| line.split('\t').next())
+        .collect();
+    assert_eq!(glosses, ["MERCI", "OUI"]);
+    let (table, _) = desk.export(&ExportWhat::All, "all.csv");
+    let mut other = Desk::new();
+    other.import("all.csv", &String::from_utf8(table).expect("text"));
+    assert_eq!(other.notations(), 2);
+    assert_eq!(
+        other.glosses("configuration=flat placement=chin"),
+        ["MERCI"]
+    );
+}
+
+#[test]
+fn a_table_of_hamnosys_is_told_by_its_title_or_its_characters() {
+    let yes = from_names(["hamfist", "hamextfingero", "hampalmd", "hamnodding"]).expect("names");
+    let end = from_names(["hamparend"]).expect("a name");
+    for title in ["HamNoSys", "x1"] {
+        let mut desk = Desk::new();
+        let table = format!(
+            "gloss\t{title}\tHandshape strong\nOUI\t{yes}\tS\nPEUT\t{yes}{end}\t\nRIEN\t\t\n"
+        );
+        let report = desk.import("words.tsv", &table);
+        assert_eq!(report.created["notations"], 2, "{title}");
+        let odd = report.files[0]
+            .findings
+            .iter()
+            .any(|finding| finding.line == Some(3));
+        assert!(odd, "what cannot be read is told with its line: {report:?}");
+        let oui = desk
+            .corpus
+            .notation(&"OUI".parse().expect("an address"))
+            .expect("notated");
+        assert_eq!(
+            (oui.system.as_str(), oui.text.as_deref()),
+            ("hamnosys", Some(yes.as_str()))
+        );
+        assert_eq!(
+            desk.glosses("dominant.configuration=S"),
+            ["OUI"],
+            "the table's own coding counts"
+        );
+        assert_eq!(desk.glosses("movement=nodding"), ["OUI", "PEUT"]);
+        assert!(
+            desk.corpus
+                .notation(&"RIEN".parse().expect("an address"))
+                .is_err()
+        );
+        let again = desk.import("words.tsv", &table.replace("PEUT", "PEUX"));
+        assert_eq!(again.created["notations"], 1);
+        desk.check();
+    }
+}
