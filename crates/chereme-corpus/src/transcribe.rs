@@ -2,11 +2,12 @@
 
 use chereme_analysis::transcribe::{Feature, FeatureKind, Options, RunnerUp, transcribe};
 use chereme_motion::{Side, Span};
-use chereme_sign::hamnosys::{Sign, print, to_names};
+use chereme_sign::hamnosys::{Notated, Sign, print, to_names};
 use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{Address, Stretch};
+use crate::db::notations::{self, NotationRow};
 use crate::db::recordings;
 use crate::error::{Error, Result};
 use crate::movement::{ChannelGroup, Track};
@@ -115,6 +116,51 @@ impl Corpus {
             sign: written.sign,
             findings,
         })
+    }
+
+    /// Writes a token in HamNoSys as [`transcribe`](Self::transcribe) does, and keeps that as its notation.
+    ///
+    /// # Errors
+    /// As there; where the address names no token; and, unless `force`, where the token has another
+    /// notation already.
+    pub fn store_transcription(&mut self, address: &Address, force: bool) -> Result<Transcribed> {
+        let written = self.transcribe(address)?;
+        let Some(token) = written.token else {
+            return Err(Error::wrong(format!("{address} is no token"))
+                .at(address.to_string())
+                .advise("write token:41 or a gloss"));
+        };
+        let old = notations::of_token(self.store.read(), token)?;
+        let other = old.is_some_and(|old| old.text.as_ref() != Some(&written.hamnosys));
+        if other && !force {
+            return Err(
+                Error::wrong(format!("{address} has another notation already"))
+                    .at(address.to_string())
+                    .advise("add --force to write over it; undo brings it back"),
+            );
+        }
+        let document = Notated {
+            gloss: written.gloss.clone(),
+            text: Some(written.hamnosys.clone()),
+            sign: written.sign.clone(),
+            ..Notated::default()
+        };
+        let document = serde_json::to_string(&document)
+            .map_err(|error| Error::wrong(format!("the notation cannot be kept: {error}")))?;
+        self.store.operation("transcribe", |connection| {
+            notations::set(
+                connection,
+                &NotationRow {
+                    token_id: token,
+                    system: "hamnosys".to_owned(),
+                    text: Some(written.hamnosys.clone()),
+                    document,
+                    ..NotationRow::default()
+                },
+            )?;
+            Ok(((), format!("token:{token} {}", written.gloss)))
+        })?;
+        Ok(written)
     }
 
     /// Returns the signer's dominant hand: the right one where nothing is known.

@@ -21,12 +21,22 @@ pub(crate) struct Args {
     /// Write the names of the symbols in place of the table
     #[arg(long)]
     names: bool,
+    /// Keep what was written as the token's notation; `undo` takes it back
+    #[arg(long)]
+    store: bool,
+    /// Write over a notation that the token has already
+    #[arg(long, requires = "store")]
+    force: bool,
 }
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
-    let corpus = cli.open(&args.corpus)?;
+    let mut corpus = cli.open(&args.corpus)?;
     let address: Address = args.token.parse()?;
-    let written = corpus.transcribe(&address)?;
+    let written = if args.store {
+        corpus.store_transcription(&address, args.force)?
+    } else {
+        corpus.transcribe(&address)?
+    };
     if args.names {
         output.line(written.symbols.join(" "))?;
     } else {

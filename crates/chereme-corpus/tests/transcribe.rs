@@ -1,0 +1,41 @@
+//! A token's movement in HamNoSys: told, kept as its notation, and taken back.
+
+use chereme_corpus::{Address, Corpus, ImportOptions, Progress, starter_files, unheard};
+use chereme_sign::hamnosys::parse;
+
+#[test]
+fn what_is_transcribed_can_be_kept_and_taken_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut paths = Vec::new();
+    for (name, bytes) in starter_files() {
+        if name.file_stem().is_some_and(|stem| stem == "bol") {
+            let path = folder.path().join(name);
+            std::fs::write(&path, bytes).expect("written");
+            paths.push(path);
+        }
+    }
+    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let (options, mut unheard) = (ImportOptions::default(), unheard);
+    let mut progress = Progress::new(&mut unheard);
+    corpus
+        .import(&paths, &options, &mut progress)
+        .expect("taken in");
+
+    let sign: Address = "BOL".parse().expect("an address");
+    let told = corpus.transcribe(&sign).expect("told");
+    assert!(!told.features.is_empty() && told.start_us < told.end_us);
+    let read = parse(&told.hamnosys).expect("HamNoSys that reads");
+    assert_eq!(read.sign, told.sign, "{:?}", told.findings);
+
+    assert!(corpus.notation(&sign).is_err());
+    corpus.store_transcription(&sign, false).expect("kept");
+    let kept = corpus.notation(&sign).expect("a notation");
+    assert_eq!(kept.text.as_ref(), Some(&told.hamnosys));
+    assert_eq!(kept.document.sign, told.sign);
+    corpus
+        .store_transcription(&sign, false)
+        .expect("the same again");
+    assert_eq!(corpus.log(1).expect("a log")[0].name, "transcribe");
+    corpus.undo().expect("taken back");
+    assert!(corpus.notation(&sign).is_err());
+}
