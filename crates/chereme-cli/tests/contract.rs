@@ -188,6 +188,24 @@ const CASES: &[Case] = &[
         ERROR,
     ),
     (
+        "animate @c MERCI --as MERCI-SIGNED",
+        0,
+        &["/recipe", "/gloss", "/token", "/recording", "/report"],
+    ),
+    (
+        "animate @c 'hamflathand hamextfingeru hampalml hammoveo' --explain",
+        0,
+        &["/recipe", "/report/steps"],
+    ),
+    (
+        "animate @c 'hamflathand hamsmallmod hampalmx' --as X",
+        1,
+        ERROR,
+    ),
+    ("animate @c NONE --as X", 1, ERROR),
+    ("animate @c MERCI --signer signer:nobody", 1, ERROR),
+    ("animate @c", 2, ERROR),
+    (
         "render @c BOL --to @d/bowl.png --frames 2 --height 80",
         0,
         &["/path", "/bytes"],
@@ -284,6 +302,7 @@ fn every_command_has_a_help_that_says_what_it_does() {
         "annotate",
         "search",
         "recombine",
+        "animate",
         "render",
         "export",
         "undo",

@@ -4,6 +4,7 @@
 //! transaction, with its changeset. Nothing here prints, prompts, or reads the environment.
 
 mod address;
+mod animate;
 mod annotate;
 mod check;
 pub(crate) mod codec;

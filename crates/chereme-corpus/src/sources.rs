@@ -17,16 +17,16 @@ use sha2::{Digest, Sha256};
 use crate::address::{self, Address, Name, Stretch};
 use crate::db::history;
 use crate::db::motion;
-use crate::db::recordings;
+use crate::db::recordings::{self, RecordingRow};
 use crate::db::signs;
 use crate::db::tiers;
 use crate::error::{Error, Result};
 use crate::inventories::StoredInventory;
 use crate::movement::{ChannelGroup, Track};
-use crate::notation;
 use crate::search::index::SearchIndex;
 
 mod learned;
+pub(crate) mod notation;
 
 /// A stretch longer than this is not taken as the source of a recipe.
 const LONGEST: i64 = 600_000_000;
@@ -99,6 +99,19 @@ impl CorpusSources<'_> {
             anatomy: Arc::new(track.anatomy(self.connection)?),
             held: self.held(stretch, handedness)?,
         })
+    }
+
+    /// The body of a recording as it stands in the first frame.
+    fn standing(&self, recording: RecordingRow) -> Result<Material> {
+        let rate = Track::of(self.connection, recording.id)?.rate;
+        let stretch = Stretch {
+            span: rate.span(0..1),
+            recording,
+            token: None,
+        };
+        let mut material = self.load(&stretch)?;
+        material.held.clear();
+        Ok(material)
     }
 
     /// What the component tiers say about a stretch, counted from its first frame.
@@ -182,14 +195,31 @@ impl CorpusSources<'_> {
 
 impl Sources for CorpusSources<'_> {
     fn material(&self, address: &str) -> std::result::Result<Material, SourceError> {
-        let stretch = self
-            .stretch(address)
-            .map_err(|error| missing(self, address, &error))?;
-        self.load(&stretch).map_err(|error| unreadable(&error))
+        if address == notation::OWN_BODY {
+            return notation::own_body().map_err(|error| unreadable(&error));
+        }
+        match self.stretch(address) {
+            Ok(stretch) => self.load(&stretch).map_err(|error| unreadable(&error)),
+            Err(error) => self
+                .animated(address)?
+                .ok_or_else(|| missing(self, address, &error)),
+        }
+    }
+
+    fn notation(&self, name: &str) -> std::result::Result<Vec<Notated>, SourceError> {
+        self.notated(name)
     }
 
     fn stage(&self, signer: Option<&str>) -> std::result::Result<Material, SourceError> {
         let wanted = match signer.map(str::parse) {
+            _ if signer == Some(notation::OWN_BODY) => {
+                return notation::own_body().map_err(|error| unreadable(&error));
+            }
+            Some(Ok(Address::Recording(name))) => {
+                let recording = address::recording(self.connection, &name)
+                    .map_err(|error| missing(self, signer.unwrap_or_default(), &error))?;
+                return self.standing(recording).map_err(|error| unreadable(&error));
+            }
             Some(Ok(Address::Signer(name))) => {
                 let row = address::signer(self.connection, &name);
                 Some(row.map_err(|_| self.no_signer(signer))?.id)
@@ -213,14 +243,7 @@ impl Sources for CorpusSources<'_> {
                 if recordings::motion_track(self.connection, recording.id)?.is_none() {
                     continue;
                 }
-                let rate = Track::of(self.connection, recording.id)?.rate;
-                let stretch = Stretch {
-                    span: rate.span(0..1),
-                    recording,
-                    token: None,
-                };
-                let mut material = self.load(&stretch)?;
-                material.held.clear();
+                let material = self.standing(recording)?;
                 if Side::BOTH
                     .iter()
                     .all(|&side| material.anatomy.has_fingers(side))
@@ -229,7 +252,10 @@ impl Sources for CorpusSources<'_> {
                 }
                 spare = spare.or(Some(material));
             }
-            Ok(spare)
+            match spare {
+                None if wanted.is_none() => notation::own_body().map(Some),
+                spare => Ok(spare),
+            }
         };
         find()
             .map_err(|error| unreadable(&error))?
@@ -237,11 +263,6 @@ impl Sources for CorpusSources<'_> {
                 address: signer.unwrap_or("a recording with movement").to_owned(),
                 nearest: None,
             })
-    }
-
-    fn notation(&self, name: &str) -> std::result::Result<Vec<Notated>, SourceError> {
-        let found = notation::named(self.connection, name).map_err(|error| unreadable(&error))?;
-        Ok(found.into_iter().map(|found| found.document).collect())
     }
 
     fn value(&self, component: Component, text: &str) -> std::result::Result<Value, SourceError> {

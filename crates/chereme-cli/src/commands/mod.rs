@@ -1,5 +1,6 @@
 //! The commands, one module each.
 
+mod animate;
 mod annotate;
 mod check;
 mod demo;
@@ -37,6 +38,7 @@ pub(crate) enum Command {
     Annotate(annotate::Args),
     Search(search::Args),
     Recombine(recombine::Args),
+    Animate(animate::Args),
     Render(render::Args),
     Score(score::Args),
     Suggest(suggest::Args),
@@ -66,6 +68,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Transcribe(args) => transcribe::run(cli, args, output),
         Command::Search(args) => search::run(cli, args, output),
         Command::Recombine(args) => recombine::run(cli, args, output),
+        Command::Animate(args) => animate::run(cli, args, output),
         Command::Render(args) => render::run(cli, args, output),
         Command::Undo(args) => history::undo(cli, args, output),
         Command::Redo(args) => history::redo(cli, args, output),

@@ -1,9 +1,9 @@
 //! `chereme recombine`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use chereme_corpus::{PictureOptions, Progress, draw_clip};
+use chereme_corpus::{PictureOptions, Progress, Recombination, draw_clip};
 use serde_json::json;
 
 use crate::args::Cli;
@@ -38,6 +38,16 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         Some(gloss) => corpus.recombine(&args.recipe, gloss)?,
         None => corpus.preview(&args.recipe)?,
     };
+    tell(&done, args.explain, args.draw.as_deref(), output)
+}
+
+/// Tells what was made, and draws it where asked.
+pub(super) fn tell(
+    done: &Recombination,
+    explain: bool,
+    draw: Option<&Path>,
+    output: &mut Output,
+) -> Result<()> {
     let seconds = done.duration_us as f64 / 1e6;
     match (done.token, &done.name) {
         (Some(token), Some(name)) => output.line(format!(
@@ -49,15 +59,15 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             done.recipe
         ))?,
     }
-    if args.explain {
+    if explain {
         output.line(done.explanation.trim_end())?;
     } else {
         for warning in &done.report.warnings {
             output.line(format!("warning: {warning}"))?;
         }
     }
-    let mut document = serde_json::to_value(&done)?;
-    if let Some(path) = &args.draw {
+    let mut document = serde_json::to_value(done)?;
+    if let Some(path) = draw {
         let mut bar = Bar::new();
         let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
         let title = if done.gloss.is_empty() {

@@ -1,0 +1,41 @@
+//! `chereme animate`.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+
+use crate::args::Cli;
+use crate::output::Output;
+
+/// Make movement from notation: HamNoSys or SiGML, on any body
+///
+/// The notation is a SiGML file, HamNoSys as characters or as names of symbols in quotes, a file of it
+/// (.hns or .txt), or a sign that the corpus holds as notation: a gloss, token:41. Several follow one
+/// another. With --as the movement is stored as a new sign, with its own tiers and its recipe.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// The notation: a file, HamNoSys text, or a notated sign
+    #[arg(required = true)]
+    notation: Vec<String>,
+    /// Whose body signs: signer:NAME, or recording:NAME for its skeleton; else the corpus chooses
+    #[arg(long, value_name = "SIGNER")]
+    signer: Option<String>,
+    /// The gloss of the new sign; without it nothing is stored
+    #[arg(long = "as", value_name = "GLOSS")]
+    gloss: Option<String>,
+    /// Show how the movement comes about: strokes, residuals, what was approximated
+    #[arg(long)]
+    explain: bool,
+    /// Draw the movement to a contact sheet (.png) or an animation (.gif)
+    #[arg(long, value_name = "FILE")]
+    draw: Option<PathBuf>,
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let mut corpus = cli.open(&args.corpus)?;
+    let notation: Vec<&str> = args.notation.iter().map(String::as_str).collect();
+    let done = corpus.animate(&notation, args.signer.as_deref(), args.gloss.as_deref())?;
+    super::recombine::tell(&done, args.explain, args.draw.as_deref(), output)
+}

@@ -1,0 +1,173 @@
+//! Signs as notation for recipes, and a body for a corpus that has none.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use chereme_compose::notation::{self as animator, Settings};
+use chereme_compose::{About, ENGINE, Held, Made, Material, SourceError, Sources};
+use chereme_formats::bvh::convert::{self, ClipBuilder};
+use chereme_formats::bvh::raw::{Block, Reader};
+use chereme_motion::anatomy::{Anatomy, Roles};
+use chereme_sign::Handedness;
+use chereme_sign::hamnosys::Notated;
+use sha2::{Digest, Sha256};
+
+use super::{CorpusSources, missing, unreadable};
+use crate::db::motion::hex;
+use crate::error::{Error, Result};
+use crate::notation::{self, Notation};
+use crate::starter;
+
+/// The address of the body that comes with the program, for a corpus without movement.
+pub(super) const OWN_BODY: &str = "built-in body";
+
+/// The recording of the starter corpus whose first frame is that body at rest.
+const OWN_RECORDING: &str = "bol.bvh";
+
+/// What stands between the names of signs that follow one another.
+pub(crate) const NEXT: &str = " + ";
+
+impl CorpusSources<'_> {
+    /// Returns the signs that a name stands for: of the corpus, of a file, or several with ` + ` between.
+    pub(super) fn notated(&self, name: &str) -> std::result::Result<Vec<Notated>, SourceError> {
+        let error = match notation::named(self.connection, name) {
+            Ok(found) if !found.is_empty() => {
+                return Ok(found.into_iter().map(|found| found.document).collect());
+            }
+            Ok(_) => Error::wrong(format!("{name} has no notation")),
+            Err(error) => error,
+        };
+        if Path::new(name).is_file() {
+            let read = notation::read_notation(Path::new(name));
+            return read.map(|(signs, _)| signs).map_err(|e| unreadable(&e));
+        }
+        if !name.contains(NEXT) {
+            return Err(missing(self, name, &error));
+        }
+        let mut signs = Vec::new();
+        for part in name.split(NEXT) {
+            signs.extend(self.notated(part.trim())?);
+        }
+        Ok(signs)
+    }
+
+    fn notation_of(&self, name: &str) -> Result<Notation> {
+        notation::find(self.connection, &name.parse()?)
+    }
+
+    /// Returns the movement of a sign that the corpus has as notation only, on the body it chooses.
+    pub(super) fn animated(
+        &self,
+        address: &str,
+    ) -> std::result::Result<Option<Material>, SourceError> {
+        let Ok(found) = self.notation_of(address) else {
+            return Ok(None);
+        };
+        let stage = self.stage(None)?;
+        let settings = Settings {
+            rate: stage.clip.rate(),
+            ..Settings::default()
+        };
+        let made = animator::animate(&[&found.document], &stage, &settings)
+            .map_err(|error| unreadable(&Error::wrong(error.to_string())))?;
+        let document = serde_json::to_string(&found.document).unwrap_or_default();
+        let name = format!("notation {document} {} {ENGINE}", stage.hash);
+        Ok(Some(material(
+            made,
+            format!("token:{}", found.token),
+            hex(&Sha256::digest(name.as_bytes())),
+            found.document.gloss,
+        )))
+    }
+}
+
+fn material(made: Made, address: String, hash: String, gloss: String) -> Material {
+    let held = made.notes.into_iter().filter_map(|note| match note.about {
+        About::Component(component, feature) => Some(Held {
+            hand: note.hand,
+            component,
+            feature,
+            value: note.value,
+            span: note.span,
+        }),
+        About::Gloss | About::Transition => None,
+    });
+    Material {
+        address,
+        hash,
+        gloss,
+        signer: made.signer,
+        handedness: made.handedness,
+        held: held.collect(),
+        clip: made.clip,
+        anatomy: made.anatomy,
+    }
+}
+
+/// Returns the body that comes with the program, at rest.
+pub(super) fn own_body() -> Result<Material> {
+    let bad = |what: String| Error::wrong(format!("the built-in body cannot be read: {what}"));
+    let bytes = starter::starter_files()
+        .find(|(name, _)| *name == Path::new(OWN_RECORDING))
+        .map(|(_, bytes)| bytes)
+        .ok_or_else(|| bad(format!("{OWN_RECORDING} is missing")))?;
+    let mut reader = Reader::open(bytes).map_err(|error| bad(error.to_string()))?;
+    let mut block = Block::default();
+    reader
+        .next_block(&mut block)
+        .map_err(|error| bad(error.to_string()))?;
+    let rate = convert::rate(reader.header().frame_time.as_ref());
+    let rate = rate.map_err(|error| bad(error.to_string()))?;
+    let mut builder =
+        ClipBuilder::new(reader.hierarchy(), None).map_err(|error| bad(error.to_string()))?;
+    builder.push(0..block.frames.min(1), |at| block.columns.get(at));
+    let clip = builder
+        .finish(rate)
+        .map_err(|error| bad(error.to_string()))?;
+    let anatomy = Anatomy::with_roles(clip.skeleton(), &Roles::default());
+    let anatomy = anatomy.map_err(|error| bad(error.to_string()))?;
+    let pose = (clip.frames() > 0).then(|| clip.model_pose(0));
+    let convention = anatomy
+        .convention(clip.skeleton(), pose.as_ref())
+        .convention;
+    let clip = convention.clip(&clip);
+    let anatomy = Anatomy::with_roles(clip.skeleton(), &Roles::default());
+    let anatomy = anatomy
+        .map_err(|error| bad(error.to_string()))?
+        .with_clip(&clip);
+    Ok(Material {
+        address: OWN_BODY.to_owned(),
+        hash: hex(&Sha256::digest(bytes)),
+        gloss: OWN_BODY.to_owned(),
+        signer: None,
+        handedness: Handedness::Right,
+        clip,
+        anatomy: Arc::new(anatomy),
+        held: Vec::new(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use chereme_motion::Side;
+
+    use super::*;
+
+    #[test]
+    fn the_built_in_body_has_hands_and_stands_in_metres() {
+        let body = own_body().expect("it is part of the program");
+        assert_eq!(body.clip.frames(), 1);
+        assert!(
+            Side::BOTH
+                .iter()
+                .all(|&side| body.anatomy.has_fingers(side))
+        );
+        let height = body
+            .clip
+            .model_pose(0)
+            .positions()
+            .map(|at| at.y)
+            .fold(0.0, f64::max);
+        assert!((1.2..2.2).contains(&height), "{height}");
+    }
+}

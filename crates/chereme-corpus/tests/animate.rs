@@ -1,0 +1,70 @@
+//! Notation made into movement: in a corpus without any, on the built-in body, and found again.
+
+use std::fs;
+
+use chereme_corpus::{Corpus, ImportOptions, Progress, SearchOptions, unheard};
+
+const CHIN: &str = r#"<sigml><hamgestural_sign gloss="MERCI"><sign_manual>
+  <handconfig handshape="flat"/><handconfig extfidir="u"/><handconfig palmor="u"/>
+  <location_bodyarm location="chin" contact="touch"/>
+  <directedmotion direction="o"/>
+</sign_manual></hamgestural_sign></sigml>"#;
+
+fn glosses(corpus: &mut Corpus, query: &str) -> Vec<String> {
+    let answer = corpus.search(query, &SearchOptions::default());
+    let hits = answer.expect(query).hits;
+    hits.into_iter().map(|hit| hit.gloss).collect()
+}
+
+#[test]
+fn a_notated_sign_moves_is_found_by_its_components_and_is_taken_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let file = folder.path().join("merci.sigml");
+    fs::write(&file, CHIN).expect("written");
+    let preview = corpus.animate(&[&file.display().to_string()], None, None);
+    assert!(
+        preview
+            .expect("a file that no corpus holds")
+            .token
+            .is_none()
+    );
+    let mut hear = unheard;
+    corpus
+        .import(
+            std::slice::from_ref(&file),
+            &ImportOptions::default(),
+            &mut Progress::new(&mut hear),
+        )
+        .expect("taken in");
+
+    let done = corpus.animate(&["MERCI"], None, Some("THANKS"));
+    let done = done.expect("the corpus has it, and the program a body");
+    assert!(done.duration_us > 500_000, "{}", done.duration_us);
+    let found = glosses(&mut corpus, "configuration=flat placement=chin origin=made");
+    assert_eq!(found, ["THANKS"]);
+
+    let twice = corpus.animate(&["MERCI", "MERCI"], None, None);
+    assert!(twice.expect("one after the other").duration_us > done.duration_us);
+    let near = corpus.preview("THANKS | reverse | place right near MERCI");
+    assert!(near.is_ok(), "{:?}", near.err());
+    corpus.undo().expect("undone");
+    assert!(glosses(&mut corpus, "origin=made").is_empty());
+}
+
+#[test]
+fn what_cannot_be_read_is_told_and_nothing_is_stored() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    for (notation, signer, said) in [
+        ("NONE", None, "NONE"),
+        ("hamflathand hampalmd hampalmd", None, "symbol"),
+        ("hamflathand hamextfingeru", Some("signer:nobody"), "nobody"),
+    ] {
+        let error = corpus
+            .animate(&[notation], signer, Some("X"))
+            .expect_err(notation);
+        assert!(error.to_string().contains(said), "{notation}: {error}");
+    }
+    assert!(glosses(&mut corpus, "gloss=X").is_empty());
+}
