@@ -9,6 +9,9 @@ use chereme_motion::Rate;
 use crate::checks::{Worst, worst};
 use crate::{Result, bodies};
 
+/// A fault with the size from which it counts, and how it is read off.
+type Judged = (&'static str, f64, fn(&Worst) -> f64);
+
 pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
     let signs = bodies::signs(folder)?;
     for path in paths {
@@ -52,7 +55,7 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
             "  short of their place {short}, turned less {turned}, moved out of the trunk {pushed}"
         );
         println!("  worst: {all:?}");
-        let by: [(&str, f64, fn(&Worst) -> f64); 6] = [
+        let by: [Judged; 6] = [
             ("hand in the trunk", 0.01, |worst| worst.hand_depth),
             ("elbow in the trunk", 0.01, |worst| worst.elbow_depth),
             ("speed", 6.0, |worst| worst.speed),
