@@ -24,22 +24,6 @@ pub(crate) struct Worst {
     pub(crate) turning: f64,
 }
 
-impl Worst {
-    pub(crate) fn and(self, other: Self) -> Self {
-        Self {
-            nan: self.nan + other.nan,
-            bone: self.bone.max(other.bone),
-            wrist: self.wrist.max(other.wrist),
-            turn: self.turn.max(other.turn),
-            hand_depth: self.hand_depth.max(other.hand_depth),
-            elbow_depth: self.elbow_depth.max(other.elbow_depth),
-            speed: self.speed.max(other.speed),
-            elbow_speed: self.elbow_speed.max(other.elbow_speed),
-            turning: self.turning.max(other.turning),
-        }
-    }
-}
-
 /// Measures a movement frame by frame.
 pub(crate) fn worst(made: &Made) -> Worst {
     let (clip, anatomy) = (&made.clip, &made.anatomy);

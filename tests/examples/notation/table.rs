@@ -12,6 +12,23 @@ use crate::{Result, bodies};
 /// A fault with the size from which it counts, and how it is read off.
 type Judged = (&'static str, f64, fn(&Worst) -> f64);
 
+impl Worst {
+    /// Returns the worse of both in everything.
+    fn and(self, other: Self) -> Self {
+        Self {
+            nan: self.nan + other.nan,
+            bone: self.bone.max(other.bone),
+            wrist: self.wrist.max(other.wrist),
+            turn: self.turn.max(other.turn),
+            hand_depth: self.hand_depth.max(other.hand_depth),
+            elbow_depth: self.elbow_depth.max(other.elbow_depth),
+            speed: self.speed.max(other.speed),
+            elbow_speed: self.elbow_speed.max(other.elbow_speed),
+            turning: self.turning.max(other.turning),
+        }
+    }
+}
+
 pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
     let signs = bodies::signs(folder)?;
     for path in paths {

@@ -166,6 +166,7 @@ mod tests {
             .clip
             .model_pose(0)
             .positions()
+            .iter()
             .map(|at| at.y)
             .fold(0.0, f64::max);
         assert!((1.2..2.2).contains(&height), "{height}");
