@@ -58,11 +58,12 @@ fn what_cannot_be_read_is_told_and_nothing_is_stored() {
     let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
     for (notation, signer, said) in [
         ("NONE", None, "NONE"),
-        ("hamflathand hampalmd hampalmd", None, "symbol"),
+        ("hamflathand hamparbegin", None, "symbol"),
         ("hamflathand hamextfingeru", Some("signer:nobody"), "nobody"),
     ] {
         let error = corpus
             .animate(&[notation], signer, Some("X"))
+            .map(|done| done.recipe)
             .expect_err(notation);
         assert!(error.to_string().contains(said), "{notation}: {error}");
     }

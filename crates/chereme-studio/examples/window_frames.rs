@@ -1,4 +1,4 @@
-//! Measures frames of a real window: `cargo run --release --example frame_time -- [CORPUS] [SECONDS]`.
+//! Measures frames of a real window: `cargo run --release --example window_frames -- [CORPUS] [SECONDS]`.
 //!
 //! The window opens, plays its first recording in a loop without waiting for the screen, and closes. Without
 //! a corpus one is made with a recording of the starter corpus and with 200 tiers of 500 annotations.
@@ -51,7 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         apart: Vec::new(),
         over: false,
     };
-    eframe::run_native("frame_time", native, Box::new(|_| Ok(Box::new(meter))))?;
+    eframe::run_native("window_frames", native, Box::new(|_| Ok(Box::new(meter))))?;
     Ok(())
 }
 
