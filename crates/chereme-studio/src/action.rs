@@ -82,7 +82,10 @@ macro_rules! actions {
 actions! {
     OpenStarter "file.starter" STARTER File Everywhere;
     Open "file.open" OPEN File Everywhere;
+    New "file.new" NEW File Everywhere;
     Import "file.import" SHOW_IMPORT File Corpus;
+    ImportFiles "file.import-files" IMPORT_FILES File Corpus;
+    ImportFolder "file.import-folder" IMPORT_FOLDER File Corpus;
     Close "file.close" CLOSE File Corpus;
     Settings "file.settings" SETTINGS File Everywhere;
     Quit "file.quit" QUIT File Everywhere;

@@ -8,6 +8,7 @@ use eframe::egui::{self, CentralPanel, Context, Frame, Panel, Ui};
 use egui_tiles::{Behavior, SimplificationOptions, TileId, Tree, UiResponse};
 
 use crate::Options;
+use crate::choose::{Chooser, Chosen};
 use crate::command::Command;
 use crate::context::{Outbox, Seen, Shown};
 use crate::keys::{Keys, Place};
@@ -41,6 +42,7 @@ pub struct Studio {
     /// The pane that was used last.
     pub(crate) pane: Option<PaneKind>,
     pub(crate) start: Start,
+    pub(crate) chooser: Chooser,
     pub(crate) overlays: Overlays,
     pub(crate) out: Outbox,
     pub(crate) wake: Wake,
@@ -91,6 +93,7 @@ impl Studio {
             panes: Panes::default(),
             pane: None,
             start: Start::default(),
+            chooser: Chooser::default(),
             overlays: Overlays::default(),
             out,
             wake,
@@ -107,6 +110,7 @@ impl Studio {
         }
         theme::apply(&ctx, &self.settings);
         self.listen();
+        self.hear_chooser(&ctx);
         self.tick(&ctx);
         self.take_keys(&ctx);
         self.take_dropped(&ctx);
@@ -140,7 +144,10 @@ impl Studio {
             .desk
             .as_ref()
             .is_some_and(|desk| !desk.running.is_empty());
-        self.beginning.is_none() && !working && self.desk.is_some() == self.snapshot.is_some()
+        self.beginning.is_none()
+            && !self.chooser.is_open()
+            && !working
+            && self.desk.is_some() == self.snapshot.is_some()
     }
 
     /// Runs `draw` with what panes see.
@@ -183,6 +190,19 @@ impl Studio {
                     self.hear(ended);
                 }
             }
+        }
+    }
+
+    /// Hears what was chosen.
+    fn hear_chooser(&mut self, ctx: &Context) {
+        let now = ctx.input(|input| input.time);
+        match self.chooser.ended(&self.wake, now) {
+            Some(Chosen::Command(command)) => self.out.send(command),
+            Some(Chosen::NoChooser) => {
+                let words = crate::words::shell::NO_CHOOSER.of(self.settings.language);
+                self.overlays.notices.hint(words);
+            }
+            Some(Chosen::Nothing) | None => {}
         }
     }
 

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use chereme_motion::{Instant, Span};
 
 use crate::action::Action;
+use crate::choose::Choose;
 use crate::settings::Settings;
 use crate::work::begin::Begin;
 use crate::work::{Work, WorkId};
@@ -21,6 +22,8 @@ pub(crate) enum Command {
     Stop(WorkId),
     /// Open a corpus.
     Begin(Begin),
+    /// Have files or a folder chosen, and go on with them.
+    Choose(Choose),
     /// Stop opening.
     StopBeginning,
     /// Show a recording, from its start.

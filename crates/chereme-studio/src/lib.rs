@@ -22,6 +22,7 @@
 mod action;
 mod app;
 mod bars;
+mod choose;
 mod command;
 mod context;
 mod error;

@@ -7,6 +7,7 @@ use eframe::egui::{Context, ViewportCommand};
 
 use crate::action::Action;
 use crate::app::Studio;
+use crate::choose::Choose;
 use crate::command::Command;
 use crate::context::{Outbox, Shown};
 use crate::keys::Keys;
@@ -52,6 +53,10 @@ impl Studio {
             }
             Command::Begin(begin) => {
                 self.beginning = Some(Beginning::start(begin, &self.author, &self.wake));
+            }
+            Command::Choose(what) => {
+                let now = ctx.input(|input| input.time);
+                self.chooser.ask(what, self.settings.language, now);
             }
             Command::StopBeginning => {
                 if let Some(beginning) = &self.beginning {
@@ -114,7 +119,10 @@ impl Studio {
     fn act_on_window(&mut self, action: Action, ctx: &Context) -> bool {
         match action {
             Action::OpenStarter => self.open_starter(),
-            Action::Open => self.close(),
+            Action::Open => self.out.send(Command::Choose(Choose::Corpus)),
+            Action::New => self.out.send(Command::Choose(Choose::NewCorpus)),
+            Action::ImportFiles => self.out.send(Command::Choose(Choose::Files)),
+            Action::ImportFolder => self.out.send(Command::Choose(Choose::Folder)),
             Action::Close => self.close(),
             Action::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Action::Settings => self.overlays.settings.toggle(),
@@ -272,6 +280,11 @@ impl Studio {
                 .retain(|id| snapshot.annotation(*id).is_some());
         }
         let first = snapshot.overview.recordings.first().map(|it| it.row.id);
+        if self.snapshot.is_none() && first.is_none() {
+            let words = words::EMPTY_CORPUS.of(self.settings.language);
+            self.overlays.notices.hint(words);
+            self.bring(PaneKind::Import);
+        }
         self.snapshot = Some(snapshot);
         if let (None, Some(first)) = (self.shown.recording, first) {
             self.turn_to(first);

@@ -1,12 +1,15 @@
 //! The page without a corpus: the starter corpus, recent ones, a path, a folder to import.
 
-use std::path::PathBuf;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 
-use eframe::egui::{Button, ProgressBar, RichText, ScrollArea, TextEdit, Ui, vec2};
+use eframe::egui::{Button, Key, ProgressBar, RichText, ScrollArea, TextEdit, Ui};
 
 use crate::action::Action;
 use crate::app::Studio;
+use crate::choose::Choose;
 use crate::command::Command;
+use crate::panes::list_row;
 use crate::words::{Text, shell as words};
 use crate::work::begin::Begin;
 
@@ -26,10 +29,13 @@ pub(crate) fn uses(path: &str, is_file: bool, is_folder: bool) -> [bool; 3] {
     ]
 }
 
-/// Whether it can be used now, what it is called, a hint, and what it begins.
-type Offer = (bool, Text, Text, fn(PathBuf) -> Begin);
+/// What it is called, a hint, and what it asks for.
+type Offer = (Text, Text, Command);
 
-const WIDE: f32 = 560.0;
+/// What it is called, and what it begins with a path.
+type Typed = (Text, fn(PathBuf) -> Begin);
+
+const WIDE: f32 = 620.0;
 
 impl Studio {
     pub(crate) fn start_page(&mut self, ui: &mut Ui) {
@@ -53,11 +59,11 @@ impl Studio {
                         self.beginning_page(ui);
                         return;
                     }
-                    self.starter_part(ui);
-                    ui.add_space(20.0);
-                    self.path_part(ui);
-                    ui.add_space(20.0);
+                    self.offers_part(ui);
+                    ui.add_space(24.0);
                     self.recent_part(ui);
+                    ui.add_space(24.0);
+                    self.path_part(ui);
                 });
             });
         });
@@ -81,42 +87,54 @@ impl Studio {
         }
     }
 
-    fn starter_part(&mut self, ui: &mut Ui) {
+    fn offers_part(&mut self, ui: &mut Ui) {
         let language = self.settings.language;
-        let text = RichText::new(words::START_STARTER.of(language)).size(16.0);
-        let button = ui.add(Button::new(text).min_size(vec2(260.0, 36.0)));
-        if button.clicked() {
-            self.out.send(Command::Do(Action::OpenStarter));
+        let offers: [Offer; 4] = [
+            (
+                words::START_STARTER,
+                words::START_STARTER_HINT,
+                Command::Do(Action::OpenStarter),
+            ),
+            (
+                words::START_OPEN,
+                words::START_OPEN_HINT,
+                Command::Do(Action::Open),
+            ),
+            (
+                words::START_IMPORT,
+                words::START_IMPORT_HINT,
+                Command::Choose(Choose::CorpusOfFolder),
+            ),
+            (
+                words::START_NEW,
+                words::START_NEW_HINT,
+                Command::Do(Action::New),
+            ),
+        ];
+        for (name, hint, command) in offers {
+            if list_row(ui, 46.0, false, name.of(language), hint.of(language)).clicked() {
+                self.out.send(command);
+            }
         }
-        ui.weak(words::START_STARTER_HINT.of(language));
     }
 
     fn path_part(&mut self, ui: &mut Ui) {
         let language = self.settings.language;
-        let label = ui.label(words::START_PATH.of(language));
+        let label = ui.strong(words::START_TYPED.of(language));
         let field = TextEdit::singleline(&mut self.start.path).desired_width(f32::INFINITY);
-        ui.add(field).labelled_by(label.id);
+        let field = ui.add(field).labelled_by(label.id);
+        let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         let path = PathBuf::from(self.start.path.trim());
-        let [open, make, import] = uses(&self.start.path, path.is_file(), path.is_dir());
-        let offers: [Offer; 3] = [
-            (open, words::START_OPEN, words::START_OPEN_HINT, Begin::Open),
-            (make, words::START_NEW, words::START_OPEN_HINT, Begin::New),
-            (
-                import,
-                words::START_IMPORT,
-                words::START_IMPORT_HINT,
-                Begin::Folder,
-            ),
+        let can = uses(&self.start.path, path.is_file(), path.is_dir());
+        let offers: [Typed; 3] = [
+            (words::START_TYPED_OPEN, Begin::Open),
+            (words::START_TYPED_NEW, Begin::New),
+            (words::START_TYPED_IMPORT, Begin::Folder),
         ];
         ui.horizontal(|ui| {
-            for (can, text, hint, begin) in offers {
+            for (can, (text, begin)) in can.into_iter().zip(offers) {
                 let button = ui.add_enabled(can, Button::new(text.of(language)));
-                let hint = hint.of(language);
-                if button
-                    .on_hover_text(hint)
-                    .on_disabled_hover_text(hint)
-                    .clicked()
-                {
+                if button.clicked() || (can && entered) {
                     self.out.send(Command::Begin(begin(path.clone())));
                 }
             }
@@ -131,19 +149,28 @@ impl Studio {
             ui.weak(words::START_NONE.of(language));
         }
         for path in &self.settings.recent {
-            ui.horizontal(|ui| {
-                let name = path.display().to_string();
-                if path.is_file() {
-                    if ui.link(name).clicked() {
-                        self.out.send(Command::Begin(Begin::Open(path.clone())));
-                    }
-                } else {
-                    ui.weak(name);
-                    ui.weak(words::START_GONE.of(language));
-                }
-            });
+            let there = path.is_file();
+            let (name, folder) = parts(path);
+            let about = if there {
+                folder
+            } else {
+                format!("{folder} · {}", words::START_GONE.of(language))
+            };
+            let row = ui.add_enabled_ui(there, |ui| list_row(ui, 40.0, false, &name, &about));
+            if row.inner.clicked() {
+                self.out.send(Command::Begin(Begin::Open(path.clone())));
+            }
         }
     }
+}
+
+/// Returns a file's name without its ending, and the folder it is in.
+fn parts(path: &Path) -> (String, String) {
+    let text = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    (
+        text(path.file_stem()),
+        text(path.parent().map(Path::as_os_str)),
+    )
 }
 
 #[cfg(test)]
@@ -155,6 +182,10 @@ mod tests {
         assert_eq!(uses("", false, true), [false; 3]);
         assert_eq!(uses("a.chereme", true, false), [true, false, false]);
         assert_eq!(uses("new", false, false), [false, true, false]);
+        assert_eq!(
+            parts(Path::new("/a/b.chereme")),
+            ("b".to_owned(), "/a".to_owned())
+        );
         assert_eq!(uses("folder", false, true), [false, false, true]);
     }
 }

@@ -153,6 +153,22 @@ fn refine(style: &mut Style, dark: bool) {
     visuals.widgets.noninteractive.fg_stroke.color = text;
     visuals.widgets.noninteractive.bg_stroke.color = colours.rule;
     visuals.widgets.inactive.fg_stroke.color = text;
+    let fills = if dark {
+        [0x2A_31_3C, 0x35_3E_4B, 0x40_4B_5A]
+    } else {
+        [0xE6_EA_EF, 0xD8_DF_E7, 0xC8_D2_DD]
+    };
+    let widgets = &mut visuals.widgets;
+    for (widget, fill) in [
+        (&mut widgets.inactive, fills[0]),
+        (&mut widgets.hovered, fills[1]),
+        (&mut widgets.open, fills[1]),
+        (&mut widgets.active, fills[2]),
+    ] {
+        let [_, r, g, b] = u32::to_be_bytes(fill);
+        let fill = Color32::from_rgb(r, g, b);
+        (widget.bg_fill, widget.weak_bg_fill) = (fill, fill);
+    }
     for widget in [
         &mut visuals.widgets.inactive,
         &mut visuals.widgets.hovered,

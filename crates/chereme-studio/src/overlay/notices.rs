@@ -3,7 +3,8 @@
 use std::fmt::Display;
 
 use chereme_corpus::Error;
-use eframe::egui::{Align2, Area, Context, Frame, Id, Order, RichText, vec2};
+use eframe::egui::text::{LayoutJob, TextFormat};
+use eframe::egui::{Align2, Area, Context, Frame, Id, Order, RichText, Style, TextStyle, vec2};
 
 use crate::command::Command;
 use crate::context::Outbox;
@@ -139,10 +140,10 @@ impl Notices {
                     };
                     ui.horizontal_wrapped(|ui| {
                         ui.label(RichText::new("●").color(edge));
-                        ui.label(&notice.text);
+                        ui.label(with_code(ui.style(), &notice.text, false));
                     });
                     if let Some(remedy) = &notice.remedy {
-                        ui.weak(remedy);
+                        ui.label(with_code(ui.style(), remedy, true));
                     }
                     if notice.stays && ui.button(words::CLOSE.of(language)).clicked() {
                         out.send(Command::Dismiss(notice.id));
@@ -151,6 +152,23 @@ impl Notices {
             }
         });
     }
+}
+
+/// Lays a text out with what stands between backticks as code, without them.
+fn with_code(style: &Style, text: &str, weak: bool) -> LayoutJob {
+    let mut job = LayoutJob::default();
+    let visuals = &style.visuals;
+    let colour = if weak {
+        visuals.weak_text_color()
+    } else {
+        visuals.text_color()
+    };
+    let fonts = [TextStyle::Body, TextStyle::Monospace].map(|it| it.resolve(style));
+    for (at, part) in text.split('`').enumerate() {
+        let format = TextFormat::simple(fonts[at % 2].clone(), colour);
+        job.append(part, 0.0, format);
+    }
+    job
 }
 
 #[cfg(test)]

@@ -3,6 +3,9 @@
 texts! {
     STARTER: "Open the starter corpus", "Ouvrir le corpus de départ";
     OPEN: "Open a corpus…", "Ouvrir un corpus…";
+    IMPORT_FILES: "Choose files to import…", "Choisir des fichiers à importer…";
+    IMPORT_FOLDER: "Choose a folder to import…", "Choisir un dossier à importer…";
+    NEW: "New empty corpus…", "Nouveau corpus vide…";
     CLOSE: "Close the corpus", "Fermer le corpus";
     QUIT: "Quit", "Quitter";
     UNDO: "Undo", "Annuler";

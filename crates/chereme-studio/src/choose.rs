@@ -1,0 +1,188 @@
+//! The system's own file choosers, beside the typed paths that always work.
+
+use std::future::Future;
+use std::path::PathBuf;
+use std::pin::Pin;
+use std::sync::Arc;
+use std::task::{Context, Poll, Wake as TaskWake};
+
+use rfd::{AsyncFileDialog, FileHandle};
+
+use crate::command::Command;
+use crate::words::{Language, shell as words};
+use crate::work::begin::Begin;
+use crate::work::desk::Wake;
+
+/// What is to be chosen, and so what is done with it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Choose {
+    /// A corpus to open.
+    Corpus,
+    /// Where a new corpus is made.
+    NewCorpus,
+    /// A folder that becomes a corpus.
+    CorpusOfFolder,
+    /// Files to take into the open corpus.
+    Files,
+    /// A folder to take into the open corpus.
+    Folder,
+}
+
+/// Chosen paths, none where nothing was chosen.
+type Paths = Pin<Box<dyn Future<Output = Vec<PathBuf>> + Send>>;
+/// Shows a chooser.
+pub(crate) type Show = fn(Choose, Language) -> Paths;
+
+/// The chooser that is open, if any.
+pub(crate) struct Chooser {
+    pub(crate) show: Show,
+    open: Option<(Choose, Paths, f64)>,
+}
+
+/// What became of an open chooser.
+#[derive(Debug)]
+pub(crate) enum Chosen {
+    /// Something was chosen: do this.
+    Command(Command),
+    /// It was put away.
+    Nothing,
+    /// It ended sooner than anybody can put it away: this system has none.
+    NoChooser,
+}
+
+/// No person closes a chooser faster, in seconds.
+const AT_ONCE: f64 = 0.4;
+
+impl Default for Chooser {
+    fn default() -> Self {
+        Self {
+            show: native,
+            open: None,
+        }
+    }
+}
+
+impl Chooser {
+    /// Shows a chooser; the one that is open is forgotten.
+    pub(crate) fn ask(&mut self, what: Choose, language: Language, now: f64) {
+        self.open = Some((what, (self.show)(what, language), now));
+    }
+
+    /// Returns whether a chooser is open.
+    pub(crate) fn is_open(&self) -> bool {
+        self.open.is_some()
+    }
+
+    /// Returns what became of the open chooser, when it has ended; wakes the window when it does.
+    pub(crate) fn ended(&mut self, wake: &Wake, now: f64) -> Option<Chosen> {
+        let (what, paths, since) = self.open.as_mut()?;
+        let waker = Arc::new(Waking(wake.clone())).into();
+        let Poll::Ready(paths) = paths.as_mut().poll(&mut Context::from_waker(&waker)) else {
+            return None;
+        };
+        let (what, quick) = (*what, now - *since < AT_ONCE);
+        self.open = None;
+        Some(match what.command(paths) {
+            Some(command) => Chosen::Command(command),
+            None if quick => Chosen::NoChooser,
+            None => Chosen::Nothing,
+        })
+    }
+}
+
+struct Waking(Wake);
+
+impl TaskWake for Waking {
+    fn wake(self: Arc<Self>) {
+        (self.0)();
+    }
+}
+
+impl Choose {
+    fn command(self, mut paths: Vec<PathBuf>) -> Option<Command> {
+        let first = match self {
+            Self::Files | Self::Folder if !paths.is_empty() => return Some(Command::Import(paths)),
+            _ if paths.is_empty() => return None,
+            _ => paths.swap_remove(0),
+        };
+        Some(Command::Begin(match self {
+            Self::NewCorpus => Begin::New(first),
+            Self::CorpusOfFolder => Begin::Folder(first),
+            _ => Begin::Open(first),
+        }))
+    }
+}
+
+/// Shows the chooser of the desktop.
+fn native(what: Choose, language: Language) -> Paths {
+    let dialog = AsyncFileDialog::new();
+    let one = |file: Option<FileHandle>| file.map(|it| it.path().to_owned()).into_iter().collect();
+    let corpora = [words::CORPORA.of(language), "chereme"];
+    match what {
+        Choose::Corpus => {
+            let file = dialog
+                .set_title(words::START_OPEN.of(language))
+                .add_filter(corpora[0], &corpora[1..])
+                .pick_file();
+            Box::pin(async move { one(file.await) })
+        }
+        Choose::NewCorpus => {
+            let file = dialog
+                .set_title(words::START_NEW.of(language))
+                .add_filter(corpora[0], &corpora[1..])
+                .set_file_name("corpus.chereme")
+                .save_file();
+            Box::pin(async move { one(file.await) })
+        }
+        Choose::CorpusOfFolder | Choose::Folder => {
+            let title = words::START_IMPORT.of(language);
+            let folder = dialog.set_title(title).pick_folder();
+            Box::pin(async move { one(folder.await) })
+        }
+        Choose::Files => {
+            let files = dialog
+                .set_title(words::CHOOSE_FILES.of(language))
+                .pick_files();
+            Box::pin(async move {
+                let files = files.await.unwrap_or_default();
+                files.iter().map(|it| it.path().to_owned()).collect()
+            })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ended(show: Show, what: Choose, after: f64) -> Chosen {
+        let mut chooser = Chooser { show, open: None };
+        chooser.ask(what, Language::English, 0.0);
+        let wake: Wake = Arc::new(|| {});
+        let ended = chooser.ended(&wake, after).expect("at once");
+        assert!(!chooser.is_open());
+        ended
+    }
+
+    #[test]
+    fn what_is_chosen_is_done_and_a_missing_chooser_is_told() {
+        let one: Show = |_, _| Box::pin(async { vec![PathBuf::from("a")] });
+        let none: Show = |_, _| Box::pin(async { Vec::new() });
+        let is = |what, expected| match ended(one, what, 1.0) {
+            Chosen::Command(Command::Begin(begin)) => assert_eq!(begin, expected),
+            other => panic!("{other:?}"),
+        };
+        is(Choose::Corpus, Begin::Open("a".into()));
+        is(Choose::NewCorpus, Begin::New("a".into()));
+        is(Choose::CorpusOfFolder, Begin::Folder("a".into()));
+        assert!(matches!(
+            ended(one, Choose::Files, 1.0),
+            Chosen::Command(Command::Import(paths)) if paths == [PathBuf::from("a")]
+        ));
+        assert!(matches!(ended(none, Choose::Corpus, 3.0), Chosen::Nothing));
+        assert!(matches!(
+            ended(none, Choose::Corpus, 0.1),
+            Chosen::NoChooser
+        ));
+    }
+}
