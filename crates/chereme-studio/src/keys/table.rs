@@ -30,7 +30,7 @@ pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
     (Action::PreviousAnnotation, ["Alt+Left", "=", "Shift+Tab"]),
     (Action::NextTier, ["Ctrl+Down", "=", "="]),
     (Action::PreviousTier, ["Ctrl+Up", "=", "="]),
-    (Action::Play, ["Ctrl+Space", "Tab", "Space"]),
+    (Action::Play, ["Ctrl+Space Space", "Tab Space", "Space"]),
     (Action::PlaySelection, ["Shift+Space", "=", "Shift+Space"]),
     (Action::Loop, ["Ctrl+L", "=", "Ctrl+L"]),
     (Action::ShuttleBack, ["none", "none", "J"]),

@@ -38,7 +38,7 @@ texts! {
     STOPPED: "Stopped; the corpus is as it was before.", "Arrêté ; le corpus est comme avant.";
     REMEDY: "What helps: {remedy}", "Ce qui aide : {remedy}";
     NOTHING_OPEN: "No corpus is open.", "Aucun corpus n’est ouvert.";
-    STATUS_COUNTS: "{recordings} recordings, {signs} signs", "{recordings} enregistrements, {signs} signes";
+    STATUS_COUNTS: "Recordings: {recordings} · Signs: {signs}", "Enregistrements : {recordings} · Signes : {signs}";
     NOTICE_STORED: "{gloss} is stored.", "{gloss} est enregistré.";
     NOTICE_UNDONE: "Undone: {what}", "Annulé : {what}";
     NOTICE_REDONE: "Done again: {what}", "Rétabli : {what}";
