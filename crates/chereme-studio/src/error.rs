@@ -16,7 +16,7 @@ pub enum Error {
 
 impl Error {
     pub(crate) fn window(error: eframe::Error) -> Self {
-        let reason = error.to_string();
+        let reason = without_place(&error.to_string());
         let remedy = if cfg!(target_os = "linux") {
             "a display (X11 or Wayland) with OpenGL is needed; on Debian: apt-get install libgl1 \
              libegl1 libxkbcommon-x11-0 libxcursor1 libxi6 libx11-xcb1. Every other command of \
@@ -36,5 +36,23 @@ impl Error {
         match self {
             Self::Window { remedy, .. } => remedy,
         }
+    }
+}
+
+/// Returns a reason without the line of source that winit puts before it.
+fn without_place(reason: &str) -> String {
+    let after = |place: &str| Some(reason.split_once(place)?.1.split_once(": ")?.1.to_owned());
+    after(".rs:").unwrap_or_else(|| reason.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reason_names_no_line_of_source() {
+        let winit = "winit EventLoopError: os error at /a/mod.rs:7: no DISPLAY is set.";
+        assert_eq!(without_place(winit), "no DISPLAY is set.");
+        assert_eq!(without_place("no GL"), "no GL");
     }
 }
