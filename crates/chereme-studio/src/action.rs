@@ -136,7 +136,9 @@ actions! {
     ShowRecombine "pane.recombine" SHOW_RECOMBINE Panes Corpus;
     ShowInspector "pane.inspector" SHOW_INSPECTOR Panes Corpus;
     ShowHistory "pane.history" SHOW_HISTORY Panes Corpus;
-    ResetLayout "pane.reset" LAYOUT_RESET Panes Corpus;
+    LayoutAnnotate "pane.reset" LAYOUT_ANNOTATE Panes Corpus;
+    LayoutSearch "layout.search" LAYOUT_SEARCH Panes Corpus;
+    LayoutRecombine "layout.recombine" LAYOUT_RECOMBINE Panes Corpus;
     Palette "help.palette" PALETTE Help Everywhere;
     Keys "help.keys" KEYS Help Everywhere;
 }

@@ -7,36 +7,65 @@ use crate::panes::PaneKind;
 
 const ID: &str = "panes";
 
+/// What one is busy with, and so which panes want room.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Busy {
+    /// The timeline goes from edge to edge, as annotators know it.
+    Annotating,
+    /// Hits have half of the window.
+    Searching,
+    /// The cards stand beside a large stage.
+    Recombining,
+}
+
 /// Returns the usual layout.
 pub(crate) fn usual() -> Tree<PaneKind> {
+    of(Busy::Annotating)
+}
+
+/// Returns the layout for that work.
+pub(crate) fn of(busy: Busy) -> Tree<PaneKind> {
+    use LinearDir::{Horizontal, Vertical};
+    use PaneKind::{History, Import, Inspector, Library, Recombine, Search, Stage, Timeline};
     let mut tiles = Tiles::default();
-    let tabs = |tiles: &mut Tiles<PaneKind>, kinds: &[PaneKind]| {
+    let [left, stage, timeline, right] = [
+        &[Library, Search, Recombine, Import][..],
+        &[Stage],
+        &[Timeline],
+        &[Inspector, History],
+    ]
+    .map(|kinds| {
         let children: Vec<TileId> = kinds.iter().map(|kind| tiles.insert_pane(*kind)).collect();
         tiles.insert_tab_tile(children)
+    });
+    let tiles_of = &mut tiles;
+    let root = match busy {
+        Busy::Annotating => {
+            let top = [(left, 0.26), (stage, 0.52), (right, 0.22)];
+            let top = shares(tiles_of, Horizontal, &top);
+            shares(tiles_of, Vertical, &[(top, 0.58), (timeline, 0.42)])
+        }
+        Busy::Searching => {
+            let side = [(stage, 0.52), (timeline, 0.26), (right, 0.22)];
+            let side = shares(tiles_of, Vertical, &side);
+            shares(tiles_of, Horizontal, &[(left, 0.52), (side, 0.48)])
+        }
+        Busy::Recombining => {
+            let side = [(stage, 0.64), (timeline, 0.2), (right, 0.16)];
+            let side = shares(tiles_of, Vertical, &side);
+            shares(tiles_of, Horizontal, &[(left, 0.38), (side, 0.62)])
+        }
     };
-    let left = tabs(
-        &mut tiles,
-        &[
-            PaneKind::Library,
-            PaneKind::Search,
-            PaneKind::Recombine,
-            PaneKind::Import,
-        ],
+    let mut tree = Tree::new(Id::unique(ID), root, tiles);
+    bring(
+        &mut tree,
+        match busy {
+            Busy::Annotating => Library,
+            Busy::Searching => Search,
+            Busy::Recombining => Recombine,
+        },
     );
-    let stage = tabs(&mut tiles, &[PaneKind::Stage]);
-    let timeline = tabs(&mut tiles, &[PaneKind::Timeline]);
-    let right = tabs(&mut tiles, &[PaneKind::Inspector, PaneKind::History]);
-    let middle = shares(
-        &mut tiles,
-        LinearDir::Vertical,
-        &[(stage, 0.62), (timeline, 0.38)],
-    );
-    let root = shares(
-        &mut tiles,
-        LinearDir::Horizontal,
-        &[(left, 0.27), (middle, 0.53), (right, 0.20)],
-    );
-    Tree::new(Id::unique(ID), root, tiles)
+    tree
 }
 
 fn shares(tiles: &mut Tiles<PaneKind>, dir: LinearDir, parts: &[(TileId, f32)]) -> TileId {
@@ -79,6 +108,10 @@ mod tests {
         lacking.remove_recursively(stage);
         assert_eq!(remembered(Some(&lacking)), tree);
         assert_eq!(remembered(None), tree);
+        for busy in [Busy::Searching, Busy::Recombining] {
+            let tree = of(busy);
+            assert_eq!(remembered(Some(&tree)), tree);
+        }
     }
 
     #[test]

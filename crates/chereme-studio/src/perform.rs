@@ -11,7 +11,7 @@ use crate::choose::Choose;
 use crate::command::Command;
 use crate::context::{Outbox, Shown};
 use crate::keys::Keys;
-use crate::layout;
+use crate::layout::{self, Busy};
 use crate::model::Snapshot;
 use crate::model::reel::Reel;
 use crate::panes::PaneKind;
@@ -138,7 +138,9 @@ impl Studio {
             }
             Action::Larger => self.scale(0.1),
             Action::Smaller => self.scale(-0.1),
-            Action::ResetLayout => self.tree = layout::usual(),
+            Action::LayoutAnnotate => self.lay_out(Busy::Annotating),
+            Action::LayoutSearch => self.lay_out(Busy::Searching),
+            Action::LayoutRecombine => self.lay_out(Busy::Recombining),
             Action::Import => self.bring(PaneKind::Import),
             Action::Search => self.bring(PaneKind::Search),
             Action::ShowLibrary => self.bring(PaneKind::Library),
@@ -183,6 +185,10 @@ impl Studio {
 
     fn scale(&mut self, by: f32) {
         self.settings.scale = ((self.settings.scale + by) * 10.0).round().clamp(5.0, 30.0) / 10.0;
+    }
+
+    fn lay_out(&mut self, busy: Busy) {
+        self.tree = layout::of(busy);
     }
 
     fn bring(&mut self, pane: PaneKind) {

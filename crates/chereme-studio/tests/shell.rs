@@ -25,7 +25,7 @@ fn options(folder: &Path) -> Options {
 
 fn window<'a>(options: Options) -> Window<'a> {
     Harness::builder()
-        .with_size([1280.0, 800.0])
+        .with_size([1280.0, 1040.0])
         .with_step_dt(1.0 / 60.0)
         .build_ui_state(
             |ui, studio: &mut Studio| studio.ui(ui),

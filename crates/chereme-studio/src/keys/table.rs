@@ -65,6 +65,9 @@ pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
     (Action::ShowRecombine, ["Ctrl+R", "=", "="]),
     (Action::ShowInspector, ["Shift+F4", "=", "="]),
     (Action::ShowHistory, ["Ctrl+H", "=", "="]),
+    (Action::LayoutAnnotate, ["F6", "=", "="]),
+    (Action::LayoutSearch, ["F7", "=", "="]),
+    (Action::LayoutRecombine, ["F8", "=", "="]),
     (Action::Palette, ["Ctrl+Shift+P", "=", "="]),
     (Action::Keys, ["F1", "=", "="]),
 ];

@@ -48,7 +48,9 @@ texts! {
     LARGER: "Larger interface", "Interface plus grande";
     SMALLER: "Smaller interface", "Interface plus petite";
     THEME: "Light or dark", "Clair ou sombre";
-    LAYOUT_RESET: "Reset the layout", "Disposition d’origine";
+    LAYOUT_ANNOTATE: "Panes for annotating (the usual layout)", "Panneaux pour annoter (la disposition habituelle)";
+    LAYOUT_SEARCH: "Panes for searching", "Panneaux pour rechercher";
+    LAYOUT_RECOMBINE: "Panes for recombining", "Panneaux pour recombiner";
     SHOW_LIBRARY: "Show the recordings", "Afficher les enregistrements";
     SHOW_STAGE: "Show the stage", "Afficher la scène";
     SHOW_TIMELINE: "Show the timeline", "Afficher la ligne de temps";
