@@ -151,6 +151,50 @@ impl Framing {
         }
     }
 
+    /// Returns the space of head, shoulders and hands alone, for small pictures: hands that hang at
+    /// rest below the hips are left out, where they are not there all the time.
+    ///
+    /// `poses` are at least one; a skeleton that is no known body is taken whole.
+    #[must_use]
+    pub fn signing(poses: &[ModelPose], anatomy: &Anatomy) -> Self {
+        let whole = Self::around(poses, anatomy);
+        let arms = Side::BOTH.map(|side| anatomy.arm(side));
+        let Some(size) = arms
+            .iter()
+            .flatten()
+            .map(|&arm| arm_length(&poses[0], arm) / 0.53)
+            .reduce(f32::max)
+        else {
+            return whole;
+        };
+        let to_own = whole.axes.transpose();
+        let at = |pose: &ModelPose, joint| to_own * pose.position(joint).as_vec3();
+        let (mut always, mut hands) = (Bounds::default(), Bounds::default());
+        for pose in poses {
+            if let Some(head) = anatomy.joint(Part::Head) {
+                always.around(at(pose, head), Vec3::new(0.1, 0.225, 0.14) * size);
+            }
+            let hips = anatomy.joint(Part::Hips).map(|hips| at(pose, hips).y);
+            for (side, arm) in Side::BOTH.into_iter().zip(arms) {
+                let Some(arm) = arm else { continue };
+                always.around(at(pose, arm.upper), Vec3::new(0.075, 0.32, 0.07) * size);
+                let hand = at(pose, arm.hand);
+                if hips.is_some_and(|hips| hand.y < hips + 0.1 * size) {
+                    continue;
+                }
+                hands.around(hand, Vec3::splat(0.06) * size);
+                for joint in anatomy.fingers(side) {
+                    hands.around(at(pose, joint), Vec3::splat(0.035) * size);
+                }
+            }
+        }
+        let (Some((low, high)), hands) = (always.0, hands.0) else {
+            return whole;
+        };
+        let (low, high) = hands.map_or((low, high), |it| (low.min(it.0), high.max(it.1)));
+        Self { low, high, ..whole }
+    }
+
     /// Returns the camera of a view for a picture whose width is `aspect` times its height; the
     /// hand views look where `pose` has that hand.
     #[must_use]
@@ -237,6 +281,11 @@ fn facing(poses: &[ModelPose], anatomy: &Anatomy) -> Mat3 {
 struct Bounds(Option<(Vec3, Vec3)>);
 
 impl Bounds {
+    fn around(&mut self, at: Vec3, margin: Vec3) {
+        self.add(at - margin);
+        self.add(at + margin);
+    }
+
     fn add(&mut self, at: Vec3) {
         let (low, high) = self.0.unwrap_or((at, at));
         self.0 = Some((low.min(at), high.max(at)));

@@ -12,6 +12,7 @@ use crate::choose::{Chooser, Chosen};
 use crate::command::Command;
 use crate::context::{Outbox, Seen, Shown};
 use crate::keys::{Keys, Place};
+use crate::little::Figures;
 use crate::model::Snapshot;
 use crate::model::reel::Reel;
 use crate::overlay::Overlays;
@@ -37,6 +38,7 @@ pub struct Studio {
     pub(crate) snapshot: Option<Snapshot>,
     pub(crate) shown: Shown,
     pub(crate) reel: Reel,
+    pub(crate) little: Figures,
     pub(crate) tree: Tree<PaneKind>,
     pub(crate) panes: Panes,
     /// The pane that was used last.
@@ -90,6 +92,7 @@ impl Studio {
             snapshot: None,
             shown: Shown::default(),
             reel: Reel::default(),
+            little: Figures::default(),
             panes: Panes::default(),
             pane: None,
             start: Start::default(),
@@ -156,6 +159,7 @@ impl Studio {
             snapshot: self.snapshot.as_ref()?,
             shown: &self.shown,
             reel: &self.reel,
+            little: &self.little,
             keys: &self.keys,
             language: self.settings.language,
             dark: theme::is_dark(ctx),
@@ -186,8 +190,10 @@ impl Studio {
                     .trouble(&error, self.settings.language),
                 News::Far(..) => {}
                 News::Ended(id, ended) => {
-                    self.panes.hear(id, &ended);
-                    self.hear(ended);
+                    if !self.little.hear(id, &ended) {
+                        self.panes.hear(id, &ended);
+                        self.hear(ended);
+                    }
                 }
             }
         }
@@ -211,12 +217,13 @@ impl Studio {
         let now = ctx.input(|input| input.time);
         let passed = self.clock.map_or(0.0, |clock| now - clock);
         self.clock = Some(now);
-        let player = &mut self.shown.player;
+        let player = self.shown.on_stage_mut();
         if player.is_playing() {
             // A window that was hidden for a while goes on where it was.
             player.advance(passed.min(0.5));
             ctx.request_repaint();
         }
+        let player = &self.shown.player;
         let (at, direction) = (player.playhead(), player.direction());
         if let Some((recording, piece, span)) = self.reel.wanted(at, direction) {
             self.out.work(Work::Movement {
@@ -273,6 +280,7 @@ impl Studio {
                 snapshot,
                 shown,
                 reel,
+                little,
                 keys,
                 settings,
                 desk,
@@ -289,6 +297,7 @@ impl Studio {
                 snapshot,
                 shown,
                 reel,
+                little,
                 keys,
                 language: settings.language,
                 dark: theme::is_dark(ui.ctx()),

@@ -66,7 +66,7 @@ impl Studio {
             ];
             ui.weak(fill(words::STATUS_COUNTS.of(language), &counts));
             for (id, running) in &desk.running {
-                if running.lane == Lane::Movement {
+                if matches!(running.lane, Lane::Movement | Lane::Little) {
                     continue;
                 }
                 ui.separator();

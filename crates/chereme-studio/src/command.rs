@@ -2,11 +2,13 @@
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use chereme_motion::{Instant, Span};
 
 use crate::action::Action;
 use crate::choose::Choose;
+use crate::model::made::Made;
 use crate::settings::Settings;
 use crate::work::begin::Begin;
 use crate::work::{Work, WorkId};
@@ -40,6 +42,10 @@ pub(crate) enum Command {
     Seek(Instant),
     /// Play that many times as fast.
     Speed(f64),
+    /// Show movement that lies in no recording on the stage, in a loop; nothing goes back to the
+    /// recording, as does whatever shows or moves in one.
+    #[allow(dead_code, reason = "for the preview of recipes")]
+    Made(Option<Arc<Made>>),
     /// Have these files and folders taken in: opens the import with them.
     Import(Vec<PathBuf>),
     /// Change what is remembered.

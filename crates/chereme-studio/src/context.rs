@@ -1,12 +1,15 @@
 //! What a pane sees, what it may ask for, and what is shown and selected.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use chereme_motion::{Instant, Span};
 
 use crate::command::Command;
 use crate::keys::Keys;
+use crate::little::Figures;
 use crate::model::Snapshot;
+use crate::model::made::Made;
 use crate::model::reel::Reel;
 use crate::player::Player;
 use crate::theme::Colours;
@@ -27,9 +30,33 @@ pub(crate) struct Shown {
     pub(crate) span: Option<Span>,
     /// The playhead and how it moves.
     pub(crate) player: Player,
+    /// Movement that lies in no recording and is shown instead, with a playhead of its own.
+    pub(crate) made: Option<Showing>,
+}
+
+/// Made movement on the stage.
+#[derive(Debug, Clone)]
+pub(crate) struct Showing {
+    pub(crate) made: Arc<Made>,
+    /// Its own time, from 0.
+    pub(crate) player: Player,
 }
 
 impl Shown {
+    /// Returns the playhead that the stage shows: that of made movement where there is some.
+    #[allow(dead_code, reason = "for the stage")]
+    pub(crate) fn on_stage(&self) -> &Player {
+        self.made.as_ref().map_or(&self.player, |it| &it.player)
+    }
+
+    /// Returns the same to be moved.
+    pub(crate) fn on_stage_mut(&mut self) -> &mut Player {
+        match &mut self.made {
+            Some(showing) => &mut showing.player,
+            None => &mut self.player,
+        }
+    }
+
     /// Returns the annotation that is selected alone.
     pub(crate) fn annotation(&self) -> Option<i64> {
         (self.annotations.len() == 1)
@@ -44,6 +71,8 @@ pub(crate) struct Seen<'a> {
     pub(crate) snapshot: &'a Snapshot,
     pub(crate) shown: &'a Shown,
     pub(crate) reel: &'a Reel,
+    /// Looping little figures of any movement.
+    pub(crate) little: &'a Figures,
     pub(crate) keys: &'a Keys,
     pub(crate) language: Language,
     pub(crate) dark: bool,

@@ -15,6 +15,7 @@
 //! | `keys` | default keymaps as a table, the user's changes, matching |
 //! | `words` | every text in English and French |
 //! | `player` | the transport |
+//! | `little` | looping little figures, for any pane |
 //! | `settings`, `layout`, `theme` | what is remembered, where panes are, how it looks |
 //! | `panes` | one module each: rows by plain functions in `data`, widgets in `ui` |
 //! | `bars`, `start`, `overlay` | menus and status, the page without a corpus, what lies above |
@@ -28,6 +29,7 @@ mod context;
 mod error;
 mod keys;
 mod layout;
+mod little;
 mod model;
 mod overlay;
 mod panes;

@@ -1,6 +1,7 @@
 //! The one place where commands are carried out, after the frame that asked for them.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use chereme_motion::{Instant, Rate, Span};
 use eframe::egui::{Context, ViewportCommand};
@@ -9,12 +10,15 @@ use crate::action::Action;
 use crate::app::Studio;
 use crate::choose::Choose;
 use crate::command::Command;
-use crate::context::{Outbox, Shown};
+use crate::context::{Outbox, Showing, Shown};
 use crate::keys::Keys;
 use crate::layout::{self, Busy};
+use crate::little::Figures;
 use crate::model::Snapshot;
+use crate::model::made::Made;
 use crate::model::reel::Reel;
 use crate::panes::PaneKind;
+use crate::player::Player;
 use crate::settings::ThemeChoice;
 use crate::theme;
 use crate::words::shell as words;
@@ -63,17 +67,25 @@ impl Studio {
                     beginning.stop();
                 }
             }
-            Command::Recording(id) => self.turn_to(id),
+            Command::Recording(id) => {
+                self.shown.made = None;
+                self.turn_to(id);
+            }
             Command::Place(id, span) => {
                 self.turn_to(id);
+                self.shown.made = None;
                 self.shown.span = Some(span);
                 self.shown.player.seek(span.start());
             }
             Command::Tier(tier) => self.shown.tier = tier,
             Command::Annotations(annotations) => self.shown.annotations = annotations,
             Command::Span(span) => self.shown.span = span,
-            Command::Seek(at) => self.shown.player.seek(at),
-            Command::Speed(speed) => self.shown.player.speed = speed,
+            Command::Seek(at) => {
+                self.shown.made = None;
+                self.shown.player.seek(at);
+            }
+            Command::Speed(speed) => self.shown.on_stage_mut().speed = speed,
+            Command::Made(made) => self.show_made(made),
             Command::Import(paths) => {
                 self.panes.import.propose(&paths);
                 self.bring(PaneKind::Import);
@@ -155,12 +167,16 @@ impl Studio {
     }
 
     fn act_on_player(&mut self, action: Action) -> bool {
-        let rate = self.reel.rate().or_else(|| Rate::new(NO_FRAMES, 1).ok());
-        let player = &mut self.shown.player;
+        let made = self.shown.made.as_ref().map(|it| it.made.clip.rate());
+        let rate = made
+            .or_else(|| self.reel.rate())
+            .or_else(|| Rate::new(NO_FRAMES, 1).ok());
+        let part = self.shown.span.filter(|_| made.is_none());
+        let player = self.shown.on_stage_mut();
         let (at, whole) = (player.playhead(), player.whole);
         match action {
             Action::Play => player.toggle(),
-            Action::PlaySelection => player.play_part(self.shown.span.unwrap_or(whole)),
+            Action::PlaySelection => player.play_part(part.unwrap_or(whole)),
             Action::Loop => player.looping = !player.looping,
             Action::ShuttleBack => player.shuttle(-1.0),
             Action::ShuttleForward => player.shuttle(1.0),
@@ -234,6 +250,26 @@ impl Studio {
         }
     }
 
+    /// Shows made movement in a loop; a newer one of the same length goes on where the last was.
+    fn show_made(&mut self, made: Option<Arc<Made>>) {
+        let before = self.shown.made.take();
+        let Some(made) = made else { return };
+        let whole = made.clip.span();
+        let player = match before {
+            Some(showing) if showing.player.whole == whole => showing.player,
+            before => {
+                let mut player = Player::default();
+                player.load(whole);
+                player.looping = true;
+                player.speed = before.map_or(self.shown.player.speed, |it| it.player.speed);
+                player.toggle();
+                player
+            }
+        };
+        self.shown.player.stop();
+        self.shown.made = Some(Showing { made, player });
+    }
+
     fn open_starter(&mut self) {
         let language = self.settings.language;
         match &self.folders.data {
@@ -260,6 +296,7 @@ impl Studio {
         self.snapshot = None;
         self.shown = Shown::default();
         self.reel = Reel::default();
+        self.little = Figures::default();
         self.panes = crate::panes::Panes::default();
         self.out = Outbox::after(&self.out);
     }
@@ -269,6 +306,11 @@ impl Studio {
         if !own && self.snapshot.is_some() {
             let words = words::NOTICE_CHANGED_ELSEWHERE.of(self.settings.language);
             self.overlays.notices.hint(words);
+        }
+        if let Some(before) = &self.snapshot
+            && !Arc::ptr_eq(&before.overview, &snapshot.overview)
+        {
+            self.little.follow(&before.overview, &snapshot.overview);
         }
         let glance = self.shown.recording.and_then(|id| snapshot.recording(id));
         self.reel.load(glance);

@@ -1,15 +1,16 @@
 //! The recordings of the corpus, to choose one.
 
 use chereme_corpus::RecordingGlance;
-use chereme_motion::Instant;
+use chereme_motion::{Instant, Span};
 use chereme_sign::text::fold;
-use eframe::egui::{RichText, ScrollArea, TextEdit, Ui};
+use eframe::egui::{Rect, RichText, ScrollArea, TextEdit, Ui, Vec2, vec2};
 
 use super::Pane;
 use super::timeline::data::time_text;
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
+use crate::little::{self, Cell, Motion};
 use crate::words::{Text, library as words};
 
 /// A recording as the list shows it.
@@ -19,6 +20,9 @@ pub(crate) struct Row {
     pub(crate) name: String,
     /// Signer, origin and duration.
     pub(crate) about: String,
+    /// All of it, and whether there is movement in it.
+    pub(crate) whole: Span,
+    pub(crate) moves: bool,
 }
 
 /// Returns the recordings whose name or signer holds `filter`, whatever its case and accents.
@@ -47,6 +51,8 @@ pub(crate) fn rows(
             id: it.row.id,
             name: it.row.name.clone(),
             about: parts.into_iter().flatten().collect::<Vec<_>>().join(" · "),
+            whole: Span::between(Instant::ZERO, Instant::from_micros(it.row.duration_us)),
+            moves: it.frames > 0,
         }
     };
     recordings.iter().filter(fits).map(row).collect()
@@ -90,7 +96,7 @@ impl Pane for Library {
             ui.label(seen.say(words::NONE_FIT));
             return;
         }
-        let height = ui.spacing().interact_size.y * 1.7;
+        let height = ui.spacing().interact_size.y * 2.1;
         ScrollArea::vertical()
             .auto_shrink(false)
             .show_rows(ui, height, rows.len(), |ui, range| {
@@ -103,7 +109,18 @@ impl Pane for Library {
 
 fn show(ui: &mut Ui, row: &Row, height: f32, seen: &Seen<'_>, out: &mut Outbox) {
     let chosen = seen.shown.recording == Some(row.id);
-    let response = super::list_row(ui, height, chosen, &row.name, &row.about);
+    let lead = height - 4.0;
+    let response = super::list_row_after(ui, (height, lead), chosen, &row.name, &row.about);
+    if row.moves {
+        let at = response.rect.left_center() + vec2(4.0 + lead / 2.0, 0.0);
+        let motion = Motion::Span(row.id, row.whole);
+        let mut cell = Cell::new(motion, Vec2::splat(lead));
+        if response.hovered() || response.has_focus() {
+            cell = cell.playing(little::clock(ui));
+        }
+        let rect = Rect::from_center_size(at, cell.size);
+        seen.little.paint(ui, seen, out, &cell, rect);
+    }
     if response.clicked() {
         out.send(Command::Recording(row.id));
     }

@@ -147,6 +147,17 @@ pub(crate) fn list_row(
     name: &str,
     about: &str,
 ) -> Response {
+    list_row_after(ui, (height, 0.0), chosen, name, about)
+}
+
+/// Shows a row of a list with `lead` free at its start, for a picture.
+pub(crate) fn list_row_after(
+    ui: &mut Ui,
+    (height, lead): (f32, f32),
+    chosen: bool,
+    name: &str,
+    about: &str,
+) -> Response {
     let size = vec2(ui.available_width(), height);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, name));
@@ -164,7 +175,7 @@ pub(crate) fn list_row(
         );
     }
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-    let at = rect.left_center() + vec2(8.0, 0.0);
+    let at = rect.left_center() + vec2(8.0 + lead, 0.0);
     let (body, small) = (
         TextStyle::Body.resolve(ui.style()),
         TextStyle::Small.resolve(ui.style()),

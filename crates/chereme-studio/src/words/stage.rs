@@ -8,6 +8,7 @@ texts! {
     FIGURE: "The signer", "La personne qui signe";
     PLAY: "Play", "Lire";
     PAUSE: "Pause", "Pause";
+    LITTLE_NOTHING: "no movement", "sans mouvement";
     SPEED: "Speed", "Vitesse";
     VIEW: "View", "Vue";
     TIME: "Time", "Temps";

@@ -66,6 +66,8 @@ pub(crate) enum Work {
         /// Its span.
         span: Span,
     },
+    /// Loads a span of a recording's movement by itself; none is no error.
+    Stretch(i64, Span),
 }
 
 /// What came of a piece of [`Work`].
@@ -101,6 +103,8 @@ pub(crate) enum Outcome {
         /// The movement.
         moving: Arc<Moving>,
     },
+    /// The movement of a span, where there is some.
+    Stretch(Option<Arc<Moving>>),
 }
 
 /// A thread with a connection of its own; what is in one lane is done in order.
@@ -112,12 +116,20 @@ pub(crate) enum Lane {
     Ask,
     /// Movement to look at.
     Movement,
+    /// Movement of little figures, which the stage does not wait for.
+    Little,
     /// Files written.
     Export,
 }
 
 impl Lane {
-    pub(crate) const ALL: [Self; 4] = [Self::Edit, Self::Ask, Self::Movement, Self::Export];
+    pub(crate) const ALL: [Self; 5] = [
+        Self::Edit,
+        Self::Ask,
+        Self::Movement,
+        Self::Little,
+        Self::Export,
+    ];
 }
 
 impl Work {
@@ -133,6 +145,7 @@ impl Work {
             | Self::Redo => Lane::Edit,
             Self::Search(..) | Self::Preview(_) | Self::Suggest(_) => Lane::Ask,
             Self::Movement { .. } => Lane::Movement,
+            Self::Stretch(..) => Lane::Little,
             Self::Export(..) => Lane::Export,
         }
     }
@@ -145,7 +158,7 @@ impl Work {
             Self::Search(..) | Self::Suggest(_) => shell::TASK_SEARCH,
             Self::Recombine { .. } | Self::Preview(_) => shell::TASK_RECOMBINE,
             Self::Export(..) => shell::TASK_EXPORT,
-            Self::Movement { .. } => shell::TASK_MOVEMENT,
+            Self::Movement { .. } | Self::Stretch(..) => shell::TASK_MOVEMENT,
             _ => shell::TASK_EDIT,
         }
     }

@@ -1,0 +1,172 @@
+//! Little figures without a window: which moments are drawn, in which order, what is kept.
+
+use chereme_motion::{Instant, Span};
+
+/// Pictures a second where there are not too many.
+const RATE: f64 = 25.0;
+/// So many pictures are drawn at that rate; longer movement gets fewer a second.
+const USUAL: usize = 64;
+/// The most pictures of a loop, and the least a second.
+const MOST: usize = 96;
+const LEAST_RATE: f64 = 10.0;
+
+/// Returns the part of `span` that a loop shows: its beginning, where it is long.
+pub(crate) fn shown(span: Span) -> Span {
+    let most = (MOST as f64 / LEAST_RATE * 1e6) as i64;
+    let end = span.start().shifted(span.micros().min(most));
+    Span::between(span.start(), end)
+}
+
+/// Returns how many pictures a loop over `seconds` has, at least one.
+pub(crate) fn count(seconds: f64) -> usize {
+    let usual = (seconds * RATE).round() as usize;
+    let fewest = (seconds * LEAST_RATE).ceil() as usize;
+    usual.clamp(1, USUAL.max(fewest.min(MOST)))
+}
+
+/// Returns the moment in `span` that picture `index` of `count` shows: the middle of its share.
+pub(crate) fn moment(span: Span, index: usize, count: usize) -> Instant {
+    let share = (index as f64 + 0.5) / count as f64;
+    span.start().shifted((span.micros() as f64 * share) as i64)
+}
+
+/// Returns the picture at `clock` seconds of a loop of `count` over `seconds`.
+pub(crate) fn index(clock: f64, seconds: f64, count: usize) -> usize {
+    let share = (clock / seconds.max(1e-6)).rem_euclid(1.0);
+    ((share * count as f64) as usize).min(count - 1)
+}
+
+/// Returns the order in which pictures of a loop are drawn: first the middle, which stands for all,
+/// then ever finer steps, so that a loop moves long before it is whole.
+pub(crate) fn order(count: usize) -> Vec<usize> {
+    let mut order = vec![count / 2];
+    let mut taken = vec![false; count];
+    taken[count / 2] = true;
+    let mut step = count.next_power_of_two();
+    while step >= 1 {
+        for index in (0..count).step_by(step) {
+            if !std::mem::replace(&mut taken[index], true) {
+                order.push(index);
+            }
+        }
+        step /= 2;
+    }
+    order
+}
+
+/// Returns the picture that is shown where `wanted` is: itself, or the last one before it around
+/// the loop that is drawn.
+pub(crate) fn nearest(drawn: impl Fn(usize) -> bool, wanted: usize, count: usize) -> Option<usize> {
+    (0..count)
+        .map(|back| (wanted + count - back) % count)
+        .find(|&index| drawn(index))
+}
+
+/// The largest side of a picture in pixels; larger cells show it scaled.
+const LARGEST: f32 = 288.0;
+/// Sizes are rounded to this, so that a cell that grows a little needs no new pictures.
+const STEP: f32 = 8.0;
+
+/// Returns columns and rows of a picture for a cell of that many pixels.
+pub(crate) fn pixels(cell: [f32; 2]) -> [u16; 2] {
+    let shrink = (LARGEST / cell[0].max(cell[1]).max(1.0)).min(1.0);
+    cell.map(|side| ((side * shrink / STEP).round().max(2.0) * STEP) as u16)
+}
+
+/// Returns which of `kept` go so that no more than `limit` bytes stay: those wanted longest ago
+/// first, none that was wanted at `now`. Each has a key, bytes, and when it was wanted.
+pub(crate) fn leaving<K: Clone + Ord>(
+    kept: impl Iterator<Item = (K, usize, u64)>,
+    now: u64,
+    limit: usize,
+) -> Vec<K> {
+    let mut all: Vec<(u64, K, usize)> = kept.map(|(key, bytes, when)| (when, key, bytes)).collect();
+    all.sort_unstable();
+    let mut total: usize = all.iter().map(|(_, _, bytes)| bytes).sum();
+    let mut leaving = Vec::new();
+    for (when, key, bytes) in all {
+        if total <= limit || when >= now {
+            break;
+        }
+        total -= bytes;
+        leaving.push(key);
+    }
+    leaving
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn span(start: i64, end: i64) -> Span {
+        Span::between(Instant::from_micros(start), Instant::from_micros(end))
+    }
+
+    #[test]
+    fn loops_have_25_pictures_a_second_and_never_too_many() {
+        for (seconds, wanted) in [
+            (0.0, 1),
+            (0.001, 1),
+            (1.0, 25),
+            (2.0, 50),
+            (2.56, 64),
+            (5.0, 64),
+            (6.4, 64),
+            (8.0, 80),
+            (9.6, 96),
+            (7200.0, 96),
+        ] {
+            assert_eq!(count(seconds), wanted, "{seconds}");
+        }
+        assert_eq!(shown(span(7, 1_000_007)), span(7, 1_000_007));
+        assert_eq!(shown(span(7, 7_200_000_007)).micros(), 9_600_000);
+    }
+
+    #[test]
+    fn moments_lie_in_the_span_and_the_clock_goes_around() {
+        let whole = span(1_000_000, 3_000_000);
+        assert_eq!(moment(whole, 0, 2).micros(), 1_500_000);
+        assert_eq!(moment(whole, 1, 2).micros(), 2_500_000);
+        assert_eq!(index(0.0, 2.0, 50), 0);
+        assert_eq!(index(1.0, 2.0, 50), 25);
+        assert_eq!(index(2.0, 2.0, 50), 0);
+        assert_eq!(index(-0.01, 2.0, 50), 49);
+        assert_eq!(index(3.0, 0.0, 1), 0);
+    }
+
+    #[test]
+    fn every_picture_is_drawn_once_the_middle_first_then_spread_out() {
+        for count in [1, 2, 3, 25, 64, 96] {
+            let order = order(count);
+            let mut sorted = order.clone();
+            sorted.sort_unstable();
+            assert_eq!(sorted, (0..count).collect::<Vec<_>>());
+            assert_eq!(order[0], count / 2);
+        }
+        assert_eq!(order(8), [4, 0, 2, 6, 1, 3, 5, 7]);
+    }
+
+    #[test]
+    fn the_last_drawn_picture_before_is_shown() {
+        let drawn = |index: usize| [2, 6].contains(&index);
+        let at = |wanted| nearest(drawn, wanted, 8);
+        assert_eq!([at(2), at(5), at(7), at(1)], [2, 2, 6, 6].map(Some));
+        assert_eq!(nearest(|_| false, 3, 8), None);
+    }
+
+    #[test]
+    fn sizes_are_rounded_and_bounded() {
+        assert_eq!(pixels([150.0, 149.0]), [152, 152]);
+        assert_eq!(pixels([3.0, 0.0]), [16, 16]);
+        assert_eq!(pixels([2880.0, 1440.0]), [288, 144]);
+    }
+
+    #[test]
+    fn what_was_wanted_longest_ago_goes_and_nothing_that_is_seen() {
+        let kept = [('a', 10, 5), ('b', 10, 1), ('c', 10, 9), ('d', 10, 3)];
+        let leaving = |limit| super::leaving(kept.into_iter(), 9, limit);
+        assert!(leaving(40).is_empty());
+        assert_eq!(leaving(25), ['b', 'd']);
+        assert_eq!(leaving(0), ['b', 'd', 'a']);
+    }
+}

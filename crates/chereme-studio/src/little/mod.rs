@@ -1,0 +1,200 @@
+//! Looping little figures: movement at a glance, for results, cards and pickers.
+//!
+//! Any pane shows one with [`Figures::show`], through [`Seen::little`](crate::context::Seen::little):
+//!
+//! ```ignore
+//! let motion = Motion::Span(recording, span);
+//! let cell = Cell::new(motion, vec2(150.0, 150.0)).playing(little::clock(ui));
+//! if seen.little.show(ui, seen, out, &cell, "BOL").clicked() { … }
+//! ```
+//!
+//! Movement is loaded on a lane of its own and drawn by a thread of its own, the middle picture first,
+//! then ever finer steps; pictures are kept until there are too many of them. The window only shows
+//! what is there. [`Figures::hand`] shows a posture of one hand alone, the picture of a handshape.
+
+mod data;
+mod draw;
+mod ui;
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::thread::JoinHandle;
+
+use chereme_corpus::Overview;
+use chereme_motion::{HandAngles, Side, Span};
+use eframe::egui::{TextureHandle, Ui, Vec2};
+
+use crate::model::made::Made;
+use crate::work::{Ended, Outcome, WorkId};
+use draw::{Board, Film, Movement};
+
+/// Movement that a little figure shows.
+#[derive(Debug, Clone)]
+pub(crate) enum Motion {
+    /// A span of a recording; a very short one is a single posture.
+    Span(i64, Span),
+    /// Movement that lies in no recording.
+    #[allow(dead_code, reason = "for cards of recipes")]
+    Made(Arc<Made>),
+}
+
+/// What of the signer is looked at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub(crate) enum Focus {
+    /// Head, shoulders, and the hands wherever they go.
+    #[default]
+    Signing,
+    /// A hand from near, followed.
+    #[allow(dead_code, reason = "for results found by their handshape")]
+    Hand(Side),
+}
+
+/// A place for a little figure.
+#[derive(Debug, Clone)]
+pub(crate) struct Cell {
+    pub(crate) motion: Motion,
+    pub(crate) focus: Focus,
+    pub(crate) size: Vec2,
+    /// Seconds of a clock that all that plays shares; nothing where the figure stands still.
+    pub(crate) clock: Option<f64>,
+}
+
+impl Cell {
+    /// Returns a figure that stands still in the middle of its movement.
+    pub(crate) fn new(motion: Motion, size: Vec2) -> Self {
+        Self {
+            motion,
+            focus: Focus::default(),
+            size,
+            clock: None,
+        }
+    }
+
+    /// Returns it looping by that [`clock`].
+    pub(crate) fn playing(self, clock: f64) -> Self {
+        Self {
+            clock: Some(clock),
+            ..self
+        }
+    }
+
+    /// Returns it looking at something else.
+    #[allow(dead_code, reason = "for results found by their handshape")]
+    pub(crate) fn focused(self, focus: Focus) -> Self {
+        Self { focus, ..self }
+    }
+}
+
+/// Returns the clock by which little figures loop together.
+pub(crate) fn clock(ui: &Ui) -> f64 {
+    ui.input(|input| input.time)
+}
+
+/// Where movement comes from, as a key.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+enum Source {
+    /// A recording, and the first and the end microsecond of a span.
+    Span(i64, i64, i64),
+    /// Where the made movement lies in memory; its film keeps it there.
+    Made(usize),
+    /// Whether it is the left hand, and the bits of its angles.
+    Hand(bool, [u64; HandAngles::LEN]),
+}
+
+impl Source {
+    fn of(motion: &Motion) -> Self {
+        match motion {
+            Motion::Span(recording, span) => {
+                Self::Span(*recording, span.start().micros(), span.end().micros())
+            }
+            Motion::Made(made) => Self::Made(Arc::as_ptr(made) as usize),
+        }
+    }
+}
+
+/// A strip of pictures, as a key.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Key {
+    source: Source,
+    focus: Focus,
+    size: [u16; 2],
+    dark: bool,
+}
+
+/// All little figures of an open corpus.
+#[derive(Default)]
+pub(crate) struct Figures {
+    board: Arc<Board>,
+    own: RefCell<Own>,
+}
+
+/// What only the window's thread knows.
+#[derive(Default)]
+struct Own {
+    thread: Option<JoinHandle<()>>,
+    asked: BTreeMap<WorkId, Source>,
+    textures: BTreeMap<Key, Texture>,
+    /// Made movement that is kept where it lies as long as its pictures are.
+    made: BTreeMap<Source, Arc<Made>>,
+    /// The window's frame in which textures were last looked through.
+    swept: u64,
+}
+
+struct Texture {
+    handle: TextureHandle,
+    picture: usize,
+    wanted: u64,
+}
+
+impl Figures {
+    /// Hears what came of work; returns whether it was asked for here.
+    pub(crate) fn hear(&self, id: WorkId, ended: &Ended) -> bool {
+        let Some(source) = self.own.borrow_mut().asked.remove(&id) else {
+            return false;
+        };
+        let film = match ended {
+            Ok(Outcome::Stretch(Some(moving))) => Film::Loaded(Movement::Recorded(moving.clone())),
+            _ => Film::Nothing,
+        };
+        self.board.state().films.insert(source, film);
+        self.board.tell();
+        true
+    }
+
+    /// Forgets recordings that are not what they were.
+    pub(crate) fn follow(&self, before: &Overview, now: &Overview) {
+        let kept = |recording: i64| {
+            let find = |all: &Overview| {
+                let found = all.recordings.iter().find(|it| it.row.id == recording);
+                found.map(|it| (it.row.name.clone(), it.frames, it.rate, it.recipe.clone()))
+            };
+            find(before) == find(now)
+        };
+        let mut judged: BTreeMap<i64, bool> = BTreeMap::new();
+        let mut stays = |source: &Source| match source {
+            Source::Span(recording, ..) => {
+                *judged.entry(*recording).or_insert_with(|| kept(*recording))
+            }
+            _ => true,
+        };
+        let mut state = self.board.state();
+        state.films.retain(|source, _| stays(source));
+        state.strips.retain(|key, _| stays(&key.source));
+        self.own
+            .borrow_mut()
+            .textures
+            .retain(|key, _| stays(&key.source));
+    }
+}
+
+impl Drop for Figures {
+    fn drop(&mut self) {
+        self.board.state().over = true;
+        self.board.tell();
+        if let Some(thread) = self.own.get_mut().thread.take() {
+            // A thread that panicked has nothing left to do.
+            let _ = thread.join();
+        }
+    }
+}

@@ -1,0 +1,267 @@
+//! Little figures on the window: what is drawn is shown, what is not is asked for.
+
+use chereme_motion::{HandAngles, Side};
+use eframe::egui::epaint::RectShape;
+use eframe::egui::{
+    Align2, Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, TextureOptions,
+    Ui, Vec2, WidgetInfo, pos2, vec2,
+};
+
+use super::draw::{Film, Movement, State};
+use super::{Cell, Figures, Focus, Key, Motion, Own, Source, Texture, data};
+use crate::context::{Outbox, Seen};
+use crate::words::stage as words;
+use crate::work::Work;
+
+/// How much movement is asked for at once: what scrolls out of sight is not waited for.
+const ASKED: usize = 4;
+/// Frames of the window after which a texture that was not shown is let go.
+const SWEEP: u64 = 60;
+/// How often a loop is looked at, in seconds.
+const BEAT: f64 = 1.0 / 30.0;
+const RADIUS: f32 = 6.0;
+
+/// What there is to be seen.
+enum Sight {
+    Picture(usize, std::sync::Arc<eframe::egui::ColorImage>),
+    Preparing,
+    Nothing,
+}
+
+impl Figures {
+    #[allow(dead_code, reason = "for results and cards")]
+    /// Shows a little figure in a place of its own, which can be clicked and is called `name`.
+    pub(crate) fn show(
+        &self,
+        ui: &mut Ui,
+        seen: &Seen<'_>,
+        out: &mut Outbox,
+        cell: &Cell,
+        name: &str,
+    ) -> Response {
+        let (rect, response) = ui.allocate_exact_size(cell.size, Sense::click());
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
+        self.paint(ui, seen, out, cell, rect);
+        edge(ui, &response, rect);
+        response
+    }
+
+    /// Paints a little figure over `rect`; the caller answers to clicks.
+    pub(crate) fn paint(
+        &self,
+        ui: &Ui,
+        seen: &Seen<'_>,
+        out: &mut Outbox,
+        cell: &Cell,
+        rect: Rect,
+    ) {
+        if !ui.is_rect_visible(rect) {
+            return;
+        }
+        let key = key(ui, Source::of(&cell.motion), cell.focus, rect.size());
+        self.begin(ui);
+        let sight = {
+            let mut state = self.board.state();
+            self.load(&mut state, &key.source, &cell.motion, out);
+            look(&mut state, &key, cell.clock)
+        };
+        self.board.tell();
+        if cell.clock.is_some() {
+            ui.ctx().request_repaint_after_secs(BEAT as f32);
+        }
+        self.put(ui, seen, &key, sight, rect);
+    }
+
+    /// Shows a posture of one hand alone, called `name`: the picture of a handshape.
+    #[allow(dead_code, reason = "for pickers")]
+    pub(crate) fn hand(
+        &self,
+        ui: &mut Ui,
+        seen: &Seen<'_>,
+        (side, angles): (Side, &HandAngles),
+        size: Vec2,
+        name: &str,
+    ) -> Response {
+        let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
+        self.paint_hand(ui, seen, (side, angles), rect);
+        edge(ui, &response, rect);
+        response
+    }
+
+    /// Paints a posture of one hand alone over `rect`.
+    pub(crate) fn paint_hand(
+        &self,
+        ui: &Ui,
+        seen: &Seen<'_>,
+        (side, angles): (Side, &HandAngles),
+        rect: Rect,
+    ) {
+        if !ui.is_rect_visible(rect) {
+            return;
+        }
+        let source = Source::Hand(side == Side::Left, angles.to_array().map(f64::to_bits));
+        let square = Vec2::splat(rect.size().min_elem());
+        let rect = Rect::from_center_size(rect.center(), square);
+        let key = key(ui, source, Focus::default(), square);
+        self.begin(ui);
+        let sight = look(&mut self.board.state(), &key, None);
+        self.board.tell();
+        self.put(ui, seen, &key, sight, rect);
+    }
+
+    /// Begins the thread, and tells it which frame of the window this is.
+    fn begin(&self, ui: &Ui) {
+        let now = ui.ctx().cumulative_pass_nr();
+        let mut own = self.own.borrow_mut();
+        let mut state = self.board.state();
+        state.now = now;
+        if own.thread.is_none() {
+            state.window = Some(ui.ctx().clone());
+            let board = self.board.clone();
+            own.thread = Some(std::thread::spawn(move || board.work()));
+        }
+        if now > own.swept + SWEEP {
+            own.swept = now;
+            own.textures.retain(|_, it| it.wanted + SWEEP >= now);
+            let Own { made, textures, .. } = &mut *own;
+            made.retain(|source, _| state.films.contains_key(source));
+            let there = |key: &Key| {
+                !matches!(key.source, Source::Made(_)) || made.contains_key(&key.source)
+            };
+            state.strips.retain(|key, _| there(key));
+            textures.retain(|key, _| there(key));
+        }
+    }
+
+    /// Has the movement loaded, where it was not asked for yet.
+    fn load(&self, state: &mut State, source: &Source, motion: &Motion, out: &mut Outbox) {
+        if state.films.contains_key(source) {
+            return;
+        }
+        let mut own = self.own.borrow_mut();
+        let film = match motion {
+            Motion::Made(made) => {
+                own.made.insert(source.clone(), made.clone());
+                Film::Loaded(Movement::Made(made.clone()))
+            }
+            Motion::Span(..) if own.asked.len() >= ASKED => return,
+            Motion::Span(recording, span) => {
+                let work = Work::Stretch(*recording, data::shown(*span));
+                own.asked.insert(out.work(work), source.clone());
+                Film::Loading
+            }
+        };
+        state.films.insert(source.clone(), film);
+    }
+
+    fn put(&self, ui: &Ui, seen: &Seen<'_>, key: &Key, sight: Sight, rect: Rect) {
+        let (index, image) = match sight {
+            Sight::Picture(index, image) => (index, image),
+            Sight::Preparing => return stand_in(ui, seen, rect, true),
+            Sight::Nothing => return stand_in(ui, seen, rect, false),
+        };
+        let mut own = self.own.borrow_mut();
+        let now = ui.ctx().cumulative_pass_nr();
+        let texture = own.textures.entry(key.clone()).or_insert_with(|| Texture {
+            handle: ui
+                .ctx()
+                .load_texture("little", image.clone(), TextureOptions::LINEAR),
+            picture: index,
+            wanted: now,
+        });
+        if texture.picture != index {
+            texture
+                .handle
+                .set_partial([0, 0], image, TextureOptions::LINEAR);
+            texture.picture = index;
+        }
+        texture.wanted = now;
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let shape = RectShape::filled(rect, RADIUS, Color32::WHITE);
+        ui.painter()
+            .add(shape.with_texture(texture.handle.id(), whole));
+    }
+}
+
+fn key(ui: &Ui, source: Source, focus: Focus, size: Vec2) -> Key {
+    let size = size * ui.ctx().pixels_per_point();
+    Key {
+        source,
+        focus,
+        size: data::pixels([size.x, size.y]),
+        dark: ui.visuals().dark_mode,
+    }
+}
+
+/// Returns what there is to be seen of a strip at that time, and marks it wanted.
+fn look(state: &mut State, key: &Key, clock: Option<f64>) -> Sight {
+    let now = state.now;
+    let seconds = match state.films.get_mut(&key.source) {
+        Some(Film::Nothing) => return Sight::Nothing,
+        Some(Film::Ready(ready, needed)) => {
+            *needed = now;
+            ready.seconds
+        }
+        _ => 0.0,
+    };
+    let strip = state.strips.entry(key.clone()).or_default();
+    strip.wanted = now;
+    let count = strip.pictures.len();
+    if count == 0 {
+        return Sight::Preparing;
+    }
+    let wanted = clock.map_or(count / 2, |clock| data::index(clock, seconds, count));
+    let there = |index: usize| strip.pictures[index].is_some();
+    let index = data::nearest(there, wanted, count);
+    match index.and_then(|index| Some((index, strip.pictures[index].clone()?))) {
+        Some((index, image)) => Sight::Picture(index, image),
+        None => Sight::Preparing,
+    }
+}
+
+/// The edge of a cell that can be clicked: under the pointer, and with the focus.
+fn edge(ui: &Ui, response: &Response, rect: Rect) {
+    let stroke = if response.has_focus() {
+        Stroke::new(2.0, ui.visuals().hyperlink_color)
+    } else if response.hovered() {
+        ui.visuals().widgets.hovered.bg_stroke
+    } else {
+        return;
+    };
+    ui.painter()
+        .rect_stroke(rect, RADIUS, stroke, StrokeKind::Inside);
+}
+
+/// What stands where no picture is yet, or none will be: head and shoulders, faintly.
+fn stand_in(ui: &Ui, seen: &Seen<'_>, rect: Rect, coming: bool) {
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    painter.rect_filled(rect, RADIUS, ui.visuals().extreme_bg_color);
+    let faint = ui.visuals().widgets.inactive.bg_fill;
+    let unit = rect.size().min_elem();
+    let head = rect.center() - vec2(0.0, unit * 0.2);
+    let body = Rect::from_center_size(
+        rect.center() + vec2(0.0, unit * 0.36),
+        vec2(unit * 0.56, unit * 0.6),
+    );
+    if coming {
+        painter.circle_filled(head, unit * 0.13, faint);
+        painter.rect_filled(body, unit * 0.2, faint);
+        return;
+    }
+    let stroke = Stroke::new(1.5, faint);
+    painter.circle_stroke(head, unit * 0.13, stroke);
+    painter.rect_stroke(body, unit * 0.2, stroke, StrokeKind::Inside);
+    if unit > 90.0 {
+        let font = TextStyle::Small.resolve(ui.style());
+        let galley = painter.layout(
+            seen.say(words::LITTLE_NOTHING).to_owned(),
+            font,
+            ui.visuals().weak_text_color(),
+            rect.width() - 12.0,
+        );
+        let at =
+            Align2::CENTER_BOTTOM.anchor_size(rect.center_bottom() - vec2(0.0, 6.0), galley.size());
+        painter.galley(at.min, galley, Color32::PLACEHOLDER);
+    }
+}

@@ -1,0 +1,36 @@
+//! Movement that was made and lies in no recording: what a recipe gives before it is stored.
+
+use std::sync::Arc;
+
+use chereme_corpus::Recombination;
+use chereme_motion::{Anatomy, Clip, Span};
+
+/// A made clip, with its name and what it was made from.
+#[derive(Debug, Clone)]
+#[allow(dead_code, reason = "for the preview of recipes")]
+pub(crate) struct Made {
+    /// What it is called: the gloss or the recipe.
+    pub(crate) name: String,
+    pub(crate) clip: Clip,
+    pub(crate) anatomy: Arc<Anatomy>,
+    /// The recording and the span that it was made from, where it is one.
+    pub(crate) source: Option<(i64, Span)>,
+}
+
+impl Made {
+    /// Returns what a recipe gave.
+    #[allow(dead_code, reason = "for the preview of recipes")]
+    pub(crate) fn of(made: &Recombination, source: Option<(i64, Span)>) -> Self {
+        let name = if made.gloss.is_empty() {
+            &made.recipe
+        } else {
+            &made.gloss
+        };
+        Self {
+            name: name.clone(),
+            clip: made.clip.clone(),
+            anatomy: made.anatomy.clone(),
+            source,
+        }
+    }
+}
