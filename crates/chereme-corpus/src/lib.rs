@@ -21,6 +21,7 @@ mod movement;
 mod notation;
 mod picture;
 mod progress;
+pub mod recipe;
 mod recombine;
 mod score;
 pub(crate) mod search;

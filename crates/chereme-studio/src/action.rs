@@ -18,6 +18,14 @@ pub(crate) enum Menu {
     Help,
 }
 
+#[allow(
+    non_upper_case_globals,
+    reason = "named as the variants are, for the table below"
+)]
+impl Context {
+    const Recombine: Self = Self::Pane(PaneKind::Recombine);
+}
+
 impl Menu {
     pub(crate) const ALL: [(Self, Text); 7] = [
         (Self::File, shell::MENU_FILE),
@@ -96,6 +104,12 @@ actions! {
     NewAnnotation "annotation.new" ANNOTATION_NEW Annotation Corpus;
     SplitAnnotation "annotation.split" ANNOTATION_SPLIT Annotation Corpus;
     DeleteAnnotation "annotation.delete" ANNOTATION_DELETE Annotation Corpus;
+    RecombineSelected "recombine.selected" RECOMBINE_SELECTED Edit Corpus;
+    CardUp "recombine.card-up" CARD_UP Edit Recombine repeats;
+    CardDown "recombine.card-down" CARD_DOWN Edit Recombine repeats;
+    CardDuplicate "recombine.card-duplicate" CARD_DUPLICATE Edit Recombine;
+    CardSwitch "recombine.card-switch" CARD_SWITCH Edit Recombine;
+    CardRemove "recombine.card-remove" CARD_REMOVE Edit Recombine;
     NextAnnotation "annotation.next" ANNOTATION_NEXT Annotation Corpus repeats;
     PreviousAnnotation "annotation.previous" ANNOTATION_PREVIOUS Annotation Corpus repeats;
     NextTier "tier.next" TIER_NEXT Annotation Corpus repeats;

@@ -189,9 +189,12 @@ impl Studio {
                     .notices
                     .trouble(&error, self.settings.language),
                 News::Far(..) => {}
-                News::Ended(id, ended) => {
-                    if !self.little.hear(id, &ended) {
-                        self.panes.hear(id, &ended);
+                News::Ended(id, ended, quiet) => {
+                    if self.little.hear(id, &ended) {
+                        continue;
+                    }
+                    self.panes.hear(id, &ended);
+                    if !(quiet && ended.is_err()) {
                         self.hear(ended);
                     }
                 }

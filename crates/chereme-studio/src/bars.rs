@@ -66,7 +66,7 @@ impl Studio {
             ];
             ui.weak(fill(words::STATUS_COUNTS.of(language), &counts));
             for (id, running) in &desk.running {
-                if matches!(running.lane, Lane::Movement | Lane::Little) {
+                if matches!(running.lane, Lane::Movement | Lane::Little | Lane::Make) {
                     continue;
                 }
                 ui.separator();

@@ -48,6 +48,8 @@ pub(crate) enum Command {
     Made(Option<Arc<Made>>),
     /// Have these files and folders taken in: opens the import with them.
     Import(Vec<PathBuf>),
+    /// Turn to a recipe, that of the stored recording of that name where there is one.
+    Recipe(String, Option<String>),
     /// Change what is remembered.
     Settings(Box<Settings>),
     /// Put a notice away.

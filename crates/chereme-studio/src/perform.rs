@@ -90,6 +90,10 @@ impl Studio {
                 self.panes.import.propose(&paths);
                 self.bring(PaneKind::Import);
             }
+            Command::Recipe(recipe, of) => {
+                self.panes.recombine.open(&recipe, of.clone(), of);
+                self.bring(PaneKind::Recombine);
+            }
             Command::Settings(settings) => {
                 self.settings = *settings;
                 self.keys = Keys::new(self.settings.keymap, &self.settings.keys);

@@ -3,6 +3,7 @@
 //! To add one: a variant of [`PaneKind`] with its title, a field of [`Panes`] with its arms, a place
 //! in [`layout::usual`](crate::layout::usual), and an action that shows it.
 
+pub(crate) mod complete;
 pub(crate) mod history;
 pub(crate) mod import;
 pub(crate) mod inspector;
@@ -58,6 +59,13 @@ impl PaneKind {
             Self::Import => words::import::TITLE,
         }
     }
+}
+
+/// A token that is dragged from one pane to another: the payload of egui's drag and drop.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Carried {
+    pub(crate) token: i64,
+    pub(crate) gloss: String,
 }
 
 /// What became of an action that was offered to a pane.

@@ -56,6 +56,12 @@ texts! {
     SHOW_TIMELINE: "Show the timeline", "Afficher la ligne de temps";
     SHOW_SEARCH: "Search", "Rechercher";
     SHOW_RECOMBINE: "Recombine", "Recombiner";
+    RECOMBINE_SELECTED: "Recombine what is selected", "Recombiner la sélection";
+    CARD_UP: "Card up", "Monter la carte";
+    CARD_DOWN: "Card down", "Descendre la carte";
+    CARD_DUPLICATE: "Duplicate the card", "Dupliquer la carte";
+    CARD_SWITCH: "Switch the card on or off", "Carte en ou hors service";
+    CARD_REMOVE: "Remove the card", "Retirer la carte";
     SHOW_INSPECTOR: "Show the inspector", "Afficher l’inspecteur";
     SHOW_HISTORY: "Show the history", "Afficher l’historique";
     SHOW_IMPORT: "Import…", "Importer…";

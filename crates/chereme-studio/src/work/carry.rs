@@ -30,7 +30,7 @@ pub(super) fn carry(
         Work::Undo => Outcome::Undone(corpus.undo()?),
         Work::Redo => Outcome::Redone(corpus.redo()?),
         Work::Search(query, options) => Outcome::Found(corpus.search(&query, &options)?),
-        Work::Preview(recipe) => Outcome::Previewed(Box::new(corpus.preview(&recipe)?)),
+        Work::Preview(recipe) => Outcome::Previewed(Arc::new(corpus.preview(&recipe)?)),
         Work::Suggest(address) => Outcome::Suggested(corpus.suggest(&address)?),
         Work::Export(what, to, options) => {
             Outcome::Exported(corpus.export(&what, &to, &options, progress)?)

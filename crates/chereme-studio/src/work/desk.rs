@@ -33,8 +33,8 @@ pub(crate) enum News {
     Unread(Error),
     /// A piece of work is that far.
     Far(WorkId, Far),
-    /// A piece of work ended.
-    Ended(WorkId, Ended),
+    /// A piece of work ended; whether the pane that asked for it tells by itself what went wrong.
+    Ended(WorkId, Ended, bool),
 }
 
 /// Work that was given out and has not ended.
@@ -145,7 +145,7 @@ impl Desk {
                         running.far = far.clone();
                     }
                 }
-                News::Ended(id, _) => {
+                News::Ended(id, ..) => {
                     self.running.remove(id);
                 }
                 _ => {}
@@ -190,11 +190,12 @@ impl Station {
         let mut corpus = None;
         while let Ok(order) = orders.recv() {
             let Order { id, work, stop } = *order;
+            let quiet = work.is_quiet();
             let ended = self.carry_out(&mut corpus, id, work, &stop);
             if lane == Lane::Edit {
                 let _ = reader.send(Wish::Again);
             }
-            self.say(News::Ended(id, ended));
+            self.say(News::Ended(id, ended, quiet));
         }
     }
 

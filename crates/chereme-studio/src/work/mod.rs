@@ -89,7 +89,7 @@ pub(crate) enum Outcome {
     /// Tokens were found.
     Found(Answer),
     /// Movement was made.
-    Previewed(Box<Recombination>),
+    Previewed(Arc<Recombination>),
     /// What could be made.
     Suggested(Suggestions),
     /// Files were written.
@@ -114,6 +114,8 @@ pub(crate) enum Lane {
     Edit,
     /// Questions that people wait for.
     Ask,
+    /// Movement made of recipes; it never waits for a search.
+    Make,
     /// Movement to look at.
     Movement,
     /// Movement of little figures, which the stage does not wait for.
@@ -123,9 +125,10 @@ pub(crate) enum Lane {
 }
 
 impl Lane {
-    pub(crate) const ALL: [Self; 5] = [
+    pub(crate) const ALL: [Self; 6] = [
         Self::Edit,
         Self::Ask,
+        Self::Make,
         Self::Movement,
         Self::Little,
         Self::Export,
@@ -143,7 +146,8 @@ impl Work {
             | Self::Import(..)
             | Self::Undo
             | Self::Redo => Lane::Edit,
-            Self::Search(..) | Self::Preview(_) | Self::Suggest(_) => Lane::Ask,
+            Self::Search(..) | Self::Suggest(_) => Lane::Ask,
+            Self::Preview(_) => Lane::Make,
             Self::Movement { .. } => Lane::Movement,
             Self::Stretch(..) => Lane::Little,
             Self::Export(..) => Lane::Export,
@@ -161,6 +165,11 @@ impl Work {
             Self::Movement { .. } | Self::Stretch(..) => shell::TASK_MOVEMENT,
             _ => shell::TASK_EDIT,
         }
+    }
+
+    /// Returns whether the pane that asked for it tells what is wrong, at its place.
+    pub(crate) fn is_quiet(&self) -> bool {
+        matches!(self, Self::Preview(_) | Self::Suggest(_))
     }
 
     /// Returns whether it may be stopped when the window closes: what a person has typed may not.

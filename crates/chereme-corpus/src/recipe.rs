@@ -1,0 +1,7 @@
+//! Recipes as trees, for skins that show and change their parts: what [`chereme_compose`] has of them.
+
+pub use chereme_compose::recipe::*;
+pub use chereme_compose::units::*;
+pub use chereme_compose::{
+    ChannelReport, JoinReport, Problem, RecipeError, Report, StepReport, TextError,
+};

@@ -1,0 +1,189 @@
+//! A line of text with what it could be: typed letters narrow a list, arrows choose, Enter takes.
+
+use chereme_sign::text::fold;
+use eframe::egui::{
+    Button, Id, Key, Modifiers, Popup, PopupCloseBehavior, Rect, Response, Role, ScrollArea,
+    TextEdit, Ui, WidgetInfo, text::CCursor, text::CCursorRange, vec2,
+};
+
+/// How many candidates are offered at once.
+pub(crate) const OFFERED: usize = 40;
+
+/// How a line of text with completion looks.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Line<'a> {
+    /// Its name for people who do not see it, and for tests.
+    pub(crate) name: &'a str,
+    pub(crate) hint: &'a str,
+    pub(crate) width: f32,
+}
+
+/// What became of the line in this frame.
+pub(crate) struct Typed {
+    #[allow(dead_code, reason = "what else lies on the line")]
+    pub(crate) response: Response,
+    /// Whether the text is another than before.
+    pub(crate) changed: bool,
+    /// Whether a candidate was taken, or Enter pressed.
+    #[allow(dead_code, reason = "not every line does something at once")]
+    pub(crate) entered: bool,
+}
+
+/// What is remembered of a list of candidates between frames.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Listed {
+    /// The candidate that Enter takes.
+    chosen: Option<usize>,
+    /// Whether Escape put the list away.
+    away: bool,
+    /// Where the list was.
+    rect: Option<Rect>,
+}
+
+/// Returns those of `all` that begin with `typed`, then those that hold it, whatever case and accents.
+pub(crate) fn fitting<'a>(all: impl Iterator<Item = &'a str>, typed: &str) -> Vec<String> {
+    let wanted = fold(typed.trim());
+    let (mut first, mut second) = (Vec::new(), Vec::new());
+    for text in all {
+        let folded = fold(text);
+        if folded.starts_with(&wanted) {
+            first.push(text.to_owned());
+        } else if second.len() < OFFERED && folded.contains(&wanted) {
+            second.push(text.to_owned());
+        }
+        if first.len() >= OFFERED {
+            break;
+        }
+    }
+    first.extend(second);
+    first.truncate(OFFERED);
+    first
+}
+
+/// Shows the line; `candidates` is only asked while it has the focus.
+pub(crate) fn complete(
+    ui: &mut Ui,
+    id: Id,
+    line: Line<'_>,
+    text: &mut String,
+    candidates: &dyn Fn(&str) -> Vec<String>,
+) -> Typed {
+    let focused = ui.memory(|memory| memory.has_focus(id));
+    let mut listed: Listed = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+    let before = listed;
+    let pointed = ui.input(|input| input.pointer.interact_pos());
+    let held = listed
+        .rect
+        .zip(pointed)
+        .is_some_and(|(rect, at)| rect.contains(at));
+    let mut offered = Vec::new();
+    if focused || held {
+        offered = candidates(text);
+        offered.retain(|it| it != text);
+    }
+    let open = !offered.is_empty() && (!listed.away || held);
+    let mut taken = None;
+    if focused && open {
+        let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+        if pressed(Key::ArrowDown) {
+            let next = listed.chosen.map_or(0, |at| at + 1);
+            listed.chosen = Some(next.min(offered.len() - 1));
+        }
+        if pressed(Key::ArrowUp) {
+            listed.chosen = listed.chosen.and_then(|at| at.checked_sub(1));
+        }
+        if pressed(Key::Escape) {
+            listed.away = true;
+        }
+        if listed.chosen.is_some() && pressed(Key::Enter) {
+            taken = listed.chosen.and_then(|at| offered.get(at)).cloned();
+        }
+    }
+    let field = TextEdit::singleline(text)
+        .id(id)
+        .hint_text(line.hint)
+        .desired_width(line.width);
+    let response = ui.add(field);
+    response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, line.name));
+    let mut changed = response.changed();
+    if changed {
+        (listed.chosen, listed.away) = (None, false);
+    }
+    if !focused && !held {
+        listed = Listed::default();
+    }
+    listed.rect = None;
+    if open && taken.is_none() && (response.has_focus() || held) {
+        let width = response.rect.width().max(180.0);
+        let popup = Popup::from_response(&response)
+            .id(id.with("list"))
+            .open(true)
+            .close_behavior(PopupCloseBehavior::IgnoreClicks)
+            .gap(2.0)
+            .width(width);
+        let shown = popup.show(|ui| {
+            ui.set_width(width);
+            ScrollArea::vertical().max_height(240.0).show(ui, |ui| {
+                ui.spacing_mut().item_spacing.y = 1.0;
+                for (at, candidate) in offered.iter().enumerate() {
+                    let chosen = listed.chosen == Some(at);
+                    let button = Button::selectable(chosen, candidate)
+                        .truncate()
+                        .min_size(vec2(ui.available_width(), 0.0));
+                    let response = ui.add(button);
+                    if chosen && listed.chosen != before.chosen {
+                        response.scroll_to_me(None);
+                    }
+                    if response.clicked() {
+                        taken = Some(candidate.clone());
+                    }
+                }
+            });
+        });
+        listed.rect = shown.map(|shown| shown.response.rect);
+    }
+    let entered_key = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+    let entered = taken.is_some() || entered_key;
+    if let Some(taken) = taken {
+        *text = taken;
+        changed = true;
+        listed = Listed {
+            away: true,
+            ..Listed::default()
+        };
+        to_end(ui, id, text.chars().count());
+        response.request_focus();
+    }
+    if listed != before {
+        ui.data_mut(|data| data.insert_temp(id, listed));
+    }
+    Typed {
+        response,
+        changed,
+        entered,
+    }
+}
+
+/// Puts the cursor of a text field behind its last letter.
+fn to_end(ui: &Ui, id: Id, letters: usize) {
+    let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
+    let end = CCursorRange::one(CCursor::new(letters));
+    state.cursor.set_char_range(Some(end));
+    TextEdit::store_state(ui.ctx(), id, state);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_begins_with_the_letters_comes_before_what_holds_them() {
+        let all = ["Écureuil", "recul", "CURE", "bol"];
+        assert_eq!(
+            fitting(all.into_iter(), "cu"),
+            ["CURE", "Écureuil", "recul"]
+        );
+        assert_eq!(fitting(all.into_iter(), "écu"), ["Écureuil", "recul"]);
+        assert_eq!(fitting(all.into_iter(), "").len(), 4);
+    }
+}

@@ -1,0 +1,303 @@
+//! The stack's widgets: a frame for each card, with what it says and what became of it.
+
+use eframe::egui::{
+    Button, CursorIcon, DragAndDrop, Frame, Id, Key, Modifiers, Rect, Response, RichText, Role,
+    Sense, Stroke, TextStyle, Ui, WidgetInfo, vec2,
+};
+
+use super::Recombine;
+use super::live::{Note, Trouble};
+use super::settings;
+use super::stack::{Card, Stack, What};
+use crate::action::Action;
+use crate::context::Seen;
+use crate::words::{fill, recombine as words};
+
+/// Residuals above this are worth a look, in metres.
+const FAR: f64 = 0.005;
+
+/// What is dragged: a card of the stack.
+struct Dragged(u64);
+
+/// What a person did to the stack in this frame.
+enum Did {
+    Choose(u64),
+    Change(u64, What),
+    Act(u64, Action),
+    Move(u64, usize),
+}
+
+/// A card with what is known of it.
+struct Shown<'a> {
+    card: &'a Card,
+    first: bool,
+    counts: bool,
+    chosen: bool,
+    /// Whether what is typed shall go to it.
+    focus: bool,
+    note: Option<&'a Note>,
+    trouble: Option<&'a Trouble>,
+}
+
+/// Shows every card; whether any was changed.
+pub(super) fn show(pane: &mut Recombine, ui: &mut Ui, seen: &Seen<'_>) -> bool {
+    let mut did = Vec::new();
+    let focus = pane.focus.take();
+    let mut places = Vec::new();
+    let Recombine { stack, live, .. } = pane;
+    for (at, card) in stack.cards().iter().enumerate() {
+        let shown = Shown {
+            card,
+            first: at == 0,
+            counts: stack.counts(at),
+            chosen: pane.chosen == Some(card.id),
+            focus: focus == Some(card.id),
+            note: live.notes.get(&card.id).filter(|_| live.trouble.is_none()),
+            trouble: live.trouble.as_ref().filter(|it| it.card == Some(card.id)),
+        };
+        let indent = if card.what.is_source() { 0 } else { 10 };
+        let margin = eframe::egui::Margin {
+            left: indent,
+            ..Default::default()
+        };
+        let inner = Frame::new().outer_margin(margin).show(ui, |ui| {
+            ui.push_id(card.id, |ui| frame(ui, seen, &shown, stack, &mut did));
+        });
+        places.push(inner.response.rect);
+    }
+    drop_between(ui, seen, &places, &mut did);
+    let changed = did.iter().any(|it| !matches!(it, Did::Choose(_)));
+    for did in did {
+        match did {
+            Did::Choose(id) => pane.chosen = Some(id),
+            Did::Change(id, what) => {
+                if let Some(card) = pane.stack.get_mut(id) {
+                    card.what = what;
+                }
+            }
+            Did::Act(id, action) => pane.change(id, action),
+            Did::Move(id, to) => drop(pane.stack.move_to(id, to)),
+        }
+    }
+    changed
+}
+
+fn frame(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &mut Vec<Did>) {
+    let colours = seen.colours();
+    let edge = match (shown.trouble.is_some(), shown.chosen) {
+        (true, _) => Stroke::new(1.5, colours.trouble),
+        (false, true) => Stroke::new(1.5, colours.accent),
+        (false, false) => Stroke::new(1.0, colours.rule),
+    };
+    let fill = if shown.card.what.is_source() {
+        ui.visuals().faint_bg_color
+    } else {
+        ui.visuals().panel_fill
+    };
+    let frame = Frame::new()
+        .fill(fill)
+        .stroke(edge)
+        .corner_radius(6)
+        .inner_margin(6);
+    let inner = frame.show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        ui.spacing_mut().item_spacing.y = 4.0;
+        header(ui, seen, shown, stack, did);
+        let mut what = shown.card.what.clone();
+        let id = Id::unique(("card", shown.card.id));
+        let changed = ui
+            .scope(|ui| {
+                if !shown.card.on {
+                    ui.disable();
+                }
+                let at = settings::At {
+                    id,
+                    first: shown.first,
+                    whole: shown.chosen,
+                };
+                settings::show(ui, seen, at, &mut what)
+            })
+            .inner;
+        if changed {
+            did.push(Did::Choose(shown.card.id));
+            did.push(Did::Change(shown.card.id, what));
+        }
+        told(ui, seen, shown);
+    });
+    let rect = inner.response.rect.intersect(ui.clip_rect());
+    let pressed = ui.input(|input| {
+        let at = input.pointer.interact_pos();
+        input.pointer.any_pressed() && at.is_some_and(|at| rect.contains(at))
+    });
+    if pressed && !shown.chosen {
+        did.push(Did::Choose(shown.card.id));
+    }
+}
+
+/// The line above a card: what it is, on or off, and what can be done with it.
+fn header(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &mut Vec<Did>) {
+    let card = shown.card;
+    let title = seen.say(settings::title(&card.what));
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        let only = card.what.is_source() && stack.pieces() < 2;
+        let mut on = card.on;
+        let label = fill(seen.say(words::SWITCHED_ON), &[("card", &title)]);
+        let response = ui.add_enabled(!only, eframe::egui::Checkbox::without_text(&mut on));
+        response.widget_info(|| WidgetInfo::selected(Role::CheckBox, !only, on, &label));
+        let tip = tip(seen, words::SWITCH_TIP, Action::CardSwitch);
+        if response.on_hover_text(tip).changed() {
+            did.push(Did::Act(card.id, Action::CardSwitch));
+        }
+        let buttons = 56.0;
+        let width = (ui.available_width() - buttons).max(40.0);
+        let handle = handle(ui, seen, shown, title, width);
+        if handle.clicked() || handle.gained_focus() || handle.drag_started() {
+            did.push(Did::Choose(card.id));
+        }
+        if handle.drag_started() {
+            DragAndDrop::set_payload(ui.ctx(), Dragged(card.id));
+        }
+        let name = fill(seen.say(words::CARD_MENU), &[("card", &title)]);
+        let menu = ui.menu_button("…", |ui| menu(ui, seen, card.id, did));
+        menu.response
+            .widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+        let name = fill(seen.say(words::REMOVE_CARD), &[("card", &title)]);
+        let remove = ui.add(Button::new("×").frame(false));
+        remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+        let tip = self::tip(seen, words::REMOVE, Action::CardRemove);
+        if remove.on_hover_text(tip).clicked() {
+            did.push(Did::Act(card.id, Action::CardRemove));
+        }
+    });
+}
+
+/// Returns what a button does, with its key.
+fn tip(seen: &Seen<'_>, text: crate::words::Text, action: Action) -> String {
+    format!("{} ({})", seen.say(text), seen.keys.text(action))
+}
+
+/// The title, by which a card is chosen and dragged.
+fn handle(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, title: &str, width: f32) -> Response {
+    let size = vec2(width, ui.spacing().interact_size.y);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+    let label = fill(seen.say(words::CARD), &[("card", &title)]);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, shown.chosen, &label));
+    if shown.focus {
+        response.request_focus();
+    }
+    if response.has_focus() {
+        let up = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::ArrowUp));
+        let down = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::ArrowDown));
+        if up || down {
+            let direction = if up {
+                eframe::egui::FocusDirection::Up
+            } else {
+                eframe::egui::FocusDirection::Down
+            };
+            ui.memory_mut(|memory| memory.move_focus(direction));
+        }
+        let stroke = Stroke::new(1.5, seen.colours().accent);
+        let kind = eframe::egui::StrokeKind::Outside;
+        ui.painter().rect_stroke(rect, 3.0, stroke, kind);
+    }
+    let colour = if shown.counts {
+        ui.visuals().strong_text_color()
+    } else {
+        ui.visuals().weak_text_color()
+    };
+    let grip = ui.visuals().weak_text_color();
+    for dot in 0..6 {
+        let at =
+            rect.left_center() + vec2(4.0 + 4.0 * (dot % 2) as f32, 4.0 * (dot / 2) as f32 - 4.0);
+        ui.painter().circle_filled(at, 1.2, grip);
+    }
+    let at = rect.left_center() + vec2(16.0, 0.0);
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    let font = TextStyle::Button.resolve(ui.style());
+    painter.text(at, eframe::egui::Align2::LEFT_CENTER, title, font, colour);
+    response.on_hover_cursor(CursorIcon::Grab)
+}
+
+fn menu(ui: &mut Ui, seen: &Seen<'_>, id: u64, did: &mut Vec<Did>) {
+    for action in [
+        Action::CardUp,
+        Action::CardDown,
+        Action::CardDuplicate,
+        Action::CardSwitch,
+        Action::CardRemove,
+    ] {
+        let button = Button::new(seen.say(action.row().name)).shortcut_text(seen.keys.text(action));
+        if ui.add(button).clicked() {
+            did.push(Did::Act(id, action));
+            ui.close();
+        }
+    }
+}
+
+/// What became of a card: what it did, how near it came, or why it cannot be done.
+fn told(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>) {
+    if let Some(trouble) = shown.trouble {
+        ui.label(
+            RichText::new(&trouble.text)
+                .small()
+                .color(seen.colours().trouble),
+        );
+        if let Some(remedy) = trouble
+            .remedy
+            .as_ref()
+            .filter(|it| !trouble.text.contains(*it))
+        {
+            ui.label(RichText::new(remedy).small());
+        }
+        return;
+    }
+    if shown.card.on && !shown.card.what.is_complete() {
+        ui.label(RichText::new(seen.say(words::INCOMPLETE)).small().weak());
+    }
+    let Some(note) = shown.note.filter(|_| shown.counts) else {
+        return;
+    };
+    if let Some(residual) = note.residual {
+        let text = fill(
+            seen.say(words::RESIDUAL),
+            &[("mm", &format!("{:.1}", residual * 1000.0))],
+        );
+        let colour = if residual > FAR {
+            seen.colours().trouble
+        } else {
+            seen.colours().good
+        };
+        ui.label(RichText::new(text).small().color(colour));
+    }
+    for did in &note.did {
+        ui.label(RichText::new(did).small().weak());
+    }
+}
+
+/// Shows where a dragged card would go, and lets it go there.
+fn drop_between(ui: &mut Ui, seen: &Seen<'_>, places: &[Rect], did: &mut Vec<Did>) {
+    let Some(dragged) = DragAndDrop::payload::<Dragged>(ui.ctx()) else {
+        return;
+    };
+    let (Some(at), Some(first)) = (
+        ui.input(|input| input.pointer.interact_pos()),
+        places.first(),
+    ) else {
+        return;
+    };
+    let to = places
+        .iter()
+        .take_while(|rect| rect.center().y < at.y)
+        .count();
+    let y = match places.get(to) {
+        Some(rect) => rect.top() - 3.0,
+        None => places.last().map_or(first.bottom(), |rect| rect.bottom()) + 3.0,
+    };
+    let stroke = Stroke::new(3.0, seen.colours().accent);
+    ui.painter().hline(first.x_range(), y, stroke);
+    if ui.input(|input| input.pointer.any_released()) {
+        DragAndDrop::take_payload::<Dragged>(ui.ctx());
+        did.push(Did::Move(dragged.0, to));
+    }
+}

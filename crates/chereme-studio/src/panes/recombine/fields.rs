@@ -1,0 +1,455 @@
+//! Widgets for what recipes are made of: hands, lengths, times, directions, places, names.
+//!
+//! Each returns whether the person changed it.
+
+use chereme_corpus::recipe::{
+    Direction, Factor, Hands, Length, Profile, Seconds, Spot, Transition,
+};
+use chereme_sign::{Component, InventoryValue};
+use eframe::egui::{
+    Button, ComboBox, DragValue, Id, Response, Role, Slider, SliderClamping, Ui, WidgetInfo,
+};
+
+use crate::context::Seen;
+use crate::panes::Carried;
+use crate::panes::complete::{Line, complete, fitting};
+use crate::words::{Text, recombine as words};
+
+/// Shows a name before what follows it.
+pub(super) fn caption(ui: &mut Ui, seen: &Seen<'_>, text: Text) -> Response {
+    ui.weak(seen.say(text))
+}
+
+/// Shows a list to choose one of `all` from.
+pub(super) fn choose<T: PartialEq + Copy>(
+    ui: &mut Ui,
+    name: &str,
+    value: &mut T,
+    all: &[(T, &str)],
+) -> bool {
+    let now = all.iter().find(|(it, _)| it == value).map_or("", |it| it.1);
+    let before = *value;
+    let combo = ComboBox::from_id_salt(name).selected_text(now).width(0.0);
+    let inner = combo.show_ui(ui, |ui| {
+        for (it, text) in all {
+            ui.selectable_value(value, *it, *text);
+        }
+    });
+    inner
+        .response
+        .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, format!("{name}: {now}")));
+    *value != before
+}
+
+pub(super) fn hands_text(hands: Hands) -> Text {
+    match hands {
+        Hands::Right => words::RIGHT_HAND,
+        Hands::Left => words::LEFT_HAND,
+        Hands::Both => words::BOTH_HANDS,
+        Hands::Dominant => words::DOMINANT_HAND,
+        Hands::Weak => words::WEAK_HAND,
+    }
+}
+
+/// Shows which hands are meant.
+pub(super) fn hands(ui: &mut Ui, seen: &Seen<'_>, value: &mut Hands, both: bool) -> bool {
+    let all: Vec<(Hands, &str)> = Hands::ALL
+        .into_iter()
+        .filter(|it| both || *it != Hands::Both)
+        .map(|it| (it, seen.say(hands_text(it))))
+        .collect();
+    choose(ui, seen.say(words::HAND), value, &all)
+}
+
+/// Shows a number with a slider; what is typed may go beyond it.
+pub(super) fn slide(
+    ui: &mut Ui,
+    name: &str,
+    value: &mut f64,
+    range: std::ops::RangeInclusive<f64>,
+    unit: &str,
+) -> bool {
+    ui.spacing_mut().slider_width = (ui.available_width() - 96.0).clamp(40.0, 160.0);
+    let slider = Slider::new(value, range)
+        .clamping(SliderClamping::Never)
+        .max_decimals(2)
+        .suffix(unit);
+    let response = ui.add(slider);
+    let now = *value;
+    response.widget_info(|| WidgetInfo::slider(true, now, name));
+    response.changed()
+}
+
+/// Shows a length in centimetres or in shares of the arm.
+pub(super) fn length(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    name: &str,
+    value: &mut Length,
+    most: f64,
+) -> bool {
+    let (mut number, arm) = match *value {
+        Length::Metres(metres) => (tidy(metres * 100.0), false),
+        Length::Arm(share) => (tidy(share * 100.0), true),
+    };
+    let mut of_arm = arm;
+    let unit = if arm { " %" } else { " cm" };
+    let least = if number < 0.0 { -most } else { 0.0 };
+    let mut changed = slide(ui, name, &mut number, least..=most, unit);
+    let units = [(false, "cm"), (true, seen.say(words::OF_ARM))];
+    changed |= choose(ui, seen.say(words::UNIT), &mut of_arm, &units);
+    if changed {
+        *value = if of_arm {
+            Length::Arm(number / 100.0)
+        } else {
+            Length::Metres(number / 100.0)
+        };
+    }
+    changed
+}
+
+/// Rounds a number as it is shown, so that 0.07 m is 7 cm.
+pub(super) fn tidy(number: f64) -> f64 {
+    (number * 1e6).round() / 1e6
+}
+
+/// Shows a time that may be left to the operator.
+pub(super) fn time(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    text: Text,
+    value: &mut Option<Seconds>,
+    usual: f64,
+) -> bool {
+    let mut said = value.is_some();
+    let mut changed = ui.checkbox(&mut said, seen.say(text)).changed();
+    if changed {
+        *value = said.then_some(Seconds(usual));
+    }
+    if let Some(Seconds(seconds)) = value {
+        let drag = DragValue::new(seconds)
+            .range(0.0..=60.0)
+            .speed(0.01)
+            .max_decimals(3)
+            .suffix(" s");
+        let response = ui.add(drag);
+        let now = *seconds;
+        response.widget_info(|| WidgetInfo::slider(true, now, seen.say(text)));
+        changed |= response.changed();
+    }
+    changed
+}
+
+/// Shows a factor that may be left at one.
+pub(super) fn factor(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    text: Text,
+    value: &mut Option<Factor>,
+    usual: f64,
+) -> bool {
+    let mut said = value.is_some();
+    let mut changed = ui.checkbox(&mut said, seen.say(text)).changed();
+    if changed {
+        *value = said.then_some(Factor(usual));
+    }
+    if let Some(Factor(factor)) = value {
+        let drag = DragValue::new(factor)
+            .range(0.05..=20.0)
+            .speed(0.01)
+            .max_decimals(2)
+            .prefix("×");
+        let response = ui.add(drag);
+        let now = *factor;
+        response.widget_info(|| WidgetInfo::slider(true, now, seen.say(text)));
+        changed |= response.changed();
+    }
+    changed
+}
+
+fn profile_text(profile: Option<Profile>) -> Text {
+    match profile {
+        None => words::COURSE_USUAL,
+        Some(Profile::Slerp) => words::COURSE_SLERP,
+        Some(Profile::Cosine) => words::COURSE_COSINE,
+        Some(Profile::Sigmoid) => words::COURSE_SIGMOID,
+        Some(Profile::MinimumJerk) => words::COURSE_JERK,
+        Some(Profile::Learned) => words::COURSE_LEARNED,
+    }
+}
+
+/// Shows how one posture leads to the next.
+pub(super) fn transition(ui: &mut Ui, seen: &Seen<'_>, value: &mut Transition) -> bool {
+    ui.horizontal_wrapped(|ui| {
+        caption(ui, seen, words::VIA);
+        let all: Vec<(Option<Profile>, &str)> = [None]
+            .into_iter()
+            .chain(Profile::ALL.map(Some))
+            .map(|it| (it, seen.say(profile_text(it))))
+            .collect();
+        let changed = choose(ui, seen.say(words::COURSE), &mut value.profile, &all);
+        time(ui, seen, words::LASTS, &mut value.time, 0.25) | changed
+    })
+    .inner
+}
+
+pub(super) fn direction_text(direction: Direction) -> Text {
+    match direction {
+        Direction::Left => words::LEFT,
+        Direction::Right => words::RIGHT,
+        Direction::Up => words::UP,
+        Direction::Down => words::DOWN,
+        Direction::Forward => words::FORWARD,
+        Direction::Back => words::BACK,
+    }
+}
+
+/// Shows the six directions of the signer, those chosen pressed in; opposite ones give way.
+pub(super) fn directions(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    name: &str,
+    value: &mut Vec<Direction>,
+) -> bool {
+    let mut changed = false;
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
+        for direction in Direction::ALL {
+            let chosen = value.contains(&direction);
+            let text = seen.say(direction_text(direction));
+            let response = ui.add(Button::selectable(chosen, text));
+            let label = format!("{name}: {text}");
+            response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &label));
+            if response.clicked() {
+                let against = direction.vector() * -1.0;
+                value.retain(|it| *it != direction && it.vector() != against);
+                if !chosen {
+                    value.push(direction);
+                }
+                changed = true;
+            }
+        }
+    });
+    changed
+}
+
+/// Shows three lengths of a point: to the left, up from the floor, forward.
+pub(super) fn point(ui: &mut Ui, seen: &Seen<'_>, value: &mut [Length; 3]) -> bool {
+    let rows = [
+        (words::TO_THE_LEFT, -80.0..=80.0),
+        (words::ABOVE_FLOOR, 0.0..=220.0),
+        (words::IN_FRONT, -20.0..=100.0),
+    ];
+    let mut changed = false;
+    for (axis, (text, range)) in value.iter_mut().zip(rows) {
+        ui.horizontal(|ui| {
+            caption(ui, seen, text);
+            match axis {
+                Length::Metres(metres) => {
+                    let mut cm = tidy(*metres * 100.0);
+                    if slide(ui, seen.say(text), &mut cm, range, " cm") {
+                        *metres = cm / 100.0;
+                        changed = true;
+                    }
+                }
+                Length::Arm(share) => {
+                    let mut percent = tidy(*share * 100.0);
+                    if slide(ui, seen.say(text), &mut percent, -300.0..=300.0, " %") {
+                        *share = percent / 100.0;
+                        changed = true;
+                    }
+                }
+            }
+        });
+    }
+    changed
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum SpotKind {
+    Me,
+    You,
+    Towards,
+    Value,
+    Point,
+}
+
+/// Shows a place that signs refer to.
+pub(super) fn spot(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, value: &mut Spot) -> bool {
+    let mut kind = match value {
+        Spot::Me => SpotKind::Me,
+        Spot::You => SpotKind::You,
+        Spot::Towards(_) => SpotKind::Towards,
+        Spot::Value(_) => SpotKind::Value,
+        Spot::Point(_) => SpotKind::Point,
+    };
+    let all = [
+        (SpotKind::Me, seen.say(words::SPOT_ME)),
+        (SpotKind::You, seen.say(words::SPOT_YOU)),
+        (SpotKind::Towards, seen.say(words::SPOT_TOWARDS)),
+        (SpotKind::Value, seen.say(words::SPOT_VALUE)),
+        (SpotKind::Point, seen.say(words::SPOT_POINT)),
+    ];
+    let mut changed = choose(ui, name, &mut kind, &all);
+    if changed {
+        *value = match kind {
+            SpotKind::Me => Spot::Me,
+            SpotKind::You => Spot::You,
+            SpotKind::Towards => Spot::Towards(vec![Direction::Left]),
+            SpotKind::Value => Spot::Value(String::new()),
+            SpotKind::Point => Spot::Point([0.3, 1.4, 0.5].map(Length::Metres)),
+        };
+    }
+    match value {
+        Spot::Towards(all) => changed |= directions(ui, seen, name, all),
+        Spot::Value(text) => changed |= of_inventory(ui, seen, id, Component::Placement, text),
+        Spot::Point(at) => changed |= point(ui, seen, at),
+        Spot::Me | Spot::You => {}
+    }
+    changed
+}
+
+/// Returns what a value of an inventory is called, after its id.
+fn called(value: &InventoryValue, seen: &Seen<'_>) -> Option<String> {
+    let code = match seen.language {
+        crate::words::Language::English => "en",
+        crate::words::Language::French => "fr",
+    };
+    value.names.get(code).cloned()
+}
+
+/// Shows a value of the inventories of a component: typed, with what it could be.
+pub(super) fn of_inventory(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    id: Id,
+    component: Component,
+    text: &mut String,
+) -> bool {
+    let (name, hint) = match component {
+        Component::Configuration => (words::HANDSHAPE, words::HANDSHAPE_HINT),
+        _ => (words::PLACE_NAME, words::PLACE_HINT),
+    };
+    let inventories = seen.snapshot.overview.inventories.iter();
+    let values: Vec<&InventoryValue> = inventories
+        .map(|it| &it.inventory)
+        .filter(|it| it.component == component && it.feature.is_none())
+        .flat_map(|it| &it.values)
+        .collect();
+    let candidates = |typed: &str| fitting(values.iter().map(|it| it.id.as_str()), typed);
+    let line = Line {
+        name: seen.say(name),
+        hint: seen.say(hint),
+        width: (ui.available_width() - 8.0).clamp(60.0, 160.0),
+    };
+    let typed = complete(ui, id, line, text, &candidates);
+    if let Some(value) = values.iter().find(|it| it.id == *text)
+        && let Some(name) = called(value, seen)
+        && name != *text
+    {
+        ui.weak(name);
+    }
+    typed.changed
+}
+
+/// Returns the address of the selected token, where one is selected.
+pub(super) fn selected_token(seen: &Seen<'_>) -> Option<(i64, String)> {
+    let contents = seen.snapshot.contents(seen.shown.recording?)?;
+    let by = |annotation: i64| {
+        let own = contents.tokens.iter();
+        own.clone()
+            .find(|token| token.annotation_id == Some(annotation))
+    };
+    let at = seen.shown.player.playhead().micros();
+    let under = |start: i64, end: i64| {
+        contents.tokens.iter().find(move |token| {
+            let span = token.start_us.zip(token.end_us);
+            span.is_some_and(|(from, to)| from <= start && end <= to)
+        })
+    };
+    let token = match (seen.shown.annotation(), seen.shown.span) {
+        (Some(annotation), _) => by(annotation).or_else(|| {
+            let found = seen.snapshot.annotation(annotation)?;
+            let span = found.tier.annotations.span(found.at);
+            under(span.start().micros(), span.end().micros())
+        }),
+        (None, Some(span)) => under(span.start().micros(), span.end().micros()),
+        (None, None) => under(at, at),
+    }?;
+    Some((token.id, token.gloss.clone()))
+}
+
+/// Shows a sign by its gloss: typed with completion, the selected token, or a hit dropped on it.
+pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut String) -> bool {
+    let inner = ui.horizontal_wrapped(|ui| {
+        let signs = &seen.snapshot.overview.signs;
+        let candidates = |typed: &str| fitting(signs.iter().map(|it| it.gloss.as_str()), typed);
+        let line = Line {
+            name,
+            hint: seen.say(words::SIGN_HINT),
+            width: (ui.available_width() - 84.0).clamp(80.0, 200.0),
+        };
+        let typed = complete(ui, id, line, text, &candidates);
+        let mut changed = typed.changed;
+        if let Some((token, gloss)) = selected_token(seen) {
+            let button = ui.button(seen.say(words::TAKE_SELECTED));
+            let tip = crate::words::fill(seen.say(words::TAKE_SELECTED_TIP), &[("gloss", &gloss)]);
+            if button.on_hover_text(tip).clicked() {
+                *text = format!("token:{token}");
+                changed = true;
+            }
+        }
+        if let Some(gloss) = gloss_of(seen, text) {
+            ui.weak(gloss);
+        }
+        changed
+    });
+    let dropped = inner.response.dnd_release_payload::<Carried>();
+    if inner.response.dnd_hover_payload::<Carried>().is_some() {
+        let stroke = eframe::egui::Stroke::new(2.0, seen.colours().accent);
+        let kind = eframe::egui::StrokeKind::Outside;
+        ui.painter()
+            .rect_stroke(inner.response.rect, 5.0, stroke, kind);
+    }
+    if let Some(carried) = dropped {
+        *text = format!("token:{}", carried.token);
+        return true;
+    }
+    inner.inner
+}
+
+/// Returns the gloss of a `token:…` of the open recording.
+pub(super) fn gloss_of(seen: &Seen<'_>, text: &str) -> Option<String> {
+    let id: i64 = text.strip_prefix("token:")?.parse().ok()?;
+    let contents = seen.snapshot.contents(seen.shown.recording?)?;
+    let token = contents.tokens.iter().find(|token| token.id == id)?;
+    Some(token.gloss.clone())
+}
+
+/// Shows whose body signs, where somebody is named.
+pub(super) fn signer(ui: &mut Ui, seen: &Seen<'_>, value: &mut Option<String>) -> bool {
+    let signers = &seen.snapshot.overview.signers;
+    if signers.is_empty() && value.is_none() {
+        return false;
+    }
+    caption(ui, seen, words::ON_BODY);
+    let now = value
+        .clone()
+        .unwrap_or_else(|| seen.say(words::ANY_BODY).to_owned());
+    let before = value.clone();
+    let combo = ComboBox::from_id_salt("signer")
+        .selected_text(&now)
+        .width(0.0);
+    let inner = combo.show_ui(ui, |ui| {
+        ui.selectable_value(value, None, seen.say(words::ANY_BODY));
+        for signer in signers {
+            let address = format!("signer:{}", signer.id);
+            ui.selectable_value(value, Some(address), &signer.name);
+        }
+    });
+    let name = format!("{}: {now}", seen.say(words::ON_BODY));
+    inner
+        .response
+        .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
+    *value != before
+}

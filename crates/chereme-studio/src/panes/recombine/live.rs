@@ -1,0 +1,200 @@
+//! The preview: whatever the recipe is now is being made, one at a time, the newest next.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use chereme_corpus::recipe::Report;
+use chereme_corpus::{Error, Recombination};
+
+use super::stack::Stack;
+use crate::context::Outbox;
+use crate::work::{Ended, Outcome, Work, WorkId};
+
+/// What a preview is of.
+#[derive(Debug, Clone, PartialEq)]
+struct Wish {
+    text: String,
+    /// The corpus at that moment: what the sources are may change.
+    generation: i64,
+}
+
+/// What the report says of one card.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Note {
+    pub(super) did: Vec<String>,
+    /// The largest distance in metres between where a wrist should have come and where it came.
+    pub(super) residual: Option<f64>,
+}
+
+/// Why nothing can be made.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Trouble {
+    pub(super) text: String,
+    pub(super) remedy: Option<String>,
+    /// The card that cannot be done.
+    pub(super) card: Option<u64>,
+}
+
+/// The preview.
+#[derive(Default)]
+pub(super) struct Live {
+    /// What is being made, with the card of each path of its report.
+    running: Option<(WorkId, Wish, Stack)>,
+    /// When it was asked for, in seconds of the window's clock.
+    since: f64,
+    /// Whether it ended and nobody saw it yet.
+    fresh: bool,
+    /// How long the last one took, in seconds, until it was seen.
+    pub(super) took: f64,
+    /// What was made last, or could not be.
+    of: Option<Wish>,
+    pub(super) made: Option<Arc<Recombination>>,
+    pub(super) notes: BTreeMap<u64, Note>,
+    pub(super) trouble: Option<Trouble>,
+}
+
+impl Live {
+    /// Has the recipe made where it is another than was made last and nothing is being made.
+    ///
+    /// `generation` is that of the corpus, `now` the time on the window's clock.
+    pub(super) fn follow(
+        &mut self,
+        stack: &Stack,
+        text: &str,
+        (generation, now): (i64, f64),
+        out: &mut Outbox,
+    ) {
+        if std::mem::take(&mut self.fresh) {
+            self.took = now - self.since;
+        }
+        let wish = Wish {
+            text: text.to_owned(),
+            generation,
+        };
+        if wish.text.is_empty() {
+            (self.of, self.made, self.trouble) = (None, None, None);
+            self.notes.clear();
+            return;
+        }
+        if self.running.is_some() || self.of.as_ref() == Some(&wish) {
+            return;
+        }
+        let id = out.work(Work::Preview(wish.text.clone()));
+        self.running = Some((id, wish, stack.clone()));
+        self.since = now;
+    }
+
+    /// Returns whether something newer is being made.
+    pub(super) fn is_making(&self) -> bool {
+        self.running.is_some()
+    }
+
+    /// Hears what came of work; whether it was the preview.
+    pub(super) fn hear(&mut self, id: WorkId, ended: &Ended) -> bool {
+        let Some((_, wish, stack)) = self.running.take_if(|(running, ..)| *running == id) else {
+            return false;
+        };
+        self.of = Some(wish);
+        self.fresh = true;
+        match ended {
+            Ok(Outcome::Previewed(made)) => {
+                self.notes = notes(&made.report, &stack);
+                (self.made, self.trouble) = (Some(made.clone()), None);
+            }
+            Err(error) => {
+                self.notes.clear();
+                self.trouble = Some(trouble(error, &stack));
+            }
+            Ok(_) => {}
+        }
+        true
+    }
+}
+
+/// Returns what a report says of each card, by its number.
+pub(super) fn notes(report: &Report, stack: &Stack) -> BTreeMap<u64, Note> {
+    let mut notes: BTreeMap<u64, Note> = BTreeMap::new();
+    for step in &report.steps {
+        let Some(at) = stack.card_at(&step.path) else {
+            continue;
+        };
+        let note = notes.entry(stack.cards()[at].id).or_default();
+        note.did.extend(step.did.iter().cloned());
+        note.residual = match (note.residual, step.residual) {
+            (Some(a), Some(b)) => Some(a.max(b)),
+            (a, b) => a.or(b),
+        };
+    }
+    notes
+}
+
+fn trouble(error: &Error, stack: &Stack) -> Trouble {
+    let place = error.place().unwrap_or_default();
+    let path = place
+        .rsplit_once(" (at ")
+        .and_then(|(_, path)| path.strip_suffix(')'))
+        .unwrap_or_default();
+    let text = error.to_string();
+    let text = text
+        .strip_prefix("the recipe cannot be made: ")
+        .unwrap_or(&text);
+    Trouble {
+        text: text.to_owned(),
+        remedy: error.remedy(),
+        card: stack.card_at(path).map(|at| stack.cards()[at].id),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_corpus::recipe::StepReport;
+
+    fn stack(text: &str) -> Stack {
+        Stack::of(&text.parse().expect("a recipe"))
+    }
+
+    #[test]
+    fn what_the_report_says_is_told_on_its_card() {
+        let stack = stack("A | swap then B");
+        let step = |path: &str, did: &str, residual| StepReport {
+            path: path.into(),
+            step: String::new(),
+            did: vec![did.into()],
+            residual,
+        };
+        let report = Report {
+            steps: vec![
+                step("/then/first/pipe/of", "read", None),
+                step("/then/first/pipe/steps/0", "swapped", Some(0.002)),
+                step("/then/next/0/node", "read too", None),
+                step("/then/next/0", "joined", Some(0.001)),
+            ],
+            ..Report::default()
+        };
+        let notes = notes(&report, &stack);
+        let of = |at: usize| &notes[&stack.cards()[at].id];
+        assert_eq!(of(1).did, ["swapped"]);
+        assert_eq!(of(2).did, ["read too", "joined"]);
+        assert_eq!((of(1).residual, of(2).residual), (Some(0.002), Some(0.001)));
+    }
+
+    #[test]
+    fn one_is_made_at_a_time_and_the_newest_next() {
+        let (mut live, mut out) = (Live::default(), Outbox::default());
+        let stack = stack("A");
+        live.follow(&stack, "A", (1, 0.0), &mut out);
+        live.follow(&stack, "A | swap", (1, 0.0), &mut out);
+        live.follow(&stack, "A | swap | reverse", (1, 0.0), &mut out);
+        assert_eq!(out.take().len(), 1);
+        let failed = Err(Error::wrong("the recipe cannot be made: no A").at("A"));
+        assert!(!live.hear(WorkId(99), &failed));
+        assert!(live.hear(WorkId(1), &failed));
+        let trouble = live.trouble.clone().expect("trouble");
+        assert_eq!((trouble.text.as_str(), trouble.card), ("no A", Some(1)));
+        live.follow(&stack, "A | swap | reverse", (1, 0.0), &mut out);
+        assert_eq!(out.take().len(), 1);
+        live.follow(&stack, "", (1, 0.0), &mut out);
+        assert!(live.trouble.is_none());
+    }
+}

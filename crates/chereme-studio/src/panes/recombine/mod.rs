@@ -1,0 +1,412 @@
+//! Recombination: a recipe as text and as a stack of cards, made while it changes, stored as a new sign.
+
+mod cards;
+mod fields;
+mod live;
+mod path;
+mod report;
+mod settings;
+pub(crate) mod stack;
+mod suggest;
+
+use chereme_corpus::recipe::{Node, Recipe, RecipeError};
+use eframe::egui::{
+    Button, CollapsingHeader, Frame, Id, Panel, RichText, ScrollArea, TextEdit, Ui,
+};
+
+use super::{Acted, Pane};
+use crate::action::Action;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::words::{fill, recombine as words};
+use crate::work::{Ended, Outcome, Work, WorkId};
+use live::Live;
+use stack::{Stack, What};
+
+/// The pane.
+#[derive(Default)]
+pub(crate) struct Recombine {
+    stack: Stack,
+    /// The recipe as it is typed; that of the cards where it can be read.
+    text: String,
+    /// Why the text cannot be read.
+    wrong: Option<String>,
+    /// The card that keys are about.
+    chosen: Option<u64>,
+    /// The card that what is typed shall go to.
+    focus: Option<u64>,
+    live: Live,
+    suggest: suggest::Suggest,
+    gloss: String,
+    /// The name of the stored sign whose recipe this is.
+    opened: Option<String>,
+    storing: Option<WorkId>,
+    /// The sign that was stored last: its gloss and recording.
+    stored: Option<(String, i64)>,
+    come: bool,
+}
+
+/// Reads a recipe as text, or as JSON where it begins with a brace.
+fn read(text: &str) -> Result<Recipe, String> {
+    if text.trim_start().starts_with('{') {
+        return serde_json::from_str(text).map_err(|error| error.to_string());
+    }
+    text.parse().map_err(|error: RecipeError| match &error {
+        RecipeError::Text(at) => format!("{}\n{error}", at.pointed()),
+        _ => error.to_string(),
+    })
+}
+
+impl Recombine {
+    /// Turns to a recipe, that of the stored sign of that name where there is one.
+    pub(crate) fn open(&mut self, recipe: &str, opened: Option<String>, gloss: Option<String>) {
+        self.stack = Stack::default();
+        self.type_in(recipe.to_owned());
+        self.opened = opened;
+        self.gloss = gloss.unwrap_or_default();
+        self.stored = None;
+        self.chosen = None;
+    }
+
+    /// Takes what was typed: the cards follow where it can be read.
+    fn type_in(&mut self, text: String) {
+        self.text = text;
+        if self.text.trim().is_empty() {
+            self.stack = Stack::default();
+            self.wrong = None;
+            return;
+        }
+        match read(&self.text) {
+            Ok(recipe) => {
+                self.stack.take(&recipe);
+                self.wrong = None;
+            }
+            Err(wrong) => self.wrong = Some(wrong),
+        }
+    }
+
+    /// Takes what was done to the cards: the text follows.
+    fn follow_cards(&mut self) {
+        self.wrong = None;
+        match self.stack.recipe() {
+            Some(Ok(recipe)) => self.stack.take(&recipe),
+            Some(Err(error)) => self.wrong = Some(error.to_string()),
+            None => {}
+        }
+        self.text = self.stack.text();
+    }
+
+    /// Adds a card after the chosen one, and turns to it.
+    fn add(&mut self, what: What) {
+        let after = self.chosen.filter(|_| !what.is_source());
+        let id = self.stack.add(after, what);
+        (self.chosen, self.focus) = (id, id);
+        self.follow_cards();
+    }
+
+    /// Does what a key or menu asks for to a card.
+    fn change(&mut self, id: u64, action: Action) {
+        let at = self.stack.position(id);
+        match action {
+            Action::CardUp => drop(self.stack.shift(id, false)),
+            Action::CardDown => drop(self.stack.shift(id, true)),
+            Action::CardSwitch => self.stack.switch(id),
+            Action::CardDuplicate => {
+                let copy = self.stack.duplicate(id);
+                (self.chosen, self.focus) = (copy, copy);
+            }
+            Action::CardRemove => {
+                self.stack.remove(id);
+                let last = self.stack.cards().len().checked_sub(1);
+                let next = last
+                    .zip(at)
+                    .map(|(last, at)| self.stack.cards()[at.min(last)].id);
+                (self.chosen, self.focus) = (next, next);
+            }
+            _ => {}
+        }
+        if matches!(action, Action::CardUp | Action::CardDown) {
+            (self.chosen, self.focus) = (Some(id), Some(id));
+        }
+        self.follow_cards();
+    }
+
+    /// Returns the sign that the stack begins with, as an address.
+    fn source(&self) -> Option<&str> {
+        match &self.stack.cards().first()?.what {
+            What::Source {
+                node: Node::Sign(name),
+                ..
+            } if !name.trim().is_empty() => Some(name),
+            _ => None,
+        }
+    }
+
+    fn recipe_field(&mut self, ui: &mut Ui, seen: &Seen<'_>) {
+        let label = ui.horizontal(|ui| {
+            let text = match &self.opened {
+                Some(name) => fill(seen.say(words::OPENED), &[("name", name)]),
+                None => seen.say(words::RECIPE).to_owned(),
+            };
+            let label = ui.label(RichText::new(text).small()).id;
+            if self.live.is_making() {
+                ui.add(eframe::egui::Spinner::new().size(12.0));
+            }
+            if !self.stack.is_empty() && ui.small_button(seen.say(words::CLEAR)).clicked() {
+                self.open("", None, None);
+            }
+            label
+        });
+        let label = label.inner;
+        let mut text = self.text.clone();
+        let rows = 1 + text.len() / 44;
+        let field = TextEdit::multiline(&mut text)
+            .id(Id::unique("recipe"))
+            .hint_text(seen.say(words::HINT))
+            .return_key(None)
+            .desired_rows(rows.clamp(2, 5))
+            .desired_width(f32::INFINITY);
+        let response = ui.add(field);
+        let response = response.labelled_by(label);
+        if std::mem::take(&mut self.come) {
+            response.request_focus();
+        }
+        if response.changed() {
+            self.type_in(text);
+        }
+        if let Some(wrong) = &self.wrong {
+            let wrong = RichText::new(wrong)
+                .monospace()
+                .color(seen.colours().trouble);
+            ui.label(wrong);
+        }
+    }
+
+    /// The page before there is a recipe.
+    fn beginning(&mut self, ui: &mut Ui, seen: &Seen<'_>) {
+        ui.add_space(8.0);
+        ui.strong(seen.say(words::EMPTY));
+        ui.label(seen.say(words::EMPTY_MORE));
+        ui.add_space(4.0);
+        if let Some((token, gloss)) = fields::selected_token(seen) {
+            let text = fill(seen.say(words::BEGIN_SELECTED), &[("gloss", &gloss)]);
+            let button = ui.button(text);
+            let key = seen.keys.text(Action::RecombineSelected);
+            if button.on_hover_text(key).clicked() {
+                self.open(&format!("token:{token}"), None, None);
+            }
+        }
+    }
+
+    fn adding(&mut self, ui: &mut Ui, seen: &Seen<'_>) {
+        let mut wanted = None;
+        ui.horizontal_wrapped(|ui| {
+            if !self.stack.is_empty() {
+                ui.menu_button(seen.say(words::ADD_OPERATOR), |ui| {
+                    for (text, hint, step) in settings::operators() {
+                        let button = Button::new(seen.say(text)).shortcut_text(seen.say(hint));
+                        if ui.add(button).clicked() {
+                            wanted = Some(What::Step(step));
+                            ui.close();
+                        }
+                    }
+                });
+            }
+            let text = if self.stack.is_empty() {
+                words::BEGIN_WITH
+            } else {
+                words::ADD_SOURCE
+            };
+            ui.menu_button(seen.say(text), |ui| {
+                for (text, node) in settings::sources() {
+                    if ui.button(seen.say(text)).clicked() {
+                        wanted = Some(What::source(node));
+                        ui.close();
+                    }
+                }
+            });
+        });
+        if let Some(what) = wanted {
+            self.add(what);
+        }
+    }
+
+    /// The bar below: the gloss, and storing.
+    fn storing(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let made = self.live.made.is_some() && self.live.trouble.is_none() && self.wrong.is_none();
+        if let Some(made) = &self.live.made {
+            let time = format!("{:.2}", made.duration_us as f64 / 1e6);
+            let took = format!("{:.0}", self.live.took * 1000.0);
+            let values: [(&str, &dyn std::fmt::Display); 2] = [("time", &time), ("took", &took)];
+            ui.weak(fill(seen.say(words::MADE_LASTS), &values));
+        }
+        ui.horizontal(|ui| {
+            let text = if self.opened.is_some() {
+                words::STORE_AGAIN
+            } else {
+                words::STORE
+            };
+            let width = (ui.available_width() - 128.0).max(70.0);
+            let field = TextEdit::singleline(&mut self.gloss)
+                .hint_text(seen.say(words::GLOSS))
+                .desired_width(width);
+            let response = ui.add(field);
+            response.widget_info(|| {
+                eframe::egui::WidgetInfo::labeled(
+                    eframe::egui::Role::TextInput,
+                    true,
+                    seen.say(words::GLOSS),
+                )
+            });
+            let entered = response.lost_focus()
+                && ui.input(|input| input.key_pressed(eframe::egui::Key::Enter));
+            let named = !self.gloss.trim().is_empty();
+            let ready = made && named && !seen.is_running(self.storing);
+            let why = if named {
+                words::NEEDS_RECIPE
+            } else {
+                words::NEEDS_GLOSS
+            };
+            let button = ui.add_enabled(ready, Button::new(seen.say(text)));
+            let pressed = button.on_disabled_hover_text(seen.say(why)).clicked();
+            if pressed || (entered && ready) {
+                self.store(out);
+            }
+        });
+        if let Some((gloss, recording)) = &self.stored {
+            ui.horizontal_wrapped(|ui| {
+                let text = fill(
+                    seen.say(crate::words::shell::NOTICE_STORED),
+                    &[("gloss", gloss)],
+                );
+                ui.label(RichText::new(text).color(seen.colours().good));
+                let there = seen.snapshot.recording(*recording).is_some();
+                if there && ui.small_button(seen.say(words::SHOW_STORED)).clicked() {
+                    out.send(Command::Recording(*recording));
+                }
+            });
+        }
+    }
+
+    fn store(&mut self, out: &mut Outbox) {
+        let (recipe, gloss) = (self.stack.text(), self.gloss.trim().to_owned());
+        self.stored = None;
+        self.storing = Some(out.work(Work::Recombine { recipe, gloss }));
+    }
+}
+
+impl Pane for Recombine {
+    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        if !self.stack.is_empty() {
+            Panel::bottom("recombine-store")
+                .frame(Frame::new().inner_margin(eframe::egui::Margin::symmetric(0, 6)))
+                .show(ui, |ui| self.storing(ui, seen, out));
+        }
+        self.recipe_field(ui, seen);
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            if self.stack.is_empty() {
+                self.beginning(ui, seen);
+            } else if cards::show(self, ui, seen) {
+                self.follow_cards();
+            }
+            self.adding(ui, seen);
+            if let Some(trouble) = self.live.trouble.as_ref().filter(|it| it.card.is_none()) {
+                ui.label(RichText::new(&trouble.text).color(seen.colours().trouble));
+            }
+            if let Some(made) = self
+                .live
+                .made
+                .clone()
+                .filter(|_| self.live.trouble.is_none())
+            {
+                report::show(ui, seen, &made.report);
+            }
+            if let Some(source) = self.source().map(str::to_owned) {
+                let name = match fields::gloss_of(seen, &source) {
+                    Some(gloss) => gloss,
+                    None => source.clone(),
+                };
+                let title = fill(seen.say(words::SUGGEST), &[("sign", &name)]);
+                let header = CollapsingHeader::new(title).id_salt("suggest");
+                let shown = header.show(ui, |ui| self.suggest.show(ui, seen, &source, out));
+                if let Some(chosen) = shown.body_returned.flatten() {
+                    let opened = None;
+                    self.open(&chosen.recipe, opened, chosen.gloss);
+                }
+            }
+        });
+        let generation = seen.snapshot.overview.generation;
+        if self.wrong.is_none() {
+            let text = self.stack.text();
+            let now = ui.input(|input| input.time);
+            self.live.follow(&self.stack, &text, (generation, now), out);
+        }
+    }
+
+    fn act(&mut self, action: Action, seen: &Seen<'_>, out: &mut Outbox) -> Acted {
+        match action {
+            Action::CardUp
+            | Action::CardDown
+            | Action::CardDuplicate
+            | Action::CardSwitch
+            | Action::CardRemove => match self.chosen {
+                Some(id) => {
+                    self.change(id, action);
+                    Acted::Yes
+                }
+                None => Acted::Cannot(words::NEEDS_CARD),
+            },
+            Action::RecombineSelected => match fields::selected_token(seen) {
+                Some((token, _)) => {
+                    out.send(Command::Recipe(format!("token:{token}"), None));
+                    Acted::Yes
+                }
+                None => Acted::Cannot(crate::words::shell::NEEDS_ANNOTATION),
+            },
+            _ => Acted::No,
+        }
+    }
+
+    fn hear(&mut self, id: WorkId, ended: &Ended) {
+        if self.live.hear(id, ended) {
+            return;
+        }
+        self.suggest.hear(id, ended);
+        if self.storing.take_if(|storing| *storing == id).is_some()
+            && let Ok(Outcome::Recombined(made)) = ended
+        {
+            self.stored = made.recording.map(|it| (made.gloss.clone(), it));
+        }
+    }
+
+    fn come(&mut self) {
+        self.come = true;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_and_cards_follow_each_other() {
+        let mut pane = Recombine::default();
+        pane.type_in("BOL|reverse".into());
+        assert_eq!(pane.stack.cards().len(), 2);
+        assert_eq!(pane.text, "BOL|reverse", "what is typed stays as it is");
+        pane.type_in("BOL|revers".into());
+        assert!(pane.wrong.as_ref().is_some_and(|it| it.contains("reverse")));
+        assert_eq!(pane.stack.text(), "BOL | reverse", "the cards stay");
+        let id = pane.stack.cards()[1].id;
+        pane.change(id, Action::CardDuplicate);
+        assert_eq!(pane.text, "BOL | reverse | reverse");
+        assert!(pane.wrong.is_none());
+        pane.change(id, Action::CardRemove);
+        assert_eq!(pane.text, "BOL | reverse");
+        assert!(pane.focus.is_some());
+        pane.type_in(String::new());
+        assert!(pane.stack.is_empty());
+        pane.type_in(r#"{"version": 1, "make": {"sign": "BOL"}}"#.into());
+        assert_eq!(pane.stack.text(), "BOL");
+    }
+}

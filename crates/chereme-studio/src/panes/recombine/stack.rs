@@ -1,0 +1,657 @@
+//! A recipe as a stack of cards: sources, and what is done to each, in order.
+//!
+//! Text and cards are the same recipe. What cards cannot show, such as an utterance in parentheses, is
+//! one card with its text. Cards that are switched off, or not filled in yet, stay in the stack and are
+//! left out of the text.
+
+use std::collections::BTreeMap;
+
+use chereme_corpus::recipe::{
+    Choice, Goal, Joined, Node, Pipe, Recipe, RecipeError, Spot, Step, Then, Transition,
+};
+
+/// What a card says.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum What {
+    /// Where movement comes from; the cards after it, up to the next source, are done to it.
+    Source {
+        /// How the movement before leads into it; of the first nothing is said.
+        via: Transition,
+        /// A sign, spelling, pointing, notation, or an utterance in parentheses.
+        node: Node,
+    },
+    /// An operator.
+    Step(Step),
+}
+
+/// A card of the stack.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Card {
+    /// Its number, which stays when it moves.
+    pub(crate) id: u64,
+    /// Whether it is switched on.
+    pub(crate) on: bool,
+    pub(crate) what: What,
+}
+
+/// The cards; the first is a source.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Stack {
+    cards: Vec<Card>,
+    next: u64,
+}
+
+impl What {
+    /// Returns a source that nothing leads into.
+    pub(crate) fn source(node: Node) -> Self {
+        let via = Transition::default();
+        Self::Source { via, node }
+    }
+
+    pub(crate) fn is_source(&self) -> bool {
+        matches!(self, Self::Source { .. })
+    }
+
+    /// Returns whether every name that it needs is there.
+    pub(crate) fn is_complete(&self) -> bool {
+        let there = |name: &str| !name.trim().is_empty();
+        let chosen = |choice: &Choice| match choice {
+            Choice::Keep => true,
+            Choice::Value(name) | Choice::From(name) | Choice::Best(name) => there(name),
+        };
+        let spot = |spot: &Spot| match spot {
+            Spot::Value(name) => there(name),
+            Spot::Towards(all) => !all.is_empty(),
+            _ => true,
+        };
+        match self {
+            Self::Source { node, .. } => match node {
+                Node::Sign(name) => there(name),
+                Node::Spell(spell) => there(&spell.word),
+                Node::Point(point) => spot(&point.at) && point.with.as_ref().is_none_or(chosen),
+                Node::Hamnosys(notation) | Node::Sigml(notation) => there(&notation.of),
+                Node::Pipe(_) | Node::Then(_) => true,
+            },
+            Self::Step(step) => match step {
+                Step::Configure(it) => !it.values.is_empty() && it.values.iter().all(chosen),
+                Step::Place(it) => match &it.to {
+                    Goal::By(legs) => !legs.is_empty(),
+                    Goal::At(name) | Goal::Best(name) => there(name),
+                    Goal::Near { of, .. } => there(of),
+                    Goal::AtPoint(_) => true,
+                },
+                Step::Orient(it) => {
+                    !(it.palm.is_empty() && it.fingers.is_empty() && it.by.is_empty())
+                }
+                Step::Travel(it) => !it.path.is_empty(),
+                Step::Retime(it) => !it.paces.is_empty(),
+                Step::Nonmanual(it) => there(&it.from),
+                Step::Indicate(it) => {
+                    (it.from.is_some() || it.to.is_some()) && it.from.iter().chain(&it.to).all(spot)
+                }
+                _ => true,
+            },
+        }
+    }
+
+    /// Returns whether both are of one kind, so that one can have become the other.
+    fn is_like(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Source { .. }, Self::Source { .. }) => true,
+            (Self::Step(a), Self::Step(b)) => a.name() == b.name(),
+            _ => false,
+        }
+    }
+}
+
+impl Stack {
+    /// Returns the stack of a recipe.
+    #[cfg(test)]
+    pub(crate) fn of(recipe: &Recipe) -> Self {
+        let mut stack = Self::default();
+        stack.take(recipe);
+        stack
+    }
+
+    pub(crate) fn cards(&self) -> &[Card] {
+        &self.cards
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.cards.is_empty()
+    }
+
+    pub(crate) fn position(&self, id: u64) -> Option<usize> {
+        self.cards.iter().position(|card| card.id == id)
+    }
+
+    pub(crate) fn get_mut(&mut self, id: u64) -> Option<&mut Card> {
+        self.cards.iter_mut().find(|card| card.id == id)
+    }
+
+    /// Returns whether the card at `at` counts: it is on and complete, and so is its source.
+    pub(crate) fn counts(&self, at: usize) -> bool {
+        let counts = |card: &Card| card.on && card.what.is_complete();
+        counts(&self.cards[at]) && counts(&self.cards[self.piece_of(at).start])
+    }
+
+    /// Returns the places of the source that the card at `at` belongs to and of what is done to it.
+    pub(crate) fn piece_of(&self, at: usize) -> std::ops::Range<usize> {
+        let is_source = |at: &usize| self.cards[*at].what.is_source();
+        let start = (0..=at).rev().find(is_source).unwrap_or(0);
+        let end = (at + 1..self.cards.len()).find(is_source);
+        start..end.unwrap_or(self.cards.len())
+    }
+
+    /// Returns how many sources there are.
+    pub(crate) fn pieces(&self) -> usize {
+        self.cards
+            .iter()
+            .filter(|card| card.what.is_source())
+            .count()
+    }
+
+    /// Returns the tree of the cards that count, whether or not it can be made.
+    pub(crate) fn node(&self) -> Option<Node> {
+        let mut pieces: Vec<(Transition, Node, Vec<Step>)> = Vec::new();
+        for (at, card) in self.cards.iter().enumerate() {
+            if !self.counts(at) {
+                continue;
+            }
+            match (&card.what, pieces.last_mut()) {
+                (What::Source { via, node }, _) => pieces.push((*via, node.clone(), Vec::new())),
+                (What::Step(step), Some((.., steps))) => steps.push(step.clone()),
+                (What::Step(_), None) => {}
+            }
+        }
+        let piped = |(via, of, steps): (Transition, Node, Vec<Step>)| {
+            let of = Box::new(of);
+            let node = if steps.is_empty() {
+                *of
+            } else {
+                Node::Pipe(Pipe { of, steps })
+            };
+            Joined { via, node }
+        };
+        let mut pieces = pieces.into_iter().map(piped);
+        let first = pieces.next()?.node;
+        let next: Vec<Joined> = pieces.collect();
+        Some(if next.is_empty() {
+            first
+        } else {
+            let first = Box::new(first);
+            Node::Then(Then { first, next })
+        })
+    }
+
+    /// Returns the recipe of the cards that count; nothing where none does.
+    ///
+    /// # Errors
+    /// Where a setting is outside of what can be made.
+    pub(crate) fn recipe(&self) -> Option<Result<Recipe, RecipeError>> {
+        self.node().map(Recipe::new)
+    }
+
+    /// Returns the recipe's text; empty where no card counts.
+    pub(crate) fn text(&self) -> String {
+        self.node().map_or(String::new(), |node| node.to_string())
+    }
+
+    /// Returns where each card that counts stands in the recipe's JSON, as reports name it.
+    pub(crate) fn paths(&self) -> BTreeMap<String, usize> {
+        let counting: Vec<usize> = (0..self.cards.len())
+            .filter(|at| self.counts(*at))
+            .collect();
+        let sources = |at: &&usize| self.cards[**at].what.is_source();
+        let several = counting.iter().filter(sources).count() > 1;
+        let mut paths = BTreeMap::new();
+        let mut piece = 0;
+        for (nth, at) in counting.iter().enumerate() {
+            let mut steps = counting[nth + 1..].iter();
+            if !self.cards[*at].what.is_source() {
+                continue;
+            }
+            let base = match (several, piece) {
+                (false, _) => String::new(),
+                (true, 0) => "/then/first".to_owned(),
+                (true, nth) => format!("/then/next/{}/node", nth - 1),
+            };
+            if several && piece > 0 {
+                paths.insert(format!("/then/next/{}", piece - 1), *at);
+            }
+            piece += 1;
+            let done: Vec<usize> = steps
+                .by_ref()
+                .take_while(|at| !self.cards[**at].what.is_source())
+                .copied()
+                .collect();
+            if done.is_empty() {
+                paths.insert(base, *at);
+                continue;
+            }
+            paths.insert(format!("{base}/pipe/of"), *at);
+            for (n, step) in done.into_iter().enumerate() {
+                paths.insert(format!("{base}/pipe/steps/{n}"), step);
+            }
+        }
+        paths
+    }
+
+    /// Returns the card that a report means by `path`: the one there, or the one that holds it.
+    pub(crate) fn card_at(&self, path: &str) -> Option<usize> {
+        let inside = |(at, _): &(String, usize)| {
+            path.strip_prefix(at.as_str())
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+        };
+        let held = self.paths().into_iter().filter(inside);
+        held.max_by_key(|(at, _)| at.len()).map(|(_, card)| card)
+    }
+
+    /// Takes a recipe: cards that are in it stay what they are, those that do not count stay where
+    /// they were.
+    pub(crate) fn take(&mut self, recipe: &Recipe) {
+        let new = whats(recipe.root());
+        let old: Vec<(Card, bool)> = self
+            .cards
+            .iter()
+            .enumerate()
+            .map(|(at, card)| (card.clone(), self.counts(at)))
+            .collect();
+        let counting: Vec<Card> = old
+            .iter()
+            .filter(|(_, counts)| *counts)
+            .map(|(card, _)| card.clone())
+            .collect();
+        let kept = matched(&counting, &new);
+        self.cards = new
+            .into_iter()
+            .zip(kept)
+            .map(|(what, id)| Card {
+                id: id.unwrap_or_else(|| {
+                    self.next += 1;
+                    self.next
+                }),
+                on: true,
+                what,
+            })
+            .collect();
+        self.put_back(&old);
+    }
+
+    /// Puts the cards of `old` that did not count after those that they stood after.
+    fn put_back(&mut self, old: &[(Card, bool)]) {
+        for (at, (card, counts)) in old.iter().enumerate() {
+            if *counts {
+                continue;
+            }
+            let anchor = old[..at]
+                .iter()
+                .rev()
+                .find_map(|(before, _)| self.position(before.id));
+            let place = match (anchor, card.what.is_source()) {
+                (Some(anchor), true) => self.piece_of(anchor).end,
+                (Some(anchor), false) => anchor + 1,
+                (None, true) => 0,
+                (None, false) if self.cards.is_empty() => continue,
+                (None, false) => 1,
+            };
+            self.cards.insert(place, card.clone());
+        }
+    }
+
+    /// Adds a card after the one of `after`, or at the end, and returns its number; a source goes to
+    /// the end of the piece, a first card is a source.
+    pub(crate) fn add(&mut self, after: Option<u64>, what: What) -> Option<u64> {
+        let after = after.and_then(|id| self.position(id));
+        if self.cards.is_empty() && !what.is_source() {
+            return None;
+        }
+        let at = match after {
+            Some(at) if what.is_source() => self.piece_of(at).end,
+            Some(at) => at + 1,
+            None => self.cards.len(),
+        };
+        self.next += 1;
+        let id = self.next;
+        self.cards.insert(at, Card { id, on: true, what });
+        Some(id)
+    }
+
+    /// Removes a card; with a source goes what is done to it, unless it is the only one.
+    pub(crate) fn remove(&mut self, id: u64) {
+        let Some(at) = self.position(id) else { return };
+        if self.cards[at].what.is_source() {
+            self.cards.drain(self.piece_of(at));
+        } else {
+            self.cards.remove(at);
+        }
+    }
+
+    /// Puts a copy after a card, of a source with what is done to it, and returns its number.
+    pub(crate) fn duplicate(&mut self, id: u64) -> Option<u64> {
+        let at = self.position(id)?;
+        let range = if self.cards[at].what.is_source() {
+            self.piece_of(at)
+        } else {
+            at..at + 1
+        };
+        let mut copies = self.cards[range.clone()].to_vec();
+        for card in &mut copies {
+            self.next += 1;
+            card.id = self.next;
+        }
+        let first = copies.first().map(|card| card.id);
+        self.cards.splice(range.end..range.end, copies);
+        first
+    }
+
+    /// Switches a card on or off.
+    pub(crate) fn switch(&mut self, id: u64) {
+        if let Some(card) = self.get_mut(id) {
+            card.on = !card.on;
+        }
+    }
+
+    /// Moves a card to stand before the one that is at `to` now; a source takes what is done to it
+    /// along and goes between pieces. Returns whether anything moved.
+    pub(crate) fn move_to(&mut self, id: u64, to: usize) -> bool {
+        let Some(from) = self.position(id) else {
+            return false;
+        };
+        let to = to.min(self.cards.len());
+        let (range, to) = if self.cards[from].what.is_source() {
+            let own = self.piece_of(from);
+            let to = if to < self.cards.len() {
+                let piece = self.piece_of(to);
+                if to == piece.start || to < from {
+                    piece.start
+                } else {
+                    piece.end
+                }
+            } else {
+                to
+            };
+            (own, to)
+        } else {
+            (from..from + 1, to.max(1))
+        };
+        if (range.start..=range.end).contains(&to) {
+            return false;
+        }
+        let count = range.len();
+        let moved: Vec<Card> = self.cards.drain(range.clone()).collect();
+        let to = if to > range.start { to - count } else { to };
+        self.cards.splice(to..to, moved);
+        true
+    }
+
+    /// Moves a card one place up or down. Returns whether anything moved.
+    pub(crate) fn shift(&mut self, id: u64, down: bool) -> bool {
+        let Some(at) = self.position(id) else {
+            return false;
+        };
+        if !self.cards[at].what.is_source() {
+            let to = if down { at + 2 } else { at.saturating_sub(1) };
+            return to <= self.cards.len() && self.move_to(id, to);
+        }
+        let own = self.piece_of(at);
+        if down {
+            own.end < self.cards.len() && {
+                let next = self.piece_of(own.end).end;
+                self.move_to(id, next)
+            }
+        } else {
+            at > 0 && self.move_to(id, self.piece_of(at - 1).start)
+        }
+    }
+}
+
+/// Returns the cards of a tree.
+fn whats(root: &Node) -> Vec<What> {
+    let mut all = Vec::new();
+    let mut piece = |via: Transition, node: &Node| match node {
+        Node::Pipe(pipe) => {
+            let node = (*pipe.of).clone();
+            all.push(What::Source { via, node });
+            all.extend(pipe.steps.iter().cloned().map(What::Step));
+        }
+        other => {
+            let node = other.clone();
+            all.push(What::Source { via, node });
+        }
+    };
+    match root {
+        Node::Then(then) => {
+            piece(Transition::default(), &then.first);
+            for joined in &then.next {
+                piece(joined.via, &joined.node);
+            }
+        }
+        one => piece(Transition::default(), one),
+    }
+    all
+}
+
+/// Returns for each of `new` the number of the card that it was: equal ones from both ends, and
+/// between them those of one kind in order.
+fn matched(old: &[Card], new: &[What]) -> Vec<Option<u64>> {
+    let same = |(card, what): &(&Card, &What)| card.what == **what;
+    let front = old.iter().zip(new).take_while(same).count();
+    let most = old.len().min(new.len()) - front;
+    let back = old
+        .iter()
+        .rev()
+        .zip(new.iter().rev())
+        .take(most)
+        .take_while(same)
+        .count();
+    let mut ids: Vec<Option<u64>> = vec![None; new.len()];
+    for at in 0..front {
+        ids[at] = Some(old[at].id);
+    }
+    for at in 1..=back {
+        ids[new.len() - at] = Some(old[old.len() - at].id);
+    }
+    let mut free = old[front..old.len() - back].iter();
+    for at in front..new.len() - back {
+        let mut ahead = free.clone();
+        if let Some(card) = ahead.find(|card| card.what.is_like(&new[at])) {
+            ids[at] = Some(card.id);
+            free = ahead;
+        }
+    }
+    ids
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::collections::BTreeSet;
+
+    fn stack(text: &str) -> Stack {
+        Stack::of(&text.parse().expect(text))
+    }
+
+    fn ids(stack: &Stack) -> Vec<u64> {
+        stack.cards().iter().map(|card| card.id).collect()
+    }
+
+    #[test]
+    fn a_recipe_is_a_card_for_each_source_and_operator() {
+        let stack = stack("BOL | reverse | repeat 2 then via 0.3s spell LSF | swap");
+        let kinds: Vec<bool> = stack.cards().iter().map(|it| it.what.is_source()).collect();
+        assert_eq!(kinds, [true, false, false, true, false]);
+        assert_eq!(stack.pieces(), 2);
+        assert_eq!(stack.piece_of(2), 0..3);
+        let paths: Vec<(String, usize)> = stack.paths().into_iter().collect();
+        let want = [
+            ("/then/first/pipe/of", 0),
+            ("/then/first/pipe/steps/0", 1),
+            ("/then/first/pipe/steps/1", 2),
+            ("/then/next/0", 3),
+            ("/then/next/0/node/pipe/of", 3),
+            ("/then/next/0/node/pipe/steps/0", 4),
+        ];
+        assert_eq!(paths, want.map(|(path, at)| (path.to_owned(), at)));
+        assert_eq!(stack.card_at("/then/first/pipe/steps/1/place/to"), Some(2));
+        assert_eq!(self::stack("BOL").card_at(""), Some(0));
+        let nested = self::stack("(BOL then CHAT | swap) | reverse");
+        assert_eq!(nested.cards().len(), 2);
+        assert_eq!(nested.card_at("/pipe/of/then/next/0/node/pipe/of"), Some(0));
+    }
+
+    #[test]
+    fn cards_that_are_off_stay_where_they_are_and_out_of_the_text() {
+        let mut stack = stack("BOL | reverse | repeat 2");
+        let reverse = stack.cards()[1].id;
+        stack.switch(reverse);
+        assert_eq!(stack.text(), "BOL | repeat 2");
+        let before = ids(&stack);
+        stack.take(&"BOL | repeat 3 | swap".parse().expect("a recipe"));
+        assert_eq!(ids(&stack)[..3], before[..]);
+        assert_eq!(stack.text(), "BOL | repeat 3 | swap");
+        stack.switch(reverse);
+        assert_eq!(stack.text(), "BOL | reverse | repeat 3 | swap");
+        let mut two = self::stack("A | reverse then B | swap then C");
+        two.switch(two.cards()[2].id);
+        assert_eq!(two.text(), "A | reverse then C");
+        two.take(&"A | reverse | swap then C".parse().expect("a recipe"));
+        two.switch(two.cards()[3].id);
+        assert_eq!(two.text(), "A | reverse | swap then B | swap then C");
+    }
+
+    #[test]
+    fn what_is_not_filled_in_yet_is_left_out() {
+        let mut stack = stack("BOL");
+        let value = Choice::Value(String::new());
+        let empty = What::Step(Step::Configure(chereme_corpus::recipe::Configure {
+            hand: chereme_corpus::recipe::Hands::Dominant,
+            values: vec![value],
+            via: Transition::default(),
+        }));
+        let id = stack.add(None, empty).expect("added");
+        assert_eq!(stack.text(), "BOL");
+        if let Some(Card {
+            what: What::Step(Step::Configure(it)),
+            ..
+        }) = stack.get_mut(id)
+        {
+            it.values = vec![Choice::Value("U".into())];
+        }
+        assert_eq!(stack.text(), "BOL | configure dominant U");
+    }
+
+    #[test]
+    fn cards_move_and_sources_take_along_what_is_done_to_them() {
+        let mut stack = stack("A | reverse | swap then B | mirror then C");
+        let id = |stack: &Stack, at: usize| stack.cards()[at].id;
+        let swap = id(&stack, 2);
+        assert!(stack.shift(swap, false));
+        assert_eq!(stack.text(), "A | swap | reverse then B | mirror then C");
+        assert!(!stack.shift(swap, false), "a source stays first");
+        assert!(stack.shift(swap, true) && stack.shift(swap, true));
+        assert_eq!(stack.text(), "A | reverse then B | swap | mirror then C");
+        let a = id(&stack, 0);
+        assert!(stack.shift(a, true));
+        assert_eq!(stack.text(), "B | swap | mirror then A | reverse then C");
+        assert!(stack.shift(a, true) && !stack.shift(a, true));
+        assert_eq!(stack.text(), "B | swap | mirror then C then A | reverse");
+        assert!(stack.move_to(a, 0));
+        assert_eq!(stack.text(), "A | reverse then B | swap | mirror then C");
+        assert!(stack.move_to(a, 4));
+        assert_eq!(stack.text(), "B | swap | mirror then A | reverse then C");
+        let copy = stack.duplicate(a).expect("a copy");
+        assert_eq!(
+            stack.text(),
+            "B | swap | mirror then A | reverse then A | reverse then C"
+        );
+        stack.remove(copy);
+        stack.remove(swap);
+        assert_eq!(stack.text(), "B | mirror then A | reverse then C");
+    }
+
+    const SOURCES: [&str; 7] = [
+        "ESCARGOT",
+        "token:41",
+        "spell LSF left with lsf hold 0.2s via sigmoid 0.25s",
+        "point right at 30cm,140cm,50cm with U",
+        "hamnosys \"…\" on signer:1",
+        "sigml HUIS",
+        "(A then B | swap)",
+    ];
+    const STEPS: [&str; 16] = [
+        "configure right U",
+        "configure both from LION via 0.1s",
+        "configure right U, _",
+        "configure right best(configuration=U signer=same)",
+        "place both by left 25cm up 5cm",
+        "place right at chin with index",
+        "place left near BOL by up 5cm using fabrik",
+        "reverse",
+        "mirror left",
+        "repeat 3 scale 0.8 tempo 1.2 gap 0.1s",
+        "orient right palm up fingers forward by 30deg about up",
+        "amplify both 1.5",
+        "travel right down 20cm then up 20cm in 0.4s",
+        "from me to left",
+        "retime 1, 50%, to 0.3s",
+        "nonmanual from B",
+    ];
+
+    fn texts() -> impl Strategy<Value = String> {
+        let steps = prop::collection::vec(prop::sample::select(&STEPS[..]), 0..4);
+        let piece = (prop::sample::select(&SOURCES[..]), steps).prop_map(|(source, steps)| {
+            let parts: Vec<&str> = [source].into_iter().chain(steps).collect();
+            parts.join(" | ")
+        });
+        prop::collection::vec(piece, 1..4).prop_map(|pieces| pieces.join(" then via 0.3s "))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn text_to_cards_and_back_is_the_same_recipe(text in texts(), other in texts()) {
+            let recipe: Recipe = text.parse().expect("a recipe");
+            let mut stack = Stack::of(&recipe);
+            prop_assert_eq!(stack.text(), recipe.to_string());
+            prop_assert_eq!(stack.recipe(), Some(Ok(recipe.clone())));
+            let before = ids(&stack);
+            stack.take(&recipe);
+            prop_assert_eq!(ids(&stack), before);
+            let other: Recipe = other.parse().expect("a recipe");
+            stack.take(&other);
+            prop_assert_eq!(stack.recipe(), Some(Ok(other)));
+            let unique: BTreeSet<u64> = ids(&stack).into_iter().collect();
+            prop_assert_eq!(unique.len(), stack.cards().len());
+        }
+
+        #[test]
+        fn whatever_is_moved_and_switched_the_text_is_that_of_the_cards(
+            text in texts(),
+            moves in prop::collection::vec((0usize..12, 0usize..14, 0u8..4), 0..8),
+        ) {
+            let mut stack = Stack::of(&text.parse().expect("a recipe"));
+            for (card, to, what) in moves {
+                let Some(id) = stack.cards().get(card).map(|card| card.id) else { continue };
+                match what {
+                    0 => stack.switch(id),
+                    1 => drop(stack.duplicate(id)),
+                    2 => drop(stack.shift(id, to % 2 == 0)),
+                    _ => drop(stack.move_to(id, to)),
+                }
+                prop_assert!(stack.cards()[0].what.is_source());
+            }
+            let all = ids(&stack);
+            if let Some(recipe) = stack.recipe() {
+                let recipe = recipe.expect("in range");
+                prop_assert_eq!(stack.text(), Stack::of(&recipe).text());
+                stack.take(&recipe);
+                let unique: BTreeSet<u64> = ids(&stack).into_iter().collect();
+                let before: BTreeSet<u64> = all.into_iter().collect();
+                prop_assert!(before.is_subset(&unique));
+            }
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! What could be made from a sign: partners that differ in one component, and values nobody used.
+
+use chereme_corpus::{Address, Suggestions};
+use eframe::egui::{RichText, Ui};
+
+use crate::context::{Outbox, Seen};
+use crate::panes::list_row;
+use crate::words::{Text, fill, recombine as words};
+use crate::work::{Ended, Outcome, Work, WorkId};
+
+/// A recipe that is proposed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Proposal {
+    pub(super) recipe: String,
+    /// The gloss of the partner, where it has no movement yet.
+    pub(super) gloss: Option<String>,
+    /// The partner and what differs, or the value.
+    pub(super) name: String,
+    pub(super) about: String,
+}
+
+/// The list of what could be made.
+#[derive(Default)]
+pub(super) struct Suggest {
+    of: String,
+    asked: Option<WorkId>,
+    found: Option<Suggestions>,
+    wrong: Option<String>,
+}
+
+/// Returns the recipes that a corpus proposes: partners first, those that have no movement before
+/// the others.
+pub(super) fn partners(found: &Suggestions, field: impl Fn(&str) -> String) -> Vec<Proposal> {
+    let mut all: Vec<(bool, Proposal)> = Vec::new();
+    for partner in &found.partners {
+        let Some(recipe) = &partner.recipe else {
+            continue;
+        };
+        let still = partner.origin == "lexicon";
+        let about = format!(
+            "{}: {} → {}",
+            field(&partner.field),
+            partner.from,
+            partner.to
+        );
+        all.push((
+            !still,
+            Proposal {
+                recipe: recipe.clone(),
+                gloss: still.then(|| partner.gloss.clone()),
+                name: partner.gloss.clone(),
+                about,
+            },
+        ));
+    }
+    all.sort_by_key(|(moves, _)| *moves);
+    all.into_iter().map(|(_, proposal)| proposal).collect()
+}
+
+/// Returns the recipes that give a token a value that no sign has with the rest of its coding.
+pub(super) fn unused(found: &Suggestions, field: &str) -> Vec<Proposal> {
+    let values = found.unused.get(field).into_iter().flatten();
+    let operator = match field {
+        "placement" => "place both at",
+        _ => "configure dominant",
+    };
+    values
+        .map(|value| {
+            let quoted = if value.contains(char::is_whitespace) {
+                format!("\"{value}\"")
+            } else {
+                value.clone()
+            };
+            Proposal {
+                recipe: format!("token:{} | {operator} {quoted}", found.token),
+                gloss: None,
+                name: value.clone(),
+                about: String::new(),
+            }
+        })
+        .collect()
+}
+
+/// Returns what a field of a coding is called.
+pub(super) fn field_text(field: &str) -> Option<Text> {
+    match field {
+        "dominant.configuration" => Some(words::HANDSHAPE),
+        "weak.configuration" => Some(words::HANDSHAPE_WEAK),
+        "placement" => Some(words::PLACE_NAME),
+        _ => None,
+    }
+}
+
+impl Suggest {
+    /// Asks about a sign, where it is another than the last.
+    fn follow(&mut self, of: &str, out: &mut Outbox) {
+        if self.of == of {
+            return;
+        }
+        of.clone_into(&mut self.of);
+        (self.found, self.wrong) = (None, None);
+        match of.parse::<Address>() {
+            Ok(address) => self.asked = Some(out.work(Work::Suggest(address))),
+            Err(error) => self.wrong = Some(error.to_string()),
+        }
+    }
+
+    pub(super) fn hear(&mut self, id: WorkId, ended: &Ended) {
+        if self.asked.take_if(|asked| *asked == id).is_none() {
+            return;
+        }
+        match ended {
+            Ok(Outcome::Suggested(found)) => self.found = Some(found.clone()),
+            Err(error) => {
+                let remedy = error.remedy().map_or(String::new(), |it| format!("; {it}"));
+                self.wrong = Some(format!("{error}{remedy}"));
+            }
+            Ok(_) => {}
+        }
+    }
+
+    /// Shows what could be made from `of`; returns what was chosen.
+    pub(super) fn show(
+        &mut self,
+        ui: &mut Ui,
+        seen: &Seen<'_>,
+        of: &str,
+        out: &mut Outbox,
+    ) -> Option<Proposal> {
+        self.follow(of, out);
+        if let Some(wrong) = &self.wrong {
+            ui.label(RichText::new(wrong).weak());
+            return None;
+        }
+        let Some(found) = &self.found else {
+            ui.spinner();
+            return None;
+        };
+        let named = |field: &str| match field_text(field) {
+            Some(text) => seen.say(text).to_owned(),
+            None => field.to_owned(),
+        };
+        let partners = partners(found, named);
+        let mut chosen = None;
+        if partners.is_empty() {
+            ui.weak(seen.say(words::NO_PARTNERS));
+        }
+        let height = ui.spacing().interact_size.y * 1.7;
+        for proposal in &partners {
+            if list_row(ui, height, false, &proposal.name, &proposal.about).clicked() {
+                chosen = Some(proposal.clone());
+            }
+        }
+        for field in ["dominant.configuration", "placement"] {
+            let values = unused(found, field);
+            if values.is_empty() {
+                continue;
+            }
+            ui.add_space(4.0);
+            ui.weak(fill(seen.say(words::UNUSED), &[("field", &named(field))]));
+            ui.horizontal_wrapped(|ui| {
+                ui.spacing_mut().item_spacing = eframe::egui::vec2(4.0, 4.0);
+                for proposal in values {
+                    if ui.small_button(&proposal.name).clicked() {
+                        chosen = Some(proposal);
+                    }
+                }
+            });
+        }
+        chosen
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_corpus::Partner;
+
+    #[test]
+    fn partners_without_movement_come_first_and_lend_their_gloss() {
+        let partner = |gloss: &str, origin: &str, recipe: Option<&str>| Partner {
+            token: 1,
+            gloss: gloss.into(),
+            origin: origin.into(),
+            field: "dominant.configuration".into(),
+            from: "beak".into(),
+            to: "U".into(),
+            equal: 3,
+            recipe: recipe.map(str::to_owned),
+        };
+        let found = Suggestions {
+            token: 7,
+            gloss: "ESCARGOT".into(),
+            coding: Default::default(),
+            partners: vec![
+                partner("LIVRE", "captured", Some("token:7 | configure dominant 5")),
+                partner("LIMACE", "lexicon", Some("token:7 | configure dominant U")),
+                partner("X", "lexicon", None),
+            ],
+            unused: [("placement".to_owned(), vec!["neutral space".to_owned()])].into(),
+        };
+        let all = partners(&found, str::to_owned);
+        let names: Vec<&str> = all.iter().map(|it| it.name.as_str()).collect();
+        assert_eq!(names, ["LIMACE", "LIVRE"]);
+        assert_eq!(all[0].gloss.as_deref(), Some("LIMACE"));
+        assert_eq!(all[1].gloss, None);
+        let free = unused(&found, "placement");
+        assert_eq!(free[0].recipe, "token:7 | place both at \"neutral space\"");
+        assert!(unused(&found, "dominant.configuration").is_empty());
+    }
+}

@@ -1,0 +1,198 @@
+//! Recombination, driven by its labels: LIMACE from ESCARGOT, stored, undone, opened again, changed.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use chereme_corpus::{
+    Corpus, ImportOptions, ListFilter, ListKind, Progress, unheard, unpack_starter,
+};
+use chereme_studio::{Folders, Language, Options, Studio};
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+
+type Window<'a> = Harness<'a, Studio>;
+
+/// Draws frames until `done`; a minute is more than any of this takes.
+fn until(window: &mut Window<'_>, what: &str, done: impl Fn(&Window<'_>) -> bool) {
+    for _ in 0..12_000 {
+        window.step();
+        if done(window) {
+            window.step();
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    panic!("{what} never came");
+}
+
+fn idle(window: &mut Window<'_>) {
+    window.run_steps(2);
+    until(window, "an idle window", |window| window.state().is_idle());
+}
+
+fn has(window: &Window<'_>, label: &str) -> bool {
+    window.query_all_by_label(label).next().is_some()
+}
+
+fn shows(window: &Window<'_>, part: &str) -> bool {
+    window.query_all_by_label_contains(part).next().is_some()
+}
+
+fn click(window: &mut Window<'_>, label: &str) {
+    window.get_by_label(label).click();
+    window.run_steps(3);
+}
+
+fn type_into(window: &mut Window<'_>, label: &str, text: &str) {
+    window.get_by_label(label).click();
+    window.run_steps(2);
+    window.get_by_label(label).type_text(text);
+    window.run_steps(3);
+}
+
+/// Returns a corpus with a few signs, one of them only in the lexicon.
+fn corpus(folder: &Path) -> PathBuf {
+    let files = unpack_starter(&folder.join("files")).expect("unpacked");
+    let wanted = |path: &PathBuf| {
+        let stem = path
+            .file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned());
+        stem.is_some_and(|stem| ["escargot", "lion", "lexicon"].contains(&stem.as_str()))
+    };
+    let files: Vec<PathBuf> = files.into_iter().filter(wanted).collect();
+    let path = folder.join("small.chereme");
+    let mut corpus = Corpus::create(&path, "A").expect("made");
+    let mut hear = unheard;
+    let mut progress = Progress::new(&mut hear);
+    let options = ImportOptions::default();
+    corpus
+        .import(&files, &options, &mut progress)
+        .expect("imported");
+    path
+}
+
+fn open<'a>(folder: &Path) -> Window<'a> {
+    let options = Options {
+        corpus: Some(corpus(folder)),
+        author: "Zoé".into(),
+        folders: Folders {
+            config: Some(folder.join("config")),
+            data: Some(folder.join("data")),
+        },
+        language: Language::English,
+    };
+    let mut window = Harness::builder()
+        .with_size([1280.0, 1000.0])
+        .with_step_dt(1.0 / 60.0)
+        .build_ui_state(
+            |ui, studio: &mut Studio| studio.ui(ui),
+            Studio::new(options),
+        );
+    until(&mut window, "the corpus", |window| has(window, "escargot"));
+    idle(&mut window);
+    window
+}
+
+/// Returns the names of the recordings, as the file has them.
+fn recordings(window: &Window<'_>) -> Vec<String> {
+    let path = window.state().corpus().expect("open");
+    let corpus = Corpus::open(path, "B").expect("opened");
+    let listing = corpus
+        .list(ListKind::Recordings, &ListFilter::default())
+        .expect("listed");
+    let name =
+        |row: &serde_json::Map<String, serde_json::Value>| row["name"].as_str().map(str::to_owned);
+    listing.rows.iter().filter_map(name).collect()
+}
+
+fn recipe_of(window: &Window<'_>) -> String {
+    window.get_by_label("Recipe").value().unwrap_or_default()
+}
+
+fn key(window: &mut Window<'_>, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.run_steps(3);
+}
+
+#[test]
+fn limace_is_made_from_escargot_stored_undone_and_changed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open(folder.path());
+    key(&mut window, Modifiers::COMMAND, Key::R);
+    click(&mut window, "Begin with…");
+    click(&mut window, "Sign");
+    type_into(&mut window, "Gloss or address of the sign", "esc");
+    key(&mut window, Modifiers::NONE, Key::ArrowDown);
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(recipe_of(&window), "ESCARGOT");
+    idle(&mut window);
+    assert!(
+        shows(&window, "frames at"),
+        "what was made is told on the card"
+    );
+    click(&mut window, "Change…");
+    window.get_by_label_contains("Handshape").click();
+    window.run_steps(3);
+    assert!(shows(&window, "Not filled in yet"));
+    assert_eq!(recipe_of(&window), "ESCARGOT");
+    type_into(&mut window, "Handshape", "U");
+    assert_eq!(recipe_of(&window), "ESCARGOT | configure dominant U");
+    idle(&mut window);
+    assert!(shows(&window, "becomes U"), "the report is on its card");
+    type_into(&mut window, "Gloss of the new sign", "LIMACE");
+    click(&mut window, "Store");
+    until(&mut window, "the new sign", |window| has(window, "Show it"));
+    idle(&mut window);
+    assert!(recordings(&window).contains(&"LIMACE".to_owned()));
+    click(&mut window, "Card: Handshape");
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    idle(&mut window);
+    assert!(!recordings(&window).contains(&"LIMACE".to_owned()));
+    key(&mut window, Modifiers::COMMAND, Key::Y);
+    idle(&mut window);
+    assert!(recordings(&window).contains(&"LIMACE".to_owned()));
+}
+
+#[test]
+fn cards_are_switched_moved_and_removed_and_the_text_follows() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open(folder.path());
+    key(&mut window, Modifiers::COMMAND, Key::R);
+    type_into(&mut window, "Recipe", "ESCARGOT | reverse | repeat 2");
+    idle(&mut window);
+    click(&mut window, "Switched on: Reverse");
+    assert_eq!(recipe_of(&window), "ESCARGOT | repeat 2");
+    click(&mut window, "Switched on: Reverse");
+    assert_eq!(recipe_of(&window), "ESCARGOT | reverse | repeat 2");
+    click(&mut window, "Card: Repeat");
+    key(&mut window, Modifiers::ALT, Key::ArrowUp);
+    assert_eq!(recipe_of(&window), "ESCARGOT | repeat 2 | reverse");
+    click(&mut window, "Remove: Reverse");
+    assert_eq!(recipe_of(&window), "ESCARGOT | repeat 2");
+    type_into(&mut window, "Recipe", " |");
+    assert!(shows(&window, "an operator"), "what is wrong is told");
+    assert!(has(&window, "Card: Repeat"), "the cards stay");
+}
+
+#[test]
+fn what_cannot_be_made_is_told_on_its_card_and_nowhere_else() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open(folder.path());
+    key(&mut window, Modifiers::COMMAND, Key::R);
+    type_into(&mut window, "Recipe", "ESCARGOT | configure right NOSUCH");
+    idle(&mut window);
+    assert!(shows(&window, "NOSUCH"));
+    assert!(!has(&window, "Close"), "no notice stands in the way");
+    click(&mut window, "Clear");
+    type_into(&mut window, "Recipe", "ESCARGOT");
+    idle(&mut window);
+    click(&mut window, "What could be made from ESCARGOT");
+    idle(&mut window);
+    click(&mut window, "LIMACE");
+    assert!(
+        recipe_of(&window).contains("configure dominant U"),
+        "{}",
+        recipe_of(&window)
+    );
+}
