@@ -44,7 +44,6 @@ pub(crate) enum Command {
     Speed(f64),
     /// Show movement that lies in no recording on the stage, in a loop; nothing goes back to the
     /// recording, as does whatever shows or moves in one.
-    #[allow(dead_code, reason = "for the preview of recipes")]
     Made(Option<Arc<Made>>),
     /// Have these files and folders taken in: opens the import with them.
     Import(Vec<PathBuf>),

@@ -13,9 +13,9 @@ use egui_kittest::kittest::Queryable;
 
 type Window<'a> = Harness<'a, Studio>;
 
-/// Draws frames until `done`; a minute is more than any of this takes.
+/// Draws frames until `done`; twenty seconds are more than any of this takes.
 fn until(window: &mut Window<'_>, what: &str, done: impl Fn(&Window<'_>) -> bool) {
-    for _ in 0..12_000 {
+    for _ in 0..4_000 {
         window.step();
         if done(window) {
             window.step();
@@ -83,7 +83,7 @@ fn open<'a>(folder: &Path) -> Window<'a> {
         language: Language::English,
     };
     let mut window = Harness::builder()
-        .with_size([1280.0, 1000.0])
+        .with_size([1280.0, 1500.0])
         .with_step_dt(1.0 / 60.0)
         .build_ui_state(
             |ui, studio: &mut Studio| studio.ui(ui),
@@ -140,6 +140,7 @@ fn limace_is_made_from_escargot_stored_undone_and_changed() {
     assert_eq!(recipe_of(&window), "ESCARGOT | configure dominant U");
     idle(&mut window);
     assert!(shows(&window, "becomes U"), "the report is on its card");
+    key(&mut window, Modifiers::NONE, Key::Escape);
     type_into(&mut window, "Gloss of the new sign", "LIMACE");
     click(&mut window, "Store");
     until(&mut window, "the new sign", |window| has(window, "Show it"));

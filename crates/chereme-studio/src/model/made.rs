@@ -19,7 +19,6 @@ pub(crate) struct Made {
 
 impl Made {
     /// Returns what a recipe gave.
-    #[allow(dead_code, reason = "for the preview of recipes")]
     pub(crate) fn of(made: &Recombination, source: Option<(i64, Span)>) -> Self {
         let name = if made.gloss.is_empty() {
             &made.recipe

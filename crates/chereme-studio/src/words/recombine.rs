@@ -27,6 +27,8 @@ texts! {
     INCOMPLETE: "Not filled in yet; left out.", "Pas encore rempli ; laissé de côté.";
     RESIDUAL: "{mm} mm from its goal", "à {mm} mm du but";
     MADE_LASTS: "lasts {time} s · made in {took} ms", "dure {time} s · fait en {took} ms";
+    SHOW_ORIGINAL: "Original", "Original";
+    SHOW_MADE: "Made", "Résultat";
     CHANNELS: "Where each channel comes from ({n})", "D’où vient chaque canal ({n})";
     JOINS: "Joins ({n})", "Raccords ({n})";
     CONTACTS: "Contacts undone ({n})", "Contacts défaits ({n})";

@@ -185,6 +185,7 @@ fn handle(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, title: &str, width: f
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, shown.chosen, &label));
     if shown.focus {
         response.request_focus();
+        response.scroll_to_me(None);
     }
     if response.has_focus() {
         let up = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::ArrowUp));

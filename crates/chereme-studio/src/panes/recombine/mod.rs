@@ -9,7 +9,11 @@ mod settings;
 pub(crate) mod stack;
 mod suggest;
 
+use std::sync::Arc;
+
+use chereme_corpus::Recombination;
 use chereme_corpus::recipe::{Node, Recipe, RecipeError};
+use chereme_motion::{Instant, Span};
 use eframe::egui::{
     Button, CollapsingHeader, Frame, Id, Panel, RichText, ScrollArea, TextEdit, Ui,
 };
@@ -18,6 +22,7 @@ use super::{Acted, Pane};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
+use crate::model::made::Made;
 use crate::words::{fill, recombine as words};
 use crate::work::{Ended, Outcome, Work, WorkId};
 use live::Live;
@@ -43,6 +48,10 @@ pub(crate) struct Recombine {
     storing: Option<WorkId>,
     /// The sign that was stored last: its gloss and recording.
     stored: Option<(String, i64)>,
+    /// Whether the stage shows what was made, and not the recording.
+    on_stage: bool,
+    /// The movement that was last given to the stage.
+    given: Option<Arc<Recombination>>,
     come: bool,
 }
 
@@ -66,6 +75,42 @@ impl Recombine {
         self.gloss = gloss.unwrap_or_default();
         self.stored = None;
         self.chosen = None;
+        self.on_stage = true;
+    }
+
+    /// Gives the stage what was made, where it shall show it, and the recording back where not.
+    fn to_stage(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
+        let made = self.live.made.as_ref().filter(|_| self.on_stage);
+        let same = match (made, &self.given) {
+            (Some(made), Some(given)) => Arc::ptr_eq(made, given),
+            (None, None) => true,
+            _ => false,
+        };
+        if same {
+            // Whatever shows a place in a recording takes the stage back.
+            if self.given.is_some() && seen.shown.made.is_none() {
+                (self.given, self.on_stage) = (None, false);
+            }
+            return;
+        }
+        self.given = made.cloned();
+        let shown = made.map(|made| Arc::new(Made::of(made, self.source_span(seen))));
+        out.send(Command::Made(shown));
+    }
+
+    /// Returns where the sign that the stack begins with lies, where it is in the open recording.
+    fn source_span(&self, seen: &Seen<'_>) -> Option<(i64, Span)> {
+        let recording = seen.shown.recording?;
+        let contents = seen.snapshot.contents(recording)?;
+        let source = self.source()?;
+        let id = source.strip_prefix("token:").and_then(|id| id.parse().ok());
+        let signs = &seen.snapshot.overview.signs;
+        let cited = signs.iter().find(|sign| sign.gloss == source);
+        let id: i64 = id.or(cited.and_then(|sign| sign.citation))?;
+        let token = contents.tokens.iter().find(|token| token.id == id)?;
+        let (start, end) = token.start_us.zip(token.end_us)?;
+        let micros = Instant::from_micros;
+        Some((recording, Span::between(micros(start), micros(end))))
     }
 
     /// Takes what was typed: the cards follow where it can be read.
@@ -79,7 +124,7 @@ impl Recombine {
         match read(&self.text) {
             Ok(recipe) => {
                 self.stack.take(&recipe);
-                self.wrong = None;
+                (self.wrong, self.on_stage) = (None, true);
             }
             Err(wrong) => self.wrong = Some(wrong),
         }
@@ -88,6 +133,7 @@ impl Recombine {
     /// Takes what was done to the cards: the text follows.
     fn follow_cards(&mut self) {
         self.wrong = None;
+        self.on_stage = true;
         match self.stack.recipe() {
             Some(Ok(recipe)) => self.stack.take(&recipe),
             Some(Err(error)) => self.wrong = Some(error.to_string()),
@@ -235,6 +281,12 @@ impl Recombine {
     fn storing(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let made = self.live.made.is_some() && self.live.trouble.is_none() && self.wrong.is_none();
         if let Some(made) = &self.live.made {
+            ui.horizontal(|ui| {
+                let all = [(false, words::SHOW_ORIGINAL), (true, words::SHOW_MADE)];
+                for (made, text) in all {
+                    ui.selectable_value(&mut self.on_stage, made, seen.say(text));
+                }
+            });
             let time = format!("{:.2}", made.duration_us as f64 / 1e6);
             let took = format!("{:.0}", self.live.took * 1000.0);
             let values: [(&str, &dyn std::fmt::Display); 2] = [("time", &time), ("took", &took)];
@@ -341,6 +393,7 @@ impl Pane for Recombine {
             let now = ui.input(|input| input.time);
             self.live.follow(&self.stack, &text, (generation, now), out);
         }
+        self.to_stage(seen, out);
     }
 
     fn act(&mut self, action: Action, seen: &Seen<'_>, out: &mut Outbox) -> Acted {
