@@ -71,9 +71,9 @@ pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
     (Action::CardRemove, ["Alt+Delete", "=", "="]),
     (Action::ShowInspector, ["Shift+F4", "=", "="]),
     (Action::ShowHistory, ["Ctrl+H", "=", "="]),
-    (Action::LayoutAnnotate, ["F6", "=", "="]),
-    (Action::LayoutSearch, ["F7", "=", "="]),
-    (Action::LayoutRecombine, ["F8", "=", "="]),
+    (Action::LayoutAnnotate, ["Ctrl+F1", "=", "="]),
+    (Action::LayoutSearch, ["Ctrl+F2", "=", "="]),
+    (Action::LayoutRecombine, ["Ctrl+F3", "=", "="]),
     (Action::Palette, ["Ctrl+Shift+P", "=", "="]),
     (Action::Keys, ["F1", "=", "="]),
 ];
