@@ -79,7 +79,7 @@ impl Recombine {
     }
 
     /// Gives the stage what was made, where it shall show it, and the recording back where not.
-    fn to_stage(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
+    fn show_on_stage(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
         let made = self.live.made.as_ref().filter(|_| self.on_stage);
         let same = match (made, &self.given) {
             (Some(made), Some(given)) => Arc::ptr_eq(made, given),
@@ -393,7 +393,7 @@ impl Pane for Recombine {
             let now = ui.input(|input| input.time);
             self.live.follow(&self.stack, &text, (generation, now), out);
         }
-        self.to_stage(seen, out);
+        self.show_on_stage(seen, out);
     }
 
     fn act(&mut self, action: Action, seen: &Seen<'_>, out: &mut Outbox) -> Acted {
