@@ -64,7 +64,7 @@ pub use inventories::StoredInventory;
 pub use list::{ListFilter, ListKind, Listing, cell_text};
 pub use movement::ChannelGroup;
 pub use notation::{Notation, read_notation};
-pub use picture::{Moving, Picture, PictureOptions, draw_clip};
+pub use picture::{Moving, Picture, PictureOptions, built_in_body, draw_clip};
 pub use progress::{Progress, Step, Unit, unheard};
 pub use recombine::Recombination;
 pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions};

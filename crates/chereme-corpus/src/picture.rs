@@ -4,6 +4,7 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use chereme_figure::{
     Animation, AnimationOptions, FigureError, HandshapeOptions, SheetOptions, View, contact_sheet,
@@ -19,6 +20,7 @@ use crate::error::{Error, Result};
 use crate::inventories;
 use crate::movement::{ChannelGroup, Track};
 use crate::progress::{Progress, Step, Unit};
+use crate::sources::notation::own_body;
 
 /// A stretch longer than this is drawn only in part.
 const LONGEST: i64 = 120_000_000;
@@ -72,6 +74,15 @@ pub struct Moving {
     pub clip: Clip,
     /// Which joint is what.
     pub anatomy: Anatomy,
+}
+
+/// Returns the body that comes with the program: a single frame at rest, with which joint is what.
+///
+/// # Errors
+/// Where the program's own file is damaged.
+pub fn built_in_body() -> Result<(Clip, Arc<Anatomy>)> {
+    let body = own_body()?;
+    Ok((body.clip, body.anatomy))
 }
 
 impl Corpus {

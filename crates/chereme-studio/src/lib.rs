@@ -34,6 +34,7 @@ mod model;
 mod overlay;
 mod panes;
 mod perform;
+mod pickers;
 mod player;
 mod settings;
 mod start;

@@ -105,7 +105,7 @@ fn material(made: Made, address: String, hash: String, gloss: String) -> Materia
 }
 
 /// Returns the body that comes with the program, at rest.
-pub(super) fn own_body() -> Result<Material> {
+pub(crate) fn own_body() -> Result<Material> {
     let bad = |what: String| Error::wrong(format!("the built-in body cannot be read: {what}"));
     let bytes = starter::starter_files()
         .find(|(name, _)| *name == Path::new(OWN_RECORDING))

@@ -1,13 +1,17 @@
 //! The search: a query, what answers it, and how often each value occurs.
 
+use std::collections::BTreeMap;
+
 use chereme_corpus::{Answer, Hit, SearchOptions};
 use chereme_motion::{Instant, Span};
-use eframe::egui::{Key, RichText, ScrollArea, TextEdit, Ui};
+use chereme_sign::Component;
+use eframe::egui::{Grid, Key, RichText, ScrollArea, TextEdit, Ui};
 
 use super::timeline::data::time_text;
 use super::{Pane, list_row};
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
+use crate::pickers::{self, Picker};
 use crate::words::{fill, search as words};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
@@ -65,6 +69,8 @@ pub(crate) struct Search {
     /// What is wrong with the query.
     wrong: Option<String>,
     come: bool,
+    /// By component, what its value is picked with.
+    pickers: BTreeMap<String, Picker>,
 }
 
 impl Search {
@@ -77,6 +83,33 @@ impl Search {
             ..SearchOptions::default()
         };
         self.asked = Some(out.work(Work::Search(self.query.clone(), options)));
+    }
+
+    /// Offers to want a value that is picked by looking.
+    fn pick(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let mut wanted = None;
+        Grid::new("values to pick").num_columns(2).show(ui, |ui| {
+            for stored in &seen.snapshot.overview.inventories {
+                let inventory = &stored.inventory;
+                let drawn = pickers::data::kind(inventory) != pickers::data::Kind::Names;
+                if !drawn || inventory.component == Component::NonManual {
+                    continue;
+                }
+                let field = inventory.field().to_string();
+                let picker = self.pickers.entry(inventory.id.clone()).or_default();
+                let name = fill(seen.say(words::PICK), &[("field", &field)]);
+                ui.label(RichText::new(&field).small());
+                let picked = pickers::button(ui, picker, seen, inventory, None, &name);
+                if let Some(value) = picked {
+                    wanted = Some(with_value(&self.query, &field, &value));
+                }
+                ui.end_row();
+            }
+        });
+        if let Some(query) = wanted {
+            self.query = query;
+            self.ask(out);
+        }
     }
 
     fn facets(&mut self, ui: &mut Ui, out: &mut Outbox) {
@@ -128,6 +161,7 @@ impl Pane for Search {
                     .color(seen.colours().trouble),
             );
         }
+        self.pick(ui, seen, out);
         let Some(answer) = &self.answer else { return };
         if answer.total == 0 {
             ui.label(seen.say(words::NOTHING));

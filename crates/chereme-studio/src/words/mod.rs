@@ -21,6 +21,7 @@ pub(crate) mod history;
 pub(crate) mod import;
 pub(crate) mod inspector;
 pub(crate) mod library;
+pub(crate) mod pickers;
 pub(crate) mod recombine;
 pub(crate) mod search;
 pub(crate) mod shell;
@@ -42,6 +43,15 @@ impl Language {
     /// Every language with its own name for itself.
     pub const ALL: [(Self, &'static str); 2] =
         [(Self::English, "English"), (Self::French, "Français")];
+
+    /// Returns its code, as inventories give names by it.
+    #[must_use]
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::English => "en",
+            Self::French => "fr",
+        }
+    }
 
     /// Returns the language that a locale such as `fr_FR.UTF-8` asks for.
     #[must_use]
@@ -84,12 +94,13 @@ pub(crate) fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 10] = [
+    const TABLES: [&[(&str, Text)]; 11] = [
         actions::ALL,
         history::ALL,
         import::ALL,
         inspector::ALL,
         library::ALL,
+        pickers::ALL,
         recombine::ALL,
         search::ALL,
         shell::ALL,

@@ -8,5 +8,6 @@ texts! {
     FOUND: "{n} found", "{n} trouvés";
     NOTHING: "Nothing answers this query.", "Rien ne répond à cette requête.";
     LEXICON: "lexicon entry", "entrée de lexique";
+    PICK: "Pick a value of {field}", "Choisir une valeur de {field}";
     FACETS: "Values", "Valeurs";
 }

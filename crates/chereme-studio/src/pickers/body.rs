@@ -1,0 +1,345 @@
+//! Places picked on a body: circles on pictures of the head, the body and the weak hand, or in the
+//! space before the signer, with the list of all places beside.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use chereme_sign::inventory::InventoryValue;
+use eframe::egui::{
+    Align2, Color32, Painter, Rect, ScrollArea, Sense, Stroke, TextStyle, TextureId, Ui, Vec2,
+    pos2, vec2,
+};
+
+use super::cells::{Cell, Cells, State};
+use super::places::{self, Panel, Zone, is_part};
+use super::{Picker, gallery, paint};
+use crate::context::Seen;
+use crate::words::{Text, pickers as words};
+
+/// The radius of a place's circle.
+const RADIUS: f32 = 8.0;
+/// Height of a row of the list.
+const ROW: f32 = 24.0;
+/// Pictures are drawn larger than shown, for screens with small pixels.
+const FINER: f32 = 1.5;
+
+/// Draws the list and the pictures.
+pub(super) fn show(
+    ui: &mut Ui,
+    picker: &mut Picker,
+    cells: &Cells<'_>,
+    shown: &[usize],
+) -> Option<String> {
+    let listed = (ui.available_width() * 0.28).clamp(110.0, 190.0);
+    let height = (ui.available_height() - 34.0).clamp(220.0, 330.0);
+    let mut picked = None;
+    follow(picker, cells);
+    ui.horizontal_top(|ui| {
+        let by_list = ui
+            .allocate_ui(vec2(listed, height), |ui| {
+                ui.set_width(listed);
+                list(ui, picker, cells, shown)
+            })
+            .inner;
+        let by_picture = ui.vertical(|ui| {
+            ui.set_height(height);
+            tabs(ui, picker, cells.seen);
+            pictures(ui, picker, cells, shown)
+        });
+        picked = by_list.or(by_picture.inner);
+    });
+    picked
+}
+
+/// Turns to the pictures on which the value is that the keys are at.
+fn follow(picker: &mut Picker, cells: &Cells<'_>) {
+    if cells.pressed.way.is_none() && !picker.filter.is_empty() {
+        let at = picker.at.as_deref().and_then(|id| cells.inventory.get(id));
+        if let Some(landmark) = at.and_then(|value| value.landmark.as_ref()) {
+            picker.space = places::panel(landmark) == Panel::Space;
+        }
+    }
+}
+
+fn tabs(ui: &mut Ui, picker: &mut Picker, seen: &Seen<'_>) {
+    ui.horizontal(|ui| {
+        for (space, name) in [(false, words::ON_BODY), (true, words::IN_SPACE)] {
+            if ui
+                .selectable_label(picker.space == space, seen.say(name))
+                .clicked()
+            {
+                picker.space = space;
+            }
+        }
+        ui.separator();
+        if picker.space {
+            for (depth, name) in [words::NEAR, words::REACH, words::FAR]
+                .into_iter()
+                .enumerate()
+            {
+                if ui
+                    .selectable_label(picker.depth == depth, seen.say(name))
+                    .clicked()
+                {
+                    picker.depth = depth;
+                }
+            }
+        } else {
+            for (turned, name) in [(false, words::FROM_FRONT), (true, words::FROM_SIDE)] {
+                if ui
+                    .selectable_label(picker.turned == turned, seen.say(name))
+                    .clicked()
+                {
+                    picker.turned = turned;
+                }
+            }
+        }
+    });
+}
+
+/// Draws the list of places; the arrow keys walk through it.
+fn list(ui: &mut Ui, picker: &mut Picker, cells: &Cells<'_>, shown: &[usize]) -> Option<String> {
+    ScrollArea::vertical()
+        .id_salt("places")
+        .auto_shrink(false)
+        .show(ui, |ui| {
+            let width = ui.available_width() - 10.0;
+            let whole = vec2(width, shown.len() as f32 * ROW);
+            let (area, _) = ui.allocate_exact_size(whole, Sense::hover());
+            let row = |(n, value): (usize, &usize)| Cell {
+                value: *value,
+                rect: Rect::from_min_size(
+                    area.min + vec2(0.0, n as f32 * ROW),
+                    vec2(width, ROW - 1.0),
+                ),
+            };
+            let rows: Vec<Cell> = shown.iter().enumerate().map(row).collect();
+            cells.show(ui, picker, &rows, |ui, cell, state| {
+                let value = &cells.inventory.values[cell.value];
+                list_row(ui, cell.rect, cells, value, &state);
+            })
+        })
+        .inner
+}
+
+fn list_row(ui: &Ui, rect: Rect, cells: &Cells<'_>, value: &InventoryValue, state: &State) {
+    let colours = cells.seen.colours();
+    let depth = cells.inventory.chain(&value.id).count().clamp(1, 5) - 1;
+    let font = TextStyle::Body.resolve(ui.style());
+    let left = 6.0 + 8.0 * depth as f32;
+    let name = value.name(cells.seen.language.code()).to_owned();
+    let name = paint::fitted(ui, name, &font, rect.width() - left - 4.0);
+    let at = pos2(rect.left() + left, rect.center().y);
+    let colour = ui.visuals().text_color();
+    ui.painter()
+        .text(at, Align2::LEFT_CENTER, name, font, colour);
+    if state.at || state.chosen || state.hovered {
+        paint::frame(ui.painter(), rect, state, colours.accent, colours.rule);
+    }
+}
+
+/// Draws the pictures side by side, with their places.
+fn pictures(
+    ui: &mut Ui,
+    picker: &mut Picker,
+    cells: &Cells<'_>,
+    shown: &[usize],
+) -> Option<String> {
+    if places::ready().is_none() {
+        gallery::picture(ui.ctx(), key(("scene", 0)), || {
+            places::scene();
+            None
+        });
+        ui.weak(cells.seen.say(words::DRAWING));
+        return None;
+    }
+    let panels: &[(Panel, bool, Text)] = &if picker.space {
+        vec![
+            (Panel::Space, false, words::SPACE_FRONT),
+            (Panel::Space, true, words::SPACE_SIDE),
+        ]
+    } else {
+        vec![
+            (Panel::Head, picker.turned, words::HEAD),
+            (Panel::Trunk, picker.turned, words::TRUNK),
+            (Panel::Hand, picker.turned, words::WEAK_HAND),
+        ]
+    };
+    let gap = 6.0;
+    let aspects: f32 = panels.iter().map(|(panel, ..)| panel.aspect()).sum();
+    let room = ui.available_width() - gap * (panels.len() as f32 - 1.0);
+    let height = (room / aspects).min(ui.available_height() - 22.0).max(80.0);
+    let width = aspects * height + gap * (panels.len() as f32 - 1.0);
+    let (area, _) = ui.allocate_exact_size(vec2(width, height + 20.0), Sense::hover());
+    let mut left = area.left();
+    let mut picked = None;
+    for (panel, turned, name) in panels {
+        let size = vec2(panel.aspect() * height, height);
+        let rect = Rect::from_min_size(pos2(left, area.top() + 20.0), size);
+        left = rect.right() + gap;
+        let font = TextStyle::Small.resolve(ui.style());
+        let at = pos2(rect.left() + 2.0, rect.top() - 3.0);
+        let weak = ui.visuals().weak_text_color();
+        ui.painter()
+            .text(at, Align2::LEFT_BOTTOM, cells.seen.say(*name), font, weak);
+        if let Some(texture) = picture(ui, *panel, *turned, cells.seen.dark) {
+            image(ui.painter(), texture, rect);
+        }
+        let by = panel_zones(ui, picker, cells, shown, (*panel, *turned), rect);
+        picked = picked.or(by);
+    }
+    picked
+}
+
+fn panel_zones(
+    ui: &mut Ui,
+    picker: &mut Picker,
+    cells: &Cells<'_>,
+    shown: &[usize],
+    view: (Panel, bool),
+    rect: Rect,
+) -> Option<String> {
+    let scene = places::ready()?;
+    let inventory = cells.inventory;
+    let here: Vec<usize> = shown
+        .iter()
+        .copied()
+        .filter(|at| belongs(&inventory.values[*at], inventory, view, picker.depth))
+        .collect();
+    let zones = places::zones(scene, inventory, &here, view, rect, RADIUS);
+    let reached = picker.at.clone();
+    for zone in &zones {
+        let value = &inventory.values[zone.value];
+        let on = |id: &str| inventory.is_within(&value.id, id);
+        let lit = reached.as_deref().is_some_and(on);
+        let chosen = cells.chosen.is_some_and(on);
+        let key = ui.scope_id().with(("zone", &value.id, view.1));
+        let spot = Rect::from_center_size(zone.centre, Vec2::splat(RADIUS * 2.0));
+        let response = cells.zone(ui, spot, key, value);
+        if response.hovered() && ui.input(|input| input.pointer.is_moving()) {
+            picker.at = Some(value.id.clone());
+        }
+        let how = (lit, chosen, response.hovered());
+        circle(ui.painter(), rect, zone, cells.seen, how);
+        if response.clicked() {
+            return Some(value.id.clone());
+        }
+    }
+    None
+}
+
+/// Returns whether a place has a circle in a panel.
+fn belongs(
+    value: &InventoryValue,
+    inventory: &chereme_sign::Inventory,
+    (panel, turned): (Panel, bool),
+    depth: usize,
+) -> bool {
+    let Some(landmark) = &value.landmark else {
+        return false;
+    };
+    if places::panel(landmark) != panel || is_part(inventory, &value.id) {
+        return false;
+    }
+    if panel != Panel::Space {
+        return true;
+    }
+    if turned {
+        // From the side the middle column stands for all three.
+        return landmark.offset[0].abs() < 0.05;
+    }
+    depth_of(value) == depth
+}
+
+/// Returns how far off a place in space is: near, as far as usual, or far.
+fn depth_of(value: &InventoryValue) -> usize {
+    match value.landmark.as_ref().map_or(0.0, |it| it.offset[2]) {
+        forward if forward < -0.05 => 0,
+        forward if forward > 0.05 => 2,
+        _ => 1,
+    }
+}
+
+/// Paints a place's circle: lit, chosen, under the pointer.
+fn circle(
+    painter: &Painter,
+    rect: Rect,
+    zone: &Zone,
+    seen: &Seen<'_>,
+    (lit, chosen, near): (bool, bool, bool),
+) {
+    let colours = seen.colours();
+    let paper = paint::paper(seen.dark);
+    if zone.at.distance(zone.centre) > RADIUS {
+        let thin = Stroke::new(1.0, colours.accent.gamma_multiply(0.8));
+        let painter = painter.with_clip_rect(rect.intersect(painter.clip_rect()));
+        painter.line_segment([zone.at, zone.centre], thin);
+        painter.circle_filled(zone.at, 2.0, colours.accent);
+    }
+    let fill = if chosen {
+        colours.accent
+    } else if lit {
+        colours.playhead
+    } else {
+        paper.gamma_multiply(0.72)
+    };
+    let width = if near || lit { 2.5 } else { 1.5 };
+    let edge = if lit {
+        colours.playhead
+    } else {
+        colours.accent
+    };
+    painter.circle(zone.centre, RADIUS - 1.5, fill, Stroke::new(width, edge));
+}
+
+/// Paints a small picture of where a place is; returns whether it is anywhere.
+pub(super) fn icon(ui: &Ui, rect: Rect, seen: &Seen<'_>, value: &InventoryValue) -> bool {
+    let Some(landmark) = &value.landmark else {
+        return false;
+    };
+    let panel = places::panel(landmark);
+    let Some(scene) = places::ready() else {
+        gallery::picture(ui.ctx(), key(("scene", 0)), || {
+            places::scene();
+            None
+        });
+        return true;
+    };
+    let aspect = panel.aspect();
+    let size = vec2(rect.width().min(rect.height() * aspect), rect.height());
+    let rect = Rect::from_center_size(rect.center(), vec2(size.x, size.x / aspect));
+    if let Some(texture) = picture(ui, panel, false, seen.dark) {
+        image(ui.painter(), texture, rect);
+    }
+    let camera = scene.camera(panel, false).zip(scene.at(landmark));
+    if let Some((camera, at)) = camera {
+        let projection = camera.projection(rect.width() as usize, rect.height() as usize);
+        let seen_at = projection.project(at);
+        let at = rect
+            .shrink(2.0)
+            .clamp(rect.min + vec2(seen_at.x, seen_at.y));
+        let radius = (rect.height() * 0.07).clamp(3.0, 6.0);
+        ui.painter()
+            .circle_filled(at, radius, seen.colours().playhead);
+    }
+    true
+}
+
+/// Returns the picture of a panel where it is drawn.
+fn picture(ui: &Ui, panel: Panel, turned: bool, dark: bool) -> Option<TextureId> {
+    gallery::picture(ui.ctx(), key((panel, turned, dark)), move || {
+        let height = 300.0 * FINER;
+        let size = [(height * panel.aspect()) as usize, height as usize];
+        places::scene()?.draw(panel, turned, size, dark)
+    })
+}
+
+fn image(painter: &Painter, texture: TextureId, rect: Rect) {
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    painter.image(texture, rect, whole, Color32::WHITE);
+}
+
+fn key(of: impl Hash) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    ("body", of).hash(&mut hasher);
+    hasher.finish()
+}

@@ -1,0 +1,139 @@
+//! Cells that can be walked through and picked, wherever a picker puts them.
+
+use chereme_sign::Inventory;
+use chereme_sign::inventory::InventoryValue;
+use eframe::egui::{EventFilter, Id, Rect, Response, Role, Sense, Ui, WidgetInfo};
+
+use super::data::{self, walk};
+use super::keys::Pressed;
+use super::{Picker, Seen};
+use crate::words::{fill, pickers as words};
+
+/// A value and where it is shown.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cell {
+    /// Its place in the inventory.
+    pub(super) value: usize,
+    pub(super) rect: Rect,
+}
+
+/// How a cell is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct State {
+    /// Its place among the cells.
+    pub(super) number: usize,
+    /// It is the value there is.
+    pub(super) chosen: bool,
+    /// The keys are at it.
+    pub(super) at: bool,
+    pub(super) hovered: bool,
+}
+
+/// What all cells of a picker share.
+pub(super) struct Cells<'a> {
+    pub(super) seen: &'a Seen<'a>,
+    pub(super) inventory: &'a Inventory,
+    pub(super) chosen: Option<&'a str>,
+    pub(super) pressed: Pressed,
+}
+
+/// Returns whether a cell of the picker has the focus of the keyboard.
+pub(super) fn focused(ui: &Ui, picker: &Picker) -> bool {
+    picker
+        .focus
+        .is_some_and(|id| ui.memory(|memory| memory.has_focus(id)))
+}
+
+impl Cells<'_> {
+    /// Draws cells with `paint`, and returns the id of the value that was picked.
+    pub(super) fn show(
+        &self,
+        ui: &mut Ui,
+        picker: &mut Picker,
+        cells: &[Cell],
+        mut paint: impl FnMut(&Ui, &Cell, State),
+    ) -> Option<String> {
+        let id_of = |cell: &Cell| self.inventory.values[cell.value].id.as_str();
+        let mut at = cells
+            .iter()
+            .position(|cell| Some(id_of(cell)) == picker.at.as_deref());
+        if let Some(way) = self.pressed.way {
+            let rects: Vec<Rect> = cells.iter().map(|cell| cell.rect).collect();
+            at = Some(at.map_or(0, |at| walk(&rects, at, way)));
+        }
+        let mut picked = None;
+        let focused = focused(ui, picker);
+        let moved = self.pressed.way.is_some();
+        for (number, cell) in cells.iter().enumerate() {
+            let response = self.cell(ui, cell, id_of(cell));
+            if response.hovered() && ui.input(|input| input.pointer.is_moving()) {
+                at = Some(number);
+            }
+            if moved && at == Some(number) {
+                ui.scroll_to_rect(cell.rect, None);
+                if focused {
+                    response.request_focus();
+                }
+            }
+            if response.has_focus() {
+                hold_arrows(ui, &response);
+                picker.focus = Some(response.id);
+                if !moved {
+                    at = Some(number);
+                }
+            }
+            if response.clicked() {
+                picked = Some(number);
+            }
+            let state = State {
+                number,
+                chosen: self.chosen == Some(id_of(cell)),
+                at: at == Some(number),
+                hovered: response.hovered(),
+            };
+            if ui.is_rect_visible(cell.rect) {
+                paint(ui, cell, state);
+            }
+        }
+        if let Some(at) = at {
+            picker.at = Some(id_of(&cells[at]).to_owned());
+        }
+        let by_key = if self.pressed.enter {
+            at.or(Some(0))
+        } else {
+            self.pressed.digit
+        };
+        let picked = picked.or(by_key).and_then(|number| cells.get(number))?;
+        Some(id_of(picked).to_owned())
+    }
+
+    /// Lets a circle on a picture be picked.
+    pub(super) fn zone(&self, ui: &Ui, rect: Rect, key: Id, value: &InventoryValue) -> Response {
+        let response = ui.interact(rect, key, Sense::click());
+        let label = data::label(value, self.seen.language);
+        let chosen = self.chosen == Some(value.id.as_str());
+        let name = fill(self.seen.say(words::ZONE), &[("value", &label)]);
+        response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &name));
+        response.on_hover_text(label)
+    }
+
+    fn cell(&self, ui: &Ui, cell: &Cell, id: &str) -> Response {
+        let key = ui.scope_id().with(("cell", id));
+        let response = ui.interact(cell.rect, key, Sense::click());
+        let label = data::label(&self.inventory.values[cell.value], self.seen.language);
+        let chosen = self.chosen == Some(id);
+        response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &label));
+        let tip = fill(self.seen.say(words::TIP), &[("value", &label)]);
+        response.on_hover_text(tip)
+    }
+}
+
+/// Keeps the arrow keys from moving the focus out of the picker.
+fn hold_arrows(ui: &Ui, response: &Response) {
+    let arrows = EventFilter {
+        horizontal_arrows: true,
+        vertical_arrows: true,
+        ..EventFilter::default()
+    };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+}

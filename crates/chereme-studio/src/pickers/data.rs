@@ -1,0 +1,255 @@
+//! Which values a picker shows, in which order, and how.
+
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use chereme_motion::HandAngles;
+use chereme_sign::inventory::{InventoryValue, builtin_by_id};
+use chereme_sign::text::fold;
+use chereme_sign::{Component, Inventory};
+use eframe::egui::{Rect, Vec2, vec2};
+
+use crate::words::Language;
+
+/// How the values of an inventory are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// Pictures of hands.
+    Hands,
+    /// Places on a body.
+    Body,
+    /// Arrows around a middle.
+    Rose,
+    /// Drawn movements.
+    Glyphs,
+    /// Names only.
+    Names,
+}
+
+/// Returns how the values of an inventory are shown.
+pub(crate) fn kind(inventory: &Inventory) -> Kind {
+    let any = |test: fn(&InventoryValue) -> bool| inventory.values.iter().any(test);
+    let directed = |value: &InventoryValue| value.direction.is_some() || value.roll.is_some();
+    match inventory.component {
+        Component::Configuration if inventory.values.iter().any(|it| hand(it).is_some()) => {
+            Kind::Hands
+        }
+        Component::Placement if any(|value| value.landmark.is_some()) => Kind::Body,
+        Component::Movement | Component::Orientation if any(directed) => Kind::Rose,
+        Component::Movement if inventory.feature.is_none() => Kind::Glyphs,
+        _ => Kind::Names,
+    }
+}
+
+/// Returns the shape of the hand that a value stands for: its own, or that of the handshape of the
+/// house that it names or is called like.
+pub(crate) fn hand(value: &InventoryValue) -> Option<HandAngles> {
+    static HOUSE: LazyLock<BTreeMap<String, HandAngles>> = LazyLock::new(|| {
+        let values = builtin_by_id("configurations").map(|it| it.values.iter());
+        let named = |value: &'static InventoryValue| {
+            let pose = value.pose?;
+            Some(value.spellings().map(move |text| (fold(text), pose)))
+        };
+        let mut all = BTreeMap::new();
+        for (name, pose) in values.into_iter().flatten().filter_map(named).flatten() {
+            all.entry(name).or_insert(pose);
+        }
+        all
+    });
+    let name = value.configuration.as_deref().unwrap_or(&value.id);
+    value.pose.or_else(|| HOUSE.get(&fold(name)).copied())
+}
+
+/// Returns what a value is called: its id, and its name where that is another.
+pub(crate) fn label(value: &InventoryValue, language: Language) -> String {
+    let name = value.name(language.code());
+    if fold(name) == fold(&value.id) {
+        name.to_owned()
+    } else {
+        format!("{}, {name}", value.id)
+    }
+}
+
+/// Returns the places of the values that `filter` fits, those that are called so first.
+pub(crate) fn fitting(inventory: &Inventory, filter: &str) -> Vec<usize> {
+    let wanted = fold(filter.trim());
+    let rank = |value: &InventoryValue| {
+        let spellings: Vec<String> = value.spellings().map(fold).collect();
+        if spellings.contains(&wanted) {
+            return Some(0);
+        }
+        if spellings.iter().any(|it| it.starts_with(&wanted)) {
+            return Some(1);
+        }
+        let holds = |word: &str| {
+            spellings.iter().any(|it| it.contains(word))
+                || value.features.iter().any(|it| fold(it).starts_with(word))
+        };
+        wanted.split_whitespace().all(holds).then_some(2)
+    };
+    let mut found: Vec<(u8, usize)> = inventory
+        .values
+        .iter()
+        .enumerate()
+        .filter_map(|(at, value)| Some((rank(value)?, at)))
+        .collect();
+    if !wanted.is_empty() {
+        found.sort_by_key(|(rank, _)| *rank);
+    }
+    found.into_iter().map(|(_, at)| at).collect()
+}
+
+/// Returns whether a value of the inventory is called by a name that begins with a digit, so that
+/// digits must be typed.
+pub(crate) fn has_numbers(inventory: &Inventory) -> bool {
+    let digit = |text: &str| text.starts_with(|c: char| c.is_ascii_digit());
+    inventory.values.iter().any(|it| it.spellings().any(digit))
+}
+
+/// Returns the size of a cell, at least.
+pub(crate) fn cell(kind: Kind) -> Vec2 {
+    match kind {
+        Kind::Hands => vec2(84.0, 98.0),
+        Kind::Glyphs => vec2(84.0, 72.0),
+        _ => vec2(150.0, 30.0),
+    }
+}
+
+/// Returns the width that a picker is good at.
+pub(crate) fn width(kind: Kind) -> f32 {
+    match kind {
+        Kind::Body => 680.0,
+        Kind::Hands => 560.0,
+        Kind::Rose | Kind::Glyphs => 460.0,
+        Kind::Names => 340.0,
+    }
+}
+
+/// A way to walk.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Way {
+    Left,
+    Right,
+    Up,
+    Down,
+}
+
+/// Returns the cell that is next from `at` that way: the nearest of those that lie more that way than
+/// aside; left and right go on in the order of the cells where there is none.
+pub(crate) fn walk(rects: &[Rect], at: usize, way: Way) -> usize {
+    let Some(here) = rects.get(at).map(Rect::center) else {
+        return 0;
+    };
+    let away = |rect: &Rect| {
+        let to = rect.center() - here;
+        let (ahead, aside) = match way {
+            Way::Left => (-to.x, to.y.abs()),
+            Way::Right => (to.x, to.y.abs()),
+            Way::Up => (-to.y, to.x.abs()),
+            Way::Down => (to.y, to.x.abs()),
+        };
+        let most = match way {
+            Way::Left | Way::Right => 0.9,
+            Way::Up | Way::Down => 1.5,
+        };
+        (ahead > 1.0 && aside <= ahead * most).then_some(ahead + 2.0 * aside)
+    };
+    let nearest = rects
+        .iter()
+        .enumerate()
+        .filter_map(|(index, rect)| Some((away(rect)?, index)))
+        .min_by(|a, b| a.0.total_cmp(&b.0));
+    match (nearest, way) {
+        (Some((_, index)), _) => index,
+        (None, Way::Right) => (at + 1).min(rects.len() - 1),
+        (None, Way::Left) => at.saturating_sub(1),
+        _ => at,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_sign::inventory::builtin;
+    use eframe::egui::pos2;
+
+    fn ids(inventory: &str, filter: &str) -> Vec<&'static str> {
+        let inventory = builtin_by_id(inventory).expect("one of the house");
+        fitting(inventory, filter)
+            .into_iter()
+            .map(|at| inventory.values[at].id.as_str())
+            .collect()
+    }
+
+    #[test]
+    fn what_is_called_so_comes_first_then_what_begins_so_then_what_holds_every_word() {
+        assert_eq!(ids("configurations", "u")[0], "U");
+        assert_eq!(ids("configurations", "")[0], "A");
+        assert!(ids("configurations", "index middle bent").contains(&"U-bent"));
+        assert_eq!(ids("placements", "menton")[0], "chin");
+        assert!(ids("placements", "no such place").is_empty());
+    }
+
+    #[test]
+    fn every_inventory_of_the_house_is_shown_as_what_it_is() {
+        let kinds: Vec<(String, Kind)> = builtin()
+            .iter()
+            .map(|it| (it.id.clone(), kind(it)))
+            .filter(|(_, kind)| *kind != Kind::Names)
+            .collect();
+        let kinds: Vec<(&str, Kind)> = kinds
+            .iter()
+            .map(|(id, kind)| (id.as_str(), *kind))
+            .collect();
+        assert_eq!(
+            kinds,
+            [
+                ("configurations", Kind::Hands),
+                ("lsf-alphabet", Kind::Hands),
+                ("placements", Kind::Body),
+                ("movements", Kind::Glyphs),
+                ("directions", Kind::Rose),
+                ("palm", Kind::Rose),
+                ("fingers", Kind::Rose),
+            ]
+        );
+        let configurations = builtin_by_id("configurations").expect("of the house");
+        assert!(configurations.values.iter().all(|it| hand(it).is_some()));
+        assert!(has_numbers(configurations));
+        assert!(!has_numbers(
+            builtin_by_id("placements").expect("of the house")
+        ));
+    }
+
+    #[test]
+    fn labels_hold_id_and_name() {
+        let label = |inventory, id| {
+            let inventory = builtin_by_id(inventory).expect("of the house");
+            label(inventory.get(id).expect("a value"), Language::English)
+        };
+        assert_eq!(label("placements", "chin"), "chin");
+        assert_eq!(
+            label("configurations", "U"),
+            "U, index and middle finger together"
+        );
+    }
+
+    #[test]
+    fn one_walks_to_what_lies_that_way_and_never_out() {
+        // A table of three columns with five cells.
+        let cell = |n: usize| {
+            let at = pos2((n % 3) as f32 * 10.0, (n / 3) as f32 * 10.0);
+            Rect::from_min_size(at, vec2(9.0, 9.0))
+        };
+        let rects: Vec<Rect> = (0..5).map(cell).collect();
+        assert_eq!(walk(&rects, 0, Way::Right), 1);
+        assert_eq!(walk(&rects, 2, Way::Right), 3);
+        assert_eq!(walk(&rects, 3, Way::Left), 2);
+        assert_eq!(walk(&rects, 1, Way::Down), 4);
+        assert_eq!(walk(&rects, 4, Way::Up), 1);
+        assert_eq!(walk(&rects, 4, Way::Down), 4);
+        assert_eq!(walk(&rects, 4, Way::Right), 4);
+        assert_eq!(walk(&rects, 0, Way::Left), 0);
+        assert_eq!(walk(&[], 3, Way::Left), 0);
+    }
+}

@@ -1,0 +1,82 @@
+//! Pictures that are drawn once, on a thread of their own, and kept.
+
+use std::collections::BTreeMap;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use eframe::egui::{ColorImage, Context, Id, TextureHandle, TextureId, TextureOptions};
+
+/// What is drawn; nothing where it cannot be.
+type Drawing = Box<dyn FnOnce() -> Option<ColorImage> + Send>;
+
+struct Wish {
+    key: u64,
+    draw: Drawing,
+    /// Who is woken when it is drawn.
+    ctx: Context,
+}
+
+/// The pictures of a window.
+struct Gallery {
+    wishes: Sender<Wish>,
+    drawn: Receiver<(u64, Option<ColorImage>)>,
+    /// What was wished for; nothing as long as it is not drawn.
+    textures: BTreeMap<u64, Option<TextureHandle>>,
+}
+
+impl Gallery {
+    fn new() -> Self {
+        let (wishes, orders) = channel::<Wish>();
+        let (tell, drawn) = channel();
+        // It ends with the window, which holds the other end.
+        std::thread::spawn(move || {
+            while let Ok(Wish { key, draw, ctx }) = orders.recv() {
+                if tell.send((key, draw())).is_err() {
+                    return;
+                }
+                ctx.request_repaint();
+            }
+        });
+        Self {
+            wishes,
+            drawn,
+            textures: BTreeMap::new(),
+        }
+    }
+
+    fn take_drawn(&mut self, ctx: &Context) {
+        while let Ok((key, image)) = self.drawn.try_recv() {
+            let texture = image
+                .map(|image| ctx.load_texture(format!("{key:x}"), image, TextureOptions::LINEAR));
+            self.textures.insert(key, texture);
+        }
+    }
+}
+
+/// Returns the picture of that key where it is drawn; wished for the first time, it is drawn.
+pub(super) fn picture(
+    ctx: &Context,
+    key: u64,
+    draw: impl FnOnce() -> Option<ColorImage> + Send + 'static,
+) -> Option<TextureId> {
+    let gallery = ctx.data_mut(|data| {
+        data.get_temp_mut_or_insert_with(Id::unique("gallery of values"), || {
+            Arc::new(Mutex::new(Gallery::new()))
+        })
+        .clone()
+    });
+    let mut gallery = gallery.lock().unwrap_or_else(PoisonError::into_inner);
+    gallery.take_drawn(ctx);
+    if let Some(texture) = gallery.textures.get(&key) {
+        return texture.as_ref().map(TextureHandle::id);
+    }
+    gallery.textures.insert(key, None);
+    let wish = Wish {
+        key,
+        draw: Box::new(draw),
+        ctx: ctx.clone(),
+    };
+    // A thread that died draws nothing more, and the name stands for the picture.
+    let _ = gallery.wishes.send(wish);
+    None
+}

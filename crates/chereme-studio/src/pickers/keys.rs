@@ -1,0 +1,58 @@
+//! The keys of a picker.
+
+use eframe::egui::{Event, Key, Modifiers, Ui};
+
+use super::data::Way;
+
+/// What was pressed in a picker in this frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Pressed {
+    pub(super) way: Option<Way>,
+    pub(super) enter: bool,
+    /// The cell of that number, counted from 0.
+    pub(super) digit: Option<usize>,
+}
+
+const DIGITS: [Key; 9] = [
+    Key::Num1,
+    Key::Num2,
+    Key::Num3,
+    Key::Num4,
+    Key::Num5,
+    Key::Num6,
+    Key::Num7,
+    Key::Num8,
+    Key::Num9,
+];
+
+/// Takes the picker's keys out of the input; `digits` says whether they count without Ctrl.
+pub(super) fn take(ui: &Ui, digits: bool) -> Pressed {
+    ui.input_mut(|input| {
+        let mut pressed = |key| input.consume_key(Modifiers::NONE, key);
+        let way = [
+            (Key::ArrowLeft, Way::Left),
+            (Key::ArrowRight, Way::Right),
+            (Key::ArrowUp, Way::Up),
+            (Key::ArrowDown, Way::Down),
+        ]
+        .into_iter()
+        .find(|(key, _)| pressed(*key))
+        .map(|(_, way)| way);
+        let enter = pressed(Key::Enter);
+        let mut digit = DIGITS
+            .iter()
+            .position(|key| input.consume_key(Modifiers::COMMAND, *key));
+        if digits && digit.is_none() {
+            digit = DIGITS
+                .iter()
+                .position(|key| input.consume_key(Modifiers::NONE, *key));
+            if let Some(digit) = digit {
+                let typed = (digit + 1).to_string();
+                input
+                    .events
+                    .retain(|event| !matches!(event, Event::Text(text) if *text == typed));
+            }
+        }
+        Pressed { way, enter, digit }
+    })
+}

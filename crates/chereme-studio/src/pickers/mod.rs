@@ -1,0 +1,272 @@
+//! Values picked by looking: handshapes from pictures, placements on a body, movements from glyphs,
+//! orientations from a rose of directions; any other inventory from its names.
+//!
+//! [`pick`] draws the picker that fits an inventory and returns the id of the value that was picked;
+//! [`button`] is the same behind a button that shows the value there is; [`picture`] draws one value,
+//! wherever it stands. A picker's state is a [`Picker`], one for each place that picks.
+//!
+//! In every picker one types to filter, walks with the arrow keys, and picks with Enter, with the
+//! mouse, or with Ctrl and the digit on the cell; the digit alone is enough where no value is called
+//! by a number. Every cell is labelled as [`data::label`] says.
+
+pub(crate) mod data;
+
+mod body;
+mod cells;
+mod gallery;
+mod glyph;
+mod keys;
+mod paint;
+mod places;
+mod rose;
+
+use chereme_sign::Inventory;
+use eframe::egui::{
+    Id, Popup, PopupCloseBehavior, Rect, Response, RichText, Role, ScrollArea, Sense, StrokeKind,
+    TextEdit, TextStyle, Ui, WidgetInfo, WidgetText, pos2, vec2,
+};
+
+use crate::context::Seen;
+use crate::words::{fill, pickers as words};
+use cells::{Cell, Cells};
+use data::Kind;
+use keys::Pressed;
+
+/// The state of a picker.
+#[derive(Debug, Default)]
+pub(crate) struct Picker {
+    filter: String,
+    /// The value that the keys are at, by its id.
+    at: Option<String>,
+    /// The cell that has the focus.
+    focus: Option<Id>,
+    /// It was just opened: what is typed shall go to it.
+    fresh: bool,
+    /// Of places: those in space rather than those on the body, from the side, and how far off.
+    space: bool,
+    turned: bool,
+    depth: usize,
+}
+
+impl Picker {
+    /// Returns one that takes the keyboard when it is drawn first.
+    pub(crate) fn fresh() -> Self {
+        Self {
+            fresh: true,
+            depth: 1,
+            ..Self::default()
+        }
+    }
+}
+
+/// Draws the picker of an inventory, and returns the id of the value that was picked.
+///
+/// `chosen` is the value there is; the picker takes the width that there is, and the height it needs.
+pub(crate) fn pick(
+    ui: &mut Ui,
+    picker: &mut Picker,
+    seen: &Seen<'_>,
+    inventory: &Inventory,
+    chosen: Option<&str>,
+) -> Option<String> {
+    if picker.at.is_none() {
+        picker.at = chosen.map(str::to_owned);
+    }
+    ui.push_id(("picker", &inventory.id), |ui| {
+        let pressed = filter(ui, picker, seen, inventory);
+        let shown = data::fitting(inventory, &picker.filter);
+        if shown.is_empty() {
+            ui.label(fill(seen.say(words::NONE), &[("text", &picker.filter)]));
+            return None;
+        }
+        let cells = Cells {
+            seen,
+            inventory,
+            chosen,
+            pressed,
+        };
+        let picked = match data::kind(inventory) {
+            Kind::Body => body::show(ui, picker, &cells, &shown),
+            Kind::Rose => rose::show(ui, picker, &cells, &shown),
+            kind => grid(ui, picker, &cells, &shown, kind),
+        };
+        let at = picker.at.as_deref().and_then(|id| inventory.get(id));
+        let label = at.map(|value| data::label(value, seen.language));
+        let hint = label.map_or(String::new(), |label| {
+            fill(seen.say(words::ENTER), &[("value", &label)])
+        });
+        ui.label(RichText::new(hint).small());
+        picked
+    })
+    .inner
+}
+
+/// Draws a button with the value there is; pressed, the picker opens below it. Returns the id of the
+/// value that was picked. `name` says what the value is of, for those who do not see it.
+pub(crate) fn button(
+    ui: &mut Ui,
+    picker: &mut Picker,
+    seen: &Seen<'_>,
+    inventory: &Inventory,
+    chosen: Option<&str>,
+    name: &str,
+) -> Option<String> {
+    let response = face(ui, seen, inventory, chosen, name);
+    if response.clicked() {
+        *picker = Picker::fresh();
+    }
+    let screen = ui.ctx().content_rect().size();
+    let popup = Popup::from_toggle_button_response(&response)
+        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .accessible_name(name);
+    let width = data::width(data::kind(inventory)).min(screen.x - 48.0);
+    let id = popup.get_id();
+    let picked = popup.show(|ui| {
+        ui.set_width(width);
+        ui.set_max_height((screen.y - 120.0).min(440.0));
+        pick(ui, picker, seen, inventory, chosen)
+    });
+    let picked = picked.and_then(|it| it.inner);
+    if picked.is_some() {
+        Popup::close_id(ui.ctx(), id);
+        response.request_focus();
+    }
+    picked
+}
+
+/// Paints the picture of a value where it has one: a hand, a place on the body, a glyph, an arrow.
+/// Returns whether it has.
+#[allow(dead_code, reason = "for whoever shows values")]
+pub(crate) fn picture(
+    ui: &Ui,
+    rect: Rect,
+    seen: &Seen<'_>,
+    inventory: &Inventory,
+    value: &str,
+) -> bool {
+    inventory
+        .find(value)
+        .is_some_and(|value| paint::value(ui, rect, seen, inventory, value))
+}
+
+fn filter(ui: &mut Ui, picker: &mut Picker, seen: &Seen<'_>, inventory: &Inventory) -> Pressed {
+    let id = ui.scope_id().with("filter");
+    let focused = ui.memory(|memory| memory.has_focus(id));
+    let here = focused || cells::focused(ui, picker);
+    let digits = !data::has_numbers(inventory);
+    let pressed = if here {
+        keys::take(ui, digits && focused)
+    } else {
+        Pressed::default()
+    };
+    let before = picker.filter.clone();
+    let hint = seen.say(words::FILTER);
+    let field = TextEdit::singleline(&mut picker.filter)
+        .id(id)
+        .hint_text(hint)
+        .desired_width(f32::INFINITY);
+    let response = ui.add(field);
+    let text = picker.filter.clone();
+    response.widget_info(|| WidgetInfo {
+        label: Some(hint.to_owned()),
+        ..WidgetInfo::text_edit(true, &before, &text, hint)
+    });
+    if std::mem::take(&mut picker.fresh) {
+        response.request_focus();
+    }
+    if response.changed() {
+        picker.at = data::fitting(inventory, &picker.filter)
+            .first()
+            .map(|at| inventory.values[*at].id.clone());
+    }
+    pressed
+}
+
+/// Draws values in rows.
+fn grid(
+    ui: &mut Ui,
+    picker: &mut Picker,
+    cells: &Cells<'_>,
+    shown: &[usize],
+    kind: Kind,
+) -> Option<String> {
+    let size = data::cell(kind);
+    let gap = 4.0;
+    let room = ui.available_width() - 12.0;
+    let columns = ((room + gap) / (size.x + gap)).floor().max(1.0) as usize;
+    let size = vec2((room + gap) / columns as f32 - gap, size.y);
+    let rows = shown.len().div_ceil(columns);
+    let height = (ui.available_height() - 28.0).max(2.0 * size.y);
+    ScrollArea::vertical()
+        .id_salt("values")
+        .max_height(height)
+        .auto_shrink([false, true])
+        .show(ui, |ui| {
+            let whole = vec2(room, rows as f32 * (size.y + gap));
+            let (area, _) = ui.allocate_exact_size(whole, Sense::hover());
+            let at = |n: usize| {
+                let place = vec2((n % columns) as f32, (n / columns) as f32);
+                Rect::from_min_size(area.min + place * (size + vec2(gap, gap)), size)
+            };
+            let all: Vec<Cell> = shown
+                .iter()
+                .enumerate()
+                .map(|(n, value)| Cell {
+                    value: *value,
+                    rect: at(n),
+                })
+                .collect();
+            let digits = shown.len() > 1;
+            cells.show(ui, picker, &all, |ui, cell, state| {
+                let value = &cells.inventory.values[cell.value];
+                let digit = (digits && state.number < 9).then_some(state.number + 1);
+                paint::cell(ui, cell.rect, cells, value, &state, digit);
+            })
+        })
+        .inner
+}
+
+/// Draws the button of a value.
+fn face(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    inventory: &Inventory,
+    chosen: Option<&str>,
+    name: &str,
+) -> Response {
+    let value = chosen.and_then(|id| inventory.find(id));
+    let text = match (value, chosen) {
+        (Some(value), _) => value.id.clone(),
+        (None, Some(chosen)) => chosen.to_owned(),
+        (None, None) => seen.say(words::CHOOSE).to_owned(),
+    };
+    let value = value.filter(|value| paint::has(inventory, value));
+    let galley = WidgetText::from(text.as_str()).into_galley(ui, None, 160.0, TextStyle::Button);
+    let height = if value.is_some() {
+        36.0
+    } else {
+        ui.spacing().interact_size.y
+    };
+    let square = vec2(height - 4.0, height - 4.0);
+    let room = if value.is_some() { square.x } else { 0.0 };
+    let size = vec2(room + galley.size().x + 18.0, height);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response.widget_info(|| WidgetInfo {
+        current_text_value: Some(text.clone()),
+        ..WidgetInfo::labeled(Role::Button, true, name)
+    });
+    let visuals = *ui.style().interact(&response);
+    let (fill, stroke) = (visuals.weak_bg_fill, visuals.bg_stroke);
+    ui.painter()
+        .rect(rect, 5.0, fill, stroke, StrokeKind::Inside);
+    if let Some(value) = value {
+        let square = Rect::from_min_size(rect.min + vec2(2.0, 2.0), square);
+        paint::value(ui, square, seen, inventory, value);
+    }
+    let at = pos2(
+        rect.left() + room + 9.0,
+        rect.center().y - galley.size().y / 2.0,
+    );
+    ui.painter().galley(at, galley, visuals.text_color());
+    response
+}

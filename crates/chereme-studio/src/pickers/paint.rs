@@ -1,0 +1,182 @@
+//! How a value is painted: a hand, a place, a glyph, an arrow, or its name.
+
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use chereme_figure::palette::Theme;
+use chereme_figure::raster::Style;
+use chereme_figure::{HandshapeOptions, Image, handshape_picture};
+use chereme_motion::HandAngles;
+use chereme_sign::Inventory;
+use chereme_sign::inventory::InventoryValue;
+use eframe::egui::{
+    Align2, Color32, ColorImage, FontId, Rect, Stroke, StrokeKind, TextStyle, Ui, pos2, vec2,
+};
+
+use super::cells::{Cells, State};
+use super::data::{self, Kind};
+use super::{body, gallery, glyph, rose};
+use crate::context::Seen;
+
+/// Width and height of a hand's picture, in pixels.
+const HAND: usize = 144;
+
+/// Returns whether a value has a picture.
+pub(super) fn has(inventory: &Inventory, value: &InventoryValue) -> bool {
+    match data::kind(inventory) {
+        Kind::Hands => data::hand(value).is_some(),
+        Kind::Body => value.landmark.is_some(),
+        Kind::Rose => value.direction.is_some() || value.roll.is_some(),
+        Kind::Glyphs => glyph::of(&value.id).is_some(),
+        Kind::Names => false,
+    }
+}
+
+/// Paints a value's picture into `rect`; returns whether it has one.
+pub(super) fn value(
+    ui: &Ui,
+    rect: Rect,
+    seen: &Seen<'_>,
+    inventory: &Inventory,
+    value: &InventoryValue,
+) -> bool {
+    let colour = ui.visuals().text_color();
+    match data::kind(inventory) {
+        Kind::Hands => data::hand(value).is_some_and(|angles| {
+            hand(ui, rect, seen.dark, &angles);
+            true
+        }),
+        Kind::Body => body::icon(ui, rect, seen, value),
+        Kind::Rose => rose::arrow(ui.painter(), rect, value, colour),
+        Kind::Glyphs => glyph::paint(ui.painter(), rect, &value.id, colour),
+        Kind::Names => false,
+    }
+}
+
+/// Paints a cell of a table: its picture, its name below, its frame.
+pub(super) fn cell(
+    ui: &Ui,
+    rect: Rect,
+    cells: &Cells<'_>,
+    it: &InventoryValue,
+    state: &State,
+    digit: Option<usize>,
+) {
+    let colours = cells.seen.colours();
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    let paper = paper(cells.seen.dark);
+    painter.rect_filled(rect, 5.0, paper);
+    let name = TextStyle::Body.resolve(ui.style());
+    let text = ui.visuals().text_color();
+    let foot = 20.0;
+    let pictured = has(cells.inventory, it);
+    if pictured {
+        let side = (rect.height() - foot - 2.0).min(rect.width() - 4.0);
+        let square = Rect::from_center_size(
+            pos2(rect.center().x, rect.top() + 2.0 + side / 2.0),
+            vec2(side, side),
+        );
+        value(ui, square, cells.seen, cells.inventory, it);
+    }
+    let label = if pictured {
+        it.id.clone()
+    } else {
+        data::label(it, cells.seen.language)
+    };
+    let label = fitted(ui, label, &name, rect.width() - 8.0);
+    let at = if pictured {
+        pos2(rect.center().x, rect.bottom() - foot / 2.0 - 1.0)
+    } else {
+        rect.center()
+    };
+    painter.text(at, Align2::CENTER_CENTER, label, name, text);
+    if let Some(digit) = digit {
+        let small = FontId::proportional(10.0);
+        let at = rect.left_top() + vec2(5.0, 3.0);
+        let weak = ui.visuals().weak_text_color();
+        painter.text(at, Align2::LEFT_TOP, digit, small, weak);
+    }
+    frame(&painter, rect, state, colours.accent, colours.rule);
+}
+
+/// Paints the frame that tells how a cell is.
+pub(super) fn frame(
+    painter: &eframe::egui::Painter,
+    rect: Rect,
+    state: &State,
+    accent: Color32,
+    rule: Color32,
+) {
+    let stroke = match (state.at || state.hovered, state.chosen) {
+        (true, _) => Stroke::new(2.0, accent),
+        (false, true) => Stroke::new(1.5, accent.gamma_multiply(0.7)),
+        _ => Stroke::new(1.0, rule.gamma_multiply(0.6)),
+    };
+    if state.chosen {
+        painter.rect_filled(rect, 5.0, accent.gamma_multiply(0.14));
+    }
+    painter.rect_stroke(rect, 5.0, stroke, StrokeKind::Inside);
+}
+
+/// Returns as much of a text as fits into `width`.
+pub(super) fn fitted(ui: &Ui, text: String, font: &FontId, width: f32) -> String {
+    let wide = |text: &str| {
+        ui.painter()
+            .layout_no_wrap(text.to_owned(), font.clone(), Color32::WHITE)
+            .size()
+            .x
+    };
+    if wide(&text) <= width {
+        return text;
+    }
+    let mut letters: Vec<char> = text.chars().collect();
+    while letters.len() > 1 {
+        letters.pop();
+        let shorter: String = letters.iter().chain(&['…']).collect();
+        if wide(&shorter) <= width {
+            return shorter;
+        }
+    }
+    text
+}
+
+/// Returns the colour of the paper on which hands and bodies are drawn.
+pub(super) fn paper(dark: bool) -> Color32 {
+    let [r, g, b] = theme(dark).background().0;
+    Color32::from_rgb(r, g, b)
+}
+
+pub(super) fn theme(dark: bool) -> Theme {
+    if dark { Theme::Dark } else { Theme::Light }
+}
+
+fn hand(ui: &Ui, rect: Rect, dark: bool, angles: &HandAngles) {
+    let mut hasher = DefaultHasher::new();
+    ("hand", dark).hash(&mut hasher);
+    angles.to_array().map(f64::to_bits).hash(&mut hasher);
+    let angles = *angles;
+    let texture = gallery::picture(ui.ctx(), hasher.finish(), move || {
+        let usual = HandshapeOptions::default();
+        let options = HandshapeOptions {
+            size: HAND,
+            style: Style {
+                theme: theme(dark),
+                ..usual.style
+            },
+            ..usual
+        };
+        Some(colour_image(&handshape_picture(&angles, &options).ok()?))
+    });
+    if let Some(texture) = texture {
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        ui.painter().image(texture, rect, whole, Color32::WHITE);
+    }
+}
+
+/// Returns a picture as the window wants it.
+pub(super) fn colour_image(image: &Image) -> ColorImage {
+    let pixels = image
+        .pixels()
+        .iter()
+        .map(|it| Color32::from_rgb(it.0[0], it.0[1], it.0[2]));
+    ColorImage::new([image.width(), image.height()], pixels.collect())
+}

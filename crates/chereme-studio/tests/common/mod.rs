@@ -1,0 +1,99 @@
+//! What the tests that drive the window share.
+#![allow(dead_code, unreachable_pub, reason = "each test uses some of it")]
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use chereme_corpus::{Corpus, ImportOptions, Progress, unheard, unpack_starter};
+use chereme_studio::{Folders, Language, Options, Studio};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+
+pub type Window<'a> = Harness<'a, Studio>;
+
+pub fn options(folder: &Path) -> Options {
+    Options {
+        corpus: None,
+        author: "Zoé".into(),
+        folders: Folders {
+            config: Some(folder.join("config")),
+            data: Some(folder.join("data")),
+        },
+        language: Language::English,
+    }
+}
+
+pub fn window<'a>(options: Options) -> Window<'a> {
+    Harness::builder()
+        .with_size([1280.0, 1040.0])
+        .with_step_dt(1.0 / 60.0)
+        .build_ui_state(
+            |ui, studio: &mut Studio| studio.ui(ui),
+            Studio::new(options),
+        )
+}
+
+/// Draws frames until `done`; a minute is more than any of this takes.
+pub fn until(window: &mut Window<'_>, what: &str, done: impl Fn(&Window<'_>) -> bool) {
+    for _ in 0..12_000 {
+        window.step();
+        if done(window) {
+            window.step();
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    panic!("{what} never came");
+}
+
+pub fn idle(window: &mut Window<'_>) {
+    until(window, "an idle window", |window| window.state().is_idle());
+}
+
+pub fn has(window: &Window<'_>, label: &str) -> bool {
+    window.query_all_by_label(label).next().is_some()
+}
+
+pub fn click(window: &mut Window<'_>, label: &str) {
+    window.get_by_label(label).click();
+    window.step();
+    window.step();
+}
+
+pub fn open_starter<'a>(folder: &Path) -> Window<'a> {
+    let mut window = window(options(folder));
+    window.step();
+    click(&mut window, "Open the starter corpus");
+    until(&mut window, "the starter corpus", |window| {
+        has(window, "escargot")
+    });
+    idle(&mut window);
+    window
+}
+
+/// Returns a corpus with one recording and its tiers.
+pub fn small_corpus(folder: &Path) -> PathBuf {
+    let files = unpack_starter(&folder.join("files")).expect("unpacked");
+    let wanted = |path: &PathBuf| path.file_stem().is_some_and(|stem| stem == "escargot");
+    let files: Vec<PathBuf> = files.into_iter().filter(wanted).collect();
+    let path = folder.join("small.chereme");
+    let mut corpus = Corpus::create(&path, "A").expect("made");
+    let mut hear = unheard;
+    let mut progress = Progress::new(&mut hear);
+    let options = ImportOptions::default();
+    corpus
+        .import(&files, &options, &mut progress)
+        .expect("imported");
+    path
+}
+
+pub fn open_small<'a>(folder: &Path) -> Window<'a> {
+    let corpus = Some(small_corpus(folder));
+    let mut window = window(Options {
+        corpus,
+        ..options(folder)
+    });
+    until(&mut window, "the corpus", |window| has(window, "escargot"));
+    idle(&mut window);
+    window
+}
