@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 
 use chereme_compose::notation::{Settings, animate};
 
-/// The fastest that a wrist may go in metres a second: hands that must leave the trunk at once go
-/// faster than the 6 m/s that others keep.
-const FASTEST: f64 = 20.0;
+/// The fastest that a wrist may go in metres a second, and joints of an arm in radians a second.
+const FASTEST: f64 = 6.0;
+const TURNING: f64 = 45.0;
 /// Every so many signs are made on each body.
 const EVERY: usize = 12;
 
@@ -40,6 +40,11 @@ fn holds_on(body: &Path, folder: &Path, first: usize) {
             worst.speed < FASTEST,
             "{name}: a hand goes at {:.1} m/s",
             worst.speed
+        );
+        assert!(
+            worst.turning < TURNING,
+            "{name}: a joint turns at {:.0} rad/s",
+            worst.turning
         );
     }
 }

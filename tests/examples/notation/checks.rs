@@ -1,6 +1,7 @@
 //! What made movement must hold, measured from its joints alone.
 
 use chereme_compose::Made;
+use chereme_motion::anatomy::BodyFrame;
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Anatomy, ModelPose, Part, Side, Skeleton};
 
@@ -43,6 +44,8 @@ pub(crate) fn worst(made: &Made) -> Worst {
                 worst.bone = worst.bone.max((length(&model) - length(&rest)).abs());
             }
         }
+        let trunk = Trunk::of(anatomy, skeleton, &model);
+        let depth = |at: DVec3| trunk.as_ref().map_or(0.0, |trunk| trunk.depth(at));
         for side in Side::BOTH {
             let Some(arm) = anatomy.arm(side) else {
                 continue;
@@ -53,11 +56,9 @@ pub(crate) fn worst(made: &Made) -> Worst {
             let mut hand = anatomy.fingers(side);
             hand.push(arm.hand);
             for joint in hand {
-                let depth = depth(anatomy, skeleton, &model, model.position(joint));
-                worst.hand_depth = worst.hand_depth.max(depth);
+                worst.hand_depth = worst.hand_depth.max(depth(model.position(joint)));
             }
-            let elbow = depth(anatomy, skeleton, &model, model.position(arm.forearm));
-            worst.elbow_depth = worst.elbow_depth.max(elbow);
+            worst.elbow_depth = worst.elbow_depth.max(depth(model.position(arm.forearm)));
             if let Some(before) = &before {
                 let speed = |joint: usize| {
                     model.position(joint).distance(before.position(joint)) * per_second
@@ -116,41 +117,55 @@ fn wrist(anatomy: &Anatomy, model: &ModelPose, side: Side) -> (f64, f64) {
     (bend, turn)
 }
 
-/// Returns how deep a point lies in the trunk: below the surface through its landmarks, an ellipse
-/// at each height.
-fn depth(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose, at: DVec3) -> f64 {
-    let Some(frame) = anatomy.body_frame(model) else {
-        return 0.0;
-    };
-    let v = frame.to_body(at);
-    let names = [
-        "throat",
-        "upper-chest",
-        "chest",
-        "stomach",
-        "belly",
-        "abdomen",
-    ];
-    let front: Vec<DVec3> = names
-        .iter()
-        .filter_map(|name| anatomy.landmark(skeleton, model, name))
-        .map(|at| frame.to_body(at))
-        .collect();
-    for pair in front.windows(2) {
-        let [above, below] = [pair[0], pair[1]];
-        if v.y > above.y || v.y < below.y {
-            continue;
-        }
-        let w = (above.y - v.y) / (above.y - below.y);
-        let half = 0.42;
-        let across = 1.0 - (v.x / half).powi(2);
-        if across <= 0.0 || v.z < -0.2 {
-            return 0.0;
-        }
-        let front = above.z + (below.z - above.z) * w;
-        return (front * across.sqrt() - v.z).max(0.0) * frame.scale;
+/// The trunk's surface in one frame: through the landmarks of its front, an ellipse at each height.
+struct Trunk {
+    frame: BodyFrame,
+    front: Vec<DVec3>,
+}
+
+impl Trunk {
+    fn of(anatomy: &Anatomy, skeleton: &Skeleton, model: &ModelPose) -> Option<Self> {
+        let frame = anatomy.body_frame(model)?;
+        let names = [
+            "throat",
+            "upper-chest",
+            "chest",
+            "stomach",
+            "belly",
+            "abdomen",
+        ];
+        let front = names
+            .iter()
+            .filter_map(|name| anatomy.landmark(skeleton, model, name))
+            .map(|at| frame.to_body(at))
+            .collect();
+        Some(Self { frame, front })
     }
-    0.0
+
+    /// Returns how far a point within the trunk is from its front and sides, in metres, level.
+    fn depth(&self, at: DVec3) -> f64 {
+        let v = self.frame.to_body(at);
+        for (n, pair) in self.front.windows(2).enumerate() {
+            let [above, below] = [pair[0], pair[1]];
+            if v.y > above.y || v.y < below.y {
+                continue;
+            }
+            let w = (above.y - v.y) / (above.y - below.y);
+            // Between throat and chest the shoulders slope.
+            let half = 0.42 - 0.17 * (1.0 - w) * f64::from(u8::from(n == 0));
+            let front = above.z + (below.z - above.z) * w;
+            if v.z < -0.2 || (v.x / half).powi(2) + (v.z.max(0.0) / front).powi(2) >= 1.0 {
+                return 0.0;
+            }
+            let rim = (0..=180).map(|n| {
+                let (sin, cos) = f64::from(n).to_radians().sin_cos();
+                (v.x - half * cos).hypot(v.z - front * sin)
+            });
+            let nearest = rim.fold(half - v.x.abs(), f64::min);
+            return nearest.max(0.0) * self.frame.scale;
+        }
+        0.0
+    }
 }
 
 /// Returns whether the skeleton has a wrist at all.

@@ -2,7 +2,8 @@
 //!
 //! `cargo run --release -p chereme-tests --example notation -- table FOLDER BODY.bvh...` animates every
 //! `.sigml` file of a folder on each body and prints what came of it. `... -- draw FOLDER BODY.bvh OUT
-//! GLOSS...` draws contact sheets of some.
+//! GLOSS...` draws contact sheets of some. `... -- list FOLDER BODY.bvh` prints a line for each sign:
+//! its worst values, and what is said of it.
 
 #![allow(clippy::print_stdout)]
 
@@ -23,9 +24,10 @@ fn main() -> Result<()> {
         ["table", folder, bodies @ ..] if !bodies.is_empty() => {
             table::print(Path::new(folder), bodies)
         }
+        ["list", folder, body] => table::list(Path::new(folder), body),
         ["draw", folder, body, out, glosses @ ..] => {
             draw::sheets(Path::new(folder), Path::new(body), Path::new(out), glosses)
         }
-        _ => Err("say `table FOLDER BODY.bvh...` or `draw FOLDER BODY.bvh OUT GLOSS...`".into()),
+        _ => Err("say `table FOLDER BODY.bvh...`, `draw FOLDER BODY.bvh OUT GLOSS...` or `list FOLDER BODY.bvh`".into()),
     }
 }

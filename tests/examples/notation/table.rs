@@ -29,6 +29,30 @@ impl Worst {
     }
 }
 
+/// Prints a line for each sign, with tabs between.
+pub(crate) fn list(folder: &Path, path: &str) -> Result<()> {
+    let stage = bodies::stage(Path::new(path))?;
+    let settings = Settings {
+        rate: Rate::new(120, 1)?,
+        ..Settings::default()
+    };
+    println!("sign\thand depth\telbow depth\tspeed\tturning\tsaid");
+    for (name, notated) in &bodies::signs(folder)? {
+        let made = animate(&[notated], &stage, &settings)?;
+        let own = worst(&made);
+        println!(
+            "{name}\t{:.4}\t{:.4}\t{:.2}\t{:.1}\t{}",
+            own.hand_depth,
+            own.elbow_depth,
+            own.speed,
+            own.turning,
+            made.report.warnings.join("; ")
+        );
+    }
+    Ok(())
+}
+
+/// Prints what holds for all signs on each body.
 pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
     let signs = bodies::signs(folder)?;
     for path in paths {
@@ -38,7 +62,8 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
             ..Settings::default()
         };
         let mut all = Worst::default();
-        let (mut frames, mut failed, mut short, mut turned, mut pushed) = (0, 0, 0, 0, 0);
+        let (mut frames, mut failed, mut short, mut off, mut turned, mut pushed) =
+            (0, 0, 0, 0, 0, 0);
         let mut spent = std::time::Duration::ZERO;
         let mut list: Vec<(String, Worst)> = Vec::new();
         for (name, notated) in &signs {
@@ -55,7 +80,8 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
             frames += made.clip.frames();
             let warned =
                 |word: &str| usize::from(made.report.warnings.iter().any(|w| w.contains(word)));
-            short += warned("short of");
+            short += warned("short of what it touches");
+            off += warned("off its way");
             turned += warned("turned");
             pushed += warned("out of the trunk");
             let own = worst(&made);
@@ -69,7 +95,7 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
             frames as f64 / spent.as_secs_f64()
         );
         println!(
-            "  short of their place {short}, turned less {turned}, moved out of the trunk {pushed}"
+            "  short of what they touch {short}, off their way {off}, turned less {turned}, moved out of the trunk {pushed}"
         );
         println!("  worst: {all:?}");
         let by: [Judged; 6] = [

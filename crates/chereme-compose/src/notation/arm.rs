@@ -1,21 +1,16 @@
 //! Where the elbow goes: the rules of Kennaway, section 4.2, in closed form.
 //!
 //! The plane of the arm makes an angle with the vertical one through shoulder and wrist, small before
-//! the own shoulder, larger across the body; it gives way where the wrist would bend or the forearm
-//! turn too far, and where the upper arm would enter the trunk. Beyond most of its reach the collar
-//! bone helps. What the wrist cannot do, the hand does not: its orientation gives way last.
+//! the own shoulder, larger across the body; by how much it gives way is chosen in `solve`. Beyond
+//! most of its reach the collar bone helps, and draws back from what is too near. What the wrist
+//! cannot do, the hand does not.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Anatomy, ArmChain, ModelPose, Pose, Side, Skeleton};
 use chereme_sign::hamnosys::BodyLanguage;
 
-use super::stage::Torso;
-
 /// The share of the arm's length before full extension from which the elbow opens softly.
 const SOFT: f64 = 0.012;
-/// Turns of the arm's plane that are weighed, in degrees against the rule's.
-const TURNS: [f64; 9] = [-40.0, -27.0, -13.0, 0.0, 13.0, 27.0, 41.0, 55.0, 70.0];
-
 /// The bones of an arm on a body that stands still.
 pub(crate) struct Rig {
     pub(crate) side: Side,
@@ -59,6 +54,8 @@ pub(crate) struct Limits {
     own: f64,
     across: f64,
     help: (f64, f64),
+    /// How far a hand may be turned from what is written before it is turned otherwise.
+    pub(crate) tolerance: f64,
 }
 
 impl Limits {
@@ -78,6 +75,7 @@ impl Limits {
             own: angle(language.elbow_own_side),
             across: angle(language.elbow_across),
             help: (language.clavicle_from, angle(language.clavicle_most)),
+            tolerance: angle(language.tolerance).max(1e-3),
         }
     }
 }
@@ -100,26 +98,38 @@ impl WristAngles {
         part(self.flexion, limits.flexion).hypot(part(self.deviation, limits.deviation))
     }
 
-    /// Returns the angles nearest to these within the ranges of wrist and forearm, and within `most`
-    /// of those before.
-    pub(crate) fn allowed(&self, limits: &Limits, before: Option<&Self>, most: f64) -> Self {
+    /// Returns the angles nearest to these within the ranges of wrist and forearm; a forearm that
+    /// should turn past both ends stops at the `high` one, palm up, or at the other.
+    pub(crate) fn allowed(&self, limits: &Limits, high: bool) -> Self {
         let bend = self.bend(limits).max(1.0);
-        let near = |angle: f64, before: f64| before + (angle - before).clamp(-most, most);
         let [less, more] = limits.pronation;
-        let mut allowed = Self {
+        let turn = match (-less..=more).contains(&self.turn) {
+            true => self.turn,
+            false if high => more,
+            false => -less,
+        };
+        Self {
             flexion: self.flexion / bend,
             deviation: self.deviation / bend,
-            turn: self.turn.clamp(-less, more),
-        };
-        if let Some(before) = before {
-            allowed.flexion = near(allowed.flexion, before.flexion);
-            allowed.deviation = near(allowed.deviation, before.deviation);
-            allowed.turn = near(allowed.turn, before.turn);
-            let bend = allowed.bend(limits).max(1.0);
-            allowed.flexion /= bend;
-            allowed.deviation /= bend;
+            turn,
         }
-        allowed
+    }
+
+    /// Returns what is between two ways to hang; the ranges hold all that is between what they hold.
+    pub(crate) fn mix(&self, to: &Self, share: f64) -> Self {
+        let mix = |a: f64, b: f64| a + (b - a) * share;
+        Self {
+            flexion: mix(self.flexion, to.flexion),
+            deviation: mix(self.deviation, to.deviation),
+            turn: mix(self.turn, to.turn),
+        }
+    }
+
+    /// Returns the largest difference of an angle.
+    pub(crate) fn apart(&self, other: &Self) -> f64 {
+        let flexion = (self.flexion - other.flexion).abs();
+        let deviation = (self.deviation - other.deviation).abs();
+        flexion.max(deviation).max((self.turn - other.turn).abs())
     }
 
     /// Returns how far out of its range the forearm is turned, 1 at its end.
@@ -256,15 +266,19 @@ impl Rig {
     /// Returns the way from shoulder to wrist, moved out and forward where the elbow cannot bend as
     /// much as it would have to.
     fn not_too_near(&self, way: DVec3, limits: &Limits) -> DVec3 {
-        let [a, b] = self.lengths;
-        let near = a * a + b * b + 2.0 * a * b * limits.elbow.cos();
-        let missing = way.length_squared() - near;
+        let missing = way.length_squared() - self.nearest(limits);
         if missing >= 0.0 {
             return way;
         }
         let out = (self.forward * 0.8 + self.outside * 0.6).normalize();
         let along = way.dot(out);
         way + out * ((along * along - missing).sqrt() - along)
+    }
+
+    /// Returns the square of the least distance from shoulder to wrist.
+    fn nearest(&self, limits: &Limits) -> f64 {
+        let [a, b] = self.lengths;
+        a * a + b * b + 2.0 * a * b * limits.elbow.cos()
     }
 
     /// Returns how far to reach for a distance: softly up to the arm's length.
@@ -284,9 +298,12 @@ impl Rig {
         let Some(clavicle) = &self.clavicle else {
             return still;
         };
-        let missing = self.shoulder.distance(wrist) - limits.help.0 * self.length();
+        let far = self.shoulder.distance(wrist);
         let bone = self.shoulder - clavicle.at;
-        if missing <= 0.0 || bone.length() < 1e-6 || limits.help.1 <= 0.0 {
+        // Towards what is far, away from what is nearer than the elbow folds.
+        let near = 1.06 * self.nearest(limits).sqrt();
+        let missing = (far - limits.help.0 * self.length()).max(0.0) - (near - far).max(0.0);
+        if missing == 0.0 || bone.length() < 1e-6 || limits.help.1 <= 0.0 {
             return still;
         }
         let Some(axis) = bone.cross(wrist - clavicle.at).try_normalize() else {
@@ -298,13 +315,7 @@ impl Rig {
     }
 
     /// Returns how the wrist hangs in a posture with the hand turned so in model space.
-    pub(crate) fn wrist(
-        &self,
-        posed: &Posed,
-        hand: DQuat,
-        held: &Held,
-        limits: &Limits,
-    ) -> WristAngles {
+    pub(crate) fn wrist(&self, posed: &Posed, hand: DQuat, held: &Held) -> WristAngles {
         let forearm = (posed.wrist - posed.elbow).normalize_or(self.forward);
         let in_hand = hand.inverse() * forearm;
         let [a, p, r] = [held.along, held.palm, held.radial].map(|axis| in_hand.dot(axis));
@@ -316,12 +327,6 @@ impl Rig {
         let out = self.elbow_out(posed, forearm);
         let inner = forearm.cross(out) * -self.side.sign();
         let turn = forearm.dot(inner.cross(aligned)).atan2(inner.dot(aligned)) * -self.side.sign();
-        // Past its range a forearm is rather turned palm down too far than palm up.
-        let turn = if turn > limits.pronation[1] * 1.1 {
-            turn - std::f64::consts::TAU
-        } else {
-            turn
-        };
         WristAngles {
             flexion,
             deviation,
@@ -332,36 +337,6 @@ impl Rig {
     /// Returns where the elbow points across the forearm.
     fn elbow_out(&self, posed: &Posed, forearm: DVec3) -> DVec3 {
         posed.across.cross(forearm).normalize_or(self.outside)
-    }
-
-    /// Returns by how much the arm's plane should give way for the hand and the trunk, in radians:
-    /// the mean of turns weighed by how well each suits, so that it follows the hand without jumps.
-    pub(crate) fn turn(
-        &self,
-        wrist: DVec3,
-        hand: DQuat,
-        held: &Held,
-        limits: &Limits,
-        torso: &Torso,
-    ) -> f64 {
-        let (mut sum, mut weights) = (0.0, 0.0);
-        for degrees in TURNS {
-            let turn = degrees.to_radians();
-            let posed = self.reach(wrist, turn, limits);
-            let angles = self.wrist(&posed, hand, held, limits);
-            let bend = (angles.bend(limits) - 0.6).max(0.0);
-            let twist = (angles.turned(limits) - 0.75).max(0.0);
-            let mut cost = (degrees / 36.0).powi(2) + 14.0 * bend * bend + 14.0 * twist * twist;
-            for share in [0.6, 1.0] {
-                let at = posed.shoulder.lerp(posed.elbow, share);
-                let depth = torso.depth(at, 0.035).max(0.0) / self.length();
-                cost += 4000.0 * depth * depth;
-            }
-            let weight = (-3.0 * cost).exp().max(1e-30);
-            sum += turn * weight;
-            weights += weight;
-        }
-        sum / weights
     }
 
     /// Returns the rotation in model space of a hand that hangs on its forearm like this.
@@ -380,6 +355,18 @@ impl Rig {
         (straight * arc(in_hand.normalize(), held.along)).normalize()
     }
 
+    /// Returns the rotations in model space of upper arm, forearm and hand.
+    pub(crate) fn turned(&self, posed: &Posed, hand: DQuat) -> [DQuat; 3] {
+        let up = (posed.elbow - posed.shoulder).normalize_or(self.forward);
+        let fore = (posed.wrist - posed.elbow).normalize_or(up);
+        let out = posed.across.cross(up).normalize_or(self.outside);
+        let upper = basis(up, out) * basis(self.bones[0], self.elbow).inverse();
+        let base = upper * self.between[0] * self.rest[0];
+        let forearm = arc(base * self.bones[1], fore) * base;
+        let rest = forearm * self.between[1] * self.rest[1];
+        [upper, twist(hand * rest.inverse(), fore) * forearm, hand]
+    }
+
     /// Returns the local rotations of [`joints`](Self::joints) for a posture and the hand's rotation
     /// in model space.
     pub(crate) fn rotations(&self, posed: &Posed, hand: DQuat) -> [DQuat; 4] {
@@ -390,15 +377,7 @@ impl Rig {
             }
             None => (DQuat::IDENTITY, self.above),
         };
-        let up = (posed.elbow - posed.shoulder).normalize_or(self.forward);
-        let fore = (posed.wrist - posed.elbow).normalize_or(up);
-        let out = posed.across.cross(up).normalize_or(self.outside);
-        let upper = basis(up, out) * basis(self.bones[0], self.elbow).inverse();
-        let base = upper * self.between[0] * self.rest[0];
-        let forearm = arc(base * self.bones[1], fore) * base;
-        let rest = forearm * self.between[1] * self.rest[1];
-        let twist = twist(hand * rest.inverse(), fore);
-        let forearm = twist * forearm;
+        let [upper, forearm, hand] = self.turned(posed, hand);
         [
             clavicle.normalize(),
             (above.inverse() * upper).normalize(),

@@ -13,7 +13,9 @@
 //! | `stage` | the body: its surface, points of its hands |
 //! | `thumb`, `rest` | the thumb of a pinch; hands at rest |
 //! | `arm` | elbow, collar bone, wrist |
-//! | `track` | from events to frames |
+//! | `track` | from events to what hands should do in each frame |
+//! | `solve` | from that to postures of an arm, without jumps |
+//! | `warp` | time stretched where an arm would go too fast |
 //! | `notes` | what is said about the movement |
 
 mod arm;
@@ -24,11 +26,13 @@ mod path;
 mod place;
 mod plan;
 mod rest;
+mod solve;
 mod stage;
 #[cfg(test)]
 mod tests;
 mod thumb;
 mod track;
+mod warp;
 
 use std::sync::Arc;
 
@@ -43,6 +47,7 @@ use pace::Paces;
 use plan::{Plan, Planner};
 use stage::Stage;
 use track::{Fit, Track};
+use warp::{Fastest, Warp};
 
 /// The most frames that are made at once: ten minutes at 120 Hz.
 const MOST_FRAMES: usize = 72_000;
@@ -103,33 +108,36 @@ pub fn animate(
     let planner = Planner::new(&body, &settings.language, stage.handedness);
     let limits = planner.limits;
     let sides = planner.sides;
-    let plan = planner.signs(signs);
-    let rate = settings.rate;
-    let total = (plan.end * rate.per_second()).ceil() as usize + 1;
-    if total > MOST_FRAMES {
-        return Err(NotationError::Long {
-            seconds: plan.end,
-            most: MOST_FRAMES as f64 / rate.per_second(),
-        });
-    }
+    let mut plan = planner.signs(signs);
+    let rate = settings.rate.per_second();
+    let total = frames(plan.end, rate)?;
     let paces = Paces::of(&settings.language);
+    let timing = track::Timing {
+        paces: &paces,
+        rate,
+        total,
+    };
+    let hands = sides.map(|side| body.hand(side));
+    let made = [0, 1].map(|n| {
+        let hand = hands[n]?;
+        Some(track::Made::of(&body, hand, &plan, n, &limits, &timing))
+    });
+    let moved: Vec<_> = made.iter().flatten().map(track::Made::moved).collect();
+    let warp = Warp::of(&moved, rate, &fastest(&settings.language, &body));
+    let total = frames(warp.at(plan.end), rate)?.max(warp.frames().len());
     let mut channels = standing(&body, total);
     let mut fits = [None; 2];
-    for (n, side) in sides.into_iter().enumerate() {
-        let Some(hand) = body.hand(side) else {
+    for (n, made) in made.into_iter().enumerate() {
+        let (Some(hand), Some(made)) = (hands[n], made) else {
             continue;
         };
-        let timing = track::Timing {
-            paces: &paces,
-            rate: rate.per_second(),
-            total,
-        };
-        let track = track::track(&body, hand, &plan, n, &limits, &timing);
+        let track = made.track(&warp);
         fits[n] = Some(track.fit);
         lay(&mut channels, hand, track);
     }
-    let clip = Clip::new(Arc::clone(&body.skeleton), rate, channels)?;
-    let report = report(signs, &plan, sides, fits);
+    plan.stretch(&warp);
+    let clip = Clip::new(Arc::clone(&body.skeleton), settings.rate, channels)?;
+    let report = report(signs, &plan, sides, fits, limits.tolerance);
     Ok(Made {
         notes: notes::notes(signs, &plan, sides, &clip),
         clip,
@@ -138,6 +146,26 @@ pub fn animate(
         signer: stage.signer.clone(),
         report,
     })
+}
+
+/// Returns how many frames a time takes.
+fn frames(seconds: f64, rate: f64) -> Result<usize, NotationError> {
+    let total = (seconds * rate - 1e-9).ceil() as usize + 1;
+    if total > MOST_FRAMES {
+        return Err(NotationError::Long {
+            seconds,
+            most: MOST_FRAMES as f64 / rate,
+        });
+    }
+    Ok(total)
+}
+
+/// Returns how fast arms may go; a little less, so that what is measured between frames stays within.
+fn fastest(language: &BodyLanguage, body: &Stage) -> Fastest {
+    Fastest {
+        joint: 0.92 * language.speed_joint,
+        wrist: 0.92 * language.speed_wrist * body.arm,
+    }
 }
 
 /// Returns channels in which the body stands still.
@@ -165,7 +193,13 @@ fn lay(channels: &mut [Channel], hand: &stage::Hand, track: Track) {
     }
 }
 
-fn report(signs: &[&Notated], plan: &Plan, sides: [Side; 2], fits: [Option<Fit>; 2]) -> Report {
+fn report(
+    signs: &[&Notated],
+    plan: &Plan,
+    sides: [Side; 2],
+    fits: [Option<Fit>; 2],
+    tolerance: f64,
+) -> Report {
     let mut report = Report::default();
     for (n, sign) in signs.iter().enumerate() {
         let span = &plan.signs[n];
@@ -199,14 +233,21 @@ fn report(signs: &[&Notated], plan: &Plan, sides: [Side; 2], fits: [Option<Fit>;
     report.warnings.extend(plan.remarks.iter().cloned());
     for (side, fit) in sides.into_iter().zip(fits) {
         let Some(fit) = fit else { continue };
-        if fit.residual > 2e-3 {
+        if fit.parted > 2e-3 {
             report.warnings.push(format!(
-                "the {} hand stays {:.1} cm short of its place",
+                "the {} hand stays {:.1} cm short of what it touches",
+                side.name(),
+                fit.parted * 100.0
+            ));
+        }
+        if fit.residual > fit.parted.max(5e-3) {
+            report.warnings.push(format!(
+                "the {} hand stays up to {:.1} cm off its way",
                 side.name(),
                 fit.residual * 100.0
             ));
         }
-        if fit.turned > 0.05 {
+        if fit.turned > tolerance + 1e-6 {
             report.warnings.push(format!(
                 "the {} hand is turned up to {:.0}° less than written: the wrist goes no farther",
                 side.name(),

@@ -448,12 +448,16 @@ impl Planner<'_> {
         let events = [0, 1].map(|n| self.plan.events[n].len());
         let phases = self.plan.phases.len();
         let (named, together) = (self.named.clone(), self.together.clone());
+        let contacts = [0, 1].map(|n| self.plan.contacts[n].len());
+        let at_body = self.at_body.clone();
         let end = self.motion(motion, who, 0.0, env);
         self.state = state;
         self.named = named;
         self.together = together;
-        for (planned, length) in self.plan.events.iter_mut().zip(events) {
-            planned.truncate(length);
+        self.at_body = at_body;
+        for n in 0..2 {
+            self.plan.events[n].truncate(events[n]);
+            self.plan.contacts[n].truncate(contacts[n]);
         }
         self.plan.phases.truncate(phases);
         end
@@ -508,6 +512,10 @@ impl Planner<'_> {
             self.go(n, &goal[n], time, end, pace);
             if motion.is_none() {
                 self.phase(n, PhaseKind::Stroke, time, end, "to a posture");
+            }
+            if contact {
+                let dwell = end + self.language.time_contact;
+                self.plan.contacts[n].push((end, dwell));
             }
         }
         if contact {

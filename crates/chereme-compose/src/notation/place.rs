@@ -4,7 +4,7 @@
 //! palm in free space, at a place on the body what comes to it first as the hand is turned.
 
 use chereme_motion::Side;
-use chereme_motion::glam::DVec3;
+use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::hamnosys::sites::{BodySite, Face, HandPoint, Region, body_site, hand_points};
 use chereme_sign::hamnosys::{
     BodyLocation, BodyPlace, Constellation, Contact, Digit, HandClass, HandSite, Handshape, Place,
@@ -12,12 +12,15 @@ use chereme_sign::hamnosys::{
 };
 
 use super::plan::{Frame, Planner, Who, acting};
+use super::solve::Arm;
 
 /// Where a point of a hand should be.
 #[derive(Debug, Clone)]
 struct Goal {
     at: DVec3,
     points: Vec<HandPoint>,
+    /// Whether nothing of the hand stands out farther than a face of it that touches.
+    flat: bool,
 }
 
 impl Planner<'_> {
@@ -29,9 +32,11 @@ impl Planner<'_> {
                     let goal = self.on_body(n, body, frame, true);
                     self.settle(n, &goal);
                     self.define(body.define, n);
+                    self.at_body[n] = Some(body.clone());
                 }
             }
             Place::Hand(site) => self.on_hand(site, named),
+            Place::Hands(hands) if self.is_lone(hands, named) => self.alone(hands, named),
             Place::Hands(constellation) => self.by_each_other(constellation, named),
             Place::Split(a, b) => {
                 for (n, place) in [a, b].into_iter().enumerate() {
@@ -64,7 +69,31 @@ impl Planner<'_> {
     /// Puts points of a hand, taken together, where they should be.
     fn settle(&mut self, n: usize, goal: &Goal) {
         self.state[n].offset = self.offset(n, &goal.points);
+        if goal.flat {
+            self.state[n].offset += self.stands_out(n, &goal.points);
+        }
         self.state[n].point = goal.at;
+    }
+
+    /// Returns the way from a face of a hand to the plane before it that nothing of the hand is beyond,
+    /// in the hand's space: fingers of a fist stand out farther than the palm.
+    fn stands_out(&self, n: usize, points: &[HandPoint]) -> DVec3 {
+        let (Some(hand), [point]) = (self.stage.hand(self.sides[n]), points) else {
+            return DVec3::ZERO;
+        };
+        let face = matches!(
+            point,
+            HandPoint::Palm | HandPoint::Back | HandPoint::Radial | HandPoint::Ulnar
+        );
+        if !face {
+            return DVec3::ZERO;
+        }
+        let shape = &self.plan.shapes[n][self.state[n].shape];
+        let out = self.stage.outward(hand, shape, *point);
+        let own = self.stage.point(hand, shape, *point).dot(out);
+        let far = shape.outline.iter().map(|at| at.dot(out));
+        let far = far.fold(own, f64::max);
+        out * (far - own)
     }
 
     /// Returns where a hand is for a place on the body or in space.
@@ -95,12 +124,53 @@ impl Planner<'_> {
             None => vec![HandPoint::Palm],
         };
         let at = self.before(&site, contact, touching, place.behind);
+        if touching && site.site.region == Region::Trunk && !place.behind {
+            self.lay(n, &points, at);
+        }
         let at = if apart && self.symmetric && !touching && site.site.lateral == 0.0 {
             self.apart(n, at)
         } else {
             at
         };
-        Goal { at, points }
+        Goal {
+            at,
+            points,
+            flat: touching,
+        }
+    }
+
+    /// Turns a hand that touches the trunk with a face of it so that it lies on the skin, as far as it
+    /// is still turned as written.
+    fn lay(&mut self, n: usize, points: &[HandPoint], at: DVec3) {
+        let flat = |point: &HandPoint| {
+            matches!(
+                point,
+                HandPoint::Palm
+                    | HandPoint::Back
+                    | HandPoint::Radial
+                    | HandPoint::Ulnar
+                    | HandPoint::Tip(_, Face::Palmar | Face::Dorsal)
+                    | HandPoint::Middle(_, Face::Palmar | Face::Dorsal)
+                    | HandPoint::Base(_, Face::Palmar | Face::Dorsal)
+            )
+        };
+        let Some(normal) = self
+            .stage
+            .torso
+            .normal(at)
+            .filter(|_| points.iter().all(flat))
+        else {
+            return;
+        };
+        let (_, out) = self.at_hand(n, points);
+        let turn = DQuat::from_rotation_arc(out, -normal);
+        let angle = turn.angle_between(DQuat::IDENTITY);
+        if !(1e-6..1.2).contains(&angle) {
+            return;
+        }
+        let share = (self.limits.tolerance / angle).min(1.0);
+        let turn = DQuat::IDENTITY.slerp(turn, share);
+        self.state[n].rotation = (turn * self.state[n].rotation).normalize();
     }
 
     /// Moves a place in the middle to before a hand's own shoulder.
@@ -183,11 +253,7 @@ impl Planner<'_> {
         let hand = self.stage.hand(side)?;
         let n = usize::from(self.sides[1] == side);
         let state = &self.state[n];
-        let held = hand.held();
-        let torso = &self.stage.torso;
-        let turn = hand
-            .rig
-            .turn(state.wrist(), state.rotation, &held, &self.limits, torso);
+        let turn = Arm::of(self.stage, hand, &self.limits).plane(state.wrist(), state.rotation);
         let posed = hand.rig.reach(state.wrist(), turn, &self.limits);
         Some(match landmark.rsplit_once('-')?.1 {
             "elbow" => posed.elbow,
@@ -287,6 +353,7 @@ impl Planner<'_> {
         let goal = Goal {
             at: at + out * far,
             points,
+            flat: false,
         };
         self.settle(acting, &goal);
         self.define(site.define, acting);
@@ -299,6 +366,23 @@ impl Planner<'_> {
             points.extend(hand_points(second, side, frame.mirrored));
         }
         points
+    }
+
+    /// Brings a hand that signs alone to what it was near before, or to the place that is named.
+    fn alone(&mut self, hands: &Constellation, named: Who) {
+        for (n, frame) in acting(named) {
+            let known = self.at_body[n].clone();
+            let Some(mut place) = hands.at.clone().or_else(|| known.clone()) else {
+                continue;
+            };
+            place.contact = hands.contact.or(place.contact);
+            let by = known.and_then(|known| known.by);
+            place.by = hands.dominant.clone().or(place.by).or(by);
+            let goal = self.on_body(n, &place, frame, true);
+            self.settle(n, &goal);
+            self.define(hands.define, n);
+            self.at_body[n] = Some(place);
+        }
     }
 
     /// Brings the hands to each other, and the two to a place.
@@ -337,7 +421,11 @@ impl Planner<'_> {
         } else {
             self.unlike(hands, frames, across)
         };
-        let goals = points.map(|points| Goal { at: centre, points });
+        let goals = points.map(|points| Goal {
+            at: centre,
+            points,
+            flat: false,
+        });
         let [mut first, mut second] = goals;
         first.at += way * (apart / 2.0);
         second.at -= way * (apart / 2.0);

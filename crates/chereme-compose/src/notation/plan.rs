@@ -9,8 +9,8 @@ use chereme_sign::hamnosys::angles::hand_angles;
 use chereme_sign::hamnosys::orientation;
 use chereme_sign::hamnosys::sites::HandPoint;
 use chereme_sign::hamnosys::{
-    Aim, BodyLanguage, Compass, Constellation, Direction, Each, HandsUsed, Handshape, Manual,
-    Notated, Place, Posture, Symmetry,
+    Aim, BodyLanguage, BodyPlace, Compass, Constellation, Direction, Each, HandsUsed, Handshape,
+    Manual, Notated, Place, Posture, Symmetry,
 };
 
 use super::arm::Limits;
@@ -18,6 +18,7 @@ use super::pace::Pace;
 use super::path::Path;
 use super::stage::{Shape, Stage};
 use super::thumb;
+use super::warp::Warp;
 
 /// How long hands rest before the first sign and after the last, in seconds.
 const STILL: f64 = 0.1;
@@ -113,9 +114,27 @@ pub(crate) struct Plan {
     pub(crate) shapes: [Vec<Shape>; 2],
     pub(crate) phases: Vec<Phase>,
     pub(crate) signs: Vec<SignSpan>,
+    /// When either hand touches something: from when and until, in seconds as planned.
+    pub(crate) contacts: [Vec<(f64, f64)>; 2],
     pub(crate) end: f64,
     /// What was approximated or left out, each once.
     pub(crate) remarks: Vec<String>,
+}
+
+impl Plan {
+    /// Takes over how time runs for what is said of it; events stay as planned.
+    pub(crate) fn stretch(&mut self, warp: &Warp) {
+        if warp.is_none() {
+            return;
+        }
+        for phase in &mut self.phases {
+            (phase.from, phase.to) = (warp.at(phase.from), warp.at(phase.to));
+        }
+        for sign in &mut self.signs {
+            (sign.from, sign.to) = (warp.at(sign.from), warp.at(sign.to));
+        }
+        self.end = warp.at(self.end);
+    }
 }
 
 /// The frame of an acting hand: what its directions and its sides are against what is written.
@@ -144,6 +163,8 @@ pub(crate) struct Planner<'a> {
     pub(crate) symmetric: bool,
     /// How the hands were together last in this sign.
     pub(crate) together: Option<Constellation>,
+    /// Where each hand was last at the body in this sign.
+    pub(crate) at_body: [Option<BodyPlace>; 2],
     speed: f64,
     pub(crate) plan: Plan,
 }
@@ -179,6 +200,7 @@ impl<'a> Planner<'a> {
             named: BTreeMap::new(),
             symmetric: false,
             together: None,
+            at_body: [None, None],
             speed: 1.0,
             plan: Plan {
                 start,
@@ -186,6 +208,7 @@ impl<'a> Planner<'a> {
                 shapes,
                 phases: Vec::new(),
                 signs: Vec::new(),
+                contacts: [Vec::new(), Vec::new()],
                 end: 0.0,
                 remarks: Vec::new(),
             },
@@ -199,6 +222,7 @@ impl<'a> Planner<'a> {
             let mut from = None;
             self.named.clear();
             self.together = None;
+            self.at_body = [None, None];
             self.speed = speed(notated);
             for part in &notated.sign.parts {
                 let began;
@@ -258,6 +282,10 @@ impl<'a> Planner<'a> {
         for (n, _) in acting(named) {
             self.go(n, &goal[n], time, reached, pace);
             self.phase(n, PhaseKind::Transition, time, reached, "");
+            if touching {
+                let most = if moves { 0.0 } else { self.language.time_hold };
+                self.plan.contacts[n].push((reached, reached + most));
+            }
         }
         if dropped.iter().any(|&drop| drop) {
             self.relax(dropped, time, Some(reached));
@@ -331,6 +359,7 @@ impl<'a> Planner<'a> {
         ];
         let place = match &posture.place {
             Some(Place::Split(a, b)) => [a.is_some(), b.is_some()],
+            Some(Place::Hands(hands)) if self.is_lone(hands, who) => [false, false],
             Some(Place::Hands(_)) => [true, true],
             Some(Place::Hand(_)) => [who[0].is_none(), who[1].is_none()],
             _ => [false, false],
@@ -341,6 +370,17 @@ impl<'a> Planner<'a> {
             }
         }
         named
+    }
+
+    /// Tells whether a relation of hands is of one hand alone: what it touches is where it was at the
+    /// body before.
+    pub(crate) fn is_lone(&self, hands: &Constellation, who: Who) -> bool {
+        let Some(own) = (0..2).find(|&n| who[n].is_some() && who[1 - n].is_none()) else {
+            return false;
+        };
+        hands.other.is_none()
+            && !self.state[1 - own].used
+            && (self.at_body[own].is_some() || hands.at.is_some())
     }
 
     /// Brings a hand that hung at rest before the body, as what nothing more is said of.

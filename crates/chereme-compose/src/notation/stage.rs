@@ -386,47 +386,92 @@ const OUTLINE: [(f64, f64, f64); 11] = [
     (-1.45, -0.25, 0.46),
 ];
 
+/// How far behind the middle the trunk goes, in shoulder widths.
+const BACK: f64 = 0.22;
+
 impl Torso {
     fn of(body: Option<BodyFrame>, trunk: f64) -> Self {
         Self { body, trunk }
     }
 
-    /// Returns how far forward a point must go to leave the trunk, in metres; at most 0 where it is
-    /// not in it.
-    pub(crate) fn depth(&self, at: DVec3, margin: f64) -> f64 {
-        let Some(body) = &self.body else { return 0.0 };
-        let v = at - body.origin;
-        let y = v.dot(body.up) / self.trunk;
-        let (top, bottom) = (OUTLINE[0].0, OUTLINE[OUTLINE.len() - 1].0);
-        if y >= top || y <= bottom {
-            return 0.0;
-        }
-        let n = OUTLINE
-            .partition_point(|row| row.0 >= y)
-            .clamp(1, OUTLINE.len() - 1);
-        let (above, below) = (OUTLINE[n - 1], OUTLINE[n]);
-        let w = (above.0 - y) / (above.0 - below.0);
-        let mix = |a: f64, b: f64| a + (b - a) * w;
-        let front = mix(above.1, below.1) + margin / body.scale;
-        let wide = mix(above.2, below.2) + margin / body.scale;
-        let x = v.dot(body.left) / body.scale;
-        let z = v.dot(body.forward) / body.scale;
-        let across = 1.0 - (x / wide).powi(2);
-        if across <= 0.0 || z < -0.25 {
-            return 0.0;
-        }
-        let depth = if z >= 0.0 {
-            front * across.sqrt() - z
-        } else {
-            // What is behind the middle of the body is not pushed to its front all at once.
-            let fade = ((z + 0.25) / 0.25).clamp(0.0, 1.0);
-            (front * across.sqrt() - z * (3.0 * across).min(1.0)) * fade
+    /// Returns the unit vector out of the trunk's front at a place near to it.
+    pub(crate) fn normal(&self, at: DVec3) -> Option<DVec3> {
+        let body = self.body.as_ref()?;
+        let step = 0.01;
+        let along = |axis: DVec3| {
+            let [more, less] =
+                [1.0, -1.0].map(|sign| share(body, self.trunk, at + axis * (sign * step)));
+            Some(axis * (more? - less?))
         };
-        depth * body.scale
+        (along(body.left)? + along(body.up)? + along(body.forward)?).try_normalize()
     }
 
-    /// Returns the direction in which depth is told.
-    pub(crate) fn forward(&self) -> DVec3 {
-        self.body.map_or(DVec3::Z, |body| body.forward)
+    /// Tells whether all that is within a distance of a place is surely out of the trunk.
+    pub(crate) fn is_clear(&self, at: DVec3, around: f64) -> bool {
+        self.way_out(at, around) == DVec3::ZERO
     }
+
+    /// Returns the way by which a point nearer than `margin` metres to the trunk leaves it, level:
+    /// outwards as the surface is, and rather to the front.
+    pub(crate) fn way_out(&self, at: DVec3, margin: f64) -> DVec3 {
+        let Some(body) = &self.body else {
+            return DVec3::ZERO;
+        };
+        let v = at - body.origin;
+        let y = v.dot(body.up) / self.trunk;
+        let Some((front, wide)) = outline(y) else {
+            return DVec3::ZERO;
+        };
+        let margin = margin / body.scale;
+        let (front, wide, back) = (front + margin, wide + margin, BACK.min(front) + margin);
+        let x = v.dot(body.left) / body.scale;
+        let z = v.dot(body.forward) / body.scale;
+        let deep = |z: f64| if z >= 0.0 { front } else { back };
+        let inside = |x: f64, z: f64| (x / wide).powi(2) + (z / deep(z)).powi(2) < 1.0;
+        if front <= 0.0 || back <= 0.0 || wide <= 0.0 || !inside(x, z) {
+            return DVec3::ZERO;
+        }
+        // Only what is well behind the middle goes out at the back.
+        let ahead = ((z + 0.5 * BACK) / (0.5 * BACK)).clamp(0.0, 1.0);
+        let (nx, nz) = (x / (wide * wide), z / (deep(z) * deep(z)));
+        let size = nx.hypot(nz).max(1e-9);
+        let (dx, dz) = (nx / size, nz / size + 1.2 * ahead);
+        let (dx, dz) = if dx.hypot(dz) > 1e-6 {
+            (dx / dx.hypot(dz), dz / dx.hypot(dz))
+        } else {
+            (0.0, 1.0)
+        };
+        let b = deep(if dz >= 0.0 { 0.0 } else { -1.0 });
+        // Where the line meets the ellipse: |(x + t dx) / wide, (z + t dz) / b| = 1.
+        let along = (dx / wide).powi(2) + (dz / b).powi(2);
+        let half = x * dx / (wide * wide) + z * dz / (b * b);
+        let rest = (x / wide).powi(2) + (z / b).powi(2) - 1.0;
+        let t = (-half + (half * half - along * rest).max(0.0).sqrt()) / along;
+        (body.left * dx + body.forward * dz) * (t.max(0.0) * body.scale)
+    }
+}
+
+/// Returns how far out of the middle a place is, in parts of the trunk's outline at its height.
+fn share(body: &BodyFrame, trunk: f64, at: DVec3) -> Option<f64> {
+    let v = at - body.origin;
+    let (front, wide) = outline(v.dot(body.up) / trunk)?;
+    let front = front.max(0.05);
+    let x = v.dot(body.left) / (body.scale * wide);
+    let z = v.dot(body.forward) / (body.scale * front);
+    Some(x.hypot(z))
+}
+
+/// Returns how far forward and to either side the trunk goes at a height.
+fn outline(y: f64) -> Option<(f64, f64)> {
+    let (top, bottom) = (OUTLINE[0].0, OUTLINE[OUTLINE.len() - 1].0);
+    if y >= top || y <= bottom {
+        return None;
+    }
+    let n = OUTLINE
+        .partition_point(|row| row.0 >= y)
+        .clamp(1, OUTLINE.len() - 1);
+    let (above, below) = (OUTLINE[n - 1], OUTLINE[n]);
+    let w = (above.0 - y) / (above.0 - below.0);
+    let mix = |a: f64, b: f64| a + (b - a) * w;
+    Some((mix(above.1, below.1), mix(above.2, below.2)))
 }

@@ -334,3 +334,120 @@ fn recipes_of_notation_are_made_and_kept() {
     let odd: crate::Recipe = "hamnosys \"abc\"".parse().expect("a recipe");
     assert!(crate::resolve(&odd, &corpus).is_err());
 }
+
+/// Tells how fast wrists go at most and how fast joints of arms turn, per second.
+fn fastest(made: &Made) -> [f64; 2] {
+    let rate = made.clip.rate().per_second();
+    let mut fastest = [0.0_f64; 2];
+    for frame in 1..made.clip.frames() {
+        let [a, b] = [frame - 1, frame].map(|frame| made.clip.model_pose(frame));
+        for side in Side::BOTH {
+            let arm = made.anatomy.arm(side).expect("an arm");
+            let way = a.position(arm.hand).distance(b.position(arm.hand));
+            fastest[0] = fastest[0].max(way * rate);
+            for joint in [arm.upper, arm.forearm, arm.hand] {
+                let turn = a.rotation(joint).angle_between(b.rotation(joint));
+                fastest[1] = fastest[1].max(turn * rate);
+            }
+        }
+    }
+    fastest
+}
+
+#[test]
+fn time_is_stretched_where_arms_would_go_too_fast() {
+    let mut flip = directed("l");
+    flip.manner.speed = Some(9.0);
+    let other = posture(HandClass::Flat, "il", "u", None);
+    let turn = Motion::new(MotionKind::Target {
+        motion: Some(Box::new(flip)),
+        posture: Box::new(other),
+    });
+    let sign = notated(
+        HandsUsed::Dominant,
+        posture(
+            HandClass::Flat,
+            "or",
+            "d",
+            Some(at(BodyLocation::Stomach, Some(Contact::Touch))),
+        ),
+        vec![turn],
+    );
+    for language in [None, Some((3.0, 9.0))] {
+        let mut settings = Settings::default();
+        if let Some((wrist, joint)) = language {
+            settings.language.speed_wrist = wrist;
+            settings.language.speed_joint = joint;
+        }
+        let made = animate(&[&sign], &stage(Axes::Odd), &settings).expect("it can be animated");
+        let arm = made.anatomy.measures().expect("measures").arm;
+        let [wrist, joint] = fastest(&made);
+        assert!(wrist <= settings.language.speed_wrist * arm, "{wrist} m/s");
+        assert!(joint <= settings.language.speed_joint, "{joint} rad/s");
+    }
+}
+
+#[test]
+fn a_hand_alone_touches_what_it_was_near() {
+    let touch = Motion::new(MotionKind::Target {
+        motion: Some(Box::new(directed("i"))),
+        posture: Box::new(Posture {
+            place: Some(Place::Hands(Constellation {
+                contact: Some(Contact::Touch),
+                ..Constellation::default()
+            })),
+            ..Posture::default()
+        }),
+    });
+    let by = HandSite {
+        at: Some(HandLocation::Tip),
+        digits: chereme_sign::hamnosys::Digits(vec![chereme_sign::hamnosys::Digit::Index]),
+        ..HandSite::default()
+    };
+    let mut near = at(BodyLocation::Chin, Some(Contact::Close));
+    if let Place::Body(body) = &mut near {
+        body.by = Some(by);
+    }
+    let sign = notated(
+        HandsUsed::Dominant,
+        posture(HandClass::Finger2, "ui", "l", Some(near)),
+        vec![touch],
+    );
+    let made = made(&sign, Axes::Odd);
+    let [tip, chin] = ["right-index-tip", "chin"].map(|name| landmark(&made, 0.95, name));
+    assert!(tip.distance(chin) < 2e-3, "{} mm", tip.distance(chin) * 1e3);
+    let [begin, end] = [0.0, 1.0].map(|share| landmark(&made, share, "left-wrist"));
+    assert!(begin.distance(end) < 1e-9, "the other hand rests");
+}
+
+#[test]
+fn nothing_of_a_hand_enters_the_trunk() {
+    let body = Stage::of(&stage(Axes::Plain)).expect("a body");
+    let middle = body.middle();
+    for n in 0..4000 {
+        let part = |by: usize| ((n * by) % 997) as f64 / 996.0 - 0.5;
+        let at = middle + DVec3::new(part(31) * 0.6, part(57) * 1.2 - 0.3, part(83) * 0.5);
+        let out = body.torso.way_out(at, 0.004);
+        let left = body.torso.way_out(at + out, 0.0);
+        assert!(left.length() < 1e-9, "{at}: {left}");
+        assert!(out.length() < 0.35 && out.y.abs() < 1e-9, "{at}: {out}");
+    }
+    let into = notated(
+        HandsUsed::Dominant,
+        posture(
+            HandClass::Flat,
+            "il",
+            "d",
+            Some(at(BodyLocation::Stomach, Some(Contact::Touch))),
+        ),
+        vec![directed("i"), directed("l")],
+    );
+    let made = made(&into, Axes::Plain);
+    for frame in 0..made.clip.frames() {
+        let model = made.clip.model_pose(frame);
+        for joint in made.anatomy.fingers(Side::Right) {
+            let out = body.torso.way_out(model.position(joint), 0.0);
+            assert!(out.length() < 3e-3, "frame {frame}: {} m", out.length());
+        }
+    }
+}

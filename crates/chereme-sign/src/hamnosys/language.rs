@@ -151,6 +151,8 @@ body_language! {
     "time.attack" time_attack "s" "A non-manual from nothing to all of it."
     "time.release" time_release "s" "A non-manual back to nothing."
     "speed.most" speed_most "arm/s" "The highest speed of a hand."
+    "speed.wrist" speed_wrist "arm/s" "The speed that no wrist exceeds; time is stretched instead."
+    "speed.joint" speed_joint "rad/s" "The speed that no joint of an arm exceeds; time is stretched instead."
     "manner.fast" manner_fast "share" "The time of what is fast against the usual."
     "manner.slow" manner_slow "share" "The time of what is slow against the usual."
     "manner.tense" manner_tense "share" "The time of what is tense against the usual."
@@ -177,6 +179,7 @@ body_language! {
     "limit.pronation" limit_pronation "deg" "How far a forearm turns the palm down from thumb up."
     "limit.supination" limit_supination "deg" "How far a forearm turns the palm up from thumb up."
     "limit.elbow" limit_elbow "deg" "How far an elbow bends."
+    "tolerance" tolerance "deg" "How far a hand may be turned from what is written and still be turned so."
     "course.targetted.gain" targetted_gain "count" "How stiffness grows in a targetted movement."
     "course.targetted.power" targetted_power "count" "With which power of the way it grows."
     "course.targetted.ratio" targetted_ratio "count" "The ratio of the two gains: 4 is critical."
@@ -282,7 +285,7 @@ fn check(name: &str, value: f64, found: Option<&str>) -> Result<(), LanguageErro
         "deg" => 180.0,
         "s" => 10.0,
         "arm" | "shoulder" => 3.0,
-        "arm/s" | "count" => 100.0,
+        "arm/s" | "rad/s" | "count" => 100.0,
         _ => 10.0,
     };
     if !(0.0..=most).contains(&value) {

@@ -1,0 +1,570 @@
+//! One arm over time: from where its hand should be to postures, without jumps.
+//!
+//! Thirty times a second the arm's plane is chosen among many, with the end of its range at which a
+//! forearm stops that should turn farther: by how well each suits the wrist, the hand's orientation
+//! and the trunk, and by how far it is from the one before (the cheapest course of all, by dynamic
+//! programming). Between, each frame's hand gives way to the wrist's range and to the trunk. What
+//! still changes at once is spread over the time around it, in angles of the wrist, so that nothing
+//! leaves its range; and last the wrist is put where the hand's point is in its place.
+
+use std::ops::Range;
+
+use chereme_motion::glam::{DQuat, DVec3};
+
+use super::arm::{Held, Limits, Posed, Rig, WristAngles};
+use super::stage::{Hand, Stage};
+use super::track::Wanted;
+
+/// How often the arm's plane is chosen, in seconds; between, it goes smoothly.
+const CHOSEN: f64 = 1.0 / 30.0;
+/// Planes that are weighed against the rule's: the first, the last and the step, in degrees.
+const PLANES: (f64, f64, f64) = (-60.0, 110.0, 10.0);
+/// How fast a wrist bends and a forearm turns at most, and the arm's plane, in radians a second.
+const BENDING: f64 = 28.0;
+const SWIVEL: f64 = 7.0;
+/// How fast a hand is pushed out of the trunk at most, in arm lengths a second.
+const PUSHING: f64 = 5.0;
+/// The time before and after what changes at once over which it is spread, in seconds.
+const AROUND: f64 = 0.09;
+/// How near to the trunk's surface points of a hand come, in metres.
+const MARGIN: f64 = 0.006;
+/// How far a hand turns about its point to leave the trunk or come within reach, in radians.
+const MOST_TURNED: f64 = 0.7;
+/// How often a hand that gives way is brought to its place again.
+const TRIES: usize = 14;
+
+/// How an arm is held in one frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Row {
+    /// Where the point of the hand should be, and where it is in the hand's space.
+    pub(crate) point: DVec3,
+    pub(crate) offset: DVec3,
+    /// How the hand should be turned.
+    pub(crate) turned: DQuat,
+    plane: f64,
+    angles: WristAngles,
+    push: DVec3,
+    /// The hand gives way to nothing.
+    kept: bool,
+}
+
+/// Where an arm came in one frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Got {
+    pub(crate) posed: Posed,
+    pub(crate) rotation: DQuat,
+    /// How far the point is from where it should be, in metres.
+    pub(crate) residual: f64,
+    /// How far it was moved out of the trunk, in metres.
+    pub(crate) pushed: f64,
+}
+
+/// An arm on its stage.
+pub(crate) struct Arm<'a> {
+    pub(crate) stage: &'a Stage,
+    pub(crate) hand: &'a Hand,
+    pub(crate) held: Held,
+    pub(crate) limits: &'a Limits,
+}
+
+/// A hand that should be somewhere.
+#[derive(Clone, Copy, PartialEq)]
+struct Want<'a> {
+    point: DVec3,
+    offset: DVec3,
+    turned: DQuat,
+    outlines: [&'a [DVec3]; 2],
+    /// How much it touches: then it turns about its point to leave the trunk, and is not moved.
+    touch: f64,
+}
+
+/// A hand that gave way.
+#[derive(Clone, Copy)]
+struct Hung {
+    angles: WristAngles,
+    rotation: DQuat,
+    posed: Posed,
+    push: DVec3,
+    residual: f64,
+}
+
+/// A plane that an arm could have.
+#[derive(Clone, Copy)]
+struct Choice {
+    plane: f64,
+    angles: WristAngles,
+    high: bool,
+    cost: f64,
+}
+
+impl<'a> Arm<'a> {
+    pub(crate) fn of(stage: &'a Stage, hand: &'a Hand, limits: &'a Limits) -> Self {
+        Self {
+            stage,
+            hand,
+            held: hand.held(),
+            limits,
+        }
+    }
+
+    fn rig(&self) -> &Rig {
+        &self.hand.rig
+    }
+
+    /// Returns how the arm is held at each frame.
+    pub(crate) fn rows(&self, wanted: &Wanted<'_>, rate: f64) -> Vec<Row> {
+        let total = wanted.points.len();
+        let step = ((CHOSEN * rate).round() as usize).max(1);
+        let want = |frame: usize| self.want(wanted, frame);
+        let free = wanted.free();
+        let keys = (0..total.div_ceil(step) + 1).map(|n| (n * step).min(total - 1));
+        let keys = keys.map(|frame| (want(frame), free[frame]));
+        let keys = self.choose(keys, step as f64 / rate);
+        let planes = spline(&keys, step, total);
+        let mut rows: Vec<Row> = Vec::with_capacity(total);
+        let mut before: Option<(Want<'_>, f64, bool)> = None;
+        for (frame, &plane) in planes.iter().enumerate() {
+            let (want, high) = (want(frame), keys[(frame + step / 2) / step].high);
+            let same = before.replace((want, plane, high)) == before;
+            if let (true, Some(&row)) = (same && before.is_some(), rows.last()) {
+                rows.push(row);
+                continue;
+            }
+            let hung = self.hang(&want, plane, high, TRIES);
+            rows.push(Row {
+                point: want.point,
+                offset: want.offset,
+                turned: want.turned,
+                plane,
+                angles: hung.angles,
+                push: hung.push,
+                kept: hung.rotation == want.turned && hung.push == DVec3::ZERO,
+            });
+        }
+        self.lead(&mut rows, wanted);
+        calm(&mut rows, rate);
+        self.spread(&mut rows, rate);
+        rows
+    }
+
+    /// Leads hands from one orientation to the next as a wrist goes, where the shortest way is past
+    /// its range.
+    fn lead(&self, rows: &mut [Row], wanted: &Wanted<'_>) {
+        for (span, shares) in &wanted.ways {
+            let Some(last) = rows.get(span.end).map(|row| row.angles) else {
+                continue;
+            };
+            let Some(first) = span.start.checked_sub(1).map(|n| rows[n].angles) else {
+                continue;
+            };
+            let ends = |angles: &WristAngles| angles.turned(self.limits) > 0.999;
+            if !span.clone().any(|n| ends(&rows[n].angles)) {
+                continue;
+            }
+            for (n, &share) in span.clone().zip(shares) {
+                rows[n].angles = first.mix(&last, share);
+                rows[n].kept = false;
+            }
+        }
+    }
+
+    fn want<'w>(&self, wanted: &'w Wanted<'_>, frame: usize) -> Want<'w> {
+        // The point is placed by the hand as it is without its turns about the wrist.
+        let (offset, turned) = (wanted.offsets[frame], wanted.turns[frame]);
+        let (offset, turned) = match wanted.wrist[frame] {
+            Some(turn) => (turn.inverse() * offset, turned * turn),
+            None => (offset, turned),
+        };
+        Want {
+            point: wanted.points[frame],
+            offset,
+            turned: turned.normalize(),
+            outlines: wanted.outlines.at(frame),
+            touch: wanted.touch[frame],
+        }
+    }
+
+    /// Returns the best plane for a hand that stays where it is, in radians against the rule's.
+    pub(crate) fn plane(&self, wrist: DVec3, turned: DQuat) -> f64 {
+        let want = Want {
+            point: wrist,
+            offset: DVec3::ZERO,
+            turned,
+            outlines: [&[], &[]],
+            touch: 0.0,
+        };
+        let choices = self.choices(&want, false);
+        refined(&choices, best(&choices))
+    }
+
+    /// Returns the planes over time that cost least together, each with the end at which a forearm
+    /// stops.
+    fn choose<'w>(&self, wants: impl Iterator<Item = (Want<'w>, bool)>, dt: f64) -> Vec<Choice> {
+        let mut all: Vec<(Vec<Choice>, Vec<usize>)> = Vec::new();
+        let mut sums: Vec<f64> = Vec::new();
+        let mut before: Option<(Want<'w>, bool)> = None;
+        for want in wants {
+            let choices = match all.last() {
+                Some((same, _)) if before == Some(want) => same.clone(),
+                _ => self.choices(&want.0, want.1),
+            };
+            before = Some(want);
+            let mut next = Vec::with_capacity(choices.len());
+            let mut from = Vec::with_capacity(choices.len());
+            for choice in &choices {
+                let ways = all.last().map_or(&[][..], |(choices, _)| choices);
+                let least = ways
+                    .iter()
+                    .zip(&sums)
+                    .map(|(last, sum)| sum + change(last, choice, dt))
+                    .enumerate()
+                    .min_by(|a, b| a.1.total_cmp(&b.1));
+                let (n, sum) = least.unwrap_or((0, 0.0));
+                next.push(sum + choice.cost);
+                from.push(n);
+            }
+            sums = next;
+            all.push((choices, from));
+        }
+        let mut n = sums
+            .iter()
+            .enumerate()
+            .min_by(|a, b| a.1.total_cmp(b.1))
+            .map_or(0, |(n, _)| n);
+        let mut chosen: Vec<Choice> = Vec::with_capacity(all.len());
+        for (choices, from) in all.iter().rev() {
+            let mut choice = choices[n];
+            choice.plane = refined(choices, n);
+            chosen.push(choice);
+            n = from[n];
+        }
+        chosen.reverse();
+        chosen
+    }
+
+    /// Returns every plane with what it costs: how far it is from the rule's, how near wrist and
+    /// forearm are to their ends, how much the hand's orientation gives way, how much of the upper
+    /// arm is in the trunk, and what is missing to the place. On its `free` way between orientations a
+    /// hand may be turned as it likes.
+    fn choices(&self, want: &Want<'_>, free: bool) -> Vec<Choice> {
+        let (first, last, step) = PLANES;
+        let count = ((last - first) / step).round() as usize + 1;
+        let mut choices: Vec<Choice> = Vec::with_capacity(2 * count);
+        let given = if free { 0.02 } else { 1.0 };
+        // Only what touches is weighed with all of the hand.
+        let (tries, outlines) = if want.touch > 0.0 {
+            (6, want.outlines)
+        } else {
+            (3, [&[][..]; 2])
+        };
+        let coarse = Want { outlines, ..*want };
+        for high in [false, true] {
+            for n in 0..count {
+                let degrees = first + step * n as f64;
+                let plane = degrees.to_radians();
+                if high && choices[n].angles.turned(self.limits) < 0.999 {
+                    let same = choices[n];
+                    choices.push(Choice { high, ..same });
+                    continue;
+                }
+                let hung = self.hang(&coarse, plane, high, tries);
+                let bend = (hung.angles.bend(self.limits) - 0.6).max(0.0);
+                let twist = (hung.angles.turned(self.limits) - 0.75).max(0.0);
+                let apart = hung.rotation.angle_between(want.turned) / self.limits.tolerance;
+                let mut cost = 0.7 * (degrees / 36.0).powi(2)
+                    + 3.0 * (bend * bend + twist * twist)
+                    + given * (3.0 * apart.powi(2) + 25.0 * (apart - 1.0).max(0.0).powi(2));
+                for share in [0.6, 1.0] {
+                    let at = hung.posed.shoulder.lerp(hung.posed.elbow, share);
+                    let deep = self.stage.torso.way_out(at, 0.035).length() / self.rig().length();
+                    cost += 2e4 * deep * deep;
+                }
+                cost += 4e3 * (hung.residual / self.rig().length()).powi(2);
+                choices.push(Choice {
+                    plane,
+                    angles: hung.angles,
+                    high,
+                    cost,
+                });
+            }
+        }
+        choices
+    }
+
+    /// Brings the hand to its place: its orientation gives way to the wrist's range, and what would
+    /// enter the trunk is turned about the point or moved out of it.
+    fn hang(&self, want: &Want<'_>, plane: f64, high: bool, tries: usize) -> Hung {
+        let rig = self.rig();
+        // A hand that is placed by a fingertip turns about it; one placed by its palm is moved.
+        let pivot = smooth((want.offset.length() / self.hand.length() - 0.55) / 0.25);
+        let turns = pivot.max(want.touch);
+        let mut turned = want.turned;
+        let mut push = DVec3::ZERO;
+        let mut wrist = want.point - turned * want.offset;
+        let mut round = 0;
+        loop {
+            let posed = rig.reach(wrist, plane, self.limits);
+            let asked = rig.wrist(&posed, turned, &self.held);
+            let angles = asked.allowed(self.limits, high);
+            let rotation = if angles == asked {
+                turned
+            } else {
+                rig.hung(&posed, &angles, &self.held)
+            };
+            let (out, deepest) = self.way_out(posed.wrist, rotation, want.outlines);
+            let amiss = posed.wrist - wrist;
+            let mut about = rotation;
+            let mut turn = |at: DVec3, by: DVec3, share: f64| {
+                let lever = at - want.point;
+                let far = lever.length();
+                let across = by - lever * (by.dot(lever) / (far * far).max(1e-9));
+                let given = turned.angle_between(want.turned) < MOST_TURNED;
+                // What lies behind the point does not come out by turning.
+                let helps = across.length() > 0.5 * by.length() && far > 0.2 * self.hand.length();
+                if !given || share <= 0.0 || by.length() <= 1e-4 || !helps {
+                    return false;
+                }
+                let axis = lever.cross(across).normalize_or(self.stage.forward);
+                let angle = share * (across.length() / far).min(0.3);
+                let turn = DQuat::from_axis_angle(axis, angle);
+                turned = (turn * turned).normalize();
+                about = turn * about;
+                true
+            };
+            turn(wrist, amiss, pivot);
+            let by_turning = turn(deepest, out, turns);
+            let pushed = out * if by_turning { 1.0 - turns } else { 1.0 };
+            push += pushed;
+            let goal = want.point + push;
+            let step = goal - about * want.offset - wrist;
+            round += 1;
+            let done = step.length() < 3e-4 && out.length() < 1e-4 && amiss.length() < 3e-4;
+            if done || round == tries {
+                let residual = (posed.wrist + rotation * want.offset).distance(want.point);
+                return Hung {
+                    angles,
+                    rotation,
+                    posed,
+                    push,
+                    residual,
+                };
+            }
+            wrist += pushed + (step - pushed) * 0.8;
+        }
+    }
+
+    /// Puts the arm where its hand's point is in its place, the wrist bent and turned as it is held;
+    /// what would enter the trunk is moved out of it.
+    pub(crate) fn settle(&self, row: &Row, outlines: [&[DVec3]; 2], before: Option<&Got>) -> Got {
+        let rig = self.rig();
+        let at = |wrist: DVec3| {
+            let posed = rig.reach(wrist, row.plane, self.limits);
+            let rotation = rig.hung(&posed, &row.angles, &self.held);
+            (posed, rotation)
+        };
+        if row.kept {
+            let wrist = row.point - row.turned * row.offset;
+            let posed = rig.reach(wrist, row.plane, self.limits);
+            if posed.wrist.distance(wrist) < 1e-4 {
+                return Got {
+                    residual: posed.wrist.distance(wrist),
+                    posed,
+                    rotation: row.turned,
+                    pushed: 0.0,
+                };
+            }
+        }
+        let goal = row.point + row.push;
+        let start = before.map_or(row.turned, |got| got.rotation);
+        let mut wrist = goal - start * row.offset;
+        let mut last: Option<(DVec3, DVec3)> = None;
+        let (mut posed, mut rotation) = at(wrist);
+        for _ in 0..12 {
+            let asked = goal - rotation * row.offset;
+            let miss = asked - wrist;
+            if miss.length() < 5e-5 {
+                break;
+            }
+            // Anderson's acceleration with one step of memory.
+            let next = match last {
+                Some((before, missed)) => {
+                    let turned = miss - missed;
+                    let share = miss.dot(turned) / turned.length_squared().max(1e-18);
+                    let share = share.clamp(-2.0, 0.8);
+                    asked - (asked - before) * share
+                }
+                None => asked,
+            };
+            last = Some((asked, miss));
+            wrist = next;
+            (posed, rotation) = at(wrist);
+        }
+        let mut pushed = row.push.length();
+        for _ in 0..4 {
+            let (out, _) = self.way_out(posed.wrist, rotation, outlines);
+            if out.length() < 2e-4 {
+                break;
+            }
+            pushed += out.length();
+            (posed, rotation) = at(posed.wrist + out);
+        }
+        Got {
+            residual: (posed.wrist + rotation * row.offset).distance(row.point),
+            posed,
+            rotation,
+            pushed,
+        }
+    }
+
+    /// Returns the way by which the deepest point of a hand leaves the trunk, and that point.
+    fn way_out(&self, wrist: DVec3, turned: DQuat, outlines: [&[DVec3]; 2]) -> (DVec3, DVec3) {
+        let torso = &self.stage.torso;
+        if torso.is_clear(wrist, 1.3 * self.hand.length()) {
+            return (DVec3::ZERO, wrist);
+        }
+        let [a, b] = outlines;
+        let count = if std::ptr::eq(a, b) { 1 } else { 2 };
+        let points = [a, b].into_iter().take(count).flatten();
+        let own = (torso.way_out(wrist, MARGIN), wrist);
+        points.fold(own, |most, &point| {
+            let at = wrist + turned * point;
+            let out = torso.way_out(at, MARGIN);
+            if out.length_squared() > most.0.length_squared() {
+                (out, at)
+            } else {
+                most
+            }
+        })
+    }
+
+    /// Spreads pushes that come at once over the time before and after.
+    fn spread(&self, rows: &mut [Row], rate: f64) {
+        let near = ((AROUND * rate).ceil() as usize).max(1);
+        let most = PUSHING * self.rig().length() / rate;
+        let mut start = 0;
+        while let Some(first) = (start..rows.len()).find(|&n| rows[n].push != DVec3::ZERO) {
+            let last = first
+                + rows[first..]
+                    .iter()
+                    .take_while(|row| row.push != DVec3::ZERO)
+                    .count();
+            let around = first.saturating_sub(2 * near)..(last + 2 * near).min(rows.len());
+            start = last;
+            let fast = |n: usize| rows[n].push.distance(rows[n - 1].push) > most;
+            if !(around.start + 1..around.end).any(fast) {
+                continue;
+            }
+            let eased = eased(rows, around.clone(), near);
+            for (row, push) in rows[around].iter_mut().zip(eased) {
+                row.push = push;
+                row.kept = false;
+            }
+        }
+    }
+}
+
+/// Returns the longest pushes near each frame, averaged: nowhere shorter than they must be.
+fn eased(rows: &[Row], around: Range<usize>, near: usize) -> Vec<DVec3> {
+    let own = &rows[around];
+    let window = |n: usize| n.saturating_sub(near)..(n + near + 1).min(own.len());
+    let longest: Vec<DVec3> = (0..own.len())
+        .map(|n| {
+            let pushes = own[window(n)].iter().map(|row| row.push);
+            pushes.fold(DVec3::ZERO, |most, push| {
+                if push.length_squared() > most.length_squared() {
+                    push
+                } else {
+                    most
+                }
+            })
+        })
+        .collect();
+    (0..own.len())
+        .map(|n| {
+            // Both ends stay as they are.
+            let near = near.min(n).min(own.len() - 1 - n);
+            let part = &longest[n - near..=n + near];
+            if near == 0 {
+                return own[n].push;
+            }
+            part.iter().sum::<DVec3>() / part.len() as f64
+        })
+        .collect()
+}
+
+/// Spreads what the wrist does faster than it can over the time before and after.
+fn calm(rows: &mut [Row], rate: f64) {
+    let most = BENDING / rate;
+    let near = ((AROUND * rate).ceil() as usize).max(1);
+    for _ in 0..4 {
+        let jumps = |n: &usize| rows[*n].angles.apart(&rows[*n - 1].angles) > most;
+        let found: Vec<usize> = (1..rows.len()).filter(jumps).collect();
+        if found.is_empty() {
+            break;
+        }
+        for run in found.chunk_by(|a, b| b - a <= near) {
+            let first = run[0].saturating_sub(near);
+            let last = (run[run.len() - 1] + near).min(rows.len() - 1);
+            let (from, to) = (rows[first].angles, rows[last].angles);
+            for (n, row) in rows[first + 1..last].iter_mut().enumerate() {
+                let share = smooth((n + 1) as f64 / (last - first) as f64);
+                row.angles = from.mix(&to, share);
+                row.kept = false;
+            }
+        }
+    }
+}
+
+/// Returns what it costs to go from one choice to another within `dt` seconds.
+fn change(from: &Choice, to: &Choice, dt: f64) -> f64 {
+    let swivel = (to.plane - from.plane).abs() / (SWIVEL * dt);
+    let bend = to.angles.apart(&from.angles) / (0.6 * BENDING * dt);
+    let over = |speed: f64| (speed - 1.0).max(0.0).powi(2);
+    0.6 * swivel * swivel + 20.0 * over(swivel) + 6.0 * over(bend)
+}
+
+fn best(choices: &[Choice]) -> usize {
+    let least = choices
+        .iter()
+        .enumerate()
+        .min_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
+    least.map_or(0, |(n, _)| n)
+}
+
+/// Returns the plane at which the parabola through a choice and its neighbours is lowest.
+fn refined(choices: &[Choice], n: usize) -> f64 {
+    let here = choices[n];
+    let neighbour = |n: Option<usize>| choices.get(n?).filter(|other| other.high == here.high);
+    let (Some(less), Some(more)) = (neighbour(n.checked_sub(1)), neighbour(Some(n + 1))) else {
+        return here.plane;
+    };
+    let bent = less.cost - 2.0 * here.cost + more.cost;
+    if bent <= 1e-9 {
+        return here.plane;
+    }
+    let by = (0.5 * (less.cost - more.cost) / bent).clamp(-0.5, 0.5);
+    here.plane + by * (more.plane - here.plane)
+}
+
+/// Returns the planes of all frames: a uniform cubic B-spline, smoother than its keys.
+fn spline(keys: &[Choice], step: usize, total: usize) -> Vec<f64> {
+    let key = |n: isize| keys[n.clamp(0, keys.len() as isize - 1) as usize].plane;
+    (0..total)
+        .map(|frame| {
+            let n = (frame / step) as isize;
+            let t = (frame % step) as f64 / step as f64;
+            let [a, b, c, d] = [n - 1, n, n + 1, n + 2].map(key);
+            let u = 1.0 - t;
+            (u * u * u * a
+                + (3.0 * t * t * t - 6.0 * t * t + 4.0) * b
+                + (3.0 * u * u * u - 6.0 * u * u + 4.0) * c
+                + t * t * t * d)
+                / 6.0
+        })
+        .collect()
+}
+
+fn smooth(share: f64) -> f64 {
+    let share = share.clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}

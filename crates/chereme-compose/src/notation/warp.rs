@@ -1,0 +1,162 @@
+//! Time stretched where an arm would go faster than people do.
+
+use chereme_motion::glam::{DQuat, DVec3};
+
+/// How fast arms may go.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Fastest {
+    /// A joint, in radians a second.
+    pub(crate) joint: f64,
+    /// A wrist, in metres a second.
+    pub(crate) wrist: f64,
+}
+
+/// What of an arm has a speed: the wrist's place, and rotations in model space.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moved {
+    pub(crate) wrist: DVec3,
+    pub(crate) turned: [DQuat; 3],
+    /// Its joints' own rotations.
+    pub(crate) local: [DQuat; 4],
+}
+
+/// How planned time runs: when each planned frame is reached, in seconds.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Warp {
+    times: Vec<f64>,
+    rate: f64,
+}
+
+impl Warp {
+    /// Returns the time that keeps arms at `rate` frames a second within what is allowed.
+    ///
+    /// Each step lasts as long as the fastest part needs; steps near to a stretched one last somewhat
+    /// longer, too, so that nothing brakes at once.
+    pub(crate) fn of(arms: &[Vec<Moved>], rate: f64, fastest: &Fastest) -> Self {
+        let total = arms.iter().map(Vec::len).max().unwrap_or(0);
+        let mut lasts = vec![1.0_f64; total.saturating_sub(1)];
+        for arm in arms {
+            for (n, pair) in arm.windows(2).enumerate() {
+                let [a, b] = [pair[0], pair[1]];
+                let way = a.wrist.distance(b.wrist) * rate / fastest.wrist;
+                let turn = a.turned.iter().zip(b.turned);
+                let turn = turn
+                    .map(|(a, b)| a.angle_between(b) * rate / fastest.joint)
+                    .fold(0.0, f64::max);
+                let mut last = way.max(turn);
+                if last > 1.0 {
+                    // Joints go each its own way between the two frames.
+                    let each = a.local.iter().zip(b.local);
+                    let sum: f64 = each.map(|(a, b)| a.angle_between(b)).sum();
+                    last = last.max(sum * rate / fastest.joint);
+                }
+                lasts[n] = lasts[n].max(last);
+            }
+        }
+        let around = ((0.025 * rate).ceil() as usize).max(1);
+        let eased: Vec<f64> = (0..lasts.len())
+            .map(|n| {
+                let near = n.saturating_sub(around)..(n + around + 1).min(lasts.len());
+                let slope = |m: usize| {
+                    let far = n.abs_diff(m) as f64 / (around + 1) as f64;
+                    1.0 + (lasts[m].min(2.5) - 1.0) * (1.0 - far)
+                };
+                near.map(slope).fold(lasts[n], f64::max)
+            })
+            .collect();
+        let mut now = 0.0;
+        let mut times = vec![0.0];
+        for last in eased {
+            now += last / rate;
+            times.push(now);
+        }
+        Self { times, rate }
+    }
+
+    /// Tells whether time runs as planned.
+    pub(crate) fn is_none(&self) -> bool {
+        let last = self.times.len() - 1;
+        (self.times[last] - last as f64 / self.rate).abs() < 1e-9
+    }
+
+    /// Returns when a planned time comes, in seconds.
+    pub(crate) fn at(&self, planned: f64) -> f64 {
+        let frame = (planned * self.rate).max(0.0);
+        let last = self.times.len() - 1;
+        let n = (frame as usize).min(last);
+        if n == last {
+            return self.times[last] + (frame - last as f64) / self.rate;
+        }
+        self.times[n] + (self.times[n + 1] - self.times[n]) * (frame - n as f64)
+    }
+
+    /// Returns for each frame of the stretched time the planned frame before it and the share of the
+    /// way to the next.
+    pub(crate) fn frames(&self) -> Vec<(usize, f64)> {
+        let last = self.times.len() - 1;
+        let total = (self.times[last] * self.rate - 1e-9).ceil().max(0.0) as usize + 1;
+        let mut n = 0;
+        (0..total)
+            .map(|frame| {
+                let time = frame as f64 / self.rate;
+                while n + 1 < last && self.times[n + 1] <= time {
+                    n += 1;
+                }
+                if last == 0 || time >= self.times[last] {
+                    return (last, 0.0);
+                }
+                let share = (time - self.times[n]) / (self.times[n + 1] - self.times[n]);
+                (n, share.clamp(0.0, 1.0))
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FASTEST: Fastest = Fastest {
+        joint: 40.0,
+        wrist: 5.0,
+    };
+
+    fn along(places: &[f64]) -> Vec<Moved> {
+        let at = |x: &f64| Moved {
+            wrist: DVec3::X * *x,
+            turned: [DQuat::IDENTITY; 3],
+            local: [DQuat::IDENTITY; 4],
+        };
+        places.iter().map(at).collect()
+    }
+
+    #[test]
+    fn slow_arms_keep_their_time() {
+        let warp = Warp::of(&[along(&[0.0, 0.01, 0.02, 0.02])], 100.0, &FASTEST);
+        assert!(warp.is_none());
+        assert_eq!(warp.frames().len(), 4);
+        assert!((warp.at(0.025) - 0.025).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_step_at_once_takes_as_long_as_it_must() {
+        let mut places = vec![0.0; 20];
+        places.extend(vec![0.5; 20]);
+        let warp = Warp::of(&[along(&places)], 100.0, &FASTEST);
+        assert!(
+            (warp.at(0.2) - warp.at(0.19) - 0.1).abs() < 1e-12,
+            "0.5 m at 5 m/s"
+        );
+        let frames = warp.frames();
+        let at = |(n, share): (usize, f64)| {
+            let next = places[(n + 1).min(places.len() - 1)];
+            places[n] + (next - places[n]) * share
+        };
+        for pair in frames.windows(2) {
+            assert!((at(pair[1]) - at(pair[0])) * 100.0 <= 5.0 + 1e-9);
+        }
+        for n in 1..40 {
+            assert!(warp.at(f64::from(n) / 100.0) > warp.at(f64::from(n - 1) / 100.0));
+        }
+    }
+}
