@@ -5,10 +5,11 @@
 
 use chereme_motion::Side;
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_sign::hamnosys::sites::{BodySite, Face, HandPoint, Region, body_site, hand_points};
+use chereme_sign::hamnosys::sites::{
+    BodySite, Face, HandPoint, Region, body_site, coming_first, hand_points,
+};
 use chereme_sign::hamnosys::{
-    BodyLocation, BodyPlace, Constellation, Contact, Digit, HandClass, HandSite, Handshape, Place,
-    Site, ThumbPosition,
+    BodyLocation, BodyPlace, Constellation, Contact, HandSite, Place, Site,
 };
 
 use super::plan::{Frame, Planner, Who, acting};
@@ -270,50 +271,7 @@ impl Planner<'_> {
         let state = &self.state[n];
         let v = state.rotation.inverse() * way;
         let [along, palm, radial] = [hand.along, hand.palm, hand.radial].map(|axis| v.dot(axis));
-        let shape = &state.handshape;
-        let digit = leading(shape);
-        let small = region != Region::Trunk;
-        let thumb =
-            shape.form.class == HandClass::Fist && shape.form.thumb == Some(ThumbPosition::Out);
-        let pinch = is_pinch(shape.form.class);
-        let candidates = [
-            (
-                along + 0.15,
-                match digit {
-                    Some(digit) => HandPoint::Tip(digit, Face::Middle),
-                    None => HandPoint::Middle(Digit::Middle, Face::Dorsal),
-                },
-            ),
-            (
-                palm + 0.05,
-                match (digit, pinch || small) {
-                    (Some(digit), true) => HandPoint::Tip(digit, Face::Palmar),
-                    (None, _) => HandPoint::Middle(Digit::Middle, Face::Dorsal),
-                    _ => HandPoint::Palm,
-                },
-            ),
-            (
-                -palm,
-                match (digit, small) {
-                    (Some(digit), true) => HandPoint::Middle(digit, Face::Dorsal),
-                    _ => HandPoint::Back,
-                },
-            ),
-            (
-                radial,
-                match (thumb, digit, small) {
-                    (true, ..) => HandPoint::Tip(Digit::Thumb, Face::Middle),
-                    (false, Some(Digit::Index | Digit::Middle), true) => {
-                        HandPoint::Middle(Digit::Index, Face::Radial)
-                    }
-                    _ => HandPoint::Radial,
-                },
-            ),
-            (-radial, HandPoint::Ulnar),
-            (-along - 0.2, HandPoint::Wrist(Face::Palmar)),
-        ];
-        let best = candidates.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
-        best.map_or(HandPoint::Palm, |(_, point)| point)
+        coming_first(&state.handshape, [along, palm, radial], region)
     }
 
     /// Returns where points of a hand are, as planned, and the unit vector out of it there.
@@ -516,35 +474,4 @@ fn middle(a: &Placed, b: &Placed) -> Placed {
             ..a.site.clone()
         },
     }
-}
-
-/// Returns the digit that a handshape points or touches with; nothing for a closed fist.
-fn leading(shape: &Handshape) -> Option<Digit> {
-    use HandClass::{
-        Cee12, Cee12Open, Finger2, Finger23, Finger23Spread, Fist, Pinch12, Pinch12Open,
-    };
-    let first = shape
-        .special
-        .0
-        .iter()
-        .copied()
-        .find(|&digit| digit != Digit::Thumb);
-    match shape.form.class {
-        Fist => shape.exempt.0.first().copied(),
-        Finger2 | Pinch12 | Pinch12Open | Cee12 | Cee12Open => Some(first.unwrap_or(Digit::Index)),
-        Finger23 | Finger23Spread => Some(first.unwrap_or(Digit::Index)),
-        _ => Some(Digit::Middle),
-    }
-}
-
-fn is_pinch(class: HandClass) -> bool {
-    matches!(
-        class,
-        HandClass::Pinch12
-            | HandClass::Pinch12Open
-            | HandClass::PinchAll
-            | HandClass::Cee12
-            | HandClass::Cee12Open
-            | HandClass::CeeAll
-    )
 }

@@ -6,7 +6,7 @@ use chereme_motion::anatomy::BodyFrame;
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Anatomy, Finger, HandAngles, ModelPose, Part, Pose, Side, Skeleton};
 use chereme_sign::hamnosys::Digit;
-use chereme_sign::hamnosys::sites::{Face, HandPoint};
+use chereme_sign::hamnosys::sites::{Face, HandPoint, digit_joint, from_bone, on_palm};
 
 use super::arm::{Held, Rig};
 use crate::sources::Material;
@@ -168,23 +168,28 @@ impl Stage {
 
     /// Returns where a point of the hand is in the space of its joint.
     pub(crate) fn point(&self, hand: &Hand, shape: &Shape, point: HandPoint) -> DVec3 {
-        let middle = hand.along * (0.55 * hand.base);
-        let breadth = 0.22 * hand.length;
-        let thick = 0.08 * hand.length;
         match point {
-            HandPoint::Palm => middle + hand.palm * thick,
-            HandPoint::Back => middle - hand.palm * thick,
-            HandPoint::Radial => middle + hand.radial * breadth,
-            HandPoint::Ulnar => middle - hand.radial * breadth,
-            HandPoint::ThumbBall => {
-                hand.along * (0.3 * hand.base)
-                    + hand.palm * (1.4 * thick)
-                    + hand.radial * (0.6 * breadth)
+            HandPoint::Palm
+            | HandPoint::Back
+            | HandPoint::Radial
+            | HandPoint::Ulnar
+            | HandPoint::ThumbBall => {
+                let [along, palm, radial] = on_palm(point);
+                hand.along * (along * hand.base)
+                    + (hand.palm * palm + hand.radial * radial) * hand.length
             }
-            HandPoint::Wrist(face) => self.faced(hand, face, hand.along) * (0.14 * hand.length),
-            HandPoint::Tip(digit, face) => self.on_digit(hand, shape, digit, 3, face),
-            HandPoint::Middle(digit, face) => self.on_digit(hand, shape, digit, 2, face),
-            HandPoint::Base(digit, face) => self.on_digit(hand, shape, digit, 1, face),
+            HandPoint::Wrist(face) => {
+                self.faced(hand, face, hand.along) * (from_bone(point)[0] * hand.length)
+            }
+            HandPoint::Tip(digit, face) => {
+                self.on_digit(hand, shape, (digit, 3, face), from_bone(point))
+            }
+            HandPoint::Middle(digit, face) => {
+                self.on_digit(hand, shape, (digit, 2, face), from_bone(point))
+            }
+            HandPoint::Base(digit, face) => {
+                self.on_digit(hand, shape, (digit, 1, face), from_bone(point))
+            }
             HandPoint::Elbow => -hand.along * hand.rig.lengths[1],
             HandPoint::Forearm => -hand.along * (0.5 * hand.rig.lengths[1]),
             HandPoint::UpperArm => -hand.along * (1.3 * hand.rig.lengths[1]),
@@ -237,7 +242,13 @@ impl Stage {
     }
 
     /// Returns a point on a digit: 1 its base joint, 2 its middle joint, 3 its tip.
-    fn on_digit(&self, hand: &Hand, shape: &Shape, digit: Digit, which: u8, face: Face) -> DVec3 {
+    fn on_digit(
+        &self,
+        hand: &Hand,
+        shape: &Shape,
+        (digit, which, face): (Digit, u8, Face),
+        [out, back]: [f64; 2],
+    ) -> DVec3 {
         let at = self.end(hand, shape, digit, which);
         let at = at.unwrap_or(hand.along * (hand.base * if which == 1 { 1.0 } else { 1.6 }));
         if face == Face::Middle {
@@ -248,34 +259,22 @@ impl Stage {
         } else {
             self.bone(hand, shape, digit)
         };
-        let radius = if which == 1 { 0.06 } else { 0.042 };
-        // A pad or nail lies a little before the very end.
-        let back = if which == 3 { 0.03 } else { 0.0 };
-        at + (self.faced(hand, face, bone) * radius - bone * back) * hand.length
+        at + (self.faced(hand, face, bone) * out - bone * back) * hand.length
     }
 
     /// Returns where the base joint (1), the middle joint (2) or the tip (3) of a digit is.
     fn end(&self, hand: &Hand, shape: &Shape, digit: Digit, which: u8) -> Option<DVec3> {
-        let part = |n: u8| match digit {
-            Digit::Thumb => Part::Thumb(hand.side, n - 1),
-            Digit::Index => Part::Finger(hand.side, Finger::Index, n),
-            Digit::Middle => Part::Finger(hand.side, Finger::Middle, n),
-            Digit::Ring => Part::Finger(hand.side, Finger::Ring, n),
-            Digit::Little => Part::Finger(hand.side, Finger::Little, n),
-        };
         let place = |joint: usize| {
             let n = hand.fingers.iter().position(|&j| j == joint)?;
             Some(shape.places[n])
         };
         if which < 3 {
-            let which = if digit == Digit::Thumb {
-                which + 1
-            } else {
-                which
-            };
-            return Some(place(self.anatomy.joint(part(which))?)?.0);
+            let joint = self.anatomy.joint(digit_joint(hand.side, digit, which));
+            return Some(place(joint?)?.0);
         }
-        let last = (1..4).rev().find_map(|n| self.anatomy.joint(part(n)))?;
+        let last = (1..4)
+            .rev()
+            .find_map(|n| self.anatomy.joint(digit_joint(hand.side, digit, n)))?;
         let (at, turned) = place(last)?;
         if let Some(tip) = self.skeleton.joint(last).tip {
             return Some(at + turned * tip);

@@ -5,7 +5,13 @@
 
 use chereme_motion::Side as Half;
 
-use super::tree::{BodyLocation, Digit, FingerPart, HandLocation, HandSite, Side, Site};
+use super::tree::{BodyLocation, Side, Site};
+
+mod points;
+
+pub use points::{
+    Face, HandPoint, coming_first, digit_joint, finger_point, from_bone, hand_points, on_palm,
+};
 
 /// What a place belongs to; distances from it depend on that.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -189,130 +195,6 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
     v.map(|part| part / length)
 }
 
-/// A point of a hand or of its arm.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum HandPoint {
-    /// The middle of the palm.
-    Palm,
-    /// The middle of the back of the hand.
-    Back,
-    /// The edge on the thumb's side.
-    Radial,
-    /// The edge on the little finger's side.
-    Ulnar,
-    /// The ball of the thumb.
-    ThumbBall,
-    /// The wrist: at its palmar side, at its back, or in its middle.
-    Wrist(Face),
-    /// The end of a digit: its tip, its pad, or its nail.
-    Tip(Digit, Face),
-    /// The middle joint of a digit.
-    Middle(Digit, Face),
-    /// The base of a digit.
-    Base(Digit, Face),
-    /// The elbow.
-    Elbow,
-    /// The middle of the forearm.
-    Forearm,
-    /// The middle of the upper arm.
-    UpperArm,
-}
-
-/// Which face of a digit or wrist is meant.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Face {
-    /// None in particular: the middle, or the very tip.
-    Middle,
-    /// That of the palm.
-    Palmar,
-    /// That of the back.
-    Dorsal,
-    /// That towards the thumb.
-    Radial,
-    /// That towards the little finger.
-    Ulnar,
-}
-
-/// Returns the points that a site of a hand names: one for each digit, all meant together.
-///
-/// `of` is the hand; left and right say the sides of a hand whose palm faces down.
-#[must_use]
-pub fn hand_points(site: &HandSite, of: Half, mirrored: bool) -> Vec<HandPoint> {
-    let face = face(site.side, of, mirrored);
-    let each = |point: &dyn Fn(Digit) -> HandPoint, usual: Digit| -> Vec<HandPoint> {
-        if site.digits.is_empty() {
-            vec![point(usual)]
-        } else {
-            site.digits.0.iter().map(|&digit| point(digit)).collect()
-        }
-    };
-    let Some(at) = site.at else {
-        return each(&|digit| HandPoint::Middle(digit, face), Digit::Index);
-    };
-    match at {
-        HandLocation::Palm => vec![HandPoint::Palm],
-        HandLocation::HandBack => vec![HandPoint::Back],
-        HandLocation::ThumbSide => vec![HandPoint::Radial],
-        HandLocation::PinkySide => vec![HandPoint::Ulnar],
-        HandLocation::ThumbBall => vec![HandPoint::ThumbBall],
-        HandLocation::WristBack => vec![HandPoint::Wrist(match face {
-            Face::Middle => Face::Dorsal,
-            face => face,
-        })],
-        HandLocation::Elbow | HandLocation::ElbowInside => vec![HandPoint::Elbow],
-        HandLocation::LowerArm => vec![HandPoint::Forearm],
-        HandLocation::UpperArm => vec![HandPoint::UpperArm],
-        HandLocation::Tip => each(&|digit| HandPoint::Tip(digit, face), Digit::Middle),
-        HandLocation::Pad => each(&|digit| HandPoint::Tip(digit, Face::Palmar), Digit::Middle),
-        HandLocation::Nail => {
-            let face = if face == Face::Middle {
-                Face::Dorsal
-            } else {
-                face
-            };
-            each(&|digit| HandPoint::Tip(digit, face), Digit::Middle)
-        }
-        HandLocation::MidJoint => each(&|digit| HandPoint::Middle(digit, face), Digit::Middle),
-        HandLocation::Base => each(&|digit| HandPoint::Base(digit, face), Digit::Middle),
-        HandLocation::Side => {
-            let face = if face == Face::Middle {
-                Face::Radial
-            } else {
-                face
-            };
-            each(&|digit| HandPoint::Middle(digit, face), Digit::Index)
-        }
-    }
-}
-
-/// Returns the part of a finger that a contact of fingers names.
-#[must_use]
-pub fn finger_point(digit: Digit, part: FingerPart) -> HandPoint {
-    match part {
-        FingerPart::Tip => HandPoint::Tip(digit, Face::Middle),
-        FingerPart::Nail => HandPoint::Tip(digit, Face::Dorsal),
-        FingerPart::Pad => HandPoint::Tip(digit, Face::Palmar),
-        FingerPart::MidJoint => HandPoint::Middle(digit, Face::Middle),
-        FingerPart::Base => HandPoint::Base(digit, Face::Middle),
-        FingerPart::Side => HandPoint::Middle(digit, Face::Radial),
-    }
-}
-
-fn face(side: Option<Side>, of: Half, mirrored: bool) -> Face {
-    match side {
-        None => Face::Middle,
-        Some(Side::Palmar | Side::Front) => Face::Palmar,
-        Some(Side::Dorsal | Side::Back) => Face::Dorsal,
-        Some(Side::Radial) => Face::Radial,
-        Some(Side::Ulnar) => Face::Ulnar,
-        Some(side) => match said(Some(side), mirrored) {
-            // The thumb of a right hand, palm down, is at its left.
-            Some(half) if half == of => Face::Ulnar,
-            _ => Face::Radial,
-        },
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -389,33 +271,5 @@ mod tests {
                 assert!((length - 1.0).abs() < 1e-9);
             }
         }
-    }
-
-    #[test]
-    fn sites_of_hands_name_points() {
-        let site = HandSite {
-            at: Some(HandLocation::Tip),
-            digits: crate::hamnosys::Digits(vec![Digit::Index, Digit::Middle]),
-            ..HandSite::default()
-        };
-        let points = hand_points(&site, Half::Right, false);
-        assert_eq!(
-            points,
-            [Digit::Index, Digit::Middle].map(|digit| HandPoint::Tip(digit, Face::Middle))
-        );
-        let beside = HandSite {
-            at: Some(HandLocation::MidJoint),
-            side: Some(Side::RightBeside),
-            ..HandSite::default()
-        };
-        let of = |half, mirrored| hand_points(&beside, half, mirrored)[0];
-        assert_eq!(
-            of(Half::Right, false),
-            HandPoint::Middle(Digit::Middle, Face::Ulnar)
-        );
-        assert_eq!(
-            of(Half::Left, true),
-            HandPoint::Middle(Digit::Middle, Face::Ulnar)
-        );
     }
 }
