@@ -1,10 +1,13 @@
 //! What two notations of one sign have in common, feature by feature.
 
+use chereme_analysis::transcribe::{Options, off_place};
 use chereme_motion::glam::DVec3;
 use chereme_sign::hamnosys::{
     Aim, BodyLanguage, BodyPlace, Compass, Direction, Each, HandsUsed, Handshape, Manual, Motion,
     MotionKind, Place, Posture, Repeat, Size, WristMotion,
 };
+
+use crate::notation::Again;
 
 /// What of a feature is found again.
 #[derive(Debug, Clone)]
@@ -16,7 +19,8 @@ pub(crate) struct Verdict {
 }
 
 /// Compares a part as written with the part that was found.
-pub(crate) fn compare(written: &Manual, found: &Manual) -> Vec<Verdict> {
+pub(crate) fn compare(written: &Manual, again: &Again) -> Vec<Verdict> {
+    let found = &again.found.sign.parts.first().cloned().unwrap_or_default();
     let mut all = Vec::new();
     let mut say = |feature, agrees, written: String, found: String| {
         all.push(Verdict {
@@ -34,7 +38,22 @@ pub(crate) fn compare(written: &Manual, found: &Manual) -> Vec<Verdict> {
     for n in 0..2 {
         posture(n, &written.posture, &found.posture, &mut say);
     }
-    place(&written.posture, &found.posture, &mut say);
+    let symmetric = matches!(written.hands, HandsUsed::Both(_));
+    let off = |a: &BodyPlace, b: Option<&BodyPlace>| -> Option<(f64, f64)> {
+        let feature = again.found.features.first()?;
+        let options = Options::default();
+        let places = (a, b);
+        off_place(
+            &again.clip,
+            &again.anatomy,
+            &options,
+            feature.frame,
+            places,
+            symmetric,
+        )
+        .ok()?
+    };
+    place(&written.posture, &found.posture, &off, &mut say);
     movement(written, found, &mut say);
     all
 }
@@ -227,9 +246,16 @@ fn aimed<D: std::fmt::Display>(aim: Option<&Aim<D>>) -> String {
     }
 }
 
+/// How far the hand is from a place, and that place from another, in metres.
+type Off<'a> = dyn Fn(&BodyPlace, Option<&BodyPlace>) -> Option<(f64, f64)> + 'a;
+
+/// Two places are one point where a hand would be sent to points so near to each other, in metres.
+const ONE_POINT: f64 = 0.01;
+
 fn place(
     written: &Posture,
     found: &Posture,
+    off: &Off<'_>,
     say: &mut impl FnMut(&'static str, bool, String, String),
 ) {
     let Some(a) = &written.place else { return };
@@ -237,17 +263,18 @@ fn place(
         placed(a),
         found.place.as_ref().map_or("none".into(), placed),
     );
+    let bodies = |place: &Place| match place {
+        Place::Body(body) => Some(body.clone()),
+        Place::Split(Some(first), _) => match first.as_ref() {
+            Place::Body(body) => Some(body.clone()),
+            _ => None,
+        },
+        Place::Hands(hands) => hands.at.clone(),
+        _ => None,
+    };
+    let found_place = &found.place;
     match a {
         Place::Body(_) | Place::Split(..) => {
-            let bodies = |place: &Place| match place {
-                Place::Body(body) => Some(body.clone()),
-                Place::Split(Some(first), _) => match first.as_ref() {
-                    Place::Body(body) => Some(body.clone()),
-                    _ => None,
-                },
-                Place::Hands(hands) => hands.at.clone(),
-                _ => None,
-            };
             let Some(body) = bodies(a) else { return };
             let found = found.place.as_ref().and_then(bodies);
             let same = found.as_ref().is_some_and(|found| one_place(found, &body));
@@ -256,8 +283,23 @@ fn place(
                     .iter()
                     .any(|site| sites(&body).iter().any(|other| site.0 == other.0))
             });
-            say("location", same, text.clone(), other.clone());
-            say("location level", level, text.clone(), other.clone());
+            let (at, mut found_at) = (spoken(Some(&body)), spoken(found.as_ref()));
+            let distances = if same {
+                None
+            } else {
+                off(&body, found.as_ref())
+            };
+            if let Some((off, apart)) = distances {
+                found_at += &format!(
+                    "\t[off {:.1} cm, apart {:.1} cm]",
+                    100.0 * off,
+                    100.0 * apart
+                );
+            }
+            say("location", same, at.clone(), found_at.clone());
+            let point = same || distances.is_some_and(|(_, apart)| apart < ONE_POINT);
+            say("location point", point, at.clone(), found_at.clone());
+            say("location level", level, at, found_at);
             let contact = found.is_some_and(|found| found.contact == body.contact);
             say("contact", contact, text, other);
         }
@@ -269,19 +311,40 @@ fn place(
             let contact = found.is_some_and(|found| found.contact == hands.contact);
             say("constellation", contact, text.clone(), other.clone());
             if let Some(at) = &hands.at {
-                let at_found = found.and_then(|found| found.at.as_ref());
+                // What is told of the dominant hand alone is a place, too.
+                let told = found_place.as_ref().and_then(bodies);
+                let at_found = told.as_ref();
                 let same = at_found.is_some_and(|found| one_place(found, at));
                 let level = at_found.is_some_and(|found| {
                     sites(found)
                         .iter()
                         .any(|site| sites(at).iter().any(|other| site.0 == other.0))
                 });
-                say("location", same, text.clone(), other.clone());
-                say("location level", level, text, other);
+                let (body, mut found_at) = (at, spoken(at_found));
+                let at = spoken(Some(body));
+                let distances = if same { None } else { off(body, at_found) };
+                if let Some((_, apart)) = distances {
+                    found_at += &format!("\t[hands, apart {:.1} cm]", 100.0 * apart);
+                }
+                let point = same || distances.is_some_and(|(_, apart)| apart < ONE_POINT);
+                say("location", same, at.clone(), found_at.clone());
+                say("location point", point, at.clone(), found_at.clone());
+                say("location level", level, at, found_at);
             }
         }
         _ => {}
     }
+}
+
+/// Returns a place on the body in words: its sites and how near the hand comes.
+fn spoken(place: Option<&BodyPlace>) -> String {
+    place.map_or("none".into(), |place| {
+        let plain = BodyPlace {
+            by: None,
+            ..place.clone()
+        };
+        placed(&Place::Body(plain))
+    })
 }
 
 /// Tells whether two places are one: half-way from the chest to the right of the shoulders is half-way
@@ -380,7 +443,11 @@ fn movement(
     found: &Manual,
     say: &mut impl FnMut(&'static str, bool, String, String),
 ) {
-    let flat = |part: &Manual| -> Vec<Done> { part.actions.iter().flat_map(flat).collect() };
+    let flat = |part: &Manual| -> Vec<Done> {
+        let mut at = part.posture.place.clone();
+        let actions = part.actions.iter();
+        actions.flat_map(|action| flat(action, &mut at)).collect()
+    };
     let (a, b) = (flat(written), flat(found));
     let text = |all: &[Done]| -> String {
         let one = |done: &Done| {
@@ -429,8 +496,8 @@ fn movement(
     }
 }
 
-/// Returns what the dominant hand does, in order.
-fn flat(motion: &Motion) -> Vec<Done> {
+/// Returns what the dominant hand does, in order; `at` is where it was told to be last.
+fn flat(motion: &Motion, at: &mut Option<Place>) -> Vec<Done> {
     let done = |kind: &'static str| Done {
         kind,
         ..Done::default()
@@ -467,10 +534,12 @@ fn flat(motion: &Motion) -> Vec<Done> {
         MotionKind::FingerPlay(_) => vec![done("fingerplay")],
         MotionKind::Still => Vec::new(),
         MotionKind::Body(_) => Vec::new(),
-        MotionKind::Split(own, _) => own.as_deref().map(flat).unwrap_or_default(),
-        MotionKind::Sequence { motions, .. } => motions.iter().flat_map(flat).collect(),
+        MotionKind::Split(own, _) => own.as_deref().map(|own| flat(own, at)).unwrap_or_default(),
+        MotionKind::Sequence { motions, .. } => {
+            motions.iter().flat_map(|motion| flat(motion, at)).collect()
+        }
         MotionKind::Parallel(motions) => {
-            let mut all: Vec<Done> = motions.iter().flat_map(flat).collect();
+            let mut all: Vec<Done> = motions.iter().flat_map(|motion| flat(motion, at)).collect();
             let change = all.iter().any(|done| done.changes);
             all.sort_by_key(|done| done.kind == "replacement");
             all.retain({
@@ -484,11 +553,16 @@ fn flat(motion: &Motion) -> Vec<Done> {
             all
         }
         MotionKind::Target { motion, posture } => {
-            let place = posture.place.is_some();
+            // To take a place where the hand is already is no way.
+            let place = posture.place.is_some() && posture.place != *at;
+            *at = posture.place.clone().or_else(|| at.take());
             let change = !posture.shape.is_unset()
                 || !posture.extended.is_unset()
                 || !posture.palm.is_unset();
-            let mut all = motion.as_deref().map(flat).unwrap_or_default();
+            let mut all = motion
+                .as_deref()
+                .map(|motion| flat(motion, at))
+                .unwrap_or_default();
             if all.is_empty() {
                 all.push(done(if place { "straight" } else { "replacement" }));
             }
@@ -499,7 +573,7 @@ fn flat(motion: &Motion) -> Vec<Done> {
             all
         }
         MotionKind::Repeated { motion, repetition } => {
-            let mut all = flat(motion);
+            let mut all = flat(motion, at);
             for done in &mut all {
                 done.repeat = Some(repetition.repeat);
             }

@@ -2,7 +2,9 @@
 //!
 //! `cargo run --release -p chereme-tests --example transcribe -- notation FOLDER BODY.bvh` animates every
 //! `.sigml` file of a folder on a body, transcribes what came of it, and prints how often each feature
-//! is what was written; `... -- why FEATURE FOLDER BODY.bvh` prints where it is not. `... -- movement
+//! is what was written, also of the half of the signs on which thresholds are tuned and of the other half;
+//! `... -- why FEATURE FOLDER BODY.bvh` prints where it is not, `... -- confusions FEATURE ...` counts what
+//! is taken for what, both in the half that is tuned on. `... -- movement
 //! FILE.bvh...` transcribes captured movement, animates what was written, and prints their distance.
 
 #![allow(clippy::print_stdout)]
@@ -16,20 +18,26 @@ mod notation;
 use std::error::Error;
 use std::path::Path;
 
+use notation::More;
+
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words.as_slice() {
-        ["notation", folder, body] => notation::table(Path::new(folder), Path::new(body), None),
-        ["why", feature, folder, body] => {
-            notation::table(Path::new(folder), Path::new(body), Some(feature))
-        }
+        ["notation", folder, body] => closed(folder, body, More::Nothing),
+        ["why", feature, folder, body] => closed(folder, body, More::Why(feature)),
+        ["confusions", feature, folder, body] => closed(folder, body, More::Confusions(feature)),
         ["movement", files @ ..] if !files.is_empty() => movement::table(files),
         _ => Err(
-            "say `notation FOLDER BODY.bvh`, `why FEATURE FOLDER BODY.bvh` or `movement FILE.bvh...`"
+            "say `notation FOLDER BODY.bvh`, `why FEATURE FOLDER BODY.bvh`, `confusions FEATURE \
+             FOLDER BODY.bvh` or `movement FILE.bvh...`"
                 .into(),
         ),
     }
+}
+
+fn closed(folder: &str, body: &str, more: More<'_>) -> Result<()> {
+    notation::table(Path::new(folder), Path::new(body), more)
 }

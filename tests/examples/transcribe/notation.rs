@@ -2,61 +2,98 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant as Clock;
 
 use chereme_analysis::transcribe::{Options, Transcription, transcribe};
+use chereme_compose::Material;
 use chereme_compose::notation::{Settings, animate};
-use chereme_motion::Span;
-use chereme_sign::hamnosys::{Manual, Sign};
+use chereme_motion::{Anatomy, Clip, Span};
+use chereme_sign::hamnosys::{Manual, Notated, Sign};
 
 use crate::Result;
 use crate::bodies;
 use crate::compare::compare;
 
-/// Prints how often each feature is found again; with `why` also where it is not.
-pub(crate) fn table(folder: &Path, body: &Path, why: Option<&str>) -> Result<()> {
+/// What is printed besides the table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum More<'a> {
+    Nothing,
+    /// Every disagreement about a feature of the half that is tuned on, or `all`, or `show` with each.
+    Why(&'a str),
+    /// What is taken for what how often, in the half that is tuned on.
+    Confusions(&'a str),
+}
+
+/// How often a feature agrees: of all, where the body reaches it, and of each half of the signs.
+#[derive(Debug, Clone, Copy, Default)]
+struct Counts([(usize, usize); 4]);
+
+impl Counts {
+    fn add(&mut self, agrees: bool, which: [bool; 4]) {
+        for (count, _) in self.0.iter_mut().zip(which).filter(|(_, is)| *is) {
+            count.0 += usize::from(agrees);
+            count.1 += 1;
+        }
+    }
+
+    fn share(&self, n: usize) -> f64 {
+        100.0 * self.0[n].0 as f64 / self.0[n].1 as f64
+    }
+}
+
+/// Prints how often each feature is found again.
+pub(crate) fn table(folder: &Path, body: &Path, more: More<'_>) -> Result<()> {
     let stage = bodies::stage(body)?;
     let (settings, options) = (Settings::default(), Options::default());
-    let mut counts: BTreeMap<&'static str, (usize, usize)> = BTreeMap::new();
-    let mut reached = counts.clone();
+    let mut counts: BTreeMap<&'static str, Counts> = BTreeMap::new();
+    let mut confusions: BTreeMap<(String, String), usize> = BTreeMap::new();
     let (mut parts, mut whole, mut failed, mut slow) = (0, 0, 0, 0.0_f64);
     let mut spent = 0.0;
     for (name, entry) in bodies::signs(folder)? {
+        let tuned = is_tuned_on(&name);
         for part in &entry.sign.parts {
-            let Some((found, short, seconds)) = again(part, &entry, &stage, &settings, &options)
-            else {
+            let Some(again) = again(part, &entry, &stage, &settings, &options) else {
                 failed += 1;
                 continue;
             };
+            let short = again.short;
             parts += 1;
             whole += usize::from(!short);
-            spent += seconds;
-            slow = slow.max(seconds);
-            if why == Some("show") {
-                show(&name, part, &found);
+            spent += again.seconds;
+            slow = slow.max(again.seconds);
+            if more == More::Why("show") {
+                show(&name, part, &again);
             }
-            let found = found.sign.parts.into_iter().next().unwrap_or_default();
-            for verdict in compare(part, &found) {
+            for verdict in compare(part, &again) {
                 let count = counts.entry(verdict.feature).or_default();
-                count.0 += usize::from(verdict.agrees);
-                count.1 += 1;
-                let asked = why.is_some_and(|why| why == verdict.feature || why == "all");
-                if asked && !verdict.agrees {
-                    println!(
-                        "{}{}\t{name}: {}   <>   {}",
-                        verdict.feature,
-                        if short { " (short)" } else { "" },
-                        verdict.written,
-                        verdict.found
-                    );
-                }
-                if !short {
-                    let count = reached.entry(verdict.feature).or_default();
-                    count.0 += usize::from(verdict.agrees);
-                    count.1 += 1;
+                count.add(verdict.agrees, [true, !short, tuned, !tuned]);
+                match more {
+                    More::Confusions(of) if tuned && of == verdict.feature => {
+                        let mark = if verdict.agrees { "= " } else { "" };
+                        let pair = (verdict.written, format!("{mark}{}", verdict.found));
+                        *confusions.entry(pair).or_default() += 1;
+                    }
+                    More::Why(of)
+                        if tuned && !verdict.agrees && [verdict.feature, "all"].contains(&of) =>
+                    {
+                        println!(
+                            "{}{}\t{name}: {}   <>   {}",
+                            verdict.feature,
+                            if short { " (short)" } else { "" },
+                            verdict.written,
+                            verdict.found
+                        );
+                    }
+                    _ => {}
                 }
             }
         }
+    }
+    let mut confusions: Vec<_> = confusions.into_iter().collect();
+    confusions.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
+    for ((written, found), count) in confusions {
+        println!("{count:5}  {written}  ->  {found}");
     }
     println!("{parts} parts of signs, {whole} of them reached by the body, {failed} not made");
     println!(
@@ -64,27 +101,45 @@ pub(crate) fn table(folder: &Path, body: &Path, why: Option<&str>) -> Result<()>
         1e3 * spent / parts.max(1) as f64,
         1e3 * slow
     );
-    println!("| feature | agree | of | share | where the body reaches it |\n|---|---|---|---|---|");
-    for (feature, (agree, of)) in counts {
-        let share = |(agree, of): (usize, usize)| 100.0 * agree as f64 / of as f64;
-        let own = share(reached.get(feature).copied().unwrap_or((0, 1)));
-        println!(
-            "| {feature} | {agree} | {of} | {:.1} % | {own:.1} % |",
-            share((agree, of))
-        );
+    println!("| feature | agree | of | share | where the body reaches it | tuned on | held out |");
+    println!("|---|---|---|---|---|---|---|");
+    for (feature, counts) in counts {
+        let (agree, of) = counts.0[0];
+        let shares: Vec<String> = (0..4)
+            .map(|n| format!("{:.1} %", counts.share(n)))
+            .collect();
+        println!("| {feature} | {agree} | {of} | {} |", shares.join(" | "));
     }
     Ok(())
 }
 
-/// Animates a part of a sign alone and transcribes it; returns what was found, whether the body
-/// fell short of what is written, and the seconds it took.
+/// Tells whether a sign is of the half that thresholds may be tuned on: by its name's bytes (FNV-1a).
+fn is_tuned_on(name: &str) -> bool {
+    let hash = name.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
+    });
+    (hash >> 32) & 1 == 0
+}
+/// What came of a part of a sign.
+pub(crate) struct Again {
+    pub(crate) found: Transcription,
+    /// The sign without the ways from and to rest.
+    pub(crate) clip: Clip,
+    pub(crate) anatomy: Arc<Anatomy>,
+    /// Whether the body fell short of what is written.
+    pub(crate) short: bool,
+    /// How long it took to transcribe.
+    seconds: f64,
+}
+
+/// Animates a part of a sign alone and transcribes it.
 fn again(
     part: &Manual,
-    entry: &chereme_sign::hamnosys::Notated,
-    stage: &chereme_compose::Material,
+    entry: &Notated,
+    stage: &Material,
     settings: &Settings,
     options: &Options,
-) -> Option<(Transcription, bool, f64)> {
+) -> Option<Again> {
     let mut alone = entry.clone();
     alone.sign = Sign {
         parts: vec![Manual {
@@ -113,20 +168,25 @@ fn again(
         .iter()
         .any(|words| warning.contains(words))
     });
-    Some((found, short, seconds))
+    Some(Again {
+        found,
+        clip,
+        anatomy: made.anatomy,
+        short,
+        seconds,
+    })
 }
 
-fn show(name: &str, part: &Manual, found: &Transcription) {
+fn show(name: &str, part: &Manual, again: &Again) {
     println!("== {name}");
-    let own = found.sign.parts.first().cloned().unwrap_or_default();
-    for verdict in compare(part, &own) {
+    for verdict in compare(part, again) {
         let mark = if verdict.agrees { ' ' } else { '*' };
         println!(
             " {mark} {}: {}  <>  {}",
             verdict.feature, verdict.written, verdict.found
         );
     }
-    for feature in &found.features {
+    for feature in &again.found.features {
         let next = feature
             .runner_up
             .as_ref()

@@ -15,7 +15,7 @@ const LEAST: (f64, f64) = (0.2, 0.35);
 const SHORT: f64 = 0.035;
 /// A hand that turns by this, or whose angles change by that, ends in another posture; in radians.
 const TURNED: f64 = 0.3;
-const RESHAPED: f64 = 0.11;
+const RESHAPED: f64 = 0.07;
 /// The least range of a hand or finger that goes to and fro, in radians.
 const SWAY: f64 = 0.12;
 /// A hand stops where it is slower than this share of its speed before and after.
@@ -108,28 +108,44 @@ impl Sway {
     }
 }
 
-/// A hand with the points of it whose ways are looked at: the one that is meant first, then others that
-/// the hand may turn about.
+/// A hand with the points of it whose ways are looked at: those that may be meant, and others that the
+/// hand may turn about.
 pub(super) struct Mover<'a> {
     pub(super) track: &'a Track,
     points: Vec<Vec<DVec3>>,
+    /// How many of them may be meant.
+    meant: usize,
 }
 
 impl<'a> Mover<'a> {
-    /// Takes the palm, or the parts that touch something where the sign begins or ends, and the wrist.
-    pub(super) fn new(track: &'a Track, touching: &[(DVec3, usize)]) -> Self {
-        let mut points: Vec<Vec<DVec3>> = touching
-            .iter()
-            .map(|&(at, frame)| track.carried(at, frame))
-            .collect();
+    /// Takes the parts that are at something where the sign begins or ends, the palm and the wrist; and
+    /// parts that the hand may turn about.
+    pub(super) fn new(
+        track: &'a Track,
+        touching: &[(DVec3, usize)],
+        pivots: &[(DVec3, usize)],
+    ) -> Self {
+        let carried = |&(at, frame): &(DVec3, usize)| track.carried(at, frame);
+        let mut points: Vec<Vec<DVec3>> = touching.iter().map(carried).collect();
         points.push(track.palm.clone());
         points.push(track.wrist.clone());
-        Self { track, points }
+        let meant = points.len();
+        points.extend(pivots.iter().map(carried));
+        Self {
+            track,
+            points,
+            meant,
+        }
     }
 
-    /// Returns the way of the point that is meant.
-    fn path(&self, first: usize, last: usize) -> &[DVec3] {
-        &self.points[0][first..=last]
+    /// Returns the plainest way of a point that may be meant.
+    fn fit(&self, first: usize, last: usize) -> Fitted {
+        let score = |fitted: &Fitted| (fitted.residual + EXACT) * plain(&fitted.way);
+        let fits = self.points[..self.meant]
+            .iter()
+            .map(|way| fit(&way[first..=last]));
+        fits.min_by(|a, b| score(a).total_cmp(&score(b)))
+            .unwrap_or_else(|| fit(&self.track.palm[first..=last]))
     }
 
     /// Returns the length of the shortest way of a point.
@@ -139,10 +155,23 @@ impl<'a> Mover<'a> {
     }
 }
 
+/// A way is taken to be off by so much more, in metres, before what it takes to say it counts.
+const EXACT: f64 = 0.002;
+
+/// How much a residual counts more for a way that takes more to say.
+fn plain(way: &Way) -> f64 {
+    match way {
+        Way::Straight { .. } => 1.0,
+        Way::Arc { .. } => 1.4,
+        Way::Circle { .. } => 1.2,
+        Way::Wave { .. } => 1.8,
+    }
+}
+
 /// The frames in which a hand signs, ways from and to rest cut off.
 pub(super) fn signing(scene: &Scene<'_>, track: &Track) -> RangeInclusive<usize> {
     let last = track.palm.len() - 1;
-    let (ways, _) = ways(scene, &Mover::new(track, &[]), 0, last);
+    let (ways, _) = ways(scene, &Mover::new(track, &[], &[]), 0, last);
     let mut first = 0;
     let mut end = last;
     // Hands that lie in the lap or are folded before the belly rest, if they come up far from there.
@@ -263,8 +292,7 @@ fn joined(
             })
             .count();
         let whole = (1..=follow).rev().find(|&more| {
-            let points = mover.path(*first.start(), *left[more].end());
-            let way = fit(points);
+            let way = mover.fit(*first.start(), *left[more].end());
             match way.way {
                 Way::Circle { turns, long, .. } => {
                     let each = turns / (more + 1) as f64;
@@ -289,14 +317,12 @@ fn going(
     plays: Option<&Sway>,
 ) -> Act {
     let track = mover.track;
-    let wrist = wrist(track, first, last).filter(|sway| match sway {
-        Sway::Wrist { cycles, .. } => *cycles >= 1.4,
-        Sway::Play { .. } => false,
-    });
+    let often = |sway: &Sway| matches!(sway, Sway::Wrist { cycles, .. } if *cycles >= 1.4);
+    let wrist = wrist(track, first, last).filter(often);
     // A hand that sways as it goes is carried by its wrist.
     let fitted = match &wrist {
         Some(_) => fit(&track.wrist[first..=last]),
-        None => fit(mover.path(first, last)),
+        None => mover.fit(first, last),
     };
     let with = plays.cloned().or(wrist);
     Act {

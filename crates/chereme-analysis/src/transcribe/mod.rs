@@ -31,7 +31,7 @@ mod words;
 mod tests;
 
 use chereme_motion::{Anatomy, Clip, Side};
-use chereme_sign::hamnosys::{BodyLanguage, Sign};
+use chereme_sign::hamnosys::{BodyLanguage, BodyPlace, Sign};
 use serde::Serialize;
 
 /// How a token is transcribed.
@@ -226,6 +226,25 @@ pub fn looks_the_same(
     language: &BodyLanguage,
 ) -> bool {
     shape::is_same(a, b, language)
+}
+
+/// Returns how far a hand is in a frame from a place that notation names, in metres, and how far the
+/// places are from each other where a hand would be sent to; `symmetric` where both hands act alike.
+///
+/// Nothing where the skeleton lacks the hand or the place.
+///
+/// # Errors
+/// As [`transcribe`]'s.
+pub fn off_place(
+    clip: &Clip,
+    anatomy: &Anatomy,
+    options: &Options,
+    frame: usize,
+    places: (&BodyPlace, Option<&BodyPlace>),
+    symmetric: bool,
+) -> Result<Option<(f64, f64)>, TranscribeError> {
+    let scene = scene::Scene::of(clip, anatomy, options)?;
+    Ok(tree::off_place(&scene, options, frame, places, symmetric))
 }
 
 /// The best of many, with how far off it is and what came next.

@@ -1,14 +1,19 @@
 //! Where hands are: the nearest place on the body or in space, what touches, the two by each other.
 
-use chereme_motion::{Finger, ModelPose, Part, Side as Half};
-use chereme_sign::hamnosys::sites::{BodySite, Face, HandPoint, Region, body_site};
-use chereme_sign::hamnosys::{
-    BodyLocation, BodyPlace, Contact, Digit, Digits, HandLocation, HandSite, Side, Site,
-};
+mod hand;
+
+use std::cell::OnceCell;
+
+use chereme_motion::{ModelPose, Side as Half};
+use chereme_sign::hamnosys::sites::{Face, HandPoint, Region, body_site, hand_points};
+use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Digit, Handshape, Side, Site};
 use glam::DVec3;
 
 use super::Found;
 use super::scene::{Axes, Scene};
+use hand::{Hand, RANK, Spotted, rank};
+
+pub(super) use hand::named;
 
 /// Places that are told apart; those within them (teeth, eyelids) are said where one is surer.
 const PLACES: [BodyLocation; 24] = [
@@ -52,18 +57,31 @@ const TOUCH: [f64; 3] = [0.05, 0.07, 0.045];
 const TOGETHER: f64 = 0.125;
 /// How much a metre forward counts against one aside or up: depth varies most between signers.
 const DEPTH: f64 = 0.6;
-/// What is said costs so much, in arm lengths: half-way between places of the trunk (or touched ones) or
-/// before the head; a place that is rarely meant; the shoulder's top without touching it; reaching far;
-/// being close to the head without touching it.
-const BETWEEN: [f64; 2] = [0.008, 0.028];
-const RARE: f64 = 0.015;
-const TOP: f64 = 0.004;
-const FAR: f64 = 0.04;
-const NEAR: f64 = 0.012;
-/// A part of the hand counts as so much farther, in metres, for each step that it is less likely meant.
-const RANK: f64 = 0.004;
+/// What is said costs so much, as a share of the distance: half-way between places of the trunk (or
+/// touched ones) or before the head; a place that is rarely meant; the shoulder's top without touching
+/// it; reaching far; being close to the head without touching it; another part of the hand than the
+/// one that comes first, for small places and before the trunk; a side; the more, the farther two places
+/// are from each other; two of neck and head.
+const BETWEEN: [f64; 2] = [0.25, 0.5];
+const RARE: f64 = 0.4;
+const TOP: f64 = 0.15;
+const FAR: f64 = 0.5;
+const NEAR: f64 = 0.2;
+const SAID: [f64; 2] = [0.25, 0.8];
+const SIDE: f64 = 0.05;
+const WIDE: f64 = 0.1;
+const ACROSS: f64 = 0.3;
+/// A distance is taken for so much more, in metres, before what is said counts against it.
+const FLOOR: f64 = 0.004;
+/// The two hands by each other are told rather than each at its place where that is not so much nearer:
+/// where they touch, and where they are close.
+const RATHER: [f64; 2] = [1.8, 1.2];
+/// So many pairs of parts of the hands are tried.
+const PAIRS: usize = 8;
 /// Half-way between two places may be meant that are nearer to each other than this, in metres.
 const APART: f64 = 0.2;
+/// As above, where one is at the neck and the other at the head.
+const ABOVE: f64 = 0.3;
 
 /// A place that was found, with the distance to it.
 #[derive(Debug, Clone)]
@@ -72,80 +90,161 @@ pub(super) struct Placed {
     /// From what a hand would be that is there, in metres.
     pub(super) residual: f64,
     pub(super) runner_up: Option<(BodyPlace, f64)>,
+    /// The residual with what is said counted against it.
+    pub(super) score: f64,
     /// From the hand to the body there, in metres.
     pub(super) distance: f64,
+    /// Whether a part of the hand is meant, and not the whole.
+    pub(super) small: bool,
     /// Where the part of the hand is that touches it, or comes nearest to it.
     pub(super) by: Option<DVec3>,
 }
 
-/// The body in one posture with the points of both hands.
+/// The body in one posture with both hands.
 pub(super) struct Body<'a> {
     scene: &'a Scene<'a>,
     axes: Axes,
-    spots: Vec<Spot>,
-    /// Of the dominant hand and of the other.
-    pub(super) points: [Vec<(HandPoint, DVec3)>; 2],
-    palms: [Option<DVec3>; 2],
+    model: ModelPose,
+    /// The dominant hand and the other.
+    hands: [Option<Hand>; 2],
+    choices: [OnceCell<Vec<Choice>>; 2],
 }
 
 /// A place on the body: where it is, and where a hand is that is before it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 struct Spot {
     site: Site<BodyLocation>,
-    found: BodySite,
     /// On the body; and its way out.
     at: DVec3,
     out: DVec3,
+    region: Region,
+    /// To the left of the middle, in shoulder widths.
+    lateral: f64,
+    beside: bool,
+}
+
+/// A place that may be meant: one, or half-way between two.
+#[derive(Debug, Clone, Copy)]
+struct Choice {
+    spot: Spot,
+    second: Option<Site<BodyLocation>>,
+    /// What it costs to say it, but for being half-way.
+    cost: f64,
+    top: bool,
+}
+
+/// A place that a hand may be at, and how far it is from there.
+struct Candidate<'c> {
+    choice: &'c Choice,
+    contact: Option<Contact>,
+    /// The part of the hand, where it must be said.
+    said: Option<HandPoint>,
+    residual: f64,
+    /// The residual with what is said counted against it.
+    score: f64,
+    distance: f64,
+    /// Whether a part of the hand is meant, and not the whole.
+    small: bool,
+    by: DVec3,
+}
+
+impl Candidate<'_> {
+    fn sites(&self) -> [Option<Site<BodyLocation>>; 2] {
+        [Some(self.choice.spot.site), self.choice.second]
+    }
+
+    fn place(&self) -> BodyPlace {
+        let [site, second] = self.sites();
+        BodyPlace {
+            site,
+            second,
+            contact: self.contact,
+            by: self.said.map(named),
+            ..BodyPlace::default()
+        }
+    }
 }
 
 impl<'a> Body<'a> {
-    /// Looks at one frame; nothing where the skeleton tells no trunk there.
-    pub(super) fn of(scene: &'a Scene<'a>, frame: usize) -> Option<Self> {
+    /// Looks at one frame; nothing where the skeleton tells no trunk there. `shapes` are those of the
+    /// dominant hand and the other.
+    pub(super) fn of(
+        scene: &'a Scene<'a>,
+        frame: usize,
+        shapes: [Option<&Handshape>; 2],
+    ) -> Option<Self> {
         let model = scene.clip.model_pose(frame);
         let axes = Axes::of(scene.anatomy, scene.alone, &model, scene.dominant)?;
-        let mut body = Self {
+        let hands = [0, 1].map(|n| Hand::of(scene, &axes, &model, (n, frame), shapes[n]));
+        Some(Self {
             scene,
             axes,
-            spots: Vec::new(),
-            points: [Vec::new(), Vec::new()],
-            palms: [0, 1].map(|n| scene.hands[n].as_ref().map(|track| track.palm[frame])),
-        };
-        for (n, track) in scene.hands.iter().enumerate() {
-            if let Some(track) = track {
-                body.points[n] = body.hand_points(&model, track.side);
-            }
+            model,
+            hands,
+            choices: Default::default(),
+        })
+    }
+
+    /// Takes hand `n` to be elsewhere by so much.
+    pub(super) fn shift(&mut self, n: usize, by: DVec3) {
+        if let Some(hand) = &mut self.hands[n] {
+            hand.shift(by);
         }
-        for at in PLACES {
-            for side in SIDES {
-                if let Some(spot) = body.spot(&model, at, side) {
-                    let same = |old: &Spot| {
-                        old.at.distance(spot.at) < 1e-3
-                            && old.found.lateral == spot.found.lateral
-                            && old.found.region == spot.found.region
-                            && old.out.distance(spot.out) < 1e-3
-                    };
-                    if !body.spots.iter().any(same) {
-                        body.spots.push(spot);
+    }
+
+    /// Returns every place that is told apart, as hand `n` would be sent there.
+    fn choices(&self, n: usize) -> &[Choice] {
+        self.choices[n].get_or_init(|| {
+            let spots = self.spots(n);
+            let mut all = Vec::new();
+            for (k, first) in spots.iter().enumerate() {
+                all.push(choice(first, None));
+                for second in spots[k + 1..].iter().filter(|it| neighbours(first, it)) {
+                    all.push(choice(first, Some(second)));
+                    // From where it is counted tells how far before it a hand is.
+                    if first.region != second.region {
+                        all.push(choice(second, Some(first)));
                     }
                 }
             }
-        }
-        Some(body)
+            all
+        })
     }
 
-    fn spot(&self, model: &ModelPose, at: BodyLocation, side: Option<Side>) -> Option<Spot> {
+    fn spots(&self, n: usize) -> Vec<Spot> {
+        let mut spots: Vec<Spot> = Vec::new();
+        for at in PLACES {
+            for side in SIDES {
+                let site = Site {
+                    at,
+                    side,
+                    approx: false,
+                };
+                let Some(spot) = self.spot(n, &site) else {
+                    continue;
+                };
+                let same = |old: &Spot| {
+                    old.at.distance(spot.at) < 1e-3
+                        && old.lateral == spot.lateral
+                        && old.region == spot.region
+                        && old.out.distance(spot.out) < 1e-3
+                };
+                if !spots.iter().any(same) {
+                    spots.push(spot);
+                }
+            }
+        }
+        spots
+    }
+
+    fn spot(&self, n: usize, site: &Site<BodyLocation>) -> Option<Spot> {
         let scene = self.scene;
-        let site = Site {
-            at,
-            side,
-            approx: false,
-        };
-        let mirrored = scene.dominant == Half::Left;
-        let found = body_site(&site, scene.dominant, mirrored);
+        let acting = [scene.dominant, scene.dominant.other()][n];
+        let found = body_site(site, acting, scene.dominant == Half::Left);
         let flip = DVec3::new(-scene.dominant.sign(), 1.0, 1.0);
         let root = scene
             .anatomy
-            .landmark(scene.clip.skeleton(), model, &found.landmark)?;
+            .landmark(scene.clip.skeleton(), &self.model, &found.landmark)?;
         // The top of a shoulder is where that shoulder is.
         let shoulder = found.landmark.ends_with("-shoulder");
         let root = match found.region {
@@ -158,142 +257,177 @@ impl<'a> Body<'a> {
             _ => DVec3::ZERO,
         };
         let offset = DVec3::from(found.offset) * flip * scene.shoulders;
-        let found = BodySite {
-            lateral: found.lateral * flip.x,
-            ..found
-        };
         Some(Spot {
-            site,
+            site: *site,
             at: root + offset + flesh,
             out,
-            found,
+            region: found.region,
+            lateral: found.lateral * flip.x,
+            beside: found.beside,
         })
     }
 
     /// Returns where hand `n` is: the nearest place of all; with `symmetric` the hands are taken to be
     /// apart where nothing is said of sides.
     pub(super) fn place(&self, n: usize, symmetric: bool) -> Option<Placed> {
-        let palm = self.palms[n]?;
-        let singles: Vec<Option<&Spot>> = vec![None];
-        let mut all: Vec<(BodyPlace, f64, f64, f64, DVec3)> = Vec::new();
-        for (k, first) in self.spots.iter().enumerate() {
-            let seconds = self.spots[k + 1..]
-                .iter()
-                .filter(|second| neighbours(first, second))
-                .map(Some);
-            for second in singles.iter().copied().chain(seconds) {
-                self.weigh(n, palm, (first, second), symmetric, &mut all);
-            }
+        let hand = self.hands[n].as_ref()?;
+        self.placed(n, hand, symmetric)
+    }
+
+    fn placed(&self, n: usize, hand: &Hand, symmetric: bool) -> Option<Placed> {
+        let mut all: Vec<Candidate<'_>> = Vec::new();
+        for choice in self.choices(n) {
+            self.weigh(n, hand, choice, symmetric, &mut all);
         }
-        all.sort_by(|a, b| a.2.total_cmp(&b.2));
-        let (place, residual, _, distance, by) = all.first()?.clone();
-        let other = all.iter().find(|other| {
-            let named = |place: &BodyPlace| [place.site, place.second];
-            let of = named(&place);
-            !named(&other.0)
-                .iter()
-                .flatten()
-                .any(|site| of.contains(&Some(*site)))
+        let lower = |a: &&Candidate<'_>, b: &&Candidate<'_>| a.score.total_cmp(&b.score);
+        let best = all.iter().min_by(lower)?;
+        let of = best.sites();
+        let others = all.iter().filter(|other| {
+            let sites = other.sites();
+            !sites.iter().flatten().any(|site| of.contains(&Some(*site)))
         });
         Some(Placed {
-            runner_up: other.map(|other| (other.0.clone(), other.1)),
-            place,
-            residual,
-            distance,
-            by: Some(by),
+            runner_up: others
+                .min_by(lower)
+                .map(|other| (other.place(), other.residual)),
+            place: best.place(),
+            residual: best.residual,
+            score: best.score,
+            distance: best.distance,
+            small: best.small,
+            by: Some(best.by),
         })
     }
 
-    /// Weighs a place, or half-way between two, for a hand: touched, close, or before it.
-    fn weigh(
+    /// Weighs a place for a hand: touched, close, or before it.
+    fn weigh<'c>(
         &self,
         n: usize,
-        palm: DVec3,
-        (first, second): (&Spot, Option<&Spot>),
+        hand: &Hand,
+        choice: &'c Choice,
         symmetric: bool,
-        all: &mut Vec<(BodyPlace, f64, f64, f64, DVec3)>,
+        all: &mut Vec<Candidate<'c>>,
     ) {
-        let (scene, l) = (self.scene, self.scene.language);
-        let spot = second.map_or_else(|| first.clone(), |second| middle(first, second));
-        let trunk = spot.found.region == Region::Trunk;
-        let nearest = self.points[n]
-            .iter()
-            .filter(|(point, _)| touches(*point))
-            .min_by(|a, b| {
-                let off =
-                    |(point, at): &(HandPoint, DVec3)| at.distance(spot.at) + RANK * rank(*point);
-                off(a).total_cmp(&off(b))
-            });
-        let Some(&(by, by_at)) = nearest else { return };
-        let distance = by_at.distance(spot.at);
-        let touched = distance < TOUCH[usize::from(trunk)] * scene.arm && !spot.found.beside;
-        let between = second.map_or(0.0, |_| BETWEEN[usize::from(!trunk && !touched)]);
-        let rare = [Some(first), second]
-            .into_iter()
-            .flatten()
-            .filter(|spot| is_rare(spot.site.at))
-            .count();
-        let cost = between + RARE * rare as f64;
-        let mut add = |contact: Option<Contact>, residual: f64, by: Option<HandSite>, at: DVec3| {
-            let place = BodyPlace {
-                site: Some(first.site),
-                second: second.map(|second| second.site),
-                contact,
-                by,
-                ..BodyPlace::default()
-            };
+        let scene = self.scene;
+        let spot = &choice.spot;
+        let trunk = spot.region == Region::Trunk;
+        let meant = hand.meant(spot.out, spot.region);
+        for &contact in contacts(spot) {
+            let touching = contact == Some(Contact::Touch);
+            let near = contact == Some(Contact::Close);
+            let goal = self.goal(spot, contact, n, symmetric);
+            let within = goal.distance(hand.palm) < 1.2 * scene.hand;
+            if touching && !within {
+                continue;
+            }
+            let between = choice
+                .second
+                .map_or(0.0, |_| BETWEEN[usize::from(!trunk && !touching)]);
             let more = match contact {
                 Some(Contact::ArmExtended) => FAR,
                 Some(Contact::Close) if !trunk => NEAR,
-                None | Some(Contact::Close) if is_top(first.site.at) => TOP,
+                None | Some(Contact::Close) if choice.top => TOP,
                 _ => 0.0,
             };
-            let score = residual + (cost + more) * scene.arm;
-            all.push((place, residual, score, distance, at));
+            let cost = between + choice.cost + more;
+            let small = touching || (near && !trunk);
+            let mut add = |point: &Spotted, said: Option<HandPoint>, cost: f64| {
+                let distance = point.at.distance(spot.at);
+                if touching && distance > TOUCH[usize::from(trunk)] * scene.arm {
+                    return;
+                }
+                let residual = if touching {
+                    distance
+                } else {
+                    ((point.at - goal) * DVec3::new(1.0, 1.0, DEPTH)).length()
+                };
+                all.push(Candidate {
+                    choice,
+                    contact,
+                    said,
+                    residual,
+                    score: (residual + FLOOR) * (1.0 + cost),
+                    distance,
+                    small: said.is_some() || small,
+                    by: point.at,
+                });
+            };
+            let own = if small { meant } else { hand.middle() };
+            add(&own, None, cost);
+            if (small || near)
+                && within
+                && let Some(other) = hand.nearest(goal)
+            {
+                add(&other, Some(other.point), cost + SAID[usize::from(!small)]);
+            }
+        }
+    }
+
+    /// Returns where the meant point of hand `n` is for a place, in metres from it; `None` where the
+    /// skeleton lacks what is needed.
+    pub(super) fn off(&self, n: usize, place: &BodyPlace, symmetric: bool) -> Option<f64> {
+        let hand = self.hands[n].as_ref()?;
+        let spot = self.named_spot(n, place)?;
+        let goal = self.goal(&spot, place.contact, n, symmetric);
+        let small = spot.region != Region::Trunk;
+        let near = place.contact == Some(Contact::Close) && small;
+        let at = match &place.by {
+            Some(by) => {
+                let own = [self.scene.dominant, self.scene.dominant.other()][n];
+                let points = hand_points(by, own, self.scene.dominant == Half::Left);
+                hand.mean(&points)
+            }
+            None if near || place.contact == Some(Contact::Touch) => {
+                hand.meant(spot.out, spot.region).at
+            }
+            None => hand.palm,
         };
-        if touched {
-            // What touches is told by where it is, not by where a hand before it would be.
-            let off = distance + RANK * rank(by);
-            add(Some(Contact::Touch), off, Some(named(by)), by_at);
-            return;
-        }
-        if second.is_some_and(|second| [first, second].iter().any(|it| is_top(it.site.at))) {
-            return;
-        }
-        let kinds: &[(Option<Contact>, f64)] = match spot.found.region {
-            Region::Trunk => &[
-                (Some(Contact::Close), l.near_trunk),
-                (None, l.medium_trunk),
-                (Some(Contact::ArmExtended), l.far),
-            ],
-            Region::Face => &[
-                (Some(Contact::Close), l.near_face),
-                (None, l.medium_face),
-                (Some(Contact::ArmExtended), l.far),
-            ],
-            Region::Arm(_) => &[(Some(Contact::Close), l.near_face)],
+        Some(at.distance(goal))
+    }
+
+    fn named_spot(&self, n: usize, place: &BodyPlace) -> Option<Spot> {
+        let first = self.spot(n, &place.site?)?;
+        Some(match &place.second {
+            Some(second) => middle(&first, &self.spot(n, second)?),
+            None => first,
+        })
+    }
+
+    /// Returns where the meant point of a hand is that is at a place.
+    pub(super) fn goal_of(&self, n: usize, place: &BodyPlace, symmetric: bool) -> Option<DVec3> {
+        let spot = self.named_spot(n, place)?;
+        Some(self.goal(&spot, place.contact, n, symmetric))
+    }
+
+    fn goal(&self, spot: &Spot, contact: Option<Contact>, n: usize, symmetric: bool) -> DVec3 {
+        let l = self.scene.language;
+        let trunk = spot.region == Region::Trunk;
+        let far = match contact {
+            Some(Contact::ArmExtended) => l.far,
+            Some(Contact::Close) if trunk => l.near_trunk,
+            Some(Contact::Close) => l.near_face,
+            None if trunk => l.medium_trunk,
+            None => l.medium_face,
+            _ if !spot.beside => return spot.at,
+            _ if trunk => l.medium_trunk,
+            _ => l.medium_face,
         };
-        for &(contact, far) in kinds {
-            let near = contact == Some(Contact::Close);
-            let at = self.before(&spot, far * scene.arm, near, n, symmetric);
-            let point = if near && !trunk { by_at } else { palm };
-            let away = (point - at) * DVec3::new(1.0, 1.0, DEPTH);
-            add(contact, away.length(), None, by_at);
-        }
+        let near = contact == Some(Contact::Close);
+        self.before(spot, far * self.scene.arm, near, n, symmetric)
     }
 
     /// Returns where a hand is that is so far before a place.
     fn before(&self, spot: &Spot, far: f64, near: bool, n: usize, symmetric: bool) -> DVec3 {
         let scene = self.scene;
-        let beside = spot.found.beside;
-        let lateral = spot.found.lateral;
+        let beside = spot.beside;
+        let lateral = spot.lateral;
         let apart = if symmetric && lateral == 0.0 {
             let own = if n == 0 { -1.0 } else { 1.0 };
             own * scene.language.hands_apart * scene.shoulders
         } else {
             0.0
         };
-        if spot.found.region == Region::Trunk {
+        if spot.region == Region::Trunk {
             let far = far * if beside { 0.5 } else { 1.0 };
             return DVec3::new(
                 lateral * scene.shoulders + apart,
@@ -309,148 +443,124 @@ impl<'a> Body<'a> {
         spot.at + spot.out * far + DVec3::X * (aside + apart)
     }
 
-    /// Returns where the parts of a hand are that touch the body or the other hand.
-    pub(super) fn touching(&self, n: usize) -> Vec<DVec3> {
+    /// Returns where the parts of a hand are that are at the body or at the other hand.
+    pub(super) fn meant_at(&self, n: usize) -> Vec<DVec3> {
         let mut found = Vec::new();
-        if let Some(together) = self.together()
-            && together.contact == Contact::Touch
-        {
-            let at = self.points[n]
-                .iter()
-                .find(|(point, _)| *point == together.parts[n]);
-            found.extend(at.map(|(_, at)| *at));
-        }
-        if let Some(placed) = self.place(n, false)
-            && placed.place.contact == Some(Contact::Touch)
-        {
-            found.extend(placed.by);
-        }
+        found.extend(self.together().map(|together| together.at[n]));
+        let placed = self.place(n, false);
+        found.extend(placed.filter(|placed| placed.small).and_then(|it| it.by));
         found
+    }
+
+    /// Returns where the tips of a hand are that it may turn about.
+    pub(super) fn tips(&self, n: usize) -> Vec<DVec3> {
+        let tips = [Digit::Thumb, Digit::Index, Digit::Middle];
+        let tips = tips.map(|digit| HandPoint::Tip(digit, Face::Middle));
+        let points = self.hands[n].iter().flat_map(|hand| &hand.points);
+        points
+            .filter(|spotted| tips.contains(&spotted.point))
+            .map(|spotted| spotted.at)
+            .collect()
     }
 
     /// Returns how the two hands are by each other: the parts nearest to each other, their contact and
     /// their distance in metres; nothing where they are apart.
     pub(super) fn together(&self) -> Option<Together> {
-        let mut best: Option<Together> = None;
-        let mut least = f64::MAX;
-        for &(own, a) in &self.points[0] {
-            for &(other, b) in &self.points[1] {
-                let distance = a.distance(b);
-                // Whole faces of the hand are sooner meant than what lies within them.
-                let score = distance + RANK * (rank(own) + rank(other));
-                if score < least {
-                    least = score;
-                    best = Some(Together {
-                        parts: [own, other],
-                        distance,
-                        middle: (a + b) / 2.0,
-                        contact: Contact::Close,
-                    });
+        self.pairs(1).into_iter().next()
+    }
+
+    /// Returns the pairs of parts of the two hands that are nearest to each other, the nearest first.
+    fn pairs(&self, most: usize) -> Vec<Together> {
+        let [Some(dominant), Some(other)] = &self.hands else {
+            return Vec::new();
+        };
+        let reach = TOGETHER * self.scene.arm;
+        let mut all: Vec<(f64, Together)> = Vec::new();
+        for own in &dominant.points {
+            for other in &other.points {
+                if own.at.distance(other.at) < reach {
+                    // Whole faces of the hand are sooner meant than what lies within them.
+                    let rank = RANK * (rank(own.point) + rank(other.point));
+                    let together = self.by_each_other([own, other]);
+                    all.push((together.distance + rank, together));
                 }
             }
         }
-        let mut best = best.filter(|best| best.distance < TOGETHER * self.scene.arm)?;
-        if best.distance < TOUCH[2] * self.scene.arm {
-            best.contact = Contact::Touch;
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all.truncate(most);
+        all.into_iter().map(|(_, together)| together).collect()
+    }
+
+    fn by_each_other(&self, [own, other]: [&Spotted; 2]) -> Together {
+        let distance = own.at.distance(other.at);
+        let arm = self.scene.arm;
+        let touching = distance < TOUCH[2] * arm;
+        let near = self.scene.language.hands_near * arm;
+        Together {
+            parts: [own.point, other.point],
+            at: [own.at, other.at],
+            distance,
+            contact: if touching {
+                Contact::Touch
+            } else {
+                Contact::Close
+            },
+            off: if touching {
+                distance
+            } else {
+                (distance - near).abs()
+            },
+            said: true,
         }
-        Some(best)
+    }
+
+    /// Returns the pairs of parts that are meant where none are said: those that hands turn to each
+    /// other that mirror one another, or of which one comes upon the other.
+    fn meant_pairs(&self) -> Vec<Together> {
+        let [Some(dominant), Some(other)] = &self.hands else {
+            return Vec::new();
+        };
+        let own = dominant.meant(DVec3::NEG_X, Region::Trunk);
+        let mirrored = [own, other.meant(DVec3::X, Region::Trunk)];
+        let way = DVec3::new(-0.6, 1.0, 0.3).normalize();
+        let below = other.meant(-way, Region::Trunk);
+        let region = Region::Arm(self.scene.dominant.other());
+        let upon = [dominant.meant(below.out, region), below];
+        let reach = TOGETHER * self.scene.arm;
+        [mirrored, upon]
+            .iter()
+            .map(|[own, other]| Together {
+                said: false,
+                ..self.by_each_other([own, other])
+            })
+            .filter(|together| together.distance < reach)
+            .collect()
+    }
+
+    /// Returns how the two hands are by each other, and the place that they share, where that tells more
+    /// than the place of each, which is so far off as `apart` says.
+    pub(super) fn constellation(&self, apart: f64) -> Option<(Together, Placed)> {
+        let mut all = self.meant_pairs();
+        all.extend(self.pairs(PAIRS));
+        let (score, together, placed) = all
+            .into_iter()
+            .filter_map(|together| {
+                let mut placed = self.shared(together.at[0].midpoint(together.at[1]))?;
+                let said = if together.said { SAID[0] } else { 0.0 };
+                let off = together.off * (1.0 + said) + FLOOR * said;
+                placed.residual = placed.residual.max(together.off);
+                Some((placed.score + off, together, placed))
+            })
+            .min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let rather = RATHER[usize::from(together.contact != Contact::Touch)];
+        (score < rather * apart).then_some((together, placed))
     }
 
     /// Returns the place nearest to a point that both hands share.
-    pub(super) fn shared(&self, at: DVec3) -> Option<Placed> {
-        let mut both = Body {
-            scene: self.scene,
-            axes: self.axes,
-            spots: Vec::new(),
-            points: [vec![(HandPoint::Palm, at)], Vec::new()],
-            palms: [Some(at), None],
-        };
-        both.spots.clone_from(&self.spots);
-        let mut placed = both.place(0, false)?;
+    fn shared(&self, at: DVec3) -> Option<Placed> {
+        let mut placed = self.placed(0, &Hand::only(at), false)?;
         placed.place.by = None;
         Some(placed)
-    }
-
-    /// Returns points of a hand's outline.
-    fn hand_points(&self, model: &ModelPose, side: Half) -> Vec<(HandPoint, DVec3)> {
-        let (anatomy, skeleton) = (self.scene.anatomy, self.scene.clip.skeleton());
-        let hand = self.scene.hand;
-        let mut points = Vec::new();
-        let mut add = |point: HandPoint, at: Option<DVec3>| {
-            if let Some(at) = at {
-                points.push((point, self.axes.place(at)));
-            }
-        };
-        let landmark =
-            |name: &str| anatomy.landmark(skeleton, model, &format!("{}-{name}", side.name()));
-        add(HandPoint::Palm, landmark("palm"));
-        add(HandPoint::Back, landmark("hand-back"));
-        add(HandPoint::Radial, landmark("hand-radial"));
-        add(HandPoint::Ulnar, landmark("hand-ulnar"));
-        let (Some(along), Some(normal)) = (
-            anatomy.hand_direction(side, model),
-            anatomy.palm_normal(side, model),
-        ) else {
-            return points;
-        };
-        let wrist = landmark("wrist");
-        let radial = normal.cross(along) * -side.sign();
-        let face = |face: Face, bone: DVec3| match face {
-            Face::Middle => DVec3::ZERO,
-            Face::Palmar | Face::Dorsal => {
-                let out = along.cross(normal).cross(bone).normalize_or(normal);
-                if face == Face::Palmar { out } else { -out }
-            }
-            Face::Radial => radial,
-            Face::Ulnar => -radial,
-        };
-        for side in [Face::Palmar, Face::Dorsal] {
-            add(
-                HandPoint::Wrist(side),
-                wrist.map(|at| at + face(side, along) * (0.14 * hand)),
-            );
-        }
-        for digit in Digit::ALL {
-            let name = match digit {
-                Digit::Thumb => "thumb-tip",
-                Digit::Index => "index-tip",
-                Digit::Middle => "middle-tip",
-                Digit::Ring => "ring-tip",
-                Digit::Little => "little-tip",
-            };
-            let joint = |n: u8| {
-                anatomy
-                    .joint(part(side, digit, n))
-                    .map(|j| model.position(j))
-            };
-            let (tip, middle, base) = (landmark(name), joint(2), joint(1));
-            let last = joint(3).or(middle);
-            let bone = tip
-                .zip(last)
-                .map(|(tip, last)| (tip - last).normalize_or(along));
-            let bone = bone.unwrap_or(along);
-            add(HandPoint::Tip(digit, Face::Middle), tip);
-            for side in [Face::Palmar, Face::Dorsal] {
-                let out = face(side, bone);
-                add(
-                    HandPoint::Tip(digit, side),
-                    tip.map(|tip| tip + (out * 0.042 - bone * 0.03) * hand),
-                );
-                add(
-                    HandPoint::Middle(digit, side),
-                    middle.map(|at| at + out * (0.042 * hand)),
-                );
-                add(
-                    HandPoint::Base(digit, side),
-                    base.map(|at| at + face(side, along) * (0.06 * hand)),
-                );
-            }
-            add(
-                HandPoint::Middle(digit, Face::Radial),
-                middle.map(|at| at + radial * (0.042 * hand)),
-            );
-        }
-        points
     }
 }
 
@@ -460,41 +570,41 @@ pub(super) struct Together {
     /// The part of the dominant hand and of the other.
     pub(super) parts: [HandPoint; 2],
     pub(super) distance: f64,
-    /// Half-way between them.
-    pub(super) middle: DVec3,
+    /// Where they are.
+    pub(super) at: [DVec3; 2],
     pub(super) contact: Contact,
+    /// How far they are from where they would be by that contact, in metres.
+    off: f64,
+    /// Whether the parts must be said.
+    said: bool,
 }
 
-fn part(side: Half, digit: Digit, joint: u8) -> Part {
-    match digit {
-        Digit::Thumb => Part::Thumb(side, joint - 1),
-        Digit::Index => Part::Finger(side, Finger::Index, joint),
-        Digit::Middle => Part::Finger(side, Finger::Middle, joint),
-        Digit::Ring => Part::Finger(side, Finger::Ring, joint),
-        Digit::Little => Part::Finger(side, Finger::Little, joint),
-    }
-}
-
-/// Whether a place half-way between two can be meant.
+/// Whether a place half-way between two can be meant: of one region, or of the neck and the head.
 fn neighbours(a: &Spot, b: &Spot) -> bool {
     let apart = a.at.distance(b.at);
-    let opposite = a.found.lateral * b.found.lateral < 0.0;
-    a.found.region == b.found.region
-        && apart > 1e-3
-        && apart < APART
-        && !opposite
-        && !matches!(a.found.region, Region::Arm(_))
+    let opposite = a.lateral * b.lateral < 0.0;
+    let arms = matches!(a.region, Region::Arm(_)) || matches!(b.region, Region::Arm(_));
+    let high = |spot: &Spot| {
+        spot.region == Region::Face
+            || matches!(spot.site.at, BodyLocation::Neck | BodyLocation::ShoulderTop)
+    };
+    let most = match a.region == b.region {
+        true => APART,
+        false if high(a) && high(b) => ABOVE,
+        false => 0.0,
+    };
+    apart > 1e-3 && apart < most && !opposite && !arms
 }
 
 /// Whether a place is one that hands touch: they are hardly half-way before it.
-fn is_top(at: BodyLocation) -> bool {
-    matches!(at, BodyLocation::ShoulderTop)
+fn is_top(spot: &Spot) -> bool {
+    spot.site.at == BodyLocation::ShoulderTop
 }
 
 /// Whether a place is rarely meant: those beside it say as much.
-fn is_rare(at: BodyLocation) -> bool {
+fn is_rare(spot: &Spot) -> bool {
     matches!(
-        at,
+        spot.site.at,
         BodyLocation::Nostrils
             | BodyLocation::UpperLip
             | BodyLocation::LowerLip
@@ -503,71 +613,45 @@ fn is_rare(at: BodyLocation) -> bool {
     )
 }
 
+/// Takes a place, or half-way to a second one.
+fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
+    let both = || [Some(first), second].into_iter().flatten();
+    let sum = |cost: fn(&Spot) -> f64| both().map(cost).sum::<f64>();
+    let wide = second.map_or(0.0, |second| first.at.distance(second.at) / APART);
+    let across = second.is_some_and(|second| second.region != first.region);
+    Choice {
+        spot: second.map_or(*first, |second| middle(first, second)),
+        second: second.map(|second| second.site),
+        cost: sum(|spot| if is_rare(spot) { RARE } else { 0.0 })
+            + sum(|spot| spot.site.side.map_or(0.0, |_| SIDE))
+            + WIDE * wide
+            + if across { ACROSS } else { 0.0 },
+        top: both().any(is_top),
+    }
+}
+
+/// How near a hand may be to a place.
+fn contacts(spot: &Spot) -> &'static [Option<Contact>] {
+    const ALL: [Option<Contact>; 4] = [
+        Some(Contact::Close),
+        None,
+        Some(Contact::ArmExtended),
+        Some(Contact::Touch),
+    ];
+    match spot.region {
+        Region::Arm(_) => &[Some(Contact::Close), Some(Contact::Touch)],
+        _ if spot.beside => &ALL[..3],
+        _ => &ALL,
+    }
+}
+
 fn middle(a: &Spot, b: &Spot) -> Spot {
     Spot {
-        site: a.site,
         at: (a.at + b.at) / 2.0,
         out: (a.out + b.out).normalize_or(a.out),
-        found: BodySite {
-            lateral: (a.found.lateral + b.found.lateral) / 2.0,
-            beside: a.found.beside && b.found.beside,
-            ..a.found.clone()
-        },
-    }
-}
-
-/// Whether a part of the hand is one that touches the body.
-fn touches(point: HandPoint) -> bool {
-    !matches!(
-        point,
-        HandPoint::Base(..) | HandPoint::Elbow | HandPoint::Forearm | HandPoint::UpperArm
-    )
-}
-
-/// The later, the less likely it is to be meant where another part is as near.
-fn rank(point: HandPoint) -> f64 {
-    match point {
-        HandPoint::Palm | HandPoint::Tip(_, Face::Middle) => 0.0,
-        HandPoint::Back | HandPoint::Radial | HandPoint::Ulnar => 0.5,
-        HandPoint::Tip(..) | HandPoint::Wrist(_) => 1.0,
-        _ => 1.5,
-    }
-}
-
-/// Returns the site of a hand that is called by a point.
-pub(super) fn named(point: HandPoint) -> HandSite {
-    let side = |face: Face| match face {
-        Face::Middle => None,
-        Face::Palmar => Some(Side::Palmar),
-        Face::Dorsal => Some(Side::Dorsal),
-        Face::Radial => Some(Side::Radial),
-        Face::Ulnar => Some(Side::Ulnar),
-    };
-    let site = |at: HandLocation, digit: Option<Digit>, side: Option<Side>| HandSite {
-        at: Some(at),
-        digits: Digits(digit.into_iter().collect()),
-        side,
-        ..HandSite::default()
-    };
-    match point {
-        HandPoint::Palm => site(HandLocation::Palm, None, None),
-        HandPoint::Back => site(HandLocation::HandBack, None, None),
-        HandPoint::Radial => site(HandLocation::ThumbSide, None, None),
-        HandPoint::Ulnar => site(HandLocation::PinkySide, None, None),
-        HandPoint::ThumbBall => site(HandLocation::ThumbBall, None, None),
-        HandPoint::Wrist(face) => site(
-            HandLocation::WristBack,
-            None,
-            side(face).filter(|side| *side != Side::Dorsal),
-        ),
-        HandPoint::Tip(digit, Face::Palmar) => site(HandLocation::Pad, Some(digit), None),
-        HandPoint::Tip(digit, Face::Dorsal) => site(HandLocation::Nail, Some(digit), None),
-        HandPoint::Tip(digit, face) => site(HandLocation::Tip, Some(digit), side(face)),
-        HandPoint::Middle(digit, face) => site(HandLocation::MidJoint, Some(digit), side(face)),
-        HandPoint::Base(digit, face) => site(HandLocation::Base, Some(digit), side(face)),
-        HandPoint::Elbow => site(HandLocation::Elbow, None, None),
-        HandPoint::Forearm => site(HandLocation::LowerArm, None, None),
-        HandPoint::UpperArm => site(HandLocation::UpperArm, None, None),
+        lateral: (a.lateral + b.lateral) / 2.0,
+        beside: a.beside && b.beside,
+        ..*a
     }
 }
 

@@ -2,12 +2,14 @@
 
 mod way;
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::fmt::Display;
 
 use chereme_sign::hamnosys::{
-    Aim, Amount, Circular, Clock, Compass, Constellation, Contact, Curve, Directed, Direction,
-    Each, Ellipse, HandsUsed, Handshape, Manual, Motion, MotionKind, Place, Posture, Repetition,
-    Sign, Size, WristMotion, Zigzag,
+    Aim, Amount, BodyPlace, Circular, Clock, Compass, Constellation, Contact, Curve, Directed,
+    Direction, Each, Ellipse, HandsUsed, Handshape, Manual, Motion, MotionKind, Place, Posture,
+    Repetition, Sign, Size, WristMotion, Zigzag,
 };
 use glam::DVec3;
 
@@ -34,12 +36,32 @@ pub(super) fn written(scene: &Scene<'_>, options: &Options) -> Transcription {
     Writer::new(scene, options).written()
 }
 
+/// Returns how far the dominant hand is from a place, and that place from another.
+pub(super) fn off_place(
+    scene: &Scene<'_>,
+    options: &Options,
+    frame: usize,
+    (place, other): (&BodyPlace, Option<&BodyPlace>),
+    symmetric: bool,
+) -> Option<(f64, f64)> {
+    let body = Writer::new(scene, options).body(frame)?;
+    let own = body.goal_of(0, place, symmetric)?;
+    let apart = other.and_then(|other| body.goal_of(0, other, symmetric));
+    let apart = apart.map_or(f64::INFINITY, |at| at.distance(own));
+    Some((body.off(0, place, symmetric)?, apart))
+}
+
+/// The handshapes of hands in frames.
+type Shapes = BTreeMap<(chereme_motion::Side, usize), Option<Found<Handshape>>>;
+
 struct Writer<'a> {
     scene: &'a Scene<'a>,
     options: &'a Options,
     forms: std::sync::Arc<Forms>,
     features: Vec<Feature>,
     findings: Vec<String>,
+    /// The handshapes that were told.
+    shapes: RefCell<Shapes>,
     /// The number of the action that is written.
     action: Option<usize>,
 }
@@ -52,6 +74,7 @@ impl<'a> Writer<'a> {
             forms: Forms::of(&options.language),
             features: Vec::new(),
             findings: Vec::new(),
+            shapes: RefCell::default(),
             action: None,
         }
     }
@@ -73,7 +96,10 @@ impl<'a> Writer<'a> {
             .map_or(first + (last - first) / 2, |act| *act.frames.start());
         let relation = relation(scene, &frames);
         self.told_hands(&relation, start);
-        let body = Body::of(scene, start);
+        let mut body = self.body(start);
+        if let (Some(body), Some(by)) = (&mut body, behind(&relation, all.first())) {
+            body.shift(1, by);
+        }
         let posture = self.posture(start, &relation, body.as_ref());
         let mut actions: Vec<Motion> = Vec::new();
         let other = scene.hands[1].as_ref().filter(|_| lead == 0);
@@ -112,13 +138,34 @@ impl<'a> Writer<'a> {
 
     /// Takes the parts of a hand whose ways tell what it does.
     fn mover<'t>(&self, hand: usize, track: &'t Track, first: usize, last: usize) -> Mover<'t> {
-        let mut touching = Vec::new();
+        let (mut meant, mut pivots) = (Vec::new(), Vec::new());
         for frame in [first, last] {
-            if let Some(body) = Body::of(self.scene, frame) {
-                touching.extend(body.touching(hand).into_iter().map(|at| (at, frame)));
+            if let Some(body) = self.body(frame) {
+                meant.extend(body.meant_at(hand).into_iter().map(|at| (at, frame)));
+                pivots.extend(body.tips(hand).into_iter().map(|at| (at, frame)));
             }
         }
-        Mover::new(track, &touching)
+        Mover::new(track, &meant, &pivots)
+    }
+
+    /// Looks at the body in a frame.
+    fn body(&self, frame: usize) -> Option<Body<'a>> {
+        let shapes = [0, 1].map(|n| {
+            let track = self.scene.hands[n].as_ref()?;
+            Some(self.shape(track, frame)?.best)
+        });
+        Body::of(self.scene, frame, shapes.each_ref().map(Option::as_ref))
+    }
+
+    /// Returns the handshape in a frame; each is looked up once.
+    fn shape(&self, track: &Track, frame: usize) -> Option<Found<Handshape>> {
+        let key = (track.side, frame);
+        if let Some(known) = self.shapes.borrow().get(&key) {
+            return known.clone();
+        }
+        let found = self.forms.nearest(&track.angles[frame], &track.known);
+        self.shapes.borrow_mut().insert(key, found.clone());
+        found
     }
 
     /// Says what the skeleton does not show.
@@ -176,7 +223,7 @@ impl<'a> Writer<'a> {
             )
         });
         Seen {
-            shape: self.forms.nearest(&track.angles[frame], &track.known),
+            shape: self.shape(track, frame),
             extended,
             palm,
         }
@@ -303,20 +350,28 @@ impl<'a> Writer<'a> {
             self.told_place(scene.hands[lead].as_ref(), frame, &placed);
             return Some(Place::Body(placed.place));
         }
-        if let Some(together) = body.together() {
-            return Some(Place::Hands(self.constellation(frame, body, &together)));
-        }
         if let RelationKind::Alike(_) = relation.kind {
-            let placed = body.place(0, true)?;
+            let placed = body.place(0, true);
+            let apart = placed.as_ref().map_or(f64::INFINITY, |placed| placed.score);
+            if let Some((together, at)) = body.constellation(apart) {
+                return Some(Place::Hands(self.constellation(frame, at, &together)));
+            }
+            let placed = placed?;
             self.told_place(scene.hands[0].as_ref(), frame, &placed);
             return Some(Place::Body(placed.place));
         }
-        let both = [0, 1].map(|n| {
-            let placed = body.place(n, false)?;
+        let placed = [0, 1].map(|n| body.place(n, false));
+        let apart = placed.iter().flatten().map(|placed| placed.score).sum();
+        if let Some((together, at)) = body.constellation(apart) {
+            return Some(Place::Hands(self.constellation(frame, at, &together)));
+        }
+        let mut n = 0;
+        let [a, b] = placed.map(|placed| {
+            let placed = placed?;
             self.told_place(scene.hands[n].as_ref(), frame, &placed);
+            n += 1;
             Some(Box::new(Place::Body(placed.place)))
         });
-        let [a, b] = both;
         Some(Place::Split(a, b))
     }
 
@@ -334,23 +389,10 @@ impl<'a> Writer<'a> {
     }
 
     /// Writes the two hands by each other.
-    fn constellation(
-        &mut self,
-        frame: usize,
-        body: &Body<'_>,
-        together: &Together,
-    ) -> Constellation {
+    fn constellation(&mut self, frame: usize, at: Placed, together: &Together) -> Constellation {
+        let found = at.found();
+        self.told(FeatureKind::Location, None, frame, &found, words::place);
         let [dominant, other] = together.parts.map(named);
-        let at = body.shared(together.middle);
-        if let Some(at) = &at {
-            self.told(
-                FeatureKind::Location,
-                None,
-                frame,
-                &at.found(),
-                words::place,
-            );
-        }
         let contact = Found {
             best: (dominant.clone(), other.clone()),
             residual: together.distance,
@@ -368,7 +410,7 @@ impl<'a> Writer<'a> {
             dominant: Some(dominant),
             other: Some(other),
             contact: Some(together.contact),
-            at: at.map(|at| at.place),
+            at: Some(at.place),
             ..Constellation::default()
         }
     }
@@ -505,6 +547,23 @@ impl<'a> Writer<'a> {
         self.told(FeatureKind::Size, Some(track), frame, found, |size| {
             words::size(*size).to_owned()
         });
+    }
+}
+
+/// Returns from where a hand that goes round half a turn behind the other is to where it is told to be: as
+/// if both began together.
+fn behind(relation: &Relation, first: Option<&Act>) -> Option<DVec3> {
+    let RelationKind::Alike(symmetry) = relation.kind else {
+        return None;
+    };
+    let Kind::Way(fitted) = &first?.kind else {
+        return None;
+    };
+    match fitted.way {
+        Way::Circle { long, start, .. } if symmetry.out_of_phase => {
+            Some(start * (2.0 * long.length()) * signs(&symmetry))
+        }
+        _ => None,
     }
 }
 

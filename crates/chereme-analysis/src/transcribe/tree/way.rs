@@ -177,7 +177,7 @@ impl Writer<'_> {
         if !matches!(act.kind, Kind::Way(_)) {
             return None;
         }
-        let (before, after) = (Body::of(self.scene, first)?, Body::of(self.scene, last)?);
+        let (before, after) = (self.body(first)?, self.body(last)?);
         let touching = |body: &Body<'_>| {
             let together = body.together()?;
             (together.contact == Contact::Touch).then_some(together)

@@ -1,0 +1,261 @@
+//! The points of a hand in one posture, and what sites they are called.
+
+use chereme_motion::{ModelPose, Side as Half};
+use chereme_sign::hamnosys::sites::{
+    Face, HandPoint, Region, coming_first, digit_joint, from_bone, on_palm,
+};
+use chereme_sign::hamnosys::{Digit, Digits, HandLocation, HandSite, Handshape, Side};
+use glam::DVec3;
+
+use super::super::scene::{Axes, Scene};
+
+/// A point of a hand where it is, with the way out of the hand there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spotted {
+    pub(super) point: HandPoint,
+    pub(super) at: DVec3,
+    pub(super) out: DVec3,
+}
+
+/// A hand in one posture, in the signer's level axes.
+pub(super) struct Hand {
+    pub(super) palm: DVec3,
+    /// Along the hand, out of its palm, towards its thumb.
+    axes: [DVec3; 3],
+    shape: Handshape,
+    pub(super) points: Vec<Spotted>,
+}
+
+impl Hand {
+    /// Looks at hand `n` in one frame; `shape` is what it was told to be.
+    pub(super) fn of(
+        scene: &Scene<'_>,
+        axes: &Axes,
+        model: &ModelPose,
+        (n, frame): (usize, usize),
+        shape: Option<&Handshape>,
+    ) -> Option<Self> {
+        let track = scene.hands[n].as_ref()?;
+        let (along, normal) = (track.along[frame], track.normal[frame]);
+        // The scene shows the dominant hand as a right one.
+        let radial = normal.cross(along) * if n == 0 { 1.0 } else { -1.0 };
+        Some(Self {
+            palm: track.palm[frame],
+            axes: [along, normal, radial],
+            shape: shape.cloned().unwrap_or_default(),
+            points: points(scene, axes, model, track.side),
+        })
+    }
+
+    /// Takes it to be elsewhere by so much.
+    pub(super) fn shift(&mut self, by: DVec3) {
+        self.palm += by;
+        for spotted in &mut self.points {
+            spotted.at += by;
+        }
+    }
+
+    /// A hand of which only a place is known.
+    pub(super) fn only(palm: DVec3) -> Self {
+        Self {
+            palm,
+            axes: [DVec3::Z, DVec3::NEG_Y, DVec3::X],
+            shape: Handshape::default(),
+            points: Vec::new(),
+        }
+    }
+
+    /// Returns the middle of the palm.
+    pub(super) fn middle(&self) -> Spotted {
+        Spotted {
+            point: HandPoint::Palm,
+            at: self.palm,
+            out: self.axes[1],
+        }
+    }
+
+    /// Returns the point that is meant where none is said, for a place with the way `out` of it.
+    pub(super) fn meant(&self, out: DVec3, region: Region) -> Spotted {
+        if self.points.is_empty() {
+            return self.middle();
+        }
+        let way = self.axes.map(|axis| -out.dot(axis));
+        let point = coming_first(&self.shape, way, region);
+        let at = self.points.iter().find(|other| other.point == point);
+        at.copied().unwrap_or_else(|| self.middle())
+    }
+
+    /// Returns the point nearest to a place.
+    pub(super) fn nearest(&self, to: DVec3) -> Option<Spotted> {
+        let off = |spotted: &Spotted| spotted.at.distance(to) + RANK * rank(spotted.point);
+        self.points
+            .iter()
+            .min_by(|a, b| off(a).total_cmp(&off(b)))
+            .copied()
+    }
+
+    /// Returns where several points are, taken together.
+    pub(super) fn mean(&self, points: &[HandPoint]) -> DVec3 {
+        let known: Vec<DVec3> = self
+            .points
+            .iter()
+            .filter(|spotted| points.contains(&spotted.point))
+            .map(|spotted| spotted.at)
+            .collect();
+        match known.len() {
+            0 => self.palm,
+            count => known.iter().sum::<DVec3>() / count as f64,
+        }
+    }
+}
+
+/// A part of the hand counts as so much farther, in metres, for each step that it is less likely meant.
+pub(super) const RANK: f64 = 0.002;
+
+/// Returns points of a hand's outline.
+fn points(scene: &Scene<'_>, axes: &Axes, model: &ModelPose, side: Half) -> Vec<Spotted> {
+    const FACES: [Face; 5] = [
+        Face::Middle,
+        Face::Palmar,
+        Face::Dorsal,
+        Face::Radial,
+        Face::Ulnar,
+    ];
+    let (anatomy, skeleton) = (scene.anatomy, scene.clip.skeleton());
+    let mut points = Vec::new();
+    let (Some(along), Some(normal)) = (
+        anatomy.hand_direction(side, model),
+        anatomy.palm_normal(side, model),
+    ) else {
+        return points;
+    };
+    let landmark =
+        |name: &str| anatomy.landmark(skeleton, model, &format!("{}-{name}", side.name()));
+    let radial = normal.cross(along) * -side.sign();
+    let mut add = |point: HandPoint, at: Option<DVec3>, out: DVec3| {
+        points.extend(at.map(|at| Spotted {
+            point,
+            at: axes.place(at),
+            out: axes.direction(out),
+        }));
+    };
+    let (wrist, palm) = (landmark("wrist"), landmark("palm"));
+    add(HandPoint::Palm, palm, normal);
+    add(HandPoint::Back, landmark("hand-back"), -normal);
+    add(HandPoint::Radial, landmark("hand-radial"), radial);
+    add(HandPoint::Ulnar, landmark("hand-ulnar"), -radial);
+    let (Some(wrist), Some(palm)) = (wrist, palm) else {
+        return points;
+    };
+    let knuckle = (palm - wrist).dot(along) / on_palm(HandPoint::Palm)[0];
+    let [up, out, aside] = on_palm(HandPoint::ThumbBall);
+    let ball = wrist + along * (up * knuckle) + (normal * out + radial * aside) * scene.hand;
+    add(HandPoint::ThumbBall, Some(ball), normal);
+    let mut about = |point: HandPoint, face: Face, from: Option<DVec3>, bone: DVec3| {
+        let [out, back] = from_bone(point);
+        let way = facing(face, [along, normal, radial], bone);
+        let at = from.map(|from| from + (way * out - bone * back) * scene.hand);
+        let out = match (face, point) {
+            (Face::Middle, HandPoint::Tip(..)) => bone,
+            (Face::Middle, _) => -normal,
+            _ => way,
+        };
+        add(point, at, out);
+    };
+    for face in [Face::Palmar, Face::Dorsal, Face::Radial, Face::Ulnar] {
+        about(HandPoint::Wrist(face), face, Some(wrist), along);
+    }
+    for digit in Digit::ALL {
+        let name = match digit {
+            Digit::Thumb => "thumb-tip",
+            Digit::Index => "index-tip",
+            Digit::Middle => "middle-tip",
+            Digit::Ring => "ring-tip",
+            Digit::Little => "little-tip",
+        };
+        let joint = |which: u8| {
+            let joint = anatomy.joint(digit_joint(side, digit, which));
+            joint.map(|joint| model.position(joint))
+        };
+        let (tip, middle, base) = (landmark(name), joint(2), joint(1));
+        let bone = tip
+            .zip(middle)
+            .map_or(along, |(tip, middle)| (tip - middle).normalize_or(along));
+        for face in FACES {
+            about(HandPoint::Tip(digit, face), face, tip, bone);
+            about(HandPoint::Middle(digit, face), face, middle, bone);
+        }
+        for face in [Face::Palmar, Face::Dorsal] {
+            about(HandPoint::Base(digit, face), face, base, along);
+        }
+    }
+    points
+}
+
+/// Returns where a face of the hand or a digit looks to whose bone points along `bone`.
+fn facing(face: Face, [along, normal, radial]: [DVec3; 3], bone: DVec3) -> DVec3 {
+    let out = along.cross(normal).cross(bone).normalize_or(normal);
+    match face {
+        Face::Middle => DVec3::ZERO,
+        Face::Palmar => out,
+        Face::Dorsal => -out,
+        Face::Radial => radial,
+        Face::Ulnar => -radial,
+    }
+}
+
+/// The later, the less likely it is to be meant where another part is as near: tips of the first fingers
+/// and whole faces of the hand are named most.
+pub(super) fn rank(point: HandPoint) -> f64 {
+    let digit = |digit: Digit| match digit {
+        Digit::Thumb | Digit::Index | Digit::Middle => 0.0,
+        Digit::Ring | Digit::Little => 1.0,
+    };
+    match point {
+        HandPoint::Palm | HandPoint::Radial => 0.0,
+        HandPoint::Tip(of, Face::Middle) => digit(of),
+        HandPoint::Back | HandPoint::Ulnar => 0.5,
+        HandPoint::Tip(of, _) => 0.5 + digit(of),
+        HandPoint::Wrist(_) | HandPoint::ThumbBall => 1.0,
+        HandPoint::Middle(of, _) => 1.0 + digit(of),
+        HandPoint::Base(of, _) => 1.5 + digit(of),
+        _ => 3.0,
+    }
+}
+
+/// Returns the site of a hand that is called by a point.
+pub(in crate::transcribe) fn named(point: HandPoint) -> HandSite {
+    let side = |face: Face| match face {
+        Face::Middle => None,
+        Face::Palmar => Some(Side::Palmar),
+        Face::Dorsal => Some(Side::Dorsal),
+        Face::Radial => Some(Side::Radial),
+        Face::Ulnar => Some(Side::Ulnar),
+    };
+    let site = |at: HandLocation, digit: Option<Digit>, side: Option<Side>| HandSite {
+        at: Some(at),
+        digits: Digits(digit.into_iter().collect()),
+        side,
+        ..HandSite::default()
+    };
+    match point {
+        HandPoint::Palm => site(HandLocation::Palm, None, None),
+        HandPoint::Back => site(HandLocation::HandBack, None, None),
+        HandPoint::Radial => site(HandLocation::ThumbSide, None, None),
+        HandPoint::Ulnar => site(HandLocation::PinkySide, None, None),
+        HandPoint::ThumbBall => site(HandLocation::ThumbBall, None, None),
+        HandPoint::Wrist(face) => site(
+            HandLocation::WristBack,
+            None,
+            side(face).filter(|side| *side != Side::Dorsal),
+        ),
+        HandPoint::Tip(digit, Face::Palmar) => site(HandLocation::Pad, Some(digit), None),
+        HandPoint::Tip(digit, Face::Dorsal) => site(HandLocation::Nail, Some(digit), None),
+        HandPoint::Tip(digit, face) => site(HandLocation::Tip, Some(digit), side(face)),
+        HandPoint::Middle(digit, face) => site(HandLocation::MidJoint, Some(digit), side(face)),
+        HandPoint::Base(digit, face) => site(HandLocation::Base, Some(digit), side(face)),
+        HandPoint::Elbow => site(HandLocation::Elbow, None, None),
+        HandPoint::Forearm => site(HandLocation::LowerArm, None, None),
+        HandPoint::UpperArm => site(HandLocation::UpperArm, None, None),
+    }
+}
