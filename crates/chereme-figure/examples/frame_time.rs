@@ -1,15 +1,16 @@
 //! Measures drawing: `cargo run --release --example frame_time`.
 //!
 //! Prints the time of one picture of 400 by 500 pixels of a whole signer with full hands, posing
-//! the body included, and of the body alone.
+//! the body included, of the body alone, of the window's stage with two signers by one thread and
+//! by two, and of a little figure.
 
 use std::error::Error;
 use std::hint::black_box;
 use std::time::Instant;
 
 use chereme_figure::mesh::Mesh;
-use chereme_figure::raster::{Raster, Style};
-use chereme_figure::{Body, Framing, View};
+use chereme_figure::raster::{Layer, Raster, Style};
+use chereme_figure::{Body, Framing, Image, View};
 use chereme_motion::Anatomy;
 
 #[path = "common/signer.rs"]
@@ -32,12 +33,48 @@ fn main() -> Result<(), Box<dyn Error>> {
         black_box(raster.draw(&mesh, &camera, [400, 500], &Style::default()));
         times[1].push(start.elapsed());
     }
-    println!(
-        "{} vertices, {} triangles",
-        mesh.vertices.len(),
-        mesh.triangles.len()
-    );
-    for (name, mut times) in ["body", "body and picture"].into_iter().zip(times) {
+    println!("{} triangles", body.mesh(&clip.model_pose(0)).triangles.len());
+    let mut measure = |size: [usize; 2], count: usize, style: &Style| {
+        let mut times = Vec::new();
+        for frame in 0..clip.frames() {
+            let pose = clip.model_pose(frame);
+            let start = Instant::now();
+            let aspect = size[0] as f32 / size[1] as f32;
+            let camera = framing.camera(View::Addressee, aspect, &pose, &anatomy);
+            let mut image = Image::new(size[0], size[1], style.theme.background());
+            for _ in 0..count {
+                body.shape(&pose, &mut mesh);
+                let layer = Layer {
+                    mesh: &mesh,
+                    opacity: 0.6,
+                };
+                raster.draw_over(&mut image, layer, &camera, style);
+            }
+            black_box(&image);
+            times.push(start.elapsed());
+        }
+        times
+    };
+    let style = |samples, threads| Style {
+        samples,
+        threads,
+        ..Style::default()
+    };
+    let more = [
+        measure([1280, 800], 2, &style(1, 1)),
+        measure([1280, 800], 2, &style(1, 2)),
+        measure([1280, 800], 2, &style(2, 2)),
+        measure([152, 152], 1, &style(2, 1)),
+    ];
+    let names = [
+        "body",
+        "body and picture",
+        "two at 1280x800",
+        "two at 1280x800, two threads",
+        "two at 1280x800, two threads, four samples",
+        "little",
+    ];
+    for (name, mut times) in names.into_iter().zip(times.into_iter().chain(more)) {
         times.sort_unstable();
         println!(
             "{name}: median {:?}, least {:?}",

@@ -5,6 +5,7 @@
 //! Colditz, Deussen, ACM Transactions on Graphics 25(3), 2006, p. 1206): it lets fingers stand out
 //! before palm and chest.
 
+use crate::body::group::FLAT;
 use crate::image::Image;
 use crate::palette::Colour;
 use crate::raster::{Buffers, Style};
@@ -34,57 +35,61 @@ pub(crate) fn margin(samples: usize) -> usize {
 
 /// What lines and shades are drawn with; steps are distances between places in the buffers.
 struct Ink {
-    paper: [f32; 3],
     outline: [f32; 3],
     near: [isize; 8],
     far: [isize; 8],
     step: f32,
     beside: usize,
+    samples: usize,
+    opacity: f32,
 }
 
-/// Draws lines and shades, and averages the samples of each pixel.
-pub(crate) fn finish(buffers: &Buffers, size: [usize; 2], samples: usize, style: &Style) -> Image {
-    let mut image = Image::new(size[0], size[1], style.theme.background());
+/// The side of the squares that are looked at together, in pixels.
+const SQUARE: usize = 8;
+
+/// Draws lines and shades, and averages the samples of each pixel over what is in `image`.
+pub(crate) fn finish(
+    buffers: &Buffers,
+    image: &mut Image,
+    samples: usize,
+    style: &Style,
+    opacity: f32,
+) {
     let ink = Ink {
-        paper: style.theme.background().0.map(f32::from),
         outline: style.theme.outline().0.map(f32::from),
         near: around(reach(samples, LINE), buffers.stride),
         far: around(reach(samples, SHADE), buffers.stride),
         step: style.step,
         beside: reach(samples, LINE),
+        samples,
+        opacity: opacity.clamp(0.0, 1.0),
     };
-    let covered = covered(buffers);
-    let share = 1.0 / (samples * samples) as f32;
-    for (y, row) in image.pixels_mut().chunks_mut(size[0].max(1)).enumerate() {
-        let beside = ink.beside;
-        let rows = (y * samples).saturating_sub(beside)..(y + 1) * samples + beside;
-        let ranges = covered.iter().take(rows.end).skip(rows.start).flatten();
-        let Some((left, right)) = ranges.copied().reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
-        else {
-            continue;
-        };
-        let first = left.saturating_sub(beside) / samples;
-        let last = ((right + beside) / samples).min(size[0] - 1);
-        for (x, pixel) in row.iter_mut().enumerate().take(last + 1).skip(first) {
-            let corner = buffers.index(x * samples, y * samples);
-            let sum = ink.pixel(buffers, corner, samples);
-            *pixel = Colour(sum.map(|part| (part * share + 0.5).clamp(0.0, 255.0) as u8));
-        }
+    let width = image.width();
+    if width == 0 {
+        return;
     }
-    image
-}
-
-/// Returns for each row of samples its first and last that is not paper.
-fn covered(buffers: &Buffers) -> Vec<Option<(usize, usize)>> {
-    let [width, height] = buffers.size;
-    let row = |y: usize| {
-        let start = buffers.index(0, y);
-        let row = &buffers.group[start..start + width];
-        let first = row.iter().position(|&group| group != 0)?;
-        let last = row.iter().rposition(|&group| group != 0)?;
-        Some((first, last))
+    let rows = image.height().div_ceil(SQUARE);
+    let each = rows.div_ceil(style.threads.max(1)).max(1) * SQUARE;
+    let mut bands: Vec<_> = image
+        .pixels_mut()
+        .chunks_mut(each * width)
+        .enumerate()
+        .collect();
+    let last = bands.pop();
+    let ink = &ink;
+    let paint = |(band, pixels): (usize, &mut [Colour])| {
+        for (row, pixels) in pixels.chunks_mut(SQUARE * width).enumerate() {
+            for left in (0..width).step_by(SQUARE) {
+                ink.square(buffers, pixels, [left, band * each + row * SQUARE]);
+            }
+        }
     };
-    (0..height).map(row).collect()
+    std::thread::scope(|scope| {
+        for band in bands {
+            scope.spawn(move || paint(band));
+        }
+        last.map(paint);
+    });
 }
 
 /// What a pixel and the samples within a line's reach of it show.
@@ -96,26 +101,113 @@ enum Around {
 }
 
 impl Ink {
-    /// Returns the sum of the colours of the samples of the pixel whose first one is `corner`.
-    #[inline]
-    fn pixel(&self, buffers: &Buffers, corner: usize, samples: usize) -> [f32; 3] {
-        let rows = (0..samples).map(|j| corner + j * buffers.stride);
-        let all = rows.flat_map(|start| start..start + samples);
-        let mut sum = [0.0; 3];
-        let mut add = |colour: [f32; 3]| {
-            for (total, part) in sum.iter_mut().zip(colour) {
-                *total += part;
-            }
-        };
-        match self.around(buffers, corner, samples) {
-            Around::Paper => add(self.paper.map(|part| part * (samples * samples) as f32)),
-            Around::Plain => {
-                let shade = self.shade(buffers, corner);
-                all.for_each(|index| add(buffers.colour[index].map(|part| part * shade)));
-            }
-            Around::Mixed => all.for_each(|index| add(self.sample(buffers, index))),
+    /// Draws the square of pixels whose first has that place; `rows` are the rows of the picture
+    /// from there on.
+    fn square(&self, buffers: &Buffers, rows: &mut [Colour], [left, top]: [usize; 2]) {
+        let width = buffers.size[0] / self.samples;
+        let columns = left..(left + SQUARE).min(width);
+        let place = |x: usize, y: usize| buffers.index(x * self.samples, (top + y) * self.samples);
+        let all = self.alike(buffers, place(left, 0), [columns.len(), rows.len() / width]);
+        if matches!(all, Around::Paper) {
+            return;
         }
-        sum
+        for (y, row) in rows.chunks_mut(width).enumerate() {
+            for x in columns.clone() {
+                let corner = place(x, y);
+                row[x] = match all {
+                    Around::Plain => self.plain(buffers, corner, row[x], 1.0),
+                    _ => self.pixel(buffers, corner, row[x]),
+                };
+            }
+        }
+    }
+
+    /// Returns what a square of pixels shows together with all that could shade it.
+    fn alike(&self, buffers: &Buffers, corner: usize, [width, height]: [usize; 2]) -> Around {
+        let beyond = buffers.margin;
+        let group = buffers.group[corner];
+        let wide = width * self.samples + 2 * beyond;
+        let (mut low, mut high) = (f32::INFINITY, 0.0f32);
+        for j in 0..height * self.samples + 2 * beyond {
+            let start = corner + j * buffers.stride - beyond * (buffers.stride + 1);
+            let row = &buffers.group[start..start + wide];
+            if row.iter().any(|&other| other != group) {
+                return Around::Mixed;
+            }
+            if group != 0 {
+                for &depth in &buffers.depth[start..start + wide] {
+                    low = low.min(depth);
+                    high = high.max(depth);
+                }
+            }
+        }
+        match group {
+            0 => Around::Paper,
+            _ if high - low <= self.step.min(SHADE_STEPS[0]) => Around::Plain,
+            _ => Around::Mixed,
+        }
+    }
+
+    /// Returns the colour of the pixel whose first sample is `corner` over `below`.
+    #[inline]
+    fn pixel(&self, buffers: &Buffers, corner: usize, below: Colour) -> Colour {
+        match self.around(buffers, corner, self.samples) {
+            Around::Paper => below,
+            Around::Plain => {
+                let shade = match buffers.group[corner] {
+                    FLAT.. => 1.0,
+                    _ => self.shade(buffers, corner),
+                };
+                self.plain(buffers, corner, below, shade)
+            }
+            Around::Mixed => {
+                let paper = below.0.map(f32::from);
+                let (own, shade) = match buffers.group[corner] {
+                    group @ 1..FLAT => (group, self.shade(buffers, corner)),
+                    group => (group, 1.0),
+                };
+                let each = |index| {
+                    let shade = match buffers.group[index] {
+                        group if group == own => shade,
+                        0 | FLAT.. => 1.0,
+                        _ => self.shade(buffers, index),
+                    };
+                    self.sample(buffers, index, paper, shade)
+                };
+                self.mean(corner, buffers.stride, below, each)
+            }
+        }
+    }
+
+    /// Returns the mean of a pixel's samples, none of them paper, in that light, over `below`.
+    #[inline]
+    fn plain(&self, buffers: &Buffers, corner: usize, below: Colour, light: f32) -> Colour {
+        let each = |index: usize| buffers.colour[index].map(|part| part * light);
+        self.mean(corner, buffers.stride, below, each)
+    }
+
+    #[inline]
+    fn mean(
+        &self,
+        corner: usize,
+        stride: usize,
+        below: Colour,
+        each: impl Fn(usize) -> [f32; 3],
+    ) -> Colour {
+        let mut sum = [0.0; 3];
+        for j in 0..self.samples {
+            let start = corner + j * stride;
+            for index in start..start + self.samples {
+                for (total, part) in sum.iter_mut().zip(each(index)) {
+                    *total += part;
+                }
+            }
+        }
+        let share = self.opacity / (self.samples * self.samples) as f32;
+        Colour(std::array::from_fn(|i| {
+            let part = sum[i] * share + f32::from(below.0[i]) * (1.0 - self.opacity);
+            (part + 0.5).clamp(0.0, 255.0) as u8
+        }))
     }
 
     fn around(&self, buffers: &Buffers, corner: usize, samples: usize) -> Around {
@@ -150,23 +242,32 @@ impl Ink {
         1.0 - behind.iter().sum::<f32>() / 8.0 * SHADE_STRENGTH
     }
 
-    /// Returns the colour of one sample with its line and its shade.
+    /// Returns the colour of one sample with its line, in that light.
     #[inline]
-    fn sample(&self, buffers: &Buffers, index: usize) -> [f32; 3] {
+    fn sample(
+        &self,
+        buffers: &Buffers,
+        index: usize,
+        paper: [f32; 3],
+        shade: f32,
+    ) -> [f32; 3] {
         let (depth, group) = (buffers.depth[index], buffers.group[index]);
         let at = |step: isize| index.wrapping_add_signed(step);
         if group == 0 {
-            let beside = self.near.iter().any(|&step| buffers.group[at(step)] != 0);
-            return if beside { self.outline } else { self.paper };
+            let drawn = |&step: &isize| (1..FLAT).contains(&buffers.group[at(step)]);
+            let beside = self.near.iter().any(drawn);
+            return if beside { self.outline } else { paper };
+        }
+        if group >= FLAT {
+            return buffers.colour[index];
         }
         let mut line = 0.0f32;
         for &step in &self.near {
             let before = depth - buffers.depth[at(step)];
-            if before > 0.0 {
+            if before > 0.0 && buffers.group[at(step)] < FLAT {
                 line = line.max(self.line(group == buffers.group[at(step)], before));
             }
         }
-        let shade = self.shade(buffers, index);
         let colour = buffers.colour[index];
         std::array::from_fn(|i| colour[i] * shade * (1.0 - line) + INNER_LINE[i] * line)
     }

@@ -6,6 +6,7 @@
 
 use glam::Vec3;
 
+use crate::body::group::FLAT;
 use crate::camera::Camera;
 use crate::image::Image;
 use crate::ink;
@@ -25,6 +26,8 @@ pub struct Style {
     pub fill_light: Vec3,
     /// The depth step from which a line is drawn within one part of the body, in metres.
     pub step: f32,
+    /// How many threads draw, at least one; the picture is the same.
+    pub threads: usize,
 }
 
 impl Default for Style {
@@ -35,6 +38,7 @@ impl Default for Style {
             key_light: Vec3::new(-0.42, 0.52, 0.75),
             fill_light: Vec3::new(0.80, 0.10, 0.55),
             step: 0.012,
+            threads: 1,
         }
     }
 }
@@ -53,6 +57,15 @@ const NEAREST: f32 = 1e-3;
 pub struct Raster {
     pub(crate) buffers: Buffers,
     corners: Vec<Corner>,
+}
+
+/// Something drawn over what is in the picture already.
+#[derive(Debug, Clone, Copy)]
+pub struct Layer<'a> {
+    /// Its surface.
+    pub mesh: &'a Mesh,
+    /// How much of what lies below it hides, from 0 to 1.
+    pub opacity: f32,
 }
 
 /// What is nearest at every sample; a margin of paper all around saves the test for the edge.
@@ -84,15 +97,45 @@ impl Raster {
     /// Draws `mesh` as `camera` sees it, `size` being columns and rows of pixels.
     #[must_use]
     pub fn draw(&mut self, mesh: &Mesh, camera: &Camera, size: [usize; 2], style: &Style) -> Image {
+        let mut image = Image::new(size[0], size[1], style.theme.background());
+        let layer = Layer { mesh, opacity: 1.0 };
+        self.draw_over(&mut image, layer, camera, style);
+        image
+    }
+
+    /// Draws a layer as `camera` sees it over what is in `image`.
+    pub fn draw_over(
+        &mut self,
+        image: &mut Image,
+        layer: Layer<'_>,
+        camera: &Camera,
+        style: &Style,
+    ) {
         let samples = style.samples.clamp(1, 4);
+        let size = [image.width(), image.height()];
         self.buffers
             .clear(size.map(|side| side * samples), ink::margin(samples));
-        self.project(mesh, camera, style);
-        for triangle in &mesh.triangles {
-            let corners = triangle.map(|index| self.corners[index as usize]);
-            self.buffers.triangle(&corners);
-        }
-        ink::finish(&self.buffers, size, samples, style)
+        self.project(layer.mesh, camera, style);
+        self.fill(layer.mesh, style.threads);
+        ink::finish(&self.buffers, image, samples, style, layer.opacity);
+    }
+
+    /// Fills all triangles, each thread those samples that lie in its own rows.
+    fn fill(&mut self, mesh: &Mesh, threads: usize) {
+        let corners = &self.corners;
+        let paint = |mut band: Band<'_>| {
+            for triangle in &mesh.triangles {
+                band.triangle(triangle.map(|index| &corners[index as usize]));
+            }
+        };
+        let mut bands = self.buffers.bands(threads.max(1));
+        let last = bands.pop();
+        std::thread::scope(|scope| {
+            for band in bands {
+                scope.spawn(|| paint(band));
+            }
+            last.map(paint);
+        });
     }
 
     fn project(&mut self, mesh: &Mesh, camera: &Camera, style: &Style) {
@@ -106,7 +149,14 @@ impl Raster {
             Corner {
                 at: [place.x, place.y].map(|v| (v * SUBPIXELS + 0.5).floor() as i64),
                 depth: place.depth,
-                colour: vertex.colour.0.map(|part| f32::from(part) * light),
+                colour: vertex.colour.0.map(|part| {
+                    let part = f32::from(part);
+                    if vertex.group >= FLAT {
+                        part
+                    } else {
+                        part * light
+                    }
+                }),
                 group: vertex.group,
                 seen: place.depth > camera.near.max(NEAREST) && inside,
             }
@@ -135,22 +185,73 @@ impl Buffers {
         (y + self.margin) * self.stride + x + self.margin
     }
 
+    /// Parts the rows of samples into `count` bands, fewer where there are few rows.
+    fn bands(&mut self, count: usize) -> Vec<Band<'_>> {
+        let height = self.size[1];
+        let each = height.div_ceil(count).max(1);
+        let skip = self.margin * self.stride;
+        let mut depth = &mut self.depth[skip..];
+        let mut group = &mut self.group[skip..];
+        let mut colour = &mut self.colour[skip..];
+        let mut bands = Vec::with_capacity(count);
+        for first in (0..height).step_by(each) {
+            let rows = each.min(height - first);
+            let len = rows * self.stride;
+            let band;
+            (band, depth) = depth.split_at_mut(len);
+            let groups;
+            (groups, group) = group.split_at_mut(len);
+            let colours;
+            (colours, colour) = colour.split_at_mut(len);
+            bands.push(Band {
+                first,
+                rows,
+                width: self.size[0],
+                margin: self.margin,
+                stride: self.stride,
+                depth: band,
+                group: groups,
+                colour: colours,
+            });
+        }
+        bands
+    }
+}
+
+/// Some rows of the buffers.
+struct Band<'a> {
+    first: usize,
+    rows: usize,
+    width: usize,
+    margin: usize,
+    stride: usize,
+    depth: &'a mut [f32],
+    group: &'a mut [u8],
+    colour: &'a mut [[f32; 3]],
+}
+
+impl Band<'_> {
     /// Fills the samples whose middle is inside a triangle that faces the eye.
-    fn triangle(&mut self, corners: &[Corner; 3]) {
+    fn triangle(&mut self, corners: [&Corner; 3]) {
         let [a, b, c] = corners;
         let area = cross(a.at, b.at, c.at);
         if area >= 0 || !(a.seen && b.seen && c.seen) {
             return;
         }
         let unit = SUBPIXELS as i64;
-        let range = |axis: usize| {
+        let range = |axis: usize, first: usize, count: usize| {
             let [a, b, c] = [a, b, c].map(|corner| corner.at[axis]);
-            let low = (a.min(b).min(c) - unit / 2).div_euclid(unit).max(0);
+            let low = (a.min(b).min(c) - unit / 2).div_euclid(unit);
             let high = (a.max(b).max(c) + unit / 2).div_euclid(unit);
-            (low, high.min(self.size[axis] as i64 - 1))
+            let first = first as i64;
+            (low.max(first), high.min(first + count as i64 - 1))
         };
-        let (columns, rows) = (range(0), range(1));
-        if columns.0 > columns.1 || rows.0 > rows.1 {
+        let rows = range(1, self.first, self.rows);
+        if rows.0 > rows.1 {
+            return;
+        }
+        let columns = range(0, 0, self.width);
+        if columns.0 > columns.1 {
             return;
         }
         let edges = [(b, c), (c, a), (a, b)];
@@ -163,7 +264,8 @@ impl Buffers {
         for row in rows.0..=rows.1 {
             let (from, to) = span(first, across, wide);
             if from <= to {
-                let start = self.index((columns.0 + from) as usize, row as usize);
+                let row = row as usize - self.first;
+                let start = row * self.stride + self.margin + (columns.0 + from) as usize;
                 let mut inside = [0, 1, 2].map(|i| first[i] - across[i] * from);
                 for offset in 0..=(to - from) as usize {
                     self.sample(start + offset, corners, inside.map(|w| w as f32 * share));
@@ -179,7 +281,7 @@ impl Buffers {
     }
 
     #[inline]
-    fn sample(&mut self, index: usize, [a, b, c]: &[Corner; 3], [u, v, w]: [f32; 3]) {
+    fn sample(&mut self, index: usize, [a, b, c]: [&Corner; 3], [u, v, w]: [f32; 3]) {
         let depth = a.depth * u + b.depth * v + c.depth * w;
         if depth < self.depth[index] {
             self.depth[index] = depth;

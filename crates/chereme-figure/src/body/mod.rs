@@ -34,6 +34,9 @@ pub mod group {
     /// Legs, and the bones of a skeleton that is no body.
     pub const REST: u8 = 3;
 
+    /// From here on: marks in space, such as a grid or a trail, without light and lines.
+    pub const FLAT: u8 = 200;
+
     /// Returns the number of an arm.
     #[must_use]
     pub const fn arm(side: Side) -> u8 {
