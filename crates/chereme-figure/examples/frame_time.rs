@@ -33,7 +33,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         black_box(raster.draw(&mesh, &camera, [400, 500], &Style::default()));
         times[1].push(start.elapsed());
     }
-    println!("{} triangles", body.mesh(&clip.model_pose(0)).triangles.len());
+    println!(
+        "{} triangles",
+        body.mesh(&clip.model_pose(0)).triangles.len()
+    );
     let mut measure = |size: [usize; 2], count: usize, style: &Style| {
         let mut times = Vec::new();
         for frame in 0..clip.frames() {

@@ -162,18 +162,7 @@ impl Ink {
             }
             Around::Mixed => {
                 let paper = below.0.map(f32::from);
-                let (own, shade) = match buffers.group[corner] {
-                    group @ 1..FLAT => (group, self.shade(buffers, corner)),
-                    group => (group, 1.0),
-                };
-                let each = |index| {
-                    let shade = match buffers.group[index] {
-                        group if group == own => shade,
-                        0 | FLAT.. => 1.0,
-                        _ => self.shade(buffers, index),
-                    };
-                    self.sample(buffers, index, paper, shade)
-                };
+                let each = |index| self.sample(buffers, index, paper);
                 self.mean(corner, buffers.stride, below, each)
             }
         }
@@ -242,15 +231,9 @@ impl Ink {
         1.0 - behind.iter().sum::<f32>() / 8.0 * SHADE_STRENGTH
     }
 
-    /// Returns the colour of one sample with its line, in that light.
+    /// Returns the colour of one sample with its line and its shade.
     #[inline]
-    fn sample(
-        &self,
-        buffers: &Buffers,
-        index: usize,
-        paper: [f32; 3],
-        shade: f32,
-    ) -> [f32; 3] {
+    fn sample(&self, buffers: &Buffers, index: usize, paper: [f32; 3]) -> [f32; 3] {
         let (depth, group) = (buffers.depth[index], buffers.group[index]);
         let at = |step: isize| index.wrapping_add_signed(step);
         if group == 0 {
@@ -268,6 +251,7 @@ impl Ink {
                 line = line.max(self.line(group == buffers.group[at(step)], before));
             }
         }
+        let shade = self.shade(buffers, index);
         let colour = buffers.colour[index];
         std::array::from_fn(|i| colour[i] * shade * (1.0 - line) + INNER_LINE[i] * line)
     }

@@ -230,6 +230,12 @@ impl Framing {
         }
     }
 
+    /// Returns the signer's left, up and forwards in model space.
+    #[must_use]
+    pub fn axes(&self) -> Mat3 {
+        self.axes
+    }
+
     /// Returns how wide beside its height what a view sees is.
     #[must_use]
     pub fn aspect(&self, view: View) -> f32 {

@@ -13,6 +13,7 @@ pub(crate) enum Menu {
     Edit,
     Annotation,
     Play,
+    Stage,
     View,
     Panes,
     Help,
@@ -27,11 +28,12 @@ impl Context {
 }
 
 impl Menu {
-    pub(crate) const ALL: [(Self, Text); 7] = [
+    pub(crate) const ALL: [(Self, Text); 8] = [
         (Self::File, shell::MENU_FILE),
         (Self::Edit, shell::MENU_EDIT),
         (Self::Annotation, shell::MENU_ANNOTATION),
         (Self::Play, shell::MENU_PLAY),
+        (Self::Stage, shell::MENU_STAGE),
         (Self::View, shell::MENU_VIEW),
         (Self::Panes, shell::MENU_PANES),
         (Self::Help, shell::MENU_HELP),
@@ -131,13 +133,32 @@ actions! {
     NormalSpeed "play.normal-speed" NORMAL_SPEED Play Corpus;
     NextRecording "play.next-recording" RECORDING_NEXT Play Corpus repeats;
     PreviousRecording "play.previous-recording" RECORDING_PREVIOUS Play Corpus repeats;
-    ViewFront "view.front" VIEW_FRONT View Corpus;
-    ViewSigner "view.signer" VIEW_SIGNER View Corpus;
-    ViewLeft "view.left" VIEW_LEFT View Corpus;
-    ViewRight "view.right" VIEW_RIGHT View Corpus;
-    ViewTop "view.top" VIEW_TOP View Corpus;
-    ViewRightHand "view.right-hand" VIEW_RIGHT_HAND View Corpus;
-    ViewLeftHand "view.left-hand" VIEW_LEFT_HAND View Corpus;
+    ViewFront "view.front" VIEW_FRONT Stage Corpus;
+    ViewSigner "view.signer" VIEW_SIGNER Stage Corpus;
+    ViewLeft "view.left" VIEW_LEFT Stage Corpus;
+    ViewRight "view.right" VIEW_RIGHT Stage Corpus;
+    ViewTop "view.top" VIEW_TOP Stage Corpus;
+    ViewRightHand "view.right-hand" VIEW_RIGHT_HAND Stage Corpus;
+    ViewLeftHand "view.left-hand" VIEW_LEFT_HAND Stage Corpus;
+    StageSplit "stage.split" STAGE_SPLIT Stage Corpus;
+    StageNextPane "stage.next-view" STAGE_NEXT_PANE Stage Corpus;
+    StageTrails "stage.trails" STAGE_TRAILS Stage Corpus;
+    StageGhosts "stage.ghosts" STAGE_GHOSTS Stage Corpus;
+    StagePlaces "stage.places" STAGE_PLACES Stage Corpus;
+    StageGrid "stage.grid" STAGE_GRID Stage Corpus;
+    StageCompare "stage.compare" STAGE_COMPARE Stage Corpus;
+    StageRecording "stage.recording" STAGE_RECORDING Stage Corpus;
+    OrbitLeft "stage.orbit-left" ORBIT_LEFT Stage Corpus repeats;
+    OrbitRight "stage.orbit-right" ORBIT_RIGHT Stage Corpus repeats;
+    OrbitUp "stage.orbit-up" ORBIT_UP Stage Corpus repeats;
+    OrbitDown "stage.orbit-down" ORBIT_DOWN Stage Corpus repeats;
+    PanLeft "stage.pan-left" PAN_LEFT Stage Corpus repeats;
+    PanRight "stage.pan-right" PAN_RIGHT Stage Corpus repeats;
+    PanUp "stage.pan-up" PAN_UP Stage Corpus repeats;
+    PanDown "stage.pan-down" PAN_DOWN Stage Corpus repeats;
+    Nearer "stage.nearer" NEARER Stage Corpus repeats;
+    Farther "stage.farther" FARTHER Stage Corpus repeats;
+    StageReset "stage.reset" STAGE_RESET Stage Corpus;
     ZoomIn "view.zoom-in" ZOOM_IN View Corpus repeats;
     ZoomOut "view.zoom-out" ZOOM_OUT View Corpus repeats;
     ZoomAll "view.zoom-all" ZOOM_ALL View Corpus;

@@ -40,6 +40,10 @@ pub(crate) enum Command {
     Span(Option<Span>),
     /// Move the playhead.
     Seek(Instant),
+    /// Move the playhead of what is on the stage, made movement too.
+    Cue(Instant),
+    /// A placement value was clicked on the body: [`Shown::spot`](crate::context::Shown::spot).
+    Spot(Option<String>),
     /// Play that many times as fast.
     Speed(f64),
     /// Show movement that lies in no recording on the stage, in a loop; nothing goes back to the

@@ -30,6 +30,8 @@ pub(crate) struct Shown {
     pub(crate) span: Option<Span>,
     /// The playhead and how it moves.
     pub(crate) player: Player,
+    /// The placement value that was last clicked on a body.
+    pub(crate) spot: Option<String>,
     /// Movement that lies in no recording and is shown instead, with a playhead of its own.
     pub(crate) made: Option<Showing>,
 }
@@ -44,7 +46,6 @@ pub(crate) struct Showing {
 
 impl Shown {
     /// Returns the playhead that the stage shows: that of made movement where there is some.
-    #[allow(dead_code, reason = "for the stage")]
     pub(crate) fn on_stage(&self) -> &Player {
         self.made.as_ref().map_or(&self.player, |it| &it.player)
     }

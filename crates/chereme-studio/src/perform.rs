@@ -84,6 +84,8 @@ impl Studio {
                 self.shown.made = None;
                 self.shown.player.seek(at);
             }
+            Command::Cue(at) => self.shown.on_stage_mut().seek(at),
+            Command::Spot(spot) => self.shown.spot = spot,
             Command::Speed(speed) => self.shown.on_stage_mut().speed = speed,
             Command::Made(made) => self.show_made(made),
             Command::Import(paths) => {

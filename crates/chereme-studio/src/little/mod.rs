@@ -16,6 +16,8 @@ mod data;
 mod draw;
 mod ui;
 
+pub(crate) use ui::empty;
+
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -2,9 +2,10 @@
 
 use chereme_motion::{HandAngles, Side};
 use eframe::egui::epaint::RectShape;
+use eframe::egui::text::LayoutJob;
 use eframe::egui::{
-    Align2, Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, TextureOptions,
-    Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align, Color32, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, TextureOptions, Ui,
+    Vec2, WidgetInfo, pos2, vec2,
 };
 
 use super::draw::{Film, Movement, State};
@@ -237,6 +238,26 @@ fn edge(ui: &Ui, response: &Response, rect: Rect) {
 fn stand_in(ui: &Ui, seen: &Seen<'_>, rect: Rect, coming: bool) {
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
     painter.rect_filled(rect, RADIUS, ui.visuals().extreme_bg_color);
+    silhouette(ui, rect, coming);
+    if !coming && rect.size().min_elem() > 90.0 {
+        below(ui, rect, seen.say(words::LITTLE_NOTHING), TextStyle::Small);
+    }
+}
+
+/// Paints an empty place of any size, with what is to be said about it.
+pub(crate) fn empty(ui: &Ui, rect: Rect, text: &str) {
+    let unit = (rect.size().min_elem() * 0.5).min(220.0);
+    let figure = Rect::from_center_size(rect.center() - vec2(0.0, unit * 0.2), Vec2::splat(unit));
+    silhouette(ui, figure, false);
+    let under = Rect::from_min_max(
+        pos2(rect.left() + 12.0, figure.bottom()),
+        pos2(rect.right() - 12.0, figure.bottom() + 40.0),
+    );
+    below(ui, under, text, TextStyle::Body);
+}
+
+fn silhouette(ui: &Ui, rect: Rect, filled: bool) {
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
     let faint = ui.visuals().widgets.inactive.bg_fill;
     let unit = rect.size().min_elem();
     let head = rect.center() - vec2(0.0, unit * 0.2);
@@ -244,24 +265,22 @@ fn stand_in(ui: &Ui, seen: &Seen<'_>, rect: Rect, coming: bool) {
         rect.center() + vec2(0.0, unit * 0.36),
         vec2(unit * 0.56, unit * 0.6),
     );
-    if coming {
+    if filled {
         painter.circle_filled(head, unit * 0.13, faint);
         painter.rect_filled(body, unit * 0.2, faint);
-        return;
+    } else {
+        let stroke = Stroke::new(1.5, faint);
+        painter.circle_stroke(head, unit * 0.13, stroke);
+        painter.rect_stroke(body, unit * 0.2, stroke, StrokeKind::Inside);
     }
-    let stroke = Stroke::new(1.5, faint);
-    painter.circle_stroke(head, unit * 0.13, stroke);
-    painter.rect_stroke(body, unit * 0.2, stroke, StrokeKind::Inside);
-    if unit > 90.0 {
-        let font = TextStyle::Small.resolve(ui.style());
-        let galley = painter.layout(
-            seen.say(words::LITTLE_NOTHING).to_owned(),
-            font,
-            ui.visuals().weak_text_color(),
-            rect.width() - 12.0,
-        );
-        let at =
-            Align2::CENTER_BOTTOM.anchor_size(rect.center_bottom() - vec2(0.0, 6.0), galley.size());
-        painter.galley(at.min, galley, Color32::PLACEHOLDER);
-    }
+}
+
+fn below(ui: &Ui, rect: Rect, text: &str, style: TextStyle) {
+    let font = style.resolve(ui.style());
+    let colour = ui.visuals().weak_text_color();
+    let mut job = LayoutJob::simple(text.to_owned(), font, colour, rect.width() - 12.0);
+    job.halign = Align::Center;
+    let galley = ui.painter().layout_job(job);
+    let at = rect.center_bottom() - vec2(0.0, galley.size().y + 6.0);
+    ui.painter().galley(at, galley, colour);
 }

@@ -5,6 +5,7 @@ texts! {
     MENU_EDIT: "Edit", "Édition";
     MENU_ANNOTATION: "Annotation", "Annotation";
     MENU_PLAY: "Playback", "Lecture";
+    MENU_STAGE: "Stage", "Scène";
     MENU_VIEW: "View", "Affichage";
     MENU_PANES: "Panes", "Panneaux";
     MENU_HELP: "Help", "Aide";

@@ -35,6 +35,11 @@ pub(super) fn carry(
         Work::Export(what, to, options) => {
             Outcome::Exported(corpus.export(&what, &to, &options, progress)?)
         }
+        Work::Original(address) => {
+            let moving = address.parse().and_then(|it| corpus.movement(&it));
+            let moving = moving.ok().filter(|it| it.clip.frames() > 0);
+            Outcome::Stretch(moving.map(Arc::new))
+        }
         Work::Stretch(recording, span) => {
             let address = Address::Recording(Name::Number(recording));
             let moving = corpus.movement_in(&address, Some(span), &ChannelGroup::ALL);

@@ -68,6 +68,8 @@ pub(crate) enum Work {
     },
     /// Loads a span of a recording's movement by itself; none is no error.
     Stretch(i64, Span),
+    /// Loads the movement at an address as text; none is no error.
+    Original(String),
 }
 
 /// What came of a piece of [`Work`].
@@ -149,7 +151,7 @@ impl Work {
             Self::Search(..) | Self::Suggest(_) => Lane::Ask,
             Self::Preview(_) => Lane::Make,
             Self::Movement { .. } => Lane::Movement,
-            Self::Stretch(..) => Lane::Little,
+            Self::Stretch(..) | Self::Original(_) => Lane::Little,
             Self::Export(..) => Lane::Export,
         }
     }
@@ -162,7 +164,7 @@ impl Work {
             Self::Search(..) | Self::Suggest(_) => shell::TASK_SEARCH,
             Self::Recombine { .. } | Self::Preview(_) => shell::TASK_RECOMBINE,
             Self::Export(..) => shell::TASK_EXPORT,
-            Self::Movement { .. } | Self::Stretch(..) => shell::TASK_MOVEMENT,
+            Self::Movement { .. } | Self::Stretch(..) | Self::Original(_) => shell::TASK_MOVEMENT,
             _ => shell::TASK_EDIT,
         }
     }

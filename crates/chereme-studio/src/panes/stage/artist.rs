@@ -1,4 +1,4 @@
-//! Pictures of figures, drawn on a thread of their own: the window never waits for one.
+//! Pictures of the stage, drawn on a thread of their own: the window never waits for one.
 //!
 //! The newest wish is the one that is drawn; wishes that were overtaken are not.
 
@@ -6,27 +6,43 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use chereme_figure::Body;
 use chereme_figure::camera::Camera;
 use chereme_figure::mesh::Mesh;
-use chereme_figure::raster::{Raster, Style};
+use chereme_figure::raster::{Layer, Raster, Style};
+use chereme_figure::{Body, Image};
 use chereme_motion::ModelPose;
 use eframe::egui::{Color32, ColorImage};
 
-/// A picture that is wished for.
+/// Pictures that are wished for, one for each pane.
 pub(super) struct Wish {
     /// Bodies, each in its posture.
     pub(super) figures: Vec<(Arc<Body>, ModelPose)>,
-    pub(super) camera: Camera,
-    /// Columns and rows.
-    pub(super) size: [usize; 2],
+    pub(super) panes: Vec<Pane>,
     pub(super) style: Style,
 }
 
-/// A picture.
+/// A picture from one place.
+pub(super) struct Pane {
+    pub(super) camera: Camera,
+    /// Columns and rows.
+    pub(super) size: [usize; 2],
+    /// What is drawn, the lowest first.
+    pub(super) layers: Vec<Sheet>,
+}
+
+/// What is drawn at once, over what is below.
+pub(super) struct Sheet {
+    /// The place of the figure among those of the wish.
+    pub(super) figure: Option<usize>,
+    /// Trails and grids.
+    pub(super) marks: Option<Arc<Mesh>>,
+    pub(super) opacity: f32,
+}
+
+/// Pictures.
 pub(super) struct Drawn {
-    pub(super) image: ColorImage,
-    /// How long it took.
+    pub(super) images: Vec<ColorImage>,
+    /// How long they took.
     pub(super) took: Duration,
 }
 
@@ -50,7 +66,7 @@ struct Wished {
 }
 
 impl Artist {
-    /// Begins; `wake` is called when a picture is ready.
+    /// Begins; `wake` is called when pictures are ready.
     pub(super) fn new(wake: impl Fn() + Send + 'static) -> Self {
         let shared = Arc::<Shared>::default();
         let own = shared.clone();
@@ -68,13 +84,13 @@ impl Artist {
         }
     }
 
-    /// Wishes for a picture; one wished for before and not begun is forgotten.
+    /// Wishes for pictures; those wished for before and not begun are forgotten.
     pub(super) fn wish(&self, wish: Wish) {
         held(&self.shared.wish).next = Some(wish);
         self.shared.wished.notify_one();
     }
 
-    /// Returns the newest picture that was not taken yet.
+    /// Returns the newest pictures that were not taken yet.
     pub(super) fn take(&self) -> Option<Drawn> {
         held(&self.shared.drawn).take()
     }
@@ -119,7 +135,7 @@ fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 struct Hand {
     raster: Raster,
     meshes: Vec<(Option<Arc<Body>>, Mesh)>,
-    all: Mesh,
+    joined: Mesh,
 }
 
 impl Hand {
@@ -135,25 +151,34 @@ impl Hand {
                 *of = Some(body.clone());
             }
         }
-        let mesh = match self.meshes.as_slice() {
-            [(_, one)] => one,
-            several => {
-                self.all.vertices.clear();
-                self.all.triangles.clear();
-                for (_, mesh) in several {
-                    self.all.append(mesh);
-                }
-                &self.all
-            }
-        };
-        let image = self.raster.draw(mesh, &wish.camera, wish.size, &wish.style);
-        let pixels = image
-            .pixels()
-            .iter()
-            .map(|it| Color32::from_rgb(it.0[0], it.0[1], it.0[2]));
+        let images = wish.panes.iter().map(|pane| self.pane(pane, &wish.style));
         Drawn {
-            image: ColorImage::new(wish.size, pixels.collect()),
+            images: images.collect(),
             took: begun.elapsed(),
         }
+    }
+
+    fn pane(&mut self, pane: &Pane, style: &Style) -> ColorImage {
+        let mut image = Image::new(pane.size[0], pane.size[1], style.theme.background());
+        for sheet in &pane.layers {
+            let figure = sheet.figure.and_then(|at| self.meshes.get(at));
+            let mesh = match (figure, &sheet.marks) {
+                (Some((_, figure)), Some(marks)) => {
+                    self.joined.clone_from(figure);
+                    self.joined.append(marks);
+                    &self.joined
+                }
+                (Some((_, figure)), None) => figure,
+                (None, Some(marks)) => marks,
+                (None, None) => continue,
+            };
+            let opacity = sheet.opacity;
+            let layer = Layer { mesh, opacity };
+            self.raster
+                .draw_over(&mut image, layer, &pane.camera, style);
+        }
+        let pixels = image.pixels().iter();
+        let pixels = pixels.map(|it| Color32::from_rgb(it.0[0], it.0[1], it.0[2]));
+        ColorImage::new(pane.size, pixels.collect())
     }
 }

@@ -3,6 +3,7 @@
 use chereme_figure::View;
 use chereme_figure::camera::Camera;
 use chereme_motion::Instant;
+use eframe::egui::Rect;
 use glam::{Quat, Vec3};
 
 use crate::action::Action;
@@ -97,12 +98,132 @@ impl Eye {
     }
 }
 
-/// All that a picture of the stage depends on.
+/// How the made movement and the original are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum Compare {
+    /// Side by side.
+    #[default]
+    Beside,
+    /// The original over the other, seen through.
+    Over,
+    /// Without the original.
+    Alone,
+}
+
+impl Compare {
+    pub(crate) const ALL: [Self; 3] = [Self::Beside, Self::Over, Self::Alone];
+
+    pub(crate) fn next(self) -> Self {
+        match self {
+            Self::Beside => Self::Over,
+            Self::Over => Self::Alone,
+            Self::Alone => Self::Beside,
+        }
+    }
+}
+
+/// Who a pane shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Who {
+    /// The signer of what is played.
+    Signer,
+    /// That of what it was made from.
+    Original,
+    /// Both, one over the other.
+    Both,
+}
+
+/// A part of the stage: where it is, whose eye it has, and who is seen.
 #[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Part {
+    pub(crate) rect: Rect,
+    pub(crate) eye: usize,
+    pub(crate) who: Who,
+}
+
+/// The line between panes.
+const GAP: f32 = 2.0;
+
+/// Returns the parts of the stage for that many eyes, and with the original where there is one.
+pub(crate) fn parts(whole: Rect, eyes: usize, compare: Option<Compare>) -> Vec<Part> {
+    let wide = whole.width() >= whole.height();
+    let panes = match eyes {
+        1 => vec![whole],
+        2 => halves(whole, wide),
+        _ => halves(whole, false)
+            .into_iter()
+            .flat_map(|half| halves(half, true))
+            .collect(),
+    };
+    let mut parts = Vec::new();
+    for (eye, rect) in panes.into_iter().enumerate() {
+        let mut part = |rect, who| parts.push(Part { rect, eye, who });
+        match compare {
+            Some(Compare::Beside) => {
+                let sides = halves(rect, rect.width() >= rect.height() * 0.8);
+                part(sides[0], Who::Original);
+                part(sides[1], Who::Signer);
+            }
+            Some(Compare::Over) => part(rect, Who::Both),
+            Some(Compare::Alone) | None => part(rect, Who::Signer),
+        }
+    }
+    parts
+}
+
+fn halves(whole: Rect, beside: bool) -> Vec<Rect> {
+    let middle = whole.center();
+    let (mut first, mut second) = (whole, whole);
+    if beside {
+        first.max.x = middle.x - GAP / 2.0;
+        second.min.x = middle.x + GAP / 2.0;
+    } else {
+        first.max.y = middle.y - GAP / 2.0;
+        second.min.y = middle.y + GAP / 2.0;
+    }
+    vec![first, second]
+}
+
+/// Returns the views that panes begin with when the stage is parted into so many.
+pub(crate) fn usual_views(count: usize) -> &'static [View] {
+    use chereme_motion::Side;
+    match count {
+        1 => &[View::Addressee],
+        2 => &[View::Addressee, View::Right],
+        _ => &[
+            View::Addressee,
+            View::Right,
+            View::Hand(Side::Right),
+            View::Hand(Side::Left),
+        ],
+    }
+}
+
+/// Returns the original of a recipe's text, where it has one alone: what stands before its operators.
+pub(crate) fn original(recipe: &str) -> Option<&str> {
+    let (first, _) = recipe.split_once('|')?;
+    let first = first.trim();
+    let word = first.split_whitespace().next()?;
+    let made = ["spell", "point", "notation", "sigml", "hamnosys"].contains(&word);
+    (!made && !first.contains(" then ") && !first.contains('(')).then_some(first)
+}
+
+/// What is drawn beside the signer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Shows {
+    /// How far trails reach, in seconds, where they are shown.
+    pub(crate) trails: Option<f64>,
+    pub(crate) ghosts: bool,
+    pub(crate) grid: bool,
+}
+
+/// All that the pictures of the stage depend on.
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Look {
     pub(crate) at: Instant,
-    pub(crate) eye: Eye,
-    pub(crate) size: [usize; 2],
+    pub(crate) eyes: Vec<Eye>,
+    pub(crate) parts: Vec<(usize, Who, [usize; 2])>,
+    pub(crate) shows: Shows,
     pub(crate) dark: bool,
     pub(crate) samples: usize,
 }
@@ -158,6 +279,43 @@ mod tests {
         let camera = eye.camera(PRESET);
         assert!(camera.eye.y > PRESET.eye.y, "dragged down, seen from above");
         assert!((camera.eye.distance(camera.target) - 7.0).abs() < 1e-4);
+    }
+
+    #[test]
+    fn parts_fill_the_stage_and_each_eye_has_its_own() {
+        let whole = Rect::from_min_size(
+            eframe::egui::pos2(10.0, 20.0),
+            eframe::egui::vec2(802.0, 502.0),
+        );
+        for (eyes, compare, count) in [
+            (1, None, 1),
+            (1, Some(Compare::Beside), 2),
+            (1, Some(Compare::Over), 1),
+            (2, None, 2),
+            (4, Some(Compare::Alone), 4),
+            (4, Some(Compare::Beside), 8),
+        ] {
+            let parts = parts(whole, eyes, compare);
+            assert_eq!(parts.len(), count);
+            let area: f32 = parts.iter().map(|it| it.rect.area()).sum();
+            assert!(area <= whole.area() && area > whole.area() * 0.97);
+            assert_eq!(parts.last().map(|it| it.eye), Some(eyes - 1));
+            assert_eq!(usual_views(eyes).len(), eyes);
+        }
+        assert_eq!(parts(whole, 1, Some(Compare::Beside))[0].who, Who::Original);
+    }
+
+    #[test]
+    fn the_original_of_a_recipe_is_what_its_operators_are_about() {
+        for (recipe, wanted) in [
+            ("ESCARGOT | configure right U", Some("ESCARGOT")),
+            ("token:41 | reverse | repeat 2", Some("token:41")),
+            ("spell WE dominant | travel right left 15cm", None),
+            ("CHIEN then AIMER then BOL", None),
+            ("A then B | reverse", None),
+        ] {
+            assert_eq!(original(recipe), wanted, "{recipe}");
+        }
     }
 
     #[test]

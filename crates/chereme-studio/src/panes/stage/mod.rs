@@ -1,79 +1,188 @@
 //! The stage: the signer in three dimensions, and the transport.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `data` | where eyes stand, how the stage is parted, what is compared |
+//! | `scene` | bodies, ghosts, trails, grid and floor |
+//! | `marks` | landmarks and placement zones over the body |
+//! | `artist` | the thread that draws |
+//! | `transport` | the bar and the buttons below |
 
 mod artist;
 pub(crate) mod data;
+mod marks;
+mod scene;
+mod transport;
 mod ui;
 
 use std::sync::Arc;
 
-use chereme_corpus::Moving;
-use chereme_figure::{Body, Framing, View};
-use chereme_motion::Side;
+use chereme_corpus::{Moving, Overview};
+use chereme_figure::View;
+use chereme_motion::{Instant, Side, Span};
 use eframe::egui::{TextureHandle, Ui};
 
 use crate::action::Action;
 use crate::context::{Outbox, Seen};
 use crate::panes::{Acted, Pane};
+use crate::work::{Ended, Outcome, Work, WorkId};
 use artist::Artist;
-use data::{Eye, Look};
+use data::{Compare, Eye, Look, Shows};
+use marks::Zone;
+use scene::{Movement, Subject};
+
+/// How far a key turns, in shares of the picture's height, and how much nearer it goes.
+const KEY_STEP: f32 = 0.06;
+const KEY_ZOOM: f32 = 1.15;
 
 /// The pane.
-#[derive(Default)]
 pub(crate) struct Stage {
     artist: Option<Artist>,
-    figure: Option<Figure>,
-    eye: Eye,
-    texture: Option<TextureHandle>,
-    /// What the picture that was asked for last shows.
+    signer: Option<(Of, Subject)>,
+    original: Original,
+    /// Where each pane is looked at from.
+    eyes: Vec<Eye>,
+    /// The pane that keys are about.
+    active: usize,
+    compare: Compare,
+    shows: Shows,
+    /// How far trails reach when they are shown, in seconds.
+    reach: f64,
+    places: bool,
+    zones: Option<(Arc<Overview>, Vec<Zone>)>,
+    textures: Vec<TextureHandle>,
+    /// What the pictures that were asked for last show.
     asked: Option<Look>,
-    /// How long the last picture took to draw, in milliseconds.
+    /// Whether the moment at the playhead is not loaded yet.
+    coming: bool,
+    /// How long the last pictures took to draw, in milliseconds.
     took: f32,
 }
 
-/// The signer of the recording that is shown.
-struct Figure {
-    /// The movement it was made for.
-    of: Arc<Moving>,
-    body: Arc<Body>,
-    framing: Framing,
-}
-
-impl Figure {
-    fn new(moving: &Arc<Moving>) -> Option<Self> {
-        let framing = Framing::of(&moving.clip, &moving.anatomy)?;
-        let body = Arc::new(Body::new(moving.clip.skeleton(), &moving.anatomy));
-        Some(Self {
-            of: moving.clone(),
-            body,
-            framing,
-        })
-    }
-}
-
-impl Stage {
-    /// Makes the figure of the movement that is shown, where it is another.
-    fn follow(&mut self, seen: &Seen<'_>) {
-        let Some(moving) = seen.reel.sample() else {
-            self.figure = None;
-            return;
-        };
-        if self
-            .figure
-            .as_ref()
-            .is_none_or(|figure| !Arc::ptr_eq(&figure.of, moving))
-        {
-            self.figure = Figure::new(moving);
-            self.asked = None;
+impl Default for Stage {
+    fn default() -> Self {
+        Self {
+            artist: None,
+            signer: None,
+            original: Original::default(),
+            eyes: vec![Eye::default()],
+            active: 0,
+            compare: Compare::default(),
+            shows: Shows {
+                trails: None,
+                ghosts: false,
+                grid: false,
+            },
+            reach: 0.4,
+            places: false,
+            zones: None,
+            textures: Vec::new(),
+            asked: None,
+            coming: false,
+            took: 0.0,
         }
     }
 }
 
-impl Pane for Stage {
-    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
-        ui::show(self, ui, seen, out);
+/// The movement that a subject was made for, by where it lies in memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Of(usize);
+
+/// What a made movement was made from.
+#[derive(Default)]
+struct Original {
+    source: Option<Source>,
+    work: Option<WorkId>,
+    moving: Option<Arc<Moving>>,
+    subject: Option<Subject>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Source {
+    Span(i64, Span),
+    Recipe(String),
+}
+
+impl Stage {
+    /// Makes the figures of what is shown, where it is something else.
+    fn follow(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
+        let made = seen.shown.made.as_ref().map(|showing| &showing.made);
+        let sample = seen.reel.sample();
+        let now = match (made, sample) {
+            (Some(made), _) => Some((
+                Of(Arc::as_ptr(made) as usize),
+                &made.clip,
+                made.anatomy.as_ref(),
+            )),
+            (None, Some(it)) => Some((Of(Arc::as_ptr(it) as usize), &it.clip, &it.anatomy)),
+            (None, None) => None,
+        };
+        if self.signer.as_ref().map(|it| it.0) != now.map(|it| it.0) {
+            self.signer = now.and_then(|(of, clip, anatomy)| {
+                // The same body goes on where only its movement is another.
+                let before = self.signer.take().map(|it| it.1);
+                Some((of, Subject::after(before, clip, anatomy)?))
+            });
+            self.asked = None;
+        }
+        self.follow_original(seen, out);
     }
 
-    fn act(&mut self, action: Action, _seen: &Seen<'_>, _out: &mut Outbox) -> Acted {
+    fn follow_original(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
+        let source = match &seen.shown.made {
+            Some(showing) => {
+                let source = showing.made.source;
+                source.map(|(recording, span)| Source::Span(recording, span))
+            }
+            None => {
+                let shown = seen.shown.recording;
+                let glance = shown.and_then(|id| seen.snapshot.recording(id));
+                let recipe = glance.and_then(|it| it.recipe.as_deref());
+                let original = recipe.and_then(data::original);
+                original.map(|text| Source::Recipe(text.to_owned()))
+            }
+        };
+        if source == self.original.source {
+            return;
+        }
+        self.asked = None;
+        let work = source.clone().map(|source| match source {
+            Source::Span(recording, span) => Work::Stretch(recording, span),
+            Source::Recipe(text) => Work::Original(text),
+        });
+        self.original = Original {
+            source,
+            work: work.map(|work| out.work(work)),
+            moving: None,
+            subject: None,
+        };
+    }
+
+    /// Returns how the original is shown, where there is one.
+    fn comparing(&self) -> Option<Compare> {
+        self.original.subject.as_ref().map(|_| self.compare)
+    }
+
+    fn split(&mut self, count: usize) {
+        let usual = data::usual_views(count);
+        let kept = self.eyes.len().min(count);
+        let mut eyes: Vec<Eye> = self.eyes[..kept].to_vec();
+        for view in usual {
+            if eyes.len() < count && eyes.iter().all(|eye| eye.view != *view) {
+                eyes.push(Eye::of(*view));
+            }
+        }
+        eyes.extend(usual.iter().skip(eyes.len()).map(|view| Eye::of(*view)));
+        self.eyes = eyes;
+        self.active = self.active.min(count - 1);
+    }
+
+    fn eye(&mut self) -> &mut Eye {
+        let at = self.active.min(self.eyes.len() - 1);
+        &mut self.eyes[at]
+    }
+
+    fn look_from(&mut self, action: Action) -> bool {
         let view = match action {
             Action::ViewFront => View::Addressee,
             Action::ViewSigner => View::Signer,
@@ -82,9 +191,86 @@ impl Pane for Stage {
             Action::ViewTop => View::Top,
             Action::ViewRightHand => View::Hand(Side::Right),
             Action::ViewLeftHand => View::Hand(Side::Left),
-            _ => return Acted::No,
+            _ => return self.move_eye(action),
         };
-        self.eye = Eye::of(view);
+        *self.eye() = Eye::of(view);
+        true
+    }
+
+    fn move_eye(&mut self, action: Action) -> bool {
+        let eye = self.eye();
+        match action {
+            Action::OrbitLeft => eye.orbit([-KEY_STEP, 0.0]),
+            Action::OrbitRight => eye.orbit([KEY_STEP, 0.0]),
+            Action::OrbitUp => eye.orbit([0.0, KEY_STEP]),
+            Action::OrbitDown => eye.orbit([0.0, -KEY_STEP]),
+            Action::PanLeft => eye.pan([KEY_STEP, 0.0]),
+            Action::PanRight => eye.pan([-KEY_STEP, 0.0]),
+            Action::PanUp => eye.pan([0.0, KEY_STEP]),
+            Action::PanDown => eye.pan([0.0, -KEY_STEP]),
+            Action::Nearer => eye.nearer(KEY_ZOOM),
+            Action::Farther => eye.nearer(1.0 / KEY_ZOOM),
+            Action::StageReset => *eye = Eye::of(eye.view),
+            _ => return false,
+        }
+        true
+    }
+}
+
+impl Pane for Stage {
+    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        ui::show(self, ui, seen, out);
+    }
+
+    fn act(&mut self, action: Action, _seen: &Seen<'_>, out: &mut Outbox) -> Acted {
+        match action {
+            Action::StageSplit => self.split(match self.eyes.len() {
+                1 => 2,
+                2 => 4,
+                _ => 1,
+            }),
+            Action::StageNextPane => self.active = (self.active + 1) % self.eyes.len(),
+            Action::StageTrails => {
+                self.shows.trails = match self.shows.trails {
+                    Some(_) => None,
+                    None => Some(self.reach),
+                }
+            }
+            Action::StageGhosts => self.shows.ghosts = !self.shows.ghosts,
+            Action::StagePlaces => self.places = !self.places,
+            Action::StageGrid => self.shows.grid = !self.shows.grid,
+            Action::StageCompare => self.compare = self.compare.next(),
+            Action::StageRecording => out.send(crate::command::Command::Made(None)),
+            other if self.look_from(other) => {}
+            _ => return Acted::No,
+        }
+        self.asked = None;
         Acted::Yes
+    }
+
+    fn hear(&mut self, id: WorkId, ended: &Ended) {
+        if self.original.work != Some(id) {
+            return;
+        }
+        self.original.work = None;
+        if let Ok(Outcome::Stretch(Some(moving))) = ended {
+            let before = self.original.subject.take();
+            self.original.subject = Subject::after(before, &moving.clip, &moving.anatomy);
+            self.original.moving = Some(moving.clone());
+        }
+        self.asked = None;
+    }
+}
+
+/// Returns the moment of the original while `at` is played: as far from its beginning, at most its end.
+fn original_moment(at: Instant, moving: &Moving) -> Instant {
+    at.min(moving.clip.span().end())
+}
+
+/// Returns where the signer's postures come from.
+fn movement<'a>(seen: &Seen<'a>) -> Movement<'a> {
+    match &seen.shown.made {
+        Some(showing) => Movement::Clip(&showing.made.clip),
+        None => Movement::Reel(seen.reel),
     }
 }

@@ -1,88 +1,262 @@
-//! The stage's widgets: the picture, what the mouse does on it, and the transport below.
+//! The stage's widgets: what is shown, the pictures, and what the mouse does on them.
 
 use chereme_figure::Theme;
+use chereme_figure::camera::Camera;
 use chereme_figure::raster::Style;
-use chereme_motion::{Instant, ModelPose};
+use chereme_motion::ModelPose;
 use eframe::egui::{
-    self, Button, Color32, ComboBox, PointerButton, Rect, Response, Role, Sense, Slider,
-    TextureOptions, Ui, WidgetInfo, pos2, vec2,
+    self, Align2, Button, Color32, ComboBox, DragValue, PointerButton, Rect, Response, RichText,
+    Role, Sense, Stroke, StrokeKind, TextStyle, TextureOptions, Ui, UiBuilder, WidgetInfo, pos2,
+    vec2,
 };
 
-use super::Stage;
-use super::artist::{Artist, Wish};
-use super::data::{self, Look, VIEWS};
+use super::artist::{Artist, Pane, Sheet, Wish};
+use super::data::{self, Compare, Look, Part, VIEWS, Who};
+use super::scene::Subject;
+use super::{Eye, Stage, marks, movement, original_moment, transport};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
-use crate::panes::timeline::data::time_text;
-use crate::player::SPEEDS;
-use crate::words::{Text, stage as words};
+use crate::little;
+use crate::words::{Text, fill, stage as words};
 
-/// The largest picture that is drawn, in pixels; larger panes show it scaled.
-const LARGEST: [usize; 2] = [1600, 1200];
-const TRANSPORT: f32 = 68.0;
+/// The most pixels that are drawn; larger stages show theirs scaled.
+const MOST_PIXELS: f32 = 1_600_000.0;
 
 pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
-    stage.follow(seen);
-    let free = ui.available_size();
-    let size = vec2(free.x, (free.y - TRANSPORT).max(40.0));
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
-    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, seen.say(words::FIGURE)));
+    stage.follow(seen, out);
+    let frame = egui::Frame::new();
+    egui::Panel::top("stage tools")
+        .frame(frame)
+        .show_separator_line(false)
+        .show(ui, |ui| tools(stage, ui, seen, out));
+    egui::Panel::bottom("transport")
+        .frame(frame)
+        .show_separator_line(false)
+        .show(ui, |ui| transport::show(ui, seen, out));
+    let (whole, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     match why_nothing(stage, seen) {
-        Some(text) => {
-            let font = egui::TextStyle::Body.resolve(ui.style());
-            let colour = ui.visuals().weak_text_color();
-            ui.painter().text(
-                rect.center(),
-                egui::Align2::CENTER_CENTER,
-                seen.say(text),
-                font,
-                colour,
-            );
-        }
-        None => {
-            turn(stage, ui, &response, rect);
-            picture(stage, ui, rect, seen, response.dragged());
-        }
+        Some(text) => little::empty(ui, whole, seen.say(text)),
+        None => panes(stage, ui, seen, out, whole),
     }
-    transport(stage, ui, seen, out);
 }
 
 /// Returns why there is no signer to be seen, where there is none.
 fn why_nothing(stage: &Stage, seen: &Seen<'_>) -> Option<Text> {
-    if seen.shown.recording.is_none() {
+    if seen.shown.made.is_some() {
+        stage.signer.is_none().then_some(words::NO_MOVEMENT)
+    } else if seen.shown.recording.is_none() {
         Some(words::NO_RECORDING)
     } else if !seen.reel.has_movement() {
         Some(words::NO_MOVEMENT)
-    } else if stage.figure.is_none() {
+    } else if stage.signer.is_none() {
         Some(words::LOADING)
     } else {
         None
     }
 }
 
+/// What is shown beside the signer, and into how many views the stage is parted.
+fn tools(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
+    ui.horizontal_wrapped(|ui| {
+        for (count, text) in [
+            (1, words::SPLIT_1),
+            (2, words::SPLIT_2),
+            (4, words::SPLIT_4),
+        ] {
+            let keys = seen.keys.text(Action::StageSplit);
+            if split_button(ui, stage.eyes.len() == count, count, seen.say(text), &keys) {
+                stage.split(count);
+                stage.asked = None;
+            }
+        }
+        ui.add_space(6.0);
+        let toggles = [
+            (
+                words::TRAILS,
+                words::TRAILS_HINT,
+                Action::StageTrails,
+                stage.shows.trails.is_some(),
+            ),
+            (
+                words::GHOSTS,
+                words::GHOSTS_HINT,
+                Action::StageGhosts,
+                stage.shows.ghosts,
+            ),
+            (
+                words::PLACES,
+                words::PLACES_HINT,
+                Action::StagePlaces,
+                stage.places,
+            ),
+            (
+                words::GRID,
+                words::GRID_HINT,
+                Action::StageGrid,
+                stage.shows.grid,
+            ),
+        ];
+        for (text, hint, action, on) in toggles {
+            let hint = format!("{} ({})", seen.say(hint), seen.keys.text(action));
+            let button = Button::selectable(on, seen.say(text));
+            if ui.add(button).on_hover_text(hint).clicked() {
+                out.send(Command::Do(action));
+            }
+            if action == Action::StageTrails && on {
+                reach(stage, ui, seen);
+            }
+        }
+        if stage.original.subject.is_some() {
+            ui.add_space(6.0);
+            compare(stage, ui, seen);
+        }
+        if let Some(showing) = &seen.shown.made {
+            ui.add_space(6.0);
+            let name = fill(seen.say(words::MADE_OF), &[("name", &showing.made.name)]);
+            let name = RichText::new(name).color(seen.colours().accent);
+            ui.add(egui::Label::new(name).truncate());
+            let keys = seen.keys.text(Action::StageRecording);
+            let back = ui.small_button(seen.say(words::BACK)).on_hover_text(keys);
+            if back.clicked() {
+                out.send(Command::Made(None));
+            }
+        }
+    });
+    ui.add_space(4.0);
+}
+
+fn reach(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
+    let value = DragValue::new(&mut stage.reach)
+        .range(0.1..=2.0)
+        .speed(0.02)
+        .fixed_decimals(1)
+        .suffix(" s");
+    let response = ui.add(value);
+    let name = seen.say(words::REACH);
+    let seconds = stage.reach;
+    response.widget_info(|| WidgetInfo::slider(true, seconds, name));
+    if response.on_hover_text(name).changed() {
+        stage.shows.trails = Some(stage.reach);
+    }
+}
+
+fn compare(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
+    let keys = seen.keys.text(Action::StageCompare);
+    for way in Compare::ALL {
+        let text = match way {
+            Compare::Beside => words::BESIDE,
+            Compare::Over => words::OVER,
+            Compare::Alone => words::ALONE,
+        };
+        let hint = format!("{} ({keys})", seen.say(words::COMPARE));
+        let button = Button::selectable(stage.compare == way, seen.say(text));
+        if ui.add(button).on_hover_text(hint).clicked() {
+            stage.compare = way;
+            stage.asked = None;
+        }
+    }
+}
+
+/// A button with a drawing of the stage parted into `count`.
+fn split_button(ui: &mut Ui, on: bool, count: usize, name: &str, keys: &str) -> bool {
+    let (rect, response) = ui.allocate_exact_size(vec2(28.0, 24.0), Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, name));
+    let visuals = ui.style().interact_selectable(&response, on);
+    let painter = ui.painter();
+    if on || response.hovered() || response.has_focus() {
+        let fill = visuals.weak_bg_fill;
+        painter.rect(rect, 5.0, fill, visuals.bg_stroke, StrokeKind::Inside);
+    }
+    let screen = Rect::from_center_size(rect.center(), vec2(16.0, 12.0));
+    let stroke = Stroke::new(1.2, visuals.text_color());
+    painter.rect_stroke(screen, 1.5, stroke, StrokeKind::Middle);
+    if count > 1 {
+        painter.vline(screen.center().x, screen.y_range(), stroke);
+    }
+    if count > 2 {
+        painter.hline(screen.x_range(), screen.center().y, stroke);
+    }
+    response.on_hover_text(format!("{name} ({keys})")).clicked()
+}
+
+fn panes(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, whole: Rect) {
+    let parts = data::parts(whole, stage.eyes.len(), stage.comparing());
+    let mut dragged = false;
+    for (index, part) in parts.iter().enumerate() {
+        let id = ui.scope_id().with(("stage", index));
+        let response = ui.interact(part.rect, id, Sense::click_and_drag());
+        response.widget_info(|| {
+            let name = format!(
+                "{}: {}",
+                seen.say(words::FIGURE),
+                eye_name(stage, seen, part)
+            );
+            WidgetInfo::labeled(Role::Image, true, name)
+        });
+        turn(stage, ui, &response, part);
+        dragged |= response.dragged();
+    }
+    let poses = pictures(stage, ui, seen, &parts, dragged);
+    let many = stage.eyes.len() > 1;
+    for part in &parts {
+        if stage.places
+            && part.who != Who::Original
+            && let Some(pose) = &poses
+        {
+            places(stage, ui, seen, out, part, pose);
+        }
+        labels(stage, ui, seen, part);
+        if many && part.eye == stage.active {
+            let stroke = Stroke::new(1.5, seen.colours().accent);
+            ui.painter()
+                .rect_stroke(part.rect, 2.0, stroke, StrokeKind::Inside);
+        }
+    }
+    notes(stage, ui, seen, whole);
+}
+
+fn eye_name(stage: &Stage, seen: &Seen<'_>, part: &Part) -> &'static str {
+    let eye = stage.eyes[part.eye];
+    let found = VIEWS.iter().find(|(view, _)| *view == eye.view);
+    found.map_or("", |(_, action)| seen.say(action.row().name))
+}
+
 /// Left drag orbits, right or middle drag pans, the wheel goes nearer, a double click resets.
-fn turn(stage: &mut Stage, ui: &Ui, response: &Response, rect: Rect) {
-    let moved = response.drag_delta() / rect.height().max(1.0);
+fn turn(stage: &mut Stage, ui: &Ui, response: &Response, part: &Part) {
+    let eye = &mut stage.eyes[part.eye];
+    let moved = response.drag_delta() / part.rect.height().max(1.0);
     let moved = [moved.x, moved.y];
-    if response.dragged_by(PointerButton::Primary) {
-        stage.eye.orbit(moved);
+    if response.dragged_by(PointerButton::Primary) && !ui.input(|input| input.modifiers.shift) {
+        eye.orbit(moved);
     } else if response.dragged() {
-        stage.eye.pan(moved);
+        eye.pan(moved);
     }
     if response.contains_pointer() {
         let wheel = ui.input(|input| input.smooth_scroll_delta().y / 300.0);
         let pinch = ui.input(egui::InputState::zoom_delta);
         if wheel != 0.0 || pinch != 1.0 {
-            stage.eye.nearer(wheel.exp() * pinch);
+            eye.nearer(wheel.exp() * pinch);
         }
     }
     if response.double_clicked() {
-        stage.eye = super::Eye::of(stage.eye.view);
+        *eye = Eye::of(eye.view);
+    }
+    if response.clicked() || response.drag_started() {
+        stage.active = part.eye;
     }
 }
 
-fn picture(stage: &mut Stage, ui: &mut Ui, rect: Rect, seen: &Seen<'_>, dragging: bool) {
+/// Wishes for the pictures where they are others than the last, and shows those there are; returns
+/// the signer's posture.
+fn pictures(
+    stage: &mut Stage,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    parts: &[Part],
+    dragged: bool,
+) -> Option<ModelPose> {
     let artist = stage.artist.get_or_insert_with(|| {
         let ctx = ui.ctx().clone();
         Artist::new(move || ctx.request_repaint())
@@ -90,151 +264,255 @@ fn picture(stage: &mut Stage, ui: &mut Ui, rect: Rect, seen: &Seen<'_>, dragging
     if let Some(drawn) = artist.take() {
         stage.took = drawn.took.as_secs_f32() * 1000.0;
         let options = TextureOptions::LINEAR;
-        match &mut stage.texture {
-            Some(texture) => texture.set(drawn.image, options),
-            None => stage.texture = Some(ui.ctx().load_texture("stage", drawn.image, options)),
+        stage.textures.truncate(drawn.images.len());
+        for (index, image) in drawn.images.into_iter().enumerate() {
+            match stage.textures.get_mut(index) {
+                Some(texture) => texture.set(image, options),
+                None => {
+                    let texture = ui.ctx().load_texture("stage", image, options);
+                    stage.textures.push(texture);
+                }
+            }
         }
     }
     let scale = ui.ctx().pixels_per_point();
-    let pixels = [rect.width(), rect.height()].map(|side| (side * scale).round().max(1.0) as usize);
-    let shrink = pixels
-        .iter()
-        .zip(LARGEST)
-        .map(|(side, most)| most as f32 / *side as f32);
-    let shrink = shrink.fold(1.0, f32::min);
-    let size = pixels.map(|side| ((side as f32 * shrink) as usize).max(1));
+    let area: f32 = parts.iter().map(|it| it.rect.area()).sum::<f32>() * scale * scale;
+    let shrink = (MOST_PIXELS / area.max(1.0)).sqrt().min(1.0);
+    let pixels = |side: f32| ((side * scale * shrink).round() as usize).max(1);
+    let player = seen.shown.on_stage();
+    let at = player.playhead();
+    let moving = player.is_playing() || dragged;
     let look = Look {
-        at: seen.shown.player.playhead(),
-        eye: stage.eye,
-        size,
+        at,
+        eyes: stage.eyes.clone(),
+        parts: parts
+            .iter()
+            .map(|it| {
+                let size = [it.rect.width(), it.rect.height()].map(pixels);
+                (it.eye, it.who, size)
+            })
+            .collect(),
+        shows: stage.shows,
         dark: seen.dark,
-        samples: data::samples(seen.shown.player.is_playing() || dragging, size),
+        samples: data::samples(moving, [(area * shrink * shrink) as usize, 1]),
     };
-    wish(stage, seen, look);
-    if let Some(texture) = &stage.texture {
-        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        ui.painter()
-            .image(texture.id(), rect, whole, Color32::WHITE);
+    let (_, signer) = stage.signer.as_ref()?;
+    let pose = movement(seen).pose(&signer.skeleton, at);
+    stage.coming = pose.is_none();
+    if let Some(pose) = &pose
+        && stage.asked.as_ref() != Some(&look)
+    {
+        wish(stage, seen, look, pose);
     }
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    for (part, texture) in parts.iter().zip(&stage.textures) {
+        ui.painter()
+            .image(texture.id(), part.rect, whole, Color32::WHITE);
+    }
+    pose
 }
 
-/// Wishes for the picture, where it is another than the last and its movement is loaded.
-fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look) {
-    let (Some(figure), Some(artist)) = (&stage.figure, &stage.artist) else {
-        return;
-    };
-    if stage.asked == Some(look) {
-        return;
-    }
-    let Some(pose) = seen.reel.pose(look.at) else {
-        return;
-    };
-    let pose = ModelPose::of(figure.of.clip.skeleton(), &pose);
-    let aspect = look.size[0] as f32 / look.size[1] as f32;
-    let preset = figure
-        .framing
-        .camera(look.eye.view, aspect, &pose, &figure.of.anatomy);
+fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
     let theme = if look.dark { Theme::Dark } else { Theme::Light };
+    let end = seen.shown.on_stage().whole.end();
+    let (Some((_, signer)), Some(artist)) = (&mut stage.signer, &stage.artist) else {
+        return;
+    };
+    let mut figures = vec![(signer.body.clone(), pose.clone())];
+    let sheet = |figure, marks, opacity| Sheet {
+        figure,
+        marks,
+        opacity,
+    };
+    let mut below = Vec::new();
+    if look.shows.ghosts {
+        for (body, pose, opacity) in signer.ghosts(movement(seen), look.at) {
+            below.push((figures.len(), opacity));
+            figures.push((body, pose));
+        }
+    }
+    let trails = look.shows.trails.map(|reach| {
+        let paper = theme.background();
+        let mesh = signer.trails(movement(seen), (look.at, end), reach, paper);
+        std::sync::Arc::new(mesh)
+    });
+    let original = stage
+        .original
+        .subject
+        .as_ref()
+        .zip(stage.original.moving.as_ref());
+    let original = original.and_then(|(subject, moving)| {
+        let then = original_moment(look.at, moving);
+        let pose = super::Movement::Clip(&moving.clip).pose(&subject.skeleton, then)?;
+        figures.push((subject.body.clone(), pose));
+        Some((figures.len() - 1, subject))
+    });
+    let mut panes = Vec::new();
+    for (eye, who, size) in &look.parts {
+        let eye = look.eyes[*eye];
+        let (subject, at): (&Subject, usize) = match (who, &original) {
+            (Who::Original, Some((figure, subject))) => (subject, *figure),
+            _ => (signer, 0),
+        };
+        let camera = camera(subject, eye, *size, &figures[at].1);
+        let ground = subject.ground(eye.view, theme, look.shows.grid);
+        let mut layers = vec![sheet(None, Some(std::sync::Arc::new(ground)), 1.0)];
+        if *who == Who::Original {
+            layers.push(sheet(Some(at), None, 1.0));
+        } else {
+            layers.extend(below.iter().map(|it| sheet(Some(it.0), None, it.1)));
+            layers.push(sheet(Some(0), trails.clone(), 1.0));
+        }
+        if let (Who::Both, Some((figure, _))) = (who, &original) {
+            layers.push(sheet(Some(*figure), None, 0.42));
+        }
+        panes.push(Pane {
+            camera,
+            size: *size,
+            layers,
+        });
+    }
     artist.wish(Wish {
-        figures: vec![(figure.body.clone(), pose)],
-        camera: look.eye.camera(preset),
-        size: look.size,
+        figures,
+        panes,
         style: Style {
             theme,
             samples: look.samples,
+            threads: threads(),
             ..Style::default()
         },
     });
     stage.asked = Some(look);
 }
 
-fn transport(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
-    ui.add_space(4.0);
-    let player = &seen.shown.player;
-    let end = player.whole.end().micros();
-    let mut at = player.playhead().micros();
-    ui.spacing_mut().slider_width = (ui.available_width() - 8.0).max(40.0);
-    let slider = Slider::new(&mut at, 0..=end.max(1)).show_value(false);
-    let response = ui.add_enabled(end > 0, slider);
-    let seconds = at as f64 / 1e6;
-    response.widget_info(|| WidgetInfo::slider(true, seconds, seen.say(words::TIME)));
-    if response.changed() {
-        out.seek(Instant::from_micros(at));
+/// Half of the processors draw, so that the window has its own.
+fn threads() -> usize {
+    let all = std::thread::available_parallelism().map_or(2, std::num::NonZero::get);
+    all.div_ceil(2).clamp(2, 6)
+}
+
+fn camera(subject: &Subject, eye: Eye, size: [usize; 2], pose: &ModelPose) -> Camera {
+    let aspect = size[0] as f32 / size[1] as f32;
+    let preset = subject
+        .framing
+        .camera(eye.view, aspect, pose, &subject.anatomy);
+    eye.camera(preset)
+}
+
+/// The view's name, which is a menu of the views, and who is seen.
+fn labels(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, part: &Part) {
+    let place = Rect::from_min_size(
+        part.rect.min + vec2(6.0, 6.0),
+        vec2(part.rect.width() - 12.0, 24.0),
+    );
+    if part.who != Who::Signer || part.rect.width() < 60.0 {
+        who(ui, seen, part);
     }
-    ui.horizontal(|ui| {
-        let (text, action) = (
-            if player.is_playing() {
-                words::PAUSE
-            } else {
-                words::PLAY
-            },
-            Action::Play,
-        );
-        let button = Button::new(seen.say(text)).min_size(vec2(76.0, 0.0));
-        if ui
-            .add(button)
-            .on_hover_text(seen.keys.text(action))
-            .clicked()
-        {
-            out.send(Command::Do(action));
-        }
-        let time = format!(
-            "{} / {}",
-            time_text(player.playhead()),
-            time_text(player.whole.end())
-        );
-        ui.label(egui::RichText::new(time).monospace());
-        let mut looping = player.looping;
-        if ui.checkbox(&mut looping, seen.say(words::LOOP)).changed() {
-            out.send(Command::Do(Action::Loop));
-        }
-        speeds(ui, seen, out);
-        views(stage, ui, seen, out);
-        if stage.took > 0.0 {
-            ui.weak(format!("{:.1} ms", stage.took));
-        }
-    });
-}
-
-fn speeds(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
-    let now = seen.shown.player.speed;
-    let combo = ComboBox::from_id_salt("speed")
-        .width(64.0)
-        .selected_text(format!("×{now}"));
-    let inner = combo.show_ui(ui, |ui| {
-        for speed in SPEEDS {
-            if ui
-                .selectable_label(speed == now, format!("×{speed}"))
-                .clicked()
-            {
-                out.send(Command::Speed(speed));
-            }
-        }
-    });
-    name(&inner.response, seen.say(words::SPEED));
-}
-
-fn views(stage: &Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
-    let now = VIEWS.iter().find(|(view, _)| *view == stage.eye.view);
-    let called = |action: Action| seen.say(action.row().name);
-    let text = now.map_or("", |(_, action)| called(*action));
-    let inner = ComboBox::from_id_salt("view")
-        .selected_text(text)
-        .show_ui(ui, |ui| {
+    let first = data_first(stage, part);
+    if !first || part.rect.width() < 60.0 {
+        return;
+    }
+    let now = stage.eyes[part.eye];
+    let mut chosen = None;
+    let builder = UiBuilder::new().max_rect(place).id_salt(("view", part.eye));
+    ui.scope_builder(builder, |ui| {
+        let text = RichText::new(eye_name(stage, seen, part)).small();
+        let combo = ComboBox::from_id_salt(("view", part.eye)).selected_text(text);
+        let inner = combo.show_ui(ui, |ui| {
             for (view, action) in VIEWS {
-                let button = Button::selectable(view == stage.eye.view, called(action));
+                let name = seen.say(action.row().name);
+                let button = Button::selectable(view == now.view, name);
                 if ui
                     .add(button.shortcut_text(seen.keys.text(action)))
                     .clicked()
                 {
-                    out.send(Command::Do(action));
+                    chosen = Some(view);
                 }
             }
         });
-    name(&inner.response, seen.say(words::VIEW));
+        let name = seen.say(words::VIEW);
+        inner
+            .response
+            .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
+    });
+    if let Some(view) = chosen {
+        stage.eyes[part.eye] = Eye::of(view);
+        stage.active = part.eye;
+    }
 }
 
-/// Gives a list to choose from the name that assistive tools read.
-fn name(response: &Response, name: &str) {
-    response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
+/// Whether that part is the first of its eye.
+fn data_first(stage: &Stage, part: &Part) -> bool {
+    stage.comparing() != Some(Compare::Beside) || part.who == Who::Original
+}
+
+fn who(ui: &Ui, seen: &Seen<'_>, part: &Part) {
+    let text = match part.who {
+        Who::Original => seen.say(words::ORIGINAL),
+        Who::Both => seen.say(words::OVER),
+        Who::Signer => return,
+    };
+    chip(
+        ui,
+        part.rect.right_top() + vec2(-8.0, 8.0),
+        Align2::RIGHT_TOP,
+        text,
+    );
+}
+
+fn chip(ui: &Ui, at: egui::Pos2, anchor: Align2, text: &str) {
+    let font = TextStyle::Small.resolve(ui.style());
+    let colour = ui.visuals().text_color();
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, colour);
+    let rect = anchor.anchor_size(at, galley.size() + vec2(12.0, 6.0));
+    let fill = ui.visuals().panel_fill.gamma_multiply(0.9);
+    ui.painter().rect_filled(rect, 5.0, fill);
+    ui.painter()
+        .galley(rect.min + vec2(6.0, 3.0), galley, colour);
+}
+
+/// What there is to say about the whole: that a moment is being loaded, that hands have no fingers.
+fn notes(stage: &Stage, ui: &Ui, seen: &Seen<'_>, whole: Rect) {
+    let at = whole.center_bottom() - vec2(0.0, 8.0);
+    let mittens = stage
+        .signer
+        .as_ref()
+        .is_some_and(|it| it.1.is_without_fingers());
+    if stage.coming {
+        chip(ui, at, Align2::CENTER_BOTTOM, seen.say(words::COMING));
+    } else if mittens {
+        chip(ui, at, Align2::CENTER_BOTTOM, seen.say(words::NO_FINGERS));
+    }
+}
+
+fn places(
+    stage: &mut Stage,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    part: &Part,
+    pose: &ModelPose,
+) {
+    let overview = &seen.snapshot.overview;
+    let known = stage
+        .zones
+        .as_ref()
+        .is_some_and(|(of, _)| std::sync::Arc::ptr_eq(of, overview));
+    if !known {
+        stage.zones = Some((overview.clone(), marks::zones(overview)));
+    }
+    let (Some((_, signer)), Some((_, zones))) = (&stage.signer, &stage.zones) else {
+        return;
+    };
+    let language = seen.language;
+    let name = |id: &str| {
+        let all = overview.inventories.iter().map(|it| &it.inventory);
+        let found = all.flat_map(|it| &it.values).find(|value| value.id == id);
+        found.map_or(id.to_owned(), |it| it.name(language.code()).to_owned())
+    };
+    let size = [part.rect.width(), part.rect.height()].map(|side| side.round().max(1.0) as usize);
+    let camera = camera(signer, stage.eyes[part.eye], size, pose);
+    let projection = camera.projection(size[0], size[1]);
+    let marks = marks::marks(signer, pose, zones, name);
+    marks::show(ui, seen, out, (part.rect, &projection, 1.0), &marks);
 }

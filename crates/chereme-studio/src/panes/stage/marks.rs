@@ -1,0 +1,149 @@
+//! Landmarks and placement zones over the signer's body; a zone that is clicked is a place chosen.
+
+use chereme_corpus::Overview;
+use chereme_figure::camera::Projection;
+use chereme_motion::{Anatomy, Side};
+use chereme_sign::component::Component;
+use eframe::egui::{Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+use glam::DVec3;
+
+use super::scene::Subject;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+
+/// A placement value as it lies on a body.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Zone {
+    pub(super) id: String,
+    landmark: String,
+    /// Left, up and forward, in shoulder widths.
+    offset: [f64; 3],
+}
+
+/// Returns the zones of the corpus's placement inventories for a right hand, by id.
+pub(super) fn zones(overview: &Overview) -> Vec<Zone> {
+    let mut zones: Vec<Zone> = Vec::new();
+    for stored in &overview.inventories {
+        if stored.inventory.component != Component::Placement {
+            continue;
+        }
+        for value in &stored.inventory.values {
+            let Some(landmark) = &value.landmark else {
+                continue;
+            };
+            let (landmark, offset) = landmark.resolve(Side::Right);
+            if zones.iter().all(|zone| zone.id != value.id) {
+                let id = value.id.clone();
+                zones.push(Zone {
+                    id,
+                    landmark,
+                    offset,
+                });
+            }
+        }
+    }
+    zones
+}
+
+/// Something to be seen on the body.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Mark {
+    pub(super) name: String,
+    /// The placement value, where it is one.
+    pub(super) zone: Option<String>,
+    pub(super) at: DVec3,
+}
+
+/// Returns the marks on a body in its posture: zones, then landmarks that no zone lies on.
+pub(super) fn marks(
+    subject: &Subject,
+    pose: &chereme_motion::ModelPose,
+    zones: &[Zone],
+    name: impl Fn(&str) -> String,
+) -> Vec<Mark> {
+    let Some(frame) = subject.anatomy.body_frame(pose) else {
+        return Vec::new();
+    };
+    let width = subject
+        .anatomy
+        .measures()
+        .map_or(0.35, |it| it.shoulder_width);
+    let find = |landmark: &str| subject.anatomy.landmark(&subject.skeleton, pose, landmark);
+    let mut marks: Vec<Mark> = Vec::new();
+    for zone in zones {
+        let [left, up, forward] = zone.offset.map(|it| it * width);
+        let offset = frame.left * left + frame.up * up + frame.forward * forward;
+        if let Some(at) = find(&zone.landmark) {
+            marks.push(Mark {
+                name: name(&zone.id),
+                zone: Some(zone.id.clone()),
+                at: at + offset,
+            });
+        }
+    }
+    for landmark in Anatomy::landmarks() {
+        if let Some(at) = find(&landmark)
+            && marks.iter().all(|mark| mark.at.distance(at) > 0.012)
+        {
+            marks.push(Mark {
+                name: landmark.replace('-', " "),
+                zone: None,
+                at,
+            });
+        }
+    }
+    marks
+}
+
+/// How near the pointer has to be, and how large marks are.
+const REACH: f32 = 11.0;
+
+/// Shows the marks over a picture; names come up under the pointer and with the focus.
+pub(super) fn show(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    (rect, projection, scale): (Rect, &Projection, f32),
+    marks: &[Mark],
+) {
+    let colours = seen.colours();
+    let painter = ui.painter().with_clip_rect(rect);
+    for (index, mark) in marks.iter().enumerate() {
+        let at = projection.project(mark.at.as_vec3());
+        let place = rect.min + vec2(at.x, at.y) * scale;
+        if at.depth <= 0.0 || !rect.shrink(4.0).contains(place) {
+            continue;
+        }
+        let Some(zone) = &mark.zone else {
+            painter.circle_filled(place, 1.6, colours.accent.gamma_multiply(0.7));
+            continue;
+        };
+        let spot = Rect::from_center_size(place, Vec2::splat(REACH));
+        let id = ui
+            .scope_id()
+            .with(("mark", rect.min.x as i64, rect.min.y as i64, index));
+        let response = ui.interact(spot, id, Sense::click());
+        let chosen = seen.shown.spot.as_ref() == Some(zone);
+        response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &mark.name));
+        let lit = response.hovered() || response.has_focus();
+        let radius = if lit || chosen { 5.5 } else { 3.5 };
+        let fill = if chosen {
+            colours.playhead
+        } else {
+            colours.accent.gamma_multiply(if lit { 0.9 } else { 0.35 })
+        };
+        painter.circle(place, radius, fill, Stroke::new(1.2, colours.accent));
+        if lit || chosen {
+            let font = eframe::egui::TextStyle::Small.resolve(ui.style());
+            let galley = painter.layout_no_wrap(mark.name.clone(), font, ui.visuals().text_color());
+            let mut at = place + vec2(9.0, -galley.size().y / 2.0);
+            at.x = at.x.min(rect.max.x - galley.size().x - 6.0);
+            let chip = Rect::from_min_size(at, galley.size()).expand2(vec2(4.0, 2.0));
+            painter.rect_filled(chip, 4.0, ui.visuals().panel_fill);
+            painter.galley(pos2(at.x, at.y), galley, ui.visuals().text_color());
+        }
+        if response.clicked() {
+            out.send(Command::Spot(Some(zone.clone())));
+        }
+    }
+}

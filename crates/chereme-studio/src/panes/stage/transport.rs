@@ -1,0 +1,341 @@
+//! The transport: a bar with the annotations in small, and the buttons below it.
+
+use chereme_motion::{Instant, Rate, Span};
+use eframe::egui::{
+    self, Color32, ComboBox, CornerRadius, Key, Painter, Rect, Response, RichText, Role, Sense,
+    Shape, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
+};
+
+use crate::action::Action;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::panes::timeline::data::time_text;
+use crate::player::SPEEDS;
+use crate::words::{Text, fill, stage as words};
+
+const BAR: f32 = 26.0;
+const BUTTON: Vec2 = vec2(30.0, 26.0);
+
+pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
+    ui.add_space(4.0);
+    bar(ui, seen, out);
+    ui.horizontal_wrapped(|ui| {
+        let player = seen.shown.on_stage();
+        let playing = player.is_playing();
+        button(ui, seen, out, (Icon::Start, Action::ToStart), None);
+        button(ui, seen, out, (Icon::Back, Action::FrameBack), None);
+        let (icon, text) = if playing {
+            (Icon::Pause, words::PAUSE)
+        } else {
+            (Icon::Play, words::PLAY)
+        };
+        button(ui, seen, out, (icon, Action::Play), Some(text));
+        button(ui, seen, out, (Icon::Forward, Action::FrameForward), None);
+        button(ui, seen, out, (Icon::End, Action::ToEnd), None);
+        let looping = Icon::Loop(player.looping);
+        button(ui, seen, out, (looping, Action::Loop), Some(words::LOOP));
+        speeds(ui, seen, out);
+        let rate = rate(seen);
+        let (now, all) = (time_text(player.playhead()), time_text(player.whole.end()));
+        ui.label(RichText::new(now).monospace().strong());
+        ui.label(RichText::new(format!("/ {all}")).monospace().weak());
+        if let Some(rate) = rate {
+            let (frame, frames) = frames(player.playhead(), player.whole, rate);
+            let text = fill(
+                seen.say(words::FRAME_OF),
+                &[("n", &frame), ("all", &frames)],
+            );
+            ui.label(RichText::new(text).small().weak());
+        }
+    });
+}
+
+fn rate(seen: &Seen<'_>) -> Option<Rate> {
+    let made = seen.shown.made.as_ref().map(|it| it.made.clip.rate());
+    made.or_else(|| seen.reel.rate())
+}
+
+/// Returns the frame at the playhead, counted from 1, and how many there are.
+fn frames(at: Instant, whole: Span, rate: Rate) -> (usize, usize) {
+    let all = rate.frames_in(whole).len().max(1);
+    ((rate.frame_at(at) + 1).min(all), all)
+}
+
+/// Returns the spans of those annotations that are apart on a bar of so many pixels, as shares of it.
+///
+/// Starts never fall; annotations that would fill the same pixel are one.
+fn ticks(starts: &[i64], ends: &[i64], whole: Span, pixels: f32) -> Vec<[f32; 2]> {
+    let length = whole.micros().max(1) as f64;
+    let pixel = (length / f64::from(pixels.max(1.0))) as i64;
+    let share = |at: i64| ((at - whole.start().micros()) as f64 / length) as f32;
+    let mut ticks = Vec::new();
+    let mut at = 0;
+    while let (Some(&start), Some(&end)) = (starts.get(at), ends.get(at)) {
+        ticks.push([share(start), share(end.max(start + pixel))]);
+        let beyond = start.saturating_add(pixel.max(1));
+        at += starts[at..].partition_point(|it| *it < beyond).max(1);
+    }
+    ticks
+}
+
+/// The bar: annotations of the chosen tier or of the glosses, the selected time, the playhead.
+fn bar(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    let player = seen.shown.on_stage();
+    let size = vec2(ui.available_width(), BAR);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+    let seconds = player.playhead().seconds();
+    response.widget_info(|| WidgetInfo::slider(true, seconds, seen.say(words::TIME)));
+    let track = rect.shrink2(vec2(6.0, 5.0));
+    let length = player.whole.micros().max(1) as f64;
+    let start = player.whole.start().micros();
+    let x =
+        |at: Instant| track.left() + track.width() * ((at.micros() - start) as f64 / length) as f32;
+    let time = |x: f32| {
+        let share = f64::from(((x - track.left()) / track.width().max(1.0)).clamp(0.0, 1.0));
+        Instant::from_micros(start + (length * share) as i64)
+    };
+    let pressed = response.is_pointer_button_down_on() || response.clicked();
+    if let Some(at) = response.interact_pointer_pos().filter(|_| pressed) {
+        out.send(Command::Cue(time(at.x)));
+    }
+    let colours = seen.colours();
+    let painter = ui.painter_at(rect);
+    let visuals = ui.visuals();
+    painter.rect_filled(track, 4.0, visuals.widgets.inactive.bg_fill);
+    if seen.shown.made.is_none() {
+        if let Some(span) = seen.shown.span {
+            let chosen = Rect::from_x_y_ranges(x(span.start())..=x(span.end()), track.y_range());
+            painter.rect_filled(chosen, 0.0, colours.selection);
+        }
+        annotations(&painter, seen, track, player.whole);
+    }
+    let part = player.part.unwrap_or(player.whole);
+    if player.part.is_some() {
+        let rect = Rect::from_x_y_ranges(x(part.start())..=x(part.end()), rect.y_range());
+        let stroke = Stroke::new(1.0, colours.accent);
+        painter.rect_stroke(rect, 3.0, stroke, StrokeKind::Inside);
+    }
+    let done = Rect::from_min_max(
+        pos2(track.left(), track.bottom() - 3.0),
+        pos2(x(player.playhead()), track.bottom()),
+    );
+    painter.rect_filled(done, CornerRadius::same(1), colours.playhead);
+    let head = x(player.playhead());
+    painter.vline(head, rect.y_range(), Stroke::new(2.0, colours.playhead));
+    painter.circle_filled(pos2(head, rect.top() + 4.0), 4.0, colours.playhead);
+    if response.has_focus() {
+        let stroke = Stroke::new(1.5, colours.accent);
+        painter.rect_stroke(rect, 4.0, stroke, StrokeKind::Inside);
+        keys(ui, &response, out);
+    }
+    if let Some(at) = response.hover_pos().filter(|_| !response.dragged()) {
+        painter.vline(
+            at.x,
+            track.y_range(),
+            Stroke::new(1.0, visuals.weak_text_color()),
+        );
+        response.on_hover_text_at_pointer(time_text(time(at.x)));
+    }
+}
+
+/// With the focus on the bar, arrows go by frames.
+fn keys(ui: &Ui, response: &Response, out: &mut Outbox) {
+    ui.memory_mut(|memory| {
+        let filter = egui::EventFilter {
+            horizontal_arrows: true,
+            ..egui::EventFilter::default()
+        };
+        memory.set_focus_lock_filter(response.id, filter);
+    });
+    for (key, action) in [
+        (Key::ArrowLeft, Action::FrameBack),
+        (Key::ArrowRight, Action::FrameForward),
+    ] {
+        if ui.input_mut(|input| input.consume_key(egui::Modifiers::NONE, key)) {
+            out.send(Command::Do(action));
+        }
+    }
+}
+
+fn annotations(painter: &Painter, seen: &Seen<'_>, track: Rect, whole: Span) {
+    let contents = seen
+        .shown
+        .recording
+        .and_then(|id| seen.snapshot.contents(id));
+    let Some(tiers) = contents.map(|it| &it.tiers) else {
+        return;
+    };
+    let chosen = tiers.iter().find(|it| Some(it.row.id) == seen.shown.tier);
+    let tier = chosen.or_else(|| tiers.iter().find(|it| it.row.role == "gloss"));
+    let Some(tier) = tier else { return };
+    let colour = seen.colours().role(&tier.row.role);
+    let columns = &tier.annotations;
+    for [from, to] in ticks(&columns.starts, &columns.ends, whole, track.width() / 2.0) {
+        let x = |share: f32| track.left() + track.width() * share.clamp(0.0, 1.0);
+        let (left, right) = (x(from), (x(to) - 1.0).max(x(from) + 1.0));
+        let rows = track.top() + 4.0..=track.bottom() - 4.0;
+        let rect = Rect::from_x_y_ranges(left..=right, rows);
+        painter.rect_filled(rect, 2.0, colour.gamma_multiply(0.85));
+    }
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Icon {
+    Start,
+    Back,
+    Play,
+    Pause,
+    Forward,
+    End,
+    Loop(bool),
+}
+
+fn button(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    (icon, action): (Icon, Action),
+    text: Option<Text>,
+) {
+    let name = seen.say(text.unwrap_or(action.row().name));
+    let (rect, response) = ui.allocate_exact_size(BUTTON, Sense::click());
+    let on = icon == Icon::Loop(true);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, name));
+    let visuals = ui.style().interact_selectable(&response, on);
+    let (fill, stroke) = (visuals.weak_bg_fill, visuals.bg_stroke);
+    let edge = if response.has_focus() {
+        Stroke::new(2.0, seen.colours().accent)
+    } else {
+        stroke
+    };
+    ui.painter().rect(rect, 5.0, fill, edge, StrokeKind::Inside);
+    draw(ui.painter(), icon, rect.center(), visuals.text_color());
+    let keys = seen.keys.text(action);
+    let told = if keys.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{name} ({keys})")
+    };
+    if response.on_hover_text(told).clicked() {
+        out.send(Command::Do(action));
+    }
+}
+
+fn draw(painter: &Painter, icon: Icon, at: egui::Pos2, colour: Color32) {
+    let triangle = |x: f32, way: f32| {
+        let tip = [
+            vec2(x + 4.5 * way, 0.0),
+            vec2(x - 3.5 * way, -5.5),
+            vec2(x - 3.5 * way, 5.5),
+        ];
+        painter.add(Shape::convex_polygon(
+            tip.map(|corner| at + corner).to_vec(),
+            colour,
+            Stroke::NONE,
+        ));
+    };
+    let bar = |x: f32, width: f32| {
+        let rect = Rect::from_center_size(at + vec2(x, 0.0), vec2(width, 11.0));
+        painter.rect_filled(rect, 0.5, colour);
+    };
+    match icon {
+        Icon::Play => triangle(0.0, 1.35),
+        Icon::Pause => {
+            bar(-3.0, 3.0);
+            bar(3.0, 3.0);
+        }
+        Icon::Start => {
+            bar(-5.0, 2.0);
+            triangle(1.5, -1.0);
+        }
+        Icon::End => {
+            bar(5.0, 2.0);
+            triangle(-1.5, 1.0);
+        }
+        Icon::Back => {
+            triangle(-2.0, -1.0);
+            bar(4.5, 1.5);
+        }
+        Icon::Forward => {
+            triangle(2.0, 1.0);
+            bar(-4.5, 1.5);
+        }
+        Icon::Loop(_) => {
+            let points: Vec<egui::Pos2> = (0..=20)
+                .map(|i| (i as f32 / 20.0 * 300.0 - 60.0).to_radians())
+                .map(|angle| at + vec2(angle.cos(), angle.sin()) * 5.5)
+                .collect();
+            let end = at + vec2((-60.0f32).to_radians().cos(), (-60.0f32).to_radians().sin()) * 5.5;
+            painter.add(Shape::line(points, Stroke::new(1.8, colour)));
+            let tip = [vec2(-4.5, -1.5), vec2(1.5, -4.5), vec2(1.5, 2.5)];
+            painter.add(Shape::convex_polygon(
+                tip.map(|corner| end + corner).to_vec(),
+                colour,
+                Stroke::NONE,
+            ));
+        }
+    }
+}
+
+fn speeds(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    let player = seen.shown.on_stage();
+    let now = player.speed;
+    let shuttle = player.direction();
+    let text = if shuttle.abs() > 1.0 || shuttle < 0.0 {
+        format!("×{}", now * shuttle)
+    } else {
+        format!("×{now}")
+    };
+    let combo = ComboBox::from_id_salt("speed")
+        .width(58.0)
+        .selected_text(text);
+    let inner = combo.show_ui(ui, |ui| {
+        for speed in SPEEDS {
+            if ui
+                .selectable_label(speed == now, format!("×{speed}"))
+                .clicked()
+            {
+                out.send(Command::Speed(speed));
+            }
+        }
+    });
+    let name = seen.say(words::SPEED);
+    inner
+        .response
+        .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
+    let keys = [Action::Slower, Action::Faster].map(|it| seen.keys.text(it));
+    inner
+        .response
+        .on_hover_text(format!("{name} ({} / {})", keys[0], keys[1]));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn annotations_too_near_to_be_told_apart_are_one_tick() {
+        let whole = Span::between(Instant::ZERO, Instant::from_micros(1_000_000));
+        assert_eq!(
+            ticks(&[0, 500_000], &[250_000, 750_000], whole, 100.0),
+            [[0.0, 0.25], [0.5, 0.75]]
+        );
+        let starts: Vec<i64> = (0..100_000).map(|it| it * 10).collect();
+        let ends: Vec<i64> = starts.iter().map(|it| it + 10).collect();
+        let many = ticks(&starts, &ends, whole, 300.0);
+        assert!((290..=301).contains(&many.len()), "{}", many.len());
+        assert!(ticks(&[], &[], whole, 300.0).is_empty());
+    }
+
+    #[test]
+    fn frames_are_counted_from_one_to_all() {
+        let rate = Rate::new(60, 1).expect("a rate");
+        let whole = Span::between(Instant::ZERO, Instant::from_micros(2_600_000));
+        assert_eq!(frames(Instant::ZERO, whole, rate), (1, 156));
+        assert_eq!(
+            frames(Instant::from_micros(2_599_999), whole, rate),
+            (156, 156)
+        );
+    }
+}

@@ -1,0 +1,121 @@
+//! The stage driven by its labels: views, panes, trails, ghosts, places, and what it was made from.
+
+mod common;
+
+use chereme_corpus::Corpus;
+use common::{Window, click, has, idle, open_small, until};
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT, Queryable};
+
+fn pictures(window: &Window<'_>) -> Vec<String> {
+    let nodes = window.query_all_by_label_contains("The signer: ");
+    nodes
+        .filter_map(|node| node.accesskit_node().label())
+        .collect()
+}
+
+fn is_on(window: &Window<'_>, label: &str) -> bool {
+    let node = window.get_by_label(label);
+    let node = node.accesskit_node();
+    node.is_selected() == Some(true) || format!("{:?}", node.toggled()).contains("True")
+}
+
+#[test]
+fn the_signer_is_seen_from_seven_places_and_in_up_to_four_views() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    assert_eq!(pictures(&window), ["The signer: From the front"]);
+    window.key_press_modifiers(Modifiers::ALT, Key::Num6);
+    window.run_steps(2);
+    assert_eq!(pictures(&window), ["The signer: Right hand close up"]);
+    click(&mut window, "Two views");
+    let two = [
+        "The signer: Right hand close up",
+        "The signer: From the front",
+    ];
+    assert_eq!(pictures(&window), two);
+    window.key_press_modifiers(Modifiers::ALT, Key::Num9);
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::ALT, Key::Num5);
+    window.run_steps(2);
+    assert_eq!(pictures(&window)[1], "The signer: From above");
+    window.key_press_modifiers(Modifiers::ALT, Key::Num8);
+    window.run_steps(2);
+    assert_eq!(pictures(&window).len(), 4);
+    click(&mut window, "One view");
+    assert_eq!(pictures(&window).len(), 1);
+}
+
+#[test]
+fn trails_ghosts_grid_and_places_are_shown_and_put_away() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    for (label, key) in [
+        ("Trails", Key::T),
+        ("Ghosts", Key::G),
+        ("Grid", Key::R),
+        ("Places", Key::P),
+    ] {
+        assert!(!is_on(&window, label), "{label}");
+        click(&mut window, label);
+        assert!(is_on(&window, label), "{label}");
+        window.key_press_modifiers(Modifiers::ALT, key);
+        window.run_steps(2);
+        assert!(!is_on(&window, label), "{label}");
+    }
+    assert!(!has(&window, "chin"));
+    click(&mut window, "Trails");
+    assert!(has(&window, "Length of the trails in seconds"));
+    click(&mut window, "Places");
+    until(&mut window, "the places", |window| has(window, "chin"));
+    // Zones lie close together from the front: the pointer would be over its neighbour as well.
+    window.get_by_label("chin").click_accesskit();
+    window.run_steps(3);
+    assert!(is_on(&window, "chin"));
+}
+
+#[test]
+fn the_bar_moves_the_playhead_by_mouse_and_by_keys() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    click(&mut window, "Time");
+    let at = window.state().playhead().micros();
+    assert!((1_500_000..2_200_000).contains(&at), "{at}");
+    window.get_by_label("Time").focus();
+    window.run_steps(2);
+    window.key_press(Key::ArrowRight);
+    window.run_steps(3);
+    let later = window.state().playhead().micros();
+    assert!((later - at).abs() < 40_000 && later != at, "{at}, {later}");
+    click(&mut window, "To the start");
+    assert_eq!(window.state().playhead().micros(), 0);
+    assert!(!is_on(&window, "Loop"));
+    click(&mut window, "Loop");
+    assert!(is_on(&window, "Loop"));
+}
+
+#[test]
+fn a_made_sign_stands_beside_what_it_was_made_from() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    let path = window.state().corpus().expect("open").clone();
+    let mut other = Corpus::open(&path, "B").expect("opened");
+    other
+        .recombine("ESCARGOT | configure right U", "LIMACE")
+        .expect("made");
+    until(&mut window, "the new recording", |window| {
+        has(window, "LIMACE")
+    });
+    click(&mut window, "LIMACE");
+    until(&mut window, "the original", |window| {
+        has(window, "Beside the original")
+    });
+    idle(&mut window);
+    window.step();
+    assert_eq!(pictures(&window).len(), 2);
+    click(&mut window, "Over the original");
+    assert_eq!(pictures(&window).len(), 1);
+    window.key_press_modifiers(Modifiers::ALT, Key::O);
+    window.run_steps(2);
+    assert!(is_on(&window, "Alone"));
+}
