@@ -10,6 +10,7 @@ mod check;
 pub(crate) mod codec;
 mod contents;
 pub(crate) mod db;
+mod details;
 mod edit;
 mod error;
 mod export;
@@ -55,6 +56,9 @@ pub use db::recordings::{MediaTrackRow, RecordingRow, SignerRow};
 pub use db::signs::TokenRow;
 pub use db::tiers::TierRow;
 pub use db::{OperationKind, OperationRow};
+pub use details::{
+    Details, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue,
+};
 pub use edit::{RecordingChange, SignChange, SignerChange};
 pub use error::{Error, Result};
 pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile};

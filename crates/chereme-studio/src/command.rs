@@ -9,6 +9,7 @@ use chereme_motion::{Instant, Span};
 use crate::action::Action;
 use crate::choose::Choose;
 use crate::model::made::Made;
+use crate::panes::inspector::Thing;
 use crate::settings::Settings;
 use crate::work::begin::Begin;
 use crate::work::{Work, WorkId};
@@ -51,6 +52,14 @@ pub(crate) enum Command {
     Made(Option<Arc<Made>>),
     /// Have these files and folders taken in: opens the import with them.
     Import(Vec<PathBuf>),
+    /// Show all that is known of something in the inspector.
+    #[allow(
+        dead_code,
+        reason = "for whoever shows signs, tokens, signers or values"
+    )]
+    Inspect(Thing),
+    /// Find what this query asks for.
+    Find(String),
     /// Turn to a recipe, that of the stored recording of that name where there is one.
     Recipe(String, Option<String>),
     /// Change what is remembered.

@@ -92,6 +92,16 @@ impl Studio {
                 self.panes.import.propose(&paths);
                 self.bring(PaneKind::Import);
             }
+            Command::Inspect(thing) => {
+                self.panes.inspector.turn_to(thing);
+                self.bring(PaneKind::Inspector);
+            }
+            Command::Find(query) => {
+                let mut out = std::mem::take(&mut self.out);
+                self.panes.search.find(query, &mut out);
+                self.out = out;
+                self.bring(PaneKind::Search);
+            }
             Command::Recipe(recipe, of) => {
                 self.panes.recombine.open(&recipe, of.clone(), of);
                 self.bring(PaneKind::Recombine);

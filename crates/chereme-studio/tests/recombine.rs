@@ -155,6 +155,112 @@ fn limace_is_made_from_escargot_stored_undone_and_changed() {
     assert!(recordings(&window).contains(&"LIMACE".to_owned()));
 }
 
+/// Opens the stored sign in the list of recordings.
+fn show(window: &mut Window<'_>, recording: &str) {
+    key(window, Modifiers::SHIFT, Key::F1);
+    click(window, recording);
+    idle(window);
+    until(window, "its tiers", |window| has(window, "Tier Gloss"));
+}
+
+#[test]
+fn a_stored_recipe_is_opened_again_changed_and_stored_as_another() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open(folder.path());
+    let path = window.state().corpus().expect("open").clone();
+    let mut other = Corpus::open(&path, "B").expect("opened");
+    other
+        .recombine("ESCARGOT | configure right U", "LIMACE")
+        .expect("made");
+    until(&mut window, "the made sign", |window| has(window, "LIMACE"));
+    show(&mut window, "LIMACE");
+    until(&mut window, "the inspector", |window| {
+        has(window, "Open in Recombine")
+    });
+    window
+        .get_all_by_label("Open in Recombine")
+        .next()
+        .expect("a button")
+        .click();
+    window.run_steps(4);
+    idle(&mut window);
+    assert_eq!(recipe_of_stored(&window), "ESCARGOT | configure right U");
+    click(&mut window, "Change…");
+    window.get_by_label_contains("Reverse").click();
+    window.run_steps(3);
+    idle(&mut window);
+    click(&mut window, "Store as new");
+    until(&mut window, "the new sign", |window| has(window, "Show it"));
+    idle(&mut window);
+    assert_eq!(
+        recordings(&window)
+            .iter()
+            .filter(|name| name.starts_with("LIMACE"))
+            .count(),
+        2
+    );
+}
+
+fn recipe_of_stored(window: &Window<'_>) -> String {
+    let field = window.get_by_label("The recipe of LIMACE");
+    field.value().unwrap_or_default()
+}
+
+#[test]
+fn history_walks_back_and_forward_and_asks_before_several_steps() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open(folder.path());
+    let path = window.state().corpus().expect("open").clone();
+    let mut other = Corpus::open(&path, "B").expect("opened");
+    for gloss in ["UN", "DEUX", "TROIS"] {
+        other.recombine("ESCARGOT | reverse", gloss).expect("made");
+    }
+    until(&mut window, "the made signs", |window| has(window, "TROIS"));
+    key(&mut window, Modifiers::COMMAND, Key::H);
+    click(&mut window, "UN made: ESCARGOT | reverse");
+    assert!(has(&window, "Undo 2 steps?"));
+    click(&mut window, "Yes");
+    idle(&mut window);
+    until(&mut window, "undone", |window| !has(window, "TROIS"));
+    assert_eq!(recordings(&window).len(), 2, "{:?}", recordings(&window));
+    click(&mut window, "DEUX made: ESCARGOT | reverse");
+    idle(&mut window);
+    until(&mut window, "done again", |window| has(window, "DEUX"));
+    assert_eq!(recordings(&window).len(), 3);
+    type_into(&mut window, "Who or what", "deux");
+    assert!(!has(&window, "UN made: ESCARGOT | reverse"));
+}
+
+#[test]
+fn the_inspector_changes_what_it_shows_and_undo_takes_it_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open(folder.path());
+    show(&mut window, "escargot");
+    until(&mut window, "what is known", |window| {
+        shows(window, "Joints and")
+    });
+    type_into(&mut window, "Licence", "!");
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    idle(&mut window);
+    let licence = |window: &Window<'_>| {
+        let path = window.state().corpus().expect("open");
+        let corpus = Corpus::open(path, "B").expect("opened");
+        let overview = corpus.overview(1).expect("read");
+        let found = overview
+            .recordings
+            .iter()
+            .find(|it| it.row.name == "escargot");
+        found
+            .and_then(|it| it.row.licence.clone())
+            .unwrap_or_default()
+    };
+    assert!(licence(&window).ends_with('!'), "{}", licence(&window));
+    key(&mut window, Modifiers::COMMAND, Key::H);
+    click(&mut window, "Undo");
+    idle(&mut window);
+    assert!(!licence(&window).ends_with('!'));
+}
+
 #[test]
 fn cards_are_switched_moved_and_removed_and_the_text_follows() {
     let folder = tempfile::tempdir().expect("a folder");

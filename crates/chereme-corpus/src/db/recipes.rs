@@ -76,3 +76,27 @@ pub(crate) fn of_recording(connection: &Connection, recording: i64) -> Result<Op
         })
         .optional()?)
 }
+
+/// Returns the addresses of what a recipe was made from, in their order, each once.
+pub(crate) fn inputs(connection: &Connection, recipe: i64) -> Result<Vec<String>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT address FROM recipe_input WHERE recipe_id = ?1 GROUP BY address ORDER BY min(id)",
+    )?;
+    let rows = statement
+        .query_map([recipe], |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Returns the recordings, by row and name, that were made from a token.
+pub(crate) fn made_from(connection: &Connection, token: i64) -> Result<Vec<(i64, String)>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT DISTINCT r.id, r.name FROM recipe_input i
+         JOIN recipe p ON p.id = i.recipe_id JOIN recording r ON r.id = p.recording_id
+         WHERE i.token_id = ?1 ORDER BY r.id",
+    )?;
+    let rows = statement
+        .query_map([token], |row| Ok((row.get(0)?, row.get(1)?)))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}

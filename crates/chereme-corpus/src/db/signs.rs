@@ -442,6 +442,17 @@ pub(crate) fn tokens_holding(
     Ok(rows)
 }
 
+/// Returns how many tokens have a value of the inventory of that row.
+pub(crate) fn tokens_with(connection: &Connection, inventory: i64, value: &str) -> Result<u64> {
+    let count: i64 = connection
+        .prepare_cached(
+            "SELECT count(DISTINCT token_id) FROM token_value
+             WHERE inventory_id = ?1 AND value = ?2",
+        )?
+        .query_row(params![inventory, value], |row| row.get(0))?;
+    Ok(count.unsigned_abs())
+}
+
 /// Returns the citation forms of all signs.
 pub(crate) fn citations(connection: &Connection) -> Result<Vec<TokenRow>> {
     let mut statement =

@@ -10,7 +10,7 @@ use crate::command::Command;
 use crate::context::Outbox;
 use crate::theme;
 use crate::theme::Colours;
-use crate::words::{Language, fill, shell as words};
+use crate::words::{Language, fill, history, shell as words};
 use crate::work::Outcome;
 
 /// How long good news is shown, in seconds.
@@ -77,6 +77,14 @@ impl Notices {
             }
             Outcome::Undone(row) => {
                 fill(words::NOTICE_UNDONE.of(language), &[("what", &row.summary)])
+            }
+            Outcome::Walked { back, steps } => {
+                let text = if *back {
+                    history::WALKED_BACK
+                } else {
+                    history::WALKED_FORWARD
+                };
+                fill(text.of(language), &[("n", steps)])
             }
             Outcome::Redone(row) => {
                 fill(words::NOTICE_REDONE.of(language), &[("what", &row.summary)])

@@ -12,7 +12,7 @@ pub(crate) const OFFERED: usize = 40;
 /// How a line of text with completion looks.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Line<'a> {
-    /// Its name for people who do not see it, and for tests.
+    /// Its name for people who do not see it; blank where a label beside it says so.
     pub(crate) name: &'a str,
     pub(crate) hint: &'a str,
     pub(crate) width: f32,
@@ -104,7 +104,9 @@ pub(crate) fn complete(
         .hint_text(line.hint)
         .desired_width(line.width);
     let response = ui.add(field);
-    response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, line.name));
+    if !line.name.is_empty() {
+        response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, line.name));
+    }
     let mut changed = response.changed();
     if changed {
         (listed.chosen, listed.away) = (None, false);

@@ -74,6 +74,12 @@ pub(crate) struct Search {
 }
 
 impl Search {
+    /// Finds what this query asks for.
+    pub(crate) fn find(&mut self, query: String, out: &mut Outbox) {
+        self.query = query;
+        self.ask(out);
+    }
+
     fn ask(&mut self, out: &mut Outbox) {
         if let Some(old) = self.asked.take() {
             out.send(Command::Stop(old));

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use chereme_corpus::{Address, ChannelGroup, Corpus, Name, Progress, Result};
+use chereme_corpus::{Address, ChannelGroup, Corpus, Details, Name, Progress, Result, Step, Unit};
 
 use super::{Outcome, Work};
+use crate::panes::inspector::Thing;
 
 /// Does it.
 pub(super) fn carry(
@@ -27,6 +28,18 @@ pub(super) fn carry(
         Work::Import(paths, options) => {
             Outcome::Imported(corpus.import(&paths, &options, progress)?)
         }
+        Work::Walk { back, steps } => walk(corpus, back, steps, progress)?,
+        Work::ChangeRecording(name, change) => corpus
+            .change_recording(&name, &change)
+            .map(|_| Outcome::Changed)?,
+        Work::ChangeSigner(name, change) => corpus
+            .change_signer(&name, &change)
+            .map(|_| Outcome::Changed)?,
+        Work::ChangeSign(name, change) => corpus
+            .change_sign(&name, &change)
+            .map(|_| Outcome::Changed)?,
+        Work::SetCitation(token) => corpus.set_citation(&token).map(|_| Outcome::Changed)?,
+        Work::Look(thing) => Outcome::Looked(look(corpus, thing)?),
         Work::Undo => Outcome::Undone(corpus.undo()?),
         Work::Redo => Outcome::Redone(corpus.redo()?),
         Work::Search(query, options) => Outcome::Found(corpus.search(&query, &options)?),
@@ -58,6 +71,43 @@ pub(super) fn carry(
                 piece,
                 moving: Arc::new(moving),
             }
+        }
+    })
+}
+
+/// Takes operations back one after the other, or does them again; what was done stays done where it is
+/// stopped.
+fn walk(
+    corpus: &mut Corpus,
+    back: bool,
+    steps: usize,
+    progress: &mut Progress<'_>,
+) -> Result<Outcome> {
+    for done in 0..steps {
+        progress.tell(Step {
+            task: "",
+            done: done as u64,
+            total: Some(steps as u64),
+            unit: Unit::Items,
+        })?;
+        if back {
+            corpus.undo()?;
+        } else {
+            corpus.redo()?;
+        }
+    }
+    Ok(Outcome::Walked { back, steps })
+}
+
+fn look(corpus: &Corpus, thing: Thing) -> Result<Details> {
+    Ok(match thing {
+        Thing::Token(id) => Details::Token(Box::new(corpus.token_details(&Address::Token(id))?)),
+        Thing::Sign(id) => Details::Sign(corpus.sign_details(&Name::Number(id))?),
+        Thing::Signer(id) => Details::Signer(corpus.signer_details(&Name::Number(id))?),
+        Thing::Recording(id) => Details::Recording(corpus.recording_details(&Name::Number(id))?),
+        Thing::Value(inventory, value) => {
+            let uses = corpus.value_uses(inventory, &value)?;
+            Details::Value(inventory, value, uses)
         }
     })
 }

@@ -12,12 +12,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use chereme_corpus::{
-    Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Error, ExportOptions,
-    ExportReport, ExportWhat, ImportOptions, ImportReport, Moving, NewTier, OperationRow,
-    Recombination, SearchOptions, Suggestions, TierChange, TierName, Unit,
+    Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Details, Error,
+    ExportOptions, ExportReport, ExportWhat, ImportOptions, ImportReport, Moving, Name, NewTier,
+    OperationRow, Recombination, RecordingChange, SearchOptions, SignChange, SignerChange,
+    Suggestions, TierChange, TierName, Unit,
 };
 use chereme_motion::Span;
 
+use crate::panes::inspector::Thing;
 use crate::words::{Text, shell};
 
 /// The number of a piece of work, counted up.
@@ -49,6 +51,23 @@ pub(crate) enum Work {
     Undo,
     /// Does it again.
     Redo,
+    /// Takes several operations back, or does them again.
+    Walk {
+        /// Whether back.
+        back: bool,
+        /// How many.
+        steps: usize,
+    },
+    /// Changes a recording.
+    ChangeRecording(Name, Box<RecordingChange>),
+    /// Changes a signer.
+    ChangeSigner(Name, Box<SignerChange>),
+    /// Changes a sign.
+    ChangeSign(Name, Box<SignChange>),
+    /// Makes a token the citation form of its sign.
+    SetCitation(Address),
+    /// Says all that is known of something.
+    Look(Thing),
     /// Finds tokens.
     Search(String, SearchOptions),
     /// Makes the movement of a recipe and stores nothing.
@@ -88,6 +107,15 @@ pub(crate) enum Outcome {
     Undone(OperationRow),
     /// An operation was done again.
     Redone(OperationRow),
+    /// That many operations were taken back, or done again.
+    Walked {
+        /// Whether back.
+        back: bool,
+        /// How many.
+        steps: usize,
+    },
+    /// All that is known of something.
+    Looked(Details),
     /// Tokens were found.
     Found(Answer),
     /// Movement was made.
@@ -146,9 +174,14 @@ impl Work {
             | Self::RemoveTier(_)
             | Self::Recombine { .. }
             | Self::Import(..)
+            | Self::Walk { .. }
+            | Self::ChangeRecording(..)
+            | Self::ChangeSigner(..)
+            | Self::ChangeSign(..)
+            | Self::SetCitation(_)
             | Self::Undo
             | Self::Redo => Lane::Edit,
-            Self::Search(..) | Self::Suggest(_) => Lane::Ask,
+            Self::Search(..) | Self::Suggest(_) | Self::Look(_) => Lane::Ask,
             Self::Preview(_) => Lane::Make,
             Self::Movement { .. } => Lane::Movement,
             Self::Stretch(..) | Self::Original(_) => Lane::Little,
@@ -171,7 +204,7 @@ impl Work {
 
     /// Returns whether the pane that asked for it tells what is wrong, at its place.
     pub(crate) fn is_quiet(&self) -> bool {
-        matches!(self, Self::Preview(_) | Self::Suggest(_))
+        matches!(self, Self::Preview(_) | Self::Suggest(_) | Self::Look(_))
     }
 
     /// Returns whether it may be stopped when the window closes: what a person has typed may not.

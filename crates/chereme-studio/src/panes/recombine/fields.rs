@@ -2,10 +2,12 @@
 //!
 //! Each returns whether the person changed it.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use chereme_corpus::recipe::{
     Direction, Factor, Hands, Length, Profile, Seconds, Spot, Transition,
 };
-use chereme_sign::{Component, InventoryValue};
+use chereme_sign::{Component, Inventory, InventoryValue};
 use eframe::egui::{
     Button, ComboBox, DragValue, Id, Response, Role, Slider, SliderClamping, Ui, WidgetInfo,
 };
@@ -13,6 +15,7 @@ use eframe::egui::{
 use crate::context::Seen;
 use crate::panes::Carried;
 use crate::panes::complete::{Line, complete, fitting};
+use crate::pickers::{self, Picker};
 use crate::words::{Text, recombine as words};
 
 /// Shows a name before what follows it.
@@ -331,29 +334,46 @@ pub(super) fn of_inventory(
         _ => (words::PLACE_NAME, words::PLACE_HINT),
     };
     let inventories = seen.snapshot.overview.inventories.iter();
-    let values: Vec<&InventoryValue> = inventories
+    let all: Vec<&Inventory> = inventories
         .map(|it| &it.inventory)
         .filter(|it| it.component == component && it.feature.is_none())
-        .flat_map(|it| &it.values)
         .collect();
-    let candidates = |typed: &str| fitting(values.iter().map(|it| it.id.as_str()), typed);
+    let values = all.iter().flat_map(|it| &it.values);
+    let candidates = |typed: &str| fitting(values.clone().map(|it| it.id.as_str()), typed);
     let line = Line {
         name: seen.say(name),
         hint: seen.say(hint),
-        width: (ui.available_width() - 8.0).clamp(60.0, 160.0),
+        width: (ui.available_width() - 110.0).clamp(60.0, 120.0),
     };
     let typed = complete(ui, id, line, text, &candidates);
-    if let Some(value) = values.iter().find(|it| it.id == *text)
+    let held = all.iter().find(|it| it.find(text).is_some());
+    let Some(inventory) = held.or(all.first()) else {
+        return typed.changed;
+    };
+    let state: Arc<Mutex<Picker>> = ui.data_mut(|data| {
+        let fresh = || Arc::new(Mutex::new(Picker::default()));
+        data.get_temp_mut_or_insert_with(id.with("picker"), fresh)
+            .clone()
+    });
+    let mut picker = state.lock().unwrap_or_else(PoisonError::into_inner);
+    let chosen = Some(text.as_str()).filter(|text| inventory.find(text).is_some());
+    let name = format!("{}…", seen.say(name));
+    let picked = pickers::button(ui, &mut picker, seen, inventory, chosen, &name);
+    if let Some(value) = chosen.and_then(|id| inventory.find(id))
         && let Some(name) = called(value, seen)
         && name != *text
     {
         ui.weak(name);
     }
-    typed.changed
+    let changed = picked.is_some();
+    if let Some(picked) = picked {
+        *text = picked;
+    }
+    typed.changed | changed
 }
 
 /// Returns the address of the selected token, where one is selected.
-pub(super) fn selected_token(seen: &Seen<'_>) -> Option<(i64, String)> {
+pub(crate) fn selected_token(seen: &Seen<'_>) -> Option<(i64, String)> {
     let contents = seen.snapshot.contents(seen.shown.recording?)?;
     let by = |annotation: i64| {
         let own = contents.tokens.iter();

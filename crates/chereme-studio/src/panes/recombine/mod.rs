@@ -25,6 +25,7 @@ use crate::context::{Outbox, Seen};
 use crate::model::made::Made;
 use crate::words::{fill, recombine as words};
 use crate::work::{Ended, Outcome, Work, WorkId};
+pub(crate) use fields::selected_token;
 use live::Live;
 use stack::{Stack, What};
 

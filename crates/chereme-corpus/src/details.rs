@@ -1,0 +1,308 @@
+//! All that is known of one token, sign, signer or recording, read at one moment.
+
+use chereme_motion::anatomy::Measures;
+
+use crate::Corpus;
+use crate::address::{self, Address, Name};
+use crate::db::recordings::{self, RecordingRow};
+use crate::db::search::begin_reading;
+use crate::db::signs::{self, TokenRow};
+use crate::db::{edits, notations, recipes};
+use crate::error::{Error, Result};
+use crate::movement::Track;
+
+/// All that is known of one thing.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Details {
+    /// Of a token.
+    Token(Box<TokenDetails>),
+    /// Of a sign.
+    Sign(SignDetails),
+    /// Of a signer.
+    Signer(SignerDetails),
+    /// Of a recording.
+    Recording(RecordingDetails),
+    /// How many tokens have a value of an inventory, by its row and its id.
+    Value(i64, String, u64),
+}
+
+/// All that is known of a token.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TokenDetails {
+    /// The token.
+    pub row: TokenRow,
+    /// Its values.
+    pub values: Vec<TokenValue>,
+    /// How it is written in HamNoSys, where it is.
+    pub notation: Option<String>,
+    /// The recipe of its recording, where that was made.
+    pub recipe: Option<String>,
+    /// The addresses of what it was made from.
+    pub made_from: Vec<String>,
+    /// The recordings that were made from it, by row and name.
+    pub made_into: Vec<(i64, String)>,
+}
+
+/// A value of a token.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TokenValue {
+    /// The field, such as `initial.right.placement`.
+    pub field: String,
+    /// The component.
+    pub component: String,
+    /// `value`, `not-applicable` or `unclear`.
+    pub state: String,
+    /// The value.
+    pub value: Option<String>,
+    /// The inventory that it comes from.
+    pub inventory: Option<i64>,
+    /// The annotation that says so.
+    pub annotation: Option<i64>,
+}
+
+/// All that is known of a sign.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SignDetails {
+    /// The row.
+    pub id: i64,
+    /// The gloss.
+    pub gloss: String,
+    /// Remarks.
+    pub notes: Option<String>,
+    /// Translations, as language and text.
+    pub texts: Vec<(String, String)>,
+    /// Its tokens; the citation form says so.
+    pub tokens: Vec<TokenRow>,
+}
+
+/// All that is known of a signer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SignerDetails {
+    /// The row.
+    pub id: i64,
+    /// The recordings.
+    pub recordings: Vec<RecordingRow>,
+    /// The body's measures in metres, in the first recording that has a body to measure.
+    pub measures: Option<Measures>,
+}
+
+/// All that is known of a recording beyond its rows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordingDetails {
+    /// The row.
+    pub id: i64,
+    /// How many joints its skeleton has.
+    pub joints: usize,
+    /// Which part of the body each known joint is: part, joint.
+    pub roles: Vec<(String, String)>,
+    /// Parts that no joint is.
+    pub missing: Vec<String>,
+    /// How many metres one unit of its file is.
+    pub metres_per_unit: Option<f64>,
+    /// The axes of its file.
+    pub axes: Option<String>,
+    /// The files that it came from: kind, name.
+    pub files: Vec<(String, String)>,
+    /// The engine that made it, where it was made.
+    pub engine: Option<String>,
+}
+
+impl Corpus {
+    /// Returns all that is known of a token.
+    ///
+    /// # Errors
+    /// Where the address names no token, or the database fails.
+    pub fn token_details(&self, address: &Address) -> Result<TokenDetails> {
+        let reading = begin_reading(self.store.read())?;
+        let row = address::token(&reading, address)?;
+        let value = |it: signs::TokenValueRow| {
+            let hand = it.hand.as_deref().map(|hand| format!("{hand}."));
+            let phase = it.phase.as_deref().map(|phase| format!("{phase}."));
+            let feature = it.feature.as_deref().map(|feature| format!(".{feature}"));
+            let [hand, phase, feature] = [hand, phase, feature].map(Option::unwrap_or_default);
+            TokenValue {
+                field: format!("{phase}{hand}{}{feature}", it.component),
+                component: it.component,
+                state: it.state,
+                value: it.value,
+                inventory: it.inventory_id,
+                annotation: it.annotation_id,
+            }
+        };
+        let values = signs::values(&reading, row.id)?;
+        let recipe = match row.recording_id {
+            Some(recording) => recipes::of_recording(&reading, recording)?,
+            None => None,
+        };
+        let made_from = match &recipe {
+            Some(recipe) => recipes::inputs(&reading, recipe.id)?,
+            None => Vec::new(),
+        };
+        Ok(TokenDetails {
+            values: values.into_iter().map(value).collect(),
+            notation: notations::of_token(&reading, row.id)?.and_then(|it| it.text),
+            recipe: recipe.map(|it| it.text),
+            made_from,
+            made_into: recipes::made_from(&reading, row.id)?,
+            row,
+        })
+    }
+
+    /// Returns all that is known of a sign.
+    ///
+    /// # Errors
+    /// Where there is no such sign, or the database fails.
+    pub fn sign_details(&self, sign: &Name) -> Result<SignDetails> {
+        let reading = begin_reading(self.store.read())?;
+        let id = match sign {
+            Name::Number(id) => *id,
+            Name::Text(gloss) => address::sign(&reading, gloss)?,
+        };
+        let tokens = signs::tokens_of_sign(&reading, id)?;
+        let (gloss, notes) = edits::sign(&reading, id)
+            .map_err(|_| Error::wrong(format!("there is no sign:{id}")))?;
+        Ok(SignDetails {
+            id,
+            gloss,
+            notes,
+            texts: signs::texts(&reading, id)?,
+            tokens,
+        })
+    }
+
+    /// Returns all that is known of a signer.
+    ///
+    /// # Errors
+    /// Where there is no such signer, or the database fails.
+    pub fn signer_details(&self, signer: &Name) -> Result<SignerDetails> {
+        let reading = begin_reading(self.store.read())?;
+        let signer = address::signer(&reading, signer)?;
+        let all = recordings::recordings(&reading)?;
+        let own: Vec<RecordingRow> = all
+            .into_iter()
+            .filter(|row| row.signer_id == Some(signer.id))
+            .collect();
+        let measures = own
+            .iter()
+            .filter_map(|row| Track::of(&reading, row.id).ok())
+            .take(5)
+            .find_map(|track| track.anatomy(&reading).ok()?.measures());
+        Ok(SignerDetails {
+            id: signer.id,
+            recordings: own,
+            measures,
+        })
+    }
+
+    /// Returns what is known of a recording's movement and files.
+    ///
+    /// # Errors
+    /// Where there is no such recording, or the database fails.
+    pub fn recording_details(&self, recording: &Name) -> Result<RecordingDetails> {
+        let reading = begin_reading(self.store.read())?;
+        let id = address::recording(&reading, recording)?.id;
+        let mut details = RecordingDetails {
+            id,
+            joints: 0,
+            roles: Vec::new(),
+            missing: Vec::new(),
+            metres_per_unit: None,
+            axes: None,
+            files: recordings::source_files(&reading, id)?
+                .into_iter()
+                .map(|file| (file.kind, file.name))
+                .collect(),
+            engine: recipes::of_recording(&reading, id)?.map(|it| it.engine),
+        };
+        if recordings::motion_track(&reading, id)?.is_some() {
+            let track = Track::of(&reading, id)?;
+            let anatomy = track.anatomy(&reading)?;
+            let name = |joint: usize| track.hierarchy.joints[joint].name.clone();
+            details.joints = track.hierarchy.joints.len();
+            details.roles = anatomy
+                .found()
+                .filter(|(_, joint, _)| *joint < track.hierarchy.joints.len())
+                .map(|(part, joint, _)| (part.to_string(), name(joint)))
+                .collect();
+            details.missing = anatomy.missing().iter().map(ToString::to_string).collect();
+            details.metres_per_unit = Some(track.convention.metres_per_unit);
+            details.axes = Some(track.convention.axes.to_string());
+        }
+        Ok(details)
+    }
+
+    /// Returns how many tokens have this value of the inventory of that row.
+    ///
+    /// # Errors
+    /// Where the database fails.
+    pub fn value_uses(&self, inventory: i64, value: &str) -> Result<u64> {
+        signs::tokens_with(self.store.read(), inventory, value)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ImportOptions, Progress, unheard, unpack_starter};
+
+    #[test]
+    fn what_was_made_knows_what_from_and_what_was_used_what_for() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let paths = unpack_starter(&folder.path().join("files")).expect("unpacked");
+        let wanted = |path: &std::path::PathBuf| {
+            path.file_stem()
+                .is_some_and(|stem| stem == "escargot" || stem == "lexicon")
+        };
+        let paths: Vec<_> = paths.into_iter().filter(wanted).collect();
+        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut hear = unheard;
+        let mut progress = Progress::new(&mut hear);
+        corpus
+            .import(&paths, &ImportOptions::default(), &mut progress)
+            .expect("imported");
+        let made = corpus
+            .recombine("ESCARGOT | configure right U", "LIMACE")
+            .expect("made");
+        let of = |text: &str| corpus.token_details(&text.parse().expect("an address"));
+        let source = of("ESCARGOT").expect("details");
+        assert!(!source.values.is_empty() && source.recipe.is_none());
+        assert_eq!(
+            source.made_into,
+            [(made.recording.expect("stored"), "LIMACE".to_owned())]
+        );
+        let token = of(&format!("token:{}", made.token.expect("stored"))).expect("details");
+        assert_eq!(
+            token.recipe.as_deref(),
+            Some("ESCARGOT | configure right U")
+        );
+        assert!(
+            token
+                .made_from
+                .contains(&format!("token:{}", source.row.id))
+        );
+        let sign = corpus
+            .sign_details(&Name::Text("LIMACE".into()))
+            .expect("details");
+        assert!(sign.tokens.iter().any(|it| Some(it.id) == made.token));
+        let value = source
+            .values
+            .iter()
+            .find(|it| it.component == "configuration" && it.inventory.is_some())
+            .expect("a handshape");
+        let (inventory, id) = (value.inventory.expect("one"), value.value.clone());
+        let uses = corpus.value_uses(inventory, &id.expect("one"));
+        assert!(uses.expect("counted") > 0);
+        let recording = Name::Number(source.row.recording_id.expect("one"));
+        let recording = corpus.recording_details(&recording).expect("details");
+        assert!(recording.joints > 20 && recording.roles.len() > 20);
+        assert!(recording.files.iter().any(|(kind, _)| kind == "bvh"));
+        let signer = source.row.recording.map(|_| Name::Number(1)).expect("one");
+        let signer = corpus.signer_details(&signer).expect("details");
+        assert!(
+            signer
+                .measures
+                .is_some_and(|it| it.arm > 0.3 && it.arm < 0.9)
+        );
+        assert!(corpus.sign_details(&Name::Number(9999)).is_err());
+    }
+}

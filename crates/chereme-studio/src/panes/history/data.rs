@@ -1,0 +1,235 @@
+//! What was done as sentences, and how many steps lead to any of it, without a window.
+
+use std::collections::BTreeMap;
+
+use chereme_corpus::{OperationKind, OperationRow};
+use chereme_sign::text::fold;
+
+use crate::words::{Language, Text, fill, history as words};
+
+/// Whether an operation stands, and how it is reached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Standing {
+    /// It stands; that many steps back and it is the newest that does.
+    Stands(usize),
+    /// It was taken back; that many steps forward and it stands again.
+    Undone(usize),
+    /// It was taken back, and something else was done since.
+    Gone,
+}
+
+/// An operation as the list shows it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Row {
+    pub(crate) id: i64,
+    pub(crate) what: String,
+    /// When and who.
+    pub(crate) about: String,
+    pub(crate) standing: Standing,
+}
+
+/// Returns the operations that are work of their own, the newest first; `operations` has the newest
+/// first too, with those that took others back.
+pub(crate) fn rows(operations: &[OperationRow], language: Language, filter: &str) -> Vec<Row> {
+    let standings = standings(operations);
+    let wanted = fold(filter.trim());
+    let row = |it: &OperationRow| {
+        let at = it.at.replace('T', " ");
+        Row {
+            id: it.id,
+            what: sentence(it, language),
+            about: format!("{} · {}", at.trim_end_matches('Z'), it.author),
+            standing: standings.get(&it.id).copied().unwrap_or(Standing::Gone),
+        }
+    };
+    let fits = |row: &Row| {
+        let text = fold(&format!("{} {}", row.what, row.about));
+        wanted.split_whitespace().all(|word| text.contains(word))
+    };
+    let own = operations.iter().filter(|it| it.kind == OperationKind::Do);
+    own.map(row).filter(fits).collect()
+}
+
+/// Returns where each operation stands: undo and redo walk along two stacks, and new work forgets
+/// what could have been done again.
+fn standings(operations: &[OperationRow]) -> BTreeMap<i64, Standing> {
+    let (mut done, mut undone): (Vec<i64>, Vec<i64>) = (Vec::new(), Vec::new());
+    for it in operations.iter().rev() {
+        match (it.kind, it.target) {
+            (OperationKind::Undo, Some(target)) => {
+                done.retain(|id| *id != target);
+                undone.push(target);
+            }
+            (OperationKind::Redo, Some(target)) => {
+                undone.retain(|id| *id != target);
+                done.push(target);
+            }
+            _ => {
+                done.push(it.id);
+                undone.clear();
+            }
+        }
+    }
+    let stands = done.iter().rev().enumerate();
+    let again = undone.iter().rev().enumerate();
+    stands
+        .map(|(steps, id)| (*id, Standing::Stands(steps)))
+        .chain(again.map(|(steps, id)| (*id, Standing::Undone(steps + 1))))
+        .collect()
+}
+
+/// Returns how many operations stand.
+pub(crate) fn standing(operations: &[OperationRow]) -> usize {
+    let all = standings(operations);
+    all.values()
+        .filter(|it| matches!(it, Standing::Stands(_)))
+        .count()
+}
+
+/// Returns what an operation did, as a sentence.
+pub(crate) fn sentence(it: &OperationRow, language: Language) -> String {
+    let say =
+        |text: Text, values: &[(&str, &dyn std::fmt::Display)]| fill(text.of(language), values);
+    let summary = it.summary.as_str();
+    let parted = |word: &str| summary.rsplit_once(word);
+    let known = match it.name.as_str() {
+        "import" => Some(say(words::DID_IMPORT, &[("what", &summary)])),
+        "recombine" => summary.split_once(" = ").map(|(gloss, recipe)| {
+            say(
+                words::DID_RECOMBINE,
+                &[("gloss", &gloss), ("recipe", &recipe)],
+            )
+        }),
+        "annotate" => annotated(summary, language),
+        "add tier" => parted(" to ").map(|(tier, place)| {
+            let tier = tier.trim_matches('"');
+            say(words::DID_ADD_TIER, &[("tier", &tier), ("place", &place)])
+        }),
+        "change tier" => parted(" of ").map(|(tier, place)| {
+            let tier = tier.trim_matches('"');
+            say(
+                words::DID_CHANGE_TIER,
+                &[("tier", &tier), ("place", &place)],
+            )
+        }),
+        "remove tier" => Some(say(words::DID_REMOVE_TIER, &[("what", &summary)])),
+        "change recording" => Some(say(words::DID_CHANGE_RECORDING, &[("what", &summary)])),
+        "change signer" => Some(say(words::DID_CHANGE_SIGNER, &[("what", &summary)])),
+        "change sign" => Some(say(words::DID_CHANGE_SIGN, &[("what", &summary)])),
+        "set citation" => Some(say(words::DID_CITE, &[("what", &summary)])),
+        "transcribe" => Some(say(words::DID_TRANSCRIBE, &[("what", &summary)])),
+        _ => None,
+    };
+    known.unwrap_or_else(|| format!("{}: {summary}", it.name))
+}
+
+/// Returns `2 added, 1 changed in X` as a sentence.
+fn annotated(summary: &str, language: Language) -> Option<String> {
+    let (counts, place) = summary.rsplit_once(" in ")?;
+    let mut said = Vec::new();
+    for part in counts.split(", ") {
+        let (count, what) = part.split_once(' ')?;
+        let text = match (what, count == "1") {
+            ("added", true) => words::ONE_ADDED,
+            ("added", false) => words::ADDED,
+            ("changed", true) => words::ONE_CHANGED,
+            ("changed", false) => words::CHANGED,
+            ("removed", true) => words::ONE_REMOVED,
+            ("removed", false) => words::REMOVED,
+            _ => return None,
+        };
+        said.push(fill(text.of(language), &[("n", &count)]));
+    }
+    let said = said.join(", ");
+    let values: [(&str, &dyn std::fmt::Display); 2] = [("what", &said), ("place", &place)];
+    Some(fill(words::DID_ANNOTATE.of(language), &values))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(
+        id: i64,
+        kind: OperationKind,
+        target: Option<i64>,
+        name: &str,
+        summary: &str,
+    ) -> OperationRow {
+        OperationRow {
+            id,
+            at: "2026-01-02T03:04:05Z".into(),
+            author: "Zoé".into(),
+            kind,
+            target,
+            name: name.into(),
+            summary: summary.into(),
+            changes: 1,
+            stands: true,
+        }
+    }
+
+    #[test]
+    fn operations_are_sentences_in_both_languages() {
+        for (name, summary, english, french) in [
+            (
+                "annotate",
+                "2 added, 1 removed in Un",
+                "2 annotations added, 1 annotation removed in Un",
+                "2 annotations ajoutées, 1 annotation supprimée dans Un",
+            ),
+            (
+                "recombine",
+                "LIMACE = ESCARGOT | swap",
+                "LIMACE made: ESCARGOT | swap",
+                "LIMACE composé : ESCARGOT | swap",
+            ),
+            ("import", "a.bvh", "Imported: a.bvh", "Importé : a.bvh"),
+            ("novel", "x", "novel: x", "novel: x"),
+        ] {
+            let row = row(1, OperationKind::Do, None, name, summary);
+            assert_eq!(sentence(&row, Language::English), english);
+            assert_eq!(sentence(&row, Language::French), french);
+        }
+    }
+
+    #[test]
+    fn steps_lead_to_every_operation_that_can_be_reached() {
+        let own = |id| row(id, OperationKind::Do, None, "import", "a");
+        let undo = |id, of| row(id, OperationKind::Undo, Some(of), "import", "a");
+        let redo = |id, of| row(id, OperationKind::Redo, Some(of), "import", "a");
+        let mut all = vec![own(1), own(2), own(3), undo(4, 3), undo(5, 2), redo(6, 2)];
+        all.reverse();
+        let of = |all: &[OperationRow]| -> Vec<(i64, Standing)> {
+            rows(all, Language::English, "")
+                .iter()
+                .map(|row| (row.id, row.standing))
+                .collect()
+        };
+        use Standing::{Gone, Stands, Undone};
+        assert_eq!(of(&all), [(3, Undone(1)), (2, Stands(0)), (1, Stands(1))]);
+        all.insert(0, own(7));
+        assert_eq!(
+            of(&all),
+            [(7, Stands(0)), (3, Gone), (2, Stands(1)), (1, Stands(2))]
+        );
+        assert_eq!(standing(&all), 3);
+    }
+
+    #[test]
+    fn the_list_is_filtered_by_who_and_what() {
+        let all = [
+            row(2, OperationKind::Do, None, "import", "chat.bvh"),
+            row(1, OperationKind::Do, None, "import", "bol.bvh"),
+        ];
+        let ids = |filter: &str| -> Vec<i64> {
+            rows(&all, Language::English, filter)
+                .iter()
+                .map(|it| it.id)
+                .collect()
+        };
+        assert_eq!(ids("zoe"), [2, 1]);
+        assert_eq!(ids("zoe bol"), [1]);
+        assert!(ids("nobody").is_empty());
+    }
+}

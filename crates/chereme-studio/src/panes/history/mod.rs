@@ -1,0 +1,253 @@
+//! What was done, by whom, the newest first; back to any point and forward again.
+
+mod data;
+
+use std::sync::Arc;
+
+use chereme_corpus::Overview;
+use eframe::egui::{
+    Align2, Button, FontId, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextEdit,
+    TextStyle, Ui, WidgetInfo, vec2,
+};
+
+use super::Pane;
+use crate::action::Action;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::words::{Language, fill, history as words};
+use crate::work::Work;
+use data::{Row, Standing};
+
+/// A walk along the history that waits to be confirmed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Walk {
+    /// The operation that was clicked; nothing for before all of them.
+    to: Option<i64>,
+    back: bool,
+    steps: usize,
+}
+
+/// The pane.
+#[derive(Default)]
+pub(crate) struct History {
+    filter: String,
+    walk: Option<Walk>,
+    /// The rows, with what they are of.
+    rows: Vec<Row>,
+    of: Option<(Arc<Overview>, Language, String)>,
+}
+
+impl History {
+    fn follow(&mut self, seen: &Seen<'_>) {
+        let same = self
+            .of
+            .as_ref()
+            .is_some_and(|(overview, language, filter)| {
+                Arc::ptr_eq(overview, &seen.snapshot.overview)
+                    && *language == seen.language
+                    && *filter == self.filter
+            });
+        if same {
+            return;
+        }
+        let overview = seen.snapshot.overview.clone();
+        self.rows = data::rows(&overview.operations, seen.language, &self.filter);
+        if self
+            .of
+            .as_ref()
+            .is_some_and(|(before, ..)| !Arc::ptr_eq(before, &overview))
+        {
+            self.walk = None;
+        }
+        self.of = Some((overview, seen.language, self.filter.clone()));
+    }
+
+    fn buttons(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        ui.horizontal(|ui| {
+            for action in [Action::Undo, Action::Redo] {
+                let button = ui.button(seen.say(action.row().name));
+                if button.on_hover_text(seen.keys.text(action)).clicked() {
+                    out.send(Command::Do(action));
+                }
+            }
+            let filter = TextEdit::singleline(&mut self.filter)
+                .hint_text(seen.say(words::FILTER))
+                .desired_width(ui.available_width() - 8.0);
+            let response = ui.add(filter);
+            response.widget_info(|| {
+                WidgetInfo::labeled(Role::TextInput, true, seen.say(words::FILTER))
+            });
+        });
+    }
+
+    /// Asks before more than one step is walked.
+    fn confirmation(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let Some(walk) = self.walk else { return };
+        let text = if walk.back {
+            words::WALK_BACK
+        } else {
+            words::WALK_FORWARD
+        };
+        ui.horizontal_wrapped(|ui| {
+            ui.label(fill(seen.say(text), &[("n", &walk.steps)]));
+            let go = Button::new(seen.say(words::WALK_GO));
+            if ui.add(go).clicked() {
+                walk_now(walk, out);
+                self.walk = None;
+            }
+            if ui.button(seen.say(crate::words::shell::CANCEL)).clicked() {
+                self.walk = None;
+            }
+        });
+    }
+
+    fn clicked(&mut self, row: &Row, out: &mut Outbox) {
+        let walk = match row.standing {
+            Standing::Stands(0) | Standing::Gone => None,
+            Standing::Stands(steps) => Some((true, steps)),
+            Standing::Undone(steps) => Some((false, steps)),
+        };
+        let Some((back, steps)) = walk else {
+            self.walk = None;
+            return;
+        };
+        let to = Some(row.id);
+        self.ask(Walk { to, back, steps }, out);
+    }
+
+    fn ask(&mut self, walk: Walk, out: &mut Outbox) {
+        if walk.steps == 1 {
+            walk_now(walk, out);
+            self.walk = None;
+        } else {
+            self.walk = Some(walk);
+        }
+    }
+
+    /// Returns whether the walk that waits would take that operation back or do it again.
+    fn is_on_the_way(&self, row: &Row) -> bool {
+        match (self.walk, row.standing) {
+            (Some(walk), Standing::Stands(steps)) => walk.back && steps < walk.steps,
+            (Some(walk), Standing::Undone(steps)) => !walk.back && steps <= walk.steps,
+            _ => false,
+        }
+    }
+}
+
+fn walk_now(walk: Walk, out: &mut Outbox) {
+    let (back, steps) = (walk.back, walk.steps);
+    out.work(Work::Walk { back, steps });
+}
+
+impl Pane for History {
+    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        self.follow(seen);
+        self.buttons(ui, seen, out);
+        let operations = &seen.snapshot.overview.operations;
+        if operations.is_empty() {
+            ui.label(seen.say(words::EMPTY));
+            return;
+        }
+        self.confirmation(ui, seen, out);
+        if self.rows.is_empty() {
+            ui.weak(seen.say(words::NONE_FIT));
+        }
+        let height = ui.spacing().interact_size.y * 1.9;
+        // Before all of them is a row too, where the first is among them.
+        let whole = operations.last().is_some_and(|it| it.id == 1) && self.filter.trim().is_empty();
+        let count = self.rows.len() + usize::from(whole);
+        ScrollArea::vertical()
+            .auto_shrink(false)
+            .show_rows(ui, height, count, |ui, range| {
+                for at in range {
+                    match self.rows.get(at).cloned() {
+                        Some(row) => {
+                            if self.row(ui, seen, height, &row) {
+                                self.clicked(&row, out);
+                            }
+                        }
+                        None => self.beginning(ui, seen, out),
+                    }
+                }
+            });
+    }
+}
+
+impl History {
+    fn beginning(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let steps = data::standing(&seen.snapshot.overview.operations);
+        let button = Button::new(seen.say(words::BEGINNING)).frame(false);
+        if ui.add_enabled(steps > 0, button).clicked() {
+            let (to, back) = (None, true);
+            self.ask(Walk { to, back, steps }, out);
+        }
+    }
+
+    /// Shows an operation; whether it was clicked.
+    fn row(&self, ui: &mut Ui, seen: &Seen<'_>, height: f32, row: &Row) -> bool {
+        let size = vec2(ui.available_width(), height);
+        let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+        let newest = row.standing == Standing::Stands(0);
+        response.widget_info(|| WidgetInfo::selected(Role::Button, true, newest, &row.what));
+        let state = match row.standing {
+            Standing::Stands(0) => Some(words::NOW),
+            Standing::Stands(_) => None,
+            Standing::Undone(_) => Some(words::UNDONE),
+            Standing::Gone => Some(words::GONE),
+        };
+        let (colours, visuals) = (seen.colours(), ui.visuals());
+        let stands = matches!(row.standing, Standing::Stands(_));
+        let strong = if stands {
+            visuals.text_color()
+        } else {
+            visuals.weak_text_color()
+        };
+        let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+        if self.is_on_the_way(row) {
+            painter.rect_filled(rect, 4.0, colours.selection);
+        } else if response.hovered() {
+            painter.rect_filled(rect, 4.0, colours.stripe);
+        }
+        if response.has_focus() {
+            let stroke = Stroke::new(1.5, colours.accent);
+            painter.rect_stroke(rect, 4.0, stroke, StrokeKind::Inside);
+        }
+        let rail = rect.left() + 7.0;
+        painter.vline(rail, rect.y_range(), Stroke::new(2.0, colours.rule));
+        let dot = rect.left_center() + vec2(7.0, 0.0);
+        match row.standing {
+            Standing::Stands(0) => drop(painter.circle_filled(dot, 5.0, colours.accent)),
+            Standing::Stands(_) => drop(painter.circle_filled(dot, 3.5, colours.rule)),
+            _ => drop(painter.circle(dot, 3.5, visuals.panel_fill, Stroke::new(1.5, colours.rule))),
+        }
+        let body = TextStyle::Body.resolve(ui.style());
+        let small = FontId::proportional(TextStyle::Small.resolve(ui.style()).size);
+        let at = rect.left_center() + vec2(20.0, 0.0);
+        painter.text(at, Align2::LEFT_BOTTOM, &row.what, body, strong);
+        let about = match state {
+            Some(text) => format!("{} · {}", seen.say(text), row.about),
+            None => row.about.clone(),
+        };
+        let below = at + vec2(0.0, 2.0);
+        painter.text(
+            below,
+            Align2::LEFT_TOP,
+            about,
+            small,
+            visuals.weak_text_color(),
+        );
+        let tip = match row.standing {
+            Standing::Stands(0) | Standing::Gone => None,
+            Standing::Stands(_) => Some(words::TIP_BACK),
+            Standing::Undone(_) => Some(words::TIP_FORWARD),
+        };
+        response
+            .on_hover_ui(|ui| {
+                ui.label(RichText::new(&row.what));
+                if let Some(tip) = tip {
+                    ui.weak(seen.say(tip));
+                }
+            })
+            .clicked()
+    }
+}

@@ -1,0 +1,149 @@
+//! What the inspector shows, as lines and texts, without a window.
+
+use chereme_corpus::{RecordingGlance, SignerDetails, TierContents, TierRow};
+use chereme_motion::Instant;
+
+use crate::panes::timeline::data::time_text;
+use crate::words::{Text, inspector as words};
+
+/// A line: what it is called, and what it says.
+pub(crate) type Line = (Text, String);
+
+/// Returns what is known of a recording's movement; what nobody said is left out.
+pub(crate) fn recording_lines(it: &RecordingGlance, origin: impl Fn(&str) -> String) -> Vec<Line> {
+    let frames = match it.rate {
+        Some(rate) if it.frames > 0 => Some(format!("{} × {:.3} Hz", it.frames, rate.per_second())),
+        _ => None,
+    };
+    [
+        (words::ORIGIN, Some(origin(&it.row.origin))),
+        (
+            words::DURATION,
+            Some(time_text(Instant::from_micros(it.row.duration_us))),
+        ),
+        (words::FRAMES, frames),
+        (words::TIERS, Some(it.tiers.to_string())),
+        (words::TOKENS, Some(it.tokens.to_string())),
+    ]
+    .into_iter()
+    .filter_map(|(text, value)| Some((text, value?)))
+    .collect()
+}
+
+/// Returns how many annotations a tier has, and how many different values they say.
+pub(crate) fn tier_counts(tier: &TierContents) -> (usize, usize) {
+    let values: std::collections::BTreeSet<&str> = tier
+        .annotations
+        .values
+        .iter()
+        .map(|value| &**value)
+        .filter(|value| !value.is_empty())
+        .collect();
+    (tier.annotations.len(), values.len())
+}
+
+/// Returns what a tier's annotations say, such as `configuration` or `nonmanual.brows`.
+pub(crate) fn role(tier: &TierRow) -> String {
+    match (&tier.component, &tier.feature) {
+        (Some(component), Some(feature)) => format!("{component}.{feature}"),
+        (Some(component), None) => component.clone(),
+        (None, _) => tier.role.clone(),
+    }
+}
+
+/// Returns the measures of a body in centimetres.
+pub(crate) fn measures(it: &SignerDetails) -> Vec<Line> {
+    let Some(body) = it.measures else {
+        return Vec::new();
+    };
+    [
+        (words::STATURE, body.stature),
+        (words::SHOULDERS, body.shoulder_width),
+        (words::ARM, body.arm),
+        (words::HAND_LENGTH, body.hand),
+        (words::TRUNK, body.trunk),
+        (words::HEAD, body.head),
+    ]
+    .map(|(text, metres)| (text, format!("{:.1} cm", metres * 100.0)))
+    .into()
+}
+
+/// Returns the words for a field such as `initial.right.placement`, and what is left of it.
+pub(crate) fn field_words(field: &str) -> (Vec<Text>, Vec<&str>) {
+    let (mut texts, mut rest) = (Vec::new(), Vec::new());
+    for part in field.split('.') {
+        match part {
+            "configuration" => texts.push(words::CONFIGURATION),
+            "placement" => texts.push(words::PLACEMENT),
+            "movement" => texts.push(words::MOVEMENT),
+            "orientation" => texts.push(words::ORIENTATION),
+            "nonmanual" => texts.push(words::NONMANUAL),
+            "right" => texts.push(words::RIGHT),
+            "left" => texts.push(words::LEFT),
+            "both" => texts.push(words::BOTH),
+            "dominant" => texts.push(words::DOMINANT),
+            "weak" => texts.push(words::WEAK),
+            "initial" => texts.push(words::INITIAL),
+            "middle" => texts.push(words::MIDDLE),
+            "final" => texts.push(words::FINAL),
+            other => rest.push(other),
+        }
+    }
+    // The component first, then whose hand and when.
+    texts.sort_by_key(|text| {
+        let parts = [
+            words::CONFIGURATION,
+            words::PLACEMENT,
+            words::MOVEMENT,
+            words::ORIENTATION,
+            words::NONMANUAL,
+        ];
+        !parts.contains(text)
+    });
+    (texts, rest)
+}
+
+/// Reads a time such as `0:01.500`, `1.5` or `1.5 s`.
+pub(crate) fn read_time(text: &str) -> Option<Instant> {
+    let text = text.trim().trim_end_matches('s').trim();
+    let mut micros = 0.0;
+    let mut parts = text.split(':').rev();
+    let seconds: f64 = parts.next()?.replace(',', ".").parse().ok()?;
+    for (part, scale) in parts.zip([60.0, 3600.0]) {
+        let number: u32 = part.parse().ok()?;
+        micros += f64::from(number) * scale;
+    }
+    let micros = (micros + seconds) * 1e6;
+    (micros.is_finite() && (0.0..1e15).contains(&micros))
+        .then(|| Instant::from_micros(micros.round() as i64))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_read_as_they_are_shown() {
+        for (text, micros) in [
+            ("0:01.500", Some(1_500_000)),
+            ("1.5", Some(1_500_000)),
+            ("1,5 s", Some(1_500_000)),
+            ("1:00:02", Some(3_602_000_000)),
+            ("x", None),
+            ("-1", None),
+            ("", None),
+        ] {
+            assert_eq!(read_time(text).map(Instant::micros), micros, "{text}");
+        }
+        let at = Instant::from_micros(61_234_000);
+        assert_eq!(read_time(&time_text(at)), Some(at));
+    }
+
+    #[test]
+    fn fields_are_said_component_first() {
+        let (texts, rest) = field_words("initial.right.placement");
+        assert_eq!(texts, [words::PLACEMENT, words::INITIAL, words::RIGHT]);
+        assert!(rest.is_empty());
+        assert_eq!(field_words("nonmanual.brows").1, ["brows"]);
+    }
+}

@@ -1,0 +1,144 @@
+//! Lines that can be changed: what is typed is stored by Enter or by going on, Escape leaves it.
+
+use eframe::egui::{ComboBox, Grid, Id, Key, RichText, Role, TextEdit, Ui, WidgetInfo};
+
+use crate::context::Seen;
+use crate::panes::complete::{Line, complete};
+use crate::words::{Text, inspector as words};
+
+/// Shows what is called `text`, and what it says.
+pub(super) fn said(ui: &mut Ui, seen: &Seen<'_>, text: Text, value: &str) {
+    ui.weak(seen.say(text));
+    ui.add(eframe::egui::Label::new(value).wrap());
+    ui.end_row();
+}
+
+/// Shows lines in two columns.
+pub(super) fn grid(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
+    Grid::new(id)
+        .num_columns(2)
+        .min_col_width(56.0)
+        .show(ui, content);
+}
+
+/// Shows a line that can be changed; returns what it shall say now.
+pub(super) fn line(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    id: Id,
+    text: Text,
+    value: &str,
+) -> Option<String> {
+    let none = |_: &str| Vec::new();
+    offered(ui, seen, id, text, value, &none)
+}
+
+/// Shows a line that can be changed, with what it could be.
+pub(super) fn offered(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    id: Id,
+    caption: Text,
+    value: &str,
+    candidates: &dyn Fn(&str) -> Vec<String>,
+) -> Option<String> {
+    let label = ui.weak(seen.say(caption)).id;
+    let changed = field(ui, seen, id, label, value, candidates);
+    ui.end_row();
+    changed
+}
+
+/// Shows the field of a line that can be changed, called by a label beside it; returns what it shall
+/// say now.
+pub(super) fn field(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    id: Id,
+    label: Id,
+    value: &str,
+    candidates: &dyn Fn(&str) -> Vec<String>,
+) -> Option<String> {
+    let kept: Option<String> = ui.data(|data| data.get_temp(id));
+    let mut text = kept.clone().unwrap_or_else(|| value.to_owned());
+    let focused = ui.memory(|memory| memory.has_focus(id));
+    let away = focused && ui.input(|input| input.key_pressed(Key::Escape));
+    let line = Line {
+        name: "",
+        hint: "",
+        width: (ui.available_width() - 4.0).max(60.0),
+    };
+    let typed = complete(ui, id, line, &mut text, candidates);
+    let response = typed.response.labelled_by(label);
+    let response = response.on_hover_text(seen.say(words::EDIT_TIP));
+    if away {
+        ui.data_mut(|data| data.remove::<String>(id));
+        return None;
+    }
+    let done = response.lost_focus() || (typed.entered && typed.changed);
+    if done || (kept.is_some() && !response.has_focus() && !focused) {
+        ui.data_mut(|data| data.remove::<String>(id));
+        return (text != value).then_some(text);
+    }
+    if typed.changed {
+        ui.data_mut(|data| data.insert_temp(id, text));
+    }
+    None
+}
+
+/// Shows text of several lines that can be changed; returns what it shall say now.
+pub(super) fn notes(ui: &mut Ui, seen: &Seen<'_>, id: Id, value: &str) -> Option<String> {
+    let label = ui.weak(seen.say(words::NOTES)).id;
+    let kept: Option<String> = ui.data(|data| data.get_temp(id));
+    let mut text = kept.clone().unwrap_or_else(|| value.to_owned());
+    let field = TextEdit::multiline(&mut text)
+        .id(id)
+        .desired_rows(1)
+        .desired_width((ui.available_width() - 4.0).max(60.0));
+    let response = ui.add(field).labelled_by(label);
+    ui.end_row();
+    if response.changed() {
+        ui.data_mut(|data| data.insert_temp(id, text));
+    } else if kept.is_some() && !response.has_focus() {
+        ui.data_mut(|data| data.remove::<String>(id));
+        return (text != value).then_some(text);
+    }
+    None
+}
+
+/// Shows a list to choose from; returns what was chosen, where it is another.
+pub(super) fn choice<T: PartialEq + Clone>(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    text: Text,
+    now: &T,
+    all: &[(T, String)],
+) -> Option<T> {
+    ui.weak(seen.say(text));
+    let shown = all
+        .iter()
+        .find(|(it, _)| it == now)
+        .map_or("", |(_, name)| name);
+    let mut value = now.clone();
+    let combo = ComboBox::from_id_salt(text.en)
+        .selected_text(shown)
+        .width(0.0);
+    let inner = combo.show_ui(ui, |ui| {
+        for (it, name) in all {
+            ui.selectable_value(&mut value, it.clone(), name);
+        }
+    });
+    let name = format!("{}: {shown}", seen.say(text));
+    inner
+        .response
+        .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
+    ui.end_row();
+    (value != *now).then_some(value)
+}
+
+/// Shows the title of a part.
+pub(super) fn title(ui: &mut Ui, text: &str, what: &str) {
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new(text).small().weak());
+        ui.strong(what);
+    });
+}

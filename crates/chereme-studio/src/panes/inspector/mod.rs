@@ -1,0 +1,109 @@
+//! What is selected, and what belongs to it: shown, and changed where that can be undone.
+
+mod data;
+mod edit;
+mod ui;
+
+use std::collections::BTreeMap;
+
+use chereme_corpus::Details;
+use eframe::egui::{ScrollArea, Ui};
+
+use super::Pane;
+use crate::context::{Outbox, Seen};
+use crate::words::inspector as words;
+use crate::work::{Ended, Outcome, Work, WorkId};
+
+/// Something that can be looked at.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Thing {
+    Token(i64),
+    Sign(i64),
+    Signer(i64),
+    Recording(i64),
+    /// A value of the inventory of that row.
+    Value(i64, String),
+}
+
+/// What is selected: the recording, the tier, the annotation.
+type Selected = (Option<i64>, Option<i64>, Option<i64>);
+
+/// The pane.
+#[derive(Default)]
+pub(crate) struct Inspector {
+    /// What was turned to, until something else is selected.
+    turned: Option<Thing>,
+    selected: Selected,
+    /// The corpus that `known` is of.
+    generation: i64,
+    known: BTreeMap<Thing, Result<Details, String>>,
+    asked: BTreeMap<WorkId, Thing>,
+}
+
+impl Inspector {
+    /// Turns to something, until something else is selected.
+    pub(crate) fn turn_to(&mut self, thing: Thing) {
+        self.turned = Some(thing);
+    }
+
+    fn follow(&mut self, seen: &Seen<'_>) {
+        let shown = seen.shown;
+        let selected = (shown.recording, shown.tier, shown.annotation());
+        if selected != self.selected {
+            self.selected = selected;
+            self.turned = None;
+        }
+        let generation = seen.snapshot.overview.generation;
+        if generation != self.generation {
+            self.generation = generation;
+            self.known.clear();
+            self.asked.clear();
+        }
+    }
+
+    /// Returns what is known of something, and asks where nothing is yet.
+    fn details(&mut self, thing: &Thing, out: &mut Outbox) -> Option<Result<Details, String>> {
+        if let Some(known) = self.known.get(thing) {
+            return Some(known.clone());
+        }
+        if !self.asked.values().any(|asked| asked == thing) {
+            let id = out.work(Work::Look(thing.clone()));
+            self.asked.insert(id, thing.clone());
+        }
+        None
+    }
+}
+
+impl Pane for Inspector {
+    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        self.follow(seen);
+        if let Some(thing) = self.turned.clone() {
+            if ui.button(seen.say(words::BACK)).clicked() {
+                self.turned = None;
+            }
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                ui::thing(self, ui, seen, &thing, out);
+            });
+            return;
+        }
+        if seen.shown.recording.is_none() {
+            ui.label(seen.say(words::NOTHING));
+            return;
+        }
+        ScrollArea::vertical()
+            .auto_shrink(false)
+            .show(ui, |ui| ui::selected(self, ui, seen, out));
+    }
+
+    fn hear(&mut self, id: WorkId, ended: &Ended) {
+        let Some(thing) = self.asked.remove(&id) else {
+            return;
+        };
+        let known = match ended {
+            Ok(Outcome::Looked(details)) => Ok(details.clone()),
+            Ok(_) => return,
+            Err(error) => Err(error.to_string()),
+        };
+        self.known.insert(thing, known);
+    }
+}
