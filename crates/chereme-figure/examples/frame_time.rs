@@ -50,6 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 let layer = Layer {
                     mesh: &mesh,
                     opacity: 0.6,
+                    veiled: false,
                 };
                 raster.draw_over(&mut image, layer, &camera, style);
             }

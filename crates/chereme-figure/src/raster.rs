@@ -45,6 +45,9 @@ impl Default for Style {
 
 /// The share of light that comes from everywhere, from the key and from the fill light.
 const LIGHT: [f32; 3] = [0.52, 0.44, 0.16];
+/// How much nearer than what hides it a veiled layer has to be, in metres, so that what hardly moved
+/// does not come through.
+const VEIL: f32 = 0.015;
 /// The snapping of corners: pixels are divided by this.
 const SUBPIXELS: f32 = 16.0;
 /// How far outside the picture a corner may lie, in samples; triangles beyond are left out.
@@ -57,6 +60,8 @@ const NEAREST: f32 = 1e-3;
 pub struct Raster {
     pub(crate) buffers: Buffers,
     corners: Vec<Corner>,
+    /// The depths of the last layer that was not veiled.
+    solid: Vec<f32>,
 }
 
 /// Something drawn over what is in the picture already.
@@ -66,6 +71,8 @@ pub struct Layer<'a> {
     pub mesh: &'a Mesh,
     /// How much of what lies below it hides, from 0 to 1.
     pub opacity: f32,
+    /// Whether it is hidden where the last layer that is not so lies nearer to the eye.
+    pub veiled: bool,
 }
 
 /// What is nearest at every sample; a margin of paper all around saves the test for the edge.
@@ -98,7 +105,11 @@ impl Raster {
     #[must_use]
     pub fn draw(&mut self, mesh: &Mesh, camera: &Camera, size: [usize; 2], style: &Style) -> Image {
         let mut image = Image::new(size[0], size[1], style.theme.background());
-        let layer = Layer { mesh, opacity: 1.0 };
+        let layer = Layer {
+            mesh,
+            opacity: 1.0,
+            veiled: false,
+        };
         self.draw_over(&mut image, layer, camera, style);
         image
     }
@@ -117,7 +128,13 @@ impl Raster {
             .clear(size.map(|side| side * samples), ink::margin(samples));
         self.project(layer.mesh, camera, style);
         self.fill(layer.mesh, style.threads);
+        if layer.veiled {
+            self.buffers.veil(&self.solid);
+        }
         ink::finish(&self.buffers, image, samples, style, layer.opacity);
+        if !layer.veiled {
+            std::mem::swap(&mut self.solid, &mut self.buffers.depth);
+        }
     }
 
     /// Fills all triangles, each thread those samples that lie in its own rows.
@@ -183,6 +200,17 @@ impl Buffers {
     #[inline]
     pub(crate) fn index(&self, x: usize, y: usize) -> usize {
         (y + self.margin) * self.stride + x + self.margin
+    }
+
+    /// Takes away what lies behind `solid`, depths of the same picture.
+    fn veil(&mut self, solid: &[f32]) {
+        let samples = self.depth.iter_mut().zip(&mut self.group).zip(solid);
+        for ((depth, group), before) in samples {
+            if *before < *depth + VEIL {
+                *depth = f32::INFINITY;
+                *group = 0;
+            }
+        }
     }
 
     /// Parts the rows of samples into `count` bands, fewer where there are few rows.

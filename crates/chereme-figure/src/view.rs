@@ -82,11 +82,14 @@ impl Framing {
     /// head with both arms wherever they go; all joints where the skeleton is no known body.
     #[must_use]
     pub fn of(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
-        let last = clip.frames().checked_sub(1)?;
-        let count = clip.frames().min(LOOKS);
-        let frames = (0..count).map(|i| last * i / (count - 1).max(1));
-        let poses: Vec<ModelPose> = frames.map(|frame| clip.model_pose(frame)).collect();
-        Some(Self::around(&poses, anatomy))
+        Some(Self::around(&looks(clip)?, anatomy))
+    }
+
+    /// Returns the space of `clip` as [`signing`](Self::signing) has it, or nothing where it has no
+    /// frame.
+    #[must_use]
+    pub fn of_signing(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
+        Some(Self::signing(&looks(clip)?, anatomy))
     }
 
     /// Returns the space that `poses` take together, at least one posture.
@@ -247,6 +250,14 @@ impl Framing {
         let right = up.cross(towards).normalize_or(Vec3::X);
         half.dot(right.abs()) / half.dot(right.cross(towards).abs()).max(1e-6)
     }
+}
+
+/// Returns postures of a clip from its first to its last frame, evenly spaced where there are many.
+fn looks(clip: &Clip) -> Option<Vec<ModelPose>> {
+    let last = clip.frames().checked_sub(1)?;
+    let count = clip.frames().min(LOOKS);
+    let frames = (0..count).map(|i| last * i / (count - 1).max(1));
+    Some(frames.map(|frame| clip.model_pose(frame)).collect())
 }
 
 /// Returns the middle of a hand: between wrist and the joints of the fingers.

@@ -93,6 +93,20 @@ impl Body {
         builder.out.into_body(&rest)
     }
 
+    /// Returns only both hands, arms left out; empty where there are no wrists.
+    #[must_use]
+    pub fn hands(skeleton: &Skeleton, anatomy: &Anatomy, palette: &Palette) -> Self {
+        let rest = skeleton.rest_model_pose();
+        let mut out = Assembly::default();
+        for side in Side::BOTH {
+            if let Some(joints) = hand::HandJoints::of(anatomy, side) {
+                let colours = colours(palette, side);
+                hand::add(&mut out, (skeleton, anatomy), &rest, &joints, colours);
+            }
+        }
+        out.into_body(&rest)
+    }
+
     /// Returns only the hand of `side`, forearm left out; empty where there is no wrist.
     #[must_use]
     pub fn hand(skeleton: &Skeleton, anatomy: &Anatomy, side: Side, palette: &Palette) -> Self {

@@ -37,6 +37,8 @@ pub(super) struct Sheet {
     /// Trails and grids.
     pub(super) marks: Option<Arc<Mesh>>,
     pub(super) opacity: f32,
+    /// Whether it is hidden by what was drawn before it, where that is nearer.
+    pub(super) veiled: bool,
 }
 
 /// Pictures.
@@ -172,8 +174,11 @@ impl Hand {
                 (None, Some(marks)) => marks,
                 (None, None) => continue,
             };
-            let opacity = sheet.opacity;
-            let layer = Layer { mesh, opacity };
+            let layer = Layer {
+                mesh,
+                opacity: sheet.opacity,
+                veiled: sheet.veiled,
+            };
             self.raster
                 .draw_over(&mut image, layer, &pane.camera, style);
         }

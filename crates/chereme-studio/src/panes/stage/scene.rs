@@ -13,7 +13,7 @@ use crate::model::reel::Reel;
 
 /// How far apart ghosts are, in seconds, and how much of what is below each hides, nearest first.
 const GHOST_STEP: f64 = 0.1;
-const GHOSTS: [f32; 3] = [0.34, 0.22, 0.12];
+const GHOSTS: [f32; 3] = [0.5, 0.36, 0.24];
 /// How often a trail has a point, in microseconds.
 const TRAIL_STEP: i64 = 20_000;
 /// How many points of trails are remembered.
@@ -68,7 +68,7 @@ impl Subject {
         };
         match before.filter(same) {
             Some(before) => Some(Self {
-                framing: Framing::of(clip, anatomy)?,
+                framing: Framing::of_signing(clip, anatomy)?,
                 points: BTreeMap::new(),
                 ..before
             }),
@@ -77,7 +77,7 @@ impl Subject {
     }
 
     fn new(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
-        let framing = Framing::of(clip, anatomy)?;
+        let framing = Framing::of_signing(clip, anatomy)?;
         let skeleton = clip.skeleton().clone();
         let first = clip.model_pose(0);
         let at = |joint: usize| first.position(joint).as_vec3();
@@ -86,7 +86,7 @@ impl Subject {
             let heights = (0..skeleton.len()).map(|joint| at(joint).y);
             heights.fold(f32::INFINITY, f32::min) - 0.01
         });
-        let tinted = |colour| Arc::new(Body::with_palette(&skeleton, anatomy, &plain(colour)));
+        let tinted = |colour| Arc::new(Body::hands(&skeleton, anatomy, &plain(colour)));
         Some(Self {
             framing,
             body: Arc::new(Body::new(&skeleton, anatomy)),
@@ -169,7 +169,7 @@ impl Subject {
                 past.extend(here.get(next));
                 future.splice(0..0, here.get(next).copied());
                 let radius = if index == 0 { 0.0045 } else { 0.0022 };
-                let ends = [colour.mixed(paper, 0.75), colour];
+                let ends = [colour.mixed(paper, 0.6), colour];
                 mesh.append(&trail(&past, radius, ends, group::FLAT + 1));
                 let ends = [colour.mixed(paper, 0.35), colour.mixed(paper, 0.85)];
                 mesh.append(&trail(&future, radius * 0.7, ends, group::FLAT + 2));

@@ -323,11 +323,12 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
         figure,
         marks,
         opacity,
+        veiled: opacity < 1.0,
     };
-    let mut below = Vec::new();
+    let mut ghosts = Vec::new();
     if look.shows.ghosts {
         for (body, pose, opacity) in signer.ghosts(movement(seen), look.at) {
-            below.push((figures.len(), opacity));
+            ghosts.push((figures.len(), opacity));
             figures.push((body, pose));
         }
     }
@@ -360,11 +361,15 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
         if *who == Who::Original {
             layers.push(sheet(Some(at), None, 1.0));
         } else {
-            layers.extend(below.iter().map(|it| sheet(Some(it.0), None, it.1)));
             layers.push(sheet(Some(0), trails.clone(), 1.0));
+            layers.extend(ghosts.iter().map(|it| sheet(Some(it.0), None, it.1)));
         }
         if let (Who::Both, Some((figure, _))) = (who, &original) {
-            layers.push(sheet(Some(*figure), None, 0.42));
+            let over = sheet(Some(*figure), None, 0.42);
+            layers.push(Sheet {
+                veiled: false,
+                ..over
+            });
         }
         panes.push(Pane {
             camera,
