@@ -96,6 +96,7 @@ actions! {
     Import "file.import" SHOW_IMPORT File Corpus;
     ImportFiles "file.import-files" IMPORT_FILES File Corpus;
     ImportFolder "file.import-folder" IMPORT_FOLDER File Corpus;
+    Export "file.export" EXPORT File Corpus;
     Close "file.close" CLOSE File Corpus;
     Settings "file.settings" SETTINGS File Everywhere;
     Quit "file.quit" QUIT File Everywhere;

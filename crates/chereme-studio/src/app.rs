@@ -194,6 +194,7 @@ impl Studio {
                         continue;
                     }
                     self.panes.hear(id, &ended);
+                    self.overlays.export.hear(id, &ended);
                     if !(quiet && ended.is_err()) {
                         self.hear(ended);
                     }

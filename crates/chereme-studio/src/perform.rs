@@ -170,6 +170,7 @@ impl Studio {
             Action::LayoutSearch => self.lay_out(Busy::Searching),
             Action::LayoutRecombine => self.lay_out(Busy::Recombining),
             Action::Import => self.bring(PaneKind::Import),
+            Action::Export => self.overlays.export.toggle(),
             Action::Search => self.bring(PaneKind::Search),
             Action::ShowLibrary => self.bring(PaneKind::Library),
             Action::ShowStage => self.bring(PaneKind::Stage),

@@ -37,6 +37,8 @@ pub(crate) struct Settings {
     pub(crate) keys: Rebound,
     /// Corpora opened before, the newest first.
     pub(crate) recent: Vec<PathBuf>,
+    /// Where files were written last.
+    pub(crate) export_folder: Option<PathBuf>,
     /// Where the panes are; the usual layout where nothing is said.
     pub(crate) layout: Option<Tree<PaneKind>>,
 }
@@ -50,6 +52,7 @@ impl Default for Settings {
             keymap: Keymap::default(),
             keys: Rebound::new(),
             recent: Vec::new(),
+            export_folder: None,
             layout: None,
         }
     }

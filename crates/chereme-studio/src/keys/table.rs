@@ -10,6 +10,7 @@ use crate::keys::chord::Chord;
 pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
     (Action::Open, ["Ctrl+O", "=", "="]),
     (Action::Import, ["Ctrl+Shift+I", "=", "Ctrl+I"]),
+    (Action::Export, ["Ctrl+Shift+E", "=", "="]),
     (Action::Close, ["Ctrl+W", "=", "="]),
     (Action::Settings, ["Ctrl+Comma", "=", "="]),
     (Action::Quit, ["Ctrl+Q", "=", "="]),

@@ -1,5 +1,6 @@
 //! What lies above the panes: notices, the command palette, the keys, the settings.
 
+pub(crate) mod export;
 pub(crate) mod keys;
 pub(crate) mod notices;
 pub(crate) mod palette;
@@ -10,12 +11,13 @@ use eframe::egui::{Context, Key, Modifiers};
 use crate::app::Studio;
 
 /// All of them.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub(crate) struct Overlays {
     pub(crate) notices: notices::Notices,
     pub(crate) palette: palette::Palette,
     pub(crate) keys: keys::KeysHelp,
     pub(crate) settings: settings::SettingsWindow,
+    pub(crate) export: export::Export,
 }
 
 impl Overlays {
@@ -26,6 +28,15 @@ impl Overlays {
 }
 
 impl Studio {
+    fn exporting(&mut self, ctx: &Context) {
+        let mut export = std::mem::take(&mut self.overlays.export);
+        let mut out = std::mem::take(&mut self.out);
+        if let (Some(seen), Some(desk)) = (self.seen(ctx), &self.desk) {
+            export.ui(ctx, &seen, &self.settings, &desk.path, &mut out);
+        }
+        (self.overlays.export, self.out) = (export, out);
+    }
+
     /// Draws those that are open.
     pub(crate) fn overlays(&mut self, ctx: &Context) {
         let place = self.snapshot.is_some();
@@ -42,6 +53,7 @@ impl Studio {
             .ui(ctx, keys, settings.language, place, out);
         overlays.keys.ui(ctx, keys, settings, out);
         overlays.settings.ui(ctx, settings, out);
+        self.exporting(ctx);
     }
 }
 

@@ -89,13 +89,10 @@ impl Notices {
             Outcome::Redone(row) => {
                 fill(words::NOTICE_REDONE.of(language), &[("what", &row.summary)])
             }
-            Outcome::Exported(report) => match report.files.first() {
-                Some(file) => fill(
-                    words::NOTICE_EXPORTED.of(language),
-                    &[("path", &file.path.display())],
-                ),
-                None => return,
-            },
+            Outcome::Exported(report) => {
+                let text = super::export::written_text(report);
+                fill(text.of(language), &[("n", &report.files.len())])
+            }
             _ => return,
         };
         self.hint(text);

@@ -84,6 +84,7 @@ texts! {
     SHOW_INSPECTOR: "Show the inspector", "Afficher l’inspecteur";
     SHOW_HISTORY: "Show the history", "Afficher l’historique";
     SHOW_IMPORT: "Import…", "Importer…";
+    EXPORT: "Export…", "Exporter…";
     PALETTE: "Command palette", "Palette de commandes";
     KEYS: "Keys", "Touches";
     SETTINGS: "Settings", "Réglages";

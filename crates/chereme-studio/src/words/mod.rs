@@ -17,6 +17,7 @@ macro_rules! texts {
 }
 
 pub(crate) mod actions;
+pub(crate) mod export;
 pub(crate) mod history;
 pub(crate) mod import;
 pub(crate) mod inspector;
@@ -94,8 +95,9 @@ pub(crate) fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 11] = [
+    const TABLES: [&[(&str, Text)]; 12] = [
         actions::ALL,
+        export::ALL,
         history::ALL,
         import::ALL,
         inspector::ALL,

@@ -43,7 +43,6 @@ texts! {
     NOTICE_STORED: "{gloss} is stored.", "{gloss} est enregistré.";
     NOTICE_UNDONE: "Undone: {what}", "Annulé : {what}";
     NOTICE_REDONE: "Done again: {what}", "Rétabli : {what}";
-    NOTICE_EXPORTED: "Written: {path}", "Écrit : {path}";
     NOTICE_CHANGED_ELSEWHERE: "Another program changed the corpus; it was read again.", "Un autre programme a modifié le corpus ; il a été relu.";
     NEEDS_SELECTION: "Select a span on a tier first: drag on the timeline.", "Sélectionnez d’abord un intervalle : glissez sur la ligne de temps.";
     NEEDS_ANNOTATION: "Select an annotation first.", "Sélectionnez d’abord une annotation.";

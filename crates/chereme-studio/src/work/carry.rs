@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use chereme_corpus::{Address, ChannelGroup, Corpus, Details, Name, Progress, Result, Step, Unit};
+use chereme_corpus::{
+    Address, ChannelGroup, Corpus, Details, ExportWhat, Name, Progress, Result, SearchOptions,
+    Step, Unit,
+};
 
 use super::{Outcome, Work};
 use crate::panes::inspector::Thing;
@@ -45,6 +48,21 @@ pub(super) fn carry(
         Work::Search(query, options) => Outcome::Found(corpus.search(&query, &options)?),
         Work::Preview(recipe) => Outcome::Previewed(Arc::new(corpus.preview(&recipe)?)),
         Work::Suggest(address) => Outcome::Suggested(corpus.suggest(&address)?),
+        Work::Paths(typed) => {
+            let paths = chereme_corpus::paths_like(&typed);
+            Outcome::Paths(typed, paths)
+        }
+        Work::ExportFound(query, to, options) => {
+            let all = SearchOptions {
+                limit: None,
+                facets: false,
+                ..SearchOptions::default()
+            };
+            let found = corpus.search(&query, &all)?;
+            let tokens = found.hits.iter().map(|hit| hit.token).collect();
+            let what = ExportWhat::Tokens(tokens);
+            Outcome::Exported(corpus.export(&what, &to, &options, progress)?)
+        }
         Work::Export(what, to, options) => {
             Outcome::Exported(corpus.export(&what, &to, &options, progress)?)
         }

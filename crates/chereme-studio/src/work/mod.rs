@@ -74,6 +74,10 @@ pub(crate) enum Work {
     Preview(String),
     /// Says what could be made from a token.
     Suggest(Address),
+    /// Says what a typed path may become.
+    Paths(String),
+    /// Writes the tokens that a query finds.
+    ExportFound(String, PathBuf, ExportOptions),
     /// Writes files.
     Export(ExportWhat, PathBuf, ExportOptions),
     /// Loads a piece of movement of a recording.
@@ -122,6 +126,8 @@ pub(crate) enum Outcome {
     Previewed(Arc<Recombination>),
     /// What could be made.
     Suggested(Suggestions),
+    /// What a typed path may become.
+    Paths(String, Vec<String>),
     /// Files were written.
     Exported(ExportReport),
     /// A piece of movement.
@@ -181,11 +187,11 @@ impl Work {
             | Self::SetCitation(_)
             | Self::Undo
             | Self::Redo => Lane::Edit,
-            Self::Search(..) | Self::Suggest(_) | Self::Look(_) => Lane::Ask,
+            Self::Search(..) | Self::Suggest(_) | Self::Look(_) | Self::Paths(_) => Lane::Ask,
             Self::Preview(_) => Lane::Make,
             Self::Movement { .. } => Lane::Movement,
             Self::Stretch(..) | Self::Original(_) => Lane::Little,
-            Self::Export(..) => Lane::Export,
+            Self::Export(..) | Self::ExportFound(..) => Lane::Export,
         }
     }
 
@@ -194,9 +200,11 @@ impl Work {
         match self {
             Self::Import(_, options) if options.dry_run => shell::TASK_LOOKING,
             Self::Import(..) => shell::TASK_IMPORT,
-            Self::Search(..) | Self::Suggest(_) => shell::TASK_SEARCH,
+            Self::Search(..) | Self::Suggest(_) | Self::Look(_) | Self::Paths(_) => {
+                shell::TASK_SEARCH
+            }
             Self::Recombine { .. } | Self::Preview(_) => shell::TASK_RECOMBINE,
-            Self::Export(..) => shell::TASK_EXPORT,
+            Self::Export(..) | Self::ExportFound(..) => shell::TASK_EXPORT,
             Self::Movement { .. } | Self::Stretch(..) | Self::Original(_) => shell::TASK_MOVEMENT,
             _ => shell::TASK_EDIT,
         }
@@ -204,7 +212,16 @@ impl Work {
 
     /// Returns whether the pane that asked for it tells what is wrong, at its place.
     pub(crate) fn is_quiet(&self) -> bool {
-        matches!(self, Self::Preview(_) | Self::Suggest(_) | Self::Look(_))
+        matches!(
+            self,
+            Self::Preview(_)
+                | Self::Suggest(_)
+                | Self::Look(_)
+                | Self::Paths(_)
+                | Self::Import(..)
+                | Self::Export(..)
+                | Self::ExportFound(..)
+        )
     }
 
     /// Returns whether it may be stopped when the window closes: what a person has typed may not.

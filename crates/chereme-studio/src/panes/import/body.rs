@@ -1,0 +1,175 @@
+//! A small body that shows which of its parts a file's joints are.
+
+use std::collections::BTreeMap;
+
+use eframe::egui::{Color32, Pos2, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
+
+use crate::context::Seen;
+use crate::words::{fill, import as words};
+
+/// Where parts are on a body as high as 1, from its middle line and its head; the signer's left is to
+/// the right, as seen from the front.
+const MIDDLE: [(&str, f32); 6] = [
+    ("head", 0.08),
+    ("jaw", 0.13),
+    ("neck", 0.19),
+    ("chest", 0.28),
+    ("spine", 0.40),
+    ("hips", 0.50),
+];
+const SIDES: [(&str, [f32; 2]); 9] = [
+    ("eye", [0.025, 0.07]),
+    ("clavicle", [0.06, 0.23]),
+    ("upper arm", [0.13, 0.24]),
+    ("forearm", [0.18, 0.38]),
+    ("hand", [0.24, 0.50]),
+    ("thigh", [0.07, 0.54]),
+    ("shin", [0.08, 0.74]),
+    ("foot", [0.08, 0.93]),
+    ("toes", [0.10, 0.97]),
+];
+const FINGERS: [&str; 5] = ["thumb", "index", "middle", "ring", "little"];
+
+/// A part as the map shows it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Mark {
+    pub(super) part: String,
+    /// In shares of the height, from the middle line and the top.
+    pub(super) at: Vec2,
+    /// Whether any joint is it.
+    pub(super) found: bool,
+    pub(super) large: bool,
+}
+
+/// Returns the parts of a body, each found or not; the joints of a finger are one mark.
+pub(super) fn marks(found: &BTreeMap<String, String>) -> Vec<Mark> {
+    let there = |part: &str| {
+        found
+            .keys()
+            .any(|it| it == part || it.starts_with(&format!("{part} ")))
+    };
+    let mark = |part: String, at: Vec2, large: bool| Mark {
+        found: there(&part),
+        part,
+        at,
+        large,
+    };
+    let mut all: Vec<Mark> = MIDDLE
+        .iter()
+        .map(|(part, y)| mark((*part).to_owned(), vec2(0.0, *y), true))
+        .collect();
+    for (side, sign) in [("right", -1.0), ("left", 1.0)] {
+        for (part, [x, y]) in &SIDES {
+            let large = *part != "eye";
+            all.push(mark(format!("{side} {part}"), vec2(sign * x, *y), large));
+        }
+        for (n, finger) in FINGERS.iter().enumerate() {
+            let x = 0.20 + 0.025 * n as f32;
+            let y = if n == 0 { 0.54 } else { 0.575 };
+            all.push(mark(format!("{side} {finger}"), vec2(sign * x, y), false));
+        }
+    }
+    all
+}
+
+/// Shows the map.
+pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, found: &BTreeMap<String, String>) {
+    let marks = marks(found);
+    let height = 170.0;
+    let (rect, response) = ui.allocate_exact_size(vec2(height * 0.72, height), Sense::hover());
+    let there = marks.iter().filter(|mark| mark.found).count();
+    let values: [(&str, &dyn std::fmt::Display); 2] = [("n", &there), ("all", &marks.len())];
+    let label = fill(seen.say(words::BODY_MAP), &values);
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &label));
+    let (painter, colours) = (ui.painter(), seen.colours());
+    let place = |at: Vec2| Pos2::new(rect.center().x + at.x * height, rect.top() + at.y * height);
+    let bone = Stroke::new(2.0, colours.rule);
+    let of = |part: &str| {
+        marks
+            .iter()
+            .find(|mark| mark.part == part)
+            .map(|mark| place(mark.at))
+    };
+    let line = |a: &str, b: &str| {
+        if let (Some(a), Some(b)) = (of(a), of(b)) {
+            painter.line_segment([a, b], bone);
+        }
+    };
+    for (a, b) in [
+        ("head", "neck"),
+        ("neck", "chest"),
+        ("chest", "spine"),
+        ("spine", "hips"),
+    ] {
+        line(a, b);
+    }
+    for side in ["right", "left"] {
+        let sided = |part: &str| format!("{side} {part}");
+        line("neck", &sided("clavicle"));
+        line("hips", &sided("thigh"));
+        for (a, b) in [
+            ("clavicle", "upper arm"),
+            ("upper arm", "forearm"),
+            ("forearm", "hand"),
+            ("thigh", "shin"),
+            ("shin", "foot"),
+        ] {
+            line(&sided(a), &sided(b));
+        }
+        for finger in FINGERS {
+            line(&sided("hand"), &sided(finger));
+        }
+    }
+    for mark in &marks {
+        let radius = if mark.large { 4.5 } else { 3.0 };
+        let at = place(mark.at);
+        if mark.found {
+            painter.circle_filled(at, radius, colours.good);
+        } else {
+            let hollow: Color32 = ui.visuals().panel_fill;
+            painter.circle(at, radius, hollow, Stroke::new(1.5, colours.trouble));
+        }
+    }
+    let near = ui
+        .input(|input| input.pointer.hover_pos())
+        .filter(|at| rect.contains(*at));
+    if let Some(mark) = near.and_then(|at| nearest(&marks, |mark| place(mark.at).distance(at))) {
+        let joint = found
+            .iter()
+            .find(|(part, _)| **part == mark.part || part.starts_with(&format!("{} ", mark.part)));
+        let text = match joint {
+            Some((_, joint)) => format!("{} = {joint}", mark.part),
+            None => fill(seen.say(words::PART_MISSING), &[("part", &mark.part)]),
+        };
+        response.on_hover_text_at_pointer(text);
+    }
+}
+
+fn nearest(marks: &[Mark], far: impl Fn(&Mark) -> f32) -> Option<&Mark> {
+    let all = marks.iter().map(|mark| (far(mark), mark));
+    all.filter(|(far, _)| *far < 12.0)
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, mark)| mark)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_are_found_by_their_names_and_fingers_by_any_of_their_joints() {
+        let found: BTreeMap<String, String> = [("head", "Head"), ("right index base", "RI1")]
+            .map(|(part, joint)| (part.to_owned(), joint.to_owned()))
+            .into();
+        let marks = marks(&found);
+        let is = |part: &str| marks.iter().find(|it| it.part == part).map(|it| it.found);
+        assert_eq!(is("head"), Some(true));
+        assert_eq!(is("right index"), Some(true));
+        assert_eq!((is("left index"), is("hips")), (Some(false), Some(false)));
+        let right = marks
+            .iter()
+            .find(|it| it.part == "right hand")
+            .expect("one");
+        assert!(right.at.x < 0.0, "seen from the front");
+    }
+}

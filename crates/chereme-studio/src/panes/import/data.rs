@@ -1,0 +1,247 @@
+//! What was understood of files, as lines, rows and marks, without a window.
+
+use std::collections::BTreeMap;
+
+use chereme_corpus::{FileReport, FileStatus, ImportReport, Mapping};
+use serde_json::Value;
+
+use crate::words::{Text, import as words};
+
+/// Returns what became of a file, in words.
+pub(crate) fn status_text(status: FileStatus) -> Text {
+    match status {
+        FileStatus::Imported => words::IMPORTED,
+        FileStatus::Unchanged => words::UNCHANGED,
+        FileStatus::Skipped => words::SKIPPED,
+        FileStatus::Refused => words::REFUSED,
+    }
+}
+
+/// Returns how a file's movement was understood: unit, axes, rate, joints; nothing of other files.
+pub(crate) fn movement(file: &FileReport) -> Vec<(Text, String)> {
+    let said = |key: &str| file.understood.get(key).map(chereme_corpus::cell_text);
+    let unit = said("unit").map(|unit| match said("metres_per_unit") {
+        Some(metres) => format!("{unit} ({metres} m)"),
+        None => unit,
+    });
+    let sure = file.understood.get("confidence").and_then(Value::as_f64);
+    let axes = said("axes");
+    let unit = unit
+        .zip(sure)
+        .map(|(unit, sure)| format!("{unit} · {:.0} %", sure * 100.0));
+    [
+        (words::UNIT, unit),
+        (words::AXES, axes),
+        (words::RATE, said("frame_rate")),
+        (words::JOINTS, said("joints")),
+    ]
+    .into_iter()
+    .filter_map(|(text, value)| Some((text, value?)))
+    .collect()
+}
+
+/// Returns why the unit and the axes are taken for what they are.
+pub(crate) fn reasons(file: &FileReport) -> Vec<String> {
+    let all = file.understood.get("reasons").and_then(Value::as_array);
+    all.into_iter()
+        .flatten()
+        .filter_map(|it| it.as_str().map(str::to_owned))
+        .collect()
+}
+
+/// Returns the parts of the body that were found, with the joint that each is; nothing where the file
+/// has no body.
+pub(crate) fn parts(file: &FileReport) -> Option<BTreeMap<String, String>> {
+    let all = file.understood.get("roles")?.as_array()?;
+    let pair = |it: &Value| {
+        Some((
+            it.get("part")?.as_str()?.to_owned(),
+            it.get("joint")?.as_str()?.to_owned(),
+        ))
+    };
+    Some(all.iter().filter_map(pair).collect())
+}
+
+/// A tier or column, and what it is taken for.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Guess {
+    pub(crate) name: String,
+    /// As mappings spell it, such as `right.configuration`; blank where it is not known.
+    pub(crate) role: String,
+    pub(crate) sure: f64,
+    pub(crate) why: String,
+}
+
+/// Returns what the tiers or columns of a file are taken for.
+pub(crate) fn guesses(file: &FileReport, key: &str) -> Vec<Guess> {
+    let all = file.understood.get(key).and_then(Value::as_array);
+    let text = |value: Option<&Value>| value.and_then(Value::as_str).unwrap_or_default().to_owned();
+    let guess = |it: &Value| {
+        let name = text(
+            it.get("tier")
+                .or_else(|| it.get("column"))
+                .or_else(|| it.get("name")),
+        );
+        let role = role(it.get("role")?);
+        let hand = text(it.get("hand"));
+        let role = if hand.is_empty() || role.is_empty() {
+            role
+        } else {
+            format!("{hand}.{role}")
+        };
+        Some(Guess {
+            name,
+            role,
+            sure: it.get("confidence").and_then(Value::as_f64).unwrap_or(1.0),
+            why: text(it.get("why")),
+        })
+    };
+    all.into_iter()
+        .flatten()
+        .filter_map(guess)
+        .filter(|it| !it.name.is_empty())
+        .collect()
+}
+
+fn role(value: &Value) -> String {
+    match value {
+        Value::String(text) => text.clone(),
+        Value::Object(map) => {
+            let inner = map.values().find(|it| it.is_object()).unwrap_or(value);
+            let part = |key: &str| inner.get(key).and_then(Value::as_str);
+            match (part("component"), part("feature")) {
+                (Some(component), Some(feature)) => format!("{component}.{feature}"),
+                (Some(component), None) => component.to_owned(),
+                _ => map.keys().next().cloned().unwrap_or_default(),
+            }
+        }
+        _ => String::new(),
+    }
+}
+
+/// What tiers can be said to be.
+pub(crate) const ROLES: [&str; 25] = [
+    "gloss",
+    "right.gloss",
+    "left.gloss",
+    "translation",
+    "comment",
+    "free",
+    "right.configuration",
+    "left.configuration",
+    "both.configuration",
+    "right.placement",
+    "left.placement",
+    "both.placement",
+    "right.movement",
+    "left.movement",
+    "both.movement",
+    "right.orientation.palm",
+    "left.orientation.palm",
+    "right.orientation.fingers",
+    "left.orientation.fingers",
+    "nonmanual.brows",
+    "nonmanual.eyes",
+    "nonmanual.gaze",
+    "nonmanual.mouth",
+    "nonmanual.head",
+    "nonmanual.body",
+];
+
+/// Returns the mapping that says what a person chose.
+pub(crate) fn mapping(chosen: &BTreeMap<String, String>) -> Mapping {
+    let document = serde_json::json!({ "tiers": chosen });
+    Mapping::from_json(&document.to_string()).unwrap_or_default()
+}
+
+/// Returns how many findings of each kind a file has: errors, warnings, notes.
+pub(crate) fn counts(file: &FileReport) -> [usize; 3] {
+    ["error", "warning", "note"].map(|kind| {
+        let of = |it: &&chereme_corpus::ReportFinding| it.severity == kind;
+        file.findings.iter().filter(of).count()
+    })
+}
+
+/// Returns how many rows of each kind an import makes, those that people look for first.
+pub(crate) fn created(report: &ImportReport) -> Vec<(Text, u64)> {
+    [
+        ("recordings", words::RECORDINGS),
+        ("tiers", words::TIERS),
+        ("annotations", words::ANNOTATIONS),
+        ("tokens", words::TOKENS),
+        ("signs", words::SIGNS),
+        ("inventories", words::INVENTORIES),
+        ("notations", words::NOTATIONS),
+    ]
+    .into_iter()
+    .filter_map(|(key, text)| Some((text, *report.created.get(key)?)))
+    .filter(|(_, count)| *count > 0)
+    .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_corpus::ReportFinding;
+    use serde_json::json;
+
+    fn file(understood: Value) -> FileReport {
+        let known = [
+            "unit",
+            "metres_per_unit",
+            "confidence",
+            "roles",
+            "tiers",
+            "axes",
+        ];
+        FileReport {
+            path: "a.bvh".into(),
+            status: FileStatus::Imported,
+            recording: None,
+            understood: known
+                .into_iter()
+                .filter_map(|key| Some((key, understood.get(key)?.clone())))
+                .collect(),
+            findings: vec![ReportFinding {
+                severity: "warning",
+                line: Some(3),
+                message: "odd".into(),
+                remedy: Some("mend it".into()),
+            }],
+        }
+    }
+
+    #[test]
+    fn a_motion_file_says_its_unit_and_the_parts_of_the_body() {
+        let file = file(json!({
+            "unit": "cm", "metres_per_unit": 0.01, "confidence": 0.9,
+            "roles": [{ "part": "right hand", "joint": "RHand", "by": "name" }],
+        }));
+        assert_eq!(
+            movement(&file),
+            [(words::UNIT, "cm (0.01 m) · 90 %".to_owned())]
+        );
+        assert_eq!(parts(&file).expect("a body")["right hand"], "RHand");
+        assert_eq!(counts(&file), [0, 1, 0]);
+    }
+
+    #[test]
+    fn tiers_say_what_they_are_taken_for_and_every_role_can_be_chosen() {
+        let file = file(json!({ "tiers": [
+            { "tier": "Config MD", "role": { "component": { "component": "configuration", "feature": null } },
+              "hand": "right", "confidence": 0.9, "why": "its name" },
+            { "tier": "Gloss", "role": "gloss", "hand": null, "confidence": 0.9, "why": "" },
+            { "tier": "X", "role": null, "hand": null, "confidence": 0.0, "why": "" },
+        ] }));
+        let roles: Vec<String> = guesses(&file, "tiers")
+            .into_iter()
+            .map(|it| it.role)
+            .collect();
+        assert_eq!(roles, ["right.configuration", "gloss", ""]);
+        assert!(parts(&file).is_none());
+        for role in ROLES {
+            let chosen = [("A".to_owned(), role.to_owned())].into();
+            assert!(mapping(&chosen).tier("A").is_some(), "{role}");
+        }
+    }
+}

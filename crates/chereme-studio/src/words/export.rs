@@ -1,0 +1,26 @@
+//! The export.
+
+texts! {
+    TITLE: "Export", "Exportation";
+    WHAT: "What", "Quoi";
+    FORMAT: "Format", "Format";
+    WHERE: "Where to", "Vers où";
+    REPLACE: "Replace what is there", "Remplacer ce qui s’y trouve";
+    WRITE: "Write", "Écrire";
+    WRITTEN: "Written: {n} files", "Écrit : {n} fichiers";
+    WRITTEN_ONE: "Written: {n} file", "Écrit : {n} fichier";
+    STOPPED: "Stopped; nothing was written.", "Arrêté ; rien n’a été écrit.";
+    TOKEN: "The selected token {name}", "L’occurrence sélectionnée {name}";
+    TIER: "The tier {name}", "L’acteur {name}";
+    RECORDING: "The recording {name}", "L’enregistrement {name}";
+    FOUND: "The {n} tokens found: {query}", "Les {n} occurrences trouvées : {query}";
+    ALL_OF_IT: "The whole corpus", "Tout le corpus";
+    FOLDER: "open files in a folder", "fichiers ouverts dans un dossier";
+    CSV: "table (.csv)", "tableau (.csv)";
+    TSV: "table (.tsv)", "tableau (.tsv)";
+    BVH: "movement (.bvh)", "mouvement (.bvh)";
+    EAF: "ELAN (.eaf)", "ELAN (.eaf)";
+    SIGML: "SiGML (.sigml)", "SiGML (.sigml)";
+    HSIGML: "H-SiGML (.hsigml)", "H-SiGML (.hsigml)";
+    HNS: "HamNoSys (.hns)", "HamNoSys (.hns)";
+}

@@ -1,0 +1,105 @@
+//! Files in and out, driven by their labels: import with a preview, export of what is selected.
+
+mod common;
+
+use common::*;
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+
+fn type_into(window: &mut Window<'_>, label: &str, text: &str) {
+    window.get_by_label(label).click();
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.run_steps(2);
+    window.get_by_label(label).type_text(text);
+    window.run_steps(4);
+}
+
+fn shows(window: &Window<'_>, part: &str) -> bool {
+    window.query_all_by_label_contains(part).next().is_some()
+}
+
+#[test]
+fn files_are_looked_at_before_anything_is_written_and_then_taken_in() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    let bad = folder.path().join("bad.bvh");
+    std::fs::write(&bad, "HIERARCHY\nnonsense").expect("written");
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::I);
+    window.run_steps(3);
+    type_into(&mut window, "File or folder", &bad.display().to_string());
+    click(&mut window, "Look at it first");
+    idle(&mut window);
+    assert!(shows(&window, "refused"), "a bad file says so");
+    assert!(shows(&window, "What helps"));
+    let files = folder.path().join("files");
+    let names: Vec<_> = std::fs::read_dir(&files)
+        .expect("there")
+        .flatten()
+        .map(|it| it.path())
+        .filter(|path| path.file_stem().is_some_and(|stem| stem == "bol"))
+        .collect();
+    assert!(names.len() >= 2);
+    let chosen = folder.path().join("chosen");
+    std::fs::create_dir(&chosen).expect("made");
+    for path in names {
+        let to = chosen.join(path.file_name().expect("a name"));
+        std::fs::copy(&path, to).expect("copied");
+    }
+    type_into(&mut window, "File or folder", &chosen.display().to_string());
+    click(&mut window, "Look at it first");
+    idle(&mut window);
+    assert!(shows(&window, "nothing is written yet"));
+    assert!(shows(&window, "parts found"), "the body is shown");
+    assert!(shows(&window, "Tier Gloss is"), "tiers can be changed");
+    let path = window.state().corpus().expect("open").clone();
+    let count = || {
+        let corpus = chereme_corpus::Corpus::open(&path, "B").expect("opened");
+        corpus.overview(1).expect("read").recordings.len()
+    };
+    assert_eq!(count(), 1, "nothing is written by looking");
+    click(&mut window, "Take in");
+    idle(&mut window);
+    assert!(shows(&window, "Undo takes it all back"));
+    window.key_press_modifiers(Modifiers::SHIFT, Key::F1);
+    until(&mut window, "the new recording", |window| {
+        has(window, "bol")
+    });
+}
+
+#[test]
+fn what_is_shown_is_exported_to_a_place_that_is_typed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::E);
+    window.run_steps(4);
+    assert!(has(&window, "The recording escargot"));
+    click(&mut window, "The whole corpus");
+    click(&mut window, "table (.csv)");
+    window.run_steps(2);
+    let to = folder.path().join("all.csv");
+    type_into(&mut window, "Where to", &to.display().to_string());
+    click(&mut window, "Write");
+    idle(&mut window);
+    until(&mut window, "the notice", |window| {
+        shows(window, "Written: 1 file")
+    });
+    assert!(
+        std::fs::read_to_string(&to)
+            .expect("written")
+            .contains("ESCARGOT")
+    );
+    click(&mut window, "Write");
+    idle(&mut window);
+    assert!(
+        shows(&window, "there already"),
+        "what is there is not replaced unasked"
+    );
+    click(&mut window, "Replace what is there");
+    click(&mut window, "Write");
+    idle(&mut window);
+    assert!(!shows(&window, "there already"));
+    window.key_press(Key::Escape);
+    window.run_steps(3);
+    assert!(!has(&window, "Where to"));
+}
