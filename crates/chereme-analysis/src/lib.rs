@@ -3,14 +3,17 @@
 //! | module | holds |
 //! |---|---|
 //! | [`dtw`] | dynamic time warping: alignments, distances, nearest neighbours |
+//! | [`kinematics`](mod@kinematics) | how hands move, frame by frame |
 //! | [`score`](mod@score) | how alike two performances are, component by component, with their alignment |
 //! | [`strokes`](mod@strokes) | transitions of wrists and fingers between two minima of their speed |
 //! | [`transcribe`](mod@transcribe) | the notation of a sign: HamNoSys with residuals |
 
 pub mod dtw;
+pub mod kinematics;
 pub mod score;
 pub mod strokes;
 pub mod transcribe;
 
+pub use kinematics::{Kinematics, kinematics};
 pub use score::{Score, ScoreError, ScoreOptions, score};
 pub use transcribe::{Transcription, transcribe};

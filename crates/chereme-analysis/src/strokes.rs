@@ -113,7 +113,11 @@ fn turned(clip: &Clip, joints: &[usize], from: usize, to: usize) -> f64 {
 }
 
 /// Returns speeds by central differences, given the distance between two frames.
-fn speeds(frames: usize, clip: &Clip, distance: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+pub(crate) fn speeds(
+    frames: usize,
+    clip: &Clip,
+    distance: impl Fn(usize, usize) -> f64,
+) -> Vec<f64> {
     let last = frames.saturating_sub(1);
     (0..frames)
         .map(|n| {

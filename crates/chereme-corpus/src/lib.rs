@@ -17,6 +17,7 @@ mod export;
 mod import;
 mod info;
 mod inventories;
+mod kinematics;
 mod list;
 mod movement;
 mod notation;
@@ -49,6 +50,7 @@ pub use annotate::{
     AnnotationOrigin, NewTier, RemovedTiers, TierChange, TierName, Values,
 };
 pub use check::{CheckReport, Fault};
+pub use chereme_analysis::kinematics::{HandCurves, Kinematics};
 pub use chereme_analysis::{Score, ScoreOptions};
 pub use contents::{
     AnnotationColumns, Contents, Overview, RecordingGlance, SignGlance, TierContents, ValueState,
@@ -66,6 +68,7 @@ pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile};
 pub use import::{FileReport, FileStatus, ImportOptions, ImportReport, ReportFinding};
 pub use info::{Info, InventoryInfo, SignerInfo};
 pub use inventories::StoredInventory;
+pub use kinematics::Curves;
 pub use list::{ListFilter, ListKind, Listing, cell_text};
 pub use movement::ChannelGroup;
 pub use notation::{Notation, read_notation};

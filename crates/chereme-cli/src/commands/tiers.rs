@@ -195,6 +195,7 @@ pub(super) fn run(
                 role: role.clone(),
                 hand: hand.map(HandWord::hands),
                 values: inventory.clone().map(Values::Inventory),
+                ..TierChange::default()
             };
             let row = corpus.change_tier(&TierName::read(tier, recording)?, &change)?;
             output.line(format!("changed tier:{}, {:?}", row.id, row.name))?;

@@ -3,6 +3,7 @@
 //! The tier rules are those of [`chereme_sign::tier`]; here their neighbourhood is loaded from the
 //! rows, and what follows from a change is written back.
 
+mod arrange;
 mod bulk;
 mod names;
 mod scope;

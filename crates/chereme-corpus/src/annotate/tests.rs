@@ -1,5 +1,6 @@
 //! The tier rules through the store, and what follows from changes.
 
+mod arrange;
 mod laws;
 
 use chereme_formats::table::annotations::Moment;

@@ -7,6 +7,7 @@ use chereme_sign::{Component, Stereotype, TierRole};
 use rusqlite::Connection;
 use serde::Serialize;
 
+use super::arrange;
 use super::is_symbolic;
 use super::names::{self, TierName};
 use super::scope::sign_tier;
@@ -82,6 +83,11 @@ pub struct TierChange {
     pub hand: Option<Option<Hands>>,
     /// Where its values come from.
     pub values: Option<Values>,
+    /// The name of the tier above and how it hangs below it, or none; its annotations must lie inside
+    /// those above.
+    pub parent: Option<Option<(String, Stereotype)>>,
+    /// Its place among the tiers of the recording, from 0; past the end is the end.
+    pub place: Option<u32>,
 }
 
 /// What went with a tier.
@@ -109,22 +115,30 @@ impl Corpus {
         })
     }
 
-    /// Changes the name, role, hand or inventory of a tier; tokens follow.
+    /// Changes the name, role, hand, inventory, parent or place of a tier; tokens follow.
     ///
     /// A tier that gets another component loses its inventory unless one is given.
     ///
     /// # Errors
-    /// Where the name is taken, the inventory is not there or is for another component, or the tier
-    /// says what the inventory does not have.
+    /// Where the name is taken, the inventory is not there or is for another component, the tier
+    /// says what the inventory does not have, or its annotations do not lie inside those of the tier
+    /// above.
     pub fn change_tier(&mut self, tier: &TierName, change: &TierChange) -> Result<TierRow> {
         self.store.operation("change tier", |connection| {
             let old = names::tier(connection, tier)?;
             let inventories = inventories::load(connection)?;
-            let row = changed_row(connection, &old, change, &inventories)?;
+            let mut row = changed_row(connection, &old, change, &inventories)?;
+            if let Some(parent) = &change.parent {
+                row = arrange::hang(connection, &row, parent.as_ref())?;
+            }
             let recording = old.recording_id;
             if row != old {
                 rows::update_tier(connection, &row)?;
                 tokens::derive(connection, recording, None, &inventories)?;
+            }
+            if let Some(place) = change.place {
+                arrange::place(connection, &row, place)?;
+                row = rows::tier(connection, row.id)?;
             }
             let recording = crate::db::recordings::recording(connection, recording)?.name;
             let summary = format!("{:?} of {recording}", row.name);

@@ -1,0 +1,274 @@
+//! How hands move, frame by frame: speed of the wrist, opening, the palm's direction, their distance.
+
+use chereme_motion::anatomy::Part;
+use chereme_motion::{Anatomy, Clip, ModelPose, Side};
+use glam::DVec3;
+
+use crate::strokes::{place_in, smoothed, speeds};
+
+/// A minimum of speed counts where the speed rises on both of its sides to this many times it.
+const RISE: f64 = 1.25;
+/// Speeds below this, in metres per second, are rest: no minimum of them tells anything.
+const REST: f64 = 0.02;
+
+/// Curves of a clip; each has a number for every frame, or none where the skeleton does not tell.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Kinematics {
+    /// Those of the right hand, then of the left.
+    pub hands: [HandCurves; 2],
+    /// The distance between the wrists, in metres.
+    pub distance: Vec<f64>,
+}
+
+/// Curves of one hand.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct HandCurves {
+    /// The speed of the wrist in the space of the trunk, in metres per second, smoothed over 30 ms.
+    pub speed: Vec<f64>,
+    /// How open the hand is: the mean over the fingers of the distance from wrist to tip as a share of
+    /// the length along their bones; 1 for straight fingers.
+    pub aperture: Vec<f64>,
+    /// Where the palm points, as a unit vector `[left, up, forward]` in the space of the trunk.
+    pub palm: Vec<DVec3>,
+}
+
+/// Returns the curves of a clip.
+#[must_use]
+pub fn kinematics(clip: &Clip, anatomy: &Anatomy) -> Kinematics {
+    let poses: Vec<ModelPose> = (0..clip.frames())
+        .map(|frame| clip.model_pose(frame))
+        .collect();
+    let wrist = |side| anatomy.joint(Part::Hand(side));
+    let distance = match (wrist(Side::Right), wrist(Side::Left)) {
+        (Some(right), Some(left)) => poses
+            .iter()
+            .map(|pose| pose.position(right).distance(pose.position(left)))
+            .collect(),
+        _ => Vec::new(),
+    };
+    Kinematics {
+        hands: [Side::Right, Side::Left].map(|side| hand(clip, anatomy, side, &poses)),
+        distance,
+    }
+}
+
+fn hand(clip: &Clip, anatomy: &Anatomy, side: Side, poses: &[ModelPose]) -> HandCurves {
+    let palms = poses.iter().map(|pose| {
+        let palm = anatomy.palm_normal(side, pose)?;
+        let body = anatomy.body_frame(pose)?;
+        Some(body.direction_to_body(palm).normalize_or_zero())
+    });
+    HandCurves {
+        speed: wrist_speed(clip, anatomy, side),
+        aperture: aperture(clip, anatomy, side, poses),
+        palm: palms.collect::<Option<_>>().unwrap_or_default(),
+    }
+}
+
+/// Returns the speed of a wrist in the space of the trunk, in metres per second, smoothed.
+#[must_use]
+pub fn wrist_speed(clip: &Clip, anatomy: &Anatomy, side: Side) -> Vec<f64> {
+    let Some(arm) = anatomy.arm(side) else {
+        return Vec::new();
+    };
+    let base = clip.skeleton().parent(arm.clavicle.unwrap_or(arm.upper));
+    let path: Vec<DVec3> = (0..clip.frames())
+        .map(|frame| place_in(clip, arm.hand, DVec3::ZERO, base, frame))
+        .collect();
+    let raw = speeds(path.len(), clip, |a, b| path[a].distance(path[b]));
+    smoothed(&raw, clip)
+}
+
+/// The joints of a finger from the wrist's child to the last, and where that one ends in its own space.
+struct Chain {
+    joints: Vec<usize>,
+    tip: DVec3,
+    /// The length along the bones from the wrist.
+    length: f64,
+}
+
+fn chains(clip: &Clip, anatomy: &Anatomy, side: Side, wrist: usize) -> Vec<Chain> {
+    let skeleton = clip.skeleton();
+    let fingers = anatomy.fingers(side);
+    let ends = fingers
+        .iter()
+        .filter(|&&joint| skeleton.children(joint).is_empty());
+    ends.filter_map(|&end| {
+        let above = skeleton.ancestors(end);
+        let mut joints: Vec<usize> = above.take_while(|&joint| joint != wrist).collect();
+        joints.reverse();
+        let tip = skeleton.joint(end).tip.unwrap_or_default();
+        let bones = joints
+            .iter()
+            .map(|&joint| skeleton.joint(joint).offset.length());
+        let length = bones.sum::<f64>() + tip.length();
+        (length > 1e-6 && joints.len() > 1).then_some(Chain {
+            joints,
+            tip,
+            length,
+        })
+    })
+    .collect()
+}
+
+fn aperture(clip: &Clip, anatomy: &Anatomy, side: Side, poses: &[ModelPose]) -> Vec<f64> {
+    let Some(wrist) = anatomy.joint(Part::Hand(side)) else {
+        return Vec::new();
+    };
+    let chains = chains(clip, anatomy, side, wrist);
+    if chains.is_empty() {
+        return Vec::new();
+    }
+    let open = |pose: &ModelPose| {
+        let shares = chains.iter().filter_map(|chain| {
+            let tip = pose.point(*chain.joints.last()?, chain.tip);
+            Some(tip.distance(pose.position(wrist)) / chain.length)
+        });
+        shares.sum::<f64>() / chains.len() as f64
+    };
+    poses.iter().map(open).collect()
+}
+
+/// Returns the frames at which a smoothed speed is least between two rises: where one stroke ends and
+/// the next begins. Where the hand rests the first and the last frame of the rest.
+#[must_use]
+pub fn minima(speed: &[f64]) -> Vec<usize> {
+    let mut found = Vec::new();
+    let floor = |frame: usize| speed[frame].max(REST);
+    // A rest that was there from the first frame ends, but nothing tells where it began.
+    let mut lowest = speed.first().filter(|first| **first <= REST).map(|_| 0);
+    let (mut fell, mut top) = (false, 0.0_f64);
+    for (frame, &now) in speed.iter().enumerate() {
+        match lowest {
+            None => {
+                top = top.max(now);
+                if floor(frame) * RISE < top {
+                    (lowest, fell) = (Some(frame), true);
+                }
+            }
+            Some(low) if floor(frame) > floor(low) * RISE => {
+                found.extend(Some(low).filter(|_| fell));
+                let rest = (low..frame).rev().find(|&at| speed[at] <= REST);
+                found.extend(rest.filter(|&last| last > low));
+                (lowest, top) = (None, now);
+            }
+            Some(low) if now < speed[low] && speed[low] > REST => lowest = Some(frame),
+            Some(_) => {}
+        }
+    }
+    found.extend(lowest.filter(|_| fell));
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_motion::glam::DQuat;
+    use chereme_motion::{Channel, Joint, Rate, Skeleton};
+    use std::f64::consts::PI;
+    use std::sync::Arc;
+
+    /// Two straight arms with two fingers of two joints each; `turn` bends the right elbow and every
+    /// right finger joint.
+    fn bending(turn: impl Fn(f64) -> f64) -> (Clip, Anatomy) {
+        let mut joints = vec![Joint::new("Hips", None, DVec3::Y)];
+        for (n, name) in ["Spine", "Neck", "Head"].into_iter().enumerate() {
+            joints.push(Joint::new(name, Some(n), DVec3::Y * 0.2));
+        }
+        for (side, x) in [("Left", 1.0), ("Right", -1.0)] {
+            let first = joints.len();
+            let names = ["Shoulder", "Arm", "ForeArm", "Hand"];
+            for (n, (name, long)) in names.into_iter().zip([0.05, 0.12, 0.3, 0.25]).enumerate() {
+                let parent = if n == 0 { 1 } else { first + n - 1 };
+                let offset = DVec3::new(long * x, if n == 0 { 0.15 } else { 0.0 }, 0.0);
+                joints.push(Joint::new(format!("{side}{name}"), Some(parent), offset));
+            }
+            let hand = joints.len() - 1;
+            for finger in ["Index", "Middle"] {
+                let base = joints.len();
+                let out = DVec3::X * x;
+                joints.push(Joint::new(
+                    format!("{side}Hand{finger}1"),
+                    Some(hand),
+                    out * 0.1,
+                ));
+                let end = Joint::new(format!("{side}Hand{finger}2"), Some(base), out * 0.04);
+                joints.push(end.with_tip(out * 0.03));
+            }
+        }
+        let skeleton = Arc::new(Skeleton::new(joints).expect("a tree"));
+        let anatomy = Anatomy::detect(&skeleton);
+        let turned = |joint: usize| {
+            let name = &skeleton.joint(joint).name;
+            name == "RightForeArm"
+                || name.starts_with("RightHandI")
+                || name.starts_with("RightHandM")
+        };
+        let channels = (0..skeleton.len()).map(|joint| Channel {
+            rotations: (0..240)
+                .map(|f| match turned(joint) {
+                    true => DQuat::from_rotation_y(turn(f64::from(f) / 120.0)),
+                    false => DQuat::IDENTITY,
+                })
+                .collect(),
+            translations: None,
+        });
+        let rate = Rate::new(120, 1).expect("a rate");
+        let clip = Clip::new(Arc::clone(&skeleton), rate, channels.collect()).expect("a clip");
+        (clip, anatomy)
+    }
+
+    #[test]
+    fn a_wrist_that_circles_has_the_speed_of_its_circle() {
+        let (clip, anatomy) = bending(|t| t);
+        let curves = kinematics(&clip, &anatomy);
+        let [right, left] = &curves.hands;
+        // A radian a second, a quarter of a metre from the elbow; the ends are one-sided.
+        for speed in &right.speed[20..220] {
+            assert!((speed - 0.25).abs() < 1e-4, "{speed}");
+        }
+        assert!(left.speed.iter().all(|speed| *speed < 1e-12));
+        assert_eq!(curves.distance.len(), 240);
+        assert!((curves.distance[0] - 1.44).abs() < 1e-9);
+    }
+
+    #[test]
+    fn an_open_hand_is_one_and_a_bent_one_less() {
+        let (clip, anatomy) = bending(|t| t);
+        let [right, left] = kinematics(&clip, &anatomy).hands;
+        assert!((right.aperture[0] - 1.0).abs() < 1e-12);
+        assert!(left.aperture.iter().all(|open| (open - 1.0).abs() < 1e-12));
+        // Both joints at a right angle after pi/2 seconds: 0.1 out, 0.04 across, 0.03 back.
+        let frame = (PI / 2.0 * 120.0).round() as usize;
+        let want = 0.07_f64.hypot(0.04) / 0.17;
+        assert!(
+            (right.aperture[frame] - want).abs() < 0.01,
+            "{}",
+            right.aperture[frame]
+        );
+    }
+
+    #[test]
+    fn minima_lie_between_rises_and_at_both_ends_of_a_rest() {
+        let wave: Vec<f64> = (0..200)
+            .map(|n| 0.6 + 0.5 * (f64::from(n) / 50.0 * 2.0 * PI).cos())
+            .collect();
+        assert_eq!(minima(&wave), [25, 75, 125, 175]);
+        let mut rest = vec![1.0; 20];
+        rest.extend(vec![0.0; 30]);
+        rest.extend(vec![1.0; 20]);
+        assert_eq!(minima(&rest), [20, 49]);
+        assert_eq!(minima(&rest[30..]), [19]);
+        assert_eq!(minima(&[0.001; 50]), [] as [usize; 0]);
+        assert_eq!(minima(&[]), [] as [usize; 0]);
+    }
+
+    #[test]
+    fn a_skeleton_without_arms_has_no_curves() {
+        let skeleton = Skeleton::new(vec![Joint::new("root", None, DVec3::ZERO)]).expect("a tree");
+        let skeleton = Arc::new(skeleton);
+        let clip = Clip::still(Arc::clone(&skeleton), Rate::new(30, 1).expect("a rate"), 5);
+        let curves = kinematics(&clip, &Anatomy::detect(&skeleton));
+        assert_eq!(curves, Kinematics::default());
+    }
+}

@@ -1,0 +1,127 @@
+//! Curves of how hands move in part of a recording.
+
+use std::ops::Range;
+
+use chereme_analysis::kinematics::{Kinematics, kinematics, minima};
+use chereme_motion::{Rate, Span};
+
+use crate::Corpus;
+use crate::error::Result;
+use crate::movement::{ChannelGroup, Track};
+
+/// How far around the wanted frames movement is looked at, in seconds, so that curves of neighbouring
+/// parts fit together.
+const AROUND: f64 = 0.5;
+
+/// Curves of a part of a recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curves {
+    /// The frames they are of, counted from the recording's first.
+    pub frames: Range<usize>,
+    /// The rate of the frames.
+    pub rate: Rate,
+    /// Where the first frame of the recording lies on its clock, in microseconds.
+    pub offset_us: i64,
+    /// A number for every frame, or none where the skeleton does not tell.
+    pub kinematics: Kinematics,
+    /// The frames at which a wrist is slowest between two strokes, in order, of both hands.
+    pub minima: Vec<usize>,
+}
+
+impl Corpus {
+    /// Returns curves of the frames that start in `span` of the recording of that row.
+    ///
+    /// # Errors
+    /// Where there is no such recording, it holds no movement, or the database fails.
+    pub fn curves(&self, recording: i64, span: Span) -> Result<Curves> {
+        let connection = self.store.read();
+        let track = Track::of(connection, recording)?;
+        let wanted = track.frames_in(span);
+        let around = (AROUND * track.rate.per_second()).ceil() as usize;
+        let end = (wanted.end + around).min(track.frames());
+        let read = wanted.start.saturating_sub(around)..end;
+        let clip = track.clip(connection, read.clone(), &ChannelGroup::ALL)?;
+        let all = kinematics(&clip, &track.anatomy(connection)?);
+        let mut slow: Vec<usize> = all
+            .hands
+            .iter()
+            .flat_map(|hand| minima(&hand.speed))
+            .map(|frame| frame + read.start)
+            .filter(|frame| wanted.contains(frame))
+            .collect();
+        slow.sort_unstable();
+        slow.dedup();
+        let inside = wanted.start - read.start..wanted.end - read.start;
+        Ok(Curves {
+            rate: track.rate,
+            offset_us: track.row.offset_us,
+            kinematics: cut(all, &inside),
+            minima: slow,
+            frames: wanted,
+        })
+    }
+}
+
+fn cut(mut all: Kinematics, inside: &Range<usize>) -> Kinematics {
+    fn part<T: Clone>(curve: &mut Vec<T>, inside: &Range<usize>) {
+        *curve = curve
+            .get(inside.clone())
+            .map(<[T]>::to_vec)
+            .unwrap_or_default();
+    }
+    part(&mut all.distance, inside);
+    for hand in &mut all.hands {
+        part(&mut hand.speed, inside);
+        part(&mut hand.aperture, inside);
+        part(&mut hand.palm, inside);
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ImportOptions, Progress, unheard, unpack_starter};
+    use chereme_motion::Instant;
+
+    #[test]
+    fn parts_fit_together() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let files = unpack_starter(&folder.path().join("files")).expect("unpacked");
+        let phrase: Vec<_> = files
+            .into_iter()
+            .filter(|it| it.ends_with("phrase.bvh"))
+            .collect();
+        let mut corpus = Corpus::create(&folder.path().join("x.chereme"), "A").expect("made");
+        let options = ImportOptions::default();
+        let mut hear = unheard;
+        let mut progress = Progress::new(&mut hear);
+        corpus
+            .import(&phrase, &options, &mut progress)
+            .expect("imported");
+        let recording = corpus.overview(0).expect("read").recordings[0].clone();
+        let at = Instant::from_micros;
+        let end = recording.row.duration_us;
+        let of = |from, to| {
+            corpus
+                .curves(recording.row.id, Span::between(at(from), at(to)))
+                .expect("read")
+        };
+        let (whole, one, two) = (of(0, end), of(0, end / 2), of(end / 2, end));
+        assert_eq!(whole.frames.len() as u64, recording.frames);
+        assert_eq!(one.frames.end, two.frames.start);
+        let speeds = |it: &Curves| it.kinematics.hands[0].speed.clone();
+        let joined = [speeds(&one), speeds(&two)].concat();
+        for (a, b) in joined.iter().zip(speeds(&whole)) {
+            assert!((a - b).abs() < 1e-9, "{a} {b}");
+        }
+        assert!(!whole.minima.is_empty());
+        assert!(
+            whole.kinematics.hands[0]
+                .palm
+                .iter()
+                .all(|palm| (palm.length() - 1.0).abs() < 1e-6)
+        );
+        assert!(corpus.curves(99, Span::default()).is_err());
+    }
+}
