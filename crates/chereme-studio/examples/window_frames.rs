@@ -1,9 +1,11 @@
 //! Measures frames of a real window: `cargo run --release --example window_frames -- [CORPUS] [SECONDS]`.
 //!
-//! The window opens, plays its first recording in a loop without waiting for the screen, and closes. Without
-//! a corpus one is made with a recording of the starter corpus and with 200 tiers of 500 annotations.
-//! Prints how long a frame took to compute on the window's thread, and how far apart frames were.
+//! The window opens without waiting for the screen and plays its first recording in a loop, scrolls and zooms
+//! the timeline while it plays, drags an annotation among its neighbours, and closes. Without a corpus one is
+//! made with a recording of the starter corpus and with 200 tiers of 500 annotations. Prints for each of the
+//! three how long a frame took to compute on the window's thread, and how far apart frames were.
 
+use std::collections::VecDeque;
 use std::error::Error;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -12,7 +14,8 @@ use std::time::{Duration, Instant};
 use chereme_corpus::{Corpus, ImportOptions, Progress, unheard, unpack_starter};
 use chereme_studio::{Folders, Options, Studio};
 use eframe::egui::{
-    Context, Event, Key, Modifiers, RawInput, Ui, ViewportBuilder, ViewportCommand,
+    Context, Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2,
+    RawInput, TouchPhase, Ui, ViewportBuilder, ViewportCommand, vec2,
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -43,13 +46,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let meter = Meter {
         studio: Studio::new(options),
-        keys: vec![Key::L, Key::Space],
+        scenes: VecDeque::from([Scene::Play, Scene::Scroll, Scene::Drag]),
         begun: None,
-        lasts: Duration::from_secs(seconds),
+        lasts: Duration::from_secs(seconds) / 3,
         last: None,
+        frame: 0,
         computed: Vec::new(),
         apart: Vec::new(),
-        over: false,
     };
     eframe::run_native("window_frames", native, Box::new(|_| Ok(Box::new(meter))))?;
     Ok(())
@@ -112,16 +115,86 @@ fn many(tiers: usize, each: usize, millis: usize) -> Result<String, std::fmt::Er
     Ok(text)
 }
 
+/// What is done while frames are measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Scene {
+    /// Playing in a loop.
+    Play,
+    /// Scrolling through the tiers, and zooming in and out.
+    Scroll,
+    /// Dragging an annotation to and fro.
+    Drag,
+}
+
+/// Where the timeline is in the window.
+const TIMELINE: Pos2 = Pos2::new(760.0, 690.0);
+
+impl Scene {
+    /// Returns what a person does in a frame of it.
+    fn events(self, frame: u64) -> Vec<Event> {
+        let key = |key, modifiers| Event::Key {
+            key,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers,
+        };
+        let button = |pressed| Event::PointerButton {
+            pos: TIMELINE,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::ALT,
+        };
+        match (self, frame) {
+            (Self::Play, 0) => vec![key(Key::L, Modifiers::COMMAND)],
+            (Self::Play, 1) => vec![key(Key::Space, Modifiers::COMMAND)],
+            (Self::Play, _) => Vec::new(),
+            (Self::Scroll, frame) => {
+                let zooms = frame % 240 >= 180;
+                let up = frame % 120 >= 60;
+                let turn = if up { 40.0 } else { -40.0 };
+                let modifiers = if zooms {
+                    Modifiers::COMMAND
+                } else {
+                    Modifiers::NONE
+                };
+                let wheel = Event::MouseWheel {
+                    unit: MouseWheelUnit::Point,
+                    delta: vec2(0.0, turn),
+                    phase: TouchPhase::Move,
+                    source: MouseWheelSource::Unknown,
+                    modifiers,
+                };
+                vec![Event::PointerMoved(TIMELINE), wheel]
+            }
+            (Self::Drag, 0) => vec![
+                key(Key::Space, Modifiers::COMMAND),
+                key(Key::F7, Modifiers::NONE),
+            ],
+            (Self::Drag, 1..9) => vec![key(Key::Equals, Modifiers::COMMAND)],
+            (Self::Drag, 9) => vec![
+                Event::ModifiersChanged(Modifiers::ALT),
+                Event::PointerMoved(TIMELINE),
+                button(true),
+            ],
+            (Self::Drag, frame) => {
+                let by = (frame as f32 * 0.05).sin() * 150.0;
+                vec![Event::PointerMoved(TIMELINE + vec2(by, 0.0))]
+            }
+        }
+    }
+}
+
 struct Meter {
     studio: Studio,
-    /// Keys with Ctrl still to be pressed: loop, then play.
-    keys: Vec<Key>,
+    scenes: VecDeque<Scene>,
+    /// When frames of the scene began to be measured.
     begun: Option<Instant>,
     lasts: Duration,
     last: Option<Instant>,
+    frame: u64,
     computed: Vec<Duration>,
     apart: Vec<Duration>,
-    over: bool,
 }
 
 impl eframe::App for Meter {
@@ -129,7 +202,8 @@ impl eframe::App for Meter {
         let now = Instant::now();
         self.studio.ui(ui);
         ui.ctx().request_repaint();
-        if self.studio.playhead().micros() == 0 {
+        // The first frames of a scene only set it.
+        if self.frame < 20 {
             return;
         }
         let begun = *self.begun.get_or_insert(now);
@@ -137,24 +211,23 @@ impl eframe::App for Meter {
             self.apart.push(now - last);
             self.computed.push(now.elapsed());
         }
-        if now - begun > self.lasts && !self.over && !self.apart.is_empty() {
+        if now - begun > self.lasts && !self.apart.is_empty() {
             self.tell();
-            ui.ctx().send_viewport_cmd(ViewportCommand::Close);
+            (self.begun, self.last, self.frame) = (None, None, 0);
+            self.scenes.pop_front();
+            if self.scenes.is_empty() {
+                ui.ctx().send_viewport_cmd(ViewportCommand::Close);
+            }
         }
     }
 
     fn raw_input_hook(&mut self, _ctx: &Context, input: &mut RawInput) {
-        if self.studio.corpus().is_none() || !self.studio.is_idle() {
+        if self.studio.corpus().is_none() || (self.frame == 0 && !self.studio.is_idle()) {
             return;
         }
-        if let Some(key) = (!self.keys.is_empty()).then(|| self.keys.remove(0)) {
-            input.events.push(Event::Key {
-                key,
-                physical_key: None,
-                pressed: true,
-                repeat: false,
-                modifiers: Modifiers::COMMAND,
-            });
+        if let Some(scene) = self.scenes.front() {
+            input.events.extend(scene.events(self.frame));
+            self.frame += 1;
         }
     }
 }
@@ -162,16 +235,17 @@ impl eframe::App for Meter {
 impl Meter {
     #[expect(clippy::print_stdout, reason = "it tells what it measured")]
     fn tell(&mut self) {
+        let scene = self.scenes.front();
         let all = [("computed", &mut self.computed), ("apart", &mut self.apart)];
         for (name, times) in all {
             times.sort_unstable();
             let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
             let (median, slow, worst) = (at(0.5), at(0.95), at(1.0));
             println!(
-                "{name}: {} frames, median {median:?}, p95 {slow:?}, worst {worst:?}",
+                "{scene:?} {name}: {} frames, median {median:?}, p95 {slow:?}, worst {worst:?}",
                 times.len()
             );
+            times.clear();
         }
-        self.over = true;
     }
 }

@@ -12,6 +12,9 @@ pub(crate) enum Menu {
     File,
     Edit,
     Annotation,
+    Value,
+    Timing,
+    Tier,
     Play,
     Stage,
     View,
@@ -28,10 +31,13 @@ impl Context {
 }
 
 impl Menu {
-    pub(crate) const ALL: [(Self, Text); 8] = [
+    pub(crate) const ALL: [(Self, Text); 11] = [
         (Self::File, shell::MENU_FILE),
         (Self::Edit, shell::MENU_EDIT),
         (Self::Annotation, shell::MENU_ANNOTATION),
+        (Self::Value, shell::MENU_VALUE),
+        (Self::Timing, shell::MENU_TIMING),
+        (Self::Tier, shell::MENU_TIER),
         (Self::Play, shell::MENU_PLAY),
         (Self::Stage, shell::MENU_STAGE),
         (Self::View, shell::MENU_VIEW),
@@ -105,7 +111,9 @@ actions! {
     Search "edit.search" SHOW_SEARCH Edit Corpus;
     ClearSelection "edit.clear-selection" SELECTION_CLEAR Edit Corpus;
     NewAnnotation "annotation.new" ANNOTATION_NEW Annotation Corpus;
+    BeginEndAnnotation "annotation.begin-end" ANNOTATION_BEGIN_END Annotation Corpus;
     SplitAnnotation "annotation.split" ANNOTATION_SPLIT Annotation Corpus;
+    MergeAnnotation "annotation.merge" ANNOTATION_MERGE Annotation Corpus;
     DeleteAnnotation "annotation.delete" ANNOTATION_DELETE Annotation Corpus;
     RecombineSelected "recombine.selected" RECOMBINE_SELECTED Edit Corpus;
     CardUp "recombine.card-up" CARD_UP Edit Recombine repeats;
@@ -113,10 +121,57 @@ actions! {
     CardDuplicate "recombine.card-duplicate" CARD_DUPLICATE Edit Recombine;
     CardSwitch "recombine.card-switch" CARD_SWITCH Edit Recombine;
     CardRemove "recombine.card-remove" CARD_REMOVE Edit Recombine;
+    CopyToTier "annotation.copy-to-tier" ANNOTATION_COPY Annotation Corpus;
+    MoveToTier "annotation.move-to-tier" ANNOTATION_MOVE Annotation Corpus;
     NextAnnotation "annotation.next" ANNOTATION_NEXT Annotation Corpus repeats;
     PreviousAnnotation "annotation.previous" ANNOTATION_PREVIOUS Annotation Corpus repeats;
-    NextTier "tier.next" TIER_NEXT Annotation Corpus repeats;
-    PreviousTier "tier.previous" TIER_PREVIOUS Annotation Corpus repeats;
+    AnnotationBelow "annotation.below" ANNOTATION_BELOW Annotation Corpus repeats;
+    AnnotationAbove "annotation.above" ANNOTATION_ABOVE Annotation Corpus repeats;
+    AlsoNext "annotation.also-next" ALSO_NEXT Annotation Corpus repeats;
+    AlsoPrevious "annotation.also-previous" ALSO_PREVIOUS Annotation Corpus repeats;
+    SelectOnTier "annotation.select-on-tier" SELECT_ON_TIER Annotation Corpus;
+    EditValue "value.edit" VALUE_EDIT Value Corpus;
+    ClearValue "value.clear" VALUE_CLEAR Value Corpus;
+    Value1 "value.1" VALUE_1 Value Corpus;
+    Value2 "value.2" VALUE_2 Value Corpus;
+    Value3 "value.3" VALUE_3 Value Corpus;
+    Value4 "value.4" VALUE_4 Value Corpus;
+    Value5 "value.5" VALUE_5 Value Corpus;
+    Value6 "value.6" VALUE_6 Value Corpus;
+    Value7 "value.7" VALUE_7 Value Corpus;
+    Value8 "value.8" VALUE_8 Value Corpus;
+    Value9 "value.9" VALUE_9 Value Corpus;
+    StartHere "timing.start-here" START_HERE Timing Corpus;
+    EndHere "timing.end-here" END_HERE Timing Corpus;
+    ToSelection "timing.to-selection" TO_SELECTION Timing Corpus;
+    StartEarlier "timing.start-earlier" START_EARLIER Timing Corpus repeats;
+    StartLater "timing.start-later" START_LATER Timing Corpus repeats;
+    EndEarlier "timing.end-earlier" END_EARLIER Timing Corpus repeats;
+    EndLater "timing.end-later" END_LATER Timing Corpus repeats;
+    ShiftEarlier "timing.shift-earlier" SHIFT_EARLIER Timing Corpus repeats;
+    ShiftLater "timing.shift-later" SHIFT_LATER Timing Corpus repeats;
+    SelectFromHere "timing.select-from-here" SELECT_FROM_HERE Timing Corpus;
+    SelectToHere "timing.select-to-here" SELECT_TO_HERE Timing Corpus;
+    ExtendFrameBack "timing.extend-frame-back" EXTEND_FRAME_BACK Timing Corpus repeats;
+    ExtendFrameForward "timing.extend-frame-forward" EXTEND_FRAME_FORWARD Timing Corpus repeats;
+    ExtendSecondBack "timing.extend-second-back" EXTEND_SECOND_BACK Timing Corpus repeats;
+    ExtendSecondForward "timing.extend-second-forward" EXTEND_SECOND_FORWARD Timing Corpus repeats;
+    ModeNormal "timing.mode-normal" MODE_NORMAL Timing Corpus;
+    ModeBulldozer "timing.mode-bulldozer" MODE_BULLDOZER Timing Corpus;
+    ModeShift "timing.mode-shift" MODE_SHIFT Timing Corpus;
+    SnapFrames "timing.snap-frames" SNAP_FRAMES Timing Corpus;
+    SnapBoundaries "timing.snap-boundaries" SNAP_BOUNDARIES Timing Corpus;
+    SnapMinima "timing.snap-minima" SNAP_MINIMA Timing Corpus;
+    NextTier "tier.next" TIER_NEXT Tier Corpus repeats;
+    PreviousTier "tier.previous" TIER_PREVIOUS Tier Corpus repeats;
+    AddTier "tier.add" TIER_ADD Tier Corpus;
+    ChangeTier "tier.change" TIER_CHANGE Tier Corpus;
+    RemoveTier "tier.remove" TIER_REMOVE Tier Corpus;
+    TierUp "tier.up" TIER_UP Tier Corpus repeats;
+    TierDown "tier.down" TIER_DOWN Tier Corpus repeats;
+    FoldTier "tier.fold" TIER_FOLD Tier Corpus;
+    HideTier "tier.hide" TIER_HIDE Tier Corpus;
+    ShowTiers "tier.show-all" TIER_SHOW_ALL Tier Corpus;
     Play "play.toggle" PLAY Play Corpus;
     PlaySelection "play.selection" PLAY_SELECTION Play Corpus;
     Loop "play.loop" LOOP Play Corpus;
@@ -163,6 +218,10 @@ actions! {
     ZoomIn "view.zoom-in" ZOOM_IN View Corpus repeats;
     ZoomOut "view.zoom-out" ZOOM_OUT View Corpus repeats;
     ZoomAll "view.zoom-all" ZOOM_ALL View Corpus;
+    LaneSpeed "view.lane-speed" LANE_SPEED View Corpus;
+    LaneAperture "view.lane-aperture" LANE_APERTURE View Corpus;
+    LanePalm "view.lane-palm" LANE_PALM View Corpus;
+    LaneDistance "view.lane-distance" LANE_DISTANCE View Corpus;
     Larger "view.larger" LARGER View Everywhere repeats;
     Smaller "view.smaller" SMALLER View Everywhere repeats;
     Theme "view.theme" THEME View Everywhere;

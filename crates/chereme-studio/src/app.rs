@@ -11,6 +11,7 @@ use crate::Options;
 use crate::choose::{Chooser, Chosen};
 use crate::command::Command;
 use crate::context::{Outbox, Seen, Shown};
+use crate::draft::Drafts;
 use crate::keys::{Keys, Place};
 use crate::little::Figures;
 use crate::model::Snapshot;
@@ -47,6 +48,7 @@ pub struct Studio {
     pub(crate) chooser: Chooser,
     pub(crate) overlays: Overlays,
     pub(crate) out: Outbox,
+    pub(crate) drafts: Drafts,
     pub(crate) wake: Wake,
     ctx: Arc<OnceLock<Context>>,
     /// When the last frame was, in seconds of the window's clock.
@@ -99,6 +101,7 @@ impl Studio {
             chooser: Chooser::default(),
             overlays: Overlays::default(),
             out,
+            drafts: Drafts::default(),
             wake,
             ctx,
             clock: None,
@@ -116,6 +119,7 @@ impl Studio {
         self.hear_chooser(&ctx);
         self.tick(&ctx);
         self.take_keys(&ctx);
+        self.panes.timeline.next_frame();
         self.take_dropped(&ctx);
         self.bars(ui);
         if self.desk.is_some() {
@@ -161,6 +165,7 @@ impl Studio {
             reel: &self.reel,
             little: &self.little,
             keys: &self.keys,
+            settings: &self.settings,
             language: self.settings.language,
             dark: theme::is_dark(ctx),
             running: &self.desk.as_ref()?.running,
@@ -238,20 +243,21 @@ impl Studio {
         }
     }
 
+    /// Does what keys ask for, one after the other, before anything is drawn: what is typed right
+    /// after the key that opens a field is already that field's.
     fn take_keys(&mut self, ctx: &Context) {
-        if self.overlays.takes_keys() {
-            return;
-        }
-        let typing = ctx.text_edit_focused();
-        let focused = ctx.memory(|memory| memory.focused().is_some());
-        let place = Place {
-            corpus: self.snapshot.is_some(),
-            pane: self.pane,
-            typing,
-            focused,
-        };
-        for action in ctx.input_mut(|input| self.keys.take(input, place)) {
+        while !self.overlays.takes_keys() {
+            let place = Place {
+                corpus: self.snapshot.is_some(),
+                pane: self.pane,
+                typing: ctx.text_edit_focused() || self.panes.timeline.is_typing(),
+                focused: ctx.memory(|memory| memory.focused().is_some()),
+            };
+            let Some(action) = ctx.input_mut(|input| self.keys.take(input, place)) else {
+                return;
+            };
             self.out.send(Command::Do(action));
+            self.carry_out(ctx);
         }
     }
 
@@ -303,6 +309,7 @@ impl Studio {
                 reel,
                 little,
                 keys,
+                settings,
                 language: settings.language,
                 dark: theme::is_dark(ui.ctx()),
                 running: &desk.running,
@@ -324,8 +331,16 @@ impl Studio {
         Panel::bottom("status").show(ui, |ui| self.status(ui));
     }
 
-    /// Writes the settings where they changed, when nothing is being dragged.
+    /// Writes what is half typed at once, and the settings where they changed, when nothing is being
+    /// dragged.
     fn remember(&mut self, ctx: &Context) {
+        if self.desk.is_some()
+            && let Err(error) = self.drafts.keep(self.panes.timeline.draft())
+        {
+            self.overlays
+                .notices
+                .unsaved(&error, self.settings.language);
+        }
         if self.desk.is_some() && self.settings.layout.as_ref() != Some(&self.tree) {
             self.settings.layout = Some(self.tree.clone());
         }

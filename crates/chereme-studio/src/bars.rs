@@ -5,6 +5,7 @@ use eframe::egui::{Button, MenuBar, ProgressBar, Ui};
 use crate::action::{ACTIONS, Context, Menu};
 use crate::app::Studio;
 use crate::command::Command;
+use crate::panes::timeline::bar;
 use crate::words::{fill, shell as words};
 use crate::work::Lane;
 use crate::work::begin::Begin;
@@ -65,8 +66,13 @@ impl Studio {
                 ("signs", &overview.signs.len()),
             ];
             ui.weak(fill(words::STATUS_COUNTS.of(language), &counts));
+            let mode = bar::mode_name(&self.settings.timeline).of(language);
+            ui.weak(fill(words::STATUS_MODE.of(language), &[("mode", &mode)]));
             for (id, running) in &desk.running {
-                if matches!(running.lane, Lane::Movement | Lane::Little | Lane::Make) {
+                if matches!(
+                    running.lane,
+                    Lane::Movement | Lane::Little | Lane::Make | Lane::Measure
+                ) {
                     continue;
                 }
                 ui.separator();

@@ -11,6 +11,7 @@ use crate::choose::Choose;
 use crate::model::made::Made;
 use crate::panes::inspector::Thing;
 use crate::settings::Settings;
+use crate::words::Text;
 use crate::work::begin::Begin;
 use crate::work::{Work, WorkId};
 
@@ -64,6 +65,10 @@ pub(crate) enum Command {
     Recipe(String, Option<String>),
     /// Change what is remembered.
     Settings(Box<Settings>),
+    /// Say something that goes away by itself.
+    Hint(Text),
+    /// Say something that stays, with what helps.
+    Tell(String, Text),
     /// Put a notice away.
     Dismiss(u64),
 }

@@ -12,6 +12,7 @@ use crate::model::Snapshot;
 use crate::model::made::Made;
 use crate::model::reel::Reel;
 use crate::player::Player;
+use crate::settings::Settings;
 use crate::theme::Colours;
 use crate::words::{Language, Text};
 use crate::work::desk::Running;
@@ -75,6 +76,7 @@ pub(crate) struct Seen<'a> {
     /// Looping little figures of any movement.
     pub(crate) little: &'a Figures,
     pub(crate) keys: &'a Keys,
+    pub(crate) settings: &'a Settings,
     pub(crate) language: Language,
     pub(crate) dark: bool,
     /// Work that was given out and has not ended.

@@ -16,6 +16,7 @@
 //! | `words` | every text in English and French |
 //! | `player` | the transport |
 //! | `little` | looping little figures, for any pane |
+//! | `draft` | what is half typed, kept through a crash |
 //! | `settings`, `layout`, `theme` | what is remembered, where panes are, how it looks |
 //! | `panes` | one module each: rows by plain functions in `data`, widgets in `ui` |
 //! | `bars`, `start`, `overlay` | menus and status, the page without a corpus, what lies above |
@@ -26,6 +27,7 @@ mod bars;
 mod choose;
 mod command;
 mod context;
+mod draft;
 mod error;
 mod keys;
 mod layout;

@@ -11,6 +11,7 @@ use crate::app::Studio;
 use crate::choose::Choose;
 use crate::command::Command;
 use crate::context::{Outbox, Showing, Shown};
+use crate::draft::Drafts;
 use crate::keys::Keys;
 use crate::layout::{self, Busy};
 use crate::little::Figures;
@@ -21,24 +22,30 @@ use crate::panes::PaneKind;
 use crate::player::Player;
 use crate::settings::ThemeChoice;
 use crate::theme;
-use crate::words::shell as words;
+use crate::words::{shell as words, timeline};
 use crate::work::Work;
 use crate::work::begin::{Begin, Beginning};
 use crate::work::desk::Desk;
 
 const SECOND: i64 = 1_000_000;
+/// How often commands may ask for others within one frame.
+const ROUNDS: usize = 8;
 /// How a frame is stepped where a recording has no movement.
 const NO_FRAMES: u32 = 25;
 
 impl Studio {
     /// Carries out what was asked for in this frame.
     pub(crate) fn carry_out(&mut self, ctx: &Context) {
-        let commands = self.out.take();
-        if !commands.is_empty() {
+        // What an action asks for in its turn is done at once too, so that what is drawn next shows it.
+        for _ in 0..ROUNDS {
+            let commands = self.out.take();
+            if commands.is_empty() {
+                return;
+            }
             ctx.request_repaint();
-        }
-        for command in commands {
-            self.command(command, ctx);
+            for command in commands {
+                self.command(command, ctx);
+            }
         }
     }
 
@@ -109,6 +116,14 @@ impl Studio {
             Command::Settings(settings) => {
                 self.settings = *settings;
                 self.keys = Keys::new(self.settings.keymap, &self.settings.keys);
+            }
+            Command::Hint(text) => {
+                let text = text.of(self.settings.language);
+                self.overlays.notices.hint(text);
+            }
+            Command::Tell(text, remedy) => {
+                let remedy = remedy.of(self.settings.language);
+                self.overlays.notices.say(&text, Some(remedy));
             }
             Command::Dismiss(notice) => self.overlays.notices.dismiss(notice),
         }
@@ -305,11 +320,19 @@ impl Studio {
         self.close();
         self.desk = Some(Desk::open(path, &self.author, &self.wake));
         let absolute = std::path::absolute(path);
-        self.settings.opened(absolute.as_deref().unwrap_or(path));
+        let path = absolute.as_deref().unwrap_or(path);
+        self.settings.opened(path);
+        self.drafts = Drafts::of(&self.folders, path);
+        if let Some(draft) = self.drafts.read() {
+            self.panes.timeline.restore(draft);
+            let words = timeline::DRAFT_BACK.of(self.settings.language);
+            self.overlays.notices.hint(words);
+        }
     }
 
     fn close(&mut self) {
         self.desk = None;
+        self.drafts = Drafts::default();
         self.snapshot = None;
         self.shown = Shown::default();
         self.reel = Reel::default();
@@ -344,7 +367,10 @@ impl Studio {
                 .annotations
                 .retain(|id| snapshot.annotation(*id).is_some());
         }
+        let wanted = self.panes.timeline.wants();
+        let wanted = wanted.filter(|id| snapshot.recording(*id).is_some());
         let first = snapshot.overview.recordings.first().map(|it| it.row.id);
+        let first = wanted.or(first);
         if self.snapshot.is_none() && first.is_none() {
             let words = words::EMPTY_CORPUS.of(self.settings.language);
             self.overlays.notices.hint(words);

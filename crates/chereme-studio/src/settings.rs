@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::keys::{Keymap, Rebound};
 use crate::panes::PaneKind;
+use crate::panes::timeline::Ways;
 use crate::words::Language;
 
 /// How many corpora are remembered.
@@ -41,6 +42,8 @@ pub(crate) struct Settings {
     pub(crate) export_folder: Option<PathBuf>,
     /// Where the panes are; the usual layout where nothing is said.
     pub(crate) layout: Option<Tree<PaneKind>>,
+    /// How the timeline works and what it shows.
+    pub(crate) timeline: Ways,
 }
 
 impl Default for Settings {
@@ -54,6 +57,7 @@ impl Default for Settings {
             recent: Vec::new(),
             export_folder: None,
             layout: None,
+            timeline: Ways::default(),
         }
     }
 }
@@ -73,13 +77,7 @@ impl Settings {
 
     /// Writes the file, whole or not at all.
     pub(crate) fn write(&self, path: &Path) -> io::Result<()> {
-        if let Some(folder) = path.parent() {
-            fs::create_dir_all(folder)?;
-        }
-        let text = serde_json::to_string_pretty(self)?;
-        let beside = path.with_extension("json.new");
-        fs::write(&beside, text)?;
-        fs::rename(&beside, path)
+        write_whole(path, self)
     }
 
     /// Puts a corpus at the head of those opened before.
@@ -97,6 +95,17 @@ impl Settings {
         };
         self
     }
+}
+
+/// Writes a JSON file, whole or not at all.
+pub(crate) fn write_whole(path: &Path, it: &impl Serialize) -> io::Result<()> {
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder)?;
+    }
+    let text = serde_json::to_string_pretty(it)?;
+    let beside = path.with_extension("json.new");
+    fs::write(&beside, text)?;
+    fs::rename(&beside, path)
 }
 
 /// Takes the first entry away that cannot be read by itself; nothing where none is left to take.

@@ -119,29 +119,28 @@ impl Keys {
             .map(|row| row.action)
     }
 
-    /// Takes the pressed keys that mean an action out of the input, and returns the actions.
-    pub(crate) fn take(&self, input: &mut InputState, place: Place) -> Vec<Action> {
-        let mut actions = Vec::new();
-        input.events.retain(|event| {
-            let Event::Key {
-                key,
-                pressed: true,
-                repeat,
-                modifiers,
-                ..
-            } = event
-            else {
-                return true;
+    /// Takes the first pressed key that means an action out of the input, and returns the action.
+    ///
+    /// One at a time, since what it does decides where those after it go: into a field, perhaps.
+    pub(crate) fn take(&self, input: &mut InputState, place: Place) -> Option<Action> {
+        loop {
+            let pressed = |event: &Event| match event {
+                Event::Key {
+                    key,
+                    pressed: true,
+                    repeat,
+                    modifiers,
+                    ..
+                } => Some((self.action(Chord::new(*key, *modifiers), place)?, *repeat)),
+                _ => None,
             };
-            let Some(action) = self.action(Chord::new(*key, *modifiers), place) else {
-                return true;
-            };
+            let mut found = input.events.iter().enumerate();
+            let (at, (action, repeat)) = found.find_map(|(at, it)| Some((at, pressed(it)?)))?;
+            input.events.remove(at);
             if !repeat || action.row().repeats {
-                actions.push(action);
+                return Some(action);
             }
-            false
-        });
-        actions
+        }
     }
 }
 
@@ -170,7 +169,12 @@ mod tests {
                         .of(row.action)
                         .iter()
                         .find(|it| keys.of(other.action).contains(it));
-                    let apart = matches!((row.context, other.context), (Context::Pane(a), Context::Pane(b)) if a != b);
+                    // A pane's own keys go before those that count everywhere.
+                    let pane = |context| match context {
+                        Context::Pane(pane) => Some(pane),
+                        _ => None,
+                    };
+                    let apart = pane(row.context) != pane(other.context);
                     assert!(
                         both.is_none() || apart,
                         "{keymap:?}: {} and {}: {both:?}",

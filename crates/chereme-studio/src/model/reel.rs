@@ -56,6 +56,11 @@ impl Reel {
         self.source.is_some()
     }
 
+    /// Returns how many frames of movement there are.
+    pub(crate) fn frames(&self) -> usize {
+        self.source.map_or(0, |source| source.frames)
+    }
+
     /// Returns the rate of its frames.
     pub(crate) fn rate(&self) -> Option<Rate> {
         self.source.map(|source| source.rate)

@@ -4,6 +4,9 @@ texts! {
     MENU_FILE: "File", "Fichier";
     MENU_EDIT: "Edit", "Édition";
     MENU_ANNOTATION: "Annotation", "Annotation";
+    MENU_VALUE: "Value", "Valeur";
+    MENU_TIMING: "Timing", "Calage";
+    MENU_TIER: "Tier", "Acteur";
     MENU_PLAY: "Playback", "Lecture";
     MENU_STAGE: "Stage", "Scène";
     MENU_VIEW: "View", "Affichage";
@@ -40,6 +43,7 @@ texts! {
     REMEDY: "What helps: {remedy}", "Ce qui aide : {remedy}";
     NOTHING_OPEN: "No corpus is open.", "Aucun corpus n’est ouvert.";
     STATUS_COUNTS: "Recordings: {recordings} · Signs: {signs}", "Enregistrements : {recordings} · Signes : {signs}";
+    STATUS_MODE: "Mode: {mode}", "Mode : {mode}";
     NOTICE_STORED: "{gloss} is stored.", "{gloss} est enregistré.";
     NOTICE_UNDONE: "Undone: {what}", "Annulé : {what}";
     NOTICE_REDONE: "Done again: {what}", "Rétabli : {what}";

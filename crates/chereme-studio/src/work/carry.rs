@@ -90,6 +90,15 @@ pub(super) fn carry(
                 moving: Arc::new(moving),
             }
         }
+        Work::Measure {
+            recording,
+            piece,
+            span,
+        } => Outcome::Measured {
+            recording,
+            piece,
+            curves: Box::new(corpus.curves(recording, span)?),
+        },
     })
 }
 

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use chereme_corpus::{
-    Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Details, Error,
+    Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Curves, Details, Error,
     ExportOptions, ExportReport, ExportWhat, ImportOptions, ImportReport, Moving, Name, NewTier,
     OperationRow, Recombination, RecordingChange, SearchOptions, SignChange, SignerChange,
     Suggestions, TierChange, TierName, Unit,
@@ -93,6 +93,15 @@ pub(crate) enum Work {
     Stretch(i64, Span),
     /// Loads the movement at an address as text; none is no error.
     Original(String),
+    /// Measures a piece of movement of a recording.
+    Measure {
+        /// The recording's row.
+        recording: i64,
+        /// The piece's number.
+        piece: usize,
+        /// Its span.
+        span: Span,
+    },
 }
 
 /// What came of a piece of [`Work`].
@@ -141,6 +150,15 @@ pub(crate) enum Outcome {
     },
     /// The movement of a span, where there is some.
     Stretch(Option<Arc<Moving>>),
+    /// A piece of movement was measured.
+    Measured {
+        /// The recording's row.
+        recording: i64,
+        /// The piece's number.
+        piece: usize,
+        /// Its curves.
+        curves: Box<Curves>,
+    },
 }
 
 /// A thread with a connection of its own; what is in one lane is done in order.
@@ -156,17 +174,20 @@ pub(crate) enum Lane {
     Movement,
     /// Movement of little figures, which the stage does not wait for.
     Little,
+    /// Movement to measure.
+    Measure,
     /// Files written.
     Export,
 }
 
 impl Lane {
-    pub(crate) const ALL: [Self; 6] = [
+    pub(crate) const ALL: [Self; 7] = [
         Self::Edit,
         Self::Ask,
         Self::Make,
         Self::Movement,
         Self::Little,
+        Self::Measure,
         Self::Export,
     ];
 }
@@ -191,6 +212,7 @@ impl Work {
             Self::Preview(_) => Lane::Make,
             Self::Movement { .. } => Lane::Movement,
             Self::Stretch(..) | Self::Original(_) => Lane::Little,
+            Self::Measure { .. } => Lane::Measure,
             Self::Export(..) | Self::ExportFound(..) => Lane::Export,
         }
     }
@@ -205,7 +227,10 @@ impl Work {
             }
             Self::Recombine { .. } | Self::Preview(_) => shell::TASK_RECOMBINE,
             Self::Export(..) | Self::ExportFound(..) => shell::TASK_EXPORT,
-            Self::Movement { .. } | Self::Stretch(..) | Self::Original(_) => shell::TASK_MOVEMENT,
+            Self::Movement { .. }
+            | Self::Stretch(..)
+            | Self::Original(_)
+            | Self::Measure { .. } => shell::TASK_MOVEMENT,
             _ => shell::TASK_EDIT,
         }
     }

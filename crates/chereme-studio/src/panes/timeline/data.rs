@@ -1,6 +1,6 @@
 //! What the timeline shows, without a window: which time is where, ticks, rows, and bars.
 
-use chereme_corpus::{AnnotationColumns, TierContents, ValueState};
+use chereme_corpus::{AnnotationColumns, ValueState};
 use chereme_motion::{Instant, Span};
 
 /// How much wider than a recording the widest window is.
@@ -134,24 +134,10 @@ pub(crate) fn time_text(at: Instant) -> String {
     }
 }
 
-/// Returns how deep each tier hangs below others, in the order of the tiers.
-pub(crate) fn depths(tiers: &[TierContents]) -> Vec<usize> {
-    let parent = |id: i64| {
-        tiers
-            .iter()
-            .find(|it| it.row.id == id)
-            .and_then(|it| it.row.parent_id)
-    };
-    let depth = |tier: &TierContents| {
-        let mut above = tier.row.parent_id;
-        let mut depth = 0;
-        while let Some(id) = above.filter(|_| depth < tiers.len()) {
-            depth += 1;
-            above = parent(id);
-        }
-        depth
-    };
-    tiers.iter().map(depth).collect()
+/// Returns a length of time as people read it: `0.680 s`.
+pub(crate) fn length_text(micros: i64) -> String {
+    let millis = micros.max(0) / 1000;
+    format!("{}.{:03} s", millis / 1000, millis % 1000)
 }
 
 /// An annotation on the timeline, or several too narrow to be told apart.
@@ -221,7 +207,6 @@ pub(crate) fn value_text<'a>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chereme_corpus::TierRow;
 
     fn columns(spans: &[(i64, i64)]) -> AnnotationColumns {
         let count = spans.len();
@@ -314,24 +299,5 @@ mod tests {
         ] {
             assert_eq!(time_text(Instant::from_micros(micros)), want);
         }
-    }
-
-    #[test]
-    fn depth_follows_the_parents() {
-        let tier = |id, parent_id| TierContents {
-            row: TierRow {
-                id,
-                parent_id,
-                ..TierRow::default()
-            },
-            annotations: columns(&[]),
-        };
-        let all = [
-            tier(1, None),
-            tier(2, Some(3)),
-            tier(3, Some(1)),
-            tier(4, Some(4)),
-        ];
-        assert_eq!(depths(&all), [0, 2, 1, 4]);
     }
 }

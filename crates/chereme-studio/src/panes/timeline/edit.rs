@@ -1,160 +1,440 @@
-//! What actions do to the annotations that are selected.
+//! What actions do to annotations: each is one operation of the corpus.
 
 use std::collections::BTreeSet;
 
-use chereme_corpus::{
-    AnnotateOptions, AnnotationAction, AnnotationName, Contents, Moment, TierContents, TierName,
-};
+use chereme_corpus::{AnnotationChange, Contents, StoredInventory, TierContents};
+use chereme_motion::Span;
 
-use super::data;
+use super::editor::{Editing, Target};
+use super::hold::{self, Held, Kind};
+use super::snap::Frames;
+use super::spans::{Grip, Item};
+use super::values::{self, Choices};
+use super::{Begun, Ghost, Then, Timeline, changes};
 use crate::action::Action;
-use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::Acted;
-use crate::words::shell;
-use crate::work::Work;
+use crate::words::{shell, timeline as words};
 
-/// Does an action that is about tiers and annotations.
-pub(super) fn act(action: Action, seen: &Seen<'_>, out: &mut Outbox) -> Acted {
-    let mine = matches!(
-        action,
-        Action::NewAnnotation
-            | Action::SplitAnnotation
-            | Action::DeleteAnnotation
-            | Action::NextAnnotation
-            | Action::PreviousAnnotation
-            | Action::NextTier
-            | Action::PreviousTier
-    );
-    let contents = seen
-        .shown
-        .recording
-        .and_then(|id| seen.snapshot.contents(id));
-    let Some(contents) = contents.filter(|_| mine) else {
-        return Acted::No;
-    };
-    match action {
-        Action::NewAnnotation => add(contents, seen, out),
-        Action::SplitAnnotation => split(seen, out),
-        Action::DeleteAnnotation => delete(seen, out),
-        Action::NextAnnotation => walk(contents, seen, out, true),
-        Action::PreviousAnnotation => walk(contents, seen, out, false),
-        Action::NextTier => step_tier(contents, seen, out, 1),
-        _ => step_tier(contents, seen, out, -1),
+/// How a frame is stepped where a recording has no movement, in microseconds.
+const STEP: i64 = 40_000;
+
+/// The actions of the digits, in their order.
+pub(super) const DIGITS: [Action; 9] = [
+    Action::Value1,
+    Action::Value2,
+    Action::Value3,
+    Action::Value4,
+    Action::Value5,
+    Action::Value6,
+    Action::Value7,
+    Action::Value8,
+    Action::Value9,
+];
+
+/// The recording that is shown, with what is selected in it.
+#[derive(Clone, Copy)]
+pub(super) struct Scene<'a> {
+    pub(super) contents: &'a Contents,
+    pub(super) seen: &'a Seen<'a>,
+}
+
+impl<'a> Scene<'a> {
+    pub(super) fn of(seen: &'a Seen<'a>) -> Option<Self> {
+        let contents = seen.snapshot.contents(seen.shown.recording?)?;
+        Some(Self { contents, seen })
+    }
+
+    /// Returns the tier that edits are about: the selected one, else the first.
+    pub(super) fn tier(&self) -> Option<&'a TierContents> {
+        let tiers = &self.contents.tiers;
+        let chosen = tiers
+            .iter()
+            .find(|it| Some(it.row.id) == self.seen.shown.tier);
+        chosen.or_else(|| tiers.first())
+    }
+
+    pub(super) fn tier_of(&self, id: i64) -> Option<&'a TierContents> {
+        self.contents.tiers.iter().find(|it| it.row.id == id)
+    }
+
+    pub(super) fn playhead(&self) -> i64 {
+        self.seen.shown.player.playhead().micros()
+    }
+
+    /// Returns the frames of the recording's movement, where it has any.
+    pub(super) fn frames(&self) -> Option<Frames> {
+        let glance = self.seen.snapshot.recording(self.contents.recording.id)?;
+        let rate = glance.rate.filter(|_| glance.frames > 0)?;
+        Some(Frames {
+            rate,
+            offset: glance.offset_us,
+        })
+    }
+
+    /// Returns the start of the frame that lies `by` frames on.
+    pub(super) fn stepped(&self, micros: i64, by: i64) -> i64 {
+        match self.frames() {
+            Some(frames) => frames.stepped(micros, by),
+            None => micros + by * STEP,
+        }
+    }
+
+    pub(super) fn held(&self, chosen: &BTreeSet<i64>) -> Vec<Held> {
+        hold::held(self.contents, chosen, self.frames().is_some())
+    }
+
+    pub(super) fn inventory(&self, tier: &TierContents) -> Option<&'a StoredInventory> {
+        let all = &self.seen.snapshot.overview.inventories;
+        all.iter().find(|it| Some(it.id) == tier.row.inventory_id)
+    }
+
+    pub(super) fn choices(&self, tier: &TierContents) -> Choices {
+        let language = self.seen.language.code();
+        values::choices(tier, self.inventory(tier), language)
+    }
+
+    fn selection(&self) -> Option<(i64, i64)> {
+        let span = self.seen.shown.span?;
+        Some((span.start().micros(), span.end().micros()))
     }
 }
 
-/// Returns the tier that edits are about: the selected one, else the first.
-pub(super) fn tier<'a>(contents: &'a Contents, seen: &Seen<'_>) -> Option<&'a TierContents> {
-    let chosen = contents
-        .tiers
-        .iter()
-        .find(|it| Some(it.row.id) == seen.shown.tier);
-    chosen.or_else(|| contents.tiers.first())
+/// Does an action that changes annotations.
+pub(super) fn act(
+    timeline: &mut Timeline,
+    action: Action,
+    scene: &Scene<'_>,
+    out: &mut Outbox,
+) -> Acted {
+    let chosen = &scene.seen.shown.annotations;
+    let digit = DIGITS.iter().position(|it| *it == action);
+    match action {
+        Action::NewAnnotation => create(timeline, scene),
+        Action::BeginEndAnnotation => begin_or_end(timeline, scene, None, out),
+        Action::SplitAnnotation => split(timeline, scene, out),
+        Action::MergeAnnotation => merge(timeline, scene, out),
+        Action::EditValue if chosen.is_empty() => create(timeline, scene),
+        Action::EditValue => {
+            timeline.edit(scene, chosen.clone());
+            Acted::Yes
+        }
+        Action::StartHere => reach(timeline, scene, Grip::Start, out),
+        Action::EndHere => reach(timeline, scene, Grip::End, out),
+        Action::ToSelection => to_selection(timeline, scene, out),
+        Action::StartEarlier => nudge(timeline, scene, (Grip::Start, -1), out),
+        Action::StartLater => nudge(timeline, scene, (Grip::Start, 1), out),
+        Action::EndEarlier => nudge(timeline, scene, (Grip::End, -1), out),
+        Action::EndLater => nudge(timeline, scene, (Grip::End, 1), out),
+        Action::ShiftEarlier => nudge(timeline, scene, (Grip::Whole, -1), out),
+        Action::ShiftLater => nudge(timeline, scene, (Grip::Whole, 1), out),
+        Action::DeleteAnnotation | Action::ClearValue if chosen.is_empty() => {
+            Acted::Cannot(shell::NEEDS_ANNOTATION)
+        }
+        Action::DeleteAnnotation => {
+            let changes = changes::remove(scene.contents, chosen);
+            timeline.change(changes, Then::default(), out)
+        }
+        Action::ClearValue => timeline.change(changes::say(chosen, ""), Then::default(), out),
+        Action::CopyToTier | Action::MoveToTier if chosen.is_empty() => {
+            Acted::Cannot(shell::NEEDS_ANNOTATION)
+        }
+        Action::CopyToTier | Action::MoveToTier => {
+            timeline.choose = Some(super::choose::Choose::new(action == Action::MoveToTier));
+            Acted::Yes
+        }
+        _ => match digit {
+            Some(digit) => by_digit(timeline, scene, digit, out),
+            None => Acted::No,
+        },
+    }
 }
 
-fn change(action: AnnotationAction, out: &mut Outbox) -> Acted {
-    out.work(Work::Annotate(
-        vec![action.into()],
-        AnnotateOptions::default(),
-    ));
-    Acted::Yes
+/// Opens a new annotation on the selected time for typing; nothing is stored before it is kept.
+fn create(timeline: &mut Timeline, scene: &Scene<'_>) -> Acted {
+    let (Some(tier), Some(wanted)) = (scene.tier(), scene.selection()) else {
+        return if scene.contents.tiers.is_empty() {
+            Acted::Cannot(words::NEEDS_TIER)
+        } else {
+            Acted::Cannot(shell::NEEDS_SELECTION)
+        };
+    };
+    match hold::room(scene.contents, tier, wanted) {
+        Some(span) => {
+            timeline.edit_new(scene, tier.row.id, span);
+            Acted::Yes
+        }
+        None => Acted::Cannot(no_room(tier)),
+    }
 }
 
-fn add(contents: &Contents, seen: &Seen<'_>, out: &mut Outbox) -> Acted {
-    let (Some(tier), Some(span)) = (tier(contents, seen), seen.shown.span) else {
+/// Returns why a tier has no room.
+pub(super) fn no_room(tier: &TierContents) -> crate::words::Text {
+    match Kind::of(&tier.row) {
+        Kind::Root => words::NO_ROOM,
+        _ => words::NO_ROOM_BELOW,
+    }
+}
+
+/// Begins an annotation at the playhead, or ends the one that was begun.
+fn begin_or_end(
+    timeline: &mut Timeline,
+    scene: &Scene<'_>,
+    value: Option<&str>,
+    out: &mut Outbox,
+) -> Acted {
+    let Some(tier) = scene.tier() else {
+        return Acted::Cannot(words::NEEDS_TIER);
+    };
+    let here = scene.playhead();
+    let Some(begun) = timeline.begun.take() else {
+        timeline.begun = Some(Begun {
+            recording: scene.contents.recording.id,
+            tier: tier.row.id,
+            start: here,
+            value: value.unwrap_or_default().to_owned(),
+        });
+        return Acted::Yes;
+    };
+    let next = value.filter(|value| *value != begun.value);
+    if let Some(value) = next {
+        timeline.begun = Some(Begun {
+            start: here,
+            value: value.to_owned(),
+            ..begun.clone()
+        });
+    }
+    let Some(tier) = scene.tier_of(begun.tier) else {
+        return Acted::Cannot(words::NEEDS_TIER);
+    };
+    let wanted = (begun.start.min(here), begun.start.max(here));
+    match hold::room(scene.contents, tier, wanted) {
+        Some(span) => {
+            let add = changes::add(begun.tier, span, &begun.value);
+            timeline.change(vec![add], Then::added(begun.tier, span), out)
+        }
+        None => Acted::Cannot(no_room(tier)),
+    }
+}
+
+/// Gives the selected annotations the value of a digit; while playing on it begins or ends one with that
+/// value, and on a selection it makes one.
+fn by_digit(timeline: &mut Timeline, scene: &Scene<'_>, digit: usize, out: &mut Outbox) -> Acted {
+    let Some(tier) = scene.tier() else {
+        return Acted::Cannot(words::NEEDS_TIER);
+    };
+    let choices = scene.choices(tier);
+    let given = timeline.digits.of(tier.row.id, &choices);
+    let Some(value) = given.get(digit).cloned() else {
+        return Acted::Cannot(words::NO_DIGIT);
+    };
+    let (shown, player) = (scene.seen.shown, &scene.seen.shown.player);
+    let plays_on = player.is_playing() && player.part.is_none();
+    if plays_on || timeline.begun.is_some() {
+        return begin_or_end(timeline, scene, Some(&value), out);
+    }
+    if !shown.annotations.is_empty() {
+        return timeline.change(
+            changes::say(&shown.annotations, &value),
+            Then::default(),
+            out,
+        );
+    }
+    let Some(wanted) = scene.selection() else {
         return Acted::Cannot(shell::NEEDS_SELECTION);
     };
-    let action = AnnotationAction::Add {
-        tier: TierName::Number(tier.row.id),
-        start: Some(Moment::Time(span.start())),
-        end: Some(Moment::Time(span.end())),
-        parent: None,
-        order: None,
-        value: String::new(),
-        confidence: None,
-    };
-    change(action, out)
+    match hold::room(scene.contents, tier, wanted) {
+        Some(span) => {
+            let add = changes::add(tier.row.id, span, &value);
+            timeline.change(vec![add], Then::added(tier.row.id, span), out)
+        }
+        None => Acted::Cannot(no_room(tier)),
+    }
 }
 
-fn split(seen: &Seen<'_>, out: &mut Outbox) -> Acted {
-    let Some(annotation) = seen.shown.annotation() else {
+/// Returns the annotation that is selected alone, or else the one of the tier at the playhead.
+fn alone(scene: &Scene<'_>) -> Option<i64> {
+    scene.seen.shown.annotation().or_else(|| {
+        let tier = scene.tier()?;
+        let at = super::data::at(&tier.annotations, scene.playhead())?;
+        Some(tier.annotations.ids[at])
+    })
+}
+
+fn split(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Acted {
+    let Some(annotation) = alone(scene) else {
         return Acted::Cannot(shell::NEEDS_ANNOTATION);
     };
-    let at = Moment::Time(seen.shown.player.playhead());
-    change(
-        AnnotationAction::Split {
-            annotation: AnnotationName::Number(annotation),
-            at,
+    let found = scene.seen.snapshot.annotation(annotation);
+    let inside = found.is_some_and(|it| {
+        let span: Span = it.tier.annotations.span(it.at);
+        span.contains(scene.seen.shown.player.playhead())
+            && span.start().micros() != scene.playhead()
+    });
+    if !inside {
+        return Acted::Cannot(words::SPLIT_INSIDE);
+    }
+    let change = changes::split(annotation, scene.playhead());
+    timeline.change(vec![change], Then::default(), out)
+}
+
+fn merge(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Acted {
+    let Some(tier) = scene.tier() else {
+        return Acted::Cannot(words::NEEDS_TIER);
+    };
+    let mut chosen = scene.seen.shown.annotations.clone();
+    if chosen.is_empty() {
+        chosen.extend(alone(scene));
+    }
+    let closed = scene.inventory(tier).is_some();
+    match changes::merge(tier, &chosen, closed) {
+        Some(changes) => timeline.change(changes, Then::default(), out),
+        None => Acted::Cannot(words::NO_NEXT),
+    }
+}
+
+/// Moves a boundary of the selected annotation, or all that are selected, by frames.
+fn nudge(
+    timeline: &mut Timeline,
+    scene: &Scene<'_>,
+    (grip, frames): (Grip, i64),
+    out: &mut Outbox,
+) -> Acted {
+    let all = scene.held(&scene.seen.shown.annotations);
+    let first = all.first().and_then(first_of);
+    let Some(first) = first else {
+        return Acted::Cannot(shell::NEEDS_ANNOTATION);
+    };
+    let edge = if grip == Grip::End {
+        first.end
+    } else {
+        first.start
+    };
+    let by = scene.stepped(edge, frames) - edge;
+    drag(timeline, scene, &all, (grip, by), out)
+}
+
+/// Brings a boundary of the selected annotation to the playhead.
+fn reach(timeline: &mut Timeline, scene: &Scene<'_>, grip: Grip, out: &mut Outbox) -> Acted {
+    let chosen: BTreeSet<i64> = alone(scene).into_iter().collect();
+    let all = scene.held(&chosen);
+    let Some(first) = all.first().and_then(first_of) else {
+        return Acted::Cannot(shell::NEEDS_ANNOTATION);
+    };
+    let edge = if grip == Grip::End {
+        first.end
+    } else {
+        first.start
+    };
+    drag(timeline, scene, &all, (grip, scene.playhead() - edge), out)
+}
+
+fn first_of(held: &Held) -> Option<Item> {
+    let mut items = held.items.iter();
+    items.find(|it| held.chosen.contains(&it.id)).copied()
+}
+
+fn drag(
+    timeline: &mut Timeline,
+    scene: &Scene<'_>,
+    all: &[Held],
+    (grip, by): (Grip, i64),
+    out: &mut Outbox,
+) -> Acted {
+    if all.iter().all(|held| held.kind == Kind::Listed) {
+        return Acted::Cannot(words::NO_TIMES);
+    }
+    let mode = scene.seen.settings.timeline.mode;
+    let mut asked = Vec::new();
+    let mut ghosts = Vec::new();
+    for held in all {
+        let changed = held.dragged(grip, by, mode);
+        asked.extend(changes::respan(&held.asked(&changed)));
+        ghosts.extend(changed.iter().map(|item| Ghost::of(held.tier, item)));
+    }
+    if asked.is_empty() {
+        return Acted::Cannot(words::IN_THE_WAY);
+    }
+    timeline.change(
+        asked,
+        Then {
+            ghosts,
+            ..Then::default()
         },
         out,
     )
 }
 
-fn delete(seen: &Seen<'_>, out: &mut Outbox) -> Acted {
-    if seen.shown.annotations.is_empty() {
+/// Gives the selected annotation the selected time: its boundaries are dragged there one after the other.
+fn to_selection(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Acted {
+    let Some((start, end)) = scene.selection() else {
+        return Acted::Cannot(shell::NEEDS_SELECTION);
+    };
+    let tier = scene.tier();
+    let chosen = scene.seen.shown.annotation().or_else(|| {
+        let tier = tier?;
+        let columns = &tier.annotations;
+        let first = columns.ends.partition_point(|it| *it <= start);
+        (first < columns.len() && columns.starts[first] < end).then(|| columns.ids[first])
+    });
+    let Some(id) = chosen else {
         return Acted::Cannot(shell::NEEDS_ANNOTATION);
-    }
-    let remove = |id: &i64| {
-        AnnotationAction::Remove {
-            annotation: AnnotationName::Number(*id),
+    };
+    let mut all = scene.held(&BTreeSet::from([id]));
+    let Some(held) = all.first_mut() else {
+        return Acted::Cannot(shell::NEEDS_ANNOTATION);
+    };
+    let mode = scene.seen.settings.timeline.mode;
+    let mut asked: Vec<AnnotationChange> = Vec::new();
+    let later = first_of(held).is_some_and(|item| end > item.end);
+    let steps = if later {
+        [Grip::End, Grip::Start]
+    } else {
+        [Grip::Start, Grip::End]
+    };
+    for grip in steps {
+        let Some(item) = first_of(held) else { break };
+        let by = if grip == Grip::End {
+            end - item.end
+        } else {
+            start - item.start
+        };
+        let changed = held.dragged(grip, by, mode);
+        asked.extend(changes::respan(&held.asked(&changed)));
+        for new in changed {
+            if let Some(old) = held.items.iter_mut().find(|old| old.id == new.id) {
+                *old = new;
+            }
         }
-        .into()
-    };
-    let changes = seen.shown.annotations.iter().map(remove).collect();
-    out.work(Work::Annotate(changes, AnnotateOptions::default()));
-    Acted::Yes
-}
-
-/// Selects the annotation after or before the selected one, or the playhead, on the selected tier.
-fn walk(contents: &Contents, seen: &Seen<'_>, out: &mut Outbox, forwards: bool) -> Acted {
-    let Some(tier) = tier(contents, seen) else {
-        return Acted::Yes;
-    };
-    let columns = &tier.annotations;
-    let selected = seen
-        .shown
-        .annotation()
-        .and_then(|id| columns.ids.iter().position(|it| *it == id));
-    let playhead = seen.shown.player.playhead().micros();
-    let next = match (selected, forwards) {
-        (Some(at), true) => Some(at + 1),
-        (Some(at), false) => at.checked_sub(1),
-        (None, true) => Some(columns.starts.partition_point(|start| *start < playhead)),
-        (None, false) => columns
-            .starts
-            .partition_point(|start| *start < playhead)
-            .checked_sub(1),
-    };
-    if let Some(at) = next.filter(|at| *at < columns.len()) {
-        select(tier, at, out);
     }
-    Acted::Yes
-}
-
-/// Selects an annotation with its tier and span, and goes to its start, as ELAN does.
-pub(super) fn select(tier: &TierContents, at: usize, out: &mut Outbox) {
-    let span = tier.annotations.span(at);
-    out.send(Command::Tier(Some(tier.row.id)));
-    out.send(Command::Annotations(BTreeSet::from([
-        tier.annotations.ids[at]
-    ])));
-    out.send(Command::Span(Some(span)));
-    out.seek(span.start());
-}
-
-/// Selects the tier below or above, and what it has at the playhead.
-fn step_tier(contents: &Contents, seen: &Seen<'_>, out: &mut Outbox, by: isize) -> Acted {
-    let here = contents
-        .tiers
-        .iter()
-        .position(|it| Some(it.row.id) == seen.shown.tier);
-    let next = here.map_or(Some(0), |here| here.checked_add_signed(by));
-    if let Some(tier) = next.and_then(|next| contents.tiers.get(next)) {
-        out.send(Command::Tier(Some(tier.row.id)));
-        let playhead = seen.shown.player.playhead().micros();
-        let under = data::at(&tier.annotations, playhead).map(|at| tier.annotations.ids[at]);
-        out.send(Command::Annotations(under.into_iter().collect()));
+    if asked.is_empty() {
+        return Acted::Cannot(words::IN_THE_WAY);
     }
-    Acted::Yes
+    timeline.change(asked, Then::default(), out)
+}
+
+/// Keeps what was typed: asks for the value or the new annotation. Whether that could be asked for.
+pub(super) fn keep(timeline: &mut Timeline, editing: Editing, value: &str, out: &mut Outbox) {
+    let (changes, ghosts, select) = match &editing.target {
+        Target::Of(annotations) => (changes::say(annotations, value), Vec::new(), false),
+        Target::New { tier, start, end } => {
+            let ghost = Ghost {
+                tier: *tier,
+                id: None,
+                start: *start,
+                end: *end,
+            };
+            (
+                vec![changes::add(*tier, (*start, *end), value)],
+                vec![ghost],
+                true,
+            )
+        }
+    };
+    let then = Then {
+        select,
+        ghosts,
+        typed: Some(editing),
+    };
+    timeline.change(changes, then, out);
 }

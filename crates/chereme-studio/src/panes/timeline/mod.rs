@@ -1,16 +1,57 @@
 //! The timeline: tiers with their annotations, the selected time, and the playhead.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `data` | which time is where, ticks, bars |
+//! | `rows` | which tier stands in which row |
+//! | `spans`, `hold`, `snap` | where annotations go when they are dragged |
+//! | `changes` | what is asked of the corpus |
+//! | `values` | what can be said on a tier, and the digits |
+//! | `lanes`, `lanes_ui` | movement as lanes |
+//! | `ways` | modes and switches that are remembered |
+//! | `edit`, `select`, `tiers` | what actions do |
+//! | `ui`, `gesture`, `paint` | rows, mouse, painting |
+//! | `editor`, `choose`, `tier_box`, `bar` | the field for values, the list of tiers, one tier, the tools |
 
+pub(crate) mod bar;
+mod changes;
+mod choose;
 pub(crate) mod data;
 mod edit;
+mod editor;
+mod gesture;
+mod hold;
+pub(crate) mod lanes;
+mod lanes_ui;
 mod paint;
+mod rows;
+mod select;
+mod snap;
+mod spans;
+mod tier_box;
+mod tiers;
 mod ui;
+mod values;
+mod ways;
 
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+use chereme_corpus::AnnotateOptions;
 use chereme_motion::Span;
+use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
+use crate::command::Command;
 use crate::context::{Outbox, Seen};
+use crate::model::Opened;
 use crate::panes::{Acted, Pane};
+use crate::work::{Ended, Outcome, Work, WorkId};
 use data::Window;
+use edit::Scene;
+use editor::{Editing, Target};
+use spans::Item;
+pub(crate) use ways::Ways;
 
 /// The pane.
 #[derive(Default)]
@@ -19,14 +60,105 @@ pub(crate) struct Timeline {
     window: Option<Window>,
     /// The recording the window is of.
     of: Option<i64>,
-    /// Where dragging a selection began, in microseconds.
-    dragged_from: Option<i64>,
     /// How wide the part with annotations was last, in points.
     width: f32,
+    /// Where the playhead was last.
+    playhead: i64,
+    /// Whether the selected tier shall be brought into sight.
+    reveal: bool,
+    /// Whether it was in sight in this frame, or the last.
+    drawn: bool,
+    /// What the mouse is doing.
+    gesture: Option<gesture::Gesture>,
+    /// What was asked for and is not in the snapshot yet.
+    pending: BTreeMap<WorkId, Then>,
+    /// Annotations as they will be, until the snapshot has them.
+    ghosts: Vec<Ghost>,
+    /// The snapshot that the ghosts stand over.
+    over: usize,
+    /// Annotations to be selected as soon as they are there.
+    to_select: Option<i64>,
+    /// The annotation that was begun and not ended.
+    begun: Option<Begun>,
+    /// The value that is being typed.
+    editing: Option<Editing>,
+    digits: values::Digits,
+    choose: Option<choose::Choose>,
+    tier_box: Option<tier_box::TierBox>,
+    /// A tier that was asked for, described again where it is refused.
+    tier_asked: Option<(WorkId, tier_box::TierBox)>,
+    /// The name of a tier to be selected as soon as it is there.
+    tier_named: Option<String>,
+    curves: lanes::Curves,
+    layout: ui::Layout,
+}
+
+/// An annotation that was begun at a time and not ended.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Begun {
+    pub(crate) recording: i64,
+    pub(crate) tier: i64,
+    pub(crate) start: i64,
+    pub(crate) value: String,
+}
+
+/// An annotation as it will be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Ghost {
+    tier: i64,
+    /// Nothing for a new one.
+    id: Option<i64>,
+    start: i64,
+    end: i64,
+}
+
+impl Ghost {
+    fn of(tier: i64, item: &Item) -> Self {
+        Self {
+            tier,
+            id: Some(item.id),
+            start: item.start,
+            end: item.end,
+        }
+    }
+}
+
+/// What is to happen when work has ended.
+#[derive(Debug, Clone, Default)]
+struct Then {
+    /// Select what was added.
+    select: bool,
+    /// What it will look like.
+    ghosts: Vec<Ghost>,
+    /// What was typed for it; put back where it is refused.
+    typed: Option<Editing>,
+}
+
+impl Then {
+    fn added(tier: i64, (start, end): (i64, i64)) -> Self {
+        Self {
+            select: true,
+            ghosts: vec![Ghost {
+                tier,
+                id: None,
+                start,
+                end,
+            }],
+            typed: None,
+        }
+    }
+}
+
+/// What is half done: put back when the corpus is opened again.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Draft {
+    pub(crate) editing: Option<Editing>,
+    pub(crate) begun: Option<Begun>,
 }
 
 impl Timeline {
-    /// Returns what is to be seen of `whole` in `width` points.
+    /// Returns what of `whole` is to be seen in `width` points.
     fn window(&self, whole: Span, width: f32) -> Window {
         self.window.unwrap_or_else(|| Window::whole(whole, width))
     }
@@ -37,10 +169,84 @@ impl Timeline {
         let around = player.playhead().micros() as f64;
         self.window = Some(window.zoomed(factor, around, player.whole, self.width));
     }
+
+    /// Asks for changes as one operation.
+    fn change(
+        &mut self,
+        changes: Vec<chereme_corpus::AnnotationChange>,
+        then: Then,
+        out: &mut Outbox,
+    ) -> Acted {
+        self.ghosts.extend_from_slice(&then.ghosts);
+        let id = out.work(Work::Annotate(changes, AnnotateOptions::default()));
+        self.pending.insert(id, then);
+        Acted::Yes
+    }
+
+    /// Opens the value of annotations for typing.
+    fn edit(&mut self, scene: &Scene<'_>, annotations: BTreeSet<i64>) {
+        let found = annotations
+            .first()
+            .and_then(|id| scene.seen.snapshot.annotation(*id));
+        let text = found.map(|it| changes::typed(&it.tier.annotations, it.at));
+        let recording = scene.contents.recording.id;
+        let target = Target::Of(annotations);
+        self.editing = Some(Editing::new(recording, target, text.unwrap_or_default()));
+    }
+
+    /// Opens the value of an annotation that is not there yet.
+    fn edit_new(&mut self, scene: &Scene<'_>, tier: i64, (start, end): (i64, i64)) {
+        let recording = scene.contents.recording.id;
+        let target = Target::New { tier, start, end };
+        self.editing = Some(Editing::new(recording, target, String::new()));
+    }
+
+    /// Returns whether a value is being typed, so that letters are no keys.
+    pub(crate) fn is_typing(&self) -> bool {
+        let open = self.editing.is_some() || self.choose.is_some() || self.tier_box.is_some();
+        open && self.drawn
+    }
+
+    /// A frame begins, in which the pane may or may not be in sight.
+    pub(crate) fn next_frame(&mut self) {
+        self.drawn = false;
+    }
+
+    /// Returns what is half done, or was typed and is not stored yet.
+    pub(crate) fn draft(&self) -> Option<Draft> {
+        let typed = self.pending.values().rev().find_map(|it| it.typed.clone());
+        let draft = Draft {
+            editing: self.editing.clone().or(typed),
+            begun: self.begun.clone(),
+        };
+        (draft != Draft::default()).then_some(draft)
+    }
+
+    /// Returns the recording in which something is half done.
+    pub(crate) fn wants(&self) -> Option<i64> {
+        let typed = self.editing.as_ref().map(|it| it.recording);
+        typed.or(self.begun.as_ref().map(|it| it.recording))
+    }
+
+    /// Puts what was half done back.
+    pub(crate) fn restore(&mut self, draft: Draft) {
+        self.editing = draft.editing.map(Editing::again);
+        self.begun = draft.begun;
+    }
+
+    /// Forgets the ghosts when the snapshot has what they stood for.
+    fn settle(&mut self, open: Option<&Arc<Opened>>) {
+        let now = open.map_or(0, |open| Arc::as_ptr(open) as usize);
+        if self.over != now && self.pending.is_empty() {
+            self.over = now;
+            self.ghosts.clear();
+        }
+    }
 }
 
 impl Pane for Timeline {
     fn ui(&mut self, ui: &mut eframe::egui::Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        self.drawn = true;
         ui::show(self, ui, seen, out);
     }
 
@@ -49,8 +255,51 @@ impl Pane for Timeline {
             Action::ZoomIn => self.zoom(0.6, seen),
             Action::ZoomOut => self.zoom(1.0 / 0.6, seen),
             Action::ZoomAll => self.window = None,
-            other => return edit::act(other, seen, out),
+            other => {
+                if let Some(ways) = seen.settings.timeline.after(other) {
+                    ways::change(seen, out, ways);
+                    return Acted::Yes;
+                }
+                let Some(scene) = Scene::of(seen) else {
+                    return Acted::No;
+                };
+                let acted = [select::act, edit::act, tiers::act]
+                    .into_iter()
+                    .map(|act| act(self, other, &scene, out))
+                    .find(|acted| *acted != Acted::No);
+                let open =
+                    self.editing.is_some() || self.choose.is_some() || self.tier_box.is_some();
+                if open && !self.drawn {
+                    out.send(Command::Do(Action::ShowTimeline));
+                }
+                return acted.unwrap_or(Acted::No);
+            }
         }
         Acted::Yes
+    }
+
+    fn hear(&mut self, id: WorkId, ended: &Ended) {
+        self.curves.hear(id, ended);
+        if let Some((_, tier)) = self.tier_asked.take_if(|(asked, _)| *asked == id) {
+            match ended {
+                Ok(_) => self.tier_named = tier.added(),
+                Err(_) => self.tier_box = Some(tier),
+            }
+        }
+        let Some(then) = self.pending.remove(&id) else {
+            return;
+        };
+        match ended {
+            Ok(Outcome::Annotated(report)) if then.select => {
+                self.to_select = report.annotations.first().copied();
+            }
+            Ok(_) => {}
+            Err(_) => {
+                self.ghosts.clear();
+                if let (Some(typed), None) = (then.typed, &self.editing) {
+                    self.editing = Some(typed.again());
+                }
+            }
+        }
     }
 }

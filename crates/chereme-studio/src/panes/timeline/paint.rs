@@ -1,10 +1,15 @@
 //! The parts of the timeline that are painted: ruler, bars, selection, playhead.
 
 use chereme_corpus::{TierContents, ValueState};
-use chereme_motion::Span;
-use eframe::egui::{Align2, FontId, Painter, Pos2, Rect, Rgba, Stroke, StrokeKind, pos2, vec2};
+use chereme_motion::{Instant, Span};
+use eframe::egui::{
+    Align2, Color32, FontId, Painter, Pos2, Rect, Response, Rgba, Shape, Stroke, StrokeKind, Ui,
+    pos2, vec2,
+};
 
 use super::data::{self, Bar, Window};
+use super::gesture::Sight;
+use super::snap::Catch;
 use crate::context::Seen;
 use crate::words::timeline as words;
 
@@ -59,28 +64,28 @@ pub(super) fn bar_text(tier: &TierContents, bar: &Bar, seen: &Seen<'_>) -> Strin
     data::value_text(&tier.annotations, bar.at, missing).to_owned()
 }
 
-/// Paints a bar into `rect`.
+/// Paints a bar into `rect`, faintly where it is being dragged.
 pub(super) fn bar(
     painter: &Painter,
     rect: Rect,
     (tier, bar): (&TierContents, &Bar),
     seen: &Seen<'_>,
-    font: &FontId,
+    (font, faint): (&FontId, bool),
 ) {
     let colours = seen.colours();
     let id = tier.annotations.ids[bar.at];
     let chosen = bar.count == 1 && seen.shown.annotations.contains(&id);
     let missing = bar.count == 1 && tier.annotations.states[bar.at] != ValueState::Value;
     let colour = colours.role(&tier.row.role);
-    let fill = if missing {
-        colour.gamma_multiply(0.35)
-    } else {
-        colour
+    let fill = match (faint, missing) {
+        (true, _) => colour.gamma_multiply(0.15),
+        (_, true) => colour.gamma_multiply(0.35),
+        _ => colour,
     };
-    let (width, edge) = if chosen {
-        (2.5, colours.playhead)
-    } else {
-        (1.0, darker(colour))
+    let (width, edge) = match (faint, chosen) {
+        (true, _) => (1.0, colours.rule),
+        (_, true) => (2.5, colours.playhead),
+        _ => (1.0, darker(colour)),
     };
     if rect.width() < 4.0 && !chosen {
         painter.rect_filled(rect, 0.0, fill);
@@ -93,24 +98,161 @@ pub(super) fn bar(
         Stroke::new(width, edge),
         StrokeKind::Inside,
     );
+    if chosen && !faint && rect.width() > 16.0 {
+        grips(painter, rect, edge);
+    }
     let text = bar_text(tier, bar, seen);
-    if rect.width() >= TEXT && !text.is_empty() {
+    if rect.width() >= TEXT && !text.is_empty() && !faint {
         let ink = if missing {
             painter.ctx().global_style().visuals.text_color()
         } else {
             colours.on_annotation
         };
-        let clip = rect.shrink2(vec2(2.0, 0.0)).intersect(painter.clip_rect());
-        let at: Pos2 = pos2(
-            rect.left().max(painter.clip_rect().left()) + 4.0,
-            rect.center().y,
-        );
-        let painter = painter.with_clip_rect(clip);
-        painter.text(at, Align2::LEFT_CENTER, text, font.clone(), ink);
+        inside(painter, rect, text, font, ink);
     }
 }
 
-fn darker(colour: eframe::egui::Color32) -> eframe::egui::Color32 {
+/// Paints text into a bar, at its start or where the bar comes into sight.
+fn inside(painter: &Painter, rect: Rect, text: String, font: &FontId, ink: Color32) {
+    let clip = rect.shrink2(vec2(2.0, 0.0)).intersect(painter.clip_rect());
+    let left = rect.left().max(painter.clip_rect().left()) + 5.0;
+    let painter = painter.with_clip_rect(clip);
+    painter.text(
+        pos2(left, rect.center().y),
+        Align2::LEFT_CENTER,
+        text,
+        font.clone(),
+        ink,
+    );
+}
+
+/// Paints where the edges of a selected annotation are taken hold of.
+fn grips(painter: &Painter, rect: Rect, colour: Color32) {
+    for side in [rect.left() + 1.5, rect.right() - 4.5] {
+        let grip = Rect::from_x_y_ranges(side..=side + 3.0, rect.top() + 5.0..=rect.bottom() - 5.0);
+        painter.rect_filled(grip, 1.5, colour);
+    }
+}
+
+/// Paints which annotation has the focus of the keyboard.
+pub(super) fn focus(painter: &Painter, rect: Rect, seen: &Seen<'_>) {
+    let stroke = Stroke::new(2.0, seen.colours().accent);
+    painter.rect_stroke(rect.expand(1.0), 3.0, stroke, StrokeKind::Outside);
+}
+
+/// Paints an annotation as it will be, in the row `row`.
+pub(super) fn ghost(
+    painter: &Painter,
+    row: Rect,
+    window: &Window,
+    (start, end): (i64, i64),
+    (tier, text, refused): (&TierContents, String, bool),
+    (seen, font): (&Seen<'_>, &FontId),
+) {
+    let bar = Bar {
+        at: 0,
+        count: 1,
+        start,
+        end,
+    };
+    let rect = bar_rect(row, window, &bar);
+    let colours = seen.colours();
+    let (fill, edge) = if refused {
+        (colours.trouble.gamma_multiply(0.25), colours.trouble)
+    } else {
+        (
+            colours.role(&tier.row.role).gamma_multiply(0.8),
+            colours.playhead,
+        )
+    };
+    painter.rect(rect, 3.0, fill, Stroke::new(2.0, edge), StrokeKind::Inside);
+    if rect.width() >= TEXT && !text.is_empty() {
+        inside(painter, rect, text, font, colours.on_annotation);
+    }
+}
+
+/// Paints the frame of a selection, where a time settled, and the times of what is dragged.
+pub(super) fn sight(
+    painter: &Painter,
+    lane: Rect,
+    window: &Window,
+    (sight, at): (&Sight, Option<Pos2>),
+    seen: &Seen<'_>,
+) {
+    let colours = seen.colours();
+    if let Some(band) = sight.band {
+        let fill = colours.selection.gamma_multiply(0.35);
+        painter.rect(
+            band,
+            0.0,
+            fill,
+            Stroke::new(1.0, colours.accent),
+            StrokeKind::Inside,
+        );
+    }
+    if let Some((time, catch)) = sight.caught.filter(|(_, catch)| *catch != Catch::Frame) {
+        let x = lane.left() + window.x(time as f64);
+        let colour = if catch == Catch::Minimum {
+            colours.good
+        } else {
+            colours.accent
+        };
+        let line = [pos2(x, lane.top()), pos2(x, lane.bottom())];
+        let dashes = Shape::dashed_line(&line, Stroke::new(1.5, colour), 5.0, 3.0);
+        painter.extend(dashes);
+    }
+    if let (Some((start, end)), Some(at)) = (sight.told, at) {
+        times(painter, lane, (start, end), at, seen);
+    }
+}
+
+/// Paints from when to when, and how long, above the pointer.
+fn times(painter: &Painter, lane: Rect, (start, end): (i64, i64), at: Pos2, seen: &Seen<'_>) {
+    let visuals = painter.ctx().global_style().visuals.clone();
+    let time = |micros| data::time_text(Instant::from_micros(micros));
+    let text = format!(
+        "{} – {}  ·  {}",
+        time(start),
+        time(end),
+        data::length_text(end - start)
+    );
+    let font = FontId::proportional(12.5);
+    let galley = painter.layout_no_wrap(text, font, visuals.text_color());
+    let size = galley.size() + vec2(12.0, 6.0);
+    let most = (lane.right() - size.x).max(lane.left());
+    let left = (at.x + 12.0).clamp(lane.left(), most);
+    let above = at.y - size.y - 14.0;
+    let top = if above < lane.top() {
+        at.y + 20.0
+    } else {
+        above
+    };
+    let rect = Rect::from_min_size(pos2(left, top), size);
+    painter.rect(
+        rect,
+        4.0,
+        visuals.window_fill,
+        Stroke::new(1.0, seen.colours().rule),
+        StrokeKind::Outside,
+    );
+    painter.galley(rect.min + vec2(6.0, 3.0), galley, visuals.text_color());
+}
+
+/// Paints the fold before a tier that others hang below.
+pub(super) fn fold(ui: &Ui, rect: Rect, folded: bool, response: &Response) {
+    let colour = ui.style().interact(response).fg_stroke.color;
+    let (centre, r) = (rect.center(), 3.5);
+    let points = if folded {
+        vec![vec2(-r * 0.7, -r), vec2(r, 0.0), vec2(-r * 0.7, r)]
+    } else {
+        vec![vec2(-r, -r * 0.7), vec2(r, -r * 0.7), vec2(0.0, r)]
+    };
+    let points = points.into_iter().map(|by| centre + by).collect();
+    ui.painter()
+        .add(Shape::convex_polygon(points, colour, Stroke::NONE));
+}
+
+fn darker(colour: Color32) -> Color32 {
     (Rgba::from(colour) * 0.55).into()
 }
 
@@ -143,9 +285,5 @@ pub(super) fn playhead(painter: &Painter, rect: Rect, window: &Window, seen: &Se
     painter.vline(x, rect.y_range(), Stroke::new(1.5, colour));
     let top = rect.top();
     let head = vec![pos2(x - 5.0, top), pos2(x + 5.0, top), pos2(x, top + 7.0)];
-    painter.add(eframe::egui::Shape::convex_polygon(
-        head,
-        colour,
-        Stroke::NONE,
-    ));
+    painter.add(Shape::convex_polygon(head, colour, Stroke::NONE));
 }

@@ -1,14 +1,20 @@
-//! The timeline's widgets: the ruler and the rows, and what the mouse does on them.
+//! The timeline's widgets: the tools, the ruler, and the rows.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use chereme_corpus::Contents;
-use chereme_motion::{Instant, Span};
+use chereme_motion::Instant;
 use eframe::egui::{
-    Align2, Color32, FontId, Id, Rect, Response, Role, ScrollArea, Sense, TextStyle, Ui,
+    Align2, Color32, FontId, Id, Rangef, Rect, Response, Role, ScrollArea, Sense, TextStyle, Ui,
     WidgetInfo, pos2, vec2,
 };
 
 use super::data::{self, Window, time_text};
-use super::{Timeline, edit, paint};
+use super::edit::Scene;
+use super::rows::Row;
+use super::{Ghost, Timeline, bar, choose, editor, paint, select, tier_box};
+use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::{fill, timeline as words};
@@ -19,30 +25,75 @@ const NAMES_SHARE: f32 = 0.35;
 const INDENT: f32 = 12.0;
 const ROW: f32 = 26.0;
 const RULER: f32 = 22.0;
-/// How many annotations of a row are widgets of their own, for the keyboard and for assistive tools.
-const NAMED: usize = 200;
+/// Annotations at least this wide are widgets of their own, for the keyboard and for assistive tools.
+const NAMED: f32 = 8.0;
+
+/// Where rows are, kept from frame to frame.
+#[derive(Debug, Default)]
+pub(super) struct Layout {
+    /// The tiers in sight, by their place in the recording's list, and where they are.
+    pub(super) rows: Vec<(usize, Rangef)>,
+    /// The rows that there are, for a snapshot and the names that are folded and hidden.
+    all: Vec<Row>,
+    of: Option<(usize, BTreeSet<String>, BTreeSet<String>)>,
+    names: f32,
+    /// How far the rows are scrolled.
+    top: f32,
+}
+
+impl Layout {
+    /// Returns the tier whose row holds `y`.
+    pub(super) fn tier_at(&self, y: f32) -> Option<usize> {
+        let found = self.rows.iter().find(|(_, range)| range.contains(y));
+        found.map(|(tier, _)| *tier)
+    }
+
+    /// Finds rows and the width of names anew where the snapshot, the ways or the pane changed.
+    fn update(&mut self, ui: &Ui, contents: &Contents, seen: &Seen<'_>) {
+        let ways = &seen.settings.timeline;
+        let open = seen.snapshot.open.as_ref();
+        let now = open.map_or(0, |open| Arc::as_ptr(open) as usize);
+        let same = self.of.as_ref().is_some_and(|(of, folded, hidden)| {
+            *of == now && *folded == ways.folded && *hidden == ways.hidden
+        });
+        if same {
+            return;
+        }
+        self.all = select::shown_rows(contents, seen);
+        self.of = Some((now, ways.folded.clone(), ways.hidden.clone()));
+        let font = TextStyle::Body.resolve(ui.style());
+        let widths = self.all.iter().map(|row| {
+            let name = contents.tiers[row.tier].row.name.clone();
+            let text = ui
+                .painter()
+                .layout_no_wrap(name, font.clone(), Color32::WHITE);
+            text.size().x + 34.0 + INDENT * row.depth as f32
+        });
+        self.names = widths.fold(NAMES, f32::max);
+    }
+}
 
 pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     let Some(recording) = seen.shown.recording else {
         ui.label(seen.say(words::NO_RECORDING));
         return;
     };
-    let Some(contents) = seen.snapshot.contents(recording) else {
+    let Some(scene) = Scene::of(seen) else {
         ui.spinner();
         return;
     };
     if timeline.of != Some(recording) {
-        (timeline.of, timeline.window) = (Some(recording), None);
+        (timeline.of, timeline.window, timeline.gesture) = (Some(recording), None, None);
     }
-    let names = names_width(ui, contents);
+    follow_up(timeline, &scene, out);
+    ui.spacing_mut().item_spacing.y = 2.0;
+    bar::show(ui, &scene, out);
+    timeline.layout.update(ui, scene.contents, seen);
+    let most = (ui.available_width() * NAMES_SHARE).max(NAMES);
+    let names = timeline.layout.names.min(most);
     let width = (ui.available_width() - names).max(40.0);
     timeline.width = width;
-    let player = &seen.shown.player;
-    let mut window = timeline.window(player.whole, width);
-    if player.is_playing() && timeline.window.is_some() {
-        window = window.following(player.playhead().micros() as f64, player.whole, width);
-        timeline.window = Some(window);
-    }
+    let window = follow(timeline, &scene, width);
     ui.spacing_mut().item_spacing.y = 0.0;
     let mut frame = Drawing {
         timeline,
@@ -52,38 +103,75 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
         out,
     };
     frame.ruler(ui);
-    if contents.tiers.is_empty() {
-        ui.add_space(8.0);
-        ui.label(seen.say(words::EMPTY));
-        return;
+    frame.lanes(ui, &scene);
+    if scene.contents.tiers.is_empty() {
+        frame.empty(ui);
+    } else {
+        frame.rows(ui, scene.contents);
     }
-    frame.rows(ui, contents);
+    choose::show(timeline, ui, &scene, out);
+    tier_box::show(timeline, ui, &scene, out);
 }
 
-/// Returns how wide the column of names is: as wide as the widest, within bounds.
-fn names_width(ui: &Ui, contents: &Contents) -> f32 {
-    let font = TextStyle::Body.resolve(ui.style());
-    let depths = data::depths(&contents.tiers);
-    let widths = contents.tiers.iter().zip(&depths).map(|(tier, depth)| {
-        let name = tier.row.name.clone();
-        let text = ui
-            .painter()
-            .layout_no_wrap(name, font.clone(), Color32::WHITE);
-        text.size().x + 20.0 + INDENT * *depth as f32
-    });
-    let most = (ui.available_width() * NAMES_SHARE).max(NAMES);
-    widths.fold(NAMES, f32::max).min(most)
+/// Selects what was added, and lets go of what the snapshot has.
+fn follow_up(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) {
+    timeline.settle(scene.seen.snapshot.open.as_ref());
+    let there = |id: &i64| scene.seen.snapshot.annotation(*id).is_some();
+    if let Some(id) = timeline.to_select.filter(there) {
+        timeline.to_select = None;
+        out.send(Command::Annotations(BTreeSet::from([id])));
+    }
+    if let Some(name) = &timeline.tier_named {
+        let tiers = &scene.contents.tiers;
+        let id = tiers
+            .iter()
+            .find(|it| it.row.name == *name)
+            .map(|it| it.row.id);
+        if id.is_some() && scene.seen.shown.tier == id {
+            (timeline.tier_named, timeline.reveal) = (None, true);
+        } else if id.is_some() {
+            out.send(Command::Tier(id));
+        }
+    }
+    let recording = scene.contents.recording.id;
+    timeline.begun.take_if(|it| it.recording != recording);
 }
 
-struct Drawing<'a, 'b> {
-    timeline: &'a mut Timeline,
-    window: Window,
-    names: f32,
-    seen: &'a Seen<'b>,
-    out: &'a mut Outbox,
+/// Returns what of the recording is to be seen: a page on, where the playhead left it.
+fn follow(timeline: &mut Timeline, scene: &Scene<'_>, width: f32) -> Window {
+    let player = &scene.seen.shown.player;
+    let (whole, playhead) = (player.whole, scene.playhead());
+    let moved = std::mem::replace(&mut timeline.playhead, playhead) != playhead;
+    let mut window = timeline.window(whole, width);
+    if moved && timeline.window.is_some() && timeline.gesture.is_none() {
+        window = window.following(playhead as f64, whole, width);
+        timeline.window = Some(window);
+    }
+    window
+}
+
+pub(super) struct Drawing<'a, 'b> {
+    pub(super) timeline: &'a mut Timeline,
+    pub(super) window: Window,
+    pub(super) names: f32,
+    pub(super) seen: &'a Seen<'b>,
+    pub(super) out: &'a mut Outbox,
 }
 
 impl Drawing<'_, '_> {
+    fn empty(&mut self, ui: &mut Ui) {
+        ui.add_space(8.0);
+        ui.label(self.seen.say(words::EMPTY));
+        let name = self.seen.say(Action::AddTier.row().name);
+        let button = ui.button(name);
+        if button
+            .on_hover_text(self.seen.keys.text(Action::AddTier))
+            .clicked()
+        {
+            self.out.send(Command::Do(Action::AddTier));
+        }
+    }
+
     fn ruler(&mut self, ui: &mut Ui) {
         let size = vec2(ui.available_width(), RULER);
         let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
@@ -115,18 +203,30 @@ impl Drawing<'_, '_> {
     }
 
     fn rows(&mut self, ui: &mut Ui, contents: &Contents) {
-        let depths = data::depths(&contents.tiers);
         let area = ui.available_rect_before_wrap();
-        let count = contents.tiers.len();
-        ScrollArea::vertical()
-            .auto_shrink(false)
-            .show_rows(ui, ROW, count, |ui, range| {
-                for at in range {
-                    self.row(ui, contents, at, depths[at]);
-                }
-            });
+        let all = std::mem::take(&mut self.timeline.layout.all);
+        self.timeline.layout.rows.clear();
+        let ghosts = std::mem::take(&mut self.timeline.ghosts);
+        let mut moving: BTreeSet<i64> = ghosts.iter().filter_map(|ghost| ghost.id).collect();
+        if let Some(gesture) = &self.timeline.gesture {
+            moving.extend(gesture.moving());
+        }
+        let mut scroll = ScrollArea::vertical().auto_shrink(false);
+        if let Some(offset) = self.reveal(&all, contents, area.height()) {
+            scroll = scroll.vertical_scroll_offset(offset);
+        }
+        let shown = scroll.show_rows(ui, ROW, all.len(), |ui, range| {
+            for (at, row) in all[range.clone()].iter().enumerate() {
+                self.row(ui, contents, (range.start + at, row), &moving);
+            }
+        });
+        self.timeline.layout.top = shown.state.clamped_offset().y;
+        self.timeline.layout.all = all;
+        self.timeline.ghosts = ghosts;
+        let sight = self.gesture(ui, contents, area);
         let lane = area.with_min_x(area.left() + self.names);
         let painter = ui.painter_at(lane);
+        self.overlay(ui, contents, lane, &sight);
         let x = lane.left()
             + self
                 .window
@@ -134,26 +234,164 @@ impl Drawing<'_, '_> {
         let stroke = eframe::egui::Stroke::new(1.5, self.seen.colours().playhead);
         painter.vline(x, lane.y_range(), stroke);
         self.wheel(ui, lane);
+        self.editor(ui, contents, lane);
     }
 
-    fn row(&mut self, ui: &mut Ui, contents: &Contents, at: usize, depth: usize) {
-        let tier = &contents.tiers[at];
-        let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
-        let chosen = edit::tier(contents, self.seen).is_some_and(|it| it.row.id == tier.row.id);
-        let colours = self.seen.colours();
-        if at % 2 == 1 {
-            ui.painter().rect_filled(rect, 0.0, colours.stripe);
+    /// Returns how far to scroll so that the selected tier is in sight, where that was asked for.
+    fn reveal(&mut self, all: &[Row], contents: &Contents, height: f32) -> Option<f32> {
+        if !std::mem::take(&mut self.timeline.reveal) {
+            return None;
         }
-        let name = rect.with_max_x(rect.left() + self.names - 4.0);
+        let is = |row: &Row| Some(contents.tiers[row.tier].row.id) == self.seen.shown.tier;
+        let at = all.iter().position(is)? as f32 * ROW;
+        let top = self.timeline.layout.top;
+        if at < top {
+            Some(at)
+        } else if at + ROW > top + height {
+            Some(at + ROW - height)
+        } else {
+            None
+        }
+    }
+
+    /// Paints what is not in the snapshot: annotations as they will be, and what is being dragged.
+    fn overlay(&mut self, ui: &Ui, contents: &Contents, lane: Rect, sight: &super::gesture::Sight) {
+        let painter = ui.painter_at(lane);
+        let font = TextStyle::Body.resolve(ui.style());
+        let mut all: Vec<(Ghost, bool)> = Vec::new();
+        if sight.ghosts.is_empty() {
+            all.extend(self.timeline.ghosts.iter().map(|ghost| (*ghost, false)));
+        }
+        all.extend(sight.ghosts.iter().map(|ghost| (*ghost, sight.refused)));
+        if let Some(ghost) = self.new_ghost(contents) {
+            all.push((ghost, false));
+        }
+        for (ghost, refused) in &all {
+            let row = self.timeline.layout.rows.iter().find(|(at, _)| {
+                contents
+                    .tiers
+                    .get(*at)
+                    .is_some_and(|tier| tier.row.id == ghost.tier)
+            });
+            let Some((at, y)) = row else { continue };
+            let text = ghost.id.and_then(|id| self.seen.snapshot.annotation(id));
+            let text = text.map(|it| super::changes::typed(&it.tier.annotations, it.at));
+            let row = Rect::from_x_y_ranges(lane.x_range(), *y);
+            let tier = &contents.tiers[*at];
+            let what = (tier, text.unwrap_or_default(), *refused);
+            let span = (ghost.start, ghost.end);
+            paint::ghost(&painter, row, &self.window, span, what, (self.seen, &font));
+        }
+        let at = ui.input(|input| input.pointer.latest_pos());
+        paint::sight(&painter, lane, &self.window, (sight, at), self.seen);
+    }
+
+    /// Returns the annotation that is being typed or made while playing.
+    fn new_ghost(&self, contents: &Contents) -> Option<Ghost> {
+        let scene = Scene {
+            contents,
+            seen: self.seen,
+        };
+        if let Some(begun) = &self.timeline.begun {
+            let here = scene.playhead();
+            return Some(Ghost {
+                tier: begun.tier,
+                id: None,
+                start: begun.start.min(here),
+                end: begun.start.max(here),
+            });
+        }
+        let editing = self.timeline.editing.as_ref()?;
+        match editing.target {
+            editor::Target::New { tier, start, end } => Some(Ghost {
+                tier,
+                id: None,
+                start,
+                end,
+            }),
+            editor::Target::Of(_) => None,
+        }
+    }
+
+    fn editor(&mut self, ui: &mut Ui, contents: &Contents, lane: Rect) {
+        let scene = Scene {
+            contents,
+            seen: self.seen,
+        };
+        let Some(editing) = &self.timeline.editing else {
+            return;
+        };
+        let span = editing.span(&scene).unwrap_or_default();
+        let tier = editing.tier(&scene).map(|tier| tier.row.id);
+        let row = self
+            .timeline
+            .layout
+            .rows
+            .iter()
+            .find(|(at, _)| contents.tiers.get(*at).map(|tier| tier.row.id) == tier);
+        let y = row.map_or(Rangef::point(lane.bottom()), |(_, y)| *y);
+        let x =
+            (lane.left() + self.window.x(span.0 as f64)).clamp(lane.left(), lane.right() - 40.0);
+        let below = Rect::from_x_y_ranges(x..=x + 1.0, y);
+        editor::show(self.timeline, ui, &scene, below, self.out);
+    }
+
+    fn row(
+        &mut self,
+        ui: &mut Ui,
+        contents: &Contents,
+        (number, row): (usize, &Row),
+        moving: &BTreeSet<i64>,
+    ) {
+        let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
+        self.timeline.layout.rows.push((row.tier, rect.y_range()));
+        if number % 2 == 1 {
+            ui.painter()
+                .rect_filled(rect, 0.0, self.seen.colours().stripe);
+        }
+        self.header(
+            ui,
+            contents,
+            row,
+            rect.with_max_x(rect.left() + self.names - 4.0),
+        );
+        self.lane(
+            ui,
+            contents,
+            row.tier,
+            rect.with_min_x(rect.left() + self.names),
+            moving,
+        );
+    }
+
+    /// The name of a tier, with the fold before it and a menu behind the other button.
+    fn header(&mut self, ui: &mut Ui, contents: &Contents, row: &Row, name: Rect) {
+        let tier = &contents.tiers[row.tier];
+        let scene = Scene {
+            contents,
+            seen: self.seen,
+        };
+        let chosen = scene.tier().is_some_and(|it| it.row.id == tier.row.id);
         let label = fill(self.seen.say(words::TIER), &[("name", &tier.row.name)]);
         let response = ui.interact(name, Id::unique(("tier", tier.row.id)), Sense::click());
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &label));
         if response.clicked() {
             self.out.send(Command::Tier(Some(tier.row.id)));
         }
+        self.header_menu(&response, tier.row.id);
+        let colours = self.seen.colours();
         if chosen {
             let mark = name.with_max_x(name.left() + 3.0);
             ui.painter().rect_filled(mark, 0.0, colours.accent);
+        }
+        if response.has_focus() {
+            let stroke = eframe::egui::Stroke::new(1.5, colours.accent);
+            ui.painter().rect_stroke(
+                name.shrink(1.0),
+                3.0,
+                stroke,
+                eframe::egui::StrokeKind::Inside,
+            );
         }
         let visuals = ui.style().interact_selectable(&response, chosen);
         let text = if chosen {
@@ -161,21 +399,79 @@ impl Drawing<'_, '_> {
         } else {
             visuals.text_color()
         };
-        let from = pos2(name.left() + 8.0 + INDENT * depth as f32, name.center().y);
+        let left = name.left() + 6.0 + INDENT * row.depth as f32;
+        if row.has_below {
+            self.fold(
+                ui,
+                row,
+                (tier.row.id, &tier.row.name),
+                Rect::from_x_y_ranges(left..=left + 14.0, name.y_range()),
+            );
+        }
+        let from = pos2(left + 15.0, name.center().y);
         let font = TextStyle::Body.resolve(ui.style());
-        ui.painter_at(name)
-            .text(from, Align2::LEFT_CENTER, &tier.row.name, font, text);
-        let lane = rect.with_min_x(rect.left() + self.names);
-        self.lane(ui, contents, at, lane);
+        let text = ui.painter_at(name.shrink2(vec2(2.0, 0.0))).text(
+            from,
+            Align2::LEFT_CENTER,
+            &tier.row.name,
+            font,
+            text,
+        );
+        if text.right() > name.right() - 2.0 {
+            response.on_hover_text(&tier.row.name);
+        }
     }
 
-    fn lane(&mut self, ui: &mut Ui, contents: &Contents, at: usize, lane: Rect) {
+    fn fold(&mut self, ui: &mut Ui, row: &Row, (id, name): (i64, &str), rect: Rect) {
+        let words = if row.folded {
+            words::UNFOLD
+        } else {
+            words::FOLD
+        };
+        let label = fill(self.seen.say(words), &[("name", &name)]);
+        let response = ui.interact(rect, Id::unique(("fold", id)), Sense::click());
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
+        if response.clicked() {
+            self.out.send(Command::Tier(Some(id)));
+            self.out.send(Command::Do(Action::FoldTier));
+        }
+        paint::fold(ui, rect, row.folded, &response);
+    }
+
+    fn header_menu(&mut self, response: &Response, tier: i64) {
+        const EDIT: [Action; 3] = [Action::AddTier, Action::ChangeTier, Action::RemoveTier];
+        const SHOW: [Action; 4] = [
+            Action::TierUp,
+            Action::TierDown,
+            Action::HideTier,
+            Action::SelectOnTier,
+        ];
+        if response.secondary_clicked() {
+            self.out.send(Command::Tier(Some(tier)));
+        }
+        response.context_menu(|ui| {
+            bar::actions(ui, self.seen, &EDIT, self.out);
+            ui.separator();
+            bar::actions(ui, self.seen, &SHOW, self.out);
+        });
+    }
+
+    fn lane(
+        &mut self,
+        ui: &mut Ui,
+        contents: &Contents,
+        at: usize,
+        lane: Rect,
+        moving: &BTreeSet<i64>,
+    ) {
         let tier = &contents.tiers[at];
         let response = ui.interact(
             lane,
             Id::unique(("lane", tier.row.id)),
             Sense::click_and_drag(),
         );
+        let label = fill(self.seen.say(words::LANE), &[("name", &tier.row.name)]);
+        response.widget_info(|| WidgetInfo::labeled(Role::Unknown, true, &label));
         let painter = ui.painter_at(lane);
         if let Some(span) = self.seen.shown.span {
             paint::selection(&painter, lane, &self.window, span, self.seen);
@@ -186,59 +482,25 @@ impl Drawing<'_, '_> {
             self.window.micros(lane.width()) as i64 + 1,
         );
         let narrow = (self.window.scale * 1.5) as i64;
-        let bars = data::bars(&tier.annotations, from, to, narrow.max(1));
-        let named = bars.iter().filter(|bar| bar.count == 1).count() <= NAMED;
-        for bar in &bars {
+        for bar in &data::bars(&tier.annotations, from, to, narrow.max(1)) {
             let rect = paint::bar_rect(lane, &self.window, bar);
-            paint::bar(&painter, rect, (tier, bar), self.seen, &font);
-            if bar.count == 1 && named {
-                let id = tier.annotations.ids[bar.at];
+            let id = tier.annotations.ids[bar.at];
+            let faint = bar.count == 1 && moving.contains(&id);
+            paint::bar(&painter, rect, (tier, bar), self.seen, (&font, faint));
+            let chosen = self.seen.shown.annotations.contains(&id);
+            if bar.count == 1 && (rect.width() >= NAMED || chosen) {
                 let here = rect.intersect(lane);
                 let own = ui.interact(here, Id::unique(("annotation", id)), Sense::click());
-                let chosen = self.seen.shown.annotations.contains(&id);
                 let says = paint::bar_text(tier, bar, self.seen);
                 let label = format!("{}: {says}", tier.row.name);
                 own.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &label));
-                if own.clicked() {
-                    edit::select(tier, bar.at, self.out);
+                if own.has_focus() {
+                    paint::focus(&painter, here, self.seen);
                 }
+                self.lane_mouse(ui, &own, contents, at, lane);
             }
         }
-        self.drag(&response, contents, at, lane);
-    }
-
-    /// A click puts the playhead and selects the tier; dragging selects time.
-    fn drag(&mut self, response: &Response, contents: &Contents, at: usize, lane: Rect) {
-        let Some(pointer) = response.interact_pointer_pos() else {
-            return;
-        };
-        let tier = &contents.tiers[at];
-        let here = self.instant(pointer.x - lane.left());
-        if response.drag_started() {
-            let from = response.ctx.input(|input| input.pointer.press_origin());
-            let from = from.map_or(here, |from| self.instant(from.x - lane.left()));
-            self.timeline.dragged_from = Some(from.micros());
-            self.out.send(Command::Tier(Some(tier.row.id)));
-            self.out.send(Command::Annotations(Default::default()));
-        }
-        if let Some(from) = self.timeline.dragged_from.filter(|_| response.dragged()) {
-            let span = Span::between(Instant::from_micros(from), here);
-            self.out
-                .send(Command::Span(Some(span).filter(|span| !span.is_empty())));
-        }
-        if response.drag_stopped() {
-            self.timeline.dragged_from = None;
-        }
-        if response.clicked() {
-            match data::at(&tier.annotations, here.micros()) {
-                Some(under) => edit::select(tier, under, self.out),
-                None => {
-                    self.out.send(Command::Tier(Some(tier.row.id)));
-                    self.out.send(Command::Annotations(Default::default()));
-                }
-            }
-            self.out.seek(here);
-        }
+        self.lane_mouse(ui, &response, contents, at, lane);
     }
 
     /// Ctrl and wheel zoom around the pointer; Shift and wheel, or a wheel sideways, pan.
@@ -262,7 +524,7 @@ impl Drawing<'_, '_> {
         }
     }
 
-    fn instant(&self, x: f32) -> Instant {
+    pub(super) fn instant(&self, x: f32) -> Instant {
         let whole = self.seen.shown.player.whole;
         let micros = self.window.micros(x).round() as i64;
         let last = whole.end().micros();

@@ -1,0 +1,117 @@
+//! What is half typed: written beside the settings while it is typed, read when the corpus is opened again.
+//!
+//! It belongs to the person at this machine and not to the corpus, whose file may be copied and mailed.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::panes::timeline::Draft;
+use crate::settings::{Folders, write_whole};
+
+/// The file of one corpus.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Drafts {
+    file: Option<PathBuf>,
+    corpus: PathBuf,
+    /// What the file says.
+    written: Option<Draft>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Kept {
+    corpus: PathBuf,
+    draft: Draft,
+}
+
+impl Drafts {
+    /// Returns the file of the corpus at `path`, which is absolute; none where nothing is remembered.
+    pub(crate) fn of(folders: &Folders, path: &Path) -> Self {
+        let name = format!("{:016x}.json", hash(&path.to_string_lossy()));
+        let folder = folders.config.as_ref().map(|it| it.join("drafts"));
+        Self {
+            file: folder.map(|folder| folder.join(name)),
+            corpus: path.to_owned(),
+            written: None,
+        }
+    }
+
+    /// Reads what was left half done.
+    pub(crate) fn read(&mut self) -> Option<Draft> {
+        let text = fs::read_to_string(self.file.as_ref()?).ok()?;
+        let kept: Kept = serde_json::from_str(&text).ok()?;
+        if kept.corpus != self.corpus {
+            return None;
+        }
+        self.written = Some(kept.draft.clone());
+        Some(kept.draft)
+    }
+
+    /// Writes what is half done now, where it changed; takes the file away where nothing is.
+    pub(crate) fn keep(&mut self, draft: Option<Draft>) -> io::Result<()> {
+        let Some(file) = self.file.as_ref().filter(|_| draft != self.written) else {
+            return Ok(());
+        };
+        self.written.clone_from(&draft);
+        match draft {
+            Some(draft) => {
+                let corpus = self.corpus.clone();
+                write_whole(file, &Kept { corpus, draft })
+            }
+            None => match fs::remove_file(file) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+                _ => Ok(()),
+            },
+        }
+    }
+}
+
+/// Returns a number for a text, the same on every machine: FNV-1a.
+fn hash(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::panes::timeline::Begun;
+
+    fn draft(start: i64) -> Draft {
+        Draft {
+            editing: None,
+            begun: Some(Begun {
+                recording: 1,
+                tier: 2,
+                start,
+                value: "é".into(),
+            }),
+        }
+    }
+
+    #[test]
+    fn each_corpus_has_its_own_and_it_goes_when_nothing_is_half_done() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let folders = Folders {
+            config: Some(folder.path().to_owned()),
+            data: None,
+        };
+        let of = |name: &str| Drafts::of(&folders, Path::new(name));
+        let (mut one, mut other) = (of("/one"), of("/other"));
+        assert_eq!(one.read(), None);
+        one.keep(Some(draft(5))).expect("written");
+        other.keep(Some(draft(7))).expect("written");
+        assert_eq!(of("/one").read(), Some(draft(5)));
+        assert_eq!(of("/other").read(), Some(draft(7)));
+        one.keep(None).expect("taken away");
+        one.keep(None).expect("nothing to take away");
+        assert_eq!(of("/one").read(), None);
+        let mut none = Drafts::of(&Folders::default(), Path::new("/one"));
+        none.keep(Some(draft(1))).expect("nothing to write to");
+        assert_eq!(hash(""), 0xcbf2_9ce4_8422_2325);
+        assert_eq!(hash("a"), 0xaf63_dc4c_8601_ec8c);
+    }
+}

@@ -1,0 +1,116 @@
+//! The tools above the ruler: modes, what times settle on, lanes, tiers.
+
+use eframe::egui::{Button, Ui};
+
+use super::edit::Scene;
+use super::rows::hidden_count;
+use super::ways::Ways;
+use crate::action::Action;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::words::{Text, fill, timeline as words};
+
+/// From this width on every switch is a button of its own.
+const WIDE: f32 = 560.0;
+
+const MODES: [(Action, Text); 3] = [
+    (Action::ModeNormal, words::NORMAL),
+    (Action::ModeBulldozer, words::BULLDOZER),
+    (Action::ModeShift, words::SHIFT),
+];
+const SNAPS: [(Action, Text); 3] = [
+    (Action::SnapFrames, words::FRAMES),
+    (Action::SnapBoundaries, words::BOUNDARIES),
+    (Action::SnapMinima, words::MINIMA),
+];
+
+/// Returns the name of the mode, for the status line.
+pub(crate) fn mode_name(ways: &Ways) -> Text {
+    let on = MODES.iter().find(|(action, _)| ways.is_on(*action));
+    on.map_or(words::NORMAL, |(_, text)| *text)
+}
+
+pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
+    let seen = scene.seen;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 3.0;
+        if ui.available_width() >= WIDE {
+            for (action, text) in MODES {
+                switch(ui, seen, (action, text), out);
+            }
+            ui.separator();
+            for (action, text) in SNAPS {
+                switch(ui, seen, (action, text), out);
+            }
+            ui.separator();
+        } else {
+            menu(
+                ui,
+                seen,
+                seen.say(mode_name(&seen.settings.timeline)),
+                &MODES,
+                out,
+            );
+            menu(ui, seen, seen.say(words::SNAP), &SNAPS, out);
+        }
+        let lanes = super::lanes::Lane::ALL.map(|(_, action, text)| (action, text));
+        menu(ui, seen, seen.say(words::LANES), &lanes, out);
+        tiers(ui, scene, out);
+        ui.spacing_mut().item_spacing.x = 8.0;
+        let chosen = seen.shown.annotations.len();
+        if chosen > 1 {
+            ui.weak(fill(seen.say(words::SELECTED_COUNT), &[("n", &chosen)]));
+        }
+    });
+}
+
+fn switch(ui: &mut Ui, seen: &Seen<'_>, (action, text): (Action, Text), out: &mut Outbox) {
+    let on = seen.settings.timeline.is_on(action);
+    let button = ui.add(Button::selectable(on, seen.say(text)));
+    let keys = seen.keys.text(action);
+    let about = format!("{}  {keys}", seen.say(action.row().name));
+    if button.on_hover_text(about).clicked() {
+        out.send(Command::Do(action));
+    }
+}
+
+fn menu(ui: &mut Ui, seen: &Seen<'_>, title: &str, rows: &[(Action, Text)], out: &mut Outbox) {
+    ui.menu_button(title, |ui| {
+        for (action, _) in rows {
+            let on = seen.settings.timeline.is_on(*action);
+            let button = Button::selectable(on, seen.say(action.row().name))
+                .shortcut_text(seen.keys.text(*action));
+            if ui.add(button).clicked() {
+                out.send(Command::Do(*action));
+            }
+        }
+    });
+}
+
+fn tiers(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
+    let seen = scene.seen;
+    let hidden = hidden_count(&scene.contents.tiers, &seen.settings.timeline.hidden);
+    let title = if hidden == 0 {
+        seen.say(words::TIERS).to_owned()
+    } else {
+        fill(seen.say(words::TIERS_HIDDEN), &[("n", &hidden)])
+    };
+    ui.menu_button(title, |ui| {
+        actions(ui, seen, &[Action::AddTier], out);
+        if hidden > 0 {
+            actions(ui, seen, &[Action::ShowTiers], out);
+        }
+    });
+}
+
+/// Shows actions as the entries of a menu.
+pub(super) fn actions(ui: &mut Ui, seen: &Seen<'_>, all: &[Action], out: &mut Outbox) {
+    for action in all {
+        let button =
+            Button::new(seen.say(action.row().name)).shortcut_text(seen.keys.text(*action));
+        if ui.add(button).clicked() {
+            out.send(Command::Do(*action));
+            ui.close();
+        }
+    }
+}

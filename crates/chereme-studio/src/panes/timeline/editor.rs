@@ -1,0 +1,427 @@
+//! The field for values: typed into a list of what fits, under the annotation.
+
+use std::collections::BTreeSet;
+
+use chereme_corpus::TierContents;
+use eframe::egui::{
+    Align, Area, Button, Id, Key, Layout, Modifiers, Order, Pos2, Rect, Response, Role, ScrollArea,
+    TextEdit, Ui, WidgetInfo, text::CCursor, text::CCursorRange, vec2,
+};
+use serde::{Deserialize, Serialize};
+
+use super::edit::{self, Scene};
+use super::values::Choices;
+use super::{Timeline, changes, select};
+use crate::command::Command;
+use crate::context::Outbox;
+use crate::words::{fill, timeline as words};
+
+const WIDTH: f32 = 260.0;
+const LIST: f32 = 196.0;
+
+/// What a value is typed for.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Target {
+    /// Annotations that are there.
+    Of(BTreeSet<i64>),
+    /// One that will be there when the value is kept.
+    New {
+        /// The tier's row.
+        tier: i64,
+        /// Its time in microseconds.
+        start: i64,
+        /// Where it ends.
+        end: i64,
+    },
+}
+
+/// A value that is being typed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Editing {
+    /// The recording's row.
+    pub(crate) recording: i64,
+    pub(crate) target: Target,
+    pub(crate) text: String,
+    /// What the text was at first.
+    #[serde(default)]
+    before: String,
+    /// The choice that arrow keys went to.
+    #[serde(skip)]
+    marked: Option<usize>,
+    /// Whether the field has had the focus yet.
+    #[serde(skip)]
+    begun: bool,
+    /// Whether the text was put back, so that it is not replaced by the first letter.
+    #[serde(skip)]
+    again: bool,
+}
+
+impl Editing {
+    pub(super) fn new(recording: i64, target: Target, text: String) -> Self {
+        Self {
+            recording,
+            target,
+            before: text.clone(),
+            text,
+            marked: None,
+            begun: false,
+            again: false,
+        }
+    }
+
+    /// Returns it to be opened again, with the text as it was left.
+    pub(super) fn again(self) -> Self {
+        Self {
+            begun: false,
+            again: true,
+            ..self
+        }
+    }
+
+    /// Returns the tier it is about.
+    pub(super) fn tier<'a>(&self, scene: &Scene<'a>) -> Option<&'a TierContents> {
+        match &self.target {
+            Target::New { tier, .. } => scene.tier_of(*tier),
+            Target::Of(annotations) => {
+                let first = annotations.first()?;
+                Some(scene.seen.snapshot.annotation(*first)?.tier)
+            }
+        }
+    }
+
+    /// Returns its time, where it is one annotation.
+    pub(super) fn span(&self, scene: &Scene<'_>) -> Option<(i64, i64)> {
+        match &self.target {
+            Target::New { start, end, .. } => Some((*start, *end)),
+            Target::Of(annotations) => {
+                let it = scene.seen.snapshot.annotation(*annotations.first()?)?;
+                let columns = &it.tier.annotations;
+                Some((columns.starts[it.at], columns.ends[it.at]))
+            }
+        }
+    }
+}
+
+/// What was done in the field.
+enum Said {
+    Nothing,
+    /// Keep this; and go on to the next annotation.
+    Keep(String, bool),
+    Drop,
+}
+
+/// Shows the field below `below`, and does what is said in it.
+pub(super) fn show(
+    timeline: &mut Timeline,
+    ui: &mut Ui,
+    scene: &Scene<'_>,
+    below: Rect,
+    out: &mut Outbox,
+) {
+    let Some(mut editing) = timeline.editing.take() else {
+        return;
+    };
+    if editing.recording != scene.contents.recording.id {
+        let text = editing.text.trim().to_owned();
+        edit::keep(timeline, editing, &text, out);
+        return;
+    }
+    if editing.again && !editing.begun {
+        match find_place(editing, scene, out) {
+            Some(found) => editing = found,
+            None => return,
+        }
+    }
+    let Some(tier) = editing.tier(scene) else {
+        editing.again = true;
+        find_place(editing, scene, out);
+        return;
+    };
+    let choices = scene.choices(tier);
+    let digits = timeline.digits.of(tier.row.id, &choices).to_vec();
+    let said = field(ui, scene, (&mut editing, tier), (&choices, &digits), below);
+    match said {
+        Said::Nothing => timeline.editing = Some(editing),
+        Said::Drop => {}
+        Said::Keep(value, on) => {
+            let next = if on { next(&editing, tier) } else { None };
+            let same = matches!(&editing.target, Target::Of(all) if all.len() == 1);
+            if !same || value != editing.before {
+                edit::keep(timeline, editing, &value, out);
+            }
+            if let Some(at) = next {
+                select::select(tier, at, out);
+                timeline.to_select = None;
+                timeline.edit(scene, BTreeSet::from([tier.annotations.ids[at]]));
+            }
+        }
+    }
+}
+
+/// Returns the place of the annotation after the one that is typed.
+fn next(editing: &Editing, tier: &TierContents) -> Option<usize> {
+    let columns = &tier.annotations;
+    let next = match &editing.target {
+        Target::New { end, .. } => columns.starts.partition_point(|start| start < end),
+        Target::Of(all) => {
+            let last = columns.ids.iter().rposition(|id| all.contains(id))?;
+            last + 1
+        }
+    };
+    (next < columns.len()).then_some(next)
+}
+
+fn field(
+    ui: &mut Ui,
+    scene: &Scene<'_>,
+    (editing, tier): (&mut Editing, &TierContents),
+    (choices, digits): (&Choices, &[String]),
+    below: Rect,
+) -> Said {
+    let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+    let (up, down) = (pressed(Key::ArrowUp), pressed(Key::ArrowDown));
+    let (enter, tab, escape) = (pressed(Key::Enter), pressed(Key::Tab), pressed(Key::Escape));
+    // A text as it was opened filters nothing: the whole list is there to choose from.
+    let filter = if editing.text == editing.before && !editing.again {
+        ""
+    } else {
+        &editing.text
+    };
+    let fitting = choices.fitting(filter);
+    step(editing, &fitting, up, down);
+    let mut said = Said::Nothing;
+    let area = Area::new(Id::unique("timeline value"))
+        .order(Order::Foreground)
+        .fixed_pos(Pos2::new(below.left(), below.bottom() + 2.0))
+        .constrain_to(ui.ctx().content_rect());
+    let shown = area.show(ui.ctx(), |ui| {
+        eframe::egui::Frame::popup(ui.style()).show(ui, |ui| {
+            ui.set_width(WIDTH);
+            let before = editing.text.clone();
+            let label = fill(scene.seen.say(words::VALUE_ON), &[("tier", &tier.row.name)]);
+            text_field(ui, editing, &label);
+            let typed = editing
+                .text
+                .strip_prefix(before.as_str())
+                .unwrap_or_default();
+            if let Some(value) = picked(&before, typed, choices, digits) {
+                said = Said::Keep(value.to_owned(), false);
+            }
+            if editing.text != before {
+                editing.marked = None;
+            }
+            if let Some(value) = list(
+                ui,
+                scene,
+                (editing, &fitting),
+                (choices, digits),
+                up || down,
+            ) {
+                said = Said::Keep(value, false);
+            }
+        });
+    });
+    let elsewhere = ui.input(|input| {
+        let at = input.pointer.interact_pos();
+        input.pointer.any_pressed() && at.is_some_and(|at| !shown.response.rect.contains(at))
+    });
+    if escape {
+        return Said::Drop;
+    }
+    if enter || tab || elsewhere {
+        return match choices.kept(&editing.text, editing.marked) {
+            Some(value) => Said::Keep(value, tab),
+            None => Said::Nothing,
+        };
+    }
+    said
+}
+
+/// Returns the value of a digit that was typed into the empty field, where digits pick there.
+fn picked<'a>(
+    before: &str,
+    typed: &str,
+    choices: &Choices,
+    digits: &'a [String],
+) -> Option<&'a String> {
+    let mut letters = typed.chars();
+    let digit = letters
+        .next()
+        .filter(|_| before.is_empty() && letters.next().is_none())?;
+    let number = digit.to_digit(10).filter(|number| *number > 0)? as usize;
+    digits
+        .get(number - 1)
+        .filter(|_| !choices.types_digit(digit))
+}
+
+/// Moves the mark among those that fit.
+fn step(editing: &mut Editing, fitting: &[usize], up: bool, down: bool) {
+    let here = fitting.iter().position(|at| Some(*at) == editing.marked);
+    let next = match (up, down, here) {
+        (true, _, here) => here.and_then(|here| here.checked_sub(1)),
+        (_, true, None) => Some(0),
+        (_, true, Some(here)) => Some((here + 1).min(fitting.len().saturating_sub(1))),
+        _ => here,
+    };
+    editing.marked = next.and_then(|next| fitting.get(next).copied());
+}
+
+fn text_field(ui: &mut Ui, editing: &mut Editing, label: &str) -> Response {
+    let id = Id::unique("timeline value field");
+    // The focus comes before the field is shown, so that what is typed in this frame is its own.
+    ui.memory_mut(|memory| memory.request_focus(id));
+    let mut output = TextEdit::singleline(&mut editing.text)
+        .id(id)
+        .desired_width(f32::INFINITY)
+        .lock_focus(true)
+        .show(ui);
+    let response = output.response.response.clone();
+    response.widget_info(|| {
+        let mut info = WidgetInfo::labeled(Role::TextInput, true, label);
+        info.current_text_value = Some(editing.text.clone());
+        info
+    });
+    if !std::mem::replace(&mut editing.begun, true) {
+        let end = CCursor::new(editing.text.chars().count());
+        let start = if editing.again { end } else { CCursor::new(0) };
+        let range = CCursorRange::two(start, end);
+        output.state.cursor.set_char_range(Some(range));
+        output.state.store(ui.ctx(), response.id);
+    }
+    response
+}
+
+/// Shows what fits; returns what was clicked.
+fn list(
+    ui: &mut Ui,
+    scene: &Scene<'_>,
+    (editing, fitting): (&Editing, &[usize]),
+    (choices, digits): (&Choices, &[String]),
+    moved: bool,
+) -> Option<String> {
+    let mut clicked = None;
+    if fitting.is_empty() {
+        let text = if choices.closed {
+            words::NO_SUCH_VALUE
+        } else {
+            words::NEW_VALUE
+        };
+        ui.weak(scene.seen.say(text));
+    }
+    let marked = editing.marked.or_else(|| {
+        let typed = !editing.text.trim().is_empty() && editing.text != editing.before;
+        fitting.first().copied().filter(|_| choices.closed && typed)
+    });
+    let height = ui.spacing().interact_size.y;
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let mut scroll = ScrollArea::vertical().max_height(LIST);
+    let here = fitting.iter().position(|at| Some(*at) == marked);
+    if let Some(here) = here.filter(|_| moved) {
+        let top = (here as f32 + 0.5) * height - LIST / 2.0;
+        scroll = scroll.vertical_scroll_offset(top.max(0.0));
+    }
+    scroll.show_rows(ui, height, fitting.len(), |ui, range| {
+        for at in &fitting[range] {
+            let choice = &choices.all[*at];
+            let digit = digits.iter().position(|value| *value == choice.value);
+            let digit = digit.map_or(String::new(), |digit| (digit + 1).to_string());
+            let text = match &choice.name {
+                Some(name) => format!("{}  {name}", choice.value),
+                None => choice.value.clone(),
+            };
+            let row = ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                let button = Button::selectable(marked == Some(*at), text)
+                    .shortcut_text(digit)
+                    .truncate()
+                    .min_size(vec2(ui.available_width(), height));
+                ui.add(button)
+            });
+            let label = fill(scene.seen.say(words::VALUE), &[("value", &choice.value)]);
+            row.inner.widget_info(|| {
+                WidgetInfo::selected(Role::Button, true, marked == Some(*at), &label)
+            });
+            if row.inner.clicked() {
+                clicked = Some(choice.value.clone());
+            }
+        }
+    });
+    clicked
+}
+
+/// Puts what was typed where it belongs now: under the annotation that was stored meanwhile, or into a
+/// notice where its place is gone. What was stored as it was typed needs nothing.
+fn find_place(editing: Editing, scene: &Scene<'_>, out: &mut Outbox) -> Option<Editing> {
+    if let Target::New { tier, start, end } = editing.target
+        && let Some(columns) = scene.tier_of(tier).map(|tier| &tier.annotations)
+    {
+        let at = columns.starts.partition_point(|it| *it < start);
+        let there = at < columns.len() && (columns.starts[at], columns.ends[at]) == (start, end);
+        if !there {
+            return Some(editing);
+        }
+        let before = changes::typed(columns, at);
+        let target = Target::Of(BTreeSet::from([columns.ids[at]]));
+        return (before != editing.text).then_some(Editing {
+            target,
+            before,
+            ..editing
+        });
+    }
+    if let Target::Of(all) = &editing.target {
+        let mut found = all
+            .iter()
+            .filter_map(|id| scene.seen.snapshot.annotation(*id));
+        if let Some(it) = found.next() {
+            let stored = changes::typed(&it.tier.annotations, it.at) == editing.text;
+            return (!stored || all.len() > 1).then_some(editing);
+        }
+    }
+    if !editing.text.trim().is_empty() {
+        let text = fill(
+            scene.seen.say(words::DRAFT_LOST),
+            &[("text", &editing.text)],
+        );
+        out.send(Command::Tell(text, words::DRAFT_LOST_REMEDY));
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn editing() -> Editing {
+        Editing::new(1, Target::Of(BTreeSet::from([1])), "A".into())
+    }
+
+    #[test]
+    fn arrows_go_through_what_fits_and_back_to_the_text() {
+        let mut it = editing();
+        let fitting = [4, 2, 7];
+        for (up, down, want) in [
+            (false, true, Some(4)),
+            (false, true, Some(2)),
+            (false, true, Some(7)),
+            (false, true, Some(7)),
+            (true, false, Some(2)),
+            (true, false, Some(4)),
+            (true, false, None),
+        ] {
+            step(&mut it, &fitting, up, down);
+            assert_eq!(it.marked, want);
+        }
+        it.marked = Some(9);
+        step(&mut it, &fitting, false, false);
+        assert_eq!(it.marked, None);
+    }
+
+    #[test]
+    fn a_draft_reads_as_it_was_written() {
+        let mut it = editing();
+        it.text = "école".into();
+        let text = serde_json::to_string(&it).expect("written");
+        let read: Editing = serde_json::from_str(&text).expect("read");
+        assert_eq!(read, it);
+    }
+}

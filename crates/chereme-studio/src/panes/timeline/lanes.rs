@@ -1,0 +1,381 @@
+//! Movement as lanes under the ruler: measured piece by piece beside the window, kept, and thinned to the
+//! columns of the screen.
+
+use std::collections::BTreeMap;
+
+use chereme_corpus::Kinematics;
+use chereme_motion::{Instant, Rate, Span};
+use serde::{Deserialize, Serialize};
+
+use super::data::Window;
+use crate::action::Action;
+use crate::context::Outbox;
+use crate::words::{Text, timeline as words};
+use crate::work::{Ended, Outcome, Work, WorkId};
+
+/// Frames of a piece, and of a summary within one.
+const PIECE: usize = 1200;
+const ROUGH: usize = 16;
+
+/// A lane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Lane {
+    Speed,
+    Aperture,
+    Palm,
+    Distance,
+}
+
+impl Lane {
+    /// Every lane with the action that shows it and its name.
+    pub(crate) const ALL: [(Self, Action, Text); 4] = [
+        (Self::Speed, Action::LaneSpeed, words::LANE_SPEED),
+        (Self::Aperture, Action::LaneAperture, words::LANE_APERTURE),
+        (Self::Palm, Action::LanePalm, words::LANE_PALM),
+        (Self::Distance, Action::LaneDistance, words::LANE_DISTANCE),
+    ];
+
+    /// Returns what its lower and upper edge stand for, given the largest number there is.
+    pub(crate) fn range(self, largest: f32) -> (f32, f32) {
+        match self {
+            Self::Speed => (0.0, largest.max(0.5)),
+            Self::Aperture => (0.3, 1.05),
+            Self::Palm => (-1.05, 1.05),
+            Self::Distance => (0.0, largest.max(0.3)),
+        }
+    }
+
+    /// Returns how many curves it has: one for each hand, or one of both.
+    pub(crate) fn curves(self) -> usize {
+        if self == Self::Distance { 1 } else { 2 }
+    }
+}
+
+/// The frames of a recording.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Source {
+    pub(crate) recording: i64,
+    pub(crate) frames: usize,
+    pub(crate) rate: Rate,
+    pub(crate) offset: i64,
+}
+
+/// A number for each frame of a piece, with the least and largest of every few.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Series {
+    values: Vec<f32>,
+    rough: Vec<(f32, f32)>,
+}
+
+impl Series {
+    fn new(values: impl Iterator<Item = f64>) -> Self {
+        let values: Vec<f32> = values.map(|it| it as f32).collect();
+        let rough = values.chunks(ROUGH).map(ends).collect();
+        Self { values, rough }
+    }
+
+    /// Returns the least and largest number from one frame up to another.
+    fn ends(&self, from: usize, to: usize) -> Option<(f32, f32)> {
+        let to = to.min(self.values.len());
+        if from >= to {
+            return None;
+        }
+        if to - from < 4 * ROUGH {
+            return Some(ends(&self.values[from..to]));
+        }
+        let rough = &self.rough[from / ROUGH..to.div_ceil(ROUGH)];
+        let low = rough.iter().map(|it| it.0).fold(f32::INFINITY, f32::min);
+        let high = rough
+            .iter()
+            .map(|it| it.1)
+            .fold(f32::NEG_INFINITY, f32::max);
+        Some((low, high))
+    }
+}
+
+fn ends(values: &[f32]) -> (f32, f32) {
+    let low = values.iter().copied().fold(f32::INFINITY, f32::min);
+    let high = values.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+    (low, high)
+}
+
+#[derive(Debug, Default)]
+struct Piece {
+    /// By lane and hand.
+    series: BTreeMap<(Lane, usize), Series>,
+    palms: [Vec<[f32; 3]>; 2],
+    /// Times of the minima of speed.
+    minima: Vec<i64>,
+}
+
+/// Movement as far as it is measured.
+#[derive(Debug, Default)]
+pub(crate) struct Curves {
+    source: Option<Source>,
+    pieces: BTreeMap<usize, Piece>,
+    /// What is being measured; one at a time, so that what comes into sight is next.
+    asked: Option<(WorkId, usize)>,
+    /// Pieces that could not be measured.
+    failed: bool,
+}
+
+impl Curves {
+    /// Turns to a recording, and has the piece measured that is in sight and nearest to the playhead.
+    pub(super) fn want(
+        &mut self,
+        source: Option<Source>,
+        seen: (i64, i64),
+        playhead: i64,
+        out: &mut Outbox,
+    ) {
+        if self.source != source {
+            *self = Self {
+                source,
+                ..Self::default()
+            };
+        }
+        let Some(source) = source.filter(|_| self.asked.is_none() && !self.failed) else {
+            return;
+        };
+        let Some(piece) = self.next(source, seen, playhead) else {
+            return;
+        };
+        let frames = piece * PIECE..((piece + 1) * PIECE).min(source.frames);
+        let work = Work::Measure {
+            recording: source.recording,
+            piece,
+            span: source.rate.span(frames).shifted(source.offset),
+        };
+        self.asked = Some((out.work(work), piece));
+    }
+
+    fn next(&self, source: Source, (from, to): (i64, i64), playhead: i64) -> Option<usize> {
+        let piece = |micros| source.frame(micros) / PIECE;
+        let here = piece(playhead.clamp(from, to));
+        (piece(from)..=piece(to))
+            .filter(|piece| !self.pieces.contains_key(piece))
+            .min_by_key(|piece| piece.abs_diff(here))
+    }
+
+    pub(super) fn hear(&mut self, id: WorkId, ended: &Ended) {
+        if self.asked.is_none_or(|(asked, _)| asked != id) {
+            return;
+        }
+        self.asked = None;
+        match ended {
+            Ok(Outcome::Measured { piece, curves, .. }) => {
+                let time = |frame: usize| curves.rate.instant(frame).micros() + curves.offset_us;
+                let minima = curves.minima.iter().map(|frame| time(*frame)).collect();
+                self.pieces
+                    .insert(*piece, Piece::new(&curves.kinematics, minima));
+            }
+            _ => self.failed = true,
+        }
+    }
+
+    /// Returns the minima of wrist speed between two times, in order.
+    pub(super) fn minima(&self, from: i64, to: i64) -> Vec<i64> {
+        let all = self.pieces.values().flat_map(|piece| &piece.minima);
+        all.copied().filter(|at| (from..=to).contains(at)).collect()
+    }
+
+    /// Returns the largest number of a lane as far as it is measured.
+    pub(super) fn largest(&self, lane: Lane) -> f32 {
+        let all = self.pieces.values().flat_map(|piece| &piece.series);
+        let own = all.filter(|((of, _), _)| *of == lane);
+        own.flat_map(|(_, series)| &series.rough)
+            .map(|it| it.1)
+            .fold(0.0, f32::max)
+    }
+
+    /// Returns for each column of the screen the least and largest number of a curve, nothing where it is
+    /// not measured.
+    pub(super) fn columns(
+        &self,
+        (lane, hand): (Lane, usize),
+        window: &Window,
+        width: usize,
+    ) -> Vec<Option<(f32, f32)>> {
+        let Some(source) = self.source else {
+            return vec![None; width];
+        };
+        let column = |x: usize| {
+            let (from, to) = (window.micros(x as f32), window.micros(x as f32 + 1.0));
+            let end = source.rate.span(0..source.frames).end().micros() + source.offset;
+            if to < source.offset as f64 || from > end as f64 {
+                return None;
+            }
+            let (from, to) = (source.frame(from as i64), source.frame(to as i64) + 1);
+            let pieces = self.pieces.range(from / PIECE..=(to - 1) / PIECE);
+            pieces
+                .filter_map(|(number, piece)| {
+                    let first = number * PIECE;
+                    let series = piece.series.get(&(lane, hand))?;
+                    series.ends(from.saturating_sub(first), to.saturating_sub(first))
+                })
+                .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+        };
+        (0..width).map(column).collect()
+    }
+
+    /// Returns the number of a curve at a time.
+    pub(super) fn at(&self, (lane, hand): (Lane, usize), micros: i64) -> Option<f32> {
+        let frame = self.source?.frame(micros);
+        let piece = self.pieces.get(&(frame / PIECE))?;
+        piece
+            .series
+            .get(&(lane, hand))?
+            .values
+            .get(frame % PIECE)
+            .copied()
+    }
+
+    /// Returns where a palm points at a time.
+    pub(super) fn palm(&self, hand: usize, micros: i64) -> Option<Text> {
+        let frame = self.source?.frame(micros);
+        let piece = self.pieces.get(&(frame / PIECE))?;
+        Some(direction(*piece.palms[hand].get(frame % PIECE)?))
+    }
+}
+
+impl Source {
+    fn frame(&self, micros: i64) -> usize {
+        let own = Instant::from_micros((micros - self.offset).max(0));
+        self.rate.frame_at(own).min(self.frames.saturating_sub(1))
+    }
+}
+
+/// Returns the way that a direction `[left, up, forward]` is nearest to.
+fn direction([left, up, forward]: [f32; 3]) -> Text {
+    let ways = [
+        (left, words::TO_LEFT),
+        (-left, words::TO_RIGHT),
+        (up, words::TO_UP),
+        (-up, words::TO_DOWN),
+        (forward, words::TO_FRONT),
+        (-forward, words::TO_BACK),
+    ];
+    let best = ways.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+    best.map_or(words::TO_UP, |(_, text)| text)
+}
+
+impl Piece {
+    fn new(all: &Kinematics, minima: Vec<i64>) -> Self {
+        let mut series = BTreeMap::new();
+        for (number, hand) in all.hands.iter().enumerate() {
+            series.insert(
+                (Lane::Speed, number),
+                Series::new(hand.speed.iter().copied()),
+            );
+            series.insert(
+                (Lane::Aperture, number),
+                Series::new(hand.aperture.iter().copied()),
+            );
+            let up = hand.palm.iter().map(|palm| palm.y);
+            series.insert((Lane::Palm, number), Series::new(up));
+        }
+        series.insert(
+            (Lane::Distance, 0),
+            Series::new(all.distance.iter().copied()),
+        );
+        let palms = [0, 1].map(|hand: usize| {
+            let palms = all.hands[hand].palm.iter();
+            palms
+                .map(|it| [it.x as f32, it.y as f32, it.z as f32])
+                .collect()
+        });
+        Self {
+            series,
+            palms,
+            minima,
+        }
+    }
+}
+
+/// Returns the time that is seen in a window of that width.
+pub(super) fn seen(window: &Window, width: f32, whole: Span) -> (i64, i64) {
+    let (start, end) = (whole.start().micros(), whole.end().micros());
+    let at = |micros: f64| (micros as i64).clamp(start, end);
+    (at(window.start), at(window.micros(width)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_corpus::HandCurves;
+
+    fn source(frames: usize) -> Source {
+        Source {
+            recording: 1,
+            frames,
+            rate: Rate::new(100, 1).expect("a rate"),
+            offset: 0,
+        }
+    }
+
+    fn measured(frames: usize, speed: impl Fn(usize) -> f64) -> Curves {
+        let mut curves = Curves {
+            source: Some(source(frames)),
+            ..Curves::default()
+        };
+        for piece in 0..frames.div_ceil(PIECE) {
+            let inside = piece * PIECE..((piece + 1) * PIECE).min(frames);
+            let right = HandCurves {
+                speed: inside.clone().map(&speed).collect(),
+                ..HandCurves::default()
+            };
+            let all = Kinematics {
+                hands: [right, HandCurves::default()],
+                distance: Vec::new(),
+            };
+            let minima = vec![inside.start as i64 * 10_000];
+            curves.pieces.insert(piece, Piece::new(&all, minima));
+        }
+        curves
+    }
+
+    #[test]
+    fn no_peak_is_lost_however_narrow_the_columns() {
+        let curves = measured(10_000, |frame| if frame == 5_003 { 9.0 } else { 1.0 });
+        for width in [10, 333, 900] {
+            let window = Window {
+                start: 0.0,
+                scale: 100e6 / width as f64,
+            };
+            let columns = curves.columns((Lane::Speed, 0), &window, width);
+            let high = columns.iter().flatten().map(|it| it.1).fold(0.0, f32::max);
+            assert_eq!(high, 9.0, "{width}");
+            assert!(columns.iter().flatten().all(|it| it.0 == 1.0));
+        }
+        let past = Window {
+            start: 99.5e6,
+            scale: 1e4,
+        };
+        let columns = curves.columns((Lane::Speed, 0), &past, 100);
+        assert!(columns[10].is_some() && columns[90].is_none());
+        assert_eq!(curves.columns((Lane::Speed, 1), &past, 1), [None]);
+        assert_eq!(curves.largest(Lane::Speed), 9.0);
+        assert_eq!(curves.at((Lane::Speed, 0), 50_030_000), Some(9.0));
+    }
+
+    #[test]
+    fn what_is_in_sight_is_measured_from_the_playhead_outwards() {
+        let mut curves = Curves::default();
+        let all = source(12_000);
+        let mut out = Outbox::default();
+        curves.want(Some(all), (0, 40_000_000), 30_000_000, &mut out);
+        assert_eq!(curves.asked.map(|it| it.1), Some(2));
+        curves.asked = None;
+        curves.pieces.insert(2, Piece::default());
+        assert_eq!(curves.next(all, (0, 40_000_000), 30_000_000), Some(1));
+        assert_eq!(curves.next(all, (30_000_000, 30_000_000), 0), None);
+    }
+
+    #[test]
+    fn minima_are_those_between_two_times() {
+        let curves = measured(5_000, |_| 1.0);
+        assert_eq!(curves.minima(1, 25_000_000), [12_000_000, 24_000_000]);
+        assert_eq!(direction([0.1, -0.9, 0.2]), words::TO_DOWN);
+    }
+}

@@ -1,0 +1,190 @@
+//! The lanes of movement: their names with what they say at the playhead, and their curves.
+
+use eframe::egui::{
+    Align2, Color32, FontId, Mesh, Painter, Rect, Role, Sense, Shape, Stroke, TextStyle, Ui,
+    WidgetInfo, pos2, vec2,
+};
+
+use super::edit::Scene;
+use super::lanes::{Lane, Source};
+use super::ui::Drawing;
+use super::{lanes, paint};
+use crate::context::Seen;
+use crate::words::timeline as words;
+
+const HEIGHT: f32 = 36.0;
+
+/// Returns the colours of the right hand and of the left.
+fn hands(seen: &Seen<'_>) -> [Color32; 2] {
+    [seen.colours().accent, seen.colours().good]
+}
+
+impl Drawing<'_, '_> {
+    pub(super) fn lanes(&mut self, ui: &mut Ui, scene: &Scene<'_>) {
+        let ways = &self.seen.settings.timeline;
+        if ways.lanes.is_empty() && !ways.snaps.minima {
+            return;
+        }
+        let source = scene.frames().map(|frames| Source {
+            recording: scene.contents.recording.id,
+            frames: self.seen.reel.frames(),
+            rate: frames.rate,
+            offset: frames.offset,
+        });
+        let whole = self.seen.shown.player.whole;
+        let sight = lanes::seen(&self.window, self.timeline.width, whole);
+        self.timeline
+            .curves
+            .want(source, sight, scene.playhead(), self.out);
+        let shown = ways.lanes.clone();
+        for (lane, _, name) in Lane::ALL
+            .into_iter()
+            .filter(|(lane, ..)| shown.contains(lane))
+        {
+            self.one_lane(ui, scene, lane, self.seen.say(name));
+        }
+    }
+
+    fn one_lane(&mut self, ui: &mut Ui, scene: &Scene<'_>, lane: Lane, name: &str) {
+        let size = vec2(ui.available_width(), HEIGHT);
+        let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+        let area = rect.with_min_x(rect.left() + self.names);
+        let id = ui.unique_id().with(("movement", lane));
+        let response = ui.interact(area, id, Sense::click_and_drag());
+        let says = self.says(scene, lane);
+        response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, format!("{name} {says}")));
+        self.lane_name(ui, rect.with_max_x(area.left() - 4.0), name, &says, lane);
+        let painter = ui.painter_at(area);
+        painter.hline(
+            area.x_range(),
+            area.bottom(),
+            Stroke::new(1.0, self.seen.colours().rule),
+        );
+        if let Some(span) = self.seen.shown.span {
+            paint::selection(&painter, area, &self.window, span, self.seen);
+        }
+        self.curves(ui, &painter, area.shrink2(vec2(0.0, 2.0)), lane);
+        let x = area.left() + self.window.x(scene.playhead() as f64);
+        painter.vline(
+            x,
+            area.y_range(),
+            Stroke::new(1.5, self.seen.colours().playhead),
+        );
+        if let Some(at) = response.interact_pointer_pos()
+            && (response.dragged() || response.clicked())
+        {
+            self.out.seek(self.instant(at.x - area.left()));
+        }
+    }
+
+    fn lane_name(&self, ui: &Ui, rect: Rect, name: &str, says: &str, lane: Lane) {
+        let font: FontId = TextStyle::Small.resolve(ui.style());
+        let painter = ui.painter_at(rect);
+        let (left, weak) = (rect.left() + 8.0, ui.visuals().weak_text_color());
+        let colour = ui.visuals().text_color();
+        painter.text(
+            pos2(left, rect.top() + 2.0),
+            Align2::LEFT_TOP,
+            name,
+            font.clone(),
+            colour,
+        );
+        let mut x = left;
+        let parts: Vec<&str> = says.split('\n').collect();
+        for (hand, part) in parts.iter().enumerate() {
+            let colour = if lane.curves() == 2 {
+                hands(self.seen)[hand.min(1)]
+            } else {
+                weak
+            };
+            let at = pos2(x, rect.bottom() - 3.0);
+            x = painter
+                .text(at, Align2::LEFT_BOTTOM, part, font.clone(), colour)
+                .right()
+                + 8.0;
+        }
+    }
+
+    /// Returns what a lane says at the playhead, the hands on lines of their own.
+    fn says(&self, scene: &Scene<'_>, lane: Lane) -> String {
+        if scene.frames().is_none() {
+            return self.seen.say(words::NO_MOVEMENT).to_owned();
+        }
+        let (curves, at) = (&self.timeline.curves, scene.playhead());
+        let short = [words::RIGHT_SHORT, words::LEFT_SHORT];
+        let hand = |hand: usize| {
+            let value = curves.at((lane, hand), at)?;
+            let text = match lane {
+                Lane::Palm => self.seen.say(curves.palm(hand, at)?).to_owned(),
+                Lane::Speed => format!("{value:.2} m/s"),
+                Lane::Aperture => format!("{:.0} %", value * 100.0),
+                Lane::Distance => return Some(format!("{value:.2} m")),
+            };
+            Some(format!("{} {text}", self.seen.say(short[hand])))
+        };
+        let parts: Vec<String> = (0..lane.curves()).filter_map(hand).collect();
+        if parts.is_empty() {
+            return self.seen.say(words::MEASURING).to_owned();
+        }
+        parts.join("\n")
+    }
+
+    fn curves(&self, ui: &Ui, painter: &Painter, area: Rect, lane: Lane) {
+        let (low, high) = lane.range(self.timeline.curves.largest(lane));
+        let y = |value: f32| area.bottom() - (value - low) / (high - low) * area.height();
+        if lane == Lane::Palm {
+            painter.hline(
+                area.x_range(),
+                y(0.0),
+                Stroke::new(1.0, self.seen.colours().rule),
+            );
+        }
+        let width = area.width().ceil().max(1.0) as usize;
+        let colours = hands(self.seen);
+        for hand in (0..lane.curves()).rev() {
+            let colour = if lane.curves() == 2 {
+                colours[hand]
+            } else {
+                ui.visuals().text_color()
+            };
+            let columns = self
+                .timeline
+                .curves
+                .columns((lane, hand), &self.window, width);
+            painter.add(Shape::mesh(curve(&columns, area.left(), y, colour)));
+        }
+        if lane == Lane::Speed && self.seen.settings.timeline.snaps.minima {
+            let whole = self.seen.shown.player.whole;
+            let (from, to) = lanes::seen(&self.window, area.width(), whole);
+            for at in self.timeline.curves.minima(from, to) {
+                let x = area.left() + self.window.x(at as f64);
+                let tick = [pos2(x, area.bottom() - 5.0), pos2(x, area.bottom())];
+                painter.line_segment(tick, Stroke::new(1.5, self.seen.colours().playhead));
+            }
+        }
+    }
+}
+
+/// Returns a curve as one column of colour beside the other, each reaching the one before.
+fn curve(
+    columns: &[Option<(f32, f32)>],
+    left: f32,
+    y: impl Fn(f32) -> f32,
+    colour: Color32,
+) -> Mesh {
+    let mut mesh = Mesh::default();
+    let mut before: Option<(f32, f32)> = None;
+    for (x, column) in columns.iter().enumerate() {
+        if let Some((low, high)) = *column {
+            let (low, high) = match before {
+                Some(last) => (low.min(last.1), high.max(last.0)),
+                None => (low, high),
+            };
+            let x = left + x as f32;
+            let rect = Rect::from_min_max(pos2(x, y(high) - 0.8), pos2(x + 1.0, y(low) + 0.8));
+            mesh.add_colored_rect(rect, colour);
+        }
+        before = *column;
+    }
+    mesh
+}

@@ -1,0 +1,205 @@
+//! Where times settle: boundaries of annotations, minima of wrist speed, starts of frames.
+
+use std::collections::BTreeSet;
+
+use chereme_corpus::TierContents;
+use chereme_motion::{Instant, Rate};
+use serde::{Deserialize, Serialize};
+
+/// What times settle on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Snaps {
+    pub(crate) frames: bool,
+    pub(crate) boundaries: bool,
+    pub(crate) minima: bool,
+}
+
+impl Default for Snaps {
+    fn default() -> Self {
+        Self {
+            frames: true,
+            boundaries: true,
+            minima: false,
+        }
+    }
+}
+
+/// Why a time is where it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Catch {
+    Boundary,
+    Minimum,
+    Frame,
+}
+
+/// Frames of a recording: their rate, and where the first lies on its clock.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Frames {
+    pub(crate) rate: Rate,
+    pub(crate) offset: i64,
+}
+
+impl Frames {
+    /// Returns the start of the frame nearest to a time.
+    pub(crate) fn nearest(&self, micros: i64) -> i64 {
+        let own = (micros - self.offset).max(0);
+        let frame = self.rate.frame_at(Instant::from_micros(own));
+        self.rate.instant(frame).micros() + self.offset
+    }
+
+    /// Returns the start of the frame that lies `by` frames on from the one nearest to a time.
+    pub(crate) fn stepped(&self, micros: i64, by: i64) -> i64 {
+        let own = (self.nearest(micros) - self.offset).max(0);
+        let frame = self.rate.frame_at(Instant::from_micros(own)) as i64 + by;
+        let frame = usize::try_from(frame).unwrap_or_default();
+        self.rate.instant(frame).micros() + self.offset
+    }
+}
+
+/// What a time can settle on now.
+pub(crate) struct Guides<'a> {
+    pub(crate) snaps: Snaps,
+    pub(crate) tiers: &'a [TierContents],
+    /// Annotations that are being dragged, whose boundaries do not count.
+    pub(crate) except: &'a BTreeSet<i64>,
+    /// Other times that count as boundaries, such as the playhead.
+    pub(crate) marks: &'a [i64],
+    /// Minima of wrist speed, in order.
+    pub(crate) minima: &'a [i64],
+    pub(crate) frames: Option<Frames>,
+    /// From how far a boundary or minimum catches, in microseconds.
+    pub(crate) reach: i64,
+}
+
+impl Guides<'_> {
+    /// Returns where a time settles and why; where nothing is near, where it is.
+    pub(crate) fn settle(&self, micros: i64) -> (i64, Option<Catch>) {
+        let boundary = self
+            .snaps
+            .boundaries
+            .then(|| self.boundary(micros))
+            .flatten();
+        let minimum = self
+            .snaps
+            .minima
+            .then(|| nearest(self.minima, micros))
+            .flatten();
+        let near = [(boundary, Catch::Boundary), (minimum, Catch::Minimum)]
+            .into_iter()
+            .filter_map(|(at, why)| Some((at?, why)))
+            .filter(|(at, _)| (at - micros).abs() <= self.reach)
+            .min_by_key(|(at, why)| ((at - micros).abs(), *why));
+        match (near, self.frames.filter(|_| self.snaps.frames)) {
+            (Some((at, why)), _) => (at, Some(why)),
+            (None, Some(frames)) => (frames.nearest(micros), Some(Catch::Frame)),
+            (None, None) => (micros, None),
+        }
+    }
+
+    fn boundary(&self, micros: i64) -> Option<i64> {
+        let inside = self.tiers.iter().flat_map(|tier| {
+            let columns = &tier.annotations;
+            let near = |all: &[i64]| {
+                let after = all.partition_point(|at| *at < micros);
+                let around = after.saturating_sub(2)..(after + 2).min(all.len());
+                around
+                    .filter(|at| !self.except.contains(&columns.ids[*at]))
+                    .map(|at| all[at])
+                    .min_by_key(|at| (at - micros).abs())
+            };
+            [near(&columns.starts), near(&columns.ends)]
+        });
+        let marks = self.marks.iter().copied();
+        inside
+            .flatten()
+            .chain(marks)
+            .min_by_key(|at| (at - micros).abs())
+    }
+}
+
+fn nearest(sorted: &[i64], micros: i64) -> Option<i64> {
+    let after = sorted.partition_point(|at| *at < micros);
+    let around = after.saturating_sub(1)..(after + 1).min(sorted.len());
+    sorted[around]
+        .iter()
+        .copied()
+        .min_by_key(|at| (at - micros).abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_corpus::AnnotationColumns;
+
+    fn tier(spans: &[(i64, i64)]) -> TierContents {
+        let count = spans.len();
+        TierContents {
+            row: Default::default(),
+            annotations: AnnotationColumns {
+                ids: (1..=count as i64).collect(),
+                starts: spans.iter().map(|it| it.0).collect(),
+                ends: spans.iter().map(|it| it.1).collect(),
+                ..AnnotationColumns::default()
+            },
+        }
+    }
+
+    #[test]
+    fn a_boundary_or_minimum_nearby_goes_before_the_frame() {
+        let tiers = [tier(&[(100_000, 233_000), (400_000, 500_000)])];
+        let except = BTreeSet::from([2]);
+        let guides = |snaps| Guides {
+            snaps,
+            tiers: &tiers,
+            except: &except,
+            marks: &[700_000],
+            minima: &[236_000, 600_000],
+            frames: Some(Frames {
+                rate: Rate::new(100, 1).expect("a rate"),
+                offset: 0,
+            }),
+            reach: 20_000,
+        };
+        let all = Snaps {
+            frames: true,
+            boundaries: true,
+            minima: true,
+        };
+        let none = Snaps {
+            frames: false,
+            boundaries: false,
+            minima: false,
+        };
+        let cases = [
+            (all, 234_000, (233_000, Some(Catch::Boundary))),
+            (all, 235_000, (236_000, Some(Catch::Minimum))),
+            (all, 404_000, (400_000, Some(Catch::Frame))),
+            (all, 605_000, (600_000, Some(Catch::Minimum))),
+            (all, 705_001, (700_000, Some(Catch::Boundary))),
+            (
+                Snaps {
+                    minima: false,
+                    ..all
+                },
+                605_001,
+                (610_000, Some(Catch::Frame)),
+            ),
+            (none, 605_001, (605_001, None)),
+        ];
+        for (snaps, at, want) in cases {
+            assert_eq!(guides(snaps).settle(at), want, "{at}");
+        }
+    }
+
+    #[test]
+    fn steps_go_from_frame_to_frame() {
+        let frames = Frames {
+            rate: Rate::new(30, 1).expect("a rate"),
+            offset: 5,
+        };
+        assert_eq!(frames.nearest(40_000), 33_333 + 5);
+        assert_eq!(frames.stepped(33_000, 1), 66_667 + 5);
+        assert_eq!(frames.stepped(33_000, -9), 5);
+    }
+}

@@ -1,0 +1,422 @@
+//! Where the annotations of a tier go when some are moved or one is resized: plain functions over spans.
+//!
+//! Nothing here ever overlaps or gets lost: in normal mode what is dragged stops at its neighbours, a
+//! bulldozer pushes them as far as it must, and shifting takes along all that comes after.
+
+use std::collections::BTreeSet;
+
+use serde::{Deserialize, Serialize};
+
+/// An annotation in time, in microseconds; those of a tier do not overlap and come in order.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Item {
+    pub(crate) id: i64,
+    pub(crate) start: i64,
+    pub(crate) end: i64,
+}
+
+/// What becomes of the neighbours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Mode {
+    /// They stay: what is moved takes the nearest place that is free, what is resized stops at them.
+    #[default]
+    Normal,
+    /// They are pushed on as far as they are in the way.
+    Bulldozer,
+    /// All that comes after moves along; before the start where that is resized.
+    Shift,
+}
+
+/// By what an annotation is held.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Grip {
+    Start,
+    End,
+    Whole,
+}
+
+/// What holds every annotation: from when to when, and how short one may get.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Limits {
+    pub(crate) from: i64,
+    pub(crate) to: i64,
+    pub(crate) least: i64,
+}
+
+/// Returns the annotations that change, as they are then, when the `chosen` ones are moved by `by`
+/// microseconds, or the boundary of the first of them.
+pub(crate) fn dragged(
+    items: &[Item],
+    chosen: &BTreeSet<i64>,
+    (grip, by): (Grip, i64),
+    mode: Mode,
+    limits: Limits,
+) -> Vec<Item> {
+    let (Some(first), Some(last)) = (items.first(), items.last()) else {
+        return Vec::new();
+    };
+    let limits = Limits {
+        from: limits.from.min(first.start),
+        to: limits.to.max(last.end),
+        ..limits
+    };
+    let Some(at) = items.iter().position(|item| chosen.contains(&item.id)) else {
+        return Vec::new();
+    };
+    let new = match grip {
+        Grip::End => resized(items, at, by, mode, limits),
+        Grip::Start => {
+            let at = items.len() - 1 - at;
+            mirrored(&resized(&mirrored(items), at, -by, mode, limits.mirrored()))
+        }
+        Grip::Whole => whole(items, chosen, at, by, mode, limits),
+    };
+    let changed = items.iter().zip(new).filter(|(old, new)| *old != new);
+    changed.map(|(_, new)| new).collect()
+}
+
+/// Returns the annotations that change where they lie end to end and keep doing so: the neighbour's
+/// boundary goes along. None where the first or last boundary of all, or a whole one, is dragged.
+pub(crate) fn tiled(
+    items: &[Item],
+    chosen: &BTreeSet<i64>,
+    (grip, by): (Grip, i64),
+    limits: Limits,
+) -> Vec<Item> {
+    let at = items.iter().position(|item| chosen.contains(&item.id));
+    let pair = match (grip, at) {
+        (Grip::End, Some(at)) => Some((at, at + 1)),
+        (Grip::Start, Some(at)) => at.checked_sub(1).map(|before| (before, at)),
+        _ => None,
+    };
+    let pair = pair.and_then(|(a, b)| Some((*items.get(a)?, *items.get(b)?)));
+    let Some((left, right)) = pair else {
+        return Vec::new();
+    };
+    let least = limits
+        .least
+        .min(left.end - left.start)
+        .min(right.end - right.start)
+        .max(1);
+    let end = (left.end + by).clamp(left.start + least, right.end - least);
+    if end == left.end {
+        return Vec::new();
+    }
+    vec![
+        Item { end, ..left },
+        Item {
+            start: end,
+            ..right
+        },
+    ]
+}
+
+/// Returns changed annotations in an order in which they can be changed one after the other without
+/// ever overlapping: what goes to the right from the last on, what goes to the left from the first on.
+pub(crate) fn in_order(items: &[Item], changed: &[Item]) -> Vec<Item> {
+    let right = |new: &Item| {
+        let old = items.iter().find(|old| old.id == new.id);
+        old.is_some_and(|old| new.start > old.start || new.end > old.end)
+    };
+    let (mut later, mut earlier): (Vec<Item>, Vec<Item>) =
+        changed.iter().partition(|new| right(new));
+    later.sort_by_key(|item| -item.start);
+    earlier.sort_by_key(|item| item.start);
+    later.extend(earlier);
+    later
+}
+
+/// Returns the longest part of `from..to` in which no annotation lies.
+pub(crate) fn room(items: &[Item], (from, to): (i64, i64)) -> Option<(i64, i64)> {
+    let first = items.partition_point(|item| item.end <= from);
+    let inside = items[first..].iter().take_while(|item| item.start < to);
+    let mut begin = from;
+    let mut best: Option<(i64, i64)> = None;
+    let mut take = |start: i64, end: i64| {
+        if end > start && best.is_none_or(|(a, b)| end - start > b - a) {
+            best = Some((start, end));
+        }
+    };
+    for item in inside {
+        take(begin, item.start);
+        begin = begin.max(item.end);
+    }
+    take(begin, to);
+    best
+}
+
+impl Limits {
+    fn mirrored(self) -> Self {
+        Self {
+            from: -self.to,
+            to: -self.from,
+            ..self
+        }
+    }
+}
+
+/// Turns time around, so that what is said of ends holds of starts.
+fn mirrored(items: &[Item]) -> Vec<Item> {
+    let turned = items.iter().rev().map(|item| Item {
+        start: -item.end,
+        end: -item.start,
+        ..*item
+    });
+    turned.collect()
+}
+
+fn shifted(item: Item, by: i64) -> Item {
+    Item {
+        start: item.start + by,
+        end: item.end + by,
+        ..item
+    }
+}
+
+/// Moves the end of one.
+fn resized(items: &[Item], at: usize, by: i64, mode: Mode, limits: Limits) -> Vec<Item> {
+    let item = items[at];
+    let least = limits.least.min(item.end - item.start).max(1);
+    let end = (item.end + by).max(item.start + least);
+    let mut new = items.to_vec();
+    match mode {
+        Mode::Normal => {
+            let wall = items.get(at + 1).map_or(limits.to, |next| next.start);
+            new[at].end = end.min(wall);
+        }
+        Mode::Bulldozer => {
+            let inside = items[at + 1..].iter().map(|item| item.end - item.start);
+            new[at].end = end.min(limits.to - inside.sum::<i64>());
+            push(&mut new, at);
+        }
+        Mode::Shift => {
+            let by = (end - item.end).min(limits.to - items[items.len() - 1].end);
+            new[at].end += by;
+            for other in &mut new[at + 1..] {
+                *other = shifted(*other, by);
+            }
+        }
+    }
+    new
+}
+
+/// Pushes those after `at` on as far as they are in the way.
+fn push(items: &mut [Item], at: usize) {
+    for next in at + 1..items.len() {
+        let by = items[next - 1].end - items[next].start;
+        if by > 0 {
+            items[next] = shifted(items[next], by);
+        }
+    }
+}
+
+/// Moves those that are chosen, the first of them at `at`.
+fn whole(
+    items: &[Item],
+    chosen: &BTreeSet<i64>,
+    at: usize,
+    by: i64,
+    mode: Mode,
+    limits: Limits,
+) -> Vec<Item> {
+    if mode == Mode::Shift {
+        let before = at.checked_sub(1).map_or(limits.from, |at| items[at].end);
+        let last = items[items.len() - 1].end;
+        let by = by.clamp(before - items[at].start, limits.to - last);
+        let moved = |(n, item): (usize, &Item)| if n < at { *item } else { shifted(*item, by) };
+        return items.iter().enumerate().map(moved).collect();
+    }
+    if by < 0 {
+        return mirrored(&right(
+            &mirrored(items),
+            chosen,
+            -by,
+            mode,
+            limits.mirrored(),
+        ));
+    }
+    right(items, chosen, by, mode, limits)
+}
+
+fn right(items: &[Item], chosen: &BTreeSet<i64>, by: i64, mode: Mode, limits: Limits) -> Vec<Item> {
+    let is = |item: &Item| chosen.contains(&item.id);
+    let mut new = items.to_vec();
+    if mode == Mode::Bulldozer {
+        let moved = |by: i64| {
+            let mut new = items.to_vec();
+            for item in new.iter_mut().filter(|item| is(item)) {
+                *item = shifted(*item, by);
+            }
+            push(&mut new, 0);
+            new
+        };
+        new = moved(by);
+        let over = new.last().map_or(0, |last| last.end - limits.to);
+        return if over > 0 {
+            moved((by - over).max(0))
+        } else {
+            new
+        };
+    }
+    let mut count = items.iter().enumerate().filter(|(_, item)| is(item));
+    if let (Some((at, item)), None) = (count.next(), count.next()) {
+        new[at] = nearest_room(items, at, item.start + by, limits);
+        return new;
+    }
+    let walls = items
+        .iter()
+        .enumerate()
+        .filter(|(_, item)| is(item))
+        .filter_map(|(at, item)| match items.get(at + 1) {
+            Some(next) if is(next) => None,
+            Some(next) => Some(next.start - item.end),
+            None => Some(limits.to - item.end),
+        });
+    let by = walls.fold(by, i64::min).max(0);
+    for item in new.iter_mut().filter(|item| chosen.contains(&item.id)) {
+        *item = shifted(*item, by);
+    }
+    new
+}
+
+/// Puts one where it has room nearest to `start`.
+fn nearest_room(items: &[Item], at: usize, start: i64, limits: Limits) -> Item {
+    let item = items[at];
+    let length = item.end - item.start;
+    let mut best = item.start;
+    let mut from = limits.from;
+    let others = items.iter().enumerate().filter(|(n, _)| *n != at);
+    let walls = others.map(|(_, other)| (other.start, other.end));
+    for (to, next) in walls.chain([(limits.to, limits.to)]) {
+        if to - from >= length {
+            let there = start.clamp(from, to - length);
+            if (there - start).abs() < (best - start).abs() {
+                best = there;
+            }
+        }
+        from = next;
+    }
+    shifted(item, best - item.start)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const LIMITS: Limits = Limits {
+        from: 0,
+        to: 1000,
+        least: 10,
+    };
+
+    fn items(spans: &[(i64, i64)]) -> Vec<Item> {
+        let numbered = (1..).zip(spans);
+        numbered
+            .map(|(id, &(start, end))| Item { id, start, end })
+            .collect()
+    }
+
+    #[test]
+    fn neighbours_stay_are_pushed_or_move_along() {
+        use Grip::{End, Start, Whole};
+        use Mode::{Bulldozer, Normal, Shift};
+        let all = items(&[(0, 100), (150, 250), (300, 400)]);
+        type Case<'a> = (i64, Grip, i64, Mode, &'a [(i64, i64, i64)]);
+        let cases: [Case<'_>; 16] = [
+            (2, End, 30, Normal, &[(2, 150, 280)]),
+            (2, End, 90, Normal, &[(2, 150, 300)]),
+            (2, End, -500, Normal, &[(2, 150, 160)]),
+            (2, End, 90, Bulldozer, &[(2, 150, 340), (3, 340, 440)]),
+            (2, End, 9000, Bulldozer, &[(2, 150, 900), (3, 900, 1000)]),
+            (2, End, 90, Shift, &[(2, 150, 340), (3, 390, 490)]),
+            (2, End, -40, Shift, &[(2, 150, 210), (3, 260, 360)]),
+            (2, Start, -90, Normal, &[(2, 100, 250)]),
+            (2, Start, -90, Bulldozer, &[(2, 100, 250)]),
+            (2, Start, 40, Shift, &[(1, 40, 140), (2, 190, 250)]),
+            (2, Whole, 500, Normal, &[(2, 650, 750)]),
+            (2, Whole, 90, Normal, &[(2, 200, 300)]),
+            (2, Whole, 220, Normal, &[(2, 400, 500)]),
+            (2, Whole, 90, Bulldozer, &[(2, 240, 340), (3, 340, 440)]),
+            (2, Whole, -90, Bulldozer, &[(2, 100, 200)]),
+            (2, Whole, -90, Shift, &[(2, 100, 200), (3, 250, 350)]),
+        ];
+        for (id, grip, by, mode, want) in cases {
+            let found = dragged(&all, &BTreeSet::from([id]), (grip, by), mode, LIMITS);
+            let found: Vec<_> = found.iter().map(|it| (it.id, it.start, it.end)).collect();
+            assert_eq!(found, want, "{id} {grip:?} {by} {mode:?}");
+        }
+        let both = BTreeSet::from([1, 2]);
+        let found = dragged(&all, &both, (Whole, 90), Normal, LIMITS);
+        assert_eq!(found, items(&[(50, 150), (200, 300)]));
+    }
+
+    #[test]
+    fn a_new_one_gets_the_longest_part_that_is_free() {
+        let all = items(&[(0, 100), (150, 250), (300, 400)]);
+        for (wanted, want) in [
+            ((110, 140), Some((110, 140))),
+            ((50, 320), Some((100, 150))),
+            ((160, 240), None),
+            ((260, 900), Some((400, 900))),
+            ((500, 500), None),
+        ] {
+            assert_eq!(room(&all, wanted), want, "{wanted:?}");
+        }
+    }
+
+    fn any_items() -> impl Strategy<Value = Vec<Item>> {
+        prop::collection::vec((0..80_i64, 1..120_i64), 1..9).prop_map(|all| {
+            let mut end = 0;
+            let mut spans = Vec::new();
+            for (gap, length) in all {
+                spans.push((end + gap, end + gap + length));
+                end += gap + length;
+            }
+            items(&spans)
+        })
+    }
+
+    fn overlap(items: &[Item]) -> bool {
+        let mut sorted = items.to_vec();
+        sorted.sort_by_key(|item| item.start);
+        sorted.windows(2).any(|pair| pair[0].end > pair[1].start)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+        #[test]
+        fn nothing_overlaps_or_is_lost_at_any_step(
+            all in any_items(),
+            picked in prop::collection::btree_set(1..9_i64, 1..4),
+            grip in prop::sample::select(vec![Grip::Start, Grip::End, Grip::Whole]),
+            mode in prop::sample::select(vec![Mode::Normal, Mode::Bulldozer, Mode::Shift]),
+            by in -2000..2000_i64,
+        ) {
+            let changed = dragged(&all, &picked, (grip, by), mode, LIMITS);
+            let mut now = all.clone();
+            let to = LIMITS.to.max(all[all.len() - 1].end);
+            for new in in_order(&all, &changed) {
+                let old = now.iter_mut().find(|old| old.id == new.id).expect("it was there");
+                *old = new;
+                prop_assert!(!overlap(&now), "{changed:?}");
+            }
+            for (old, new) in all.iter().zip(&now) {
+                prop_assert!(new.start >= 0 && new.end <= to && new.end > new.start);
+                let length = |item: &Item| item.end - item.start;
+                let resized = grip != Grip::Whole && picked.contains(&new.id);
+                prop_assert!(resized || length(old) == length(new));
+            }
+        }
+
+        #[test]
+        fn what_goes_there_and_back_is_where_it_was(all in any_items(), by in 0..200_i64) {
+            let picked = BTreeSet::from([1]);
+            let limits = Limits { to: 100_000, ..LIMITS };
+            let gone = dragged(&all, &picked, (Grip::Whole, by), Mode::Shift, limits);
+            let back = dragged(&gone, &picked, (Grip::Whole, -by), Mode::Shift, limits);
+            prop_assert!(by == 0 || back == all);
+        }
+    }
+}

@@ -1,0 +1,387 @@
+//! The box in which a tier is described, added, changed, or removed.
+
+use chereme_corpus::{
+    Contents, Hands, Name, NewTier, Stereotype, TierChange, TierContents, TierName, TierRole,
+};
+use eframe::egui::{
+    Align2, ComboBox, Grid, Id, Key, Modifiers, Role, TextEdit, Ui, WidgetInfo, Window, vec2,
+};
+
+use super::Timeline;
+use super::edit::Scene;
+use crate::context::{Outbox, Seen};
+use crate::words::{Text, fill, shell, timeline as words};
+use crate::work::Work;
+
+/// What is to become of a tier.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum What {
+    Add,
+    Change(i64),
+    Remove(i64),
+}
+
+/// A tier as it is described in the box.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct TierBox {
+    what: What,
+    name: String,
+    /// The role as a query spells it.
+    role: String,
+    hand: Option<Hands>,
+    /// The tier above, and how this one hangs below it.
+    parent: Option<(String, Stereotype)>,
+    fresh: bool,
+}
+
+/// What was pressed in the box.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Pressed {
+    Nothing,
+    Done,
+    Cancel,
+}
+
+impl TierBox {
+    /// Returns one that adds a tier like the selected one.
+    pub(super) fn add(scene: &Scene<'_>) -> Self {
+        let like = scene
+            .tier()
+            .map(|tier| Self::of(scene.contents, tier, What::Add));
+        let blank = Self {
+            what: What::Add,
+            name: String::new(),
+            role: "gloss".to_owned(),
+            hand: None,
+            parent: None,
+            fresh: true,
+        };
+        match like {
+            Some(like) => Self {
+                parent: like.parent,
+                role: "free".to_owned(),
+                ..blank
+            },
+            None => blank,
+        }
+    }
+
+    /// Returns one that describes a tier as it is.
+    pub(super) fn of(contents: &Contents, tier: &TierContents, what: What) -> Self {
+        let row = &tier.row;
+        let mut role = row.role.clone();
+        if let Some(component) = &row.component {
+            role.clone_from(component);
+            if let Some(feature) = &row.feature {
+                role = format!("{role}.{feature}");
+            }
+        }
+        let above = contents
+            .tiers
+            .iter()
+            .find(|it| Some(it.row.id) == row.parent_id);
+        let how = row
+            .stereotype
+            .as_deref()
+            .and_then(Stereotype::from_elan_name);
+        Self {
+            what,
+            name: row.name.clone(),
+            role,
+            hand: row.hand.as_deref().and_then(Hands::of),
+            parent: above.map(|it| it.row.name.clone()).zip(how),
+            fresh: true,
+        }
+    }
+
+    /// Returns the name of the tier that it adds.
+    pub(super) fn added(self) -> Option<String> {
+        (self.what == What::Add).then(|| self.name.trim().to_owned())
+    }
+
+    /// Returns what is to be done; nothing where the role is none.
+    fn work(&self, recording: i64, before: Option<&Self>) -> Option<Work> {
+        let role: TierRole = self.role.parse().ok()?;
+        Some(match &self.what {
+            What::Add => {
+                let mut tier = NewTier::new(Name::Number(recording), self.name.trim(), role);
+                tier.hand = self.hand;
+                tier.parent.clone_from(&self.parent);
+                Work::AddTier(Box::new(tier))
+            }
+            What::Change(id) => {
+                let before = before?;
+                let change = TierChange {
+                    name: (self.name != before.name).then(|| self.name.clone()),
+                    role: (self.role != before.role).then_some(role),
+                    hand: (self.hand != before.hand).then_some(self.hand),
+                    values: (self.role != before.role).then(Default::default),
+                    parent: (self.parent != before.parent).then(|| self.parent.clone()),
+                    place: None,
+                };
+                Work::ChangeTier(TierName::Number(*id), change)
+            }
+            What::Remove(id) => Work::RemoveTier(TierName::Number(*id)),
+        })
+    }
+}
+
+/// Returns the roles that a tier can have: the four without components, then what inventories are for.
+fn roles(seen: &Seen<'_>) -> Vec<(String, String)> {
+    const PLAIN: [(&str, Text); 4] = [
+        ("gloss", words::ROLE_GLOSS),
+        ("translation", words::ROLE_TRANSLATION),
+        ("comment", words::ROLE_COMMENT),
+        ("free", words::ROLE_FREE),
+    ];
+    let mut all: Vec<(String, String)> = PLAIN
+        .iter()
+        .map(|(id, text)| ((*id).to_owned(), seen.say(*text).to_owned()))
+        .collect();
+    for stored in &seen.snapshot.overview.inventories {
+        let field = stored.inventory.field().to_string();
+        if all.iter().all(|(id, _)| *id != field) {
+            all.push((field.clone(), field));
+        }
+    }
+    all
+}
+
+/// Returns the names of the tiers that one can hang below: not itself, nor what hangs below it.
+fn parents(contents: &Contents, what: &What) -> Vec<String> {
+    let own = match what {
+        What::Change(id) => Some(*id),
+        _ => None,
+    };
+    let is_below = |tier: &TierContents| {
+        let mut at = Some(tier.row.id);
+        for _ in 0..=contents.tiers.len() {
+            if at.is_none() || at == own {
+                break;
+            }
+            let above = contents.tiers.iter().find(|it| Some(it.row.id) == at);
+            at = above.and_then(|it| it.row.parent_id);
+        }
+        own.is_some() && at == own
+    };
+    let fit = contents.tiers.iter().filter(|tier| !is_below(tier));
+    fit.map(|tier| tier.row.name.clone()).collect()
+}
+
+/// Shows the box while it is open, and does what is said in it.
+pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
+    let Some(mut tier) = timeline.tier_box.take() else {
+        return;
+    };
+    let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+    let (enter, escape) = (pressed(Key::Enter), pressed(Key::Escape));
+    let say = |text| scene.seen.say(text);
+    let title = match tier.what {
+        What::Add => words::ADD_TITLE,
+        What::Change(_) => words::CHANGE_TITLE,
+        What::Remove(_) => words::REMOVE_TITLE,
+    };
+    let mut done = Pressed::Nothing;
+    Window::new(say(title))
+        .id(Id::unique("timeline tier"))
+        .collapsible(false)
+        .resizable(false)
+        .anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0))
+        .show(ui.ctx(), |ui| {
+            match tier.what {
+                What::Remove(id) => about(ui, scene, id, &tier.name),
+                _ => form(ui, scene, &mut tier),
+            }
+            ui.add_space(8.0);
+            done = buttons(ui, scene.seen, &tier);
+        });
+    if escape || done == Pressed::Cancel {
+        return;
+    }
+    let ready = matches!(tier.what, What::Remove(_)) || !tier.name.trim().is_empty();
+    if !ready || !(enter || done == Pressed::Done) {
+        timeline.tier_box = Some(tier);
+        return;
+    }
+    let before = match tier.what {
+        What::Change(id) => scene
+            .tier_of(id)
+            .map(|it| TierBox::of(scene.contents, it, What::Change(id))),
+        _ => None,
+    };
+    if let Some(work) = tier.work(scene.contents.recording.id, before.as_ref()) {
+        let id = out.work(work);
+        timeline.tier_asked = Some((id, tier));
+    }
+}
+
+/// Says what goes with a tier.
+fn about(ui: &mut Ui, scene: &Scene<'_>, id: i64, name: &str) {
+    let mut family = vec![id];
+    let mut at = 0;
+    while let Some(above) = family.get(at).copied() {
+        let tiers = scene.contents.tiers.iter().map(|it| &it.row);
+        let below = tiers.filter(|row| row.parent_id == Some(above) && row.id != id);
+        family.extend(below.map(|row| row.id));
+        at += 1;
+    }
+    let counts = family.iter().filter_map(|id| scene.tier_of(*id));
+    let annotations: usize = counts.map(|it| it.annotations.len()).sum();
+    let text = fill(
+        scene.seen.say(words::REMOVE_ABOUT),
+        &[
+            ("name", &name),
+            ("tiers", &(family.len() - 1)),
+            ("n", &annotations),
+        ],
+    );
+    ui.set_max_width(340.0);
+    ui.label(text);
+}
+
+fn form(ui: &mut Ui, scene: &Scene<'_>, tier: &mut TierBox) {
+    let seen = scene.seen;
+    Grid::new("tier form")
+        .num_columns(2)
+        .spacing([12.0, 8.0])
+        .show(ui, |ui| {
+            ui.label(seen.say(words::TIER_NAME));
+            let field = TextEdit::singleline(&mut tier.name).desired_width(220.0);
+            let response = ui.add(field.id(Id::unique("timeline tier name")));
+            response.widget_info(|| {
+                let mut info =
+                    WidgetInfo::labeled(Role::TextInput, true, seen.say(words::TIER_NAME));
+                info.current_text_value = Some(tier.name.clone());
+                info
+            });
+            if std::mem::take(&mut tier.fresh) {
+                response.request_focus();
+            }
+            ui.end_row();
+            let roles = roles(seen);
+            let now = roles.iter().find(|(id, _)| *id == tier.role);
+            let now = now.map_or(tier.role.clone(), |(_, name)| name.clone());
+            choice(ui, seen.say(words::TIER_ROLE), &now, &roles, |role| {
+                tier.role.clone_from(role)
+            });
+            let mut hands = vec![(None, seen.say(words::HAND_NONE).to_owned())];
+            for (hand, text) in HANDS {
+                hands.push((Hands::of(hand), seen.say(text).to_owned()));
+            }
+            let now = hands.iter().find(|(hand, _)| *hand == tier.hand);
+            let now = now.map_or(String::new(), |(_, name)| name.clone());
+            choice(ui, seen.say(words::TIER_HAND), &now, &hands, |hand| {
+                tier.hand = *hand
+            });
+            let mut above = vec![(None, seen.say(words::PARENT_NONE).to_owned())];
+            let names = parents(scene.contents, &tier.what);
+            above.extend(names.into_iter().map(|name| (Some(name.clone()), name)));
+            let now = tier
+                .parent
+                .as_ref()
+                .map_or(seen.say(words::PARENT_NONE), |(name, _)| name)
+                .to_owned();
+            let how = tier
+                .parent
+                .as_ref()
+                .map_or(Stereotype::IncludedIn, |(_, how)| *how);
+            choice(ui, seen.say(words::TIER_PARENT), &now, &above, |name| {
+                tier.parent = name.clone().map(|name| (name, how));
+            });
+            if let Some((_, how)) = &mut tier.parent {
+                let all = Stereotype::ALL.map(|it| (it, it.elan_name().to_owned()));
+                let now = how.elan_name().to_owned();
+                choice(ui, seen.say(words::TIER_HOW), &now, &all, |it| *how = *it);
+            }
+        });
+}
+
+const HANDS: [(&str, Text); 5] = [
+    ("right", words::HAND_RIGHT),
+    ("left", words::HAND_LEFT),
+    ("dominant", words::HAND_DOMINANT),
+    ("weak", words::HAND_WEAK),
+    ("both", words::HAND_BOTH),
+];
+
+/// Shows a list to choose from.
+fn choice<T>(ui: &mut Ui, name: &str, now: &str, all: &[(T, String)], mut choose: impl FnMut(&T)) {
+    let label = ui.label(name);
+    let combo = ComboBox::from_id_salt(name)
+        .selected_text(now)
+        .width(220.0)
+        .show_ui(ui, |ui| {
+            for (it, text) in all {
+                if ui.selectable_label(text == now, text).clicked() {
+                    choose(it);
+                }
+            }
+        });
+    combo.response.labelled_by(label.id);
+    ui.end_row();
+}
+
+fn buttons(ui: &mut Ui, seen: &Seen<'_>, tier: &TierBox) -> Pressed {
+    let text = match tier.what {
+        What::Add => words::ADD,
+        What::Change(_) => words::CHANGE,
+        What::Remove(_) => words::REMOVE,
+    };
+    let mut pressed = Pressed::Nothing;
+    ui.horizontal(|ui| {
+        let ready = !tier.name.trim().is_empty();
+        if ui
+            .add_enabled(ready, eframe::egui::Button::new(seen.say(text)))
+            .clicked()
+        {
+            pressed = Pressed::Done;
+        }
+        if ui.button(seen.say(shell::CANCEL)).clicked() {
+            pressed = Pressed::Cancel;
+        }
+    });
+    pressed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::hold::tests::contents;
+    use super::*;
+
+    #[test]
+    fn only_what_is_different_is_asked_for() {
+        let all = contents(&[(1, None, "", &[]), (2, Some(1), "Included_In", &[])]);
+        let before = TierBox::of(&all, &all.tiers[1], What::Change(2));
+        assert_eq!(
+            before.parent,
+            Some(("tier 1".into(), Stereotype::IncludedIn))
+        );
+        let after = TierBox {
+            name: "new".into(),
+            parent: None,
+            ..before.clone()
+        };
+        let Some(Work::ChangeTier(name, change)) = after.work(1, Some(&before)) else {
+            panic!("a change");
+        };
+        assert_eq!(name, TierName::Number(2));
+        let want = TierChange {
+            name: Some("new".into()),
+            parent: Some(None),
+            ..TierChange::default()
+        };
+        assert_eq!(change, want);
+    }
+
+    #[test]
+    fn a_tier_cannot_hang_below_itself() {
+        let all = contents(&[
+            (1, None, "", &[]),
+            (2, Some(1), "Included_In", &[]),
+            (3, Some(2), "Included_In", &[]),
+            (4, None, "", &[]),
+        ]);
+        assert_eq!(parents(&all, &What::Change(2)), ["tier 1", "tier 4"]);
+        assert_eq!(parents(&all, &What::Add).len(), 4);
+    }
+}

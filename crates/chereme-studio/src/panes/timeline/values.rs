@@ -1,0 +1,228 @@
+//! What can be said on a tier: the values of its inventory and those in use, filtered while typing.
+
+use std::collections::BTreeMap;
+
+use chereme_corpus::{StoredInventory, TierContents, ValueState};
+use chereme_sign::text::fold;
+
+/// A value that can be given.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Choice {
+    /// What is stored.
+    pub(crate) value: String,
+    /// What it is called in the window's language, where that says more.
+    pub(crate) name: Option<String>,
+    /// How often the tier says it.
+    pub(crate) used: usize,
+    /// What else it is known by, folded, to filter by.
+    known: Vec<String>,
+}
+
+/// The values of a tier, most used first, then in the inventory's order.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct Choices {
+    pub(crate) all: Vec<Choice>,
+    /// Whether nothing else may be said.
+    pub(crate) closed: bool,
+}
+
+/// How a value can be missing on a coded tier, as it is typed.
+const MISSING: [&str; 2] = ["n/a", "unclear"];
+
+/// Returns what can be said on a tier.
+pub(crate) fn choices(
+    tier: &TierContents,
+    inventory: Option<&StoredInventory>,
+    language: &str,
+) -> Choices {
+    let columns = &tier.annotations;
+    let mut used: BTreeMap<&str, usize> = BTreeMap::new();
+    for (value, state) in columns.values.iter().zip(&columns.states) {
+        if *state == ValueState::Value && !value.trim().is_empty() {
+            *used.entry(value).or_default() += 1;
+        }
+    }
+    let mut all: Vec<Choice> = Vec::new();
+    for value in inventory.iter().flat_map(|it| &it.inventory.values) {
+        let names = value.names.values().chain(&value.aliases);
+        all.push(Choice {
+            value: value.id.clone(),
+            name: value
+                .names
+                .get(language)
+                .filter(|name| **name != value.id)
+                .cloned(),
+            used: used.remove(value.id.as_str()).unwrap_or_default(),
+            known: names.chain([&value.id]).map(|name| fold(name)).collect(),
+        });
+    }
+    all.extend(used.into_iter().map(|(value, used)| Choice {
+        value: value.to_owned(),
+        name: None,
+        used,
+        known: vec![fold(value)],
+    }));
+    all.sort_by_key(|choice| std::cmp::Reverse(choice.used));
+    let coded = inventory.is_some() || matches!(tier.row.role.as_str(), "component" | "gloss");
+    all.extend(MISSING.iter().filter(|_| coded).map(|value| Choice {
+        value: (*value).to_owned(),
+        name: None,
+        used: 0,
+        known: vec![(*value).to_owned()],
+    }));
+    Choices {
+        all,
+        closed: inventory.is_some(),
+    }
+}
+
+impl Choices {
+    /// Returns the places of those that fit what is typed: equal ones first, then those that begin so,
+    /// then those that hold it anywhere.
+    pub(crate) fn fitting(&self, text: &str) -> Vec<usize> {
+        let wanted = fold(text.trim());
+        let rank = |choice: &Choice| {
+            let exact = choice.value == text.trim();
+            let ranks = choice.known.iter().filter_map(|known| {
+                if exact || *known == wanted {
+                    Some(u8::from(!exact))
+                } else if known.starts_with(&wanted) {
+                    Some(2)
+                } else {
+                    known.contains(&wanted).then_some(3)
+                }
+            });
+            ranks.min()
+        };
+        let ranked = self.all.iter().enumerate();
+        let mut ranked: Vec<(u8, usize)> = ranked
+            .filter_map(|(at, choice)| Some((rank(choice)?, at)))
+            .collect();
+        ranked.sort_unstable();
+        ranked.into_iter().map(|(_, at)| at).collect()
+    }
+
+    /// Returns what Enter keeps: the marked one, else what was typed where that may be said, else on a
+    /// closed tier the one that fits best. Nothing where none fits.
+    pub(crate) fn kept(&self, text: &str, marked: Option<usize>) -> Option<String> {
+        let text = text.trim();
+        if let Some(choice) = marked.and_then(|at| self.all.get(at)) {
+            return Some(choice.value.clone());
+        }
+        if !self.closed || text.is_empty() || text == "unset" {
+            return Some(text.to_owned());
+        }
+        let best = self.fitting(text).first().copied()?;
+        Some(self.all[best].value.clone())
+    }
+
+    /// Returns whether a value begins with that digit, so that it is typed and does not pick.
+    pub(crate) fn types_digit(&self, digit: char) -> bool {
+        !self.closed
+            || self
+                .all
+                .iter()
+                .any(|choice| choice.value.starts_with(digit))
+    }
+}
+
+/// Which digit gives which value, tier by tier: once given it stays for the sitting, so that hands can
+/// learn it.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct Digits {
+    given: BTreeMap<i64, Vec<String>>,
+}
+
+impl Digits {
+    /// Returns the values of the digits 1 to 9 on a tier; those used from now on get what is left.
+    pub(crate) fn of(&mut self, tier: i64, choices: &Choices) -> &[String] {
+        let given = self.given.entry(tier).or_default();
+        for choice in &choices.all {
+            if given.len() >= 9 {
+                break;
+            }
+            let says =
+                (choices.closed || choice.used > 0) && !MISSING.contains(&choice.value.as_str());
+            if says && !given.contains(&choice.value) {
+                given.push(choice.value.clone());
+            }
+        }
+        given
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_corpus::{AnnotationColumns, TierRow};
+    use chereme_sign::inventory::builtin;
+
+    fn tier(role: &str, values: &[&str]) -> TierContents {
+        TierContents {
+            row: TierRow {
+                id: 7,
+                role: role.into(),
+                ..TierRow::default()
+            },
+            annotations: AnnotationColumns {
+                states: vec![ValueState::Value; values.len()],
+                values: values.iter().map(|value| (*value).into()).collect(),
+                ..AnnotationColumns::default()
+            },
+        }
+    }
+
+    fn shapes() -> StoredInventory {
+        let found = builtin().iter().find(|it| it.id == "configurations");
+        StoredInventory {
+            id: 1,
+            inventory: found.expect("built in").clone(),
+        }
+    }
+
+    fn fitting(choices: &Choices, text: &str) -> Vec<String> {
+        let places = choices.fitting(text);
+        places
+            .iter()
+            .map(|at| choices.all[*at].value.clone())
+            .collect()
+    }
+
+    #[test]
+    fn what_is_used_most_comes_first_and_typing_filters() {
+        let free = choices(
+            &tier("gloss", &["BOL", "CHAT", "CHAT", "ÉCOLE"]),
+            None,
+            "en",
+        );
+        let values: Vec<&str> = free.all.iter().map(|it| it.value.as_str()).collect();
+        assert_eq!(values, ["CHAT", "BOL", "ÉCOLE", "n/a", "unclear"]);
+        assert_eq!(fitting(&free, "eco"), ["ÉCOLE"]);
+        assert_eq!(free.kept("NEW", None).as_deref(), Some("NEW"));
+        assert_eq!(free.kept("c", Some(0)).as_deref(), Some("CHAT"));
+        let inventory = shapes();
+        let coded = choices(&tier("component", &["U", "U", "B"]), Some(&inventory), "fr");
+        assert_eq!((coded.all[0].value.as_str(), coded.all[0].used), ("U", 2));
+        assert_eq!(coded.all[1].value, "B");
+        assert_eq!(fitting(&coded, "u")[0], "U");
+        assert_eq!(coded.kept("u", None).as_deref(), Some("U"));
+        assert_eq!(coded.kept("no such shape", None), None);
+        assert_eq!(coded.kept("", None).as_deref(), Some(""));
+        assert!(coded.types_digit('5') && !coded.types_digit('9'));
+    }
+
+    #[test]
+    fn a_digit_keeps_its_value_for_the_sitting() {
+        let mut digits = Digits::default();
+        let at = |digits: &mut Digits, values: &[&str]| {
+            digits
+                .of(7, &choices(&tier("gloss", values), None, "en"))
+                .to_vec()
+        };
+        assert_eq!(at(&mut digits, &["BOL", "CHAT", "CHAT"]), ["CHAT", "BOL"]);
+        assert_eq!(
+            at(&mut digits, &["BOL", "BOL", "BOL", "CHAT", "AMI"]),
+            ["CHAT", "BOL", "AMI"]
+        );
+    }
+}

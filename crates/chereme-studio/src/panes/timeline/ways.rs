@@ -1,0 +1,97 @@
+//! How the timeline works and what it shows: remembered, and switched by actions.
+
+use std::collections::BTreeSet;
+
+use serde::{Deserialize, Serialize};
+
+use super::lanes::Lane;
+use super::snap::Snaps;
+use super::spans::Mode;
+use crate::action::Action;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+
+/// How the timeline works and what it shows.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Ways {
+    /// What becomes of the neighbours.
+    pub(crate) mode: Mode,
+    /// What times settle on.
+    pub(crate) snaps: Snaps,
+    /// Which lanes of movement are shown.
+    pub(crate) lanes: BTreeSet<Lane>,
+    /// Names of tiers whose children are folded away.
+    pub(crate) folded: BTreeSet<String>,
+    /// Names of tiers that are not shown.
+    pub(crate) hidden: BTreeSet<String>,
+}
+
+impl Ways {
+    /// Returns them after an action; nothing where it is not about them.
+    pub(crate) fn after(&self, action: Action) -> Option<Self> {
+        let mut ways = self.clone();
+        match action {
+            Action::ModeNormal => ways.mode = Mode::Normal,
+            Action::ModeBulldozer => ways.mode = Mode::Bulldozer,
+            Action::ModeShift => ways.mode = Mode::Shift,
+            Action::SnapFrames => ways.snaps.frames = !ways.snaps.frames,
+            Action::SnapBoundaries => ways.snaps.boundaries = !ways.snaps.boundaries,
+            Action::SnapMinima => ways.snaps.minima = !ways.snaps.minima,
+            Action::ShowTiers => ways.hidden.clear(),
+            _ => {
+                let (lane, ..) = Lane::ALL.into_iter().find(|(_, of, _)| *of == action)?;
+                toggle(&mut ways.lanes, lane);
+            }
+        }
+        Some(ways)
+    }
+
+    /// Returns whether an action's switch is on.
+    pub(crate) fn is_on(&self, action: Action) -> bool {
+        match action {
+            Action::ModeNormal => self.mode == Mode::Normal,
+            Action::ModeBulldozer => self.mode == Mode::Bulldozer,
+            Action::ModeShift => self.mode == Mode::Shift,
+            Action::SnapFrames => self.snaps.frames,
+            Action::SnapBoundaries => self.snaps.boundaries,
+            Action::SnapMinima => self.snaps.minima,
+            _ => Lane::ALL
+                .iter()
+                .any(|(lane, of, _)| *of == action && self.lanes.contains(lane)),
+        }
+    }
+}
+
+/// Puts a thing into a set, or takes it out.
+pub(crate) fn toggle<T: Ord>(set: &mut BTreeSet<T>, it: T) {
+    if !set.remove(&it) {
+        set.insert(it);
+    }
+}
+
+/// Has the ways changed.
+pub(crate) fn change(seen: &Seen<'_>, out: &mut Outbox, ways: Ways) {
+    let mut settings = seen.settings.clone();
+    settings.timeline = ways;
+    out.send(Command::Settings(Box::new(settings)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn switches_go_on_and_off_and_modes_exclude_each_other() {
+        let mut ways = Ways::default();
+        for action in [Action::SnapMinima, Action::LaneSpeed, Action::ModeShift] {
+            assert!(!ways.is_on(action));
+            ways = ways.after(action).expect("its own");
+            assert!(ways.is_on(action), "{action:?}");
+        }
+        assert!(!ways.is_on(Action::ModeNormal));
+        ways = ways.after(Action::LaneSpeed).expect("its own");
+        assert!(!ways.is_on(Action::LaneSpeed));
+        assert_eq!(ways.after(Action::Undo), None);
+    }
+}

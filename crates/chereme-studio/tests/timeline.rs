@@ -1,0 +1,495 @@
+//! The timeline driven by its labels: making, moving and coding annotations by mouse and by keys.
+
+mod common;
+
+use std::collections::BTreeMap;
+
+use chereme_corpus::{AnnotationColumns, Corpus};
+use common::{Window, click, has, idle, open_small, until};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Role, pos2};
+use egui_kittest::kittest::Queryable;
+
+const CTRL: Modifiers = Modifiers::COMMAND;
+const ALT: Modifiers = Modifiers::ALT;
+const NONE: Modifiers = Modifiers::NONE;
+
+fn opened<'a>(folder: &std::path::Path) -> Window<'a> {
+    let mut window = open_small(folder);
+    until(&mut window, "the tiers", |it| has(it, "Tier Gloss"));
+    idle(&mut window);
+    window
+}
+
+/// Returns what a tier says, as `(start in milliseconds, end, value)`.
+fn says(window: &Window<'_>, tier: &str) -> Vec<(i64, i64, String)> {
+    let path = window.state().corpus().expect("open").clone();
+    let corpus = Corpus::open(&path, "reader").expect("opened");
+    let recording = corpus.overview(1).expect("read").recordings[0].row.id;
+    let contents = corpus.contents(recording).expect("read");
+    let tier = contents.tiers.iter().find(|it| it.row.name == tier);
+    let columns: AnnotationColumns = tier.expect("a tier").annotations.clone();
+    (0..columns.len())
+        .map(|at| {
+            let millis = |micros: i64| (micros + 500) / 1000;
+            (
+                millis(columns.starts[at]),
+                millis(columns.ends[at]),
+                columns.values[at].to_string(),
+            )
+        })
+        .collect()
+}
+
+/// Returns the values of a tier.
+fn values(window: &Window<'_>, tier: &str) -> Vec<String> {
+    says(window, tier).into_iter().map(|it| it.2).collect()
+}
+
+fn operations(window: &Window<'_>) -> usize {
+    let path = window.state().corpus().expect("open").clone();
+    Corpus::open(&path, "reader")
+        .expect("opened")
+        .log(999)
+        .expect("read")
+        .len()
+}
+
+fn press(window: &mut Window<'_>, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.run_steps(2);
+}
+
+fn stored(window: &mut Window<'_>, operations_before: usize) {
+    until(window, "the edit", |it| {
+        it.state().is_idle() && operations(it) > operations_before
+    });
+    window.run_steps(2);
+}
+
+fn rect(window: &Window<'_>, label: &str) -> eframe::egui::Rect {
+    window.get_by_label(label).rect()
+}
+
+fn pointer(window: &mut Window<'_>, at: Pos2, pressed: Option<bool>, modifiers: Modifiers) {
+    window.event_modifiers(Event::PointerMoved(at), modifiers);
+    if let Some(pressed) = pressed {
+        let event = Event::PointerButton {
+            pos: at,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers,
+        };
+        window.event_modifiers(event, modifiers);
+    }
+    window.step();
+}
+
+fn drag(window: &mut Window<'_>, from: Pos2, to: Pos2, modifiers: Modifiers) {
+    pointer(window, from, None, modifiers);
+    pointer(window, from, Some(true), modifiers);
+    for step in 1..=4 {
+        let at = from + (to - from) * (step as f32 / 4.0);
+        pointer(window, at, None, modifiers);
+    }
+    pointer(window, to, Some(false), modifiers);
+    window.step();
+}
+
+fn click_with(window: &mut Window<'_>, label: &str, modifiers: Modifiers) {
+    let at = rect(window, label).center();
+    pointer(window, at, Some(true), modifiers);
+    pointer(window, at, Some(false), modifiers);
+    window.run_steps(2);
+}
+
+/// Returns the field for the name of a tier.
+fn named<'w>(window: &'w Window<'_>) -> egui_kittest::Node<'w> {
+    window.get_by_role_and_label(Role::TextInput, "Name of the tier")
+}
+
+/// Removes every annotation of the glosses, so that the tier is free.
+fn emptied<'a>(folder: &std::path::Path) -> Window<'a> {
+    let mut window = opened(folder);
+    click(&mut window, "Tier Gloss");
+    press(&mut window, CTRL, Key::A);
+    let before = operations(&window);
+    press(&mut window, CTRL | ALT, Key::D);
+    stored(&mut window, before);
+    assert!(says(&window, "Gloss").is_empty());
+    window
+}
+
+#[test]
+fn a_gloss_is_made_on_a_dragged_selection_and_typed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = emptied(folder.path());
+    let lane = rect(&window, "Lane of Gloss");
+    let at = |x: f32| pos2(lane.left() + lane.width() * x, lane.center().y);
+    drag(&mut window, at(0.2), at(0.4), NONE);
+    let before = operations(&window);
+    press(&mut window, NONE, Key::Enter);
+    assert!(has(&window, "Value on Gloss"));
+    window.get_by_label("Value on Gloss").type_text("maison");
+    window.step();
+    press(&mut window, NONE, Key::Enter);
+    stored(&mut window, before);
+    assert_eq!(operations(&window), before + 1);
+    assert_eq!(values(&window, "Gloss"), ["maison"]);
+    assert!(has(&window, "Gloss: maison"));
+    press(&mut window, CTRL, Key::Z);
+    until(&mut window, "the undo", |it| !has(it, "Gloss: maison"));
+    idle(&mut window);
+    assert!(says(&window, "Gloss").is_empty());
+}
+
+#[test]
+fn alt_and_drag_makes_one_at_once_and_escape_drops_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = emptied(folder.path());
+    let lane = rect(&window, "Lane of Gloss");
+    let at = |x: f32| pos2(lane.left() + lane.width() * x, lane.center().y);
+    let before = operations(&window);
+    drag(&mut window, at(0.2), at(0.4), ALT);
+    assert!(has(&window, "Value on Gloss"));
+    press(&mut window, NONE, Key::Escape);
+    assert!(!has(&window, "Value on Gloss"));
+    drag(&mut window, at(0.5), at(0.7), ALT);
+    window.get_by_label("Value on Gloss").type_text("b");
+    press(&mut window, NONE, Key::Enter);
+    stored(&mut window, before);
+    assert_eq!(values(&window, "Gloss"), ["b"]);
+}
+
+/// Three glosses a, b, c at 10-20, 30-40 and 60-70 % of the recording.
+fn three<'a>(folder: &std::path::Path) -> Window<'a> {
+    let mut window = emptied(folder);
+    let lane = rect(&window, "Lane of Gloss");
+    for (text, from, to) in [("a", 0.1, 0.2), ("b", 0.3, 0.4), ("c", 0.6, 0.7)] {
+        let at = |x: f32| pos2(lane.left() + lane.width() * x, lane.center().y);
+        let before = operations(&window);
+        drag(&mut window, at(from), at(to), ALT);
+        window.get_by_label("Value on Gloss").type_text(text);
+        window.step();
+        press(&mut window, NONE, Key::Enter);
+        stored(&mut window, before);
+    }
+    // Nothing catches, so that distances are those of the mouse.
+    for switch in [Key::F6, Key::F7] {
+        press(&mut window, Modifiers::SHIFT, switch);
+    }
+    window
+}
+
+fn spans(window: &Window<'_>) -> BTreeMap<String, (i64, i64)> {
+    let all = says(window, "Gloss").into_iter();
+    all.map(|(start, end, value)| (value, (start, end)))
+        .collect()
+}
+
+#[test]
+fn a_selected_annotation_is_moved_and_neighbours_are_pushed_in_one_undo() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = three(folder.path());
+    let old = spans(&window);
+    click(&mut window, "Gloss: b");
+    let (from, c) = (
+        rect(&window, "Gloss: b").center(),
+        rect(&window, "Gloss: c"),
+    );
+    let before = operations(&window);
+    // Normal: it stops at its neighbour.
+    drag(&mut window, from, pos2(c.left(), from.y), NONE);
+    stored(&mut window, before);
+    let new = spans(&window);
+    assert_eq!(new["b"].1, new["c"].0);
+    assert_eq!(new["c"], old["c"]);
+    // Bulldozer: the neighbour goes along.
+    click(&mut window, "Bulldozer");
+    let from = rect(&window, "Gloss: b").center();
+    let before = operations(&window);
+    drag(
+        &mut window,
+        from,
+        from + eframe::egui::vec2(30.0, 0.0),
+        NONE,
+    );
+    stored(&mut window, before);
+    assert_eq!(operations(&window), before + 1);
+    let pushed = spans(&window);
+    assert!(pushed["b"].0 > new["b"].0 && pushed["c"].0 > new["c"].0);
+    assert_eq!(pushed["b"].1, pushed["c"].0);
+    press(&mut window, CTRL, Key::Z);
+    stored(&mut window, before + 1);
+    assert_eq!(spans(&window), new);
+}
+
+#[test]
+fn an_edge_is_dragged_and_escape_lets_it_be() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = three(folder.path());
+    let old = spans(&window);
+    click(&mut window, "Gloss: b");
+    let b = rect(&window, "Gloss: b");
+    let edge = pos2(b.right() - 2.0, b.center().y);
+    pointer(&mut window, edge, Some(true), NONE);
+    pointer(
+        &mut window,
+        edge + eframe::egui::vec2(10.0, 0.0),
+        None,
+        NONE,
+    );
+    press(&mut window, NONE, Key::Escape);
+    pointer(&mut window, edge, Some(false), NONE);
+    idle(&mut window);
+    assert_eq!(spans(&window), old);
+    let before = operations(&window);
+    drag(
+        &mut window,
+        edge,
+        edge + eframe::egui::vec2(12.0, 0.0),
+        NONE,
+    );
+    stored(&mut window, before);
+    let new = spans(&window);
+    assert_eq!(new["b"].0, old["b"].0);
+    assert!(new["b"].1 > old["b"].1);
+}
+
+#[test]
+fn several_are_selected_by_click_and_frame_and_changed_together() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = three(folder.path());
+    click(&mut window, "Gloss: a");
+    click_with(&mut window, "Gloss: c", CTRL);
+    assert!(has(&window, "2 selected"));
+    click(&mut window, "Gloss: a");
+    click_with(&mut window, "Gloss: c", Modifiers::SHIFT);
+    assert!(has(&window, "3 selected"));
+    let (a, b) = (rect(&window, "Gloss: a"), rect(&window, "Gloss: b"));
+    let outside = pos2(a.left() - 8.0, a.center().y - 2.0);
+    drag(
+        &mut window,
+        outside,
+        pos2(b.right() - 2.0, b.bottom()),
+        Modifiers::SHIFT,
+    );
+    assert!(has(&window, "2 selected"));
+    let before = operations(&window);
+    press(&mut window, NONE, Key::Enter);
+    window.get_by_label("Value on Gloss").type_text("x");
+    press(&mut window, NONE, Key::Enter);
+    stored(&mut window, before);
+    assert_eq!(values(&window, "Gloss"), ["x", "x", "c"]);
+    assert_eq!(operations(&window), before + 1);
+    let old = says(&window, "Gloss");
+    press(&mut window, CTRL | ALT, Key::U);
+    stored(&mut window, before + 1);
+    let new = says(&window, "Gloss");
+    assert!(new[0].0 > old[0].0 && new[1].0 > old[1].0 && new[2] == old[2]);
+}
+
+#[test]
+fn by_keys_alone_one_is_made_split_merged_shifted_and_deleted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = emptied(folder.path());
+    press(&mut window, CTRL, Key::B);
+    press(&mut window, Modifiers::SHIFT, Key::Enter);
+    for _ in 0..10 {
+        press(&mut window, CTRL, Key::ArrowRight);
+    }
+    let before = operations(&window);
+    press(&mut window, Modifiers::SHIFT, Key::Enter);
+    stored(&mut window, before);
+    assert_eq!(says(&window, "Gloss").len(), 1);
+    let value = |window: &mut Window<'_>, text: &str| {
+        let before = operations(window);
+        press(window, NONE, Key::Enter);
+        window.get_by_label("Value on Gloss").type_text(text);
+        window.step();
+        press(window, NONE, Key::Enter);
+        stored(window, before);
+    };
+    value(&mut window, "un");
+    for _ in 0..5 {
+        press(&mut window, CTRL, Key::ArrowLeft);
+    }
+    let before = operations(&window);
+    press(&mut window, CTRL | ALT, Key::S);
+    stored(&mut window, before);
+    assert_eq!(values(&window, "Gloss"), ["un", "un"]);
+    press(&mut window, ALT, Key::ArrowRight);
+    value(&mut window, "deux");
+    press(&mut window, ALT, Key::ArrowLeft);
+    let before = operations(&window);
+    press(&mut window, CTRL | Modifiers::SHIFT, Key::A);
+    stored(&mut window, before);
+    assert_eq!(values(&window, "Gloss"), ["un deux"]);
+    let old = says(&window, "Gloss");
+    for modifiers in [CTRL, CTRL | ALT] {
+        let before = operations(&window);
+        press(&mut window, modifiers, Key::U);
+        stored(&mut window, before);
+    }
+    let new = says(&window, "Gloss");
+    assert!(new[0].0 > old[0].0 && new[0].1 > old[0].1);
+    let before = operations(&window);
+    press(&mut window, NONE, Key::Delete);
+    stored(&mut window, before);
+    assert!(says(&window, "Gloss").is_empty());
+}
+
+#[test]
+fn the_selection_is_extended_and_an_annotation_brought_to_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = emptied(folder.path());
+    press(&mut window, CTRL, Key::B);
+    for _ in 0..4 {
+        press(&mut window, CTRL | Modifiers::SHIFT, Key::ArrowRight);
+    }
+    let before = operations(&window);
+    press(&mut window, CTRL | ALT, Key::N);
+    press(&mut window, NONE, Key::Enter);
+    stored(&mut window, before);
+    let short = says(&window, "Gloss")[0].clone();
+    for _ in 0..4 {
+        press(&mut window, CTRL | Modifiers::SHIFT, Key::ArrowRight);
+    }
+    let before = operations(&window);
+    press(&mut window, CTRL, Key::Enter);
+    stored(&mut window, before);
+    let long = says(&window, "Gloss")[0].clone();
+    assert_eq!(long.0, short.0);
+    assert!(long.1 > short.1);
+}
+
+#[test]
+fn tab_keeps_and_goes_on_and_digits_give_values() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = three(folder.path());
+    click(&mut window, "Gloss: a");
+    press(&mut window, NONE, Key::Enter);
+    window.get_by_label("Value on Gloss").type_text("ananas");
+    let before = operations(&window);
+    press(&mut window, NONE, Key::Tab);
+    window.get_by_label("Value on Gloss").type_text("b");
+    press(&mut window, NONE, Key::Tab);
+    window.get_by_label("Value on Gloss").type_text("banane");
+    press(&mut window, NONE, Key::Enter);
+    stored(&mut window, before + 1);
+    assert_eq!(values(&window, "Gloss"), ["ananas", "b", "banane"]);
+    click(&mut window, "Gloss: b");
+    let before = operations(&window);
+    press(&mut window, NONE, Key::Num1);
+    stored(&mut window, before);
+    assert_ne!(values(&window, "Gloss")[1], "b");
+}
+
+#[test]
+fn a_handshape_is_chosen_from_the_values_of_its_inventory() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path());
+    click(&mut window, "Tier Configuration RH");
+    press(&mut window, ALT, Key::ArrowRight);
+    let before = operations(&window);
+    press(&mut window, NONE, Key::Enter);
+    window
+        .get_by_label("Value on Configuration RH")
+        .type_text("no such shape");
+    window.step();
+    press(&mut window, NONE, Key::Enter);
+    assert!(has(&window, "The tier has no such value."));
+    press(&mut window, NONE, Key::Escape);
+    press(&mut window, NONE, Key::Enter);
+    window
+        .get_by_label("Value on Configuration RH")
+        .type_text("v");
+    window.run_steps(2);
+    click(&mut window, "Value V");
+    stored(&mut window, before);
+    assert_eq!(values(&window, "Configuration RH")[0], "V");
+}
+
+#[test]
+fn lanes_of_movement_are_measured_beside_the_window() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path());
+    press(&mut window, CTRL, Key::F5);
+    press(&mut window, CTRL, Key::F7);
+    until(&mut window, "the speed", |it| {
+        it.query_by_label_contains("Wrist speed R").is_some()
+    });
+    until(&mut window, "the palm", |it| {
+        it.query_by_label_contains("Palm R").is_some()
+    });
+    press(&mut window, CTRL, Key::F5);
+    assert!(window.query_by_label_contains("Wrist speed R").is_none());
+}
+
+#[test]
+fn tiers_are_folded_and_hidden_and_shown_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path());
+    assert!(has(&window, "Tier Translation FR"));
+    click(&mut window, "Fold Gloss");
+    assert!(!has(&window, "Tier Translation FR"));
+    click(&mut window, "Unfold Gloss");
+    click(&mut window, "Tier Translation FR");
+    press(&mut window, CTRL | ALT, Key::H);
+    assert!(!has(&window, "Tier Translation FR"));
+    assert!(has(&window, "Tiers, 1 hidden"));
+    press(&mut window, CTRL | Modifiers::SHIFT, Key::H);
+    assert!(has(&window, "Tier Translation FR"));
+}
+
+#[test]
+fn a_tier_is_added_renamed_moved_and_removed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path());
+    let before = operations(&window);
+    press(&mut window, CTRL, Key::T);
+    named(&window).type_text("Mouth");
+    window.step();
+    press(&mut window, NONE, Key::Enter);
+    stored(&mut window, before);
+    until(&mut window, "the tier", |it| has(it, "Tier Mouth"));
+    press(&mut window, CTRL | Modifiers::SHIFT, Key::T);
+    named(&window).type_text("ing");
+    window.step();
+    press(&mut window, NONE, Key::Enter);
+    until(&mut window, "the name", |it| has(it, "Tier Mouthing"));
+    idle(&mut window);
+    let y = |window: &Window<'_>, label: &str| rect(window, label).top();
+    let (mouth, phase) = (y(&window, "Tier Mouthing"), y(&window, "Tier Phase LH"));
+    assert!(mouth > phase);
+    press(&mut window, CTRL | Modifiers::SHIFT, Key::ArrowUp);
+    stored(&mut window, before + 2);
+    until(&mut window, "the place", |it| {
+        y(it, "Tier Mouthing") < y(it, "Tier Phase LH")
+    });
+    press(&mut window, CTRL | ALT, Key::T);
+    click(&mut window, "Remove");
+    until(&mut window, "no tier", |it| !has(it, "Tier Mouthing"));
+    idle(&mut window);
+    press(&mut window, CTRL, Key::Z);
+    until(&mut window, "the tier again", |it| has(it, "Tier Mouthing"));
+}
+
+#[test]
+fn an_annotation_is_copied_to_another_tier_by_keys() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = three(folder.path());
+    let before = operations(&window);
+    click(&mut window, "Gloss: b");
+    press(&mut window, CTRL, Key::T);
+    named(&window).type_text("Other");
+    window.step();
+    click(&mut window, "Add");
+    stored(&mut window, before);
+    press(&mut window, CTRL | Modifiers::SHIFT, Key::D);
+    window.get_by_label("Name of a tier").type_text("oth");
+    window.step();
+    press(&mut window, NONE, Key::Enter);
+    stored(&mut window, before + 1);
+    assert_eq!(values(&window, "Other"), ["b"]);
+    assert_eq!(values(&window, "Gloss"), ["a", "b", "c"]);
+}
