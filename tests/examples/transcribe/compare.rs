@@ -1,10 +1,11 @@
 //! What two notations of one sign have in common, feature by feature.
 
 use chereme_analysis::transcribe::{Options, off_place};
+use chereme_motion::Side;
 use chereme_motion::glam::DVec3;
 use chereme_sign::hamnosys::{
-    Aim, BodyLanguage, BodyPlace, Compass, Direction, Each, HandsUsed, Handshape, Manual, Motion,
-    MotionKind, Place, Posture, Repeat, Size, WristMotion,
+    Aim, BodyLanguage, BodyPlace, Compass, Direction, Each, HandsUsed, Handshape, Manner, Manual,
+    Motion, MotionKind, Place, Posture, Repeat, Size, WristMotion, orientation,
 };
 
 use crate::notation::Again;
@@ -38,6 +39,7 @@ pub(crate) fn compare(written: &Manual, again: &Again) -> Vec<Verdict> {
     for n in 0..2 {
         posture(n, &written.posture, &found.posture, &mut say);
     }
+    held(&written.posture, &found.posture, again, &mut say);
     let symmetric = matches!(written.hands, HandsUsed::Both(_));
     let off = |a: &BodyPlace, b: Option<&BodyPlace>| -> Option<(f64, f64)> {
         let feature = again.found.features.first()?;
@@ -179,6 +181,48 @@ fn posture(
     }
 }
 
+/// A direction or palm is held where the hand is nearer to it than to the next that can be told, in degrees.
+const HELD: f64 = 11.25;
+
+/// Says again where the dominant hand points and its palm faces, of the parts in which the body does what
+/// is written: what is lost there, the transcriber loses.
+fn held(
+    written: &Posture,
+    found: &Posture,
+    again: &Again,
+    say: &mut impl FnMut(&'static str, bool, String, String),
+) -> Option<()> {
+    let frame = again.found.features.first()?.frame;
+    let model = again.clip.model_pose(frame);
+    let body = again.anatomy.body_frame(&model)?;
+    let forward = DVec3::new(body.forward.x, 0.0, body.forward.z).try_normalize()?;
+    let left = DVec3::Y.cross(forward);
+    let level = |v: DVec3| DVec3::new(v.dot(left), v.y, v.dot(forward));
+    let along = level(again.anatomy.hand_direction(Side::Right, &model)?);
+    let aim = of(&written.extended, 0)?;
+    if along.angle_between(vector(aim)).to_degrees() > HELD {
+        return None;
+    }
+    let told = of(&found.extended, 0);
+    let agrees = told.is_some_and(|told| vector(told).angle_between(vector(aim)) < 0.02);
+    let (a, b) = (aimed(Some(aim)), aimed(told));
+    say("direction where held", agrees, a, b);
+    let palm = of(&written.palm, 0)?;
+    let normal = level(again.anatomy.palm_normal(Side::Right, &model)?);
+    let want = orientation::palm(vector(aim).to_array(), angle(palm));
+    if normal.angle_between(want.into()).to_degrees() > HELD {
+        return None;
+    }
+    let told = of(&found.palm, 0);
+    let agrees = told.is_some_and(|told| {
+        let apart = (angle(palm) - angle(told)).to_degrees();
+        ((apart + 180.0).rem_euclid(360.0) - 180.0).abs() < 1.0
+    });
+    let (a, b) = (aimed(Some(palm)), aimed(told));
+    say("palm where held", agrees, a, b);
+    Some(())
+}
+
 fn words(shape: Option<&Handshape>) -> String {
     let Some(shape) = shape else {
         return "none".to_owned();
@@ -284,11 +328,12 @@ fn place(
                     .any(|site| sites(&body).iter().any(|other| site.0 == other.0))
             });
             let (at, mut found_at) = (spoken(Some(&body)), spoken(found.as_ref()));
-            let distances = if same {
-                None
-            } else {
-                off(&body, found.as_ref())
-            };
+            let measured = off(&body, found.as_ref());
+            let distances = measured.filter(|_| !same);
+            if measured.is_some_and(|(off, _)| off < ONE_POINT) {
+                let (a, b) = (at.clone(), found_at.clone());
+                say("location where held", same, a, b);
+            }
             if let Some((off, apart)) = distances {
                 found_at += &format!(
                     "\t[off {:.1} cm, apart {:.1} cm]",
@@ -436,6 +481,7 @@ struct Done {
     repeat: Option<Repeat>,
     changes: bool,
     meets: bool,
+    manner: Manner,
 }
 
 fn movement(
@@ -493,11 +539,52 @@ fn movement(
         }
         say("repetition", x.repeat == y.repeat, ta.clone(), tb.clone());
         say("replacement", x.changes == y.changes, ta, tb);
+        let tempo = |done: &Done| {
+            let speed = done.manner.speed.unwrap_or(1.0);
+            let marks = [
+                (done.manner.halt, "halt"),
+                (done.manner.tense, "tense"),
+                (done.manner.fast || speed > 1.25, "fast"),
+                (done.manner.slow || speed < 0.8, "slow"),
+            ];
+            let mark = marks.iter().find(|(is, _)| *is);
+            mark.map_or("usual", |(_, word)| word)
+        };
+        let (a, b) = (tempo(x), tempo(y));
+        let words = |tempo: &str, done: &Done| format!("{tempo} {}", done.kind);
+        say("manner", a == b, words(a, x), words(b, y));
+        if a != "usual" {
+            say("manner said", a == b, words(a, x), words(b, y));
+        }
+        let rests = |done: &Done| if done.manner.rest { "rest" } else { "no rest" };
+        say(
+            "rest",
+            rests(x) == rests(y),
+            rests(x).into(),
+            rests(y).into(),
+        );
     }
 }
 
 /// Returns what the dominant hand does, in order; `at` is where it was told to be last.
 fn flat(motion: &Motion, at: &mut Option<Place>) -> Vec<Done> {
+    let mut all = named(motion, at);
+    let own = &motion.manner;
+    for done in &mut all {
+        done.manner.fast |= own.fast;
+        done.manner.slow |= own.slow;
+        done.manner.tense |= own.tense;
+        done.manner.halt |= own.halt;
+        let speeds = [done.manner.speed, own.speed];
+        done.manner.speed = speeds.into_iter().flatten().reduce(|a, b| a * b);
+    }
+    if let Some(first) = all.first_mut() {
+        first.manner.rest |= own.rest;
+    }
+    all
+}
+
+fn named(motion: &Motion, at: &mut Option<Place>) -> Vec<Done> {
     let done = |kind: &'static str| Done {
         kind,
         ..Done::default()

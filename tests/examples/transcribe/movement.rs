@@ -7,16 +7,22 @@ use chereme_analysis::score::{ScoreOptions, score_as};
 use chereme_analysis::transcribe::{Options, transcribe};
 use chereme_compose::notation::{Settings, animate};
 use chereme_motion::Clip;
-use chereme_sign::hamnosys::{Notated, Sign, print, to_names};
+use chereme_sign::hamnosys::{Notated, Sign, parse, print, to_names};
 
 use crate::Result;
 use crate::bodies;
 
+/// A flat hand before the chest that goes to the right, and back, and again.
+const ANOTHER: &str =
+    "hamflathand hamextfingeru hampalml hamchest hamclose hammover hamrepeatfromstart";
+
 /// Prints the notation of captured movement, and how far movement made from it is: the distance of the
-/// alignment for each step, beside that of a hand that keeps its first posture.
+/// alignment for each step, beside that of a hand that keeps its first posture and that of another sign.
 pub(crate) fn table(files: &[&str]) -> Result<()> {
-    println!("| recording | seconds | symbols | distance | held still | components |");
-    println!("|---|---|---|---|---|---|");
+    println!(
+        "| recording | seconds | symbols | distance | held still | another sign | components |"
+    );
+    println!("|---|---|---|---|---|---|---|");
     for file in files {
         let captured = bodies::movement(Path::new(file))?;
         let anatomy = Arc::clone(&captured.anatomy);
@@ -30,21 +36,27 @@ pub(crate) fn table(files: &[&str]) -> Result<()> {
         };
         let again = made(&notated, &captured)?;
         let held = made(&still(&notated), &captured)?;
+        let another = Notated {
+            sign: parse(ANOTHER)?.sign,
+            ..Notated::default()
+        };
+        let another = made(&another, &captured)?;
         let options = ScoreOptions::default();
         let score = |clip: &Clip| score_as((&sign, &anatomy), (clip, &anatomy), &options);
-        let (own, held) = (score(&again)?, score(&held)?);
+        let (own, held, another) = (score(&again)?, score(&held)?, score(&another)?);
         let parts: Vec<String> = own
             .components
             .iter()
             .map(|(component, part)| format!("{component} {part:.2}"))
             .collect();
         println!(
-            "| {} | {:.2} | {} | {:.3} | {:.3} | {} |",
+            "| {} | {:.2} | {} | {:.3} | {:.3} | {:.3} | {} |",
             Path::new(file).file_stem().unwrap_or_default().display(),
             sign.span().seconds(),
             names.len(),
             own.normalized.unwrap_or(f64::NAN),
             held.normalized.unwrap_or(f64::NAN),
+            another.normalized.unwrap_or(f64::NAN),
             parts.join(", ")
         );
         println!("\n{}\n", names.join(" "));

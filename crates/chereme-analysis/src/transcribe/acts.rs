@@ -118,8 +118,8 @@ pub(super) struct Mover<'a> {
 }
 
 impl<'a> Mover<'a> {
-    /// Takes the parts that are at something where the sign begins or ends, the palm and the wrist; and
-    /// parts that the hand may turn about.
+    /// Takes the parts that are at something where the sign begins or ends, and the palm; and what the hand
+    /// may turn about: the wrist and other parts.
     pub(super) fn new(
         track: &'a Track,
         touching: &[(DVec3, usize)],
@@ -128,8 +128,8 @@ impl<'a> Mover<'a> {
         let carried = |&(at, frame): &(DVec3, usize)| track.carried(at, frame);
         let mut points: Vec<Vec<DVec3>> = touching.iter().map(carried).collect();
         points.push(track.palm.clone());
-        points.push(track.wrist.clone());
         let meant = points.len();
+        points.push(track.wrist.clone());
         points.extend(pivots.iter().map(carried));
         Self {
             track,

@@ -143,6 +143,8 @@ pub enum FeatureKind {
     Course,
     /// The size of a movement.
     Size,
+    /// In which manner it is done.
+    Manner,
     /// How often it is done.
     Repetition,
 }
@@ -161,6 +163,7 @@ impl FeatureKind {
             Self::Movement => "movement",
             Self::Course => "course",
             Self::Size => "size",
+            Self::Manner => "manner",
             Self::Repetition => "repetition",
         }
     }

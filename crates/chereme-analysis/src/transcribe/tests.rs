@@ -401,3 +401,60 @@ fn what_is_no_token_is_refused_and_what_is_missing_is_said() {
         written.findings
     );
 }
+
+#[test]
+fn manners_are_told_by_time_and_course() {
+    let own = before_chest(HandClass::Fist);
+    // The peak of what is meant comes late.
+    let late = |time: f64| ease(time.powf(1.25));
+    let even = |time: f64| time;
+    let manner = |seconds: f64, course: &dyn Fn(f64) -> f64| {
+        let part = read(seconds, |time| {
+            let by = DVec3::NEG_Y * (0.25 * ARM * course(time));
+            [Some(own.moved(by)), None]
+        });
+        part.actions[0].manner
+    };
+    let usual = manner(0.27, &late);
+    assert!(
+        !usual.fast && !usual.slow && !usual.tense && !usual.halt,
+        "{usual:?}"
+    );
+    assert!(manner(0.16, &late).fast);
+    assert!(manner(0.54, &late).slow);
+    assert!(manner(0.56, &even).tense);
+    let rested = manner(0.60, &|time: f64| late(((time - 0.5) / 0.5).max(0.0)));
+    assert!(rested.rest && !rested.fast && !rested.slow, "{rested:?}");
+    assert!(!usual.rest);
+}
+
+#[test]
+fn the_hand_is_no_nearer_to_the_place_told_than_its_residual_says() {
+    let own = before_chest(HandClass::Flat);
+    let (clip, anatomy) = clip(0.5, |_| [Some(own.clone()), None]);
+    let options = Options::default();
+    let found = transcribe(&clip, &anatomy, &options).expect("transcribed");
+    let Some(Place::Body(place)) = &found.sign.parts[0].posture.place else {
+        panic!("{:?}", found.sign);
+    };
+    let told = found
+        .features
+        .iter()
+        .find(|it| it.kind == FeatureKind::Location);
+    let told = told.expect("a location");
+    let (off, apart) = off_place(
+        &clip,
+        &anatomy,
+        &options,
+        told.frame,
+        (place, Some(place)),
+        false,
+    )
+    .expect("it has a body")
+    .expect("it has the place");
+    assert!(
+        apart < 1e-12 && off * 100.0 + 1e-9 >= told.residual,
+        "{off} {}",
+        told.residual
+    );
+}

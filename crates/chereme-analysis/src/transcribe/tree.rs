@@ -1,5 +1,6 @@
 //! The sign's tree, and its features in words.
 
+mod manner;
 mod way;
 
 use std::cell::RefCell;
@@ -17,7 +18,7 @@ use super::acts::{Act, Kind, Mover, Sway, acts, signing};
 use super::aim;
 use super::hands::{Relation, RelationKind, relation, signs};
 use super::place::{Body, Placed, Together, named};
-use super::scene::{Scene, Track};
+use super::scene::{Scene, Track, length};
 use super::shape::Forms;
 use super::way::Way;
 use super::words;
@@ -105,11 +106,14 @@ impl<'a> Writer<'a> {
         let other = scene.hands[1].as_ref().filter(|_| lead == 0);
         if let (RelationKind::Unlike { moves: true }, Some(other)) = (relation.kind, other) {
             let others = acts(scene, &self.mover(1, other, first, last), &frames);
-            actions.extend(self.split(track, &all, other, &others));
+            actions.extend(self.split(first, (track, &all), (other, &others)));
         } else {
+            let mut before = first;
             for (n, act) in all.iter().enumerate() {
                 self.action = Some(n + 1);
-                actions.push(self.motion(lead, track, act, &relation));
+                let idle = act.frames.start().saturating_sub(before);
+                actions.push(self.motion(lead, track, (act, idle), &relation));
+                before = act.until;
             }
         }
         let hands = match relation.kind {
@@ -241,7 +245,10 @@ impl<'a> Writer<'a> {
             FeatureKind::Location | FeatureKind::Contact | FeatureKind::Movement => {
                 Unit::Centimetres
             }
-            FeatureKind::Hands | FeatureKind::Size | FeatureKind::Repetition => Unit::Share,
+            FeatureKind::Hands
+            | FeatureKind::Size
+            | FeatureKind::Manner
+            | FeatureKind::Repetition => Unit::Share,
             _ => Unit::Degrees,
         };
         let scale = if unit == Unit::Centimetres {
@@ -416,18 +423,26 @@ impl<'a> Writer<'a> {
     }
 
     /// Writes what each hand does where they move for themselves.
-    fn split(&mut self, track: &Track, own: &[Act], other: &Track, others: &[Act]) -> Vec<Motion> {
+    fn split(
+        &mut self,
+        first: usize,
+        (track, own): (&Track, &[Act]),
+        (other, others): (&Track, &[Act]),
+    ) -> Vec<Motion> {
         let alone = Relation {
             kind: RelationKind::Unlike { moves: true },
             residual: 0.0,
             runner_up: None,
         };
         let mut of = |lead: usize, track: &Track, acts: &[Act]| -> Vec<Motion> {
+            let mut before = first;
             acts.iter()
                 .enumerate()
                 .map(|(n, act)| {
                     self.action = Some(n + 1);
-                    self.motion(lead, track, act, &alone)
+                    let idle = act.frames.start().saturating_sub(before);
+                    before = act.until;
+                    self.motion(lead, track, (act, idle), &alone)
                 })
                 .collect()
         };
@@ -455,8 +470,14 @@ impl<'a> Writer<'a> {
         vec![split(whole(a), whole(b))]
     }
 
-    /// Writes an act.
-    fn motion(&mut self, hand: usize, track: &Track, act: &Act, relation: &Relation) -> Motion {
+    /// Writes an act that begins so many frames after what was before.
+    fn motion(
+        &mut self,
+        hand: usize,
+        track: &Track,
+        (act, idle): (&Act, usize),
+        relation: &Relation,
+    ) -> Motion {
         let (first, last) = (*act.frames.start(), *act.frames.end());
         let mut motion = match &act.kind {
             Kind::Way(_) => Some(self.way(track, act)),
@@ -471,17 +492,25 @@ impl<'a> Writer<'a> {
             motion = motion.map(|way| Motion::new(MotionKind::Parallel(vec![way, with])));
         }
         let changed = self.changed(track, act, first, last);
+        let place = self.reached(hand, act, relation, first, last);
+        let manner = self.manner(track, act, place.is_some(), idle);
+        if let Some(motion) = &mut motion {
+            motion.manner = manner;
+        }
         if !changed.is_empty() {
-            let target = Motion::new(MotionKind::Target {
-                motion: None,
-                posture: Box::new(changed),
-            });
+            let target = Motion {
+                manner,
+                ..Motion::new(MotionKind::Target {
+                    motion: None,
+                    posture: Box::new(changed),
+                })
+            };
             motion = Some(match motion {
                 Some(way) => Motion::new(MotionKind::Parallel(vec![way, target])),
                 None => target,
             });
         }
-        if let Some(place) = self.reached(hand, act, relation, first, last) {
+        if let Some(place) = place {
             motion = Some(Motion::new(MotionKind::Target {
                 motion: motion.map(Box::new),
                 posture: Box::new(Posture {

@@ -1,0 +1,220 @@
+//! In which manner something is done: how long it takes against what is usual, and how it runs.
+
+use chereme_sign::hamnosys::{BodyLanguage, Manner};
+
+use super::super::scene::Scene;
+use super::*;
+
+/// A rest before an act is told from this share of a usual one on.
+const RESTS: f64 = 0.8;
+/// A course that differs counts so much: how late half of the way is done, and how evenly it runs.
+const LATE: f64 = 2.0;
+const EVEN: f64 = 0.6;
+
+/// A manner that may be told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Tempo {
+    Usual,
+    Fast,
+    Slow,
+    Tense,
+    Halt,
+}
+
+impl Tempo {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Usual => "usual",
+            Self::Fast => "fast",
+            Self::Slow => "slow",
+            Self::Tense => "tense",
+            Self::Halt => "sudden stop",
+        }
+    }
+
+    /// Returns its share of the usual time, and what it costs to say it.
+    fn factor(self, l: &BodyLanguage) -> (f64, f64) {
+        match self {
+            Self::Usual => (1.0, 0.0),
+            Self::Fast => (l.manner_fast, 0.05),
+            Self::Slow => (l.manner_slow, 0.05),
+            Self::Tense => (l.manner_tense, 0.25),
+            Self::Halt => (l.manner_halt, 0.15),
+        }
+    }
+}
+
+/// How a course runs: the share of its time between a tenth and nine tenths of the way; when half of the
+/// way is done, and how long its middle half takes, against that.
+#[derive(Debug, Clone, Copy)]
+struct Course {
+    span: f64,
+    late: f64,
+    even: f64,
+}
+
+/// The courses that the animator's controller gives: of what is meant, into contact, a sudden stop, a
+/// tense one, and round and round.
+const TARGETTED: Course = course(0.50, 0.56, 0.52);
+const CONTACT: Course = course(0.39, 0.66, 0.48);
+const STOP: Course = course(0.38, 0.70, 0.48);
+const TENSE: Course = course(0.57, 0.50, 0.61);
+const ROUND: Course = course(0.68, 0.50, 0.62);
+
+const fn course(span: f64, late: f64, even: f64) -> Course {
+    Course { span, late, even }
+}
+
+/// How something ran: seconds from a tenth to nine tenths of it, and its course.
+struct Ran {
+    seconds: f64,
+    course: Course,
+}
+
+impl Writer<'_> {
+    /// Tells in which manner an act is done that begins so many frames after what was before.
+    pub(super) fn manner(
+        &mut self,
+        track: &Track,
+        act: &Act,
+        into_contact: bool,
+        idle: usize,
+    ) -> Manner {
+        let scene = self.scene;
+        let rest = scene.seconds(idle) > RESTS * scene.language.time_rest;
+        let mut manner = Manner {
+            rest,
+            ..Manner::default()
+        };
+        let Some(found) = tempo(scene, track, act, into_contact) else {
+            return manner;
+        };
+        let first = *act.frames.start();
+        self.told(FeatureKind::Manner, Some(track), first, &found, |tempo| {
+            let rest = if rest { ", after a rest" } else { "" };
+            format!("{}{rest}", tempo.name())
+        });
+        match found.best {
+            Tempo::Usual => {}
+            Tempo::Fast => manner.fast = true,
+            Tempo::Slow => manner.slow = true,
+            Tempo::Tense => manner.tense = true,
+            Tempo::Halt => manner.halt = true,
+        }
+        manner
+    }
+}
+
+/// Returns the tempo of an act; the residual is the logarithm of the ratio of times.
+fn tempo(scene: &Scene<'_>, track: &Track, act: &Act, into_contact: bool) -> Option<Found<Tempo>> {
+    let l = scene.language;
+    let (first, last) = (*act.frames.start(), *act.frames.end());
+    if let Kind::Sway(Sway::Wrist { cycles, .. }) = &act.kind {
+        let each = scene.seconds(last - first) / cycles.max(1.0);
+        let tempi = [Tempo::Usual, Tempo::Fast, Tempo::Slow];
+        return Some(nearest(&tempi, l, |_, factor| {
+            let off = (each / (l.time_wrist * factor)).ln().abs();
+            (off, off)
+        }));
+    }
+    let ran = ran(scene, track, act)?;
+    let (usual, round) = usual(scene, track, act)?;
+    let all = [
+        Tempo::Usual,
+        Tempo::Fast,
+        Tempo::Slow,
+        Tempo::Tense,
+        Tempo::Halt,
+    ];
+    let tempi = &all[..if into_contact || round { 4 } else { 5 }];
+    let own = match (round, into_contact) {
+        (true, _) => ROUND,
+        (false, true) => CONTACT,
+        (false, false) => TARGETTED,
+    };
+    Some(nearest(tempi, l, |tempo, factor| {
+        let course = match tempo {
+            Tempo::Tense => TENSE,
+            Tempo::Halt => STOP,
+            _ => own,
+        };
+        let times = usual.iter().map(|&(usual, least)| {
+            let whole = (usual * factor).max(least);
+            (ran.seconds / (whole * course.span)).ln().abs()
+        });
+        let off = times.fold(f64::MAX, f64::min);
+        let late = (ran.course.late - course.late).abs();
+        let even = (ran.course.even - course.even).abs();
+        (off, off + LATE * late + EVEN * even)
+    }))
+}
+
+fn nearest(
+    tempi: &[Tempo],
+    l: &BodyLanguage,
+    off: impl Fn(Tempo, f64) -> (f64, f64),
+) -> Found<Tempo> {
+    let scored = tempi.iter().map(|&tempo| {
+        let (factor, cost) = tempo.factor(l);
+        let (residual, score) = off(tempo, factor);
+        (tempo, residual, score + cost)
+    });
+    Found::of(scored.collect())
+}
+
+/// Returns how long such an act takes as usual, each with the least it can take, in seconds; and whether it
+/// goes round.
+fn usual(scene: &Scene<'_>, track: &Track, act: &Act) -> Option<(Vec<(f64, f64)>, bool)> {
+    let l = scene.language;
+    let (first, last) = (*act.frames.start(), *act.frames.end());
+    let turn = track.turn(first, last).length() / std::f64::consts::FRAC_PI_2;
+    let gone = track.palm[first].distance(track.palm[last]) / scene.arm;
+    // A posture taken at another place needs most of a transition.
+    let taken = 0.6 * (l.time_transition + l.time_transition_arm * gone + l.time_turn * turn);
+    // The fastest moment of what is meant is 2.6 times its mean.
+    let least = 2.6 * length(&track.palm[first..=last]) / (l.speed_most * scene.arm);
+    Some(match &act.kind {
+        Kind::Way(fitted) => match fitted.way {
+            Way::Straight { .. } => {
+                let mut all = vec![(l.time_straight, least)];
+                if act.turned || act.reshaped {
+                    all.push((l.time_straight, taken));
+                }
+                (all, false)
+            }
+            Way::Arc { .. } | Way::Wave { .. } => (vec![(l.time_arc, least)], false),
+            Way::Circle { turns, .. } => (vec![(l.time_circle * turns.max(0.4), least)], true),
+        },
+        Kind::Change => (vec![(l.time_replace, 0.0), (l.time_replace, taken)], false),
+        Kind::Sway(_) => return None,
+    })
+}
+
+/// Returns how an act ran by the way that was done, the turning and the fingers, whichever it does.
+fn ran(scene: &Scene<'_>, track: &Track, act: &Act) -> Option<Ran> {
+    let (first, last) = (*act.frames.start(), *act.frames.end());
+    let step = |n: usize| match act.kind {
+        Kind::Change => track.turn(n, n + 1).length() + track.reshaped(n, n + 1),
+        _ => track.palm[n].distance(track.palm[n + 1]),
+    };
+    let mut done = vec![0.0];
+    for n in first..last {
+        done.push(done[done.len() - 1] + step(n));
+    }
+    let whole = done[done.len() - 1];
+    if whole <= 0.0 || last < first + 3 {
+        return None;
+    }
+    let at = |share: f64| {
+        let goal = share * whole;
+        let n = done.partition_point(|so_far| *so_far < goal).max(1);
+        let (a, b) = (done[n - 1], done[n]);
+        (n - 1) as f64 + if b > a { (goal - a) / (b - a) } else { 0.0 }
+    };
+    let [start, quarter, half, three, end] = [0.1, 0.25, 0.5, 0.75, 0.9].map(at);
+    let span = (end - start).max(1e-3);
+    Some(Ran {
+        seconds: span * scene.clip.rate().frame_time(),
+        course: course(0.0, (half - start) / span, (three - quarter) / span),
+    })
+}
