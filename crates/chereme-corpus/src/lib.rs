@@ -36,6 +36,7 @@ mod transcribe;
 
 use std::cell::RefCell;
 use std::path::Path;
+use std::sync::Arc;
 
 use db::Store;
 
@@ -85,6 +86,8 @@ pub use transcribe::{Transcribed, TranscribedFeature};
 pub struct Corpus {
     store: Store,
     learned: RefCell<sources::Learned>,
+    /// The inventories as they were at that generation.
+    inventories: RefCell<Option<(i64, Arc<Vec<StoredInventory>>)>>,
 }
 
 impl Corpus {
@@ -96,6 +99,7 @@ impl Corpus {
         Ok(Self {
             store: Store::create(path, author, inventories::store_builtin)?,
             learned: RefCell::default(),
+            inventories: RefCell::default(),
         })
     }
 
@@ -107,6 +111,7 @@ impl Corpus {
         Ok(Self {
             store: Store::open(path, author)?,
             learned: RefCell::default(),
+            inventories: RefCell::default(),
         })
     }
 

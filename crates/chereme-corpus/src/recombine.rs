@@ -1,6 +1,7 @@
 //! New signs from stored ones: a recipe evaluated, and stored with its movement, tiers and origin.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use chereme_compose::{About, Input, Made, Note, Recipe, Report, Resolved};
 use chereme_formats::bvh::convert;
@@ -88,10 +89,24 @@ impl Corpus {
         Ok(done)
     }
 
+    /// Returns the inventories, read again only where the corpus changed: previews follow each other fast.
+    fn inventories_now(&self) -> Result<Arc<Vec<StoredInventory>>> {
+        let now = self.generation()?;
+        let mut kept = self.inventories.borrow_mut();
+        if let Some((generation, inventories)) = &*kept
+            && *generation == now
+        {
+            return Ok(inventories.clone());
+        }
+        let inventories = Arc::new(inventories::load(self.store.read())?);
+        *kept = Some((now, inventories.clone()));
+        Ok(inventories)
+    }
+
     fn make(&mut self, recipe: &str) -> Result<(Resolved, Made, Recipe)> {
         let recipe = read(recipe)?;
+        let inventories = self.inventories_now()?;
         let (connection, index) = self.store.searchable()?;
-        let inventories = inventories::load(connection)?;
         let sources = CorpusSources {
             connection,
             index,

@@ -26,7 +26,7 @@ texts! {
     SWITCH_TIP: "Switch on or off; it stays in the stack", "Mettre en ou hors service ; la carte reste";
     INCOMPLETE: "Not filled in yet; left out.", "Pas encore rempli ; laissé de côté.";
     RESIDUAL: "{mm} mm from its goal", "à {mm} mm du but";
-    MADE_LASTS: "lasts {time} s · made in {took} ms", "dure {time} s · fait en {took} ms";
+    MADE_LASTS: "{time} s, made in {took} ms", "{time} s, fait en {took} ms";
     SHOW_ORIGINAL: "Original", "Original";
     SHOW_MADE: "Made", "Résultat";
     CHANNELS: "Where each channel comes from ({n})", "D’où vient chaque canal ({n})";

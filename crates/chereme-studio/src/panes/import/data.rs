@@ -162,6 +162,18 @@ pub(crate) fn counts(file: &FileReport) -> [usize; 3] {
     })
 }
 
+/// Returns the files, those that want a look first: refused, understood, there already, left alone.
+pub(crate) fn in_order(report: &ImportReport) -> Vec<&FileReport> {
+    let mut all: Vec<&FileReport> = report.files.iter().collect();
+    all.sort_by_key(|file| match file.status {
+        FileStatus::Refused => 0,
+        FileStatus::Imported => 1,
+        FileStatus::Unchanged => 2,
+        FileStatus::Skipped => 3,
+    });
+    all
+}
+
 /// Returns how many rows of each kind an import makes, those that people look for first.
 pub(crate) fn created(report: &ImportReport) -> Vec<(Text, u64)> {
     [

@@ -158,7 +158,9 @@ impl Import {
         if changed {
             self.report = None;
         }
-        if entered && !self.files().is_empty() && !self.path.ends_with('/') {
+        // A folder that is taken from the list goes on to what is in it.
+        let whole = !changed || !self.path.ends_with('/');
+        if entered && whole && !self.files().is_empty() {
             self.ask(true, out);
         }
         ui.horizontal_wrapped(|ui| {
@@ -243,7 +245,7 @@ impl Import {
     fn buttons(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let running = self.asked.and_then(|id| seen.running.get(&id));
         if let (Some(running), Some(id)) = (running, self.asked) {
-            ui.horizontal_wrapped(|ui| {
+            ui.horizontal(|ui| {
                 match running.far.share() {
                     Some(share) => {
                         drop(
@@ -256,10 +258,11 @@ impl Import {
                     }
                     None => drop(ui.spinner()),
                 }
-                ui.label(&running.far.task);
                 if ui.button(seen.say(shell::CANCEL)).clicked() {
                     out.send(Command::Stop(id));
                 }
+                let task = eframe::egui::Label::new(&running.far.task);
+                ui.add(task.truncate());
             });
             return;
         }
@@ -318,7 +321,7 @@ impl Import {
         ui.label(created.join(" · "));
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let open = report.files.len() <= 2;
-            for file in &report.files {
+            for file in data::in_order(&report) {
                 self.file(ui, seen, file, (open, report.dry_run), out);
             }
         });

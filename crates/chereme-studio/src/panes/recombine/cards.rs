@@ -256,7 +256,8 @@ fn told(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>) {
     if shown.card.on && !shown.card.what.is_complete() {
         ui.label(RichText::new(seen.say(words::INCOMPLETE)).small().weak());
     }
-    let Some(note) = shown.note.filter(|_| shown.counts) else {
+    let quiet = shown.card.what.is_source() && !shown.chosen;
+    let Some(note) = shown.note.filter(|_| shown.counts && !quiet) else {
         return;
     };
     if let Some(residual) = note.residual {

@@ -343,7 +343,7 @@ pub(super) fn of_inventory(
     let line = Line {
         name: seen.say(name),
         hint: seen.say(hint),
-        width: (ui.available_width() - 110.0).clamp(60.0, 120.0),
+        width: (ui.available_width() - 110.0).clamp(60.0, 76.0),
     };
     let typed = complete(ui, id, line, text, &candidates);
     let held = all.iter().find(|it| it.find(text).is_some());

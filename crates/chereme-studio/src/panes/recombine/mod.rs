@@ -62,7 +62,15 @@ fn read(text: &str) -> Result<Recipe, String> {
         return serde_json::from_str(text).map_err(|error| error.to_string());
     }
     text.parse().map_err(|error: RecipeError| match &error {
-        RecipeError::Text(at) => format!("{}\n{error}", at.pointed()),
+        RecipeError::Text(at) => {
+            // What stands there is shown, for counting letters is no work for people.
+            let start = at.at.saturating_sub(24);
+            let letters = |from: usize, count: usize| -> String {
+                at.text.chars().skip(from).take(count).collect()
+            };
+            let (before, after) = (letters(start, at.at - start), letters(at.at, 16));
+            format!("… {before} ▸ {after}\n{}", at.problem)
+        }
         _ => error.to_string(),
     })
 }
@@ -222,9 +230,7 @@ impl Recombine {
             self.type_in(text);
         }
         if let Some(wrong) = &self.wrong {
-            let wrong = RichText::new(wrong)
-                .monospace()
-                .color(seen.colours().trouble);
+            let wrong = RichText::new(wrong).small().color(seen.colours().trouble);
             ui.label(wrong);
         }
     }
@@ -282,16 +288,19 @@ impl Recombine {
     fn storing(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let made = self.live.made.is_some() && self.live.trouble.is_none() && self.wrong.is_none();
         if let Some(made) = &self.live.made {
+            let time = format!("{:.2}", made.duration_us as f64 / 1e6);
+            let took = format!("{:.0}", self.live.took * 1000.0);
+            let values: [(&str, &dyn std::fmt::Display); 2] = [("time", &time), ("took", &took)];
+            let lasts = fill(seen.say(words::MADE_LASTS), &values);
             ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 4.0;
                 let all = [(false, words::SHOW_ORIGINAL), (true, words::SHOW_MADE)];
                 for (made, text) in all {
                     ui.selectable_value(&mut self.on_stage, made, seen.say(text));
                 }
+                let lasts = RichText::new(lasts).small().weak();
+                ui.add(eframe::egui::Label::new(lasts).truncate());
             });
-            let time = format!("{:.2}", made.duration_us as f64 / 1e6);
-            let took = format!("{:.0}", self.live.took * 1000.0);
-            let values: [(&str, &dyn std::fmt::Display); 2] = [("time", &time), ("took", &took)];
-            ui.weak(fill(seen.say(words::MADE_LASTS), &values));
         }
         ui.horizontal(|ui| {
             let text = if self.opened.is_some() {
