@@ -131,6 +131,7 @@ actions! {
     AlsoPrevious "annotation.also-previous" ALSO_PREVIOUS Annotation Corpus repeats;
     SelectOnTier "annotation.select-on-tier" SELECT_ON_TIER Annotation Corpus;
     EditValue "value.edit" VALUE_EDIT Value Corpus;
+    PictureValue "value.picture" VALUE_PICTURE Value Corpus;
     ClearValue "value.clear" VALUE_CLEAR Value Corpus;
     Value1 "value.1" VALUE_1 Value Corpus;
     Value2 "value.2" VALUE_2 Value Corpus;

@@ -493,3 +493,20 @@ fn an_annotation_is_copied_to_another_tier_by_keys() {
     assert_eq!(values(&window, "Other"), ["b"]);
     assert_eq!(values(&window, "Gloss"), ["a", "b", "c"]);
 }
+
+#[test]
+fn a_handshape_is_chosen_by_its_picture() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path());
+    click(&mut window, "Tier Configuration RH");
+    press(&mut window, ALT, Key::ArrowRight);
+    let before = operations(&window);
+    press(&mut window, NONE, Key::F3);
+    window.run_steps(3);
+    assert!(has(&window, "U, index and middle finger together"));
+    window.event(Event::Text("u".to_owned()));
+    window.run_steps(3);
+    press(&mut window, NONE, Key::Enter);
+    stored(&mut window, before);
+    assert_eq!(values(&window, "Configuration RH")[0], "U");
+}

@@ -39,6 +39,7 @@ pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
     (Action::AlsoPrevious, ["Ctrl+Alt+Left", "=", "="]),
     (Action::SelectOnTier, ["Ctrl+A", "Ctrl+Alt+A", "="]),
     (Action::EditValue, ["Enter F2 Ctrl+Alt+M", "=", "="]),
+    (Action::PictureValue, ["F3", "=", "="]),
     (Action::ClearValue, ["Ctrl+Delete", "=", "="]),
     (Action::Value1, ["1", "=", "="]),
     (Action::Value2, ["2", "=", "="]),

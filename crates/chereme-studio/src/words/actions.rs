@@ -25,6 +25,7 @@ texts! {
     ALSO_PREVIOUS: "Select the previous annotation too", "Sélectionner aussi l’annotation précédente";
     SELECT_ON_TIER: "Select all on the tier", "Tout sélectionner sur l’acteur";
     VALUE_EDIT: "Type the value", "Saisir la valeur";
+    VALUE_PICTURE: "Choose the value by picture", "Choisir la valeur en image";
     VALUE_CLEAR: "Clear the value", "Effacer la valeur";
     VALUE_1: "Value 1 of the tier", "Valeur 1 de l’acteur";
     VALUE_2: "Value 2 of the tier", "Valeur 2 de l’acteur";

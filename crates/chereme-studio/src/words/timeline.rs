@@ -30,6 +30,9 @@ texts! {
     SELECTED_COUNT: "{n} selected", "{n} sélectionnées";
     VALUE_ON: "Value on {tier}", "Valeur sur {tier}";
     VALUE: "Value {value}", "Valeur {value}";
+    BY_PICTURE: "By picture", "En image";
+    BY_TEXT: "By typing", "Au clavier";
+    NO_PICTURES: "The values of this tier have no pictures.", "Les valeurs de cet acteur n’ont pas d’images.";
     NO_SUCH_VALUE: "The tier has no such value.", "L’acteur n’a pas cette valeur.";
     NEW_VALUE: "Enter keeps what you typed.", "Entrée garde ce que vous avez écrit.";
     COPY_TITLE: "Copy to which tier?", "Copier vers quel acteur ?";

@@ -14,6 +14,7 @@ use super::{Begun, Ghost, Then, Timeline, changes};
 use crate::action::Action;
 use crate::context::{Outbox, Seen};
 use crate::panes::Acted;
+use crate::pickers;
 use crate::words::{shell, timeline as words};
 
 /// How a frame is stepped where a recording has no movement, in microseconds.
@@ -119,6 +120,7 @@ pub(super) fn act(
             timeline.edit(scene, chosen.clone());
             Acted::Yes
         }
+        Action::PictureValue => by_picture(timeline, scene),
         Action::StartHere => reach(timeline, scene, Grip::Start, out),
         Action::EndHere => reach(timeline, scene, Grip::End, out),
         Action::ToSelection => to_selection(timeline, scene, out),
@@ -166,6 +168,40 @@ fn create(timeline: &mut Timeline, scene: &Scene<'_>) -> Acted {
         }
         None => Acted::Cannot(no_room(tier)),
     }
+}
+
+/// Opens the value to be chosen by picture; where it is open already, turns to pictures or back.
+fn by_picture(timeline: &mut Timeline, scene: &Scene<'_>) -> Acted {
+    let chosen = &scene.seen.shown.annotations;
+    if timeline.editing.is_none() {
+        let opened = if chosen.is_empty() {
+            create(timeline, scene)
+        } else {
+            timeline.edit(scene, chosen.clone());
+            Acted::Yes
+        };
+        if opened != Acted::Yes {
+            return opened;
+        }
+    }
+    let Some(editing) = &mut timeline.editing else {
+        return Acted::Yes;
+    };
+    let tier = editing.tier(scene);
+    let pictured = tier
+        .and_then(|tier| scene.inventory(tier))
+        .is_some_and(|stored| has_pictures(&stored.inventory));
+    if pictured {
+        editing.turn_to_pictures();
+        Acted::Yes
+    } else {
+        Acted::Cannot(words::NO_PICTURES)
+    }
+}
+
+/// Returns whether values of an inventory are told by pictures.
+pub(super) fn has_pictures(inventory: &chereme_sign::Inventory) -> bool {
+    pickers::data::kind(inventory) != pickers::data::Kind::Names
 }
 
 /// Returns why a tier has no room.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use chereme_corpus::TierContents;
+use chereme_corpus::{StoredInventory, TierContents};
 use eframe::egui::{
     Align, Area, Button, Id, Key, Layout, Modifiers, Order, Pos2, Rect, Response, Role, ScrollArea,
     TextEdit, Ui, WidgetInfo, text::CCursor, text::CCursorRange, vec2,
@@ -12,9 +12,11 @@ use serde::{Deserialize, Serialize};
 use super::edit::{self, Scene};
 use super::values::Choices;
 use super::{Timeline, changes, select};
+use crate::action::Action;
 use crate::command::Command;
 use crate::context::Outbox;
-use crate::words::{fill, timeline as words};
+use crate::pickers::{self, Picker};
+use crate::words::{Text, fill, timeline as words};
 
 const WIDTH: f32 = 260.0;
 const LIST: f32 = 196.0;
@@ -55,6 +57,12 @@ pub(crate) struct Editing {
     /// Whether the text was put back, so that it is not replaced by the first letter.
     #[serde(skip)]
     again: bool,
+    /// Whether values are shown as pictures.
+    #[serde(skip)]
+    pictures: bool,
+    /// Whether the pictures have been shown yet.
+    #[serde(skip)]
+    pictured: bool,
 }
 
 impl Editing {
@@ -67,7 +75,14 @@ impl Editing {
             marked: None,
             begun: false,
             again: false,
+            pictures: false,
+            pictured: false,
         }
+    }
+
+    /// Shows values as pictures, or the text again.
+    pub(super) fn turn_to_pictures(&mut self) {
+        (self.pictures, self.pictured, self.begun) = (!self.pictures, false, false);
     }
 
     /// Returns it to be opened again, with the text as it was left.
@@ -140,7 +155,29 @@ pub(super) fn show(
     };
     let choices = scene.choices(tier);
     let digits = timeline.digits.of(tier.row.id, &choices).to_vec();
+    let stored = scene.inventory(tier);
+    let pictured = stored.filter(|it| editing.pictures && edit::has_pictures(&it.inventory));
+    if let Some(stored) = pictured {
+        let said = pictures(
+            timeline,
+            ui,
+            scene,
+            (&mut editing, stored),
+            (&choices, below),
+        );
+        return done(timeline, (editing, tier), said, out);
+    }
     let said = field(ui, scene, (&mut editing, tier), (&choices, &digits), below);
+    done(timeline, (editing, tier), said, out);
+}
+
+/// Does what was said in the field.
+fn done(
+    timeline: &mut Timeline,
+    (editing, tier): (Editing, &TierContents),
+    said: Said,
+    out: &mut Outbox,
+) {
     match said {
         Said::Nothing => timeline.editing = Some(editing),
         Said::Drop => {}
@@ -153,7 +190,7 @@ pub(super) fn show(
             if let Some(at) = next {
                 select::select(tier, at, out);
                 timeline.to_select = None;
-                timeline.edit(scene, BTreeSet::from([tier.annotations.ids[at]]));
+                timeline.edit_at(tier, at);
             }
         }
     }
@@ -191,16 +228,17 @@ fn field(
     let fitting = choices.fitting(filter);
     step(editing, &fitting, up, down);
     let mut said = Said::Nothing;
-    let area = Area::new(Id::unique("timeline value"))
-        .order(Order::Foreground)
-        .fixed_pos(Pos2::new(below.left(), below.bottom() + 2.0))
-        .constrain_to(ui.ctx().content_rect());
-    let shown = area.show(ui.ctx(), |ui| {
+    let mut turn = false;
+    let shown = area(ui, below).show(ui.ctx(), |ui| {
         eframe::egui::Frame::popup(ui.style()).show(ui, |ui| {
             ui.set_width(WIDTH);
             let before = editing.text.clone();
             let label = fill(scene.seen.say(words::VALUE_ON), &[("tier", &tier.row.name)]);
             text_field(ui, editing, &label);
+            let stored = scene.inventory(tier);
+            if stored.is_some_and(|it| edit::has_pictures(&it.inventory)) {
+                turn = switch(ui, scene, words::BY_PICTURE);
+            }
             let typed = editing
                 .text
                 .strip_prefix(before.as_str())
@@ -222,20 +260,87 @@ fn field(
             }
         });
     });
-    let elsewhere = ui.input(|input| {
-        let at = input.pointer.interact_pos();
-        input.pointer.any_pressed() && at.is_some_and(|at| !shown.response.rect.contains(at))
-    });
+    if turn {
+        editing.turn_to_pictures();
+        return Said::Nothing;
+    }
     if escape {
         return Said::Drop;
     }
-    if enter || tab || elsewhere {
+    if enter || tab || elsewhere(ui, shown.response.rect) {
         return match choices.kept(&editing.text, editing.marked) {
             Some(value) => Said::Keep(value, tab),
             None => Said::Nothing,
         };
     }
     said
+}
+
+/// Shows the values as pictures in place of the field.
+fn pictures(
+    timeline: &mut Timeline,
+    ui: &mut Ui,
+    scene: &Scene<'_>,
+    (editing, stored): (&mut Editing, &StoredInventory),
+    (choices, below): (&Choices, Rect),
+) -> Said {
+    if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+        return Said::Drop;
+    }
+    if !std::mem::replace(&mut editing.pictured, true) {
+        timeline.picker = Picker::fresh();
+    }
+    let inventory = &stored.inventory;
+    let screen = ui.ctx().content_rect();
+    let width = pickers::data::width(pickers::data::kind(inventory));
+    let width = width.min(screen.width() - 48.0);
+    let mut said = Said::Nothing;
+    let mut back = false;
+    let shown = area(ui, below).show(ui.ctx(), |ui| {
+        eframe::egui::Frame::popup(ui.style()).show(ui, |ui| {
+            ui.set_width(width);
+            ui.set_max_height((screen.height() - 80.0).min(460.0));
+            back = switch(ui, scene, words::BY_TEXT);
+            let chosen = inventory.find(&editing.text).map(|value| value.id.as_str());
+            let picked = pickers::pick(ui, &mut timeline.picker, scene.seen, inventory, chosen);
+            if let Some(value) = picked {
+                said = Said::Keep(value, false);
+            }
+        });
+    });
+    if back {
+        editing.turn_to_pictures();
+    }
+    if matches!(said, Said::Nothing) && elsewhere(ui, shown.response.rect) {
+        return match choices.kept(&editing.text, None) {
+            Some(value) => Said::Keep(value, false),
+            None => Said::Nothing,
+        };
+    }
+    said
+}
+
+/// Returns where the field lies.
+fn area(ui: &Ui, below: Rect) -> Area {
+    Area::new(Id::unique("timeline value"))
+        .order(Order::Foreground)
+        .fixed_pos(Pos2::new(below.left(), below.bottom() + 2.0))
+        .constrain_to(ui.ctx().content_rect())
+}
+
+/// Returns whether the mouse was pressed outside.
+fn elsewhere(ui: &Ui, rect: Rect) -> bool {
+    ui.input(|input| {
+        let at = input.pointer.interact_pos();
+        input.pointer.any_pressed() && at.is_some_and(|at| !rect.contains(at))
+    })
+}
+
+/// Shows the button that turns to pictures or back.
+fn switch(ui: &mut Ui, scene: &Scene<'_>, text: Text) -> bool {
+    let button = ui.small_button(scene.seen.say(text));
+    let keys = scene.seen.keys.text(Action::PictureValue);
+    button.on_hover_text(keys).clicked()
 }
 
 /// Returns the value of a digit that was typed into the empty field, where digits pick there.

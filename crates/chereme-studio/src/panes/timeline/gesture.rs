@@ -75,6 +75,8 @@ pub(super) struct Dragging {
     changed: Vec<Vec<Item>>,
     /// The annotation under the mouse.
     id: i64,
+    /// What is dragged and all below it: none of it catches.
+    except: BTreeSet<i64>,
 }
 
 /// What of a gesture is to be seen.
@@ -241,6 +243,7 @@ impl Drawing<'_, '_> {
             tier: contents.tiers[at].row.id,
             to: None,
             id,
+            except: hold::with_below(contents, chosen),
         })));
     }
 
@@ -461,16 +464,10 @@ impl Drawing<'_, '_> {
         time: i64,
         pointer: Pos2,
     ) -> Sight {
-        let moving = it
-            .held
-            .iter()
-            .flat_map(|held| &held.chosen)
-            .copied()
-            .collect();
         let wanted = time - it.from;
         // The boundary nearest to something settles, the others go along.
         let settled = it.edges.iter().map(|edge| {
-            let (at, why) = self.settle(contents, &moving, edge + wanted);
+            let (at, why) = self.settle(contents, &it.except, edge + wanted);
             (at - edge, at, why)
         });
         let best = settled.min_by_key(|(by, _, why)| (why.is_none(), *why, (by - wanted).abs()));

@@ -121,6 +121,22 @@ pub(crate) fn held(contents: &Contents, chosen: &BTreeSet<i64>, frames: bool) ->
     all
 }
 
+/// Returns annotations with all that hang below them.
+pub(crate) fn with_below(contents: &Contents, mut all: BTreeSet<i64>) -> BTreeSet<i64> {
+    loop {
+        let before = all.len();
+        for columns in contents.tiers.iter().map(|tier| &tier.annotations) {
+            let pairs = columns.ids.iter().zip(&columns.parents);
+            let below = pairs.filter(|(_, parent)| parent.is_some_and(|it| all.contains(&it)));
+            let below: Vec<i64> = below.map(|(id, _)| *id).collect();
+            all.extend(below);
+        }
+        if all.len() == before {
+            return all;
+        }
+    }
+}
+
 /// Returns the places of the annotations of a tier that are in `chosen`.
 pub(crate) fn places<'a>(
     tier: &'a TierContents,

@@ -37,7 +37,7 @@ mod ways;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use chereme_corpus::AnnotateOptions;
+use chereme_corpus::{AnnotateOptions, TierContents};
 use chereme_motion::Span;
 use serde::{Deserialize, Serialize};
 
@@ -46,6 +46,7 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::model::Opened;
 use crate::panes::{Acted, Pane};
+use crate::pickers::Picker;
 use crate::work::{Ended, Outcome, Work, WorkId};
 use data::Window;
 use edit::Scene;
@@ -82,6 +83,7 @@ pub(crate) struct Timeline {
     begun: Option<Begun>,
     /// The value that is being typed.
     editing: Option<Editing>,
+    picker: Picker,
     digits: values::Digits,
     choose: Option<choose::Choose>,
     tier_box: Option<tier_box::TierBox>,
@@ -192,6 +194,13 @@ impl Timeline {
         let recording = scene.contents.recording.id;
         let target = Target::Of(annotations);
         self.editing = Some(Editing::new(recording, target, text.unwrap_or_default()));
+    }
+
+    /// Opens the value of the annotation at that place of a tier.
+    fn edit_at(&mut self, tier: &TierContents, at: usize) {
+        let text = changes::typed(&tier.annotations, at);
+        let target = Target::Of(BTreeSet::from([tier.annotations.ids[at]]));
+        self.editing = Some(Editing::new(tier.row.recording_id, target, text));
     }
 
     /// Opens the value of an annotation that is not there yet.

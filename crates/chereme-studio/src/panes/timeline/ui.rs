@@ -181,7 +181,6 @@ impl Drawing<'_, '_> {
             .widget_info(|| WidgetInfo::labeled(Role::Slider, true, self.seen.say(words::RULER)));
         let painter = ui.painter_at(lane);
         let font = TextStyle::Small.resolve(ui.style());
-        paint::ruler(&painter, lane, &self.window, self.seen, &font);
         if let Some(span) = self.seen.shown.span {
             paint::selection(&painter, lane, &self.window, span, self.seen);
             let text = fill(
@@ -193,6 +192,7 @@ impl Drawing<'_, '_> {
             );
             response.clone().on_hover_text(text);
         }
+        paint::ruler(&painter, lane, &self.window, self.seen, &font);
         paint::playhead(&painter, lane, &self.window, self.seen);
         if let Some(at) = response.interact_pointer_pos()
             && (response.dragged() || response.clicked())
