@@ -97,6 +97,8 @@ enum Around {
     Paper,
     /// One part without a step: no line can be there.
     Plain,
+    /// One part without a step, but with what may shade it.
+    Shaded,
     Mixed,
 }
 
@@ -116,6 +118,10 @@ impl Ink {
                 let corner = place(x, y);
                 row[x] = match all {
                     Around::Plain => self.plain(buffers, corner, row[x], 1.0),
+                    Around::Shaded => {
+                        let shade = self.shade(buffers, corner);
+                        self.plain(buffers, corner, row[x], shade)
+                    }
                     _ => self.pixel(buffers, corner, row[x]),
                 };
             }
@@ -131,19 +137,18 @@ impl Ink {
         for j in 0..height * self.samples + 2 * beyond {
             let start = corner + j * buffers.stride - beyond * (buffers.stride + 1);
             let row = &buffers.group[start..start + wide];
-            if row.iter().any(|&other| other != group) {
+            if row.iter().fold(0, |all, other| all | (other ^ group)) != 0 {
                 return Around::Mixed;
             }
             if group != 0 {
-                for &depth in &buffers.depth[start..start + wide] {
-                    low = low.min(depth);
-                    high = high.max(depth);
-                }
+                extremes(&buffers.depth[start..start + wide], &mut low, &mut high);
             }
         }
         match group {
             0 => Around::Paper,
+            FLAT.. => Around::Plain,
             _ if high - low <= self.step.min(SHADE_STEPS[0]) => Around::Plain,
+            _ if high - low <= self.step => Around::Shaded,
             _ => Around::Mixed,
         }
     }
@@ -153,7 +158,7 @@ impl Ink {
     fn pixel(&self, buffers: &Buffers, corner: usize, below: Colour) -> Colour {
         match self.around(buffers, corner, self.samples) {
             Around::Paper => below,
-            Around::Plain => {
+            Around::Plain | Around::Shaded => {
                 let shade = match buffers.group[corner] {
                     FLAT.. => 1.0,
                     _ => self.shade(buffers, corner),
@@ -209,8 +214,8 @@ impl Ink {
                 .iter()
                 .all(|&other| other == group);
             for &depth in &buffers.depth[start..start + side] {
-                low = low.min(depth);
-                high = high.max(depth);
+                low = if depth < low { depth } else { low };
+                high = if depth > high { depth } else { high };
             }
         }
         match (same, group) {
@@ -265,6 +270,25 @@ impl Ink {
             false => STRENGTHS[1],
         }
     }
+}
+
+/// Widens `low` and `high` to hold all of `depths`, none of which is NaN; in lanes, so that the
+/// compiler can do several at once.
+#[inline]
+fn extremes(depths: &[f32], low: &mut f32, high: &mut f32) {
+    const LANES: usize = 8;
+    let (mut lows, mut highs) = ([*low; LANES], [*high; LANES]);
+    let chunks = depths.chunks_exact(LANES);
+    let rest = chunks.remainder();
+    let last = std::iter::once(rest).filter(|rest| !rest.is_empty());
+    for chunk in chunks.chain(last) {
+        for ((depth, low), high) in chunk.iter().zip(&mut lows).zip(&mut highs) {
+            *low = if depth < low { *depth } else { *low };
+            *high = if depth > high { *depth } else { *high };
+        }
+    }
+    *low = lows.into_iter().fold(*low, f32::min);
+    *high = highs.into_iter().fold(*high, f32::max);
 }
 
 /// Returns the steps to the eight places `reach` samples away.

@@ -1,7 +1,7 @@
 //! Movement to a body to look at: its geometry, and pictures drawn without a window.
 //!
 //! A [`Body`] is put together once for a skeleton and its anatomy, and then moved to any posture:
-//! a [`Mesh`](mesh::Mesh) of some fourteen thousand triangles, for the window's stage as for the
+//! a [`Mesh`](mesh::Mesh) of some twenty thousand triangles, for the window's stage as for the
 //! [`Raster`](raster::Raster) here, which needs no GPU. On it stand contact sheets, animations,
 //! thumbnails, pictures of handshapes and the chart of an alignment. The same input gives the same
 //! bytes. Nothing here opens a window or a database or knows what a sign means.

@@ -85,11 +85,19 @@ impl Framing {
         Some(Self::around(&looks(clip)?, anatomy))
     }
 
-    /// Returns the space of `clip` as [`signing`](Self::signing) has it, or nothing where it has no
-    /// frame.
+    /// Returns the space of `clip` as [`signing`](Self::signing) has it and down to the hips, or
+    /// nothing where it has no frame.
     #[must_use]
     pub fn of_signing(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
-        Some(Self::signing(&looks(clip)?, anatomy))
+        let poses = looks(clip)?;
+        let mut framing = Self::signing(&poses, anatomy);
+        if let (Some(hips), Some(_)) = (anatomy.joint(Part::Hips), anatomy.joint(Part::Head)) {
+            let at =
+                |pose: &ModelPose| (framing.axes.transpose() * pose.position(hips).as_vec3()).y;
+            let hips = poses.iter().map(at).fold(f32::INFINITY, f32::min);
+            framing.low.y = framing.low.y.min(hips - framing.hand * 0.3);
+        }
+        Some(framing)
     }
 
     /// Returns the space that `poses` take together, at least one posture.

@@ -1,9 +1,11 @@
-//! Measures frames of a real window: `cargo run --release --example window_frames -- [CORPUS] [SECONDS]`.
+//! Measures frames of a real window: `cargo run --release --example window_frames -- [CORPUS|two] [SECONDS]`.
 //!
 //! The window opens without waiting for the screen and plays its first recording in a loop, scrolls and zooms
 //! the timeline while it plays, drags an annotation among its neighbours, and closes. Without a corpus one is
-//! made with a recording of the starter corpus and with 200 tiers of 500 annotations. Prints for each of the
-//! three how long a frame took to compute on the window's thread, and how far apart frames were.
+//! made with a recording of the starter corpus and with 200 tiers of 500 annotations; `two` makes one with a
+//! sign made from another instead, and only plays the two signers side by side. Prints for each scene how long
+//! a frame took to compute on the window's thread, how far apart frames were, and how long pictures of the stage
+//! took on the thread that draws them.
 
 use std::collections::VecDeque;
 use std::error::Error;
@@ -21,7 +23,10 @@ use eframe::egui::{
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip(1);
     let folder = tempfile::tempdir()?;
-    let corpus = match arguments.next() {
+    let first = arguments.next();
+    let two = first.as_deref() == Some("two");
+    let corpus = match first {
+        Some(_) if two => pair(folder.path())?,
         Some(path) => PathBuf::from(path),
         None => made(folder.path())?,
     };
@@ -46,7 +51,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let meter = Meter {
         studio: Studio::new(options),
-        scenes: VecDeque::from([Scene::Play, Scene::Scroll, Scene::Drag]),
+        scenes: if two {
+            VecDeque::from([Scene::Two])
+        } else {
+            VecDeque::from([Scene::Play, Scene::Scroll, Scene::Drag])
+        },
+        drawn: Vec::new(),
         begun: None,
         lasts: Duration::from_secs(seconds) / 3,
         last: None,
@@ -78,6 +88,19 @@ fn made(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
         &options,
         &mut Progress::new(&mut hear),
     )?;
+    Ok(path)
+}
+
+/// ESCARGOT, and LIMACE made from it.
+fn pair(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
+    let mut files = unpack_starter(&folder.join("files"))?;
+    files.retain(|path| path.file_stem().is_some_and(|stem| stem == "escargot"));
+    let path = folder.join("two.chereme");
+    let mut corpus = Corpus::create(&path, "A")?;
+    let mut hear = unheard;
+    let options = ImportOptions::default();
+    corpus.import(&files, &options, &mut Progress::new(&mut hear))?;
+    corpus.recombine("ESCARGOT | configure right U", "LIMACE")?;
     Ok(path)
 }
 
@@ -120,6 +143,8 @@ fn many(tiers: usize, each: usize, millis: usize) -> Result<String, std::fmt::Er
 enum Scene {
     /// Playing in a loop.
     Play,
+    /// Playing a made sign beside what it was made from.
+    Two,
     /// Scrolling through the tiers, and zooming in and out.
     Scroll,
     /// Dragging an annotation to and fro.
@@ -146,9 +171,10 @@ impl Scene {
             modifiers: Modifiers::ALT,
         };
         match (self, frame) {
-            (Self::Play, 0) => vec![key(Key::L, Modifiers::COMMAND)],
-            (Self::Play, 1) => vec![key(Key::Space, Modifiers::COMMAND)],
-            (Self::Play, _) => Vec::new(),
+            (Self::Two, 0) => vec![key(Key::PageDown, Modifiers::COMMAND)],
+            (Self::Play, 0) | (Self::Two, 1) => vec![key(Key::L, Modifiers::COMMAND)],
+            (Self::Play, 1) | (Self::Two, 2) => vec![key(Key::Space, Modifiers::COMMAND)],
+            (Self::Play | Self::Two, _) => Vec::new(),
             (Self::Scroll, frame) => {
                 let zooms = frame % 240 >= 180;
                 let up = frame % 120 >= 60;
@@ -195,6 +221,7 @@ struct Meter {
     frame: u64,
     computed: Vec<Duration>,
     apart: Vec<Duration>,
+    drawn: Vec<Duration>,
 }
 
 impl eframe::App for Meter {
@@ -210,6 +237,10 @@ impl eframe::App for Meter {
         if let Some(last) = self.last.replace(now) {
             self.apart.push(now - last);
             self.computed.push(now.elapsed());
+            let took = self.studio.drawing_time();
+            if self.drawn.last() != Some(&took) {
+                self.drawn.push(took);
+            }
         }
         if now - begun > self.lasts && !self.apart.is_empty() {
             self.tell();
@@ -236,7 +267,11 @@ impl Meter {
     #[expect(clippy::print_stdout, reason = "it tells what it measured")]
     fn tell(&mut self) {
         let scene = self.scenes.front();
-        let all = [("computed", &mut self.computed), ("apart", &mut self.apart)];
+        let all = [
+            ("computed", &mut self.computed),
+            ("apart", &mut self.apart),
+            ("drawn", &mut self.drawn),
+        ];
         for (name, times) in all {
             times.sort_unstable();
             let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];

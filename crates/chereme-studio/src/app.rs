@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
+use std::time::Duration;
 
 use chereme_motion::Instant;
 use eframe::egui::{self, CentralPanel, Context, Frame, Panel, Ui};
@@ -22,7 +23,7 @@ use crate::settings::{Folders, Settings};
 use crate::start::Start;
 use crate::work::begin::{Begin, Beginning};
 use crate::work::desk::{Desk, News, Wake};
-use crate::work::{Outcome, Work};
+use crate::work::{Lane, Outcome, Work};
 use crate::{layout, theme};
 
 /// The window's whole state; [`ui`](Self::ui) is one frame of it.
@@ -138,6 +139,12 @@ impl Studio {
         self.shown.player.playhead()
     }
 
+    /// Returns how long the pictures of the stage took that were drawn last, by a thread of their own.
+    #[must_use]
+    pub fn drawing_time(&self) -> Duration {
+        self.panes.stage.drawing_time()
+    }
+
     /// Returns the open corpus's file.
     #[must_use]
     pub fn corpus(&self) -> Option<&PathBuf> {
@@ -234,7 +241,14 @@ impl Studio {
         }
         let player = &self.shown.player;
         let (at, direction) = (player.playhead(), player.direction());
-        if let Some((recording, piece, span)) = self.reel.wanted(at, direction) {
+        let loading = self.desk.as_ref().map_or(0, |desk| {
+            let lanes = desk.running.values().map(|it| it.lane);
+            lanes.filter(|lane| *lane == Lane::Movement).count()
+        });
+        // While one drags over hours, what was only passed is not loaded.
+        if loading < 2
+            && let Some((recording, piece, span)) = self.reel.wanted(at, direction)
+        {
             self.out.work(Work::Movement {
                 recording,
                 piece,

@@ -107,13 +107,11 @@ fn a_made_sign_stands_beside_what_it_was_made_from() {
         has(window, "LIMACE")
     });
     click(&mut window, "LIMACE");
-    until(&mut window, "the original", |window| {
-        has(window, "Beside the original")
-    });
+    until(&mut window, "the original", |window| has(window, "Beside"));
     idle(&mut window);
     window.step();
     assert_eq!(pictures(&window).len(), 2);
-    click(&mut window, "Over the original");
+    click(&mut window, "Over");
     assert_eq!(pictures(&window).len(), 1);
     window.key_press_modifiers(Modifiers::ALT, Key::O);
     window.run_steps(2);

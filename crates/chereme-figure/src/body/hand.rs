@@ -156,7 +156,7 @@ impl Digit {
                 ends: [start, end],
                 radii,
                 facing: (joint, turn * inner),
-                columns: 12,
+                columns: 16,
             };
             body.rod(rod, paint);
             if last {
@@ -280,7 +280,7 @@ fn palm(
         ends: [Point::at(root), Point::at(middle)],
         radii: [1.55, 1.45, 1.33].map(|r| r * radius),
         facing,
-        columns: 14,
+        columns: 18,
     };
     body.rod(metacarpal, paint);
     let index = if hand.side == Side::Right {

@@ -79,7 +79,7 @@ fn egg(point: Vec3) -> Vec3 {
 }
 
 fn crown_or_face(point: Vec3, palette: &Palette) -> Colour {
-    let behind = point.y * 0.62 - point.z * 0.80 - 0.28;
+    let behind = point.y * 0.62 - point.z * 0.80 - 0.13;
     let low = (-0.45 - point.y) * 2.0;
     let share = (behind.min(-low) * 6.0 + 0.5).clamp(0.0, 1.0);
     palette.face.mixed(palette.crown, share)

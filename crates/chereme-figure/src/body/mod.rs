@@ -208,7 +208,7 @@ impl Builder<'_> {
             ends: [Point::at(from), Point::at(to)],
             radii: radii.map(|radius| radius * self.size),
             facing: (from, bone.normalize_or(Vec3::X).any_orthonormal_vector()),
-            columns: 16,
+            columns: 20,
         };
         self.out.rod(rod, paint);
     }
@@ -310,7 +310,7 @@ impl Builder<'_> {
                 ends: [Point::at(shoulder), Point::at(neck)],
                 radii: [0.046 * size, 0.050 * size, 0.040 * size],
                 facing: (shoulder, Vec3::Z),
-                columns: 16,
+                columns: 20,
             };
             self.out.rod(rod, paint);
         }

@@ -66,7 +66,7 @@ pub(super) struct Rod {
 }
 
 /// Sines of the latitudes of a rod's rings; the middle of the rod lies between the halves.
-const LATITUDES: [f32; 3] = [-0.87, -0.5, 0.0];
+const LATITUDES: [f32; 4] = [-0.93, -0.74, -0.42, 0.0];
 
 impl Rod {
     fn grid(&self) -> Grid {

@@ -20,8 +20,8 @@ texts! {
     PLACES_HINT: "Landmarks and zones of placement; click one to choose it", "Repères et zones d’emplacement ; cliquez pour en choisir une";
     GRID: "Grid", "Grille";
     GRID_HINT: "Signing space in squares of 10 cm", "Espace de signation en carrés de 10 cm";
-    BESIDE: "Beside the original", "À côté de l’original";
-    OVER: "Over the original", "Sur l’original";
+    BESIDE: "Beside", "À côté";
+    OVER: "Over", "Dessus";
     ALONE: "Alone", "Seul";
     COMPARE: "Compare", "Comparer";
     ORIGINAL: "Original", "Original";

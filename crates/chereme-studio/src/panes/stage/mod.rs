@@ -16,6 +16,7 @@ mod transport;
 mod ui;
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use chereme_corpus::{Moving, Overview};
 use chereme_figure::View;
@@ -55,8 +56,8 @@ pub(crate) struct Stage {
     asked: Option<Look>,
     /// Whether the moment at the playhead is not loaded yet.
     coming: bool,
-    /// How long the last pictures took to draw, in milliseconds.
-    took: f32,
+    /// How long the last pictures took to draw.
+    took: Duration,
 }
 
 impl Default for Stage {
@@ -79,7 +80,7 @@ impl Default for Stage {
             textures: Vec::new(),
             asked: None,
             coming: false,
-            took: 0.0,
+            took: Duration::ZERO,
         }
     }
 }
@@ -156,6 +157,11 @@ impl Stage {
             moving: None,
             subject: None,
         };
+    }
+
+    /// Returns how long the last pictures took to draw.
+    pub(crate) fn drawing_time(&self) -> Duration {
+        self.took
     }
 
     /// Returns how the original is shown, where there is one.

@@ -144,6 +144,7 @@ fn reach(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
 
 fn compare(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
     let keys = seen.keys.text(Action::StageCompare);
+    ui.weak(format!("{}:", seen.say(words::ORIGINAL)));
     for way in Compare::ALL {
         let text = match way {
             Compare::Beside => words::BESIDE,
@@ -262,7 +263,7 @@ fn pictures(
         Artist::new(move || ctx.request_repaint())
     });
     if let Some(drawn) = artist.take() {
-        stage.took = drawn.took.as_secs_f32() * 1000.0;
+        stage.took = drawn.took;
         let options = TextureOptions::LINEAR;
         stage.textures.truncate(drawn.images.len());
         for (index, image) in drawn.images.into_iter().enumerate() {
@@ -454,8 +455,7 @@ fn data_first(stage: &Stage, part: &Part) -> bool {
 fn who(ui: &Ui, seen: &Seen<'_>, part: &Part) {
     let text = match part.who {
         Who::Original => seen.say(words::ORIGINAL),
-        Who::Both => seen.say(words::OVER),
-        Who::Signer => return,
+        Who::Both | Who::Signer => return,
     };
     chip(
         ui,
