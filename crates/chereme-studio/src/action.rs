@@ -116,6 +116,7 @@ actions! {
     MergeAnnotation "annotation.merge" ANNOTATION_MERGE Annotation Corpus;
     DeleteAnnotation "annotation.delete" ANNOTATION_DELETE Annotation Corpus;
     RecombineSelected "recombine.selected" RECOMBINE_SELECTED Edit Corpus;
+    StoreSign "recombine.store" STORE_SIGN Edit Corpus;
     CardUp "recombine.card-up" CARD_UP Edit Recombine repeats;
     CardDown "recombine.card-down" CARD_DOWN Edit Recombine repeats;
     CardDuplicate "recombine.card-duplicate" CARD_DUPLICATE Edit Recombine;

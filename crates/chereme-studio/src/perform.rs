@@ -142,6 +142,10 @@ impl Studio {
             }
             Action::NextRecording => self.walk_recordings(1),
             Action::PreviousRecording => self.walk_recordings(-1),
+            Action::StoreSign => {
+                self.bring(PaneKind::Recombine);
+                self.act_in_panes(action, ctx);
+            }
             other => self.act_in_panes(other, ctx),
         }
     }

@@ -140,6 +140,7 @@ pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
     (Action::ShowStage, ["Shift+F2", "=", "="]),
     (Action::ShowTimeline, ["Shift+F3", "=", "="]),
     (Action::ShowRecombine, ["Ctrl+R", "=", "="]),
+    (Action::StoreSign, ["Ctrl+S", "=", "="]),
     (Action::RecombineSelected, ["Ctrl+Shift+R", "=", "="]),
     (Action::CardUp, ["Alt+Up", "=", "="]),
     (Action::CardDown, ["Alt+Down", "=", "="]),

@@ -129,6 +129,7 @@ texts! {
     SHOW_TIMELINE: "Show the timeline", "Afficher la ligne de temps";
     SHOW_SEARCH: "Search", "Rechercher";
     SHOW_RECOMBINE: "Recombine", "Recombiner";
+    STORE_SIGN: "Store what was made: its gloss", "Enregistrer le signe produit : sa glose";
     RECOMBINE_SELECTED: "Recombine what is selected", "Recombiner la sélection";
     CARD_UP: "Card up", "Monter la carte";
     CARD_DOWN: "Card down", "Descendre la carte";

@@ -54,6 +54,8 @@ pub(crate) struct Recombine {
     /// The movement that was last given to the stage.
     given: Option<Arc<Recombination>>,
     come: bool,
+    /// The gloss shall be typed next.
+    naming: bool,
 }
 
 /// Reads a recipe as text, or as JSON where it begins with a brace.
@@ -313,6 +315,9 @@ impl Recombine {
                 .hint_text(seen.say(words::GLOSS))
                 .desired_width(width);
             let response = ui.add(field);
+            if self.naming {
+                response.request_focus();
+            }
             response.widget_info(|| {
                 eframe::egui::WidgetInfo::labeled(
                     eframe::egui::Role::TextInput,
@@ -397,6 +402,7 @@ impl Pane for Recombine {
                 }
             }
         });
+        self.naming = false;
         let generation = seen.snapshot.overview.generation;
         if self.wrong.is_none() {
             let text = self.stack.text();
@@ -419,6 +425,11 @@ impl Pane for Recombine {
                 }
                 None => Acted::Cannot(words::NEEDS_CARD),
             },
+            Action::StoreSign if self.stack.is_empty() => Acted::Cannot(words::NEEDS_RECIPE),
+            Action::StoreSign => {
+                (self.come, self.naming) = (false, true);
+                Acted::Yes
+            }
             Action::RecombineSelected => match fields::selected_token(seen) {
                 Some((token, _)) => {
                     out.send(Command::Recipe(format!("token:{token}"), None));
