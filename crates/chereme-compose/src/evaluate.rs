@@ -57,6 +57,7 @@ pub fn evaluate(resolved: &Resolved) -> Result<Made, MakeError> {
         anatomy,
         handedness,
         signer,
+        curves: Vec::new(),
         notes,
         report,
     })

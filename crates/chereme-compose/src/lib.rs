@@ -64,7 +64,7 @@ pub use evaluate::{ENGINE, evaluate};
 pub use json::VERSION;
 pub use learn::{CourseLearner, Stretch, bridge, learn_course};
 pub use lookup::{letters_in, value_in};
-pub use made::{About, ChannelReport, JoinReport, Made, Note, Report, StepReport};
+pub use made::{About, ChannelReport, Curve, JoinReport, Made, Note, Report, StepReport};
 pub use poses::{Exact, HandPose, PoseOrigin};
 pub use recipe::Recipe;
 pub use resolve::{

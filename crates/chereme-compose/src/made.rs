@@ -18,10 +18,21 @@ pub struct Made {
     pub handedness: Handedness,
     /// Whose body moves, where known.
     pub signer: Option<String>,
+    /// How much there is of each non-manual at each frame, of signs made from notation.
+    pub curves: Vec<Curve>,
     /// What is said about it.
     pub notes: Vec<Note>,
     /// How it came about.
     pub report: Report,
+}
+
+/// A scalar curve beside a clip, a value a frame.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Curve {
+    /// The part and the code of SiGML: `head.SH`, `brows.RB`, `mouth.L04`, `mouthing.hYs`.
+    pub name: String,
+    /// From 0, nothing of it, to 1, all of it.
+    pub values: Vec<f64>,
 }
 
 /// Something said about a stretch of made movement; the corpus makes annotations of these.

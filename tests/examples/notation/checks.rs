@@ -88,7 +88,7 @@ fn wrist(anatomy: &Anatomy, model: &ModelPose, side: Side) -> (f64, f64) {
     };
     let [shoulder, elbow, wrist] = [arm.upper, arm.forearm, arm.hand].map(|j| model.position(j));
     let forearm = (wrist - elbow).normalize();
-    let radial = palm.cross(along) * -side.sign();
+    let radial = palm.cross(along) * side.sign();
     let flexion = (-forearm.dot(palm)).atan2(forearm.dot(along)).to_degrees();
     let deviation = (-forearm.dot(radial)).asin().to_degrees();
     let part = |angle: f64, less: f64, more: f64| angle / if angle > 0.0 { more } else { less };

@@ -16,10 +16,12 @@
 //! | `track` | from events to what hands should do in each frame |
 //! | `solve` | from that to postures of an arm, without jumps |
 //! | `warp` | time stretched where an arm would go too fast |
+//! | `nonmanual` | head, trunk, shoulders; the curves of all non-manuals |
 //! | `notes` | what is said about the movement |
 
 mod arm;
 mod motion;
+mod nonmanual;
 mod notes;
 mod pace;
 mod path;
@@ -37,7 +39,7 @@ mod warp;
 use std::sync::Arc;
 
 use chereme_motion::{Channel, Clip, ClipError, Rate, Side};
-use chereme_sign::hamnosys::{BodyLanguage, Notated};
+use chereme_sign::hamnosys::{BodyLanguage, NonmanualPart, Notated};
 
 use crate::made::{ChannelReport, Made, Report, StepReport};
 use crate::sources::Material;
@@ -94,8 +96,8 @@ pub enum NotationError {
 
 /// Makes the movement of signs one after the other, from rest and back to rest.
 ///
-/// The body is that of `stage`'s first frame; its trunk, head and legs stay as they are there. The
-/// same signs on the same stage give the same movement.
+/// The body is that of `stage`'s first frame; trunk, head and shoulders move where the non-manual tiers
+/// say so, legs stay as they are there. The same signs on the same stage give the same movement.
 ///
 /// # Errors
 /// [`NotationError`] where the body has no arm, or the movement would be too long.
@@ -136,9 +138,12 @@ pub fn animate(
         lay(&mut channels, hand, track);
     }
     plan.stretch(&warp);
+    let language = &settings.language;
+    nonmanual::turn(&body, signs, &plan.signs, language, rate, &mut channels);
     let clip = Clip::new(Arc::clone(&body.skeleton), settings.rate, channels)?;
     let report = report(signs, &plan, sides, fits, limits.tolerance);
     Ok(Made {
+        curves: nonmanual::curves(signs, &plan.signs, language, rate, total),
         notes: notes::notes(signs, &plan, sides, &clip),
         clip,
         anatomy: Arc::clone(&body.anatomy),
@@ -163,8 +168,8 @@ fn frames(seconds: f64, rate: f64) -> Result<usize, NotationError> {
 /// Returns how fast arms may go; a little less, so that what is measured between frames stays within.
 fn fastest(language: &BodyLanguage, body: &Stage) -> Fastest {
     Fastest {
-        joint: 0.92 * language.speed_joint,
-        wrist: 0.92 * language.speed_wrist * body.arm,
+        joint: 0.9 * language.speed_joint,
+        wrist: 0.9 * language.speed_wrist * body.arm,
     }
 }
 
@@ -218,6 +223,10 @@ fn report(
         let n = usize::from(sides[1] == side);
         !plan.events[n].is_empty()
     };
+    let acts = |part: NonmanualPart| {
+        let mut all = signs.iter().flat_map(|sign| sign.nonmanual.acts());
+        all.any(|(_, act)| act.part == part)
+    };
     report.channels = Group::ALL
         .into_iter()
         .map(|group| ChannelReport {
@@ -226,6 +235,8 @@ fn report(
                 Group::Arm(side) | Group::Fingers(side) if moved(side) => {
                     vec!["notation".to_owned()]
                 }
+                Group::Head if acts(NonmanualPart::Head) => vec!["notation".to_owned()],
+                Group::Trunk if acts(NonmanualPart::Body) => vec!["notation".to_owned()],
                 _ => vec!["the stage".to_owned()],
             },
         })

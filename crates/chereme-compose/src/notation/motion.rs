@@ -5,6 +5,7 @@ mod repeat;
 use std::f64::consts::TAU;
 
 use chereme_motion::glam::DVec3;
+use chereme_sign::hamnosys::sites::HandPoint;
 use chereme_sign::hamnosys::{
     Amount, BodyAction, Circular, Curve, Digit, Digits, Directed, Growth, Manner, Motion,
     MotionKind, Place, Posture, Repeat, Repetition, Size, WristMotion,
@@ -420,7 +421,39 @@ impl Planner<'_> {
         now
     }
 
+    /// Lets hands that turn while they leave each other turn about their palms, not their fingertips.
+    fn let_go(&mut self, motions: &[Motion], who: Who, time: f64) {
+        let goes = |motion: &Motion| {
+            matches!(
+                motion.kind,
+                MotionKind::Directed(_) | MotionKind::Circular(_)
+            )
+        };
+        let turns = |motion: &Motion| match &motion.kind {
+            MotionKind::Target { motion, posture } => {
+                let turned =
+                    posture.extended.dominant().is_some() || posture.palm.dominant().is_some();
+                motion.is_none() && turned && posture.place.is_none()
+            }
+            _ => false,
+        };
+        if self.together.is_none() || !motions.iter().any(goes) || !motions.iter().any(turns) {
+            return;
+        }
+        for (n, _) in acting(who) {
+            let palm = self.offset(n, &[HandPoint::Palm]);
+            let mut goal = self.state[n].clone();
+            if goal.offset.distance(palm) < 1e-9 {
+                continue;
+            }
+            goal.point = goal.wrist() + goal.rotation * palm;
+            goal.offset = palm;
+            self.go(n, &goal, time, time, Pace::Linear);
+        }
+    }
+
     fn parallel(&mut self, motions: &[Motion], who: Who, time: f64, env: &Env) -> f64 {
+        self.let_go(motions, who, time);
         let lengths: Vec<f64> = motions
             .iter()
             .map(|motion| self.length_of(motion, who, env))
@@ -481,7 +514,9 @@ impl Planner<'_> {
         let before = self.state.clone();
         let planned = motion.map(|motion| self.motion(motion, who, time, env));
         let now = self.state.clone();
+        self.fixed = staying(motion, who);
         self.assume(posture, named);
+        self.fixed = None;
         let goal = self.state.clone();
         let contact = posture.place.as_ref().is_some_and(meets);
         let usual = if posture.place.is_some() {
@@ -507,6 +542,9 @@ impl Planner<'_> {
         if contact {
             self.hasten(time, pace, who);
         }
+        if posture.place.is_some() {
+            self.straighten(time, end, pace, who);
+        }
         self.state = now;
         for (n, _) in acting(named) {
             self.go(n, &goal[n], time, end, pace);
@@ -531,6 +569,22 @@ impl Planner<'_> {
             .fold(0.0, f64::max)
     }
 
+    /// Lets straight ways that began at `time` last until `end`: with what is missing to the place they
+    /// lead to they make one straight way, which runs into nothing before its end.
+    fn straighten(&mut self, time: f64, end: f64, pace: Pace, who: Who) {
+        for (n, _) in acting(who) {
+            for event in self.plan.events[n].iter_mut().rev() {
+                if event.from < time - 1e-9 {
+                    break;
+                }
+                let straight = matches!(event.act, Act::Move(Path::Line(_)));
+                if straight && event.from <= time + 1e-9 {
+                    (event.to, event.pace) = (end, pace);
+                }
+            }
+        }
+    }
+
     /// Gives the ways that began at `time` the course of what they lead to.
     fn hasten(&mut self, time: f64, pace: Pace, who: Who) {
         for (n, _) in acting(who) {
@@ -543,6 +597,20 @@ impl Planner<'_> {
                 }
             }
         }
+    }
+}
+
+/// Returns the hand that stays where it is in a motion that leads both to each other.
+fn staying(motion: Option<&Motion>, who: Who) -> Option<usize> {
+    let still = |half: &Option<Box<Motion>>| match half {
+        Some(half) => matches!(half.kind, MotionKind::Still),
+        None => true,
+    };
+    match motion.map(|motion| &motion.kind) {
+        Some(MotionKind::Split(own, other)) if still(own) != still(other) => {
+            Some(usize::from(still(other)))
+        }
+        _ => (0..2).find(|&n| who[n].is_none()),
     }
 }
 

@@ -365,7 +365,8 @@ impl Planner<'_> {
             _ => 2.0 * far,
         };
         let crossed = matches!(hands.contact, Some(Contact::Cross | Contact::Interlock));
-        let (points, way) = if mirrored {
+        let unlike = hands.other.is_some() && hands.other != hands.dominant;
+        let (points, way) = if mirrored && !unlike {
             let point = |n: usize, site: &Option<HandSite>, way: DVec3| match site {
                 Some(site) => self.site_points(n, site, frames[n]),
                 None if crossed => vec![HandPoint::Wrist(Face::Palmar)],
@@ -387,6 +388,12 @@ impl Planner<'_> {
         let [mut first, mut second] = goals;
         first.at += way * (apart / 2.0);
         second.at -= way * (apart / 2.0);
+        if let (Some(fixed), None) = (self.fixed.filter(|_| self.begun), &hands.at) {
+            let points = [&first.points, &second.points][fixed].clone();
+            let by = self.at_hand(fixed, &points).0 - [first.at, second.at][fixed];
+            first.at += by;
+            second.at += by;
+        }
         self.settle(0, &first);
         self.settle(1, &second);
         for n in 0..2 {
@@ -443,16 +450,10 @@ impl Planner<'_> {
         if let Some(place) = &hands.at {
             return self.on_body(0, place, frame, false).at;
         }
-        let moved = self.plan.events.iter().any(|events| !events.is_empty());
-        if moved && self.state.iter().all(|state| state.used) && self.settled() {
+        if self.begun {
             return (self.state[0].point + self.state[1].point) / 2.0;
         }
         self.on_body(0, &BodyPlace::default(), frame, false).at
-    }
-
-    /// Tells whether both hands have left their rest before now.
-    fn settled(&self) -> bool {
-        (0..2).all(|n| !self.plan.events[n].is_empty())
     }
 }
 

@@ -87,6 +87,8 @@ pub(crate) struct HandState {
     pub(crate) handshape: Handshape,
     pub(crate) direction: DVec3,
     pub(crate) palm: f64,
+    /// Whether direction and palm are in words of its own, not those of the dominant hand.
+    pub(crate) own: [bool; 2],
     /// Whether it takes part in the sign.
     pub(crate) used: bool,
 }
@@ -163,6 +165,10 @@ pub(crate) struct Planner<'a> {
     pub(crate) symmetric: bool,
     /// How the hands were together last in this sign.
     pub(crate) together: Option<Constellation>,
+    /// Whether the sign has begun: its hands are where its first posture brings them.
+    pub(crate) begun: bool,
+    /// The hand that stays where it is while the other comes to it.
+    pub(crate) fixed: Option<usize>,
     /// Where each hand was last at the body in this sign.
     pub(crate) at_body: [Option<BodyPlace>; 2],
     speed: f64,
@@ -200,6 +206,8 @@ impl<'a> Planner<'a> {
             named: BTreeMap::new(),
             symmetric: false,
             together: None,
+            begun: false,
+            fixed: None,
             at_body: [None, None],
             speed: 1.0,
             plan: Plan {
@@ -259,9 +267,11 @@ impl<'a> Planner<'a> {
             }
         }
         let posture = self.begun(&part.posture);
+        self.begun = false;
         if !part.holdover || !part.posture.is_empty() {
             self.assume(&posture, named);
         }
+        self.begun = true;
         self.start_behind(part, who);
         let (goal, dropped) = (
             self.state.clone(),
@@ -398,6 +408,7 @@ impl<'a> Planner<'a> {
         self.state[n].used = true;
         self.state[n].direction = DVec3::new(0.5, 0.0, 0.87).normalize();
         self.state[n].palm = 0.0;
+        self.state[n].own = [false; 2];
         self.turn(n, frame);
         self.state[n].offset = self.palm_offset(n);
         self.state[n].point = stage.middle() + stage.direction(at);
@@ -431,13 +442,13 @@ impl<'a> Planner<'a> {
             let palm = pick(&posture.palm, n);
             if let Some(aim) = extended {
                 self.state[n].direction = towards(aim);
+                self.state[n].own[0] = own_words(&posture.extended, n);
             }
             if let Some(aim) = palm {
                 self.state[n].palm = palm_angle(aim);
+                self.state[n].own[1] = own_words(&posture.palm, n);
             }
             if extended.is_some() || palm.is_some() {
-                let own = own_words(&posture.extended, n) || own_words(&posture.palm, n);
-                let frame = if own { self.own_frame() } else { frame };
                 self.turn(n, frame);
             }
         }
@@ -463,11 +474,22 @@ impl<'a> Planner<'a> {
         self.state[n].handshape = shape.clone();
     }
 
-    /// Turns a hand as its direction and palm say, in a frame.
+    /// Turns a hand as its direction and palm say, in a frame, or in that of the signer where the words
+    /// are its own.
     pub(crate) fn turn(&mut self, n: usize, frame: Frame) {
         let state = &self.state[n];
+        let axes = |own: bool| {
+            if own {
+                self.own_frame().axes
+            } else {
+                frame.axes
+            }
+        };
+        let [pointing, facing] = state.own.map(axes);
+        // The palm's letter is one of a hand that points so in its frame.
+        let direction = state.direction * pointing * facing;
         let [direction, palm] =
-            oriented(state.direction, state.palm).map(|v| self.stage.direction(v * frame.axes));
+            oriented(direction, state.palm).map(|v| self.stage.direction(v * facing));
         if let Some(rotation) = self.stage.turned(self.sides[n], direction, palm) {
             self.state[n].rotation = rotation;
         }

@@ -143,7 +143,7 @@ impl<'a> Arm<'a> {
         }
         self.lead(&mut rows, wanted);
         calm(&mut rows, rate);
-        self.spread(&mut rows, rate);
+        self.spread(&mut rows, &wanted.touch, rate);
         rows
     }
 
@@ -437,8 +437,8 @@ impl<'a> Arm<'a> {
         })
     }
 
-    /// Spreads pushes that come at once over the time before and after.
-    fn spread(&self, rows: &mut [Row], rate: f64) {
+    /// Spreads pushes that come at once over the time before and after, where nothing is touched.
+    fn spread(&self, rows: &mut [Row], touch: &[f64], rate: f64) {
         let near = ((AROUND * rate).ceil() as usize).max(1);
         let most = PUSHING * self.rig().length() / rate;
         let mut start = 0;
@@ -455,8 +455,9 @@ impl<'a> Arm<'a> {
                 continue;
             }
             let eased = eased(rows, around.clone(), near);
-            for (row, push) in rows[around].iter_mut().zip(eased) {
-                row.push = push;
+            let touch = &touch[around.clone()];
+            for ((row, push), &touch) in rows[around].iter_mut().zip(eased).zip(touch) {
+                row.push = push.lerp(row.push, touch);
                 row.kept = false;
             }
         }

@@ -334,7 +334,7 @@ impl Hand {
             fingers: anatomy.fingers(side),
             along,
             palm,
-            radial: palm.cross(along) * -side.sign(),
+            radial: palm.cross(along) * side.sign(),
             length: measures.hand,
             base: knuckle.map_or(0.5 * measures.hand, at),
             joint,

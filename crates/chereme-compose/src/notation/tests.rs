@@ -9,6 +9,8 @@ use chereme_sign::hamnosys::{
     Sign, Site, Size, Symmetry,
 };
 
+use chereme_sign::hamnosys::sites::{Face, HandPoint};
+
 use super::*;
 use crate::About;
 use crate::testing::{Axes, skeleton};
@@ -450,4 +452,123 @@ fn nothing_of_a_hand_enters_the_trunk() {
             assert!(out.length() < 3e-3, "frame {frame}: {} m", out.length());
         }
     }
+}
+
+#[test]
+fn head_and_trunk_move_as_the_tiers_say() {
+    use chereme_sign::hamnosys::{Act, NonmanualPart, TierKind};
+    let mut sign = notated(
+        HandsUsed::Dominant,
+        posture(
+            HandClass::Flat,
+            "ol",
+            "d",
+            Some(at(BodyLocation::Chest, None)),
+        ),
+        vec![],
+    );
+    let still = made(&sign, Axes::Odd);
+    let acts = [
+        (NonmanualPart::Head, "SL"),
+        (NonmanualPart::Body, "TF"),
+        (NonmanualPart::Brows, "RB_both_eyebrows_raised"),
+    ];
+    for (part, tag) in acts {
+        sign.nonmanual.push(part.tier(), vec![Act::new(part, tag)]);
+    }
+    assert_eq!(TierKind::Head, NonmanualPart::Head.tier());
+    let made = made(&sign, Axes::Odd);
+    let names: Vec<&str> = made
+        .curves
+        .iter()
+        .map(|curve| curve.name.as_str())
+        .collect();
+    assert_eq!(names, ["body.TF", "head.SL", "brows.RB"]);
+    for curve in &made.curves {
+        assert_eq!(curve.values.len(), made.clip.frames());
+        assert_eq!(curve.values[0], 0.0, "{} has an attack", curve.name);
+        assert!(curve.values.contains(&1.0));
+    }
+    let faces = |made: &Made, share: f64| {
+        let model = model(made, share);
+        made.anatomy.head_axes(&model).expect("a head")[2]
+    };
+    let [ahead, turned] = [faces(&still, 0.5), faces(&made, 0.5)];
+    assert!(ahead.distance(DVec3::Z) < 1e-6);
+    assert!(turned.x > 0.4, "to the left: {turned}");
+    let frame = |made: &Made| made.anatomy.body_frame(&model(made, 0.5)).expect("a trunk");
+    assert!(frame(&made).up.z > 0.08, "forwards: {}", frame(&made).up);
+    let hand = |made: &Made| frame(made).to_body(landmark(made, 0.5, "right-palm"));
+    assert!(
+        hand(&made).distance(hand(&still)) < 0.25,
+        "the arms go with the trunk"
+    );
+}
+
+#[test]
+fn the_thumb_is_on_the_radial_side() {
+    for axes in [Axes::Plain, Axes::Odd] {
+        let body = Stage::of(&stage(axes)).expect("a body");
+        for side in Side::BOTH {
+            let hand = body.hand(side).expect("a hand");
+            let shape = body.shape(side, &chereme_motion::HandAngles::default());
+            let thumb = HandPoint::Base(chereme_sign::hamnosys::Digit::Thumb, Face::Middle);
+            let little = HandPoint::Base(chereme_sign::hamnosys::Digit::Little, Face::Middle);
+            let [thumb, little] = [thumb, little].map(|point| body.point(hand, &shape, point));
+            assert!((thumb - little).dot(hand.radial) > 0.0, "{side:?}");
+        }
+    }
+}
+
+#[test]
+fn a_palm_of_its_own_leaves_the_direction_mirrored() {
+    let mut split = posture(HandClass::Flat, "ol", "d", None);
+    split.palm = Each::Split(
+        Some(Aim::at("d".parse().expect("a palm"))),
+        Some(Aim::at("u".parse().expect("a palm"))),
+    );
+    let made = made(&notated(mirrored(), split, vec![]), Axes::Odd);
+    let model = model(&made, 0.5);
+    let along = made
+        .anatomy
+        .hand_direction(Side::Left, &model)
+        .expect("a hand");
+    let palm = made
+        .anatomy
+        .palm_normal(Side::Left, &model)
+        .expect("a hand");
+    let half = 0.5f64.sqrt();
+    // A palm all the way up is at the end of the forearm's range.
+    assert!(
+        along.distance(DVec3::new(-half, 0.0, half)) < 0.1,
+        "{along}"
+    );
+    assert!(palm.y > 0.9, "{palm}");
+}
+
+#[test]
+fn the_hand_that_does_nothing_stays_where_the_other_comes_to_it() {
+    let touch = Place::Hands(Constellation {
+        contact: Some(Contact::Touch),
+        ..Constellation::default()
+    });
+    let close = Place::Hands(Constellation {
+        contact: Some(Contact::Close),
+        ..Constellation::default()
+    });
+    let meet = Motion::new(MotionKind::Target {
+        motion: Some(Box::new(directed("d"))),
+        posture: Box::new(Posture {
+            place: Some(touch),
+            ..Posture::default()
+        }),
+    });
+    let sign = notated(
+        HandsUsed::Dominant,
+        posture(HandClass::Flat, "ol", "d", Some(close)),
+        vec![meet],
+    );
+    let made = made(&sign, Axes::Plain);
+    let [begin, end] = [0.0, 1.0].map(|share| landmark(&made, share, "left-wrist"));
+    assert!(begin.distance(end) < 5e-3, "{begin} to {end}");
 }

@@ -277,7 +277,7 @@ impl Anatomy {
             .map_or(0.5 * length, |joint| model.position(joint).distance(wrist));
         let middle = wrist + along * (0.55 * base);
         let palm = self.palm_normal(side, model);
-        let radial = palm.map(|palm| palm.cross(along) * -side.sign());
+        let radial = palm.map(|palm| palm.cross(along) * side.sign());
         let out = match name {
             "palm" => palm.map_or(DVec3::ZERO, |palm| palm * (0.08 * length)),
             "hand-back" => palm.map_or(DVec3::ZERO, |palm| palm * (-0.08 * length)),

@@ -73,7 +73,7 @@ proptest! {
             let model = ModelPose::of(&skeleton, &pose);
             let along = anatomy.hand_direction(side, &model).expect("a hand");
             let palm = anatomy.palm_normal(side, &model).expect("a palm");
-            let radial = palm.cross(along) * -side.sign();
+            let radial = palm.cross(along) * side.sign();
             let bone = |a, b| {
                 let [a, b] = [a, b].map(|part| anatomy.joint(part).expect("a finger"));
                 let bone = (model.position(b) - model.position(a)).normalize();
@@ -564,6 +564,29 @@ fn real_hands_give_plausible_angles_that_set_them_again() {
                 );
                 assert!(finger.spread.abs() < 0.8, "{shown} {angles:?}");
             }
+        }
+    }
+}
+
+#[test]
+fn the_thumb_is_at_the_radial_edge() {
+    for (name, wear) in wears() {
+        let (skeleton, anatomy) = worn(wear);
+        let model = ModelPose::of(&skeleton, &skeleton.rest_pose());
+        for side in Side::BOTH {
+            let at = |landmark: &str| {
+                let landmark = format!("{}-{landmark}", side.name());
+                anatomy
+                    .landmark(&skeleton, &model, &landmark)
+                    .expect("a landmark")
+            };
+            let thumb = anatomy.joint(Part::Thumb(side, 1)).expect("a thumb");
+            let little = anatomy
+                .joint(Part::Finger(side, Finger::Little, 1))
+                .expect("a finger");
+            let [thumb, little] = [thumb, little].map(|joint| model.position(joint));
+            let out = at("hand-radial") - at("hand-ulnar");
+            assert!(out.dot(thumb - little) > 0.0, "{name} {side:?}");
         }
     }
 }

@@ -131,7 +131,7 @@ fn points(scene: &Scene<'_>, axes: &Axes, model: &ModelPose, side: Half) -> Vec<
     };
     let landmark =
         |name: &str| anatomy.landmark(skeleton, model, &format!("{}-{name}", side.name()));
-    let radial = normal.cross(along) * -side.sign();
+    let radial = normal.cross(along) * side.sign();
     let mut add = |point: HandPoint, at: Option<DVec3>, out: DVec3| {
         points.extend(at.map(|at| Spotted {
             point,

@@ -310,6 +310,9 @@ fn split_place(element: &Element<'_>, findings: &mut Findings) -> Place {
     Place::Split(next(), next())
 }
 
+/// Reads how two hands are by each other. Of two sites the first is what is touched, on the other hand,
+/// as in a `location_hand` with another in it: transcribers write the wrist's back, then the index
+/// finger's tip, where the dominant hand points at a watch.
 fn constellation(element: &Element<'_>, findings: &mut Findings) -> Constellation {
     let mut node = Node::new(element, findings);
     let mut hands = Constellation {
@@ -324,11 +327,7 @@ fn constellation(element: &Element<'_>, findings: &mut Findings) -> Constellatio
             ("location_hand", 0 | 1) => {
                 let site = hand_site(child, findings);
                 let site = (site != HandSite::default()).then_some(site);
-                if sites == 0 {
-                    hands.dominant = site;
-                } else {
-                    hands.other = site;
-                }
+                hands.other = std::mem::replace(&mut hands.dominant, site);
                 sites += 1;
             }
             ("location_bodyarm", _) if hands.at.is_none() => {

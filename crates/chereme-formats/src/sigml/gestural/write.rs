@@ -207,7 +207,7 @@ fn constellation_element(hands: &Constellation) -> Element<'static> {
     element.word("contact", hands.contact);
     element.shown("def_locname", hands.define);
     if hands.dominant.is_some() || hands.other.is_some() {
-        for site in [&hands.dominant, &hands.other] {
+        for site in [&hands.other, &hands.dominant] {
             let empty = || Element::new("location_hand");
             element
                 .children

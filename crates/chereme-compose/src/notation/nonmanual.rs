@@ -1,0 +1,315 @@
+//! What head, trunk and shoulders do beside the hands, and how much of each non-manual there is when.
+//!
+//! Every act is a curve from 0 to 1: an attack before the sign begins, what is sustained, a release
+//! after it. Acts of one tier that follow one another share the sign's time. The curves of head, trunk
+//! and shoulders turn joints; those of gaze, brows, lids, nose and mouth are handed on as they are.
+
+use std::f64::consts::TAU;
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Channel, Part, Side};
+use chereme_sign::hamnosys::{
+    Act, BodyLanguage, NonmanualPart, NonmanualTier, Notated, TierEnd, TierStart,
+};
+
+use super::plan::SignSpan;
+use super::stage::Stage;
+use crate::made::Curve;
+
+/// How much later or earlier a tier begins or ends that does not with the hands, in seconds.
+const SLIGHTLY: f64 = 0.12;
+
+/// One act with its time, in seconds.
+struct Timed<'a> {
+    act: &'a Act,
+    from: f64,
+    to: f64,
+    attack: f64,
+    release: f64,
+}
+
+impl Timed<'_> {
+    /// Returns how much of it there is at a time.
+    fn at(&self, time: f64) -> f64 {
+        let rise = (time - self.from + self.attack) / self.attack.max(1e-6);
+        let fall = (self.to + self.release - time) / self.release.max(1e-6);
+        smooth(rise).min(smooth(fall))
+    }
+
+    /// Returns the share of its time that is over.
+    fn share(&self, time: f64) -> f64 {
+        ((time - self.from) / (self.to - self.from).max(1e-6)).clamp(0.0, 1.0)
+    }
+}
+
+/// How parts of the body are turned at one moment, in radians to the left of each axis.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Bent {
+    /// About the axes to the left, up and forward.
+    head: DVec3,
+    /// The same of the lowest joint of the neck.
+    neck: DVec3,
+    trunk: DVec3,
+    /// How far right and left collar bone are raised and brought forward.
+    raised: [f64; 2],
+    hunched: [f64; 2],
+}
+
+/// Returns how much there is of each non-manual at each frame.
+pub(crate) fn curves(
+    signs: &[&Notated],
+    spans: &[SignSpan],
+    language: &BodyLanguage,
+    rate: f64,
+    total: usize,
+) -> Vec<Curve> {
+    let mut curves: Vec<Curve> = Vec::new();
+    for timed in all(signs, spans, language) {
+        let name = name(timed.act);
+        let n = curves.iter().position(|curve| curve.name == name);
+        let n = n.unwrap_or_else(|| {
+            curves.push(Curve {
+                name,
+                values: vec![0.0; total],
+            });
+            curves.len() - 1
+        });
+        for (frame, value) in curves[n].values.iter_mut().enumerate() {
+            let now = timed.at(frame as f64 / rate) * amount(timed.act);
+            *value = value.max(now.min(1.0));
+        }
+    }
+    curves
+}
+
+/// Turns the joints of head, trunk and shoulders; the arms go with the trunk.
+pub(crate) fn turn(
+    body: &Stage,
+    signs: &[&Notated],
+    spans: &[SignSpan],
+    language: &BodyLanguage,
+    rate: f64,
+    channels: &mut [Channel],
+) {
+    let acts = all(signs, spans, language);
+    let moving = |part| {
+        matches!(
+            part,
+            NonmanualPart::Head | NonmanualPart::Body | NonmanualPart::Shoulders
+        )
+    };
+    if !acts.iter().any(|timed| moving(timed.act.part)) {
+        return;
+    }
+    let total = channels
+        .first()
+        .map_or(0, |channel| channel.rotations.len());
+    for frame in 0..total {
+        let bent = bent(&acts, frame as f64 / rate);
+        if bent != Bent::default() {
+            bend(body, &bent, frame, channels);
+        }
+    }
+}
+
+/// Returns every act with its time.
+fn all<'a>(signs: &[&'a Notated], spans: &[SignSpan], language: &BodyLanguage) -> Vec<Timed<'a>> {
+    let mut all = Vec::new();
+    for (sign, span) in signs.iter().zip(spans) {
+        for tier in sign.nonmanual.tiers.values() {
+            timed(tier, span, language, &mut all);
+        }
+    }
+    all
+}
+
+fn timed<'a>(
+    tier: &'a NonmanualTier,
+    span: &SignSpan,
+    language: &BodyLanguage,
+    all: &mut Vec<Timed<'a>>,
+) {
+    let from = span.from
+        + match tier.start {
+            Some(TierStart::SlightDelay) => SLIGHTLY,
+            Some(TierStart::StartSlightlyAhead) => -SLIGHTLY,
+            None => 0.0,
+        };
+    let to = span.to
+        + match tier.end {
+            Some(TierEnd::LastsLonger) => SLIGHTLY,
+            Some(TierEnd::EndsBefore) => -SLIGHTLY,
+            None => 0.0,
+        };
+    let each = (to - from).max(0.05) / tier.groups.len().max(1) as f64;
+    for (n, group) in tier.groups.iter().enumerate() {
+        let from = from + each * n as f64;
+        for act in group {
+            let speed = act.speed.filter(|speed| speed.is_finite() && *speed > 0.0);
+            let speed = speed.unwrap_or(1.0).clamp(0.2, 5.0);
+            all.push(Timed {
+                act,
+                from,
+                to: from + each,
+                attack: language.time_attack / speed,
+                release: language.time_release / speed,
+            });
+        }
+    }
+}
+
+fn amount(act: &Act) -> f64 {
+    act.amount
+        .filter(|amount| amount.is_finite())
+        .map_or(1.0, |amount| amount.clamp(0.0, 2.0))
+}
+
+fn name(act: &Act) -> String {
+    let part = match act.part {
+        NonmanualPart::Shoulders => "shoulders",
+        NonmanualPart::Body => "body",
+        NonmanualPart::Head => "head",
+        NonmanualPart::Gaze => "gaze",
+        NonmanualPart::Brows => "brows",
+        NonmanualPart::Lids => "lids",
+        NonmanualPart::Nose => "nose",
+        NonmanualPart::MouthGesture => "mouth",
+        NonmanualPart::MouthPicture => "mouthing",
+        NonmanualPart::MouthMeta => "mouth-meta",
+        NonmanualPart::Extra => "extra",
+        NonmanualPart::Neutral => "neutral",
+    };
+    format!("{part}.{}", act.code())
+}
+
+/// Returns how the body is turned at a time by all acts together.
+fn bent(acts: &[Timed<'_>], time: f64) -> Bent {
+    let mut bent = Bent::default();
+    for timed in acts {
+        let much = timed.at(time) * amount(timed.act);
+        if much == 0.0 {
+            continue;
+        }
+        let wave = (TAU * cycles(timed) * timed.share(time)).sin();
+        let angle = |degrees: f64| (degrees * much).to_radians();
+        match (timed.act.part, timed.act.code()) {
+            (NonmanualPart::Head, code) => turn_head(&mut bent, code, angle, wave),
+            (NonmanualPart::Body, code) => turn_trunk(&mut bent, code, angle, timed.share(time)),
+            (NonmanualPart::Shoulders, code) => {
+                move_shoulders(&mut bent, code, angle, timed.share(time));
+            }
+            _ => {}
+        }
+    }
+    bent
+}
+
+/// Returns how often a head nods or shakes: twice a second, at least twice.
+fn cycles(timed: &Timed<'_>) -> f64 {
+    (2.0 * (timed.to - timed.from)).round().max(2.0)
+}
+
+fn turn_head(bent: &mut Bent, code: &str, angle: impl Fn(f64) -> f64, wave: f64) {
+    match code {
+        // `ND` is not in the list and is written for nods.
+        "NO" | "ND" => bent.head.x += angle(11.0) * wave,
+        "SH" => bent.head.y += angle(16.0) * wave,
+        "SR" => bent.head.y -= angle(28.0),
+        "SL" => bent.head.y += angle(28.0),
+        "TR" => bent.head.z += angle(14.0),
+        "TL" => bent.head.z -= angle(14.0),
+        "NF" => bent.head.x += angle(16.0),
+        "NB" => bent.head.x -= angle(14.0),
+        "PF" => {
+            bent.neck.x += angle(14.0);
+            bent.head.x -= angle(14.0);
+        }
+        "PB" => {
+            bent.neck.x -= angle(10.0);
+            bent.head.x += angle(10.0);
+        }
+        _ => {}
+    }
+}
+
+fn turn_trunk(bent: &mut Bent, code: &str, angle: impl Fn(f64) -> f64, share: f64) {
+    let once = (std::f64::consts::PI * share).sin();
+    match code {
+        "RL" => bent.trunk.y += angle(14.0),
+        "RR" => bent.trunk.y -= angle(14.0),
+        "TL" => bent.trunk.z -= angle(8.0),
+        "TR" => bent.trunk.z += angle(8.0),
+        "TF" => bent.trunk.x += angle(9.0),
+        "TB" => bent.trunk.x -= angle(7.0),
+        "RD" => {
+            bent.trunk.x += angle(7.0);
+            bent.head.x += angle(5.0);
+        }
+        // A sigh sinks after it rose; heaving only rises. Straight is how a body stands.
+        "SI" => {
+            let rise = (TAU * share).sin();
+            bent.trunk.x -= angle(3.0) * rise;
+            bent.raised = bent.raised.map(|raised| raised + angle(5.0) * rise);
+        }
+        "HE" => {
+            bent.trunk.x -= angle(4.0) * once;
+            bent.raised = bent.raised.map(|raised| raised + angle(6.0) * once);
+        }
+        _ => {}
+    }
+}
+
+fn move_shoulders(bent: &mut Bent, code: &str, angle: impl Fn(f64) -> f64, share: f64) {
+    let mut letters = code.chars();
+    let (what, side) = (letters.next(), letters.next());
+    let once = (std::f64::consts::PI * share).sin();
+    for (n, own) in ['R', 'L'].into_iter().enumerate() {
+        if side != Some(own) && side != Some('B') {
+            continue;
+        }
+        match what {
+            Some('U') => bent.raised[n] += angle(11.0),
+            Some('H') => bent.hunched[n] += angle(13.0),
+            Some('S') => bent.raised[n] += angle(13.0) * once,
+            _ => {}
+        }
+    }
+}
+
+/// Turns the joints of one frame.
+fn bend(body: &Stage, bent: &Bent, frame: usize, channels: &mut [Channel]) {
+    let joint = |part| body.anatomy.joint(part);
+    let axes = |v: DVec3| body.left * v.x + DVec3::Y * v.y + body.forward * v.z;
+    let mut turn = |joint: Option<usize>, by: DQuat| {
+        let Some(joint) = joint else { return };
+        let above = body.skeleton.parent(joint);
+        let above = above.map_or(DQuat::IDENTITY, |above| body.model.rotation(above));
+        let own = &mut channels[joint].rotations[frame];
+        *own = (above.inverse() * by * above * *own).normalize();
+    };
+    let trunk = axes(bent.trunk);
+    let lower = joint(Part::Spine);
+    let upper = joint(Part::Chest).filter(|upper| lower.is_some_and(|lower| lower != *upper));
+    let each = if upper.is_some() { 0.5 } else { 1.0 };
+    for part in [lower.or(joint(Part::Chest)), upper] {
+        turn(part, DQuat::from_scaled_axis(trunk * each));
+    }
+    turn(joint(Part::Neck), DQuat::from_scaled_axis(axes(bent.neck)));
+    turn(joint(Part::Head), DQuat::from_scaled_axis(axes(bent.head)));
+    for (n, side) in Side::BOTH.into_iter().enumerate() {
+        // The upper arm keeps its direction: the whole arm goes with the shoulder.
+        let up = body.forward * (bent.raised[n] * side.sign());
+        let ahead = DVec3::Y * (-bent.hunched[n] * side.sign());
+        let by = DQuat::from_scaled_axis(up + ahead);
+        if by == DQuat::IDENTITY || joint(Part::Clavicle(side)).is_none() {
+            continue;
+        }
+        turn(joint(Part::Clavicle(side)), by);
+        turn(joint(Part::UpperArm(side)), by.inverse());
+    }
+}
+
+fn smooth(share: f64) -> f64 {
+    let share = share.clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}
