@@ -3,15 +3,18 @@
 use std::fs;
 use std::path::Path;
 
-use chereme_compose::VERSION;
 use chereme_compose::recipe::{Node, Notation};
-use chereme_sign::hamnosys;
+use chereme_compose::{Sources, VERSION};
+use chereme_formats::Finding;
+use chereme_sign::hamnosys::{self, Sign};
 use serde_json::json;
 
 use crate::Corpus;
 use crate::error::{Error, Result};
 use crate::recombine::Recombination;
+use crate::sources::CorpusSources;
 use crate::sources::notation::NEXT;
+use crate::{inventories, notation};
 
 /// The longest file of plain HamNoSys that is read.
 const MOST_BYTES: u64 = 1 << 20;
@@ -19,6 +22,9 @@ const MOST_BYTES: u64 = 1 << 20;
 impl Corpus {
     /// Makes movement of notation: of HamNoSys text, of a SiGML or HamNoSys file, or of signs that the
     /// corpus holds as notation, one after the other; stores it under `gloss` where there is one.
+    ///
+    /// Of HamNoSys that cannot be read whole, what was understood is made; the report's warnings say
+    /// what was not, and what is odd about a file.
     ///
     /// `signer` is the address of a signer or a recording whose body signs; without one the corpus
     /// chooses, and one without any movement takes the body that comes with the program.
@@ -32,15 +38,37 @@ impl Corpus {
         signer: Option<&str>,
         gloss: Option<&str>,
     ) -> Result<Recombination> {
-        let recipe = json!({"version": VERSION, "make": leaf(notation, signer)?}).to_string();
-        match gloss {
+        let (node, findings) = leaf(notation, signer)?;
+        let recipe = json!({"version": VERSION, "make": node}).to_string();
+        let mut done = match gloss {
             Some(gloss) => self.recombine(&recipe, gloss),
             None => self.preview(&recipe),
+        }?;
+        for finding in &findings {
+            done.explanation += &format!("\nwarning: {finding}");
         }
+        done.report.warnings.splice(0..0, findings);
+        Ok(done)
+    }
+
+    /// Returns the address of the body that the corpus chooses where none is named.
+    pub(crate) fn chosen_body(&mut self) -> Result<String> {
+        let (connection, index) = self.store.searchable()?;
+        let inventories = inventories::load(connection)?;
+        let sources = CorpusSources {
+            connection,
+            index,
+            inventories: &inventories,
+            learned: &self.learned,
+        };
+        let stage = sources.stage(None);
+        let stage = stage.map_err(|error| Error::wrong(error.to_string()))?;
+        Ok(stage.address)
     }
 }
 
-fn leaf(notation: &[&str], signer: Option<&str>) -> Result<Node> {
+/// Returns the recipe's leaf, and what is odd about the notation.
+fn leaf(notation: &[&str], signer: Option<&str>) -> Result<(Node, Vec<String>)> {
     let on = signer.map(str::to_owned);
     let text = match notation {
         [] => {
@@ -51,19 +79,65 @@ fn leaf(notation: &[&str], signer: Option<&str>) -> Result<Node> {
         _ => None,
     };
     Ok(match text {
-        Some(of) => {
-            hamnosys::parse(&of).map_err(|error| {
-                Error::wrong(error.to_string())
-                    .at("the HamNoSys text")
-                    .advise("symbols may be written as characters or by name: hamflathand hamextfingeru hampalml")
-            })?;
-            Node::Hamnosys(Notation { of, on })
+        Some(text) => {
+            let (of, findings) = understood(&text)?;
+            (Node::Hamnosys(Notation { of, on }), findings)
         }
-        None => Node::Sigml(Notation {
-            of: notation.join(NEXT),
-            on,
-        }),
+        None => {
+            let findings = notation.iter().flat_map(|name| odd_in_file(name)).collect();
+            let of = notation.join(NEXT);
+            (Node::Sigml(Notation { of, on }), findings)
+        }
     })
+}
+
+/// Returns HamNoSys text that can be read whole: as it is, or what was understood of it, with what is odd.
+fn understood(text: &str) -> Result<(String, Vec<String>)> {
+    let (read, whole) = match hamnosys::parse(text) {
+        Ok(read) => (read, None),
+        Err(error) => (hamnosys::parse_lenient(text), Some(error)),
+    };
+    let told = |finding: &hamnosys::Finding| {
+        format!(
+            "symbol {}: {}; {}",
+            finding.index, finding.message, finding.remedy
+        )
+    };
+    let mut findings: Vec<String> = read.findings.iter().map(told).collect();
+    let Some(error) = whole else {
+        return Ok((text.to_owned(), findings));
+    };
+    let known = hamnosys::print(&unspelled(&read.sign)?).text;
+    if known.is_empty() || hamnosys::parse(&known).is_err() {
+        return Err(Error::wrong(error.to_string()).at("the HamNoSys text").advise(
+            "symbols may be written as characters or by name: hamflathand hamextfingeru hampalml",
+        ));
+    }
+    let names = hamnosys::to_names(&known).unwrap_or_default();
+    findings.push(format!("made of what was understood: {}", names.join(" ")));
+    Ok((known, findings))
+}
+
+/// Returns a sign without how its text spelled it, odd symbols and all.
+fn unspelled(sign: &Sign) -> Result<Sign> {
+    let tree = serde_json::to_value(sign).and_then(serde_json::from_value);
+    tree.map_err(|error| Error::wrong(format!("the notation cannot be copied: {error}")))
+}
+
+/// Returns what is odd about a SiGML file, with its line.
+fn odd_in_file(name: &str) -> Vec<String> {
+    let path = Path::new(name);
+    if !path.is_file() {
+        return Vec::new();
+    }
+    let findings = notation::read_notation(path).map(|(_, findings)| findings);
+    let told = |finding: Finding| {
+        let line = finding
+            .line
+            .map_or_else(String::new, |line| format!(", line {line}"));
+        format!("{name}{line}: {}", finding.message)
+    };
+    findings.into_iter().flatten().map(told).collect()
 }
 
 /// Returns HamNoSys text, typed or from a file of it; nothing for anything else.
@@ -93,4 +167,52 @@ fn plain_text(notation: &str) -> Result<Option<String>> {
         .next()
         .is_some_and(|word| hamnosys::symbol::Symbol::from_name(word).is_some());
     Ok((symbols || named).then(|| notation.to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_odd_string_is_made_of_what_was_understood_and_says_so() {
+        let whole = "hamfist hamextfingeru hampalml hamchest hamclose";
+        assert_eq!(
+            understood(whole).expect("whole"),
+            (whole.to_owned(), vec![])
+        );
+        let (known, findings) =
+            understood("hamfist hamextfingeru hampalml hamparend hamchest").expect("some of it");
+        assert!(hamnosys::parse(&known).is_ok());
+        assert!(
+            findings.iter().any(|it| it.contains("symbol 3")),
+            "{findings:?}"
+        );
+        let last = findings.last().expect("what was made");
+        assert!(last.contains("hamfist hamextfingeru hampalml"), "{last}");
+        assert!(understood("hamparend").is_err(), "nothing is understood");
+    }
+
+    #[test]
+    fn a_sign_of_an_odd_string_is_stored_with_a_recipe_that_can_be_made_again() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.chereme");
+        let mut corpus = Corpus::create(&path, "A").expect("made");
+        let odd = "hamfist hamextfingeru hampalml hamparend hamchest";
+        let done = corpus.animate(&[odd], None, Some("ODD")).expect("made");
+        assert!(done.report.warnings[0].contains("symbol 3"));
+        assert!(done.explanation.contains("made of what was understood"));
+        assert!(corpus.preview(&done.recipe).is_ok(), "{}", done.recipe);
+        let file = folder.path().join("odd.sigml");
+        let text = "<sigml><hamgestural_sign gloss=\"X\"><sign_manual><handconfig handshape=\"fist\" \
+                    extfidir=\"uuo\" palmor=\"l\"/></sign_manual></hamgestural_sign></sigml>";
+        fs::write(&file, text).expect("written");
+        let done = corpus
+            .animate(&[&file.to_string_lossy()], None, None)
+            .expect("made");
+        assert!(
+            done.report.warnings[0].contains("line 1"),
+            "{:?}",
+            done.report.warnings
+        );
+    }
 }

@@ -19,6 +19,7 @@ use crate::address::{self, Address, Stretch};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::movement::{ChannelGroup, Track};
+use crate::notation::{self, Notation};
 use crate::progress::{Progress, Step, Unit};
 use crate::sources::notation::own_body;
 
@@ -63,6 +64,9 @@ pub struct Picture {
     pub bytes: u64,
     /// How many pictures follow each other or stand side by side.
     pub frames: usize,
+    /// The body on which notation was animated, where the sign has no movement of its own.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub animated_on: Option<String>,
 }
 
 /// A piece of movement with what is needed to look at it.
@@ -121,24 +125,50 @@ impl Corpus {
     }
 
     /// Draws movement to a file: a contact sheet where it ends in `.png`, an animation where it ends
-    /// in `.gif`.
+    /// in `.gif`. A sign that is there as notation only is animated, on the body that the corpus chooses.
     ///
     /// # Errors
     /// Where there is nothing to draw, the ending is another, or the file is there already.
     pub fn draw(
-        &self,
+        &mut self,
         address: &Address,
         to: &Path,
         options: &PictureOptions,
         progress: &mut Progress<'_>,
     ) -> Result<Picture> {
         let connection = self.store.read();
-        let stretch = address::stretch(connection, address)?;
+        let stretch = match address::stretch(connection, address) {
+            Ok(stretch) => stretch,
+            Err(error) => {
+                let Ok(notated) = notation::find(connection, address) else {
+                    return Err(error);
+                };
+                return self.draw_notated(&notated, to, options, progress);
+            }
+        };
         let from = stretch.span.start();
         let span = Span::between(from, from.shifted(stretch.span.micros().min(LONGEST)));
         let moving = self.movement_in(address, Some(span), &ChannelGroup::ALL)?;
         let title = title(&moving.stretch);
         draw_clip(&moving.clip, &moving.anatomy, &title, to, options, progress)
+    }
+
+    fn draw_notated(
+        &mut self,
+        notated: &Notation,
+        to: &Path,
+        options: &PictureOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Picture> {
+        let body = self.chosen_body()?;
+        let name = format!("token:{}", notated.token);
+        let done = self.animate(&[&name], Some(&body), None)?;
+        let title = &notated.document.gloss;
+        let picture = draw_clip(&done.clip, &done.anatomy, title, to, options, progress)?;
+        Ok(Picture {
+            animated_on: Some(body),
+            ..picture
+        })
     }
 
     /// Draws handshapes to a PNG: one value, or all values of an inventory that have a posture.
@@ -217,6 +247,7 @@ impl Corpus {
             title,
             bytes,
             frames,
+            animated_on: None,
         })
     }
 }
@@ -289,6 +320,7 @@ pub fn draw_clip(
         title: title.to_owned(),
         bytes,
         frames,
+        animated_on: None,
     })
 }
 

@@ -11,8 +11,15 @@ use crate::output::Output;
 ///
 /// The notation is a SiGML file, HamNoSys as characters or as names of symbols in quotes, a file of it
 /// (.hns or .txt), or a sign that the corpus holds as notation: a gloss, token:41. Several follow one
-/// another. With --as the movement is stored as a new sign, with its own tiers and its recipe.
+/// another, the hand going straight from one to the next. With --as the movement is stored as a new
+/// sign, with its own tiers and its recipe.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme animate ngt.chereme BABYSITTEN --draw babysitten.png
+  chereme animate ngt.chereme HALLO VRIEND DANK_JE --as GROET --explain
+  chereme animate mine.chereme 'hamflathand hamextfingeru hampalml hamchin hamtouch' --signer signer:Anna
+  chereme animate mine.chereme thanks.sigml --signer recording:take1 --as THANKS")]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,

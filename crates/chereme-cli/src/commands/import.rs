@@ -19,8 +19,14 @@ use crate::output::{Bar, Output};
 /// Files: .bvh (movement), .eaf (ELAN annotations), .csv or .tsv (a lexicon of codings, of HamNoSys, or
 /// both), .sigml (signs as notation), .json (an inventory), or folders of them. A movement and an annotation file with the same name become one
 /// recording. What each file was understood as is shown, and can be overridden. The corpus is made
-/// where there is none yet. One import is one operation: `chereme undo` takes it back.
+/// where there is none yet. An annotation file that was imported before and edited since updates its
+/// recording, annotation by annotation. One import is one operation: `chereme undo` takes it back.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme import mine.chereme FOLDER
+  chereme import mine.chereme take.bvh take.eaf --dry-run
+  chereme import ngt.chereme sigml/")]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
@@ -171,7 +177,10 @@ fn print(report: &ImportReport, output: &mut Output) -> Result<()> {
     for file in &report.files {
         let plain = |severity: &str| severity == "note";
         if many && file.findings.iter().all(|finding| plain(finding.severity)) {
-            quiet += usize::from(file.status == FileStatus::Imported);
+            quiet += usize::from(matches!(
+                file.status,
+                FileStatus::Imported | FileStatus::Updated
+            ));
         } else {
             print_file(file, output)?;
         }
@@ -192,6 +201,7 @@ fn print(report: &ImportReport, output: &mut Output) -> Result<()> {
     let created: Vec<String> = report
         .created
         .iter()
+        .filter(|(_, count)| **count > 0)
         .map(|(what, count)| format!("{count} {what}"))
         .collect();
     let created = if created.is_empty() {
@@ -207,6 +217,7 @@ fn print_file(file: &FileReport, output: &mut Output) -> Result<()> {
     let status = match file.status {
         FileStatus::Skipped => return Ok(()),
         FileStatus::Imported => "",
+        FileStatus::Updated => ": updated",
         FileStatus::Unchanged => ": unchanged",
         FileStatus::Refused => ": REFUSED",
     };

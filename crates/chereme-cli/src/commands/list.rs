@@ -90,6 +90,15 @@ pub(super) fn info(cli: &Cli, args: &InfoArgs, output: &mut Output) -> Result<()
     output.document(info)
 }
 
+/// Returns the word for one or for several of what is counted.
+fn numbered(what: &str, count: u64) -> String {
+    match what {
+        _ if count != 1 => what.to_owned(),
+        "inventories" => "inventory".to_owned(),
+        _ => what.strip_suffix('s').unwrap_or(what).to_owned(),
+    }
+}
+
 fn print(info: &Info, output: &mut Output) -> Result<()> {
     let counts = |map: &std::collections::BTreeMap<String, u64>| {
         map.iter()
@@ -97,17 +106,14 @@ fn print(info: &Info, output: &mut Output) -> Result<()> {
             .collect::<Vec<_>>()
             .join(", ")
     };
+    let counted = |(what, count): (&&str, &u64)| format!("{count} {}", numbered(what, *count));
     output.line(format!(
         "{}: {:.1} MB, schema version {}",
         info.path.display(),
         info.file_bytes as f64 / 1e6,
         info.schema_version
     ))?;
-    let all: Vec<String> = info
-        .counts
-        .iter()
-        .map(|(what, count)| format!("{count} {what}"))
-        .collect();
+    let all: Vec<String> = info.counts.iter().map(counted).collect();
     output.line(format!("holds: {}", all.join(", ")))?;
     output.line(format!(
         "movement: {:.2} hours, {} frames",
@@ -122,8 +128,10 @@ fn print(info: &Info, output: &mut Output) -> Result<()> {
             .as_deref()
             .unwrap_or("handedness not known");
         output.line(format!(
-            "signer {}: {hand}, {} recordings",
-            signer.name, signer.recordings
+            "signer {}: {hand}, {} {}",
+            signer.name,
+            signer.recordings,
+            numbered("recordings", signer.recordings)
         ))?;
     }
     let named: Vec<String> = info

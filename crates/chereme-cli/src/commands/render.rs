@@ -13,8 +13,13 @@ use crate::output::{Bar, Output};
 /// Draw movement as a contact sheet (.png) or an animation (.gif), or handshapes (.png)
 ///
 /// WHAT is a gloss, token:41, recording:3, recording:"NGT Thanks", or inventory:configurations and
-/// inventory:configurations/U for handshapes.
+/// inventory:configurations/U for handshapes. A sign that is there as notation only is animated first.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme render mine.chereme ESCARGOT --to escargot.png
+  chereme render ngt.chereme BABYSITTEN --to babysitten.gif --speed 0.5
+  chereme render mine.chereme inventory:configurations --to handshapes.png")]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
@@ -51,7 +56,7 @@ enum HandWord {
 }
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
-    let corpus = cli.open(&args.corpus)?;
+    let mut corpus = cli.open(&args.corpus)?;
     let options = PictureOptions {
         frames: usize::from(args.frames),
         hands: !args.no_hands,
@@ -83,6 +88,12 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
 }
 
 fn say(picture: &Picture, output: &mut Output) -> Result<()> {
+    if let Some(body) = &picture.animated_on {
+        output.line(format!(
+            "{} has no movement of its own: its notation was animated on {body}",
+            picture.title
+        ))?;
+    }
     output.line(format!(
         "drew {} to {}: {} frames, {} KB",
         picture.title,

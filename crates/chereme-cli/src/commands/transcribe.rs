@@ -13,6 +13,11 @@ use crate::output::Output;
 /// The residual says how far the movement is from what was written, the runner-up what would have come
 /// next. The symbols are shown by the HamNoSys font only: `--names` writes their names.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme transcribe mine.chereme ESCARGOT
+  chereme transcribe mine.chereme token:41 --names
+  chereme transcribe mine.chereme token:41 --store   (then: export mine.chereme token:41 --to it.sigml)")]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,

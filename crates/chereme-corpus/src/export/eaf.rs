@@ -41,14 +41,22 @@ pub(super) fn write(
     recording: &RecordingRow,
     out: &mut dyn Write,
 ) -> Result<()> {
-    let mut files = Vec::new();
+    // A file that was edited and came again stands for what it was before.
+    let mut files: Vec<(String, Vec<u8>)> = Vec::new();
     for file in recordings::source_files(connection, recording.id)? {
-        if file.kind == "eaf" {
-            files.extend(recordings::source_bytes(connection, file.id)?);
+        if file.kind != "eaf" {
+            continue;
+        }
+        let Some(bytes) = recordings::source_bytes(connection, file.id)? else {
+            continue;
+        };
+        match files.iter_mut().find(|(name, _)| *name == file.name) {
+            Some(known) => known.1 = bytes,
+            None => files.push((file.name, bytes)),
         }
     }
     let mut documents = Vec::new();
-    for bytes in &files {
+    for (_, bytes) in &files {
         let (document, _) = raw::read(bytes).map_err(|error| {
             damaged(
                 format!("a file of the recording {:?}", recording.name),

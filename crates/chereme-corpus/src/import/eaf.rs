@@ -1,5 +1,7 @@
 //! ELAN's annotation files: tiers, annotations and vocabularies onto a recording.
 
+mod update;
+
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::eaf;
@@ -30,7 +32,7 @@ pub(crate) const TIERS: &str = "chereme.tiers";
 const BEYOND: i64 = 1_000_000;
 
 pub(super) fn import(job: &mut Job<'_>) -> Result<FileReport> {
-    if recordings::source_file_hashed(job.connection, &job.hash)?.is_some() {
+    if is_newest(job)? {
         return Ok(FileReport::unchanged(job.path));
     }
     let bytes = job.bytes()?;
@@ -45,13 +47,20 @@ pub(super) fn import(job: &mut Job<'_>) -> Result<FileReport> {
     let recording = recording(job, &transcript)?;
     warn_of_length(job, recording, &transcript, &mut report)?;
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
-    refuse_double_tiers(job, recording, &transcript)?;
-    let tier_rows = write_tiers(job, recording, &transcript, &guesses, &mut report)?;
-    write_annotations(job, &transcript, &guesses, &tier_rows)?;
+    let there = standing_tiers(job, recording, &transcript)?;
+    let tier_rows = write_tiers(job, (recording, &there), &transcript, &guesses, &mut report)?;
+    if there.is_empty() {
+        write_annotations(job, &transcript, &guesses, &tier_rows)?;
+    } else {
+        report.status = FileStatus::Updated;
+        let tiers = (tier_rows.as_slice(), &there);
+        update::annotations(job, &transcript, &guesses, tiers, &mut report)?;
+    }
+    let before = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
     recordings::lengthen(job.connection, recording, transcript.end().micros())?;
     tokens::derive(job.connection, recording, None, &job.inventories)?;
     let derived = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
-    job.count("tokens", derived);
+    job.count("tokens", derived.saturating_sub(before));
     let row = SourceFileRow {
         id: 0,
         recording_id: Some(recording),
@@ -70,6 +79,21 @@ pub(super) fn import(job: &mut Job<'_>) -> Result<FileReport> {
         ));
     }
     Ok(report)
+}
+
+/// Tells whether the corpus has the file, and no later one of its name for the same recording.
+fn is_newest(job: &Job<'_>) -> Result<bool> {
+    let Some(known) = recordings::source_file_hashed(job.connection, &job.hash)? else {
+        return Ok(false);
+    };
+    let Some(recording) = known.recording_id else {
+        return Ok(true);
+    };
+    let files = recordings::source_files(job.connection, recording)?;
+    let newest = files
+        .iter()
+        .rfind(|file| file.kind == known.kind && file.name == known.name);
+    Ok(newest.is_none_or(|file| file.hash == job.hash))
 }
 
 /// What the tiers are: as the caller says, else the file, else by their names; those whose names say
@@ -223,32 +247,48 @@ fn participant(transcript: &Transcript) -> Option<String> {
         .map(str::to_owned)
 }
 
-fn refuse_double_tiers(job: &Job<'_>, recording: i64, transcript: &Transcript) -> Result<()> {
-    let there = tiers::tiers(job.connection, recording)?;
+/// The tiers of the recording, where the file is one that they came from and some of them are in it.
+fn standing_tiers(
+    job: &Job<'_>,
+    recording: i64,
+    transcript: &Transcript,
+) -> Result<BTreeMap<String, TierRow>> {
+    let there: BTreeMap<String, TierRow> = tiers::tiers(job.connection, recording)?
+        .into_iter()
+        .map(|row| (row.name.clone(), row))
+        .collect();
     let double = transcript
         .tiers
         .iter()
-        .find(|tier| there.iter().any(|row| row.name == tier.name));
-    double.map_or(Ok(()), |tier| {
-        Err(Error::wrong(format!(
+        .find(|tier| there.contains_key(&tier.name));
+    match double {
+        None => Ok(BTreeMap::new()),
+        Some(_) if update::is_edited(job, transcript, &there)? => Ok(there),
+        Some(tier) => Err(Error::wrong(format!(
             "the recording {:?} has a tier {:?} already, and this file would bring another",
             job.stem, tier.name
         ))
-        .advise("undo the earlier import first, or rename the file or the tier"))
-    })
+        .advise("undo the earlier import first, or rename the file or the tier")),
+    }
 }
 
 fn write_tiers(
     job: &mut Job<'_>,
-    recording: i64,
+    (recording, there): (i64, &BTreeMap<String, TierRow>),
     transcript: &Transcript,
     guesses: &[TierGuess],
     report: &mut FileReport,
 ) -> Result<Vec<i64>> {
     let first = tiers::tiers(job.connection, recording)?.len();
     let mut rows = vec![0; transcript.tiers.len()];
+    let mut new = 0;
     for place in parents_first(transcript) {
         let (tier, guess) = (&transcript.tiers[place], &guesses[place]);
+        if let Some(row) = there.get(&tier.name) {
+            rows[place] = row.id;
+            continue;
+        }
+        new += 1;
         let inventory = tier_inventory(job, transcript, tier, guess, report)?;
         let role = guess.role.clone().unwrap_or_default();
         let (component, feature) = match &role {
@@ -280,7 +320,7 @@ fn write_tiers(
         };
         rows[place] = tiers::insert_tier(job.connection, &row)?;
     }
-    job.count("tiers", rows.len());
+    job.count("tiers", new);
     Ok(rows)
 }
 
@@ -449,15 +489,8 @@ fn write_annotations(
             let parent = annotation
                 .parent
                 .and_then(|parent| rows.get(&parent).copied());
-            let mut row = annotation_row(annotation, tier_rows[tier], parent);
-            let coded = matches!(
-                guesses[tier].role,
-                Some(TierRole::Gloss | TierRole::Component { .. })
-            );
-            if let Some(state) = missing(&row.value).filter(|_| coded) {
-                state.clone_into(&mut row.state);
-                row.value.clear();
-            }
+            let row = annotation_row(annotation, tier_rows[tier], parent);
+            let row = coded(row, &guesses[tier]);
             rows.insert(
                 Place { tier, index },
                 tiers::insert_annotation(job.connection, &row)?,
@@ -467,6 +500,19 @@ fn write_annotations(
     }
     job.count("annotations", count);
     Ok(())
+}
+
+/// Tells by a row's state how its value is missing, on tiers of glosses and components.
+fn coded(mut row: AnnotationRow, guess: &TierGuess) -> AnnotationRow {
+    let coded = matches!(
+        guess.role,
+        Some(TierRole::Gloss | TierRole::Component { .. })
+    );
+    if let Some(state) = missing(&row.value).filter(|_| coded) {
+        state.clone_into(&mut row.state);
+        row.value.clear();
+    }
+    row
 }
 
 /// How a value is missing, in the words that exported files say it with.

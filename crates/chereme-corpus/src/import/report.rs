@@ -45,6 +45,8 @@ pub struct FileReport {
 pub enum FileStatus {
     /// It was taken in.
     Imported,
+    /// It was taken in before and edited since; what it says now was taken over.
+    Updated,
     /// It was taken in before, and is the same.
     Unchanged,
     /// It is of no kind that the corpus takes in.
@@ -166,7 +168,7 @@ impl ImportReport {
         let imported = self
             .files
             .iter()
-            .filter(|file| file.status == FileStatus::Imported);
+            .filter(|file| matches!(file.status, FileStatus::Imported | FileStatus::Updated));
         let names: Vec<&str> = imported
             .filter_map(|file| Path::new(&file.path).file_name()?.to_str())
             .collect();

@@ -193,3 +193,135 @@ fn phases_of_movement_cut_time_and_are_no_values_of_a_token() {
     let all = corpus.list(ListKind::Annotations, &ListFilter::default());
     assert_eq!(all.expect("listed").total, 3);
 }
+
+/// What annotations say: tier, start in ms, value.
+fn said(corpus: &Corpus) -> Vec<String> {
+    let connection = corpus.store.read();
+    let tiers = recordings_of(corpus)
+        .into_iter()
+        .flat_map(|id| crate::db::tiers::tiers(connection, id).expect("tiers"));
+    tiers
+        .flat_map(|tier| {
+            let rows = crate::db::tiers::annotations(connection, tier.id).expect("annotations");
+            rows.into_iter()
+                .map(move |row| format!("{} {} {}", tier.name, row.start_us / 1000, row.value))
+        })
+        .collect()
+}
+
+#[test]
+fn an_edited_file_updates_its_annotations_and_one_undo_takes_it_back() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("a.chereme");
+    let tiers = [
+        ("Gloss", 0, 500, "BOL"),
+        ("Notes", 0, 500, "fine"),
+        ("Mood", 0, 500, "glad"),
+    ];
+    import(&mut corpus, &desk.file("one.eaf", &eaf(&tiers)), "{}");
+    let before = said(&corpus);
+
+    let edited = eaf(&[
+        ("Gloss", 0, 500, "BALLE"),
+        ("Notes", 100, 500, "fine"),
+        ("Mood", 0, 500, "glad"),
+    ]);
+    let start = edited.find("<ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID=\"a2\"");
+    let start = start.expect("the third");
+    let end = start + edited[start..].find("</TIER>").expect("its end");
+    let edited = format!("{}{}", &edited[..start], &edited[end..]);
+    let file = desk.file("one.eaf", &edited);
+    let options = ImportOptions {
+        dry_run: true,
+        ..ImportOptions::default()
+    };
+    let mut hear = unheard;
+    let dry = corpus
+        .import(
+            std::slice::from_ref(&file),
+            &options,
+            &mut Progress::new(&mut hear),
+        )
+        .expect("looked at");
+    assert_eq!(dry.files[0].status, FileStatus::Updated);
+    assert_eq!(said(&corpus), before, "a dry run writes nothing");
+
+    let report = import(&mut corpus, &file, "{}");
+    assert_eq!(report.findings, dry.files[0].findings);
+    let told: Vec<&str> = report
+        .findings
+        .iter()
+        .map(|it| it.message.as_str())
+        .collect();
+    assert!(
+        told[0].contains("2 changed, 0 added, 1 removed, 0 as they were"),
+        "{told:?}"
+    );
+    assert!(
+        told.iter()
+            .any(|line| line.contains("\"BOL\" is \"BALLE\"")),
+        "{told:?}"
+    );
+    assert!(
+        told.iter().any(|line| line.contains("\"glad\" removed")),
+        "{told:?}"
+    );
+    assert_eq!(said(&corpus), ["Gloss 0 BALLE", "Notes 100 fine"]);
+    let hits = |corpus: &mut Corpus, gloss: &str| {
+        let found = corpus.search(&format!("gloss={gloss}"), &SearchOptions::default());
+        found.expect("searched").total
+    };
+    assert_eq!(
+        (hits(&mut corpus, "BALLE"), hits(&mut corpus, "BOL")),
+        (1, 0)
+    );
+    assert_eq!(
+        import(&mut corpus, &file, "{}").status,
+        FileStatus::Unchanged
+    );
+
+    corpus.undo().expect("taken back");
+    assert_eq!(said(&corpus), before);
+    assert_eq!(
+        (hits(&mut corpus, "BALLE"), hits(&mut corpus, "BOL")),
+        (0, 1)
+    );
+}
+
+#[test]
+fn what_the_corpus_added_is_kept_and_the_file_of_another_take_is_refused() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("a.chereme");
+    let first = eaf(&[("Gloss", 0, 500, "BOL")]);
+    import(&mut corpus, &desk.file("one.eaf", &first), "{}");
+    let tier = crate::db::tiers::tiers(corpus.store.read(), 1).expect("tiers")[0].id;
+    let added = crate::db::tiers::AnnotationRow {
+        tier_id: tier,
+        start_us: 700_000,
+        end_us: 900_000,
+        state: "value".to_owned(),
+        value: "CHAT".to_owned(),
+        origin: "human".to_owned(),
+        ..Default::default()
+    };
+    corpus
+        .store
+        .operation("annotate", |connection| {
+            crate::db::tiers::insert_annotation(connection, &added)?;
+            Ok(((), String::new()))
+        })
+        .expect("added");
+    let file = desk.file("one.eaf", &first.replace("BOL", "BALLE"));
+    let report = import(&mut corpus, &file, "{}");
+    assert_eq!(said(&corpus), ["Gloss 0 BALLE", "Gloss 700 CHAT"]);
+    assert!(
+        report
+            .findings
+            .iter()
+            .any(|it| it.message.contains("1 annotations that the file never had"))
+    );
+
+    let other = first.replace("\"a0\"", "\"z9\"");
+    let report = import(&mut corpus, &desk.file("one.eaf", &other), "{}");
+    assert_eq!(report.status, FileStatus::Refused);
+}

@@ -16,6 +16,7 @@ texts! {
     DRY: "This is what was understood; nothing is written yet.", "Voici ce qui a été compris ; rien n’est encore écrit.";
     DONE: "Taken in. Undo takes it all back.", "Importé. Annuler retire le tout.";
     IMPORTED: "understood", "compris";
+    UPDATED: "updated", "mis à jour";
     UNCHANGED: "already there", "déjà présent";
     SKIPPED: "left alone", "ignoré";
     REFUSED: "refused", "refusé";

@@ -11,6 +11,7 @@ use crate::words::{Text, import as words};
 pub(crate) fn status_text(status: FileStatus) -> Text {
     match status {
         FileStatus::Imported => words::IMPORTED,
+        FileStatus::Updated => words::UPDATED,
         FileStatus::Unchanged => words::UNCHANGED,
         FileStatus::Skipped => words::SKIPPED,
         FileStatus::Refused => words::REFUSED,
@@ -167,7 +168,7 @@ pub(crate) fn in_order(report: &ImportReport) -> Vec<&FileReport> {
     let mut all: Vec<&FileReport> = report.files.iter().collect();
     all.sort_by_key(|file| match file.status {
         FileStatus::Refused => 0,
-        FileStatus::Imported => 1,
+        FileStatus::Imported | FileStatus::Updated => 1,
         FileStatus::Unchanged => 2,
         FileStatus::Skipped => 3,
     });

@@ -285,7 +285,7 @@ impl Import {
                 report
                     .files
                     .iter()
-                    .any(|file| file.status == FileStatus::Imported)
+                    .any(|file| matches!(file.status, FileStatus::Imported | FileStatus::Updated))
             });
             let take = Button::new(RichText::new(seen.say(words::TAKE)).strong());
             let take = ui.add_enabled(ready && looked && any, take);
@@ -342,7 +342,7 @@ impl Import {
             .to_string_lossy();
         let colour = match file.status {
             FileStatus::Refused => seen.colours().trouble,
-            FileStatus::Imported => ui.visuals().text_color(),
+            FileStatus::Imported | FileStatus::Updated => ui.visuals().text_color(),
             _ => ui.visuals().weak_text_color(),
         };
         let [_, warnings, notes] = data::counts(file);
