@@ -246,6 +246,8 @@ impl Studio {
     fn bring(&mut self, pane: PaneKind) {
         layout::bring(&mut self.tree, pane);
         self.pane = Some(pane);
+        let others = PaneKind::ALL.into_iter().filter(|other| *other != pane);
+        others.for_each(|other| self.panes.get_mut(other).leave());
         self.panes.get_mut(pane).come();
     }
 

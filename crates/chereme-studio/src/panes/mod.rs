@@ -94,6 +94,9 @@ pub(crate) trait Pane {
 
     /// It was brought to the front by an action: what is typed shall go to it.
     fn come(&mut self) {}
+
+    /// Another was brought to the front by an action: what is typed is no longer for this one.
+    fn leave(&mut self) {}
 }
 
 /// Every pane.

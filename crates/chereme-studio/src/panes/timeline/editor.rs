@@ -63,6 +63,9 @@ pub(crate) struct Editing {
     /// Whether the pictures have been shown yet.
     #[serde(skip)]
     pictured: bool,
+    /// Whether the keyboard is with another pane until the field is clicked.
+    #[serde(skip)]
+    aside: bool,
 }
 
 impl Editing {
@@ -77,6 +80,7 @@ impl Editing {
             again: false,
             pictures: false,
             pictured: false,
+            aside: false,
         }
     }
 
@@ -135,6 +139,7 @@ pub(super) fn show(
     out: &mut Outbox,
 ) {
     let Some(mut editing) = timeline.editing.take() else {
+        timeline.left = false;
         return;
     };
     if editing.recording != scene.contents.recording.id {
@@ -154,6 +159,12 @@ pub(super) fn show(
         return;
     };
     let choices = scene.choices(tier);
+    if std::mem::take(&mut timeline.left) {
+        if let Some(value) = choices.kept(&editing.text, editing.marked) {
+            return done(timeline, (editing, tier), Said::Keep(value, false), out);
+        }
+        editing.aside = true;
+    }
     let digits = timeline.digits.of(tier.row.id, &choices).to_vec();
     let stored = scene.inventory(tier);
     let pictured = stored.filter(|it| editing.pictures && edit::has_pictures(&it.inventory));
@@ -375,13 +386,16 @@ fn step(editing: &mut Editing, fitting: &[usize], up: bool, down: bool) {
 fn text_field(ui: &mut Ui, editing: &mut Editing, label: &str) -> Response {
     let id = Id::unique("timeline value field");
     // The focus comes before the field is shown, so that what is typed in this frame is its own.
-    ui.memory_mut(|memory| memory.request_focus(id));
+    if !editing.aside {
+        ui.memory_mut(|memory| memory.request_focus(id));
+    }
     let mut output = TextEdit::singleline(&mut editing.text)
         .id(id)
         .desired_width(f32::INFINITY)
         .lock_focus(true)
         .show(ui);
     let response = output.response.response.clone();
+    editing.aside &= !response.has_focus();
     response.widget_info(|| {
         let mut info = WidgetInfo::labeled(Role::TextInput, true, label);
         info.current_text_value = Some(editing.text.clone());

@@ -83,6 +83,8 @@ pub(crate) struct Timeline {
     begun: Option<Begun>,
     /// The value that is being typed.
     editing: Option<Editing>,
+    /// Another pane was turned to while a value was typed.
+    left: bool,
     picker: Picker,
     digits: values::Digits,
     choose: Option<choose::Choose>,
@@ -254,6 +256,10 @@ impl Timeline {
 }
 
 impl Pane for Timeline {
+    fn leave(&mut self) {
+        self.left = self.editing.is_some();
+    }
+
     fn ui(&mut self, ui: &mut eframe::egui::Ui, seen: &Seen<'_>, out: &mut Outbox) {
         self.drawn = true;
         ui::show(self, ui, seen, out);
