@@ -6,6 +6,7 @@
 mod address;
 mod animate;
 mod annotate;
+mod around;
 mod check;
 pub(crate) mod codec;
 mod contents;
@@ -50,6 +51,7 @@ pub use annotate::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
     AnnotationOrigin, NewTier, RemovedTiers, TierChange, TierName, Values,
 };
+pub use around::Around;
 pub use check::{CheckReport, Fault};
 pub use chereme_analysis::kinematics::{HandCurves, Kinematics};
 pub use chereme_analysis::{Score, ScoreOptions};

@@ -109,6 +109,8 @@ actions! {
     Undo "edit.undo" UNDO Edit Corpus repeats;
     Redo "edit.redo" REDO Edit Corpus repeats;
     Search "edit.search" SHOW_SEARCH Edit Corpus;
+    SearchLike "edit.search-like" SEARCH_LIKE Edit Corpus;
+    SearchView "edit.search-view" SEARCH_VIEW Edit Corpus;
     ClearSelection "edit.clear-selection" SELECTION_CLEAR Edit Corpus;
     NewAnnotation "annotation.new" ANNOTATION_NEW Annotation Corpus;
     BeginEndAnnotation "annotation.begin-end" ANNOTATION_BEGIN_END Annotation Corpus;

@@ -10,7 +10,7 @@ use crate::action::Action;
 use crate::choose::Choose;
 use crate::model::made::Made;
 use crate::panes::inspector::Thing;
-use crate::settings::Settings;
+use crate::settings::{Searches, Settings};
 use crate::words::Text;
 use crate::work::begin::Begin;
 use crate::work::{Work, WorkId};
@@ -63,6 +63,8 @@ pub(crate) enum Command {
     Find(String),
     /// Turn to a recipe, that of the stored recording of that name where there is one.
     Recipe(String, Option<String>),
+    /// Change which queries are kept and remembered.
+    Searches(Searches),
     /// Change what is remembered.
     Settings(Box<Settings>),
     /// Say something that goes away by itself.

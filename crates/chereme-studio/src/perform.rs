@@ -113,6 +113,7 @@ impl Studio {
                 self.panes.recombine.open(&recipe, of.clone(), of);
                 self.bring(PaneKind::Recombine);
             }
+            Command::Searches(searches) => self.settings.searches = searches,
             Command::Settings(settings) => {
                 self.settings = *settings;
                 self.keys = Keys::new(self.settings.keymap, &self.settings.keys);
@@ -377,7 +378,7 @@ impl Studio {
         let wanted = wanted.filter(|id| snapshot.recording(*id).is_some());
         let first = snapshot.overview.recordings.first().map(|it| it.row.id);
         let first = wanted.or(first);
-        if self.snapshot.is_none() && first.is_none() {
+        if self.snapshot.is_none() && first.is_none() && snapshot.overview.signs.is_empty() {
             let words = words::EMPTY_CORPUS.of(self.settings.language);
             self.overlays.notices.hint(words);
             self.bring(PaneKind::Import);

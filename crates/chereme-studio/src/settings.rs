@@ -40,10 +40,71 @@ pub(crate) struct Settings {
     pub(crate) recent: Vec<PathBuf>,
     /// Where files were written last.
     pub(crate) export_folder: Option<PathBuf>,
+    /// Queries that are kept, and those that were asked.
+    pub(crate) searches: Searches,
     /// Where the panes are; the usual layout where nothing is said.
     pub(crate) layout: Option<Tree<PaneKind>>,
     /// How the timeline works and what it shows.
     pub(crate) timeline: Ways,
+}
+
+/// How many queries are remembered.
+const QUERIES: usize = 20;
+
+/// Queries that are kept, and those that were asked.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Searches {
+    /// By name, in the order of the alphabet.
+    pub(crate) saved: Vec<SavedSearch>,
+    /// The newest first.
+    pub(crate) recent: Vec<String>,
+}
+
+/// A query with a name.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct SavedSearch {
+    pub(crate) name: String,
+    pub(crate) query: String,
+}
+
+impl Searches {
+    /// Keeps a query under a name, in place of the one that had it.
+    pub(crate) fn save(&mut self, name: &str, query: &str) {
+        self.delete(name);
+        self.saved.push(SavedSearch {
+            name: name.to_owned(),
+            query: query.to_owned(),
+        });
+        self.saved.sort_by(|a, b| a.name.cmp(&b.name));
+    }
+
+    /// Gives a kept query another name, where there is one and nothing has it.
+    pub(crate) fn rename(&mut self, from: &str, to: &str) {
+        let taken = to.is_empty() || self.saved.iter().any(|it| it.name == to);
+        if let Some(saved) = self.saved.iter_mut().find(|it| it.name == from)
+            && !taken
+        {
+            saved.name = to.to_owned();
+            self.saved.sort_by(|a, b| a.name.cmp(&b.name));
+        }
+    }
+
+    pub(crate) fn delete(&mut self, name: &str) {
+        self.saved.retain(|it| it.name != name);
+    }
+
+    /// Puts a query at the head of those that were asked; returns whether that changes anything.
+    pub(crate) fn asked(&mut self, query: &str) -> bool {
+        let query = query.trim();
+        if query.is_empty() || self.recent.first().is_some_and(|first| first == query) {
+            return false;
+        }
+        self.recent.retain(|known| known != query);
+        self.recent.insert(0, query.to_owned());
+        self.recent.truncate(QUERIES);
+        true
+    }
 }
 
 impl Default for Settings {
@@ -56,6 +117,7 @@ impl Default for Settings {
             keys: Rebound::new(),
             recent: Vec::new(),
             export_folder: None,
+            searches: Searches::default(),
             layout: None,
             timeline: Ways::default(),
         }
@@ -172,6 +234,24 @@ impl Folders {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn queries_are_kept_by_name_and_remembered_once() {
+        let mut searches = Searches::default();
+        searches.save("b", "placement=chin");
+        searches.save("a", "origin=made");
+        searches.save("b", "placement=chest");
+        searches.rename("a", "b");
+        searches.rename("b", "c");
+        let names: Vec<&str> = searches.saved.iter().map(|it| it.name.as_str()).collect();
+        assert_eq!(names, ["a", "c"]);
+        assert_eq!(searches.saved[1].query, "placement=chest");
+        searches.delete("a");
+        assert_eq!(searches.saved.len(), 1);
+        assert!(searches.asked("x") && searches.asked("y") && searches.asked(" x "));
+        assert!(!searches.asked("x") && !searches.asked(" "));
+        assert_eq!(searches.recent, ["x", "y"]);
+    }
 
     #[test]
     fn settings_are_read_as_they_were_written_and_bad_entries_forgotten() {

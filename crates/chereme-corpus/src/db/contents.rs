@@ -1,10 +1,11 @@
 //! Rows as a window shows them: many at once, little of each.
 
 use chereme_motion::Rate;
-use rusqlite::Connection;
+use rusqlite::{Connection, OptionalExtension};
 
 use super::damaged;
 use super::recordings::RecordingRow;
+use crate::around::Around;
 use crate::contents::{AnnotationColumns, RecordingGlance, SignGlance, ValueState};
 use crate::error::Result;
 
@@ -99,6 +100,44 @@ pub(crate) fn annotations(connection: &Connection, tier: i64) -> Result<Annotati
         columns.confidences.push(row.get(6)?);
     }
     Ok(columns)
+}
+
+/// Returns what stands before and after a token on its tier, at most `most` annotations to each side.
+pub(crate) fn around(connection: &Connection, token: i64, most: usize) -> Result<Around> {
+    let mut around = Around {
+        token,
+        ..Around::default()
+    };
+    let place = connection
+        .prepare_cached(
+            "SELECT a.id, a.tier_id, a.start_us FROM token t
+             JOIN annotation a ON a.id = t.annotation_id WHERE t.id = ?1",
+        )?
+        .query_row([token], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))
+        .optional()?;
+    let Some((annotation, tier, start)) = place else {
+        return Ok(around);
+    };
+    (around.annotation, around.tier) = (Some(annotation), Some(tier));
+    let most = i64::try_from(most).unwrap_or(i64::MAX);
+    let read = |sql: &str| -> Result<Vec<String>> {
+        let mut statement = connection.prepare_cached(sql)?;
+        let here: (i64, i64, i64, i64) = (tier, start, annotation, most);
+        let values = statement.query_map(here, |row| row.get(0))?;
+        Ok(values.collect::<rusqlite::Result<_>>()?)
+    };
+    around.before = read(
+        "SELECT value FROM annotation WHERE tier_id = ?1 AND state = 'value'
+             AND (start_us < ?2 OR (start_us = ?2 AND id < ?3))
+         ORDER BY start_us DESC, id DESC LIMIT ?4",
+    )?;
+    around.before.reverse();
+    around.after = read(
+        "SELECT value FROM annotation WHERE tier_id = ?1 AND state = 'value'
+             AND (start_us > ?2 OR (start_us = ?2 AND id > ?3))
+         ORDER BY start_us, id LIMIT ?4",
+    )?;
+    Ok(around)
 }
 
 fn state(annotation: i64, name: &str) -> Result<ValueState> {

@@ -17,6 +17,8 @@ pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
     (Action::Undo, ["Ctrl+Z", "=", "="]),
     (Action::Redo, ["Ctrl+Y Ctrl+Shift+Z", "=", "="]),
     (Action::Search, ["Ctrl+F", "=", "="]),
+    (Action::SearchLike, ["Ctrl+Shift+F", "=", "="]),
+    (Action::SearchView, ["Ctrl+Shift+G", "=", "="]),
     (Action::ClearSelection, ["Shift+Alt+C", "=", "Ctrl+D"]),
     (Action::NewAnnotation, ["Ctrl+Alt+N", "=", "Ctrl+Alt+N N"]),
     (Action::BeginEndAnnotation, ["Shift+Enter", "=", "="]),

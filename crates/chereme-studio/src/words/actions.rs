@@ -128,6 +128,8 @@ texts! {
     SHOW_STAGE: "Show the stage", "Afficher la scène";
     SHOW_TIMELINE: "Show the timeline", "Afficher la ligne de temps";
     SHOW_SEARCH: "Search", "Rechercher";
+    SEARCH_LIKE: "Search for signs like this", "Rechercher des signes comme celui-ci";
+    SEARCH_VIEW: "Hits as figures or as a table", "Résultats en figures ou en tableau";
     SHOW_RECOMBINE: "Recombine", "Recombiner";
     STORE_SIGN: "Store what was made: its gloss", "Enregistrer le signe produit : sa glose";
     RECOMBINE_SELECTED: "Recombine what is selected", "Recombiner la sélection";

@@ -46,6 +46,7 @@ pub(super) fn carry(
         Work::Undo => Outcome::Undone(corpus.undo()?),
         Work::Redo => Outcome::Redone(corpus.redo()?),
         Work::Search(query, options) => Outcome::Found(corpus.search(&query, &options)?),
+        Work::Around(tokens, most) => Outcome::Around(corpus.around(&tokens, most)?),
         Work::Preview(recipe) => Outcome::Previewed(Arc::new(corpus.preview(&recipe)?)),
         Work::Suggest(address) => Outcome::Suggested(corpus.suggest(&address)?),
         Work::Paths(typed) => {

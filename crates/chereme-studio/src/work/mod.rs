@@ -12,9 +12,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use chereme_corpus::{
-    Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Curves, Details, Error,
-    ExportOptions, ExportReport, ExportWhat, ImportOptions, ImportReport, Moving, Name, NewTier,
-    OperationRow, Recombination, RecordingChange, SearchOptions, SignChange, SignerChange,
+    Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, Curves, Details,
+    Error, ExportOptions, ExportReport, ExportWhat, ImportOptions, ImportReport, Moving, Name,
+    NewTier, OperationRow, Recombination, RecordingChange, SearchOptions, SignChange, SignerChange,
     Suggestions, TierChange, TierName, Unit,
 };
 use chereme_motion::Span;
@@ -70,6 +70,8 @@ pub(crate) enum Work {
     Look(Thing),
     /// Finds tokens.
     Search(String, SearchOptions),
+    /// Says what stands before and after tokens, so many annotations to each side.
+    Around(Vec<i64>, usize),
     /// Makes the movement of a recipe and stores nothing.
     Preview(String),
     /// Says what could be made from a token.
@@ -131,6 +133,8 @@ pub(crate) enum Outcome {
     Looked(Details),
     /// Tokens were found.
     Found(Answer),
+    /// What stands around tokens.
+    Around(Vec<Around>),
     /// Movement was made.
     Previewed(Arc<Recombination>),
     /// What could be made.
@@ -208,7 +212,11 @@ impl Work {
             | Self::SetCitation(_)
             | Self::Undo
             | Self::Redo => Lane::Edit,
-            Self::Search(..) | Self::Suggest(_) | Self::Look(_) | Self::Paths(_) => Lane::Ask,
+            Self::Search(..)
+            | Self::Around(..)
+            | Self::Suggest(_)
+            | Self::Look(_)
+            | Self::Paths(_) => Lane::Ask,
             Self::Preview(_) => Lane::Make,
             Self::Movement { .. } => Lane::Movement,
             Self::Stretch(..) | Self::Original(_) => Lane::Little,
@@ -222,9 +230,11 @@ impl Work {
         match self {
             Self::Import(_, options) if options.dry_run => shell::TASK_LOOKING,
             Self::Import(..) => shell::TASK_IMPORT,
-            Self::Search(..) | Self::Suggest(_) | Self::Look(_) | Self::Paths(_) => {
-                shell::TASK_SEARCH
-            }
+            Self::Search(..)
+            | Self::Around(..)
+            | Self::Suggest(_)
+            | Self::Look(_)
+            | Self::Paths(_) => shell::TASK_SEARCH,
             Self::Recombine { .. } | Self::Preview(_) => shell::TASK_RECOMBINE,
             Self::Export(..) | Self::ExportFound(..) => shell::TASK_EXPORT,
             Self::Movement { .. }
@@ -246,6 +256,8 @@ impl Work {
                 | Self::Import(..)
                 | Self::Export(..)
                 | Self::ExportFound(..)
+                | Self::Search(..)
+                | Self::Around(..)
         )
     }
 

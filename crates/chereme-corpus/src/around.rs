@@ -1,0 +1,104 @@
+//! What stands before and after tokens on their tiers.
+
+use serde::Serialize;
+
+use crate::Corpus;
+use crate::db::contents as rows;
+use crate::db::search::begin_reading;
+use crate::error::Result;
+
+/// What stands before and after a token on the tier that it is on.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+pub struct Around {
+    /// The token.
+    pub token: i64,
+    /// The annotation that it is; a lexicon entry is none.
+    pub annotation: Option<i64>,
+    /// The tier of the annotation.
+    pub tier: Option<i64>,
+    /// What the annotations before it say, the nearest last; those without a value are left out.
+    pub before: Vec<String>,
+    /// What the annotations after it say, the nearest first.
+    pub after: Vec<String>,
+}
+
+impl Corpus {
+    /// Returns what stands before and after tokens, at most `most` annotations to each side, in the
+    /// order of `tokens`; of tokens that are not there, nothing but the number.
+    ///
+    /// # Errors
+    /// Where the database fails.
+    pub fn around(&self, tokens: &[i64], most: usize) -> Result<Vec<Around>> {
+        let reading = begin_reading(self.store.read())?;
+        tokens
+            .iter()
+            .map(|token| rows::around(&reading, *token, most))
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        AnnotateOptions, AnnotationAction, AnnotationChange, ImportOptions, Moment, Progress,
+        SearchOptions, TierName, unheard, unpack_starter,
+    };
+    use chereme_motion::Instant;
+
+    #[test]
+    fn neighbours_stand_in_the_order_of_time() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let paths = unpack_starter(&folder.path().join("s")).expect("unpacked");
+        let one = |path: &std::path::PathBuf| path.file_stem().is_some_and(|stem| stem == "bol");
+        let paths: Vec<_> = paths.into_iter().filter(one).collect();
+        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut hear = unheard;
+        let mut progress = Progress::new(&mut hear);
+        let options = ImportOptions::default();
+        corpus
+            .import(&paths, &options, &mut progress)
+            .expect("imported");
+        let hits = |corpus: &mut Corpus| {
+            let found = corpus.search("", &SearchOptions::default()).expect("found");
+            let hits: Vec<i64> = found.hits.iter().map(|hit| hit.token).collect();
+            hits
+        };
+        let bol = hits(&mut corpus)[0];
+        let first = corpus.around(&[bol, 999], 2).expect("read");
+        assert!(first[0].before.is_empty() && first[0].after.is_empty());
+        let nobody = Around {
+            token: 999,
+            ..Around::default()
+        };
+        assert_eq!(first[1], nobody);
+        let tier = TierName::Number(first[0].tier.expect("a tier"));
+        let end = corpus.overview(0).expect("read").recordings[0]
+            .row
+            .duration_us;
+        let add = |number: i64| {
+            let at = |micros| Some(Moment::Time(Instant::from_micros(micros)));
+            AnnotationChange::from(AnnotationAction::Add {
+                tier: tier.clone(),
+                start: at(end - 40_000 + number * 10_000),
+                end: at(end - 30_000 + number * 10_000),
+                parent: None,
+                order: None,
+                value: format!("G{number}"),
+                confidence: None,
+            })
+        };
+        let changes: Vec<AnnotationChange> = (0..3).map(add).collect();
+        let mut progress = Progress::new(&mut hear);
+        let options = AnnotateOptions::default();
+        corpus
+            .annotate(&changes, &options, &mut progress)
+            .expect("annotated");
+        let around = corpus.around(&[bol], 2).expect("read");
+        assert_eq!(around[0].after, ["G0", "G1"]);
+        let last = hits(&mut corpus).pop().expect("the last");
+        let around = corpus.around(&[last], 2).expect("read");
+        assert_eq!(around[0].before, ["G0", "G1"]);
+        assert!(around[0].after.is_empty());
+    }
+}

@@ -1,0 +1,522 @@
+//! The search: a query as text and as rows, what answers it, and how often each value occurs.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `builder`, `rows` | the query as conditions: the data, and the rows |
+//! | `suggest`, `field` | the query as text: what could be written next, and the field |
+//! | `hits`, `results` | what was found: pages and order, and the grid and the table |
+//! | `notated` | signs that are only notated, made to be looked at |
+//! | `aside` | facets, saved and recent queries, help, and what is said where nothing is found |
+
+mod aside;
+pub(crate) mod builder;
+mod field;
+mod hits;
+mod notated;
+mod results;
+mod rows;
+mod suggest;
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use chereme_corpus::{Error, SearchOptions};
+use chereme_sign::query::Query;
+use eframe::egui::{RichText, Ui, vec2};
+
+use super::{Acted, Pane};
+use crate::action::Action;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::words::{fill, search as words};
+use crate::work::{Ended, Outcome, Work, WorkId};
+pub(crate) use builder::with_value;
+use field::Field;
+use hits::{Found, NEIGHBOURS, PAGE, Sort};
+use notated::Notated;
+use rows::Rows;
+
+/// How long nothing is typed before what was typed is searched for, in seconds.
+const PAUSE: f64 = 0.35;
+/// The most hits of which all neighbours are asked for at once.
+const MOST_AROUND: usize = 64;
+
+/// How hits are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) enum View {
+    #[default]
+    Grid,
+    Table,
+}
+
+/// The pane.
+pub(crate) struct Search {
+    field: Field,
+    rows: Rows,
+    /// Whether the rows are shown.
+    built: bool,
+    view: View,
+    sort: Sort,
+    /// Figures loop without being pointed at, and show the hand from near.
+    playing: bool,
+    close: bool,
+    /// Facets are shown.
+    counted: bool,
+    /// When the text changed that is not searched for yet.
+    changed: Option<f64>,
+    asked: Option<WorkId>,
+    /// Pages that are asked for.
+    pages: BTreeMap<WorkId, usize>,
+    around: Option<WorkId>,
+    found: Option<Found>,
+    /// The query that was asked for last, as it was written.
+    query: String,
+    /// What the corpus says is wrong with it.
+    wrong: Option<Wrong>,
+    aside: aside::Aside,
+    /// The moment of the corpus that was searched.
+    generation: i64,
+    /// The hit that the keys are at, the one that they go to, and the one that was opened.
+    at: usize,
+    reach: Option<usize>,
+    opened: Option<usize>,
+    /// How far the hits are scrolled.
+    scrolled: f32,
+    /// Signs made of their notation.
+    notated: Notated,
+    come: bool,
+}
+
+/// What is wrong with a query, and from which character on.
+struct Wrong {
+    from: Option<usize>,
+    error: String,
+    remedy: Option<String>,
+}
+
+impl Default for Search {
+    fn default() -> Self {
+        Self {
+            built: true,
+            playing: true,
+            counted: true,
+            field: Field::default(),
+            rows: Rows::default(),
+            view: View::default(),
+            sort: Sort::default(),
+            close: false,
+            changed: None,
+            asked: None,
+            pages: BTreeMap::new(),
+            around: None,
+            found: None,
+            query: String::new(),
+            wrong: None,
+            aside: aside::Aside::default(),
+            generation: 0,
+            at: 0,
+            reach: None,
+            opened: None,
+            scrolled: 0.0,
+            notated: Notated::default(),
+            come: false,
+        }
+    }
+}
+
+impl Search {
+    /// Finds what this query asks for.
+    pub(crate) fn find(&mut self, query: String, out: &mut Outbox) {
+        self.turn_to(query, out);
+    }
+
+    /// Searches for what is written.
+    fn ask(&mut self, out: &mut Outbox) {
+        if let Some(old) = self.asked.take() {
+            out.send(Command::Stop(old));
+        }
+        self.changed = None;
+        self.wrong = None;
+        self.query = self.field.text.clone();
+        self.pages.clear();
+        self.asked = Some(out.work(Work::Search(self.query.clone(), self.options(0))));
+    }
+
+    fn options(&self, page: usize) -> SearchOptions {
+        SearchOptions {
+            limit: Some(PAGE),
+            offset: page * PAGE,
+            facets: page == 0,
+            order: self.sort.order(),
+        }
+    }
+
+    /// Writes another query, and searches for it.
+    fn turn_to(&mut self, query: String, out: &mut Outbox) {
+        self.field.text = query;
+        self.rows = Rows::default();
+        self.ask(out);
+    }
+
+    fn sort_by(&mut self, sort: Sort, out: &mut Outbox) {
+        let asks = sort.order() != self.sort.order();
+        self.sort = sort;
+        match &mut self.found {
+            Some(found) if !asks => found.sort(sort),
+            _ => self.ask(out),
+        }
+    }
+
+    /// Asks for what comes in sight and is not there.
+    fn sight(&mut self, range: Range<usize>, out: &mut Outbox) {
+        let Some(found) = &self.found else { return };
+        if self.asked.is_none()
+            && self.pages.is_empty()
+            && let Some(page) = found.missing(range.clone())
+        {
+            let work = Work::Search(self.query.clone(), self.options(page));
+            self.pages.insert(out.work(work), page);
+        }
+        if self.around.is_none() && self.view == View::Table {
+            let all = if found.is_whole() {
+                0..found.total
+            } else {
+                range
+            };
+            let mut lonely = found.lonely(all);
+            lonely.truncate(MOST_AROUND.max(PAGE));
+            if !lonely.is_empty() {
+                self.around = Some(out.work(Work::Around(lonely, NEIGHBOURS)));
+            }
+        }
+    }
+
+    /// Goes to a hit with the keys.
+    fn reach(&mut self, at: usize) {
+        self.at = at;
+        self.reach = Some(at);
+    }
+
+    /// Opens a hit at its place; one that is only notated is made, and shown on the stage.
+    fn open(&mut self, at: usize, seen: &Seen<'_>, out: &mut Outbox) {
+        let Some(found) = &self.found else { return };
+        let Some(hit) = found.hit(at) else { return };
+        self.opened = Some(at);
+        self.at = at;
+        let recorded = hits::place(hit)
+            .and_then(|(name, span)| Some((seen.snapshot.recording_named(name)?.row.id, span)));
+        match recorded {
+            Some((recording, span)) => {
+                out.send(Command::Made(None));
+                out.send(Command::Place(recording, span));
+                match found.around(hit.token).cloned() {
+                    Some(around) => select(&around, out),
+                    None => {
+                        let work = Work::Around(vec![hit.token], NEIGHBOURS);
+                        self.aside.opening = Some(out.work(work));
+                    }
+                }
+            }
+            None => {
+                self.notated.open(hit.token, out);
+            }
+        }
+    }
+
+    /// Searches for what resembles the selected token, or the one at the selected time.
+    fn like_selected(&mut self, seen: &Seen<'_>, out: &mut Outbox) -> bool {
+        let Some(contents) = seen
+            .shown
+            .recording
+            .and_then(|recording| seen.snapshot.contents(recording))
+        else {
+            return false;
+        };
+        let by_annotation = seen.shown.annotation().and_then(|annotation| {
+            let mut tokens = contents.tokens.iter();
+            tokens.find(|token| token.annotation_id == Some(annotation))
+        });
+        let annotated = seen.shown.annotation().and_then(|id| {
+            let found = seen.snapshot.annotation(id)?;
+            Some(found.tier.annotations.span(found.at))
+        });
+        let span = annotated.or(seen.shown.span);
+        let by_time = || {
+            let span = span?;
+            let shared = |token: &&chereme_corpus::TokenRow| {
+                let (start, end) = token.start_us.zip(token.end_us).unwrap_or_default();
+                end.min(span.end().micros()) - start.max(span.start().micros())
+            };
+            let tokens = contents.tokens.iter().filter(|token| shared(token) > 0);
+            tokens.max_by_key(shared)
+        };
+        let Some(token) = by_annotation.or_else(by_time) else {
+            return false;
+        };
+        self.turn_to(format!("like token:{}", token.id), out);
+        self.built = true;
+        true
+    }
+
+    /// Draws the query: its text, its rows, and what there is to do with it.
+    fn question(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let now = ui.input(|input| input.time);
+        let wrong = self.wrong.as_ref().and_then(|wrong| wrong.from);
+        let wrong = wrong.filter(|_| self.query == self.field.text);
+        if std::mem::take(&mut self.come) {
+            self.field.take_focus();
+        }
+        let typed = self.field.ui(ui, seen, wrong);
+        if typed.changed {
+            self.changed = Some(now);
+            self.rows = Rows::default();
+        }
+        if typed.entered {
+            self.aside.remember(&self.field.text, seen, out);
+            self.ask(out);
+        }
+        if typed.down && self.found.as_ref().is_some_and(|found| found.total > 0) {
+            self.reach(self.at);
+        }
+        if let Some(wrong) = self
+            .wrong
+            .as_ref()
+            .filter(|_| self.query == self.field.text)
+        {
+            let trouble = seen.colours().trouble;
+            ui.label(RichText::new(&wrong.error).small().color(trouble));
+            if let Some(remedy) = &wrong.remedy {
+                ui.label(RichText::new(remedy).small());
+            }
+        }
+        self.tools(ui, seen, out);
+        if self.built && rows::show(ui, &mut self.rows, seen, &mut self.field.text) {
+            self.ask(out);
+        }
+        let settled = self.changed.is_some_and(|when| now - when >= PAUSE);
+        if settled && !typed.unfinished && Query::parse(&self.field.text).is_ok() {
+            self.ask(out);
+        } else if self.changed.is_some() {
+            ui.ctx().request_repaint_after_secs(PAUSE as f32);
+        }
+    }
+
+    fn tools(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        ui.horizontal_wrapped(|ui| {
+            let rows = ui.selectable_label(self.built, seen.say(words::ROWS));
+            if rows.clicked() {
+                self.built = !self.built;
+            }
+            let turned = self.aside.menus(ui, seen, out, &self.field.text);
+            if let Some(query) = turned {
+                self.turn_to(query, out);
+            }
+        });
+    }
+
+    /// Draws how many were found, and how they are shown.
+    fn status(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        ui.horizontal_wrapped(|ui| {
+            if let Some(running) = self.asked.filter(|id| seen.is_running(Some(*id))) {
+                ui.spinner();
+                ui.label(seen.say(words::SEARCHING));
+                if ui.button(seen.say(words::STOP)).clicked() {
+                    out.send(Command::Stop(running));
+                }
+            } else if let Some(found) = &self.found {
+                ui.strong(fill(seen.say(words::FOUND), &[("n", &found.total)]));
+            }
+            for (view, name) in [(View::Grid, words::GRID), (View::Table, words::TABLE)] {
+                if ui
+                    .selectable_label(self.view == view, seen.say(name))
+                    .on_hover_text(seen.keys.text(Action::SearchView))
+                    .clicked()
+                {
+                    self.view = view;
+                }
+            }
+            if self.view == View::Grid {
+                ui.checkbox(&mut self.playing, seen.say(words::LOOPING));
+                ui.checkbox(&mut self.close, seen.say(words::CLOSE_UP));
+            }
+            ui.checkbox(&mut self.counted, seen.say(words::FACETS));
+        });
+    }
+
+    fn answer(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let Some(found) = &self.found else { return };
+        for note in &found.notes {
+            ui.label(RichText::new(note).small().weak());
+        }
+        if found.total == 0 {
+            if let Some(query) = self.aside.nothing(ui, seen, out, &self.query) {
+                self.turn_to(query, out);
+            }
+            return;
+        }
+        if !self.counted {
+            return results::show(self, ui, seen, out);
+        }
+        let wide = ui.available_width() > 520.0;
+        let facets = found.facets.clone();
+        let query = self.field.text.clone();
+        let mut wanted = None;
+        if wide {
+            let room = ui.available_size();
+            ui.horizontal_top(|ui| {
+                let side = (room.x * 0.28).clamp(150.0, 220.0);
+                ui.allocate_ui(vec2(room.x - side - 10.0, room.y), |ui| {
+                    ui.set_width(room.x - side - 10.0);
+                    ui.vertical(|ui| results::show(self, ui, seen, out));
+                });
+                ui.vertical(|ui| wanted = aside::facets(ui, seen, &facets, &query, room.y));
+            });
+        } else {
+            let high = (ui.available_height() * 0.35).min(150.0);
+            ui.allocate_ui(vec2(ui.available_width(), high), |ui| {
+                wanted = aside::facets(ui, seen, &facets, &query, high);
+            });
+            results::show(self, ui, seen, out);
+        }
+        if let Some(query) = wanted {
+            self.turn_to(query, out);
+        }
+    }
+
+    /// Searches again where the corpus is another.
+    fn follow(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
+        let now = seen.snapshot.overview.generation;
+        if self.generation == now {
+            return;
+        }
+        self.generation = now;
+        self.aside.forget_counts();
+        self.notated = Notated::default();
+        if self.found.is_some() && self.changed.is_none() {
+            self.ask(out);
+        }
+    }
+}
+
+/// Selects the annotation that a token is, and its tier.
+fn select(around: &chereme_corpus::Around, out: &mut Outbox) {
+    if let Some((annotation, tier)) = around.annotation.zip(around.tier) {
+        out.send(Command::Tier(Some(tier)));
+        out.send(Command::Annotations([annotation].into()));
+    }
+}
+
+impl Pane for Search {
+    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        self.follow(seen, out);
+        if let Some(made) = self.notated.wanted(out) {
+            out.send(Command::Made(Some(made)));
+        }
+        if let Some(around) = self.aside.opened.take() {
+            select(&around, out);
+        }
+        if seen.snapshot.overview.signs.is_empty() {
+            ui.label(seen.say(words::EMPTY));
+            if ui.button(seen.say(crate::words::library::IMPORT)).clicked() {
+                out.send(Command::Do(Action::Import));
+            }
+            return;
+        }
+        self.question(ui, seen, out);
+        if self.found.is_none() && self.asked.is_none() {
+            if let Some(query) = aside::examples(ui, seen) {
+                self.turn_to(query, out);
+            }
+            return;
+        }
+        self.status(ui, seen, out);
+        self.answer(ui, seen, out);
+    }
+
+    fn act(&mut self, action: Action, seen: &Seen<'_>, out: &mut Outbox) -> Acted {
+        match action {
+            Action::SearchLike => {
+                if !self.like_selected(seen, out) {
+                    return Acted::Cannot(words::NOTHING_SELECTED);
+                }
+                out.send(Command::Do(Action::Search));
+                Acted::Yes
+            }
+            Action::SearchView => {
+                self.view = match self.view {
+                    View::Grid => View::Table,
+                    View::Table => View::Grid,
+                };
+                out.send(Command::Do(Action::Search));
+                Acted::Yes
+            }
+            _ => Acted::No,
+        }
+    }
+
+    fn hear(&mut self, id: WorkId, ended: &Ended) {
+        self.aside.hear(id, ended);
+        self.notated.hear(id, ended);
+        if self.around == Some(id) {
+            self.around = None;
+            if let (Ok(Outcome::Around(around)), Some(found)) = (ended, &mut self.found) {
+                found.put_around(around);
+                found.sort(self.sort);
+            }
+        }
+        if let Some(page) = self.pages.remove(&id)
+            && let (Ok(Outcome::Found(answer)), Some(found)) = (ended, &mut self.found)
+        {
+            found.put(page, &answer.hits);
+        }
+        if self.asked == Some(id) {
+            self.asked = None;
+            self.answered(ended);
+        }
+    }
+
+    fn come(&mut self) {
+        self.come = true;
+    }
+}
+
+impl Search {
+    fn answered(&mut self, ended: &Ended) {
+        match ended {
+            Ok(Outcome::Found(answer)) => {
+                let same = self
+                    .found
+                    .as_ref()
+                    .is_some_and(|it| it.query == answer.query);
+                self.found = Some(Found::new(answer));
+                self.aside.forget_nothing();
+                if !same {
+                    (self.at, self.opened, self.scrolled) = (0, None, 0.0);
+                }
+            }
+            Err(Error::Wrong {
+                message,
+                place,
+                remedy,
+            }) => {
+                let number = place
+                    .as_deref()
+                    .and_then(|it| it.strip_prefix("character "));
+                self.wrong = Some(Wrong {
+                    from: number.and_then(|it| it.parse::<usize>().ok()?.checked_sub(1)),
+                    // The first lines draw the query, which is on the screen.
+                    error: message.lines().last().unwrap_or_default().to_owned(),
+                    remedy: remedy.clone(),
+                });
+            }
+            Err(error) => {
+                self.wrong = Some(Wrong {
+                    from: None,
+                    error: fill("{error}", &[("error", error)]),
+                    remedy: None,
+                });
+            }
+            _ => {}
+        }
+    }
+}

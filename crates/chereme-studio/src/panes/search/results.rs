@@ -1,0 +1,462 @@
+//! Hits as looping little figures, and as a table with what stands around each.
+
+use chereme_corpus::Hit;
+use chereme_motion::Side;
+use eframe::egui::{
+    Align2, EventFilter, FontId, Id, Key, Modifiers, Rect, Response, Role, ScrollArea, Sense,
+    Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
+};
+
+use super::hits::{self, Sort, coding};
+use super::{Search, View};
+use crate::context::{Outbox, Seen};
+use crate::little::{self, Cell, Focus, Motion};
+use crate::pickers;
+use crate::words::{Text, fill, search as words};
+
+/// Height of a row of the table.
+const ROW: f32 = 26.0;
+/// Height of what stands under a figure.
+const FOOT: f32 = 36.0;
+/// The least width of a figure.
+const FIGURE: f32 = 132.0;
+const GAP: f32 = 6.0;
+
+/// A column of the table: its name, its share of the width, and how it sorts.
+const COLUMNS: [(Text, f32, Sort); 5] = [
+    (words::BEFORE, 0.24, Sort::Before),
+    (words::GLOSS, 0.20, Sort::Gloss),
+    (words::AFTER, 0.24, Sort::After),
+    (words::PLACE, 0.22, Sort::Place),
+    (words::DURATION, 0.10, Sort::Duration),
+];
+
+/// Draws the hits.
+pub(crate) fn show(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    match search.view {
+        View::Grid => grid(search, ui, seen, out),
+        View::Table => {
+            head(search, ui, seen, out);
+            table(search, ui, seen, out);
+        }
+    }
+}
+
+fn grid(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    let Some(total) = search.found.as_ref().map(|found| found.total) else {
+        return;
+    };
+    let room = ui.available_width() - 12.0;
+    let columns = ((room + GAP) / (FIGURE + GAP)).floor().max(1.0) as usize;
+    let width = (room + GAP) / columns as f32 - GAP;
+    let height = width.min(190.0) + FOOT;
+    let rows = total.div_ceil(columns);
+    keys(search, ui, columns, total);
+    let area = scroll(search, ui, "figures", columns, height + GAP);
+    ui.spacing_mut().item_spacing = Vec2::splat(GAP);
+    let output = area.show_rows(ui, height, rows, |ui, range| {
+        search.sight(range.start * columns..range.end * columns, out);
+        for row in range {
+            ui.horizontal(|ui| {
+                for at in row * columns..((row + 1) * columns).min(total) {
+                    figure(search, ui, seen, out, at, vec2(width, height));
+                }
+            });
+        }
+    });
+    search.scrolled = output.state.clamped_offset().y;
+}
+
+fn figure(
+    search: &mut Search,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    at: usize,
+    size: Vec2,
+) {
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+    let Some(hit) = search
+        .found
+        .as_ref()
+        .and_then(|found| found.hit(at))
+        .cloned()
+    else {
+        ui.painter()
+            .rect_filled(rect, 6.0, ui.visuals().faint_bg_color);
+        return;
+    };
+    let response = cell(search, ui, seen, rect, at, &hit);
+    let picture = Rect::from_min_size(rect.min, vec2(size.x, size.y - FOOT));
+    let motion = motion(&hit, seen);
+    let made = match &motion {
+        None if ui.is_rect_visible(rect) => search.notated.get(hit.token, out).map(Motion::Made),
+        _ => None,
+    };
+    let notated = motion.is_none();
+    match motion.or(made) {
+        Some(motion) => {
+            let playing = search.playing || response.hovered() || response.has_focus();
+            let focus = focus(search.close, &search.field.text);
+            let mut little = Cell::new(motion, picture.size()).focused(focus);
+            if playing {
+                little = little.playing(little::clock(ui));
+            }
+            seen.little.paint(ui, seen, out, &little, picture);
+            if notated {
+                codes(ui, seen, &hit, picture, true);
+            }
+        }
+        None => coded(ui, seen, &hit, picture),
+    }
+    let small = TextStyle::Small.resolve(ui.style());
+    let body = TextStyle::Body.resolve(ui.style());
+    let left = rect.left() + 5.0;
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    let text = ui.visuals().text_color();
+    let name = pos2(left, picture.bottom() + 10.0);
+    painter.text(name, Align2::LEFT_CENTER, &hit.gloss, body, text);
+    let weak = ui.visuals().weak_text_color();
+    let place = pos2(left, picture.bottom() + 26.0);
+    let where_to = hits::place_text(&hit, seen.say(words::LEXICON));
+    painter.text(place, Align2::LEFT_CENTER, where_to, small, weak);
+    if let Some(score) = hit.score {
+        let at = picture.right_top() + vec2(-5.0, 4.0);
+        let text = fill(seen.say(words::ALIKE), &[("share", &percent(score))]);
+        let font = FontId::proportional(12.0);
+        let galley = ui
+            .painter()
+            .layout_no_wrap(text, font, seen.colours().on_annotation);
+        let back = Align2::RIGHT_TOP.anchor_size(at, galley.size() + vec2(8.0, 2.0));
+        painter.rect_filled(back, 4.0, seen.colours().component);
+        painter.galley(back.min + vec2(4.0, 1.0), galley, text_colour(seen));
+    }
+    frame(search, ui, seen, &response, rect, at);
+    if response.clicked() {
+        search.open(at, seen, out);
+    }
+}
+
+fn text_colour(seen: &Seen<'_>) -> eframe::egui::Color32 {
+    seen.colours().on_annotation
+}
+
+fn percent(score: f64) -> i64 {
+    (score * 100.0).round() as i64
+}
+
+/// Returns the movement of a hit, where it has some.
+fn motion(hit: &Hit, seen: &Seen<'_>) -> Option<Motion> {
+    let (name, span) = hits::place(hit)?;
+    let recording = seen.snapshot.recording_named(name)?;
+    (recording.frames > 0).then_some(Motion::Span(recording.row.id, span))
+}
+
+/// Paints what is coded of a sign that has no movement: its handshape large, the rest beside.
+fn coded(ui: &Ui, seen: &Seen<'_>, hit: &Hit, rect: Rect) {
+    ui.painter()
+        .rect_filled(rect, 6.0, ui.visuals().extreme_bg_color);
+    if codes(ui, seen, hit, rect, false) > 0 {
+        return;
+    }
+    let weak = ui.visuals().weak_text_color();
+    let font = TextStyle::Small.resolve(ui.style());
+    let values: Vec<String> = coding(hit).into_iter().map(|(_, value)| value).collect();
+    let text = if values.is_empty() {
+        seen.say(words::UNCODED).to_owned()
+    } else {
+        values.join(" · ")
+    };
+    let galley = ui.painter().layout(text, font, weak, rect.width() - 12.0);
+    let at = Align2::CENTER_CENTER.anchor_size(rect.center(), galley.size());
+    ui.painter().galley(at.min, galley, weak);
+}
+
+/// Paints pictures of what is coded along the right edge, all of them `small` or the first large at
+/// the left; returns how many there are.
+fn codes(ui: &Ui, seen: &Seen<'_>, hit: &Hit, rect: Rect, small: bool) -> usize {
+    let side = if small {
+        rect.height().min(rect.width()) * 0.25
+    } else {
+        rect.height().min(rect.width()) * 0.33
+    };
+    let large = Rect::from_min_size(rect.min, vec2(rect.width() - side, rect.height() * 0.76));
+    let mut places: Vec<Rect> = if small { Vec::new() } else { vec![large] };
+    let column = (rect.height() / side) as usize;
+    places.extend((0..column).map(|n| {
+        let at = pos2(rect.right() - side, rect.top() + side * n as f32);
+        Rect::from_min_size(at, Vec2::splat(side))
+    }));
+    let all = seen.snapshot.overview.inventories.iter();
+    let inventories: Vec<_> = all
+        .map(|it| (it.inventory.field().to_string(), &it.inventory))
+        .collect();
+    let mut shown = 0;
+    for (field, value) in coding(hit) {
+        let Some(place) = places.get(shown) else {
+            break;
+        };
+        let known = inventories.iter().find(|(of, _)| *of == field);
+        if known.is_some_and(|(_, it)| pickers::picture(ui, place.shrink(1.0), seen, it, &value)) {
+            shown += 1;
+        }
+    }
+    shown
+}
+
+fn head(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    let width = ui.available_width() - 12.0;
+    let (rect, _) = ui.allocate_exact_size(vec2(width, ROW), Sense::hover());
+    let whole = search
+        .found
+        .as_ref()
+        .is_some_and(super::hits::Found::is_whole);
+    let mut left = rect.left();
+    for (name, share, sort) in COLUMNS {
+        let place = Rect::from_min_size(pos2(left, rect.top()), vec2(width * share, ROW));
+        left = place.right();
+        let usable = whole || !sort.is_local();
+        let key = ui.scope_id().with(("column", sort as usize));
+        let sense = if usable {
+            Sense::click()
+        } else {
+            Sense::hover()
+        };
+        let response = ui.interact(place, key, sense);
+        let chosen = search.sort == sort;
+        let label = fill(seen.say(words::SORT), &[("column", &seen.say(name))]);
+        response.widget_info(|| WidgetInfo::selected(Role::Button, usable, chosen, &label));
+        let response = if usable {
+            response.on_hover_text(&label)
+        } else {
+            response.on_hover_text(seen.say(words::SORT_FEWER))
+        };
+        let colour = if chosen {
+            seen.colours().accent
+        } else {
+            ui.visuals().weak_text_color()
+        };
+        let font = TextStyle::Small.resolve(ui.style());
+        let mut text = seen.say(name).to_owned();
+        if chosen {
+            text.push_str(" ↓");
+        }
+        put(ui, place, &text, font, colour, sort == Sort::Before);
+        if response.has_focus() {
+            let stroke = Stroke::new(1.5, seen.colours().accent);
+            ui.painter()
+                .rect_stroke(place, 3.0, stroke, StrokeKind::Inside);
+        }
+        if response.clicked() {
+            search.sort_by(if chosen { Sort::Rank } else { sort }, out);
+        }
+    }
+}
+
+fn table(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    let Some(total) = search.found.as_ref().map(|found| found.total) else {
+        return;
+    };
+    keys(search, ui, 1, total);
+    let area = scroll(search, ui, "rows", 1, ROW);
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let output = area.show_rows(ui, ROW, total, |ui, range| {
+        search.sight(range.clone(), out);
+        for at in range {
+            let width = ui.available_width() - 4.0;
+            let (rect, _) = ui.allocate_exact_size(vec2(width, ROW), Sense::hover());
+            line(search, ui, seen, out, at, rect);
+        }
+    });
+    search.scrolled = output.state.clamped_offset().y;
+}
+
+fn line(
+    search: &mut Search,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    at: usize,
+    rect: Rect,
+) {
+    let Some(found) = &search.found else { return };
+    let Some(hit) = found.hit(at).cloned() else {
+        ui.weak("…");
+        return;
+    };
+    let around = found.around(hit.token).cloned().unwrap_or_default();
+    if at % 2 == 1 {
+        ui.painter().rect_filled(rect, 0.0, seen.colours().stripe);
+    }
+    let response = cell(search, ui, seen, rect, at, &hit);
+    frame(search, ui, seen, &response, rect, at);
+    let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
+    let gloss = match hit.score {
+        Some(score) => format!("{} · {} %", hit.gloss, percent(score)),
+        None => hit.gloss.clone(),
+    };
+    if hit.recording.is_none() {
+        let pictures = Rect::from_min_max(
+            pos2(rect.left() + rect.width() * 0.44, rect.top()),
+            rect.max,
+        );
+        strip(ui, seen, &hit, pictures);
+    }
+    let columns = [
+        (around.before.join(" "), weak),
+        (gloss, text),
+        (around.after.join(" "), weak),
+        (
+            hits::place(&hit).map_or(String::new(), |_| hits::place_text(&hit, "")),
+            weak,
+        ),
+        (hits::duration_text(&hit), weak),
+    ];
+    let mut left = rect.left();
+    for ((content, colour), (_, share, sort)) in columns.into_iter().zip(COLUMNS) {
+        let place = Rect::from_min_size(pos2(left, rect.top()), vec2(rect.width() * share, ROW));
+        left = place.right();
+        let font = TextStyle::Body.resolve(ui.style());
+        put(ui, place, &content, font, colour, sort == Sort::Before);
+    }
+    if response.clicked() {
+        search.open(at, seen, out);
+    }
+}
+
+/// Paints what is coded of a lexicon entry in a row.
+fn strip(ui: &Ui, seen: &Seen<'_>, hit: &Hit, rect: Rect) {
+    let side = rect.height();
+    let mut place = Rect::from_min_size(rect.min, Vec2::splat(side));
+    for (field, value) in coding(hit) {
+        let all = seen.snapshot.overview.inventories.iter();
+        let known = all
+            .map(|it| &it.inventory)
+            .find(|it| it.field().to_string() == field);
+        if place.right() > rect.right() {
+            return;
+        }
+        if known.is_some_and(|it| pickers::picture(ui, place.shrink(1.0), seen, it, &value)) {
+            place = place.translate(vec2(side + 4.0, 0.0));
+        }
+    }
+}
+
+/// Puts text into a column; what stands before a hit stands at its side, and is cut at the far end.
+fn put(ui: &Ui, rect: Rect, text: &str, font: FontId, colour: eframe::egui::Color32, end: bool) {
+    let rect = rect.shrink2(vec2(5.0, 0.0));
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    let (at, align) = if end {
+        (rect.right_center(), Align2::RIGHT_CENTER)
+    } else {
+        (rect.left_center(), Align2::LEFT_CENTER)
+    };
+    painter.text(at, align, text, font, colour);
+}
+
+/// Makes a hit something that can be clicked, and that the keys can be at.
+fn cell(
+    search: &mut Search,
+    ui: &Ui,
+    seen: &Seen<'_>,
+    rect: Rect,
+    at: usize,
+    hit: &Hit,
+) -> Response {
+    let id = Id::unique("hits").with(at);
+    let response = ui.interact(rect, id, Sense::click());
+    let place = hits::place_text(hit, seen.say(words::LEXICON));
+    let name = format!("{}, {place}", hit.gloss);
+    let chosen = search.at == at;
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &name));
+    if search.reach == Some(at) {
+        search.reach = None;
+        response.request_focus();
+    }
+    if response.has_focus() {
+        search.at = at;
+        let arrows = EventFilter {
+            horizontal_arrows: true,
+            vertical_arrows: true,
+            ..EventFilter::default()
+        };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(id, arrows));
+    }
+    let tip = fill(seen.say(words::HIT_TIP), &[("hit", &name)]);
+    response.on_hover_text(tip)
+}
+
+fn frame(search: &Search, ui: &Ui, seen: &Seen<'_>, response: &Response, rect: Rect, at: usize) {
+    let accent = seen.colours().accent;
+    let stroke = if response.has_focus() {
+        Stroke::new(2.0, accent)
+    } else if search.opened == Some(at) {
+        Stroke::new(1.5, accent.gamma_multiply(0.7))
+    } else if response.hovered() {
+        Stroke::new(1.0, accent)
+    } else {
+        return;
+    };
+    ui.painter()
+        .rect_stroke(rect, 5.0, stroke, StrokeKind::Inside);
+}
+
+/// Takes the arrow keys where a hit has the focus.
+fn keys(search: &mut Search, ui: &Ui, columns: usize, total: usize) {
+    let focus = ui.memory(|memory| memory.focused());
+    if focus != Some(Id::unique("hits").with(search.at)) || total == 0 {
+        return;
+    }
+    let mut step = None;
+    ui.input_mut(|input| {
+        for (key, by) in [
+            (Key::ArrowLeft, [-1, 0]),
+            (Key::ArrowRight, [1, 0]),
+            (Key::ArrowUp, [0, -1]),
+            (Key::ArrowDown, [0, 1]),
+            (Key::PageUp, [0, -8]),
+            (Key::PageDown, [0, 8]),
+        ] {
+            if input.consume_key(Modifiers::NONE, key) {
+                step = Some(by);
+            }
+        }
+        if input.consume_key(Modifiers::NONE, Key::Home) {
+            step = Some([-(search.at as isize), 0]);
+        }
+        if input.consume_key(Modifiers::NONE, Key::End) {
+            step = Some([(total - 1 - search.at) as isize, 0]);
+        }
+    });
+    if let Some(step) = step {
+        search.reach(hits::walk(search.at, total, columns, step));
+    }
+}
+
+/// Returns the scrolled area, scrolled so that the hit that the keys go to is in sight.
+fn scroll(search: &mut Search, ui: &Ui, name: &str, columns: usize, height: f32) -> ScrollArea {
+    let area = ScrollArea::vertical().id_salt(name).auto_shrink(false);
+    let Some(at) = search.reach else {
+        return area;
+    };
+    let top = (at / columns) as f32 * height;
+    let room = ui.available_height();
+    let now = search.scrolled;
+    let offset = if top < now {
+        top
+    } else if top + height > now + room {
+        top + height - room
+    } else {
+        now
+    };
+    area.vertical_scroll_offset(offset.max(0.0))
+}
+
+/// Returns what of the signer figures show: the hand that the query is about, or all.
+fn focus(close: bool, query: &str) -> Focus {
+    match (close, query.contains("left.")) {
+        (false, _) => Focus::Signing,
+        (true, false) => Focus::Hand(Side::Right),
+        (true, true) => Focus::Hand(Side::Left),
+    }
+}

@@ -1,0 +1,253 @@
+//! What could be written next in a query: words of the language, values, names and glosses.
+
+use chereme_sign::Field;
+use chereme_sign::query::{Completion, Expected, Missing, Property, TextField, complete};
+use chereme_sign::text::fold;
+
+use crate::model::Snapshot;
+use crate::words::Language;
+
+/// How many are offered at most.
+const MOST: usize = 10;
+
+/// Something that could be written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Offer {
+    /// What is written, in quotes where it needs them.
+    pub(crate) text: String,
+    /// What it means, where that is not the same.
+    pub(crate) about: String,
+}
+
+/// Offers, and the characters that each would replace.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Offers {
+    pub(crate) replace: std::ops::Range<usize>,
+    pub(crate) all: Vec<Offer>,
+}
+
+impl Offers {
+    /// Returns the query with an offer taken, and where the cursor is after it.
+    pub(crate) fn take(&self, query: &str, offer: &Offer) -> (String, usize) {
+        let before: String = query.chars().take(self.replace.start).collect();
+        let after: String = query.chars().skip(self.replace.end).collect();
+        let cursor = self.replace.start + offer.text.chars().count();
+        (format!("{before}{}{after}", offer.text), cursor)
+    }
+}
+
+/// Returns what could be written in `query` at the character `cursor`; nothing where all that could is
+/// there already.
+pub(crate) fn offers(
+    query: &str,
+    cursor: usize,
+    snapshot: &Snapshot,
+    language: Language,
+) -> Offers {
+    let completion = complete(query, cursor);
+    let mut all: Vec<Offer> = completion
+        .words
+        .iter()
+        .map(|word| Offer {
+            text: with_operator(word, &completion.expected),
+            about: String::new(),
+        })
+        .collect();
+    all.extend(names(&completion, snapshot, language));
+    let written: String = query
+        .chars()
+        .skip(completion.replace.start)
+        .take(completion.replace.len())
+        .collect();
+    if all.iter().any(|offer| offer.text == written) && !written.is_empty() {
+        all.clear();
+    }
+    all.truncate(MOST);
+    Offers {
+        replace: completion.replace,
+        all,
+    }
+}
+
+/// A field is written with its operator: nobody wants to stop before it.
+fn with_operator(word: &str, expected: &Expected) -> String {
+    let field = matches!(expected, Expected::Term | Expected::Annotation)
+        && (word.parse::<Field>().is_ok()
+            || matches!(
+                word,
+                "gloss"
+                    | "translation"
+                    | "comment"
+                    | "origin"
+                    | "signer"
+                    | "recording"
+                    | "sign"
+                    | "hand"
+                    | "inventory"
+            ));
+    if field {
+        format!("{word}=")
+    } else {
+        word.to_owned()
+    }
+}
+
+fn names(completion: &Completion, snapshot: &Snapshot, language: Language) -> Vec<Offer> {
+    let overview = &snapshot.overview;
+    let mut found: Vec<(bool, Offer)> = Vec::new();
+    let wanted = fold(&completion.prefix);
+    let mut add = |spellings: &[&str], text: &str, about: String| {
+        let folded = |it: &&str| fold(it);
+        let starts = spellings
+            .iter()
+            .map(folded)
+            .any(|it| it.starts_with(&wanted));
+        if starts || spellings.iter().map(folded).any(|it| it.contains(&wanted)) {
+            let text = quoted(text);
+            found.push((!starts, Offer { text, about }));
+        }
+    };
+    match &completion.expected {
+        Expected::Value(field) => {
+            let fits = overview.inventories.iter().filter(|it| {
+                it.inventory.component == field.component && it.inventory.feature == field.feature
+            });
+            for value in fits.flat_map(|it| &it.inventory.values) {
+                let spellings: Vec<&str> = value.spellings().collect();
+                let name = value.name(language.code());
+                let about = if name == value.id { "" } else { name };
+                add(&spellings, &value.id, about.to_owned());
+            }
+            for missing in Missing::ALL {
+                add(&[missing.name()], missing.name(), String::new());
+            }
+        }
+        Expected::Feature(field) => {
+            let fits = overview.inventories.iter().filter(|it| {
+                it.inventory.component == field.component && it.inventory.feature == field.feature
+            });
+            for feature in fits.flat_map(|it| it.inventory.features()) {
+                add(&[feature], feature, String::new());
+            }
+        }
+        Expected::Property(Property::Signer) => {
+            for signer in &overview.signers {
+                add(&[&signer.name], &signer.name, String::new());
+            }
+        }
+        Expected::Property(Property::Recording) => {
+            for it in &overview.recordings {
+                add(&[&it.row.name], &it.row.name, String::new());
+            }
+        }
+        Expected::Property(Property::Inventory) => {
+            for it in &overview.inventories {
+                add(&[&it.inventory.id], &it.inventory.id, String::new());
+            }
+        }
+        Expected::TierName | Expected::Property(Property::Tier) => {
+            let open = snapshot.open.iter();
+            for tier in open.flat_map(|open| &open.contents.tiers) {
+                add(&[&tier.row.name], &tier.row.name, String::new());
+            }
+        }
+        Expected::Text(TextField::Gloss)
+        | Expected::Property(Property::Sign)
+        | Expected::Example => {
+            for sign in &overview.signs {
+                add(&[&sign.gloss], &sign.gloss, String::new());
+            }
+        }
+        Expected::Term if completion.prefix.chars().count() > 1 => {
+            for sign in &overview.signs {
+                add(&[&sign.gloss], &sign.gloss, String::new());
+            }
+        }
+        _ => {}
+    }
+    found.sort_by_key(|(later, _)| *later);
+    let mut all: Vec<Offer> = Vec::new();
+    for (_, offer) in found {
+        if !all.iter().any(|it| it.text == offer.text) {
+            all.push(offer);
+        }
+    }
+    all
+}
+
+/// Returns a value as it is written, in quotes where it needs them.
+fn quoted(text: &str) -> String {
+    super::builder::with_value("", "", text)[1..].to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_corpus::{Overview, SignGlance, StoredInventory};
+    use std::sync::Arc;
+
+    fn snapshot() -> Snapshot {
+        let inventories = chereme_sign::inventory::builtin()
+            .iter()
+            .map(|inventory| StoredInventory {
+                id: 1,
+                inventory: inventory.clone(),
+            })
+            .collect();
+        let sign = |gloss: &str| SignGlance {
+            id: 1,
+            gloss: gloss.to_owned(),
+            notes: None,
+            tokens: 1,
+            citation: None,
+        };
+        let overview = Overview {
+            inventories,
+            signs: vec![sign("ESCARGOT"), sign("BON APPETIT")],
+            ..Overview::default()
+        };
+        Snapshot {
+            overview: Arc::new(overview),
+            open: None,
+        }
+    }
+
+    fn first(query: &str) -> Option<String> {
+        let snapshot = snapshot();
+        let offers = offers(query, query.chars().count(), &snapshot, Language::English);
+        let offer = offers.all.first()?;
+        Some(offers.take(query, offer).0)
+    }
+
+    #[test]
+    fn names_values_and_glosses_are_offered() {
+        for (query, wanted) in [
+            ("plac", "placement="),
+            ("placement=chi", "placement=chin"),
+            ("placement=menton", "placement=chin"),
+            ("right.conf", "right.configuration="),
+            ("configuration=u-be", "configuration=U-bent"),
+            ("gloss=bon", "gloss=\"BON APPETIT\""),
+            ("esca", "ESCARGOT"),
+            ("nonmanual.bro", "nonmanual.brows"),
+            ("like esc", "like ESCARGOT"),
+            ("origin=ma", "origin=made"),
+        ] {
+            assert_eq!(first(query).as_deref(), Some(wanted), "{query}");
+        }
+    }
+
+    #[test]
+    fn what_is_written_already_is_not_offered_and_nothing_is_offered_twice() {
+        assert_eq!(first("placement=chin"), None);
+        let snapshot = snapshot();
+        let all = offers("placement=", 10, &snapshot, Language::French).all;
+        assert_eq!(all.len(), MOST);
+        let (text, cursor) = {
+            let offers = offers("placement=ch gloss=A", 12, &snapshot, Language::English);
+            let chin = offers.all.iter().find(|it| it.text == "chin").cloned();
+            offers.take("placement=ch gloss=A", &chin.expect("the chin"))
+        };
+        assert_eq!((text.as_str(), cursor), ("placement=chin gloss=A", 14));
+    }
+}

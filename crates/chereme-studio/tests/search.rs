@@ -1,0 +1,203 @@
+//! Searching, as a person would: by typing, by pictures, by facets, by example.
+
+mod common;
+
+use common::*;
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT, Queryable};
+
+/// Opens the small corpus with the search in front.
+fn searching<'a>(folder: &std::path::Path) -> Window<'a> {
+    let mut window = open_small(folder);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F2);
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    window.run_steps(3);
+    window
+}
+
+fn query(window: &Window<'_>) -> String {
+    let field = window.get_by_role_and_label(Role::TextInput, "Query");
+    field.value().unwrap_or_default()
+}
+
+fn type_query(window: &mut Window<'_>, text: &str) {
+    window
+        .get_by_role_and_label(Role::TextInput, "Query")
+        .type_text(text);
+    window.run_steps(2);
+}
+
+fn enter(window: &mut Window<'_>) {
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    idle(window);
+    window.run_steps(2);
+}
+
+fn hits(window: &Window<'_>) -> usize {
+    let found = window.query_by_label_contains("Found: ");
+    let text = found
+        .and_then(|node| node.accesskit_node().label())
+        .unwrap_or_default();
+    text.trim_start_matches("Found: ")
+        .parse()
+        .unwrap_or(usize::MAX)
+}
+
+#[test]
+fn a_handshape_is_searched_for_by_typing_with_completion_and_its_hit_opened_by_keys() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = searching(folder.path());
+    type_query(&mut window, "handsh");
+    assert!(has(&window, "Write configuration="));
+    window.key_press(Key::Tab);
+    window.run_steps(2);
+    assert_eq!(query(&window), "configuration=");
+    type_query(&mut window, "Y");
+    enter(&mut window);
+    assert_eq!(query(&window), "configuration=Y");
+    assert_eq!(hits(&window), 1);
+    window.key_press(Key::ArrowDown);
+    window.run_steps(3);
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    idle(&mut window);
+    window.run_steps(3);
+    assert!(window.state().playhead().micros() > 0);
+}
+
+#[test]
+fn a_slip_is_marked_and_mended() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = searching(folder.path());
+    type_query(&mut window, "right.confguration=Y");
+    click(&mut window, "Write configuration");
+    assert_eq!(query(&window), "right.configuration=Y");
+    enter(&mut window);
+    assert_eq!(hits(&window), 1);
+    type_query(&mut window, "zz");
+    enter(&mut window);
+    assert!(
+        window
+            .query_by_label_contains("is in no inventory")
+            .is_some()
+    );
+}
+
+#[test]
+fn conditions_are_added_by_looking_and_the_text_says_the_same() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = searching(folder.path());
+    click(&mut window, "Add a condition");
+    click(&mut window, "handshape");
+    click(&mut window, "Pick a value of handshape");
+    window.get_by_label("Type to find a value").type_text("y");
+    window.run_steps(2);
+    assert!(window.query_by_label_contains("Enter picks Y, ").is_some());
+    enter(&mut window);
+    assert_eq!(query(&window), "configuration=Y");
+    assert_eq!(hits(&window), 1);
+    click(&mut window, "Value of handshape in condition 1");
+    let cell = "U, index and middle finger together";
+    window.get_by_label(cell).click_accesskit();
+    window.run_steps(2);
+    idle(&mut window);
+    window.run_steps(2);
+    assert_eq!(query(&window), "configuration=U");
+    assert_eq!(hits(&window), 0);
+    until(&mut window, "what is to blame", |window| {
+        has(window, "without configuration=U: 1")
+    });
+    click(&mut window, "without configuration=U: 1");
+    idle(&mut window);
+    assert_eq!(query(&window), "");
+    click(&mut window, "Add a condition");
+    click(&mut window, "placement");
+    click(&mut window, "Pick a value of placement");
+    until(&mut window, "the body", |window| {
+        has(window, "forehead, on the picture")
+    });
+    click(&mut window, "forehead, on the picture");
+    idle(&mut window);
+    assert_eq!(query(&window), "placement=forehead");
+    click(&mut window, "Remove condition 1");
+    idle(&mut window);
+    assert_eq!(query(&window), "");
+}
+
+#[test]
+fn facets_narrow_and_a_search_is_kept_renamed_and_deleted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = searching(folder.path());
+    enter(&mut window);
+    assert_eq!(hits(&window), 1);
+    let facet = window
+        .get_all_by_role(Role::Button)
+        .find_map(|node| {
+            let label = node.accesskit_node().label()?;
+            label.contains("configuration=Y (").then_some(label)
+        })
+        .expect("a facet of the handshape");
+    window.get_by_label(&facet).click_accesskit();
+    window.run_steps(2);
+    idle(&mut window);
+    assert!(
+        query(&window).ends_with("configuration=Y"),
+        "{}",
+        query(&window)
+    );
+    click(&mut window, "Saved");
+    window.get_by_label("Name of this search").type_text("vees");
+    window.run_steps(2);
+    click(&mut window, "Save");
+    until(&mut window, "its count", |window| {
+        has(window, "Rename vees")
+    });
+    click(&mut window, "Rename vees");
+    window.run_steps(2);
+    window
+        .get_by_role_and_label(Role::TextInput, "Rename vees")
+        .type_text("2");
+    window.run_steps(2);
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    assert!(has(&window, "Delete vees2"));
+    click(&mut window, "Delete vees2");
+    window.run_steps(2);
+    assert!(!has(&window, "Delete vees2"));
+}
+
+#[test]
+fn what_is_like_the_selected_sign_is_found_and_weighed_and_shown_as_a_table() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = searching(folder.path());
+    enter(&mut window);
+    window.key_press(Key::ArrowDown);
+    window.run_steps(3);
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    idle(&mut window);
+    window.run_steps(3);
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::F);
+    window.run_steps(2);
+    idle(&mut window);
+    assert!(
+        query(&window).starts_with("like token:"),
+        "{}",
+        query(&window)
+    );
+    assert!(
+        window
+            .query_by_role_and_label(Role::Slider, "placement")
+            .is_some()
+    );
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::G);
+    window.run_steps(2);
+    idle(&mut window);
+    assert!(has(&window, "Sort by Before"));
+    click(&mut window, "Sort by gloss");
+    idle(&mut window);
+    assert_eq!(hits(&window), 1);
+}
