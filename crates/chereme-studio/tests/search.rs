@@ -26,7 +26,7 @@ fn type_query(window: &mut Window<'_>, text: &str) {
     window
         .get_by_role_and_label(Role::TextInput, "Query")
         .type_text(text);
-    window.run_steps(2);
+    window.run_steps(4);
 }
 
 fn enter(window: &mut Window<'_>) {
@@ -38,9 +38,8 @@ fn enter(window: &mut Window<'_>) {
 
 fn hits(window: &Window<'_>) -> usize {
     let found = window.query_by_label_contains("Found: ");
-    let text = found
-        .and_then(|node| node.accesskit_node().label())
-        .unwrap_or_default();
+    let text = found.and_then(|node| node.value().or_else(|| node.accesskit_node().label()));
+    let text = text.unwrap_or_default();
     text.trim_start_matches("Found: ")
         .parse()
         .unwrap_or(usize::MAX)
@@ -149,12 +148,21 @@ fn facets_narrow_and_a_search_is_kept_renamed_and_deleted() {
         query(&window)
     );
     click(&mut window, "Saved");
+    window.run_steps(3);
     window.get_by_label("Name of this search").type_text("vees");
     window.run_steps(2);
+    let name = window.get_by_role_and_label(Role::TextInput, "Name of this search");
+    assert_eq!(name.value().as_deref(), Some("vees"));
     click(&mut window, "Save");
-    until(&mut window, "its count", |window| {
-        has(window, "Rename vees")
-    });
+    window.run_steps(3);
+    idle(&mut window);
+    if !has(&window, "Rename vees") {
+        let all: Vec<String> = window
+            .get_all_by_role(Role::Button)
+            .filter_map(|node| node.accesskit_node().label())
+            .collect();
+        panic!("{all:?}");
+    }
     click(&mut window, "Rename vees");
     window.run_steps(2);
     window

@@ -57,6 +57,7 @@ texts! {
     SAVE: "Save", "Enregistrer";
     NO_SAVED: "No search is saved yet.", "Aucune recherche enregistrée.";
     RENAME: "Rename {name}", "Renommer {name}";
+    RENAME_SHORT: "Rename", "Renommer";
     DELETE: "Delete {name}", "Supprimer {name}";
     RECENT: "Recent", "Récentes";
     NO_RECENT: "Nothing was asked yet.", "Rien n’a encore été demandé.";

@@ -7,8 +7,8 @@ use chereme_corpus::{Around, SearchOptions};
 use chereme_sign::query::Query;
 use chereme_sign::{Component, Field};
 use eframe::egui::{
-    Button, Label, Popup, PopupCloseBehavior, Rect, RichText, Role, ScrollArea, Sense, TextEdit,
-    Ui, WidgetInfo, vec2,
+    Button, Key, Label, Popup, PopupCloseBehavior, Rect, RichText, Role, ScrollArea, Sense,
+    TextEdit, Ui, WidgetInfo, vec2,
 };
 
 use super::builder::{self, with_value};
@@ -41,6 +41,8 @@ const EXAMPLES: [(&str, Text); 9] = [
 pub(super) struct Aside {
     /// The name under which the query is to be kept, and the search that gets another name.
     name: String,
+    /// The list was just opened: what is typed is a name.
+    opened_list: bool,
     renaming: Option<(String, String)>,
     /// How many each kept search finds, where it was counted.
     counts: BTreeMap<String, Option<usize>>,
@@ -126,6 +128,7 @@ impl Aside {
     ) -> Option<String> {
         let mut chosen = None;
         let saved = ui.button(seen.say(words::SAVED));
+        self.opened_list |= saved.clicked();
         Popup::from_toggle_button_response(&saved)
             .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
             .accessible_name(seen.say(words::SAVED))
@@ -187,9 +190,14 @@ impl Aside {
                 label: Some(hint.to_owned()),
                 ..WidgetInfo::text_edit(true, &before, &text, hint)
             });
+            if std::mem::take(&mut self.opened_list) {
+                response.request_focus();
+            }
             let named = !self.name.trim().is_empty() && Query::parse(query).is_ok();
             let save = Button::new(seen.say(words::SAVE));
-            if ui.add_enabled(named, save).clicked() {
+            let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            let pressed = ui.add_enabled(named, save).clicked();
+            if named && (pressed || entered) {
                 let mut searches = seen.searches.clone();
                 searches.save(self.name.trim(), query);
                 self.name.clear();
@@ -215,7 +223,7 @@ impl Aside {
                             chosen = Some(saved.query.clone());
                         }
                         let name = fill(seen.say(words::RENAME), &[("name", &saved.name)]);
-                        if named(ui, "✏", &name) {
+                        if named(ui, seen.say(words::RENAME_SHORT), &name) {
                             self.renaming = Some((saved.name.clone(), saved.name.clone()));
                         }
                         let name = fill(seen.say(words::DELETE), &[("name", &saved.name)]);

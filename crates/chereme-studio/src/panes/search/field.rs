@@ -46,6 +46,13 @@ impl Field {
         self.cursor = Some(self.text.chars().count());
     }
 
+    /// Writes another query, for which nothing is offered until it is changed.
+    pub(crate) fn set(&mut self, text: String) {
+        self.cursor = Some(text.chars().count());
+        self.away = Some(text.clone());
+        self.text = text;
+    }
+
     /// Draws the field with its offers; `wrong` is what the corpus says is wrong, from a character on.
     pub(crate) fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, wrong: Option<usize>) -> Typed {
         let id = ui.scope_id().with("query");

@@ -153,7 +153,7 @@ impl Search {
 
     /// Writes another query, and searches for it.
     fn turn_to(&mut self, query: String, out: &mut Outbox) {
-        self.field.text = query;
+        self.field.set(query);
         self.rows = Rows::default();
         self.ask(out);
     }

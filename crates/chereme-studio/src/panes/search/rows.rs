@@ -38,10 +38,10 @@ pub(crate) fn show(ui: &mut Ui, rows: &mut Rows, seen: &Seen<'_>, text: &mut Str
     let stated = all.len();
     let drafted = rows.draft.take();
     all.extend(drafted);
-    for at in 0..all.len() {
+    for (at, condition) in all.iter_mut().enumerate() {
         ui.push_id(at, |ui| {
             ui.horizontal_wrapped(|ui| {
-                row(ui, rows, seen, at, &mut all[at]);
+                row(ui, rows, seen, at, condition);
                 let name = fill(seen.say(words::REMOVE), &[("row", &(at + 1))]);
                 let remove = ui.small_button("×").on_hover_text(&name);
                 remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));

@@ -1,8 +1,8 @@
 //! What could be written next in a query: words of the language, values, names and glosses.
 
-use chereme_sign::Field;
 use chereme_sign::query::{Completion, Expected, Missing, Property, TextField, complete};
 use chereme_sign::text::fold;
+use chereme_sign::{Component, Field};
 
 use crate::model::Snapshot;
 use crate::words::Language;
@@ -95,6 +95,7 @@ fn with_operator(word: &str, expected: &Expected) -> String {
 fn names(completion: &Completion, snapshot: &Snapshot, language: Language) -> Vec<Offer> {
     let overview = &snapshot.overview;
     let mut found: Vec<(bool, Offer)> = Vec::new();
+    let mut fields: Vec<Offer> = Vec::new();
     let wanted = fold(&completion.prefix);
     let mut add = |spellings: &[&str], text: &str, about: String| {
         let folded = |it: &&str| fold(it);
@@ -158,7 +159,26 @@ fn names(completion: &Completion, snapshot: &Snapshot, language: Language) -> Ve
                 add(&[&sign.gloss], &sign.gloss, String::new());
             }
         }
+        Expected::Part(component) => {
+            let fits = overview.inventories.iter();
+            for it in fits.filter(|it| it.inventory.component == *component) {
+                if let Some(feature) = &it.inventory.feature {
+                    add(&[feature], feature, String::new());
+                }
+            }
+        }
         Expected::Term if completion.prefix.chars().count() > 1 => {
+            for component in Component::ALL {
+                let name = component.name();
+                let other = |it: &str| it != name && fold(it).starts_with(&wanted);
+                if !fold(name).starts_with(&wanted) && component.names().iter().any(|it| other(it))
+                {
+                    fields.push(Offer {
+                        text: format!("{name}="),
+                        about: component.names().join(", "),
+                    });
+                }
+            }
             for sign in &overview.signs {
                 add(&[&sign.gloss], &sign.gloss, String::new());
             }
@@ -166,7 +186,7 @@ fn names(completion: &Completion, snapshot: &Snapshot, language: Language) -> Ve
         _ => {}
     }
     found.sort_by_key(|(later, _)| *later);
-    let mut all: Vec<Offer> = Vec::new();
+    let mut all = fields;
     for (_, offer) in found {
         if !all.iter().any(|it| it.text == offer.text) {
             all.push(offer);
@@ -232,6 +252,7 @@ mod tests {
             ("nonmanual.bro", "nonmanual.brows"),
             ("like esc", "like ESCARGOT"),
             ("origin=ma", "origin=made"),
+            ("handsh", "configuration="),
         ] {
             assert_eq!(first(query).as_deref(), Some(wanted), "{query}");
         }
