@@ -12,7 +12,7 @@ use crate::model::Snapshot;
 use crate::model::made::Made;
 use crate::model::reel::Reel;
 use crate::player::Player;
-use crate::settings::{Searches, Settings};
+use crate::settings::Settings;
 use crate::theme::Colours;
 use crate::words::{Language, Text};
 use crate::work::desk::Running;
@@ -79,8 +79,6 @@ pub(crate) struct Seen<'a> {
     pub(crate) settings: &'a Settings,
     pub(crate) language: Language,
     pub(crate) dark: bool,
-    /// Queries that are kept, and those that were asked.
-    pub(crate) searches: &'a Searches,
     /// Work that was given out and has not ended.
     pub(crate) running: &'a BTreeMap<WorkId, Running>,
 }

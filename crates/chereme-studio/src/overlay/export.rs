@@ -109,7 +109,10 @@ impl Export {
 
     pub(crate) fn hear(&mut self, id: WorkId, ended: &Ended) {
         self.paths.hear(id, ended);
-        if let Ok(Outcome::Found(answer)) = ended {
+        // Without facets it was only counted, or is a later page.
+        if let Ok(Outcome::Found(answer)) = ended
+            && !answer.facets.is_empty()
+        {
             self.found = Some((answer.query.clone(), answer.total));
         }
         if self.asked.take_if(|asked| *asked == id).is_none() {

@@ -112,7 +112,7 @@ impl Aside {
 
     /// Keeps a query among those that were asked.
     pub(super) fn remember(&mut self, query: &str, seen: &Seen<'_>, out: &mut Outbox) {
-        let mut searches = seen.searches.clone();
+        let mut searches = seen.settings.searches.clone();
         if Query::parse(query).is_ok() && searches.asked(query) {
             out.send(Command::Searches(searches));
         }
@@ -139,10 +139,10 @@ impl Aside {
         let recent = ui.button(seen.say(words::RECENT));
         Popup::menu(&recent).show(|ui| {
             ui.set_min_width(260.0);
-            if seen.searches.recent.is_empty() {
+            if seen.settings.searches.recent.is_empty() {
                 ui.weak(seen.say(words::NO_RECENT));
             }
-            for query in &seen.searches.recent {
+            for query in &seen.settings.searches.recent {
                 if ui.button(query).clicked() {
                     chosen = Some(query.clone());
                 }
@@ -198,17 +198,17 @@ impl Aside {
             let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             let pressed = ui.add_enabled(named, save).clicked();
             if named && (pressed || entered) {
-                let mut searches = seen.searches.clone();
+                let mut searches = seen.settings.searches.clone();
                 searches.save(self.name.trim(), query);
                 self.name.clear();
                 next = Some(searches);
             }
         });
-        if seen.searches.saved.is_empty() {
+        if seen.settings.searches.saved.is_empty() {
             ui.weak(seen.say(words::NO_SAVED));
         }
         ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
-            for saved in &seen.searches.saved {
+            for saved in &seen.settings.searches.saved {
                 self.count(&saved.query, out);
                 let known = self.counts.get(&saved.query).copied().flatten();
                 ui.push_id(&saved.name, |ui| {
@@ -228,7 +228,7 @@ impl Aside {
                         }
                         let name = fill(seen.say(words::DELETE), &[("name", &saved.name)]);
                         if named(ui, "×", &name) {
-                            let mut searches = seen.searches.clone();
+                            let mut searches = seen.settings.searches.clone();
                             searches.delete(&saved.name);
                             change(searches);
                         }
@@ -262,7 +262,7 @@ impl Aside {
             ..WidgetInfo::text_edit(true, &before, &shown, &hint)
         });
         if response.lost_focus() {
-            let mut searches = seen.searches.clone();
+            let mut searches = seen.settings.searches.clone();
             searches.rename(name, text.trim());
             change(searches);
             self.renaming = None;
