@@ -2,7 +2,7 @@
 //!
 //! Any pane shows one with [`Figures::show`], through [`Seen::little`](crate::context::Seen::little):
 //!
-//! ```ignore
+//! ```text
 //! let motion = Motion::Span(recording, span);
 //! let cell = Cell::new(motion, vec2(150.0, 150.0)).playing(little::clock(ui));
 //! if seen.little.show(ui, seen, out, &cell, "BOL").clicked() { … }
