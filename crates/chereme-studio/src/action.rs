@@ -22,10 +22,7 @@ pub(crate) enum Menu {
     Help,
 }
 
-#[allow(
-    non_upper_case_globals,
-    reason = "named as the variants are, for the table below"
-)]
+#[allow(non_upper_case_globals, reason = "named as variants in the table")]
 impl Context {
     const Recombine: Self = Self::Pane(PaneKind::Recombine);
 }

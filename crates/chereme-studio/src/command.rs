@@ -54,10 +54,7 @@ pub(crate) enum Command {
     /// Have these files and folders taken in: opens the import with them.
     Import(Vec<PathBuf>),
     /// Show all that is known of something in the inspector.
-    #[allow(
-        dead_code,
-        reason = "for whoever shows signs, tokens, signers or values"
-    )]
+    #[allow(dead_code, reason = "for whoever shows signs, tokens, signers")]
     Inspect(Thing),
     /// Find what this query asks for.
     Find(String),

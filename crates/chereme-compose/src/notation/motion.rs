@@ -1,15 +1,18 @@
 //! Motions as events: ways, turns of wrists, playing fingers; in sequence, at once, and again.
 
 mod repeat;
+mod size;
 
 use std::f64::consts::TAU;
 
 use chereme_motion::glam::DVec3;
 use chereme_sign::hamnosys::sites::HandPoint;
 use chereme_sign::hamnosys::{
-    Amount, BodyAction, Circular, Curve, Digit, Digits, Directed, Growth, Manner, Motion,
-    MotionKind, Place, Posture, Repeat, Repetition, Size, WristMotion,
+    BodyAction, Circular, Curve, Digit, Digits, Directed, Manner, Motion, MotionKind, Place,
+    Posture, Repeat, Repetition, Size, WristMotion,
 };
+
+use size::{across, amount, grown, is_round, sized, turns, wrist_name};
 
 use super::pace::Pace;
 use super::path::Path;
@@ -633,75 +636,5 @@ fn meets(place: &Place) -> bool {
         Place::Hands(hands) => matches!(hands.contact, Some(Touch | Cross | Interlock)),
         Place::Split(a, b) => [a, b].into_iter().flatten().any(|place| meets(place)),
         Place::Named(_) => false,
-    }
-}
-
-/// Tells whether a motion is done again by going on: circles, wrists, playing fingers.
-fn is_round(motion: &Motion) -> bool {
-    match &motion.kind {
-        MotionKind::Circular(circular) => {
-            circular.growth.is_none() && (turns(circular).fract() < 1e-9)
-        }
-        MotionKind::Wrist { .. } | MotionKind::FingerPlay(_) => true,
-        MotionKind::Parallel(all) => all.iter().all(is_round),
-        _ => false,
-    }
-}
-
-/// Returns how many turns a circle makes.
-fn turns(circular: &Circular) -> f64 {
-    let clock = &circular.clock;
-    let full = f64::from(clock.full);
-    match (clock.start, clock.end) {
-        (Some(start), Some(end)) if start != end => {
-            // About forward the right-hand rule goes from down over left.
-            let part = (start.angle() - end.angle()).rem_euclid(TAU) / TAU;
-            full + part
-        }
-        _ => full + 1.0,
-    }
-}
-
-fn amount(amount: &Amount, sizes: [f64; 3]) -> f64 {
-    let first = sized(amount.first, sizes);
-    amount
-        .second
-        .map_or(first, |second| (first + sized(Some(second), sizes)) / 2.0)
-}
-
-fn sized(size: Option<Size>, [small, normal, big]: [f64; 3]) -> f64 {
-    match size {
-        Some(Size::Small) => small,
-        None => normal,
-        Some(Size::Big) => big,
-    }
-}
-
-fn grown(growth: Option<Growth>, by: f64) -> f64 {
-    match growth {
-        Some(Growth {
-            increasing: true, ..
-        }) => 1.0 + by,
-        Some(_) => 1.0 / (1.0 + by),
-        None => 1.0,
-    }
-}
-
-/// Returns a direction across a way: level, or to the left of one that is upright.
-fn across(way: DVec3) -> DVec3 {
-    if way.y.abs() > 0.9 {
-        DVec3::X
-    } else {
-        DVec3::Y.cross(way).normalize_or(DVec3::X)
-    }
-}
-
-fn wrist_name(motion: WristMotion) -> &'static str {
-    match motion {
-        WristMotion::Nodding => "nodding",
-        WristMotion::Swinging => "swinging",
-        WristMotion::Twisting => "twisting",
-        WristMotion::StirCw => "stirring clockwise",
-        WristMotion::StirCcw => "stirring counter-clockwise",
     }
 }

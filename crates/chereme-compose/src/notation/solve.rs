@@ -365,7 +365,9 @@ impl<'a> Arm<'a> {
         if row.kept {
             let wrist = row.point - row.turned * row.offset;
             let posed = rig.reach(wrist, row.plane, self.limits);
-            if posed.wrist.distance(wrist) < 1e-4 {
+            let asked = rig.wrist(&posed, row.turned, &self.held);
+            let within = asked.bend(self.limits) < 1.0 + 1e-6;
+            if posed.wrist.distance(wrist) < 1e-4 && within {
                 return Got {
                     residual: posed.wrist.distance(wrist),
                     posed,

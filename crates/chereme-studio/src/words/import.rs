@@ -3,7 +3,7 @@
 texts! {
     TITLE: "Import", "Importation";
     PATH: "File or folder", "Fichier ou dossier";
-    PATH_HINT: "/home/…", "/home/…";
+    PATH_HINT: "folder or file.bvh", "dossier ou fichier.bvh";
     CHOOSE_FILES: "Choose files…", "Choisir des fichiers…";
     CHOOSE_FOLDER: "Choose a folder…", "Choisir un dossier…";
     MORE_FILES: "and {n} more", "et {n} autres";

@@ -1,5 +1,6 @@
 //! What is selected, and what belongs to it: shown, and changed where that can be undone.
 
+mod about;
 mod data;
 mod edit;
 mod ui;

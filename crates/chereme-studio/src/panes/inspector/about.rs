@@ -1,0 +1,360 @@
+//! What is told of recordings, signers, signs and values.
+
+use chereme_corpus::{
+    Name, RecordingChange, RecordingDetails, RecordingGlance, SignChange, SignDetails,
+    SignerChange, SignerDetails, SignerRow,
+};
+use chereme_motion::{Instant, Side};
+use eframe::egui::{CollapsingHeader, Id, RichText, Sense, Ui, vec2};
+
+use super::data;
+use super::edit::{choice, grid, line, notes, offered, said, title};
+use super::ui::{lines, link};
+use super::{Inspector, Thing};
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::panes::complete::fitting;
+use crate::panes::library::origin_text;
+use crate::panes::timeline::data::time_text;
+use crate::words::{fill, inspector as words};
+use crate::work::Work;
+
+pub(super) fn recording(ui: &mut Ui, seen: &Seen<'_>, glance: &RecordingGlance, out: &mut Outbox) {
+    let row = &glance.row;
+    let change = |out: &mut Outbox, change: RecordingChange| {
+        out.work(Work::ChangeRecording(
+            Name::Number(row.id),
+            Box::new(change),
+        ));
+    };
+    let key = |what: &str| Id::unique(("recording", row.id, what.to_owned()));
+    grid(ui, "recording", |ui| {
+        if let Some(name) = line(ui, seen, key("name"), words::NAME, &row.name) {
+            let name = Some(name);
+            change(
+                out,
+                RecordingChange {
+                    name,
+                    ..RecordingChange::default()
+                },
+            );
+        }
+        let signers = &seen.snapshot.overview.signers;
+        let candidates = |typed: &str| fitting(signers.iter().map(|it| it.name.as_str()), typed);
+        let now = row.signer.clone().unwrap_or_default();
+        if let Some(name) = offered(ui, seen, key("signer"), words::SIGNER, &now, &candidates) {
+            let signer = Some(none_if_blank(name));
+            change(
+                out,
+                RecordingChange {
+                    signer,
+                    ..RecordingChange::default()
+                },
+            );
+        }
+        let now = row.licence.clone().unwrap_or_default();
+        if let Some(text) = line(ui, seen, key("licence"), words::LICENCE, &now) {
+            let licence = Some(none_if_blank(text));
+            change(
+                out,
+                RecordingChange {
+                    licence,
+                    ..RecordingChange::default()
+                },
+            );
+        }
+        let now = row.notes.clone().unwrap_or_default();
+        if let Some(text) = notes(ui, seen, key("notes"), &now) {
+            let notes = Some(none_if_blank(text));
+            change(
+                out,
+                RecordingChange {
+                    notes,
+                    ..RecordingChange::default()
+                },
+            );
+        }
+    });
+    let origin =
+        |name: &str| origin_text(name).map_or(name.to_owned(), |it| seen.say(it).to_owned());
+    lines(
+        ui,
+        seen,
+        "recording more",
+        &data::recording_lines(glance, origin),
+    );
+    if let Some(recipe) = &glance.recipe {
+        ui.weak(recipe);
+        if ui.button(seen.say(words::OPEN_RECIPE)).clicked() {
+            out.send(Command::Recipe(recipe.clone(), Some(row.name.clone())));
+        }
+    }
+}
+
+pub(super) fn none_if_blank(text: String) -> Option<String> {
+    Some(text.trim().to_owned()).filter(|text| !text.is_empty())
+}
+
+pub(super) fn recording_more(ui: &mut Ui, seen: &Seen<'_>, it: &RecordingDetails) {
+    grid(ui, "recording file", |ui| {
+        if let Some(metres) = it.metres_per_unit {
+            said(ui, seen, words::UNITS, &format!("{metres} m"));
+        }
+        if let Some(axes) = &it.axes {
+            said(ui, seen, words::AXES, axes);
+        }
+        if !it.files.is_empty() {
+            let files: Vec<&str> = it.files.iter().map(|(_, name)| name.as_str()).collect();
+            said(ui, seen, words::FILES, &files.join(", "));
+        }
+        let media = seen
+            .snapshot
+            .contents(it.id)
+            .map(|contents| &contents.media);
+        if let Some(media) = media.filter(|media| !media.is_empty()) {
+            let urls: Vec<&str> = media.iter().map(|it| it.url.as_str()).collect();
+            said(ui, seen, words::MEDIA, &urls.join(", "));
+        }
+        if let Some(engine) = &it.engine {
+            said(ui, seen, words::ENGINE, engine);
+        }
+        if it.joints > 0 {
+            said(ui, seen, words::JOINTS, &it.joints.to_string());
+        }
+    });
+    if it.roles.is_empty() {
+        return;
+    }
+    let text = fill(seen.say(words::ROLES), &[("n", &it.roles.len())]);
+    CollapsingHeader::new(RichText::new(text).small()).show(ui, |ui| {
+        grid(ui, "roles", |ui| {
+            for (part, joint) in &it.roles {
+                ui.small(part);
+                ui.small(joint);
+                ui.end_row();
+            }
+        });
+        if !it.missing.is_empty() {
+            let what = it.missing.join(", ");
+            ui.label(RichText::new(fill(seen.say(words::MISSING), &[("what", &what)])).small());
+        }
+    });
+}
+
+pub(super) fn signer(ui: &mut Ui, seen: &Seen<'_>, row: &SignerRow, out: &mut Outbox) {
+    let change = |out: &mut Outbox, change: SignerChange| {
+        out.work(Work::ChangeSigner(Name::Number(row.id), Box::new(change)));
+    };
+    grid(ui, "signer", |ui| {
+        let key = Id::unique(("signer name", row.id));
+        if let Some(name) = line(ui, seen, key, words::NAME, &row.name) {
+            let name = Some(name);
+            change(
+                out,
+                SignerChange {
+                    name,
+                    ..SignerChange::default()
+                },
+            );
+        }
+        let all: Vec<(Option<String>, String)> = [
+            (None, words::UNKNOWN),
+            (Some("right"), words::RIGHT),
+            (Some("left"), words::LEFT),
+        ]
+        .map(|(name, text)| (name.map(str::to_owned), seen.say(text).to_owned()))
+        .into();
+        if let Some(hand) = choice(ui, seen, words::HANDEDNESS, &row.handedness, &all) {
+            let side = |name: String| match name.as_str() {
+                "left" => Side::Left,
+                _ => Side::Right,
+            };
+            let handedness = Some(hand.map(side));
+            change(
+                out,
+                SignerChange {
+                    handedness,
+                    ..SignerChange::default()
+                },
+            );
+        }
+        let key = Id::unique(("signer notes", row.id));
+        let now = row.notes.clone().unwrap_or_default();
+        if let Some(text) = notes(ui, seen, key, &now) {
+            let notes = Some(none_if_blank(text));
+            change(
+                out,
+                SignerChange {
+                    notes,
+                    ..SignerChange::default()
+                },
+            );
+        }
+    });
+}
+
+pub(super) fn signer_more(
+    it: &mut Inspector,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    signer: &SignerDetails,
+) {
+    lines(ui, seen, "measures", &data::measures(signer));
+    let n = signer.recordings.len();
+    let text = format!("{} ({n})", seen.say(words::RECORDINGS));
+    CollapsingHeader::new(RichText::new(text).small()).show(ui, |ui| {
+        for recording in &signer.recordings {
+            link(it, ui, &recording.name, Thing::Recording(recording.id));
+        }
+    });
+}
+
+pub(super) fn sign(
+    it: &mut Inspector,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    sign: &SignDetails,
+    out: &mut Outbox,
+) {
+    title(ui, seen.say(words::SIGN), &sign.gloss);
+    let change = |out: &mut Outbox, change: SignChange| {
+        out.work(Work::ChangeSign(Name::Number(sign.id), Box::new(change)));
+    };
+    grid(ui, "sign", |ui| {
+        let key = Id::unique(("sign gloss", sign.id));
+        if let Some(gloss) = line(ui, seen, key, words::GLOSS, &sign.gloss) {
+            let gloss = Some(gloss);
+            change(
+                out,
+                SignChange {
+                    gloss,
+                    ..SignChange::default()
+                },
+            );
+        }
+        let key = Id::unique(("sign notes", sign.id));
+        let now = sign.notes.clone().unwrap_or_default();
+        if let Some(text) = notes(ui, seen, key, &now) {
+            let notes = Some(none_if_blank(text));
+            change(
+                out,
+                SignChange {
+                    notes,
+                    ..SignChange::default()
+                },
+            );
+        }
+        for (language, text) in &sign.texts {
+            ui.weak(language);
+            ui.horizontal(|ui| {
+                ui.label(text);
+                let tip = fill(seen.say(words::REMOVE), &[("what", text)]);
+                if ui.small_button("×").on_hover_text(tip).clicked() {
+                    let remove_texts = vec![(language.clone(), text.clone())];
+                    change(
+                        out,
+                        SignChange {
+                            remove_texts,
+                            ..SignChange::default()
+                        },
+                    );
+                }
+            });
+            ui.end_row();
+        }
+        let key = Id::unique(("sign text", sign.id));
+        let language = match seen.language {
+            crate::words::Language::English => "en",
+            crate::words::Language::French => "fr",
+        };
+        if let Some(text) = line(ui, seen, key, words::TEXT_NEW, "") {
+            let add_texts = vec![(language.to_owned(), text)];
+            change(
+                out,
+                SignChange {
+                    add_texts,
+                    ..SignChange::default()
+                },
+            );
+        }
+    });
+    ui.separator();
+    ui.weak(format!(
+        "{} ({})",
+        seen.say(words::TOKENS),
+        sign.tokens.len()
+    ));
+    for token in &sign.tokens {
+        ui.horizontal_wrapped(|ui| {
+            let place = match (&token.recording, token.start_us) {
+                (Some(name), Some(start)) => {
+                    format!("{name} · {}", time_text(Instant::from_micros(start)))
+                }
+                _ => seen.say(crate::words::search::LEXICON).to_owned(),
+            };
+            link(it, ui, &place, Thing::Token(token.id));
+            if token.citation {
+                ui.small(seen.say(words::CITATION));
+            }
+        });
+    }
+}
+
+pub(super) fn value(
+    it: &mut Inspector,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    (inventory, id): (i64, &str),
+    uses: u64,
+    out: &mut Outbox,
+) {
+    let stored = seen
+        .snapshot
+        .overview
+        .inventories
+        .iter()
+        .find(|it| it.id == inventory);
+    let Some((stored, value)) = stored.and_then(|it| Some((&it.inventory, it.inventory.get(id)?)))
+    else {
+        ui.label(id);
+        return;
+    };
+    title(ui, seen.say(words::INVENTORY_VALUE), id);
+    let (rect, _) = ui.allocate_exact_size(vec2(110.0, 110.0), Sense::hover());
+    crate::pickers::picture(ui, rect, seen, stored, id);
+    let code = match seen.language {
+        crate::words::Language::English => "en",
+        crate::words::Language::French => "fr",
+    };
+    grid(ui, "value", |ui| {
+        said(ui, seen, words::INVENTORY, &stored.id);
+        if let Some(name) = value.names.get(code) {
+            said(ui, seen, words::NAME, name);
+        }
+        if !value.aliases.is_empty() {
+            said(ui, seen, words::ALIASES, &value.aliases.join(", "));
+        }
+        if let Some(broader) = &value.broader {
+            ui.weak(seen.say(words::BROADER));
+            link(it, ui, broader, Thing::Value(inventory, broader.clone()));
+            ui.end_row();
+        }
+        if !value.features.is_empty() {
+            let all: Vec<&str> = value.features.iter().map(String::as_str).collect();
+            said(ui, seen, words::FEATURES, &all.join(", "));
+        }
+        if let Some(hamnosys) = &value.hamnosys {
+            said(ui, seen, words::NOTATION, hamnosys);
+        }
+        if let Some(notes) = &value.notes {
+            said(ui, seen, words::NOTES, notes);
+        }
+        said(ui, seen, words::USES, &uses.to_string());
+    });
+    if uses > 0 && ui.button(seen.say(words::SEARCH_USES)).clicked() {
+        let field = stored.field().to_string();
+        out.send(Command::Find(crate::panes::search::with_value(
+            "", &field, id,
+        )));
+    }
+}
