@@ -171,6 +171,13 @@ const CASES: &[Case] = &[
     ("annotate @c from @more/none.csv", 1, ERROR),
     ("annotate @c", 2, ERROR),
     (
+        "annotate @c --in bowl add-tiers",
+        0,
+        &["/0/name", "/0/role"],
+    ),
+    ("annotate @c --in bowl add-tiers --like nobody", 1, ERROR),
+    ("annotate @c add-tiers", 1, ERROR),
+    (
         "recombine @c 'BOL | reverse' --as LOB",
         0,
         &["/recipe", "/gloss", "/token", "/recording", "/report"],

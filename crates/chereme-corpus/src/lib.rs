@@ -49,7 +49,7 @@ pub use chereme_sign::{Stereotype, TierRole};
 pub use address::{Address, Name, Stretch};
 pub use annotate::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
-    AnnotationOrigin, NewTier, RemovedTiers, TierChange, TierName, Values,
+    AnnotationOrigin, NewTier, RemovedTiers, Scheme, TierChange, TierName, Values,
 };
 pub use around::Around;
 pub use check::{CheckReport, Fault};

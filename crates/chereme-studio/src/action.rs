@@ -166,6 +166,7 @@ actions! {
     NextTier "tier.next" TIER_NEXT Tier Corpus repeats;
     PreviousTier "tier.previous" TIER_PREVIOUS Tier Corpus repeats;
     AddTier "tier.add" TIER_ADD Tier Corpus;
+    UsualTiers "tier.usual" TIER_USUAL Tier Corpus;
     ChangeTier "tier.change" TIER_CHANGE Tier Corpus;
     RemoveTier "tier.remove" TIER_REMOVE Tier Corpus;
     TierUp "tier.up" TIER_UP Tier Corpus repeats;

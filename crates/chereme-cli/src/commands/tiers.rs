@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 use chereme_corpus::{
-    Address, Corpus, Hands, Name, NewTier, RecordingChange, SignChange, SignerChange, Stereotype,
-    TierChange, TierName, TierRole, Values,
+    Address, Corpus, Hands, Name, NewTier, RecordingChange, Scheme, SignChange, SignerChange,
+    Stereotype, TierChange, TierName, TierRole, Values,
 };
 use chereme_motion::Side;
 use clap::{Subcommand, ValueEnum};
@@ -34,6 +34,16 @@ pub(super) enum Action {
         /// The inventory its values come from; the usual one of its component where none is named
         #[arg(long)]
         inventory: Option<String>,
+    },
+    /// Add the usual tiers to the recording named by --in, or those of another recording
+    ///
+    /// The usual ones: gloss and translation; below the gloss handshape, placement, movement with its
+    /// direction, palm and finger direction of either hand, mouth, brows, head; a comment. What is there by
+    /// name already stays as it is.
+    AddTiers {
+        /// The recording whose tiers it shall have, without their annotations
+        #[arg(long, value_name = "RECORDING")]
+        like: Option<String>,
     },
     /// Change what a tier is
     Tier {
@@ -182,6 +192,17 @@ pub(super) fn run(
             let row = corpus.add_tier(&tier)?;
             output.line(format!("added tier:{}, {:?}", row.id, row.name))?;
             output.document(row)
+        }
+        Action::AddTiers { like } => {
+            let scheme = match like {
+                Some(other) => Scheme::Like(annotate::name(other)?),
+                None => Scheme::Usual,
+            };
+            let rows = corpus.add_tiers(&needed()?, &scheme)?;
+            for row in &rows {
+                output.line(format!("added tier:{}, {:?}", row.id, row.name))?;
+            }
+            output.document(rows)
         }
         Action::Tier {
             tier,

@@ -6,6 +6,7 @@
 mod arrange;
 mod bulk;
 mod names;
+mod scheme;
 mod scope;
 #[cfg(test)]
 mod tests;
@@ -22,6 +23,7 @@ use rusqlite::Connection;
 use serde::Serialize;
 
 pub use names::{AnnotationName, TierName};
+pub use scheme::Scheme;
 pub use tiers::{NewTier, RemovedTiers, TierChange, Values};
 
 use crate::Corpus;

@@ -178,7 +178,7 @@ impl Corpus {
 }
 
 /// Returns a tier and all below it, parents first.
-fn family<'t>(all: &'t [TierRow], tier: &'t TierRow) -> Vec<&'t TierRow> {
+pub(super) fn family<'t>(all: &'t [TierRow], tier: &'t TierRow) -> Vec<&'t TierRow> {
     let mut found = vec![tier];
     let mut at = 0;
     while at < found.len() {
@@ -189,7 +189,7 @@ fn family<'t>(all: &'t [TierRow], tier: &'t TierRow) -> Vec<&'t TierRow> {
     found
 }
 
-fn new_row(connection: &Connection, recording: i64, tier: &NewTier) -> Result<TierRow> {
+pub(super) fn new_row(connection: &Connection, recording: i64, tier: &NewTier) -> Result<TierRow> {
     let all = rows::tiers(connection, recording)?;
     let parent = match &tier.parent {
         Some((name, stereotype)) => {

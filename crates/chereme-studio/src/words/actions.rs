@@ -60,6 +60,7 @@ texts! {
     TIER_NEXT: "Next tier", "Acteur suivant";
     TIER_PREVIOUS: "Previous tier", "Acteur précédent";
     TIER_ADD: "Add a tier…", "Ajouter un acteur…";
+    TIER_USUAL: "Add the usual tiers", "Ajouter les acteurs habituels";
     TIER_CHANGE: "Change the tier…", "Modifier l’acteur…";
     TIER_REMOVE: "Remove the tier…", "Supprimer l’acteur…";
     TIER_UP: "Move the tier up", "Monter l’acteur";

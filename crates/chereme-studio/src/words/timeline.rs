@@ -61,6 +61,8 @@ texts! {
     NO_MOVEMENT: "no movement", "pas de mouvement";
     MEASURING: "measuring…", "mesure en cours…";
     ADD_TITLE: "Add a tier", "Ajouter un acteur";
+    TIERS_LIKE: "Tiers as in…", "Acteurs comme dans…";
+    USUAL_ARE: "Gloss, translation, handshape, placement, movement and orientation of either hand, mouth, brows, head", "Glose, traduction, configuration, emplacement, mouvement et orientation de chaque main, bouche, sourcils, tête";
     CHANGE_TITLE: "Change the tier", "Modifier l’acteur";
     REMOVE_TITLE: "Remove the tier?", "Supprimer l’acteur ?";
     REMOVE_ABOUT: "{name} goes, with tiers below it: {tiers}, and annotations: {n}. Undo brings them back.", "{name} disparaît, avec des acteurs dépendants : {tiers}, et des annotations : {n}. Annuler les ramène.";

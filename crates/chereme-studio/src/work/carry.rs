@@ -21,6 +21,9 @@ pub(super) fn carry(
             Outcome::Annotated(corpus.annotate(&changes, &options, progress)?)
         }
         Work::AddTier(tier) => corpus.add_tier(&tier).map(|_| Outcome::Changed)?,
+        Work::AddTiers(recording, scheme) => corpus
+            .add_tiers(&recording, &scheme)
+            .map(|_| Outcome::Changed)?,
         Work::ChangeTier(tier, change) => corpus
             .change_tier(&tier, &change)
             .map(|_| Outcome::Changed)?,

@@ -14,8 +14,8 @@ use std::sync::Arc;
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, Curves, Details,
     Error, ExportOptions, ExportReport, ExportWhat, ImportOptions, ImportReport, Moving, Name,
-    NewTier, OperationRow, Recombination, RecordingChange, SearchOptions, SignChange, SignerChange,
-    Suggestions, TierChange, TierName, Unit,
+    NewTier, OperationRow, Recombination, RecordingChange, Scheme, SearchOptions, SignChange,
+    SignerChange, Suggestions, TierChange, TierName, Unit,
 };
 use chereme_motion::Span;
 
@@ -34,6 +34,8 @@ pub(crate) enum Work {
     Annotate(Vec<AnnotationChange>, AnnotateOptions),
     /// Adds a tier.
     AddTier(Box<NewTier>),
+    /// Gives a recording the tiers of a scheme.
+    AddTiers(Name, Scheme),
     /// Changes a tier.
     ChangeTier(TierName, TierChange),
     /// Removes a tier.
@@ -201,6 +203,7 @@ impl Work {
         match self {
             Self::Annotate(..)
             | Self::AddTier(_)
+            | Self::AddTiers(..)
             | Self::ChangeTier(..)
             | Self::RemoveTier(_)
             | Self::Recombine { .. }

@@ -1,6 +1,7 @@
 //! The tools above the ruler: modes, what times settle on, lanes, tiers.
 
-use eframe::egui::{Button, Ui};
+use chereme_corpus::{Name, Scheme};
+use eframe::egui::{Button, ScrollArea, Ui};
 
 use super::edit::Scene;
 use super::rows::hidden_count;
@@ -9,6 +10,10 @@ use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::{Text, fill, timeline as words};
+use crate::work::Work;
+
+/// How high the list of recordings is at most.
+const LIKE: f32 = 300.0;
 
 /// From this width on every switch is a button of its own.
 const WIDE: f32 = 560.0;
@@ -96,10 +101,39 @@ fn tiers(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
         fill(seen.say(words::TIERS_HIDDEN), &[("n", &hidden)])
     };
     ui.menu_button(title, |ui| {
-        actions(ui, seen, &[Action::AddTier], out);
+        actions(ui, seen, &[Action::AddTier, Action::UsualTiers], out);
+        like(ui, scene, out);
         if hidden > 0 {
             actions(ui, seen, &[Action::ShowTiers], out);
         }
+    });
+}
+
+/// Shows the menu of recordings whose tiers this one can have.
+pub(super) fn like(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
+    let here = scene.contents.recording.id;
+    let recordings = &scene.seen.snapshot.overview.recordings;
+    let mut others = recordings
+        .iter()
+        .filter(|it| it.tiers > 0 && it.row.id != here)
+        .peekable();
+    if others.peek().is_none() {
+        return;
+    }
+    ui.menu_button(scene.seen.say(words::TIERS_LIKE), |ui| {
+        ScrollArea::vertical().max_height(LIKE).show(ui, |ui| {
+            for other in others {
+                let name = other.row.name.as_str();
+                if ui
+                    .add(Button::new(name).shortcut_text(other.tiers.to_string()))
+                    .clicked()
+                {
+                    let scheme = Scheme::Like(Name::Number(other.row.id));
+                    out.work(Work::AddTiers(Name::Number(here), scheme));
+                    ui.close();
+                }
+            }
+        });
     });
 }
 

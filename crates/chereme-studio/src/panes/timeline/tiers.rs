@@ -1,6 +1,6 @@
 //! What actions do to tiers.
 
-use chereme_corpus::{TierChange, TierName};
+use chereme_corpus::{Name, Scheme, TierChange, TierName};
 
 use super::edit::Scene;
 use super::tier_box::{TierBox, What};
@@ -18,8 +18,9 @@ pub(super) fn act(
     scene: &Scene<'_>,
     out: &mut Outbox,
 ) -> Acted {
-    const MINE: [Action; 7] = [
+    const MINE: [Action; 8] = [
         Action::AddTier,
+        Action::UsualTiers,
         Action::ChangeTier,
         Action::RemoveTier,
         Action::TierUp,
@@ -32,6 +33,11 @@ pub(super) fn act(
     }
     if action == Action::AddTier {
         timeline.tier_box = Some(TierBox::add(scene));
+        return Acted::Yes;
+    }
+    if action == Action::UsualTiers {
+        let recording = Name::Number(scene.contents.recording.id);
+        out.work(Work::AddTiers(recording, Scheme::Usual));
         return Acted::Yes;
     }
     let Some(tier) = scene.tier() else {

@@ -105,7 +105,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
     frame.ruler(ui);
     frame.lanes(ui, &scene);
     if scene.contents.tiers.is_empty() {
-        frame.empty(ui);
+        frame.empty(ui, scene.contents);
     } else {
         frame.rows(ui, scene.contents);
     }
@@ -159,17 +159,24 @@ pub(super) struct Drawing<'a, 'b> {
 }
 
 impl Drawing<'_, '_> {
-    fn empty(&mut self, ui: &mut Ui) {
+    fn empty(&mut self, ui: &mut Ui, contents: &Contents) {
         ui.add_space(8.0);
         ui.label(self.seen.say(words::EMPTY));
-        let name = self.seen.say(Action::AddTier.row().name);
-        let button = ui.button(name);
-        if button
-            .on_hover_text(self.seen.keys.text(Action::AddTier))
-            .clicked()
-        {
-            self.out.send(Command::Do(Action::AddTier));
-        }
+        ui.horizontal(|ui| {
+            let usual = self.seen.say(words::USUAL_ARE);
+            let adding = self.seen.keys.text(Action::AddTier);
+            for (action, hint) in [(Action::UsualTiers, usual), (Action::AddTier, &adding)] {
+                let button = ui.button(self.seen.say(action.row().name));
+                if button.on_hover_text(hint).clicked() {
+                    self.out.send(Command::Do(action));
+                }
+            }
+            let scene = Scene {
+                contents,
+                seen: self.seen,
+            };
+            bar::like(ui, &scene, self.out);
+        });
     }
 
     fn ruler(&mut self, ui: &mut Ui) {

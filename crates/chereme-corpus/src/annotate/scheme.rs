@@ -1,0 +1,202 @@
+//! Whole sets of tiers for a recording, so that annotating can begin.
+
+use chereme_formats::roles::Hands;
+use chereme_sign::{HandRef, Stereotype, TierRole};
+use rusqlite::Connection;
+
+use super::tiers::{NewTier, family, new_row};
+use crate::Corpus;
+use crate::address::{self, Name};
+use crate::db::recordings::{self, RecordingRow};
+use crate::db::tiers::{self as rows, TierRow};
+use crate::error::{Error, Result};
+
+/// Which tiers a recording is to have.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum Scheme {
+    /// Gloss and translation; below the gloss handshape, placement, movement with its direction, palm and
+    /// finger direction of either hand, mouth, brows and head; a comment.
+    #[default]
+    Usual,
+    /// Those of another recording.
+    Like(Name),
+}
+
+const BY_HAND: [(&str, &str); 6] = [
+    ("Configuration", "configuration"),
+    ("Placement", "placement"),
+    ("Movement", "movement"),
+    ("Movement direction", "movement.direction"),
+    ("Palm direction", "orientation.palm"),
+    ("Finger direction", "orientation.fingers"),
+];
+
+const OF_NO_HAND: [(&str, &str); 3] = [
+    ("Mouth", "nonmanual.mouth"),
+    ("Brows", "nonmanual.brows"),
+    ("Head", "nonmanual.head"),
+];
+
+impl Corpus {
+    /// Gives a recording the tiers of a scheme that it lacks, without annotations, and returns them.
+    ///
+    /// It lacks those whose name it does not have, and of the usual ones those that no tier of it stands for.
+    ///
+    /// # Errors
+    /// Where the recording or the one to be like is not there, that one has no tiers, all of them are there
+    /// already, or a tier would hang below one that cannot bear it.
+    pub fn add_tiers(&mut self, recording: &Name, scheme: &Scheme) -> Result<Vec<TierRow>> {
+        self.store.operation("add tiers", |connection| {
+            let recording = address::recording(connection, recording)?;
+            let wanted = match scheme {
+                Scheme::Usual => usual(connection, &recording)?,
+                Scheme::Like(other) => like(
+                    connection,
+                    &address::recording(connection, other)?,
+                    &recording,
+                )?,
+            };
+            let added = add(connection, &recording, wanted)?;
+            let summary = format!("{} to {}", added.len(), recording.name);
+            Ok((added, summary))
+        })
+    }
+}
+
+/// A tier to be added, and the row of one that it is to be like.
+type Wanted = (NewTier, Option<TierRow>);
+
+fn add(
+    connection: &Connection,
+    recording: &RecordingRow,
+    wanted: Vec<Wanted>,
+) -> Result<Vec<TierRow>> {
+    let mut added = Vec::new();
+    let before = rows::tiers(connection, recording.id)?;
+    let free = before.iter().map(|row| row.position + 1).max().unwrap_or(0);
+    for (tier, like) in wanted {
+        let there = rows::tiers(connection, recording.id)?;
+        if there.iter().any(|row| row.name == tier.name) {
+            continue;
+        }
+        let mut row = new_row(connection, recording.id, &tier)?;
+        if like.is_none() && there.iter().any(|it| says(it) == says(&row)) {
+            continue;
+        }
+        if let Some(like) = like {
+            row.position = free + like.position;
+            row.role = like.role;
+            row.component = like.component;
+            row.feature = like.feature;
+            row.hand = like.hand;
+            row.inventory_id = like.inventory_id;
+        }
+        row.id = rows::insert_tier(connection, &row)?;
+        added.push(row);
+    }
+    if added.is_empty() {
+        return Err(Error::wrong(format!(
+            "the recording {:?} has all of these tiers already",
+            recording.name
+        ))
+        .advise("add single tiers, or make it like another recording"));
+    }
+    Ok(added)
+}
+
+/// What a tier says and of which hand.
+fn says(row: &TierRow) -> (&str, Option<&str>, Option<&str>, Option<&str>) {
+    (
+        &row.role,
+        row.component.as_deref(),
+        row.feature.as_deref(),
+        row.hand.as_deref(),
+    )
+}
+
+fn usual(connection: &Connection, recording: &RecordingRow) -> Result<Vec<Wanted>> {
+    let participant = signer(connection, recording)?;
+    let there = rows::tiers(connection, recording.id)?;
+    let gloss = there.into_iter().find(|row| row.role == "gloss");
+    let gloss = gloss.map_or_else(|| "Gloss".to_owned(), |row| row.name);
+    let make = |name: String, role, hand, parent: Option<Stereotype>| {
+        let tier = NewTier {
+            hand,
+            parent: parent.map(|it| (gloss.clone(), it)),
+            participant: participant.clone(),
+            ..NewTier::new(Name::Number(recording.id), name, role)
+        };
+        (tier, None)
+    };
+    let said = |field: &str| {
+        field
+            .parse::<TierRole>()
+            .map_err(|error| Error::wrong(error.to_string()))
+    };
+    let mut all = vec![make(gloss.clone(), TierRole::Gloss, None, None)];
+    let whole = Some(Stereotype::SymbolicAssociation);
+    all.push(make(
+        "Translation".to_owned(),
+        TierRole::Translation,
+        None,
+        whole,
+    ));
+    let within = Some(Stereotype::IncludedIn);
+    for (hand, letters) in [(HandRef::Right, "RH"), (HandRef::Left, "LH")] {
+        for (name, field) in BY_HAND {
+            let hand = Some(Hands::One(hand));
+            all.push(make(
+                format!("{name} {letters}"),
+                said(field)?,
+                hand,
+                within,
+            ));
+        }
+    }
+    for (name, field) in OF_NO_HAND {
+        all.push(make(name.to_owned(), said(field)?, None, within));
+    }
+    all.push(make("Comment".to_owned(), TierRole::Comment, None, None));
+    Ok(all)
+}
+
+fn like(
+    connection: &Connection,
+    other: &RecordingRow,
+    recording: &RecordingRow,
+) -> Result<Vec<Wanted>> {
+    let tiers = rows::tiers(connection, other.id)?;
+    if tiers.is_empty() {
+        let wrong = format!("the recording {:?} has no tiers to be like", other.name);
+        return Err(Error::wrong(wrong).advise("name another, or take the usual tiers"));
+    }
+    let (from, to) = (signer(connection, other)?, signer(connection, recording)?);
+    let roots = tiers.iter().filter(|row| row.parent_id.is_none());
+    let parents_first = roots.flat_map(|row| family(&tiers, row));
+    let wanted = parents_first.map(|row| {
+        let above = tiers.iter().find(|it| Some(it.id) == row.parent_id);
+        let stereotype = row
+            .stereotype
+            .as_deref()
+            .and_then(Stereotype::from_elan_name);
+        let tier = NewTier {
+            parent: above.map(|it| it.name.clone()).zip(stereotype),
+            participant: if row.participant == from {
+                to.clone()
+            } else {
+                row.participant.clone()
+            },
+            language: row.language.clone(),
+            ..NewTier::new(Name::Number(recording.id), row.name.clone(), row.role())
+        };
+        (tier, Some(row.clone()))
+    });
+    Ok(wanted.collect())
+}
+
+fn signer(connection: &Connection, recording: &RecordingRow) -> Result<Option<String>> {
+    let Some(id) = recording.signer_id else {
+        return Ok(None);
+    };
+    Ok(recordings::signer(connection, id)?.map(|signer| signer.name))
+}
