@@ -4,7 +4,7 @@ mod common;
 
 use std::collections::BTreeMap;
 
-use chereme_corpus::{AnnotationColumns, Corpus};
+use chereme_corpus::{AnnotationColumns, Corpus, TierName};
 use common::{Window, click, has, idle, open_small, until};
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Role, pos2};
 use egui_kittest::kittest::Queryable;
@@ -140,6 +140,70 @@ fn a_gloss_is_made_on_a_dragged_selection_and_typed() {
     until(&mut window, "the undo", |it| !has(it, "Gloss: maison"));
     idle(&mut window);
     assert!(says(&window, "Gloss").is_empty());
+}
+
+/// Presses and lets go within one frame, as touchpads do.
+fn tap(window: &mut Window<'_>, at: Pos2) {
+    let button = |pressed| Event::PointerButton {
+        pos: at,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: NONE,
+    };
+    let events = [Event::PointerMoved(at), button(true), button(false)];
+    window.input_mut().events.extend(events);
+    window.step();
+}
+
+#[test]
+fn two_taps_on_the_selection_open_a_field_that_stays_open() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = emptied(folder.path());
+    let lane = rect(&window, "Lane of Gloss");
+    let at = |x: f32| pos2(lane.left() + lane.width() * x, lane.center().y);
+    drag(&mut window, at(0.2), at(0.4), NONE);
+    let before = operations(&window);
+    for _ in 0..2 {
+        tap(&mut window, at(0.3));
+    }
+    window.run_steps(3);
+    window.get_by_label("Value on Gloss").type_text("maison");
+    window.step();
+    tap(&mut window, at(0.8));
+    stored(&mut window, before);
+    assert_eq!(values(&window, "Gloss"), ["maison"]);
+}
+
+#[test]
+fn a_recording_without_tiers_gets_the_usual_ones() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = common::small_corpus(folder.path());
+    let mut corpus = Corpus::open(&path, "A").expect("opened");
+    let recording = corpus.overview(1).expect("read").recordings[0].row.id;
+    let contents = corpus.contents(recording).expect("read");
+    for tier in contents
+        .tiers
+        .iter()
+        .filter(|it| it.row.parent_id.is_none())
+    {
+        let tier = TierName::Number(tier.row.id);
+        corpus.remove_tier(&tier).expect("removed");
+    }
+    drop(corpus);
+    let mut window = common::window(chereme_studio::Options {
+        corpus: Some(path),
+        ..common::options(folder.path())
+    });
+    until(&mut window, "the offer", |it| {
+        has(it, "Add the usual tiers")
+    });
+    idle(&mut window);
+    click(&mut window, "Add the usual tiers");
+    until(&mut window, "the tiers", |it| has(it, "Tier Placement LH"));
+    press(&mut window, CTRL, Key::Z);
+    until(&mut window, "the offer", |it| {
+        has(it, "Add the usual tiers")
+    });
 }
 
 #[test]

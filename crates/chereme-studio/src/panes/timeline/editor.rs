@@ -240,6 +240,7 @@ fn field(
     step(editing, &fitting, up, down);
     let mut said = Said::Nothing;
     let mut turn = false;
+    let opened = editing.begun;
     let shown = area(ui, below).show(ui.ctx(), |ui| {
         eframe::egui::Frame::popup(ui.style()).show(ui, |ui| {
             ui.set_width(WIDTH);
@@ -278,7 +279,7 @@ fn field(
     if escape {
         return Said::Drop;
     }
-    if enter || tab || elsewhere(ui, shown.response.rect) {
+    if enter || tab || opened && elsewhere(ui, shown.response.rect) {
         return match choices.kept(&editing.text, editing.marked) {
             Some(value) => Said::Keep(value, tab),
             None => Said::Nothing,
@@ -298,7 +299,8 @@ fn pictures(
     if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
         return Said::Drop;
     }
-    if !std::mem::replace(&mut editing.pictured, true) {
+    let opened = std::mem::replace(&mut editing.pictured, true);
+    if !opened {
         timeline.picker = Picker::fresh();
     }
     let inventory = &stored.inventory;
@@ -322,7 +324,7 @@ fn pictures(
     if back {
         editing.turn_to_pictures();
     }
-    if matches!(said, Said::Nothing) && elsewhere(ui, shown.response.rect) {
+    if matches!(said, Said::Nothing) && opened && elsewhere(ui, shown.response.rect) {
         return match choices.kept(&editing.text, None) {
             Some(value) => Said::Keep(value, false),
             None => Said::Nothing,
@@ -339,7 +341,8 @@ fn area(ui: &Ui, below: Rect) -> Area {
         .constrain_to(ui.ctx().content_rect())
 }
 
-/// Returns whether the mouse was pressed outside.
+/// Returns whether the mouse was pressed outside. The tap that opened the field may begin and end within the
+/// field's first frame, so only later ones count.
 fn elsewhere(ui: &Ui, rect: Rect) -> bool {
     ui.input(|input| {
         let at = input.pointer.interact_pos();
