@@ -1,14 +1,17 @@
 //! The menu bar above, and the status line below.
 
-use eframe::egui::{Button, MenuBar, ProgressBar, Ui};
+use eframe::egui::{Align, Button, Layout, MenuBar, ProgressBar, Ui};
 
-use crate::action::{ACTIONS, Context, Menu};
+use crate::action::{ACTIONS, Action, Context, Menu};
 use crate::app::Studio;
 use crate::command::Command;
 use crate::panes::timeline::bar;
 use crate::words::{fill, shell as words};
 use crate::work::Lane;
 use crate::work::begin::Begin;
+
+/// The room that the three layouts want beside the menus.
+const LAYOUTS: f32 = 280.0;
 
 impl Studio {
     pub(crate) fn menus(&mut self, ui: &mut Ui) {
@@ -22,7 +25,28 @@ impl Studio {
                     }
                 });
             }
+            if self.snapshot.is_some() && ui.available_width() > LAYOUTS {
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| self.layouts(ui));
+            }
         });
+    }
+
+    /// Shows what one can be busy with, from right to left.
+    fn layouts(&mut self, ui: &mut Ui) {
+        let language = self.settings.language;
+        for (action, text) in [
+            (Action::LayoutRecombine, words::RECOMBINING),
+            (Action::LayoutSearch, words::SEARCHING),
+            (Action::LayoutAnnotate, words::ANNOTATING),
+        ] {
+            let button = ui.button(text.of(language)).on_hover_ui(|ui| {
+                ui.label(action.row().name.of(language));
+                ui.weak(self.keys.text(action));
+            });
+            if button.clicked() {
+                self.out.send(Command::Do(action));
+            }
+        }
     }
 
     fn menu(&mut self, ui: &mut Ui, menu: Menu) {

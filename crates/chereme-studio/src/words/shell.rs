@@ -43,6 +43,9 @@ texts! {
     REMEDY: "What helps: {remedy}", "Ce qui aide : {remedy}";
     NOTHING_OPEN: "No corpus is open.", "Aucun corpus n’est ouvert.";
     STATUS_COUNTS: "Recordings: {recordings} · Signs: {signs}", "Enregistrements : {recordings} · Signes : {signs}";
+    ANNOTATING: "Annotating", "Annoter";
+    SEARCHING: "Searching", "Rechercher";
+    RECOMBINING: "Recombining", "Recombiner";
     STATUS_MODE: "Mode: {mode}", "Mode : {mode}";
     NOTICE_STORED: "{gloss} is stored.", "{gloss} est enregistré.";
     NOTICE_UNDONE: "Undone: {what}", "Annulé : {what}";
