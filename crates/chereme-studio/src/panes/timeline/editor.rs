@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use chereme_corpus::{StoredInventory, TierContents};
 use eframe::egui::{
-    Align, Area, Button, Id, Key, Layout, Modifiers, Order, Pos2, Rect, Response, Role, ScrollArea,
-    TextEdit, Ui, WidgetInfo, text::CCursor, text::CCursorRange, vec2,
+    Align, Align2, Area, Button, Id, Key, Layout, Modifiers, Order, Rect, Response, Role,
+    ScrollArea, TextEdit, Ui, WidgetInfo, text::CCursor, text::CCursorRange, vec2,
 };
 use serde::{Deserialize, Serialize};
 
@@ -20,6 +20,8 @@ use crate::words::{Text, fill, timeline as words};
 
 const WIDTH: f32 = 260.0;
 const LIST: f32 = 196.0;
+/// The height that the field with its list wants.
+const ROOM: f32 = 260.0;
 
 /// What a value is typed for.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -333,12 +335,20 @@ fn pictures(
     said
 }
 
-/// Returns where the field lies.
+/// Returns where the field lies: below the annotation, or above where there is more room.
 fn area(ui: &Ui, below: Rect) -> Area {
-    Area::new(Id::unique("timeline value"))
+    let screen = ui.ctx().content_rect();
+    let (under, over) = (screen.bottom() - below.bottom(), below.top() - screen.top());
+    let (corner, at) = if under < ROOM && over > under {
+        (Align2::LEFT_BOTTOM, below.left_top() - vec2(0.0, 2.0))
+    } else {
+        (Align2::LEFT_TOP, below.left_bottom() + vec2(0.0, 2.0))
+    };
+    Area::new(Id::unique("timeline value").with(corner.0))
         .order(Order::Foreground)
-        .fixed_pos(Pos2::new(below.left(), below.bottom() + 2.0))
-        .constrain_to(ui.ctx().content_rect())
+        .pivot(corner)
+        .fixed_pos(at)
+        .constrain_to(screen)
 }
 
 /// Returns whether the mouse was pressed outside. The tap that opened the field may begin and end within the
@@ -452,11 +462,13 @@ fn list(
                 Some(name) => format!("{}  {name}", choice.value),
                 None => choice.value.clone(),
             };
-            let row = ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            let size = vec2(ui.available_width(), height);
+            let layout = Layout::left_to_right(Align::Center);
+            let row = ui.allocate_ui_with_layout(size, layout, |ui| {
                 let button = Button::selectable(marked == Some(*at), text)
                     .shortcut_text(digit)
                     .truncate()
-                    .min_size(vec2(ui.available_width(), height));
+                    .min_size(size);
                 ui.add(button)
             });
             let label = fill(scene.seen.say(words::VALUE), &[("value", &choice.value)]);
