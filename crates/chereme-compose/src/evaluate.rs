@@ -93,13 +93,14 @@ fn carry(step: &Step, handedness: Handedness) -> Option<Carry> {
 struct Done {
     did: Vec<String>,
     residual: Option<f64>,
+    moved: Option<[f64; 3]>,
 }
 
 impl From<Vec<String>> for Done {
     fn from(did: Vec<String>) -> Self {
         Self {
             did,
-            residual: None,
+            ..Self::default()
         }
     }
 }
@@ -109,6 +110,7 @@ impl From<(Vec<String>, f64)> for Done {
         Self {
             did,
             residual: Some(residual),
+            moved: None,
         }
     }
 }
@@ -205,6 +207,7 @@ impl Evaluator<'_> {
             step,
             did: done.did,
             residual: done.residual,
+            moved: done.moved,
         });
     }
 
@@ -290,7 +293,11 @@ impl Evaluator<'_> {
             Step::Configure(settings) => self.configure(work, settings, path, text)?.into(),
             Step::Place(settings) => {
                 let input = self.place(format!("{path}/place/to"));
-                ops::place::place(work, settings, input, text)?.into()
+                let (did, residual, moved) = ops::place::place(work, settings, input, text)?;
+                Done {
+                    moved: Some(moved.to_array()),
+                    ..(did, residual).into()
+                }
             }
             Step::Reverse => ops::reverse::reverse(work).into(),
             Step::Swap => ops::mirror::swap(work)?.into(),

@@ -89,6 +89,9 @@ pub struct StepReport {
     pub did: Vec<String>,
     /// The largest distance in metres between where a wrist should have come and where it came.
     pub residual: Option<f64>,
+    /// The way by which a placement moved the hands: metres to the signer's left, up and forward.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved: Option<[f64; 3]>,
 }
 
 /// Where the movement of a channel comes from.

@@ -1,5 +1,7 @@
 //! New signs from stored ones: a recipe evaluated, and stored with its movement, tiers and origin.
 
+mod again;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -9,7 +11,7 @@ use chereme_formats::bvh::raw::{Column, Hierarchy};
 use chereme_motion::anatomy::Anatomy;
 use chereme_motion::{Clip, Convention, Side};
 use chereme_sign::inventory;
-use chereme_sign::{Component, Field, Reading};
+use chereme_sign::{Component, Field, Handedness, Reading};
 use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::json;
@@ -57,6 +59,9 @@ pub struct Recombination {
     /// Which joint of it is what.
     #[serde(skip)]
     pub anatomy: std::sync::Arc<Anatomy>,
+    /// Which hand the signer signs with.
+    #[serde(skip)]
+    pub handedness: Handedness,
 }
 
 impl Corpus {
@@ -170,6 +175,7 @@ fn recombination(recipe: &Recipe, gloss: String, made: Made) -> Recombination {
         report: made.report,
         clip: made.clip,
         anatomy: made.anatomy,
+        handedness: made.handedness,
     }
 }
 
@@ -183,10 +189,7 @@ fn store(
     if made.clip.frames() == 0 {
         return Err(Error::wrong("the recipe makes no movement at all"));
     }
-    let signer_id = match made.signer.as_deref().map(str::parse) {
-        Some(Ok(Address::Signer(name))) => Some(address::signer(connection, &name)?.id),
-        _ => None,
-    };
+    let signer_id = signer_of(connection, made)?;
     let name = recordings::free_name(connection, gloss)?;
     let recording = recordings::insert_recording(
         connection,
@@ -212,6 +215,14 @@ fn store(
         .ok_or_else(|| Error::wrong("the new sign got no token"))?
         .id;
     Ok((recording, token, name))
+}
+
+/// The signer whose body moves, where one is known.
+fn signer_of(connection: &Connection, made: &Made) -> Result<Option<i64>> {
+    Ok(match made.signer.as_deref().map(str::parse) {
+        Some(Ok(Address::Signer(name))) => Some(address::signer(connection, &name)?.id),
+        _ => None,
+    })
 }
 
 /// The hierarchy and unit of the source whose skeleton moves, so that the new sign is written as it is.
@@ -331,20 +342,42 @@ fn store_tiers(
         ..AnnotationRow::default()
     };
     tiers::insert_annotation(connection, &row)?;
+    store_notes(connection, recording, made, inventories)
+}
+
+/// Writes what was told of made movement below the tiers that are there; one of the same name is
+/// used again, and what it says already stays.
+fn store_notes(
+    connection: &Connection,
+    recording: i64,
+    made: &Made,
+    inventories: &[StoredInventory],
+) -> Result<()> {
+    let whole = made.clip.span();
     let mut by_tier: BTreeMap<String, Vec<&Note>> = BTreeMap::new();
     for note in &made.notes {
         by_tier.entry(tier_name(note)).or_default().push(note);
     }
+    let standing = tiers::tiers(connection, recording)?;
+    let next = 1 + standing.iter().map(|it| it.position).max().unwrap_or(-1);
     for (position, (name, notes)) in by_tier.into_iter().enumerate() {
-        let tier = note_tier(recording, &name, position as i64 + 1, notes[0], inventories);
-        let tier = tiers::insert_tier(connection, &tier)?;
+        let (tier, said) = match standing.iter().find(|it| it.name == name) {
+            Some(tier) => (tier.id, tiers::annotations(connection, tier.id)?),
+            None => {
+                let place = next + position as i64;
+                let tier = note_tier(recording, &name, place, notes[0], inventories);
+                (tiers::insert_tier(connection, &tier)?, Vec::new())
+            }
+        };
+        let taken =
+            |start: i64, end: i64| said.iter().any(|it| it.start_us < end && it.end_us > start);
         let mut free_from = whole.start();
         for note in notes {
             let (start, end) = (
                 note.span.start().max(free_from),
                 note.span.end().min(whole.end()),
             );
-            if start >= end {
+            if start >= end || taken(start.micros(), end.micros()) {
                 continue;
             }
             free_from = end;
@@ -433,32 +466,49 @@ fn store_recipe(
     resolved: &Resolved,
     made: &Made,
 ) -> Result<()> {
+    let row = recipe_row(recording, recipe, resolved, made)?;
+    let id = recipes::insert(connection, &row)?;
+    store_inputs(connection, id, resolved)
+}
+
+fn recipe_row(
+    recording: i64,
+    recipe: &Recipe,
+    resolved: &Resolved,
+    made: &Made,
+) -> Result<RecipeRow> {
     let fault = |error: serde_json::Error| Error::wrong(error.to_string());
     let document = json!({
         "recipe": serde_json::to_value(recipe).map_err(fault)?,
         "inputs": serde_json::to_value(resolved.inputs()).map_err(fault)?,
     });
-    let row = RecipeRow {
+    Ok(RecipeRow {
         id: 0,
         recording_id: recording,
         text: recipe.to_string(),
         document: document.to_string(),
         report: serde_json::to_string(&made.report).map_err(fault)?,
         engine: env!("CARGO_PKG_VERSION").to_owned(),
-    };
-    let id = recipes::insert(connection, &row)?;
+    })
+}
+
+fn store_inputs(connection: &Connection, recipe: i64, resolved: &Resolved) -> Result<()> {
     for input in resolved.inputs().0.values() {
         let Input::Material(material) = input else {
             continue;
         };
         let (address, hash) = (&material.address, &material.hash);
-        let parsed: Address = address.parse()?;
-        let (source, token) = match parsed {
-            Address::Token(token) => (signs::token(connection, token)?.recording_id, Some(token)),
-            Address::Recording(Name::Number(recording)) => (Some(recording), None),
-            _ => (None, None),
-        };
-        recipes::insert_input(connection, id, address, source, token, hash)?;
+        let (source, token) = source_rows(connection, address)?;
+        recipes::insert_input(connection, recipe, address, source, token, hash)?;
     }
     Ok(())
+}
+
+/// The recording and the token that an input's address means.
+fn source_rows(connection: &Connection, address: &str) -> Result<(Option<i64>, Option<i64>)> {
+    Ok(match address.parse()? {
+        Address::Token(token) => (signs::token(connection, token)?.recording_id, Some(token)),
+        Address::Recording(Name::Number(recording)) => (Some(recording), None),
+        _ => (None, None),
+    })
 }

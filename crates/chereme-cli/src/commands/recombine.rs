@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use chereme_corpus::{PictureOptions, Progress, Recombination, draw_clip};
+use chereme_corpus::{Address, PictureOptions, Progress, Recombination, draw_clip};
 use serde_json::json;
 
 use crate::args::Cli;
@@ -24,6 +24,10 @@ pub(crate) struct Args {
     /// The gloss of the new sign; without it nothing is stored
     #[arg(long = "as", value_name = "GLOSS")]
     gloss: Option<String>,
+    /// Put it in the place of a sign that was made before, which keeps its gloss, its token and what
+    /// people wrote on its tiers
+    #[arg(long, value_name = "SIGN", conflicts_with = "gloss")]
+    replace: Option<Address>,
     /// Show how the sign comes about: the steps, where each channel comes from, joins and residuals
     #[arg(long)]
     explain: bool,
@@ -34,9 +38,10 @@ pub(crate) struct Args {
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
-    let done = match &args.gloss {
-        Some(gloss) => corpus.recombine(&args.recipe, gloss)?,
-        None => corpus.preview(&args.recipe)?,
+    let done = match (&args.replace, &args.gloss) {
+        (Some(sign), _) => corpus.recombine_again(sign, &args.recipe)?,
+        (None, Some(gloss)) => corpus.recombine(&args.recipe, gloss)?,
+        (None, None) => corpus.preview(&args.recipe)?,
     };
     tell(&done, args.explain, args.draw.as_deref(), output)
 }

@@ -217,6 +217,7 @@ fn report(
                 .flatten()
                 .map(|fit| fit.residual)
                 .reduce(f64::max),
+            moved: None,
         });
     }
     let moved = |side: Side| {

@@ -12,13 +12,13 @@ use crate::recipe::{Goal, HandPoint, Place, Solver};
 use crate::resolve::PlaceInput;
 use crate::work::{Columns, Group, Work};
 
-/// Moves the hands; returns what was done and the residual.
+/// Moves the hands; returns what was done, the residual, and the way in body space, in metres.
 pub(crate) fn place(
     work: &mut Work,
     settings: &Place,
     input: Option<&PlaceInput>,
     operator: &str,
-) -> Result<(Vec<String>, f64), Cause> {
+) -> Result<(Vec<String>, f64, DVec3), Cause> {
     let sides = settings.hand.sides(work.handedness);
     let frame = frame(work, sides)?;
     let by = match &settings.to {
@@ -52,16 +52,17 @@ pub(crate) fn place(
     if by != DVec3::ZERO {
         work.changed(sides.iter().map(|&side| Group::Arm(side)), operator);
     }
-    let body = frame.to_body(by) * 100.0;
+    let moved = frame.to_body(by);
+    let cm = moved * 100.0;
     let mut did = vec![format!(
         "moved by {:.1} cm left, {:.1} cm up, {:.1} cm forward",
-        body.x, body.y, body.z
+        cm.x, cm.y, cm.z
     )];
     if let Some(input) = input {
         did.push(format!("the place is from {}", input.from));
     }
     did.extend(told(&reach));
-    Ok((did, reach.residual))
+    Ok((did, reach.residual, moved))
 }
 
 fn spatial(work: &Work, frame: &Frame, input: &PlaceInput, side: Side) -> Result<DVec3, Cause> {

@@ -39,6 +39,53 @@ pub(crate) fn insert(connection: &Connection, row: &RecipeRow) -> Result<i64> {
     Ok(connection.last_insert_rowid())
 }
 
+/// Writes how a recording was made anew, and forgets what it was made from.
+pub(crate) fn update(connection: &Connection, row: &RecipeRow) -> Result<()> {
+    connection
+        .prepare_cached(
+            "UPDATE recipe SET text = ?2, document = ?3, report = ?4, engine = ?5 WHERE id = ?1",
+        )?
+        .execute(params![
+            row.id,
+            row.text,
+            row.document,
+            row.report,
+            row.engine
+        ])?;
+    connection
+        .prepare_cached("DELETE FROM recipe_input WHERE recipe_id = ?1")?
+        .execute([row.id])?;
+    Ok(())
+}
+
+/// Returns the recordings that a recipe takes movement from.
+pub(crate) fn input_recordings(connection: &Connection, recipe: i64) -> Result<Vec<i64>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT DISTINCT recording_id FROM recipe_input
+         WHERE recipe_id = ?1 AND recording_id IS NOT NULL ORDER BY recording_id",
+    )?;
+    let rows = statement
+        .query_map([recipe], |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Returns the recordings, by row and name, that take movement from a recording.
+pub(crate) fn made_from_recording(
+    connection: &Connection,
+    recording: i64,
+) -> Result<Vec<(i64, String)>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT DISTINCT r.id, r.name FROM recipe_input i
+         JOIN recipe p ON p.id = i.recipe_id JOIN recording r ON r.id = p.recording_id
+         WHERE i.recording_id = ?1 ORDER BY r.id",
+    )?;
+    let rows = statement
+        .query_map([recording], |row| Ok((row.get(0)?, row.get(1)?)))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
 /// Writes down one of the things that a recipe was made from.
 pub(crate) fn insert_input(
     connection: &Connection,

@@ -366,6 +366,25 @@ pub(crate) fn insert_motion_track(connection: &Connection, row: &MotionTrackRow)
     Ok(connection.last_insert_rowid())
 }
 
+/// Takes a recording's movement away, says how long and whose what comes instead is; the blocks stay.
+pub(crate) fn clear_motion(
+    connection: &Connection,
+    recording: i64,
+    (duration_us, signer): (i64, Option<i64>),
+) -> Result<()> {
+    for sql in [
+        "DELETE FROM track_block WHERE track_id IN
+             (SELECT id FROM track WHERE recording_id = ?1 AND kind = 'skeleton')",
+        "DELETE FROM track WHERE recording_id = ?1 AND kind = 'skeleton'",
+    ] {
+        connection.prepare_cached(sql)?.execute([recording])?;
+    }
+    connection
+        .prepare_cached("UPDATE recording SET duration_us = ?2, signer_id = ?3 WHERE id = ?1")?
+        .execute(params![recording, duration_us, signer])?;
+    Ok(())
+}
+
 /// Writes down how many frames a track has.
 pub(crate) fn set_frames(connection: &Connection, track: i64, frames: i64) -> Result<()> {
     connection

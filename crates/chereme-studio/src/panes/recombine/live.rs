@@ -162,6 +162,7 @@ mod tests {
             step: String::new(),
             did: vec![did.into()],
             residual,
+            moved: None,
         };
         let report = Report {
             steps: vec![
