@@ -187,6 +187,14 @@ const CASES: &[Case] = &[
         0,
         &["/recipe", "/report/steps"],
     ),
+    (
+        "recombine @c 'BOL | reverse | repeat 2' --replace LOB",
+        0,
+        &["/recipe", "/gloss", "/token", "/recording", "/report"],
+    ),
+    ("recombine @c 'LOB | reverse' --replace LOB", 1, ERROR),
+    ("recombine @c 'BOL | reverse' --replace BOL", 1, ERROR),
+    ("recombine @c BOL --replace LOB --as LOB", 2, ERROR),
     ("recombine @c 'BOLL | reverse' --as LOB", 1, ERROR),
     ("recombine @c 'BOL | dance' --as LOB", 1, ERROR),
     (

@@ -78,7 +78,7 @@ pub use notation::{Notation, read_notation};
 pub use paths::paths_like;
 pub use picture::{Moving, Picture, PictureOptions, built_in_body, draw_clip};
 pub use progress::{Progress, Step, Unit, unheard};
-pub use recombine::Recombination;
+pub use recombine::{MadePart, Recombination};
 pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions};
 pub use starter::{starter_files, unpack_starter};
 pub use suggest::{Partner, Suggestions};

@@ -1,6 +1,7 @@
 //! New signs from stored ones: a recipe evaluated, and stored with its movement, tiers and origin.
 
 mod again;
+mod parts;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -29,6 +30,8 @@ use crate::inventories::{self, StoredInventory};
 use crate::movement::{self, BLOCK_FRAMES, Track};
 use crate::sources::CorpusSources;
 use crate::tokens;
+
+pub use parts::MadePart;
 
 /// Decimals of the numbers of made movement: a millionth of a degree, or of the file's unit.
 const DECIMALS: u8 = 6;
@@ -62,6 +65,9 @@ pub struct Recombination {
     /// Which hand the signer signs with.
     #[serde(skip)]
     pub handedness: Handedness,
+    /// The pieces that it was made from, in their order, with their time in it.
+    #[serde(skip)]
+    pub parts: Vec<MadePart>,
 }
 
 impl Corpus {
@@ -176,6 +182,7 @@ fn recombination(recipe: &Recipe, gloss: String, made: Made) -> Recombination {
         clip: made.clip,
         anatomy: made.anatomy,
         handedness: made.handedness,
+        parts: parts::of(&made.notes),
     }
 }
 

@@ -72,6 +72,21 @@ impl Projection {
         }
     }
 
+    /// Returns where the line of sight through a place of the picture begins and which way it goes,
+    /// not of length 1.
+    #[must_use]
+    pub fn ray(&self, x: f32, y: f32) -> (Vec3, Vec3) {
+        let [right, up, forward] = self.axes;
+        let across = right * (x - self.centre[0]) - up * (y - self.centre[1]);
+        (self.eye, forward + across / self.scale)
+    }
+
+    /// Returns the way in which the eye looks, of length 1.
+    #[must_use]
+    pub fn sight(&self) -> Vec3 {
+        self.axes[2]
+    }
+
     /// Returns `direction` as the picture's right, up and towards the eye.
     #[must_use]
     pub fn turned(&self, direction: Vec3) -> Vec3 {

@@ -122,6 +122,10 @@ impl Studio {
         self.take_keys(&ctx);
         self.panes.timeline.next_frame();
         self.take_dropped(&ctx);
+        // What could answer a drag has to be drawn.
+        if self.shown.handle.is_some() && !layout::shows(&self.tree, PaneKind::Recombine) {
+            self.shown.handle = None;
+        }
         self.bars(ui);
         if self.desk.is_some() {
             self.workbench(ui);
@@ -266,6 +270,7 @@ impl Studio {
                 pane: self.pane,
                 typing: ctx.text_edit_focused() || self.panes.timeline.is_typing(),
                 focused: ctx.memory(|memory| memory.focused().is_some()),
+                held: self.panes.stage.is_held(ctx),
             };
             let Some(action) = ctx.input_mut(|input| self.keys.take(input, place)) else {
                 return;

@@ -4,12 +4,15 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use chereme_corpus::recipe::Goal;
 use chereme_motion::{Instant, Span};
 
 use crate::action::Action;
 use crate::choose::Choose;
+use crate::model::handle::Handle;
 use crate::model::made::Made;
 use crate::panes::inspector::Thing;
+use crate::panes::stage::StageWays;
 use crate::settings::{Searches, Settings};
 use crate::words::Text;
 use crate::work::begin::Begin;
@@ -51,10 +54,14 @@ pub(crate) enum Command {
     /// Show movement that lies in no recording on the stage, in a loop; nothing goes back to the
     /// recording, as does whatever shows or moves in one.
     Made(Option<Arc<Made>>),
+    /// A placement that can be dragged on the stage, or that there is none any more:
+    /// [`Shown::handle`](crate::context::Shown::handle).
+    Handle(Option<Handle>),
+    /// The placement of that card was dragged there.
+    Placed(u64, Goal),
     /// Have these files and folders taken in: opens the import with them.
     Import(Vec<PathBuf>),
     /// Show all that is known of something in the inspector.
-    #[allow(dead_code, reason = "for whoever shows signs, tokens, signers")]
     Inspect(Thing),
     /// Find what this query asks for.
     Find(String),
@@ -62,6 +69,8 @@ pub(crate) enum Command {
     Recipe(String, Option<String>),
     /// Change which queries are kept and remembered.
     Searches(Searches),
+    /// Change what is remembered of the stage.
+    Stage(Box<StageWays>),
     /// Change what is remembered.
     Settings(Box<Settings>),
     /// Say something that goes away by itself.

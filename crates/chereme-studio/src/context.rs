@@ -9,6 +9,7 @@ use crate::command::Command;
 use crate::keys::Keys;
 use crate::little::Figures;
 use crate::model::Snapshot;
+use crate::model::handle::Handle;
 use crate::model::made::Made;
 use crate::model::reel::Reel;
 use crate::player::Player;
@@ -33,6 +34,8 @@ pub(crate) struct Shown {
     pub(crate) player: Player,
     /// The placement value that was last clicked on a body.
     pub(crate) spot: Option<String>,
+    /// The placement of the open recipe that can be dragged on the stage.
+    pub(crate) handle: Option<Handle>,
     /// Movement that lies in no recording and is shown instead, with a playhead of its own.
     pub(crate) made: Option<Showing>,
 }

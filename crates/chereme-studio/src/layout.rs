@@ -87,6 +87,12 @@ pub(crate) fn remembered(tree: Option<&Tree<PaneKind>>) -> Tree<PaneKind> {
     tree.filter(whole).cloned().unwrap_or_else(usual)
 }
 
+/// Returns whether a pane is in sight, and not behind another.
+pub(crate) fn shows(tree: &Tree<PaneKind>, kind: PaneKind) -> bool {
+    let tile = tree.tiles.find_pane(&kind);
+    tile.is_some_and(|tile| tree.active_tiles().contains(&tile))
+}
+
 /// Brings a pane to the front of its tabs.
 pub(crate) fn bring(tree: &mut Tree<PaneKind>, kind: PaneKind) {
     if let Some(tile) = tree.tiles.find_pane(&kind) {
@@ -118,7 +124,8 @@ mod tests {
     fn a_pane_behind_others_is_brought_to_the_front() {
         let mut tree = usual();
         let history = tree.tiles.find_pane(&PaneKind::History).expect("a history");
+        assert!(!shows(&tree, PaneKind::History));
         bring(&mut tree, PaneKind::History);
-        assert!(tree.active_tiles().contains(&history));
+        assert!(tree.active_tiles().contains(&history) && shows(&tree, PaneKind::History));
     }
 }

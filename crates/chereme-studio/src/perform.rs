@@ -95,13 +95,16 @@ impl Studio {
             Command::Spot(spot) => self.shown.spot = spot,
             Command::Speed(speed) => self.shown.on_stage_mut().speed = speed,
             Command::Made(made) => self.show_made(made),
+            Command::Handle(handle) => self.shown.handle = handle,
+            Command::Placed(card, goal) => self.panes.recombine.place(card, goal),
             Command::Import(paths) => {
                 self.panes.import.propose(&paths);
                 self.bring(PaneKind::Import);
             }
             Command::Inspect(thing) => {
+                // It shows itself, and what is typed goes on to where it went.
                 self.panes.inspector.turn_to(thing);
-                self.bring(PaneKind::Inspector);
+                layout::bring(&mut self.tree, PaneKind::Inspector);
             }
             Command::Find(query) => {
                 let mut out = std::mem::take(&mut self.out);
@@ -114,6 +117,7 @@ impl Studio {
                 self.bring(PaneKind::Recombine);
             }
             Command::Searches(searches) => self.settings.searches = searches,
+            Command::Stage(ways) => self.settings.stage = *ways,
             Command::Settings(settings) => {
                 self.settings = *settings;
                 self.keys = Keys::new(self.settings.keymap, &self.settings.keys);
@@ -135,8 +139,7 @@ impl Studio {
             return;
         }
         match action {
-            Action::Undo => drop(self.out.work(Work::Undo)),
-            Action::Redo => drop(self.out.work(Work::Redo)),
+            Action::Undo | Action::Redo => self.walk_one(action == Action::Undo),
             Action::ClearSelection => {
                 self.shown.span = None;
                 self.shown.annotations.clear();
@@ -149,6 +152,20 @@ impl Studio {
             }
             other => self.act_in_panes(other, ctx),
         }
+    }
+
+    /// Takes one step back or forward: of the recipe where that was changed last and is in sight,
+    /// else of the corpus.
+    fn walk_one(&mut self, back: bool) {
+        let snapshot = self.snapshot.as_ref();
+        let operations = snapshot.map_or(&[][..], |it| &it.overview.operations);
+        if layout::shows(&self.tree, PaneKind::Recombine)
+            && self.panes.recombine.walk(back, operations)
+        {
+            return;
+        }
+        let work = if back { Work::Undo } else { Work::Redo };
+        self.out.work(work);
     }
 
     /// Offers an action to the panes; the first that knows it does it.
@@ -361,8 +378,12 @@ impl Studio {
         }
         let glance = self.shown.recording.and_then(|id| snapshot.recording(id));
         self.reel.load(glance);
-        if glance.is_none() {
-            self.shown = Shown::default();
+        match glance {
+            None => self.shown = Shown::default(),
+            Some(glance) => {
+                let end = Instant::from_micros(glance.row.duration_us);
+                self.shown.player.fit(Span::between(Instant::ZERO, end));
+            }
         }
         if let Some(open) = &snapshot.open {
             let tiers = &open.contents.tiers;

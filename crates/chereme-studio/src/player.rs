@@ -44,6 +44,15 @@ impl Player {
         self.direction = 0.0;
     }
 
+    /// Goes on with what became longer or shorter.
+    pub(crate) fn fit(&mut self, whole: Span) {
+        if whole != self.whole {
+            self.whole = whole;
+            self.part = self.part.and_then(|part| part.intersection(whole));
+            self.at = self.clamped(self.at);
+        }
+    }
+
     /// Returns where the playhead is.
     pub(crate) fn playhead(&self) -> Instant {
         Instant::from_micros(self.at as i64)

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::keys::{Keymap, Rebound};
 use crate::panes::PaneKind;
+use crate::panes::stage::StageWays;
 use crate::panes::timeline::Ways;
 use crate::words::Language;
 
@@ -46,6 +47,8 @@ pub(crate) struct Settings {
     pub(crate) layout: Option<Tree<PaneKind>>,
     /// How the timeline works and what it shows.
     pub(crate) timeline: Ways,
+    /// How the stage is looked at.
+    pub(crate) stage: StageWays,
 }
 
 /// How many queries are remembered.
@@ -120,6 +123,7 @@ impl Default for Settings {
             searches: Searches::default(),
             layout: None,
             timeline: Ways::default(),
+            stage: StageWays::default(),
         }
     }
 }

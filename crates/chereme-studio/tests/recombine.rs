@@ -9,7 +9,7 @@ use chereme_corpus::{
 use chereme_studio::{Folders, Language, Options, Studio};
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 
 type Window<'a> = Harness<'a, Studio>;
 
@@ -206,6 +206,111 @@ fn a_stored_recipe_is_opened_again_changed_and_stored_as_another() {
             .count(),
         2
     );
+}
+
+#[test]
+fn a_changed_recipe_takes_the_place_of_the_sign_it_was_and_undo_brings_that_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open(folder.path());
+    let path = window.state().corpus().expect("open").clone();
+    let mut other = Corpus::open(&path, "B").expect("opened");
+    other
+        .recombine("ESCARGOT | configure right U", "LIMACE")
+        .expect("made");
+    until(&mut window, "the made sign", |window| has(window, "LIMACE"));
+    show(&mut window, "LIMACE");
+    until(&mut window, "the inspector", |window| {
+        has(window, "Open in Recombine")
+    });
+    press(&mut window, "Open in Recombine");
+    idle(&mut window);
+    let is_enabled = |window: &Window<'_>| {
+        let node = window.get_by_label("Replace LIMACE");
+        !node.accesskit_node().is_disabled()
+    };
+    assert!(!is_enabled(&window), "nothing was changed yet");
+    click(&mut window, "Change…");
+    window.get_by_label_contains("Repeat").click();
+    window.run_steps(3);
+    idle(&mut window);
+    assert!(is_enabled(&window));
+    let length = |window: &Window<'_>| {
+        let path = window.state().corpus().expect("open");
+        let overview = Corpus::open(path, "B").expect("opened").overview(1);
+        let all = overview.expect("read").recordings;
+        let made = all.iter().find(|it| it.row.name == "LIMACE");
+        made.expect("there").row.duration_us
+    };
+    let before = length(&window);
+    click(&mut window, "Replace LIMACE");
+    until(&mut window, "the new form", |window| has(window, "Show it"));
+    idle(&mut window);
+    assert_eq!(recordings(&window), ["escargot", "LIMACE"]);
+    assert!(length(&window) > before);
+    press(&mut window, "Card: Repeat");
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    idle(&mut window);
+    assert_eq!(length(&window), before);
+    // What was done to the recipe before that is taken back next.
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(recipe_of_stored(&window), "ESCARGOT | configure right U");
+}
+
+#[test]
+fn a_placed_hand_is_moved_on_the_stage_by_keys_and_by_dragging() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open(folder.path());
+    key(&mut window, Modifiers::COMMAND, Key::R);
+    type_into(&mut window, "Recipe", "ESCARGOT | place right by up 10cm");
+    idle(&mut window);
+    assert!(!has(&window, "Move: right hand"), "no card is chosen");
+    press(&mut window, "Card: Place");
+    idle(&mut window);
+    let value = |window: &Window<'_>| {
+        let node = window.get_by_label("Move: right hand");
+        node.value().unwrap_or_default()
+    };
+    assert_eq!(value(&window), "left 0.0 · up 10.0 · forward 0.0 cm");
+    window.get_by_label("Move: right hand").focus();
+    window.run_steps(2);
+    key(&mut window, Modifiers::NONE, Key::ArrowDown);
+    key(&mut window, Modifiers::SHIFT, Key::ArrowRight);
+    key(&mut window, Modifiers::NONE, Key::PageDown);
+    idle(&mut window);
+    assert_eq!(
+        recipe_of(&window),
+        "ESCARGOT | place right by left 5cm up 9cm forward 1cm"
+    );
+    assert_eq!(value(&window), "left 5.0 · up 9.0 · forward 1.0 cm");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(recipe_of(&window), "ESCARGOT | place right by up 10cm");
+    idle(&mut window);
+
+    let from = window.get_by_label("Move: right hand").rect().center();
+    let to = from + eframe::egui::vec2(-30.0, -40.0);
+    window.drag_at(from);
+    window.run_steps(2);
+    for share in [0.3, 0.6, 1.0] {
+        window.hover_at(from + (to - from) * share);
+        window.run_steps(2);
+    }
+    let dragged = recipe_of(&window);
+    assert!(
+        dragged.starts_with("ESCARGOT | place right by right "),
+        "{dragged}"
+    );
+    window.drop_at(to);
+    window.run_steps(3);
+    idle(&mut window);
+    assert_eq!(recipe_of(&window), dragged);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(
+        recipe_of(&window),
+        "ESCARGOT | place right by up 10cm",
+        "a drag is one step"
+    );
+    key(&mut window, Modifiers::COMMAND, Key::Y);
+    assert_eq!(recipe_of(&window), dragged);
 }
 
 fn recipe_of_stored(window: &Window<'_>) -> String {

@@ -71,7 +71,13 @@ fn trails_ghosts_grid_and_places_are_shown_and_put_away() {
     // Zones lie close together from the front: the pointer would be over its neighbour as well.
     window.get_by_label("chin").click_accesskit();
     window.run_steps(3);
-    assert!(is_on(&window, "chin"));
+    // The inspector tells of it too.
+    let all: Vec<_> = window.query_all_by_label("chin").collect();
+    assert_eq!(all.len(), 2);
+    let chosen = all
+        .iter()
+        .filter(|node| node.accesskit_node().is_selected() == Some(true));
+    assert_eq!(chosen.count(), 1);
 }
 
 #[test]
@@ -92,6 +98,50 @@ fn the_bar_moves_the_playhead_by_mouse_and_by_keys() {
     assert!(!is_on(&window, "Loop"));
     click(&mut window, "Loop");
     assert!(is_on(&window, "Loop"));
+}
+
+#[test]
+fn the_stage_is_looked_at_as_it_was_when_the_window_is_opened_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    let path = window.state().corpus().expect("open").clone();
+    click(&mut window, "Two views");
+    click(&mut window, "Grid");
+    window.run_steps(3);
+    drop(window);
+    let options = chereme_studio::Options {
+        corpus: Some(path),
+        ..common::options(folder.path())
+    };
+    let mut window = common::window(options);
+    until(&mut window, "the corpus", |window| has(window, "escargot"));
+    idle(&mut window);
+    assert_eq!(pictures(&window).len(), 2);
+    assert!(is_on(&window, "Grid") && !is_on(&window, "Trails"));
+}
+
+#[test]
+fn the_original_of_each_piece_is_shown_and_what_has_none_is_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    let path = window.state().corpus().expect("open").clone();
+    let mut other = Corpus::open(&path, "B").expect("opened");
+    other
+        .recombine("ESCARGOT then spell LSF", "BOTH")
+        .expect("made");
+    other.recombine("spell LSF", "LETTERS").expect("made");
+    until(&mut window, "the new recordings", |window| {
+        has(window, "LETTERS")
+    });
+    click(&mut window, "BOTH");
+    until(&mut window, "the original", |window| has(window, "Beside"));
+    idle(&mut window);
+    assert_eq!(pictures(&window).len(), 2);
+    click(&mut window, "LETTERS");
+    idle(&mut window);
+    window.run_steps(3);
+    assert!(!has(&window, "Beside"));
+    assert_eq!(pictures(&window).len(), 1);
 }
 
 #[test]

@@ -188,6 +188,8 @@ fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, anatomy: &Anat
         .filter(|(.., how)| *how == Evidence::Topology)
         .count();
     report.understand("roles", roles);
+    let names: Vec<String> = (0..skeleton.len()).map(name).collect();
+    report.understand("joint_names", names);
     let missing: Vec<String> = anatomy.missing().iter().map(ToString::to_string).collect();
     if guessed > 0 {
         report.findings.push(ReportFinding::note(format!(

@@ -337,6 +337,25 @@ mod tests {
     }
 
     #[test]
+    fn what_a_sign_was_made_from_is_told_with_its_time() {
+        let (_folder, mut corpus) = corpus();
+        let recipe = "ESCARGOT then spell LSF then LIMACE | repeat 2";
+        let made = corpus.recombine(recipe, "MANY").expect("made");
+        let glosses: Vec<&str> = made.parts.iter().map(|it| it.gloss.as_str()).collect();
+        assert_eq!(glosses, ["ESCARGOT", "LSF", "LIMACE", "LIMACE"]);
+        let there: Vec<bool> = made
+            .parts
+            .iter()
+            .map(|it| it.original().is_some())
+            .collect();
+        assert_eq!(there, [true, false, true, true]);
+        let apart = |pair: &[crate::MadePart]| pair[0].span.end() <= pair[1].span.start();
+        assert!(made.parts.windows(2).all(apart), "{:?}", made.parts);
+        let stored = corpus.made_parts(made.recording.expect("stored"));
+        assert_eq!(stored.expect("read"), made.parts);
+    }
+
+    #[test]
     fn a_sign_does_not_take_its_own_place_nor_that_of_a_captured_one() {
         let (_folder, mut corpus) = corpus();
         corpus

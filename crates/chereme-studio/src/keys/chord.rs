@@ -56,6 +56,12 @@ impl Chord {
         !function && !self.alt
     }
 
+    /// Returns whether a handle on the stage that has the focus does something with it.
+    pub(crate) fn is_for_handles(self) -> bool {
+        const MOVING: [Key; 3] = [Key::PageUp, Key::PageDown, Key::Escape];
+        !self.ctrl && !self.alt && MOVING.contains(&self.key)
+    }
+
     /// Returns whether a button, a list or a slider that has the focus does something with it.
     pub(crate) fn is_for_widgets(self) -> bool {
         const MOVING: [Key; 7] = [

@@ -54,6 +54,8 @@ pub(crate) struct Place {
     pub(crate) typing: bool,
     /// Whether some other widget has the focus of the keyboard.
     pub(crate) focused: bool,
+    /// Whether that widget is a handle on the stage, which goes to and from the eye too.
+    pub(crate) held: bool,
 }
 
 impl Keys {
@@ -99,8 +101,9 @@ impl Keys {
 
     /// Returns the action that `chord` means at `place`: the pane's own before the others.
     pub(crate) fn action(&self, chord: Chord, place: Place) -> Option<Action> {
-        let taken =
-            (place.typing && chord.is_for_text()) || (place.focused && chord.is_for_widgets());
+        let taken = (place.typing && chord.is_for_text())
+            || (place.focused && chord.is_for_widgets())
+            || (place.held && chord.is_for_handles());
         if taken {
             return None;
         }
@@ -153,6 +156,7 @@ mod tests {
         pane: None,
         typing: false,
         focused: false,
+        held: false,
     };
 
     fn chord(text: &str) -> Chord {

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
-use chereme_corpus::Recombination;
-use chereme_motion::{Anatomy, Clip, Span};
+use chereme_corpus::{MadePart, Recombination};
+use chereme_motion::{Anatomy, Clip};
+use chereme_sign::Handedness;
 
 /// A made clip, with its name and what it was made from.
 #[derive(Debug, Clone)]
@@ -13,13 +14,15 @@ pub(crate) struct Made {
     pub(crate) name: String,
     pub(crate) clip: Clip,
     pub(crate) anatomy: Arc<Anatomy>,
-    /// The recording and the span that it was made from, where it is one.
-    pub(crate) source: Option<(i64, Span)>,
+    /// Which hand the signer signs with.
+    pub(crate) handedness: Handedness,
+    /// What it was made from, with the time of each piece.
+    pub(crate) parts: Vec<MadePart>,
 }
 
 impl Made {
     /// Returns what a recipe gave.
-    pub(crate) fn of(made: &Recombination, source: Option<(i64, Span)>) -> Self {
+    pub(crate) fn of(made: &Recombination) -> Self {
         let name = if made.gloss.is_empty() {
             &made.recipe
         } else {
@@ -29,7 +32,8 @@ impl Made {
             name: name.clone(),
             clip: made.clip.clone(),
             anatomy: made.anatomy.clone(),
-            source,
+            handedness: made.handedness,
+            parts: made.parts.clone(),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What the window knows of the corpus: a snapshot that never changes, and the movement that is shown.
 
+pub(crate) mod handle;
 pub(crate) mod made;
 pub(crate) mod reel;
 

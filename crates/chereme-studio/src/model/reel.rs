@@ -14,7 +14,7 @@ const KEPT: usize = 12;
 /// The movement of one recording, as far as it is loaded.
 #[derive(Debug, Default)]
 pub(crate) struct Reel {
-    /// The recording's row, its frames, their rate, and where the first lies on its clock.
+    /// The recording's row, its frames, their rate, where the first lies on its clock, its recipe.
     source: Option<Source>,
     /// The piece loaded first, whose skeleton and anatomy are those of all.
     first: Option<Arc<Moving>>,
@@ -22,12 +22,13 @@ pub(crate) struct Reel {
     asked: BTreeSet<usize>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 struct Source {
     recording: i64,
     frames: usize,
     rate: Rate,
     offset: i64,
+    recipe: Option<String>,
 }
 
 impl Reel {
@@ -41,6 +42,7 @@ impl Reel {
                     .filter(|frames| *frames > 0)?,
                 rate: it.rate?,
                 offset: it.offset_us,
+                recipe: it.recipe.clone(),
             })
         });
         if source != self.source {
@@ -58,12 +60,12 @@ impl Reel {
 
     /// Returns how many frames of movement there are.
     pub(crate) fn frames(&self) -> usize {
-        self.source.map_or(0, |source| source.frames)
+        self.source.as_ref().map_or(0, |source| source.frames)
     }
 
     /// Returns the rate of its frames.
     pub(crate) fn rate(&self) -> Option<Rate> {
-        self.source.map(|source| source.rate)
+        self.source.as_ref().map(|source| source.rate)
     }
 
     /// Returns a loaded piece for its skeleton and anatomy.
@@ -73,7 +75,7 @@ impl Reel {
 
     /// Returns the posture at that moment of the recording, where its piece is loaded.
     pub(crate) fn pose(&self, at: Instant) -> Option<Pose> {
-        let source = self.source?;
+        let source = self.source.as_ref()?;
         let frame = source.frame(at);
         let moving = self.pieces.get(&(frame / PIECE))?;
         let start = source.rate.instant(frame / PIECE * PIECE).micros();
@@ -83,7 +85,7 @@ impl Reel {
 
     /// Returns the next piece to load for a playhead there that moves that way, and marks it asked.
     pub(crate) fn wanted(&mut self, at: Instant, direction: f64) -> Option<(i64, usize, Span)> {
-        let source = self.source?;
+        let source = self.source.as_ref()?;
         let here = source.frame(at) / PIECE;
         let last = (source.frames - 1) / PIECE;
         let next = if direction < 0.0 {
@@ -109,6 +111,7 @@ impl Reel {
     pub(crate) fn put(&mut self, recording: i64, piece: usize, moving: Arc<Moving>) {
         if self
             .source
+            .as_ref()
             .is_none_or(|source| source.recording != recording)
         {
             return;

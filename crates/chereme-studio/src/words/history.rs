@@ -18,6 +18,7 @@ texts! {
     WALKED_FORWARD: "{n} steps done again.", "{n} étapes rétablies.";
     DID_IMPORT: "Imported: {what}", "Importé : {what}";
     DID_RECOMBINE: "{gloss} made: {recipe}", "{gloss} composé : {recipe}";
+    DID_RECOMBINE_AGAIN: "{gloss} made anew: {recipe}", "{gloss} refait : {recipe}";
     DID_ANNOTATE: "{what} in {place}", "{what} dans {place}";
     ADDED: "{n} annotations added", "{n} annotations ajoutées";
     ONE_ADDED: "{n} annotation added", "{n} annotation ajoutée";

@@ -36,6 +36,10 @@ texts! {
     MEND_ROOT: "Read root columns in the order in which they lie", "Lire les colonnes de la racine dans leur ordre réel";
     UNIT: "Unit", "Unité";
     AXES: "Axes", "Axes";
+    AXES_ARE: "{up} up, {left} to the left", "{up} en haut, {left} à gauche";
+    JOINTS_ARE: "Which joint is which part of the body", "Quelle articulation est quelle partie du corps";
+    JOINT_OF: "Joint of: {part}", "Articulation de : {part}";
+    NO_JOINT: "none", "aucune";
     RATE: "Frame rate", "Cadence";
     JOINTS: "Joints", "Articulations";
     BODY_MAP: "Body: {n} of {all} parts found", "Corps : {n} parties sur {all} trouvées";

@@ -37,6 +37,7 @@ texts! {
     CITATION: "Citation form", "Forme de citation";
     CITATION_IS: "this token", "cette occurrence";
     CITATION_MAKE: "Make it the citation form", "En faire la forme de citation";
+    BOTH_HANDS: "Both hands", "Deux mains";
     NOTATION: "HamNoSys", "HamNoSys";
     MADE_FROM: "Made from", "Fait à partir de";
     MADE_INTO: "Used in", "Utilisé dans";

@@ -8,6 +8,9 @@ texts! {
     STORE: "Store", "Enregistrer";
     SHOW_STORED: "Show it", "Le voir";
     STORE_AGAIN: "Store as new", "Enregistrer à part";
+    REPLACE: "Replace {name}", "Remplacer {name}";
+    REPLACE_TIP: "Its gloss, its token and what was written on its tiers stay; undo brings the former sign back", "Sa glose, son occurrence et ce qui est écrit sur ses lignes restent ; annuler ramène l’ancien signe";
+    REPLACE_SAME: "The recipe is the one that it has.", "La recette est celle qu’il a déjà.";
     NEEDS_GLOSS: "A new sign needs a gloss.", "Un nouveau signe a besoin d’une glose.";
     NEEDS_RECIPE: "There is nothing to store yet.", "Il n’y a encore rien à enregistrer.";
     EMPTY: "A new sign begins with one that is there.", "Un nouveau signe part d’un signe existant.";

@@ -25,6 +25,7 @@ texts! {
     ALONE: "Alone", "Seul";
     COMPARE: "Compare", "Comparer";
     ORIGINAL: "Original", "Original";
+    NO_ORIGINAL: "No original: {made}", "Pas d’original : {made}";
     MADE_OF: "Made: {name}", "Composé : {name}";
     BACK: "Back to the recording", "Retour à l’enregistrement";
     FIGURE: "The signer", "La personne qui signe";
@@ -35,4 +36,7 @@ texts! {
     VIEW: "View", "Vue";
     TIME: "Time", "Temps";
     LOOP: "Loop", "Boucle";
+    HANDLE: "Move: {hand}", "Déplacer : {hand}";
+    HANDLE_LETTERS: "LUF", "GHA";
+    HANDLE_HINT: "Drag, or an end to go along it (Ctrl: whole centimetres); arrow keys, Page Up and Page Down, with Shift 5 cm; Escape takes it back", "Faites glisser, ou un bout pour aller dans son sens (Ctrl : centimètres entiers) ; flèches, Page préc. et suiv., avec Maj 5 cm ; Échap revient en arrière";
 }

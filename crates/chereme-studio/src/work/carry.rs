@@ -1,10 +1,11 @@
 //! Each piece of work as a call of the corpus.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_corpus::{
-    Address, ChannelGroup, Corpus, Details, ExportWhat, Name, Progress, Result, SearchOptions,
-    Step, Unit,
+    Address, ChannelGroup, Corpus, Details, ExportWhat, MadePart, Moving, Name, Progress, Result,
+    SearchOptions, Step, Unit,
 };
 
 use super::{Outcome, Work};
@@ -30,6 +31,10 @@ pub(super) fn carry(
         Work::RemoveTier(tier) => corpus.remove_tier(&tier).map(|_| Outcome::Changed)?,
         Work::Recombine { recipe, gloss } => {
             Outcome::Recombined(Box::new(corpus.recombine(&recipe, &gloss)?))
+        }
+        Work::RecombineAgain { recipe, recording } => {
+            let sign = Address::Recording(Name::Number(recording));
+            Outcome::Recombined(Box::new(corpus.recombine_again(&sign, &recipe)?))
         }
         Work::Import(paths, options) => {
             Outcome::Imported(corpus.import(&paths, &options, progress)?)
@@ -70,10 +75,10 @@ pub(super) fn carry(
         Work::Export(what, to, options) => {
             Outcome::Exported(corpus.export(&what, &to, &options, progress)?)
         }
-        Work::Original(address) => {
-            let moving = address.parse().and_then(|it| corpus.movement(&it));
-            let moving = moving.ok().filter(|it| it.clip.frames() > 0);
-            Outcome::Stretch(moving.map(Arc::new))
+        Work::Originals(parts) => originals(corpus, parts),
+        Work::OriginalsOf(recording) => {
+            let parts = corpus.made_parts(recording)?;
+            originals(corpus, parts)
         }
         Work::Stretch(recording, span) => {
             let address = Address::Recording(Name::Number(recording));
@@ -128,6 +133,24 @@ fn walk(
         }
     }
     Ok(Outcome::Walked { back, steps })
+}
+
+/// How many different originals are loaded.
+const ORIGINALS: usize = 24;
+
+/// Loads the original of each piece, of equal ones once; what is gone is no error.
+fn originals(corpus: &Corpus, parts: Vec<MadePart>) -> Outcome {
+    let mut known: BTreeMap<String, Option<Arc<Moving>>> = BTreeMap::new();
+    let loaded = parts.into_iter().map(|part| {
+        if !known.contains_key(&part.from) && known.len() < ORIGINALS {
+            let moving = part.original().and_then(|it| corpus.movement(&it).ok());
+            let moving = moving.filter(|it| it.clip.frames() > 0).map(Arc::new);
+            known.insert(part.from.clone(), moving);
+        }
+        let moving = known.get(&part.from).cloned().flatten();
+        (part, moving)
+    });
+    Outcome::Originals(loaded.collect())
 }
 
 fn look(corpus: &Corpus, thing: Thing) -> Result<Details> {

@@ -13,8 +13,8 @@ use std::sync::Arc;
 
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, Curves, Details,
-    Error, ExportOptions, ExportReport, ExportWhat, ImportOptions, ImportReport, Moving, Name,
-    NewTier, OperationRow, Recombination, RecordingChange, Scheme, SearchOptions, SignChange,
+    Error, ExportOptions, ExportReport, ExportWhat, ImportOptions, ImportReport, MadePart, Moving,
+    Name, NewTier, OperationRow, Recombination, RecordingChange, Scheme, SearchOptions, SignChange,
     SignerChange, Suggestions, TierChange, TierName, Unit,
 };
 use chereme_motion::Span;
@@ -46,6 +46,13 @@ pub(crate) enum Work {
         recipe: String,
         /// The gloss of the new sign.
         gloss: String,
+    },
+    /// Makes a sign by a recipe and stores it in the place of one that was made before.
+    RecombineAgain {
+        /// The recipe.
+        recipe: String,
+        /// The recording of the former sign.
+        recording: i64,
     },
     /// Takes files in.
     Import(Vec<PathBuf>, Box<ImportOptions>),
@@ -95,8 +102,10 @@ pub(crate) enum Work {
     },
     /// Loads a span of a recording's movement by itself; none is no error.
     Stretch(i64, Span),
-    /// Loads the movement at an address as text; none is no error.
-    Original(String),
+    /// Loads the originals of what a sign is made of.
+    Originals(Vec<MadePart>),
+    /// Loads the originals of what a stored sign was made of.
+    OriginalsOf(i64),
     /// Measures a piece of movement of a recording.
     Measure {
         /// The recording's row.
@@ -156,6 +165,8 @@ pub(crate) enum Outcome {
     },
     /// The movement of a span, where there is some.
     Stretch(Option<Arc<Moving>>),
+    /// Pieces that a sign was made of, each with its original where it has one.
+    Originals(Vec<(MadePart, Option<Arc<Moving>>)>),
     /// A piece of movement was measured.
     Measured {
         /// The recording's row.
@@ -207,6 +218,7 @@ impl Work {
             | Self::ChangeTier(..)
             | Self::RemoveTier(_)
             | Self::Recombine { .. }
+            | Self::RecombineAgain { .. }
             | Self::Import(..)
             | Self::Walk { .. }
             | Self::ChangeRecording(..)
@@ -222,7 +234,7 @@ impl Work {
             | Self::Paths(_) => Lane::Ask,
             Self::Preview(_) => Lane::Make,
             Self::Movement { .. } => Lane::Movement,
-            Self::Stretch(..) | Self::Original(_) => Lane::Little,
+            Self::Stretch(..) | Self::Originals(_) | Self::OriginalsOf(_) => Lane::Little,
             Self::Measure { .. } => Lane::Measure,
             Self::Export(..) | Self::ExportFound(..) => Lane::Export,
         }
@@ -238,11 +250,14 @@ impl Work {
             | Self::Suggest(_)
             | Self::Look(_)
             | Self::Paths(_) => shell::TASK_SEARCH,
-            Self::Recombine { .. } | Self::Preview(_) => shell::TASK_RECOMBINE,
+            Self::Recombine { .. } | Self::RecombineAgain { .. } | Self::Preview(_) => {
+                shell::TASK_RECOMBINE
+            }
             Self::Export(..) | Self::ExportFound(..) => shell::TASK_EXPORT,
             Self::Movement { .. }
             | Self::Stretch(..)
-            | Self::Original(_)
+            | Self::Originals(_)
+            | Self::OriginalsOf(_)
             | Self::Measure { .. } => shell::TASK_MOVEMENT,
             _ => shell::TASK_EDIT,
         }

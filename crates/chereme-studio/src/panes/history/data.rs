@@ -94,11 +94,13 @@ pub(crate) fn sentence(it: &OperationRow, language: Language) -> String {
     let parted = |word: &str| summary.rsplit_once(word);
     let known = match it.name.as_str() {
         "import" => Some(say(words::DID_IMPORT, &[("what", &summary)])),
-        "recombine" => summary.split_once(" = ").map(|(gloss, recipe)| {
-            say(
-                words::DID_RECOMBINE,
-                &[("gloss", &gloss), ("recipe", &recipe)],
-            )
+        "recombine" | "recombine again" => summary.split_once(" = ").map(|(gloss, recipe)| {
+            let text = if it.name == "recombine" {
+                words::DID_RECOMBINE
+            } else {
+                words::DID_RECOMBINE_AGAIN
+            };
+            say(text, &[("gloss", &gloss), ("recipe", &recipe)])
         }),
         "annotate" => annotated(summary, language),
         "add tier" => parted(" to ").map(|(tier, place)| {

@@ -12,7 +12,6 @@ use eframe::egui::{
 
 use super::Pane;
 use crate::action::Action;
-use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::{Language, fill, history as words};
 use crate::work::Work;
@@ -67,7 +66,9 @@ impl History {
             for action in [Action::Undo, Action::Redo] {
                 let button = ui.button(seen.say(action.row().name));
                 if button.on_hover_text(seen.keys.text(action)).clicked() {
-                    out.send(Command::Do(action));
+                    // Of the corpus, whatever was done to a recipe since.
+                    let back = action == Action::Undo;
+                    out.work(if back { Work::Undo } else { Work::Redo });
                 }
             }
             let filter = TextEdit::singleline(&mut self.filter)

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 
 use chereme_corpus::{FileReport, FileStatus, ImportReport, Mapping};
+use chereme_motion::Axes;
+use chereme_motion::anatomy::Roles;
 use serde_json::Value;
 
 use crate::words::{Text, import as words};
@@ -155,6 +157,55 @@ pub(crate) fn mapping(chosen: &BTreeMap<String, String>) -> Mapping {
     Mapping::from_json(&document.to_string()).unwrap_or_default()
 }
 
+/// Returns which joint is which part, as a person says it; nothing where nothing is said.
+pub(crate) fn roles(chosen: &BTreeMap<String, String>) -> Option<Roles> {
+    let trimmed = |(part, joint): (&String, &String)| (part.clone(), joint.trim().to_owned());
+    let all: BTreeMap<String, String> = chosen.iter().map(trimmed).collect();
+    let document = serde_json::to_string(&all)
+        .ok()
+        .filter(|_| !all.is_empty())?;
+    document.parse().ok()
+}
+
+/// Returns each part of the body with the joint that it is, in the order of their names; blank where
+/// none was found, and no rows for a file without a body.
+pub(crate) fn joint_rows(file: &FileReport) -> Vec<(String, String)> {
+    let Some(mut all) = parts(file) else {
+        return Vec::new();
+    };
+    let missing = file.understood.get("missing").and_then(Value::as_array);
+    for part in missing.into_iter().flatten().filter_map(Value::as_str) {
+        all.entry(part.to_owned()).or_default();
+    }
+    all.into_iter().collect()
+}
+
+/// Returns the names of a file's joints.
+pub(crate) fn joint_names(file: &FileReport) -> Vec<&str> {
+    let all = file.understood.get("joint_names").and_then(Value::as_array);
+    all.into_iter()
+        .flatten()
+        .filter_map(Value::as_str)
+        .collect()
+}
+
+/// Returns every way in which axes can lie, those up along Y and Z first.
+pub(crate) fn all_axes() -> impl Iterator<Item = Axes> {
+    let up = ["+Y", "+Z", "+X", "-Y", "-Z", "-X"];
+    let left = ["+X", "-X", "+Y", "-Y", "+Z", "-Z"];
+    up.into_iter().flat_map(move |up| {
+        let both = left.into_iter().map(move |left| format!("{up},{left}"));
+        both.filter_map(|text| text.parse().ok())
+    })
+}
+
+/// Returns the names of the axes that point up and to the signer's left.
+pub(crate) fn axes_parts(axes: Axes) -> [String; 2] {
+    let text = axes.to_string();
+    let (up, left) = text.split_once(',').unwrap_or((&text, ""));
+    [up.to_owned(), left.to_owned()]
+}
+
 /// Returns how many findings of each kind a file has: errors, warnings, notes.
 pub(crate) fn counts(file: &FileReport) -> [usize; 3] {
     ["error", "warning", "note"].map(|kind| {
@@ -206,6 +257,8 @@ mod tests {
             "roles",
             "tiers",
             "axes",
+            "missing",
+            "joint_names",
         ];
         FileReport {
             path: "a.bvh".into(),
@@ -236,6 +289,36 @@ mod tests {
         );
         assert_eq!(parts(&file).expect("a body")["right hand"], "RHand");
         assert_eq!(counts(&file), [0, 1, 0]);
+    }
+
+    #[test]
+    fn joints_are_shown_with_the_missing_ones_and_said_otherwise() {
+        let file = file(json!({
+            "roles": [{ "part": "right hand", "joint": "RHand", "by": "name" }],
+            "missing": ["jaw"], "joint_names": ["Hips", "RHand", "Chin"],
+        }));
+        let row = |part: &str, joint: &str| (part.to_owned(), joint.to_owned());
+        assert_eq!(
+            joint_rows(&file),
+            [row("jaw", ""), row("right hand", "RHand")]
+        );
+        assert_eq!(joint_names(&file), ["Hips", "RHand", "Chin"]);
+        assert_eq!(roles(&BTreeMap::new()), None);
+        let said = [row("jaw", " Chin "), row("right hand", "")].into();
+        let said = roles(&said).expect("roles").0;
+        let said: Vec<(String, String)> = said
+            .into_iter()
+            .map(|(part, joint)| (part.to_string(), joint))
+            .collect();
+        assert!(said.contains(&row("jaw", "Chin")) && said.contains(&row("right hand", "")));
+    }
+
+    #[test]
+    fn axes_can_be_said_in_every_way() {
+        let all: Vec<String> = all_axes().map(|axes| axes.to_string()).collect();
+        assert_eq!((all.len(), all[0].as_str()), (24, "+Y,+X"));
+        let axes = "+Z,-X".parse().expect("axes");
+        assert_eq!(axes_parts(axes), ["+Z", "-X"]);
     }
 
     #[test]

@@ -343,14 +343,14 @@ pub(super) fn value(
             let all: Vec<&str> = value.features.iter().map(String::as_str).collect();
             said(ui, seen, words::FEATURES, &all.join(", "));
         }
-        if let Some(hamnosys) = &value.hamnosys {
-            said(ui, seen, words::NOTATION, hamnosys);
-        }
         if let Some(notes) = &value.notes {
             said(ui, seen, words::NOTES, notes);
         }
         said(ui, seen, words::USES, &uses.to_string());
     });
+    if let Some(text) = &value.hamnosys {
+        super::ui::hamnosys(ui, seen, text);
+    }
     if uses > 0 && ui.button(seen.say(words::SEARCH_USES)).clicked() {
         let field = stored.field().to_string();
         out.send(Command::Find(crate::panes::search::with_value(

@@ -3,6 +3,7 @@
 mod about;
 mod data;
 mod edit;
+mod notation;
 mod ui;
 
 use std::collections::BTreeMap;

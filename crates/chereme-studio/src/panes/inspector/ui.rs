@@ -10,7 +10,7 @@ use eframe::egui::{CollapsingHeader, Id, RichText, Ui};
 use super::about::{self, recording, recording_more, signer, signer_more};
 use super::data::{self, Line};
 use super::edit::{choice, field, grid, line, offered, said, title};
-use super::{Inspector, Thing};
+use super::{Inspector, Thing, notation};
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::model::Found;
@@ -273,9 +273,6 @@ fn token(it: &mut Inspector, ui: &mut Ui, seen: &Seen<'_>, token: &TokenDetails,
         }
         ui.end_row();
         coding(it, ui, seen, token, out);
-        if let Some(notation) = &token.notation {
-            said(ui, seen, words::NOTATION, notation);
-        }
         if let Some(recipe) = &token.recipe {
             said(ui, seen, words::RECIPE, recipe);
         }
@@ -301,11 +298,15 @@ fn token(it: &mut Inspector, ui: &mut Ui, seen: &Seen<'_>, token: &TokenDetails,
             ui.end_row();
         }
     });
+    if let Some(notation) = &token.notation {
+        hamnosys(ui, seen, notation);
+    }
     ui.horizontal_wrapped(|ui| {
         if let Some(recipe) = &token.recipe
             && ui.button(seen.say(words::OPEN_RECIPE)).clicked()
         {
-            out.send(Command::Recipe(recipe.clone(), Some(row.gloss.clone())));
+            let opened = row.recording.clone().or(Some(row.gloss.clone()));
+            out.send(Command::Recipe(recipe.clone(), opened));
         }
         if row.recording_id.is_some() && ui.button(seen.say(words::RECOMBINE)).clicked() {
             out.send(Command::Recipe(format!("token:{}", row.id), None));
@@ -322,6 +323,21 @@ fn token(it: &mut Inspector, ui: &mut Ui, seen: &Seen<'_>, token: &TokenDetails,
             ));
         }
     });
+}
+
+/// Shows a notation part by part, by the names of its symbols.
+pub(super) fn hamnosys(ui: &mut Ui, seen: &Seen<'_>, text: &str) {
+    let parts = notation::parts(text);
+    let title = RichText::new(seen.say(words::NOTATION));
+    CollapsingHeader::new(title)
+        .id_salt("hamnosys")
+        .default_open(true)
+        .show(ui, |ui| {
+            if parts.is_empty() {
+                ui.add(eframe::egui::Label::new(text).wrap());
+            }
+            lines(ui, seen, "hamnosys parts", &parts);
+        });
 }
 
 /// What a token is coded as; what an annotation says can be changed.

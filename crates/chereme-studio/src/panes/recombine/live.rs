@@ -24,6 +24,8 @@ pub(super) struct Note {
     pub(super) did: Vec<String>,
     /// The largest distance in metres between where a wrist should have come and where it came.
     pub(super) residual: Option<f64>,
+    /// The way by which a placement moved the hands: metres to the left, up and forward.
+    pub(super) moved: Option<[f64; 3]>,
 }
 
 /// Why nothing can be made.
@@ -120,6 +122,7 @@ pub(super) fn notes(report: &Report, stack: &Stack) -> BTreeMap<u64, Note> {
         };
         let note = notes.entry(stack.cards()[at].id).or_default();
         note.did.extend(step.did.iter().cloned());
+        note.moved = step.moved.or(note.moved);
         note.residual = match (note.residual, step.residual) {
             (Some(a), Some(b)) => Some(a.max(b)),
             (a, b) => a.or(b),

@@ -7,13 +7,13 @@ mod path;
 mod report;
 mod settings;
 pub(crate) mod stack;
+mod steps;
 mod suggest;
 
 use std::sync::Arc;
 
-use chereme_corpus::Recombination;
-use chereme_corpus::recipe::{Node, Recipe, RecipeError};
-use chereme_motion::{Instant, Span};
+use chereme_corpus::recipe::{Goal, Node, Recipe, RecipeError, Step};
+use chereme_corpus::{OperationRow, Recombination};
 use eframe::egui::{
     Button, CollapsingHeader, Frame, Id, Panel, RichText, ScrollArea, TextEdit, Ui,
 };
@@ -22,12 +22,15 @@ use super::{Acted, Pane};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
+use crate::model::handle::Handle;
 use crate::model::made::Made;
 use crate::words::{fill, recombine as words};
 use crate::work::{Ended, Outcome, Work, WorkId};
 pub(crate) use fields::selected_token;
 use live::Live;
-use stack::{Stack, What};
+pub(crate) use path::offset_legs;
+use stack::{Card, Stack, What};
+use steps::Steps;
 
 /// The pane.
 #[derive(Default)]
@@ -56,6 +59,18 @@ pub(crate) struct Recombine {
     come: bool,
     /// The gloss shall be typed next.
     naming: bool,
+    steps: Steps<Page>,
+    /// The recipe as it was when it was last left alone.
+    settled: Page,
+}
+
+/// The recipe as it is taken back to.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Page {
+    stack: Stack,
+    text: String,
+    opened: Option<String>,
+    gloss: String,
 }
 
 /// Reads a recipe as text, or as JSON where it begins with a brace.
@@ -89,6 +104,74 @@ impl Recombine {
         self.on_stage = true;
     }
 
+    fn page(&self) -> Page {
+        Page {
+            stack: self.stack.clone(),
+            text: self.text.clone(),
+            opened: self.opened.clone(),
+            gloss: self.gloss.clone(),
+        }
+    }
+
+    /// Takes in what was changed since as one step.
+    fn settle(&mut self) {
+        let same = self.settled.text == self.text && self.settled.stack == self.stack;
+        if !same {
+            let page = self.page();
+            let before = std::mem::replace(&mut self.settled, page.clone());
+            self.steps.did(before, page);
+        }
+    }
+
+    /// Takes a step of the recipe back, or does it again; whether it was its turn.
+    pub(crate) fn walk(&mut self, back: bool, operations: &[OperationRow]) -> bool {
+        self.settle();
+        self.steps.follow(operations);
+        let page = if back {
+            self.steps.back()
+        } else {
+            self.steps.forward()
+        };
+        let Some(page) = page else { return false };
+        self.settled = page.clone();
+        Page {
+            stack: self.stack,
+            text: self.text,
+            opened: self.opened,
+            gloss: self.gloss,
+        } = page;
+        true
+    }
+
+    /// Puts the placement of a card elsewhere.
+    pub(crate) fn place(&mut self, card: u64, goal: Goal) {
+        if let Some(Card {
+            what: What::Step(Step::Place(place)),
+            ..
+        }) = self.stack.get_mut(card)
+        {
+            place.to = goal;
+            self.follow_cards();
+        }
+    }
+
+    /// Returns the placement that can be dragged on the stage: that of the chosen card.
+    fn handle(&self) -> Option<Handle> {
+        let made = self.live.made.is_some() && self.on_stage && self.wrong.is_none();
+        let card = self.chosen.filter(|_| made)?;
+        let at = self.stack.position(card)?;
+        let What::Step(Step::Place(place)) = &self.stack.cards()[at].what else {
+            return None;
+        };
+        let note = self.live.notes.get(&card);
+        self.stack.counts(at).then(|| Handle {
+            card,
+            hand: place.hand,
+            to: place.to.clone(),
+            moved: note.and_then(|it| it.moved),
+        })
+    }
+
     /// Gives the stage what was made, where it shall show it, and the recording back where not.
     fn show_on_stage(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
         let made = self.live.made.as_ref().filter(|_| self.on_stage);
@@ -105,23 +188,8 @@ impl Recombine {
             return;
         }
         self.given = made.cloned();
-        let shown = made.map(|made| Arc::new(Made::of(made, self.source_span(seen))));
+        let shown = made.map(|made| Arc::new(Made::of(made)));
         out.send(Command::Made(shown));
-    }
-
-    /// Returns where the sign that the stack begins with lies, where it is in the open recording.
-    fn source_span(&self, seen: &Seen<'_>) -> Option<(i64, Span)> {
-        let recording = seen.shown.recording?;
-        let contents = seen.snapshot.contents(recording)?;
-        let source = self.source()?;
-        let id = source.strip_prefix("token:").and_then(|id| id.parse().ok());
-        let signs = &seen.snapshot.overview.signs;
-        let cited = signs.iter().find(|sign| sign.gloss == source);
-        let id: i64 = id.or(cited.and_then(|sign| sign.citation))?;
-        let token = contents.tokens.iter().find(|token| token.id == id)?;
-        let (start, end) = token.start_us.zip(token.end_us)?;
-        let micros = Instant::from_micros;
-        Some((recording, Span::between(micros(start), micros(end))))
     }
 
     /// Takes what was typed: the cards follow where it can be read.
@@ -340,6 +408,7 @@ impl Recombine {
                 self.store(out);
             }
         });
+        self.storing_again(ui, seen, out, made);
         if let Some((gloss, recording)) = &self.stored {
             ui.horizontal_wrapped(|ui| {
                 let text = fill(
@@ -352,6 +421,31 @@ impl Recombine {
                     out.send(Command::Recording(*recording));
                 }
             });
+        }
+    }
+
+    /// The button that stores in the place of the sign whose recipe was opened.
+    fn storing_again(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, made: bool) {
+        let opened = self.opened.as_deref();
+        let opened = opened.and_then(|name| seen.snapshot.recording_named(name));
+        let Some(glance) = opened.filter(|it| it.recipe.is_some()) else {
+            return;
+        };
+        let text = fill(seen.say(words::REPLACE), &[("name", &glance.row.name)]);
+        let recipe = self.stack.text();
+        let same = glance.recipe.as_ref() == Some(&recipe);
+        let ready = made && !same && !seen.is_running(self.storing);
+        let why = if same {
+            words::REPLACE_SAME
+        } else {
+            words::NEEDS_RECIPE
+        };
+        let button = ui.add_enabled(ready, Button::new(text).truncate());
+        let button = button.on_hover_text(seen.say(words::REPLACE_TIP));
+        if button.on_disabled_hover_text(seen.say(why)).clicked() {
+            self.stored = None;
+            let recording = glance.row.id;
+            self.storing = Some(out.work(Work::RecombineAgain { recipe, recording }));
         }
     }
 
@@ -410,6 +504,15 @@ impl Pane for Recombine {
             self.live.follow(&self.stack, &text, (generation, now), out);
         }
         self.show_on_stage(seen, out);
+        let handle = self.handle();
+        if seen.shown.handle != handle {
+            out.send(Command::Handle(handle));
+        }
+        self.steps.follow(&seen.snapshot.overview.operations);
+        let busy = ui.input(|input| input.pointer.any_down() || !input.keys_down.is_empty());
+        if !busy && !ui.ctx().text_edit_focused() {
+            self.settle();
+        }
     }
 
     fn act(&mut self, action: Action, seen: &Seen<'_>, out: &mut Outbox) -> Acted {

@@ -31,6 +31,19 @@ pub(super) fn legs_of(offset: [f64; 3]) -> Vec<Leg> {
     all.filter(|(metres, _)| *metres != 0.0).map(leg).collect()
 }
 
+/// Returns the ways of an offset, one of no length where it is nothing: that is an offset still.
+pub(crate) fn offset_legs(offset: [f64; 3]) -> Vec<Leg> {
+    let mut legs = legs_of(offset);
+    if legs.is_empty() {
+        legs.push(Leg {
+            towards: vec![Direction::Up],
+            distance: Length::Metres(0.0),
+            time: None,
+        });
+    }
+    legs
+}
+
 /// Returns the sum of ways in metres to the left, up and forward, where each goes along one axis.
 pub(super) fn offset_of(legs: &[Leg]) -> Option<[f64; 3]> {
     let mut sum = DVec3::ZERO;
@@ -66,15 +79,7 @@ pub(super) fn offset(ui: &mut Ui, seen: &Seen<'_>, legs: &mut Vec<Leg>) -> bool 
         });
     }
     if changed {
-        *legs = legs_of(offset);
-        if legs.is_empty() {
-            // Nothing at all is still an offset, of no length.
-            legs.push(Leg {
-                towards: vec![Direction::Up],
-                distance: Length::Metres(0.0),
-                time: None,
-            });
-        }
+        *legs = offset_legs(offset);
     }
     changed
 }

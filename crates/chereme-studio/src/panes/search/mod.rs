@@ -24,6 +24,7 @@ use chereme_corpus::{Error, SearchOptions};
 use chereme_sign::query::Query;
 use eframe::egui::{RichText, Ui, vec2};
 
+use super::inspector::Thing;
 use super::{Acted, Pane};
 use crate::action::Action;
 use crate::command::Command;
@@ -219,6 +220,7 @@ impl Search {
             }
             None => {
                 self.notated.open(hit.token, out);
+                out.send(Command::Inspect(Thing::Token(hit.token)));
             }
         }
     }

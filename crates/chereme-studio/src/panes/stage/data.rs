@@ -5,6 +5,7 @@ use chereme_figure::camera::Camera;
 use chereme_motion::Instant;
 use eframe::egui::Rect;
 use glam::{Quat, Vec3};
+use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
 
@@ -99,7 +100,8 @@ impl Eye {
 }
 
 /// How the made movement and the original are shown.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub(crate) enum Compare {
     /// Side by side.
     #[default]
@@ -199,15 +201,6 @@ pub(crate) fn usual_views(count: usize) -> &'static [View] {
     }
 }
 
-/// Returns the original of a recipe's text, where it has one alone: what stands before its operators.
-pub(crate) fn original(recipe: &str) -> Option<&str> {
-    let (first, _) = recipe.split_once('|')?;
-    let first = first.trim();
-    let word = first.split_whitespace().next()?;
-    let made = ["spell", "point", "notation", "sigml", "hamnosys"].contains(&word);
-    (!made && !first.contains(" then ") && !first.contains('(')).then_some(first)
-}
-
 /// What is drawn beside the signer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Shows {
@@ -303,19 +296,6 @@ mod tests {
             assert_eq!(usual_views(eyes).len(), eyes);
         }
         assert_eq!(parts(whole, 1, Some(Compare::Beside))[0].who, Who::Original);
-    }
-
-    #[test]
-    fn the_original_of_a_recipe_is_what_its_operators_are_about() {
-        for (recipe, wanted) in [
-            ("ESCARGOT | configure right U", Some("ESCARGOT")),
-            ("token:41 | reverse | repeat 2", Some("token:41")),
-            ("spell WE dominant | travel right left 15cm", None),
-            ("CHIEN then AIMER then BOL", None),
-            ("A then B | reverse", None),
-        ] {
-            assert_eq!(original(recipe), wanted, "{recipe}");
-        }
     }
 
     #[test]

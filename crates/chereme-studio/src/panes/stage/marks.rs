@@ -10,11 +10,14 @@ use glam::DVec3;
 use super::scene::Subject;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
+use crate::panes::inspector::Thing;
 
 /// A placement value as it lies on a body.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Zone {
     pub(super) id: String,
+    /// The row of its inventory.
+    inventory: i64,
     landmark: String,
     /// Left, up and forward, in shoulder widths.
     offset: [f64; 3],
@@ -36,6 +39,7 @@ pub(super) fn zones(overview: &Overview) -> Vec<Zone> {
                 let id = value.id.clone();
                 zones.push(Zone {
                     id,
+                    inventory: stored.id,
                     landmark,
                     offset,
                 });
@@ -51,6 +55,8 @@ pub(super) struct Mark {
     pub(super) name: String,
     /// The placement value, where it is one.
     pub(super) zone: Option<String>,
+    /// The row of its inventory; of no zone it is not looked at.
+    inventory: i64,
     pub(super) at: DVec3,
 }
 
@@ -77,6 +83,7 @@ pub(super) fn marks(
             marks.push(Mark {
                 name: name(&zone.id),
                 zone: Some(zone.id.clone()),
+                inventory: zone.inventory,
                 at: at + offset,
             });
         }
@@ -88,6 +95,7 @@ pub(super) fn marks(
             marks.push(Mark {
                 name: landmark.replace('-', " "),
                 zone: None,
+                inventory: 0,
                 at,
             });
         }
@@ -144,6 +152,7 @@ pub(super) fn show(
         }
         if response.clicked() {
             out.send(Command::Spot(Some(zone.clone())));
+            out.send(Command::Inspect(Thing::Value(mark.inventory, zone.clone())));
         }
     }
 }

@@ -4,37 +4,50 @@
 //! |---|---|
 //! | `data` | where eyes stand, how the stage is parted, what is compared |
 //! | `scene` | bodies, ghosts, trails, grid and floor |
+//! | `gizmo` | the handle of a placement, as geometry |
+//! | `handle` | its widget: dragged, moved by keys |
 //! | `marks` | landmarks and placement zones over the body |
+//! | `original` | what made movement was made from |
 //! | `artist` | the thread that draws |
+//! | `ways` | what is remembered of it |
 //! | `transport` | the bar and the buttons below |
 
 mod artist;
 pub(crate) mod data;
+mod gizmo;
+mod handle;
 mod marks;
+mod original;
 mod scene;
 mod transport;
 mod ui;
+mod ways;
 
 use std::sync::Arc;
 use std::time::Duration;
 
-use chereme_corpus::{Moving, Overview};
+use chereme_corpus::Overview;
 use chereme_figure::View;
-use chereme_motion::{Instant, Side, Span};
-use eframe::egui::{TextureHandle, Ui};
+use chereme_motion::Side;
+use eframe::egui::{Context, TextureHandle, Ui};
 
 use crate::action::Action;
+use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::{Acted, Pane};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, WorkId};
 use artist::Artist;
 use data::{Compare, Eye, Look, Shows};
 use marks::Zone;
+use original::Original;
 use scene::{Movement, Subject};
+pub(crate) use ways::StageWays;
 
 /// How far a key turns, in shares of the picture's height, and how much nearer it goes.
 const KEY_STEP: f32 = 0.06;
 const KEY_ZOOM: f32 = 1.15;
+/// How far trails reach usually, in seconds.
+const REACH: f64 = 0.4;
 
 /// The pane.
 pub(crate) struct Stage {
@@ -58,6 +71,12 @@ pub(crate) struct Stage {
     coming: bool,
     /// How long the last pictures took to draw.
     took: Duration,
+    /// The handle of a placement that is dragged.
+    holding: handle::Holding,
+    /// Whether the signer is that of made movement.
+    made: bool,
+    /// Whether it is looked at as it was remembered.
+    remembered: bool,
 }
 
 impl Default for Stage {
@@ -74,13 +93,16 @@ impl Default for Stage {
                 ghosts: false,
                 grid: false,
             },
-            reach: 0.4,
+            reach: REACH,
             places: false,
             zones: None,
             textures: Vec::new(),
             asked: None,
             coming: false,
             took: Duration::ZERO,
+            holding: handle::Holding::default(),
+            made: false,
+            remembered: false,
         }
     }
 }
@@ -88,21 +110,6 @@ impl Default for Stage {
 /// The movement that a subject was made for, by where it lies in memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Of(usize);
-
-/// What a made movement was made from.
-#[derive(Default)]
-struct Original {
-    source: Option<Source>,
-    work: Option<WorkId>,
-    moving: Option<Arc<Moving>>,
-    subject: Option<Subject>,
-}
-
-#[derive(Debug, Clone, PartialEq)]
-enum Source {
-    Span(i64, Span),
-    Recipe(String),
-}
 
 impl Stage {
     /// Makes the figures of what is shown, where it is something else.
@@ -119,44 +126,22 @@ impl Stage {
             (None, None) => None,
         };
         if self.signer.as_ref().map(|it| it.0) != now.map(|it| it.0) {
+            // While a hand is placed, the eye stays where it is.
+            let steady = self.made && made.is_some() && seen.shown.handle.is_some();
+            self.made = made.is_some();
             self.signer = now.and_then(|(of, clip, anatomy)| {
                 // The same body goes on where only its movement is another.
                 let before = self.signer.take().map(|it| it.1);
-                Some((of, Subject::after(before, clip, anatomy)?))
+                let kept = before.as_ref().map(|it| it.framing).filter(|_| steady);
+                let mut subject = Subject::after(before, clip, anatomy)?;
+                subject.framing = kept.unwrap_or(subject.framing);
+                Some((of, subject))
             });
             self.asked = None;
         }
-        self.follow_original(seen, out);
-    }
-
-    fn follow_original(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
-        let source = match &seen.shown.made {
-            Some(showing) => {
-                let source = showing.made.source;
-                source.map(|(recording, span)| Source::Span(recording, span))
-            }
-            None => {
-                let shown = seen.shown.recording;
-                let glance = shown.and_then(|id| seen.snapshot.recording(id));
-                let recipe = glance.and_then(|it| it.recipe.as_deref());
-                let original = recipe.and_then(data::original);
-                original.map(|text| Source::Recipe(text.to_owned()))
-            }
-        };
-        if source == self.original.source {
-            return;
+        if self.original.follow(seen, out) {
+            self.asked = None;
         }
-        self.asked = None;
-        let work = source.clone().map(|source| match source {
-            Source::Span(recording, span) => Work::Stretch(recording, span),
-            Source::Recipe(text) => Work::Original(text),
-        });
-        self.original = Original {
-            source,
-            work: work.map(|work| out.work(work)),
-            moving: None,
-            subject: None,
-        };
     }
 
     /// Returns how long the last pictures took to draw.
@@ -166,7 +151,12 @@ impl Stage {
 
     /// Returns how the original is shown, where there is one.
     fn comparing(&self) -> Option<Compare> {
-        self.original.subject.as_ref().map(|_| self.compare)
+        self.original.is_there().then_some(self.compare)
+    }
+
+    /// Returns whether the focus of the keyboard is on the handle of a placement.
+    pub(crate) fn is_held(&self, ctx: &Context) -> bool {
+        self.holding.has_focus(ctx)
     }
 
     fn split(&mut self, count: usize) {
@@ -225,7 +215,14 @@ impl Stage {
 
 impl Pane for Stage {
     fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        if !std::mem::replace(&mut self.remembered, true) {
+            seen.settings.stage.take(self);
+        }
         ui::show(self, ui, seen, out);
+        let ways = StageWays::of(self);
+        if ways != seen.settings.stage {
+            out.send(Command::Stage(Box::new(ways)));
+        }
     }
 
     fn act(&mut self, action: Action, _seen: &Seen<'_>, out: &mut Outbox) -> Acted {
@@ -246,7 +243,7 @@ impl Pane for Stage {
             Action::StagePlaces => self.places = !self.places,
             Action::StageGrid => self.shows.grid = !self.shows.grid,
             Action::StageCompare => self.compare = self.compare.next(),
-            Action::StageRecording => out.send(crate::command::Command::Made(None)),
+            Action::StageRecording => out.send(Command::Made(None)),
             other if self.look_from(other) => {}
             _ => return Acted::No,
         }
@@ -255,22 +252,10 @@ impl Pane for Stage {
     }
 
     fn hear(&mut self, id: WorkId, ended: &Ended) {
-        if self.original.work != Some(id) {
-            return;
+        if self.original.hear(id, ended) {
+            self.asked = None;
         }
-        self.original.work = None;
-        if let Ok(Outcome::Stretch(Some(moving))) = ended {
-            let before = self.original.subject.take();
-            self.original.subject = Subject::after(before, &moving.clip, &moving.anatomy);
-            self.original.moving = Some(moving.clone());
-        }
-        self.asked = None;
     }
-}
-
-/// Returns the moment of the original while `at` is played: as far from its beginning, at most its end.
-fn original_moment(at: Instant, moving: &Moving) -> Instant {
-    at.min(moving.clip.span().end())
 }
 
 /// Returns where the signer's postures come from.

@@ -108,6 +108,11 @@ impl Subject {
             .any(|&side| self.anatomy.has_fingers(side))
     }
 
+    /// Returns hands and arms as they were before something was done to them.
+    pub(super) fn before(&self) -> Arc<Body> {
+        self.past.clone()
+    }
+
     /// Returns ghosts before and after `at`, the farthest first, each with how much it hides.
     pub(super) fn ghosts(
         &self,

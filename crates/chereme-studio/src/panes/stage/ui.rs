@@ -1,7 +1,7 @@
 //! The stage's widgets: what is shown, the pictures, and what the mouse does on them.
 
 use chereme_figure::Theme;
-use chereme_figure::camera::Camera;
+use chereme_figure::camera::{Camera, Projection};
 use chereme_figure::raster::Style;
 use chereme_motion::ModelPose;
 use eframe::egui::{
@@ -13,7 +13,7 @@ use eframe::egui::{
 use super::artist::{Artist, Pane, Sheet, Wish};
 use super::data::{self, Compare, Look, Part, VIEWS, Who};
 use super::scene::Subject;
-use super::{Eye, Stage, marks, movement, original_moment, transport};
+use super::{Eye, Stage, handle, marks, movement, original, transport};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
@@ -108,7 +108,7 @@ fn tools(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
                 reach(stage, ui, seen);
             }
         }
-        if stage.original.subject.is_some() {
+        if stage.original.is_there() {
             ui.add_space(6.0);
             compare(stage, ui, seen);
         }
@@ -201,12 +201,18 @@ fn panes(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, whol
     }
     let poses = pictures(stage, ui, seen, &parts, dragged);
     let many = stage.eyes.len() > 1;
+    stage.holding.begin();
     for part in &parts {
         if stage.places
             && part.who != Who::Original
             && let Some(pose) = &poses
         {
             places(stage, ui, seen, out, part, pose);
+        }
+        if part.who != Who::Original
+            && let Some(pose) = &poses
+        {
+            handled(stage, ui, seen, out, part, pose);
         }
         labels(stage, ui, seen, part);
         if many && part.eye == stage.active {
@@ -338,13 +344,14 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
         let mesh = signer.trails(movement(seen), (look.at, end), reach, paper);
         std::sync::Arc::new(mesh)
     });
-    let original = stage
-        .original
-        .subject
-        .as_ref()
-        .zip(stage.original.moving.as_ref());
-    let original = original.and_then(|(subject, moving)| {
-        let then = original_moment(look.at, moving);
+    if let Some(grab) = &stage.holding.grab {
+        ghosts.push((figures.len(), 0.6));
+        figures.push((signer.before(), grab.pose.clone()));
+    }
+    let piece = stage.original.piece(look.at);
+    let original = piece.and_then(|piece| {
+        let (moving, subject) = piece.shown.as_ref()?;
+        let then = original::moment(&piece.part, moving, look.at);
         let pose = super::Movement::Clip(&moving.clip).pose(&subject.skeleton, then)?;
         figures.push((subject.body.clone(), pose));
         Some((figures.len() - 1, subject))
@@ -360,7 +367,7 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
         let ground = subject.ground(eye.view, theme, look.shows.grid);
         let mut layers = vec![sheet(None, Some(std::sync::Arc::new(ground)), 1.0)];
         if *who == Who::Original {
-            layers.push(sheet(Some(at), None, 1.0));
+            layers.extend(original.as_ref().map(|_| sheet(Some(at), None, 1.0)));
         } else {
             layers.push(sheet(Some(0), trails.clone(), 1.0));
             layers.extend(ghosts.iter().map(|it| sheet(Some(it.0), None, it.1)));
@@ -412,7 +419,7 @@ fn labels(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, part: &Part) {
         vec2(part.rect.width() - 12.0, 24.0),
     );
     if part.who != Who::Signer || part.rect.width() < 60.0 {
-        who(ui, seen, part);
+        who(stage, ui, seen, part);
     }
     let first = data_first(stage, part);
     if !first || part.rect.width() < 60.0 {
@@ -452,20 +459,36 @@ fn data_first(stage: &Stage, part: &Part) -> bool {
     stage.comparing() != Some(Compare::Beside) || part.who == Who::Original
 }
 
-fn who(ui: &Ui, seen: &Seen<'_>, part: &Part) {
-    let text = match part.who {
-        Who::Original => seen.say(words::ORIGINAL),
-        Who::Both | Who::Signer => return,
+/// Says whose original is seen, or by what a piece without one was made.
+fn who(stage: &Stage, ui: &Ui, seen: &Seen<'_>, part: &Part) {
+    if part.who == Who::Signer {
+        return;
+    }
+    let at = seen.shown.on_stage().playhead();
+    let text = match stage.original.piece(at) {
+        Some(piece) if piece.shown.is_some() => {
+            format!("{}: {}", seen.say(words::ORIGINAL), piece.part.gloss)
+        }
+        Some(piece) => no_original(seen, &piece.part.from),
+        None => return,
     };
     chip(
         ui,
         part.rect.right_top() + vec2(-8.0, 8.0),
         Align2::RIGHT_TOP,
-        text,
+        &text,
     );
 }
 
-fn chip(ui: &Ui, at: egui::Pos2, anchor: Align2, text: &str) {
+fn no_original(seen: &Seen<'_>, made_by: &str) -> String {
+    let mut short: String = made_by.chars().take(36).collect();
+    if short.len() < made_by.len() {
+        short.push('…');
+    }
+    fill(seen.say(words::NO_ORIGINAL), &[("made", &short)])
+}
+
+pub(super) fn chip(ui: &Ui, at: egui::Pos2, anchor: Align2, text: &str) {
     let font = TextStyle::Small.resolve(ui.style());
     let colour = ui.visuals().text_color();
     let galley = ui.painter().layout_no_wrap(text.to_owned(), font, colour);
@@ -487,6 +510,34 @@ fn notes(stage: &Stage, ui: &Ui, seen: &Seen<'_>, whole: Rect) {
         chip(ui, at, Align2::CENTER_BOTTOM, seen.say(words::COMING));
     } else if mittens {
         chip(ui, at, Align2::CENTER_BOTTOM, seen.say(words::NO_FINGERS));
+    } else if let Some(made_by) = stage.original.made_by() {
+        chip(ui, at, Align2::CENTER_BOTTOM, &no_original(seen, made_by));
+    }
+}
+
+/// Returns how a part shows the signer, in points from its corner.
+fn projection(stage: &Stage, part: &Part, pose: &ModelPose) -> Option<Projection> {
+    let (_, signer) = stage.signer.as_ref()?;
+    let size = [part.rect.width(), part.rect.height()].map(|side| side.round().max(1.0) as usize);
+    let camera = camera(signer, stage.eyes[part.eye], size, pose);
+    Some(camera.projection(size[0], size[1]))
+}
+
+/// Shows the handle of the placement that is worked on.
+fn handled(
+    stage: &mut Stage,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    part: &Part,
+    pose: &ModelPose,
+) {
+    let before = stage.holding.grab.is_some();
+    if let Some(projection) = projection(stage, part, pose) {
+        handle::show(stage, ui, seen, out, (part, projection, pose));
+    }
+    if before != stage.holding.grab.is_some() {
+        stage.asked = None;
     }
 }
 
@@ -509,15 +560,15 @@ fn places(
     let (Some((_, signer)), Some((_, zones))) = (&stage.signer, &stage.zones) else {
         return;
     };
+    let Some(projection) = projection(stage, part, pose) else {
+        return;
+    };
     let language = seen.language;
     let name = |id: &str| {
         let all = overview.inventories.iter().map(|it| &it.inventory);
         let found = all.flat_map(|it| &it.values).find(|value| value.id == id);
         found.map_or(id.to_owned(), |it| it.name(language.code()).to_owned())
     };
-    let size = [part.rect.width(), part.rect.height()].map(|side| side.round().max(1.0) as usize);
-    let camera = camera(signer, stage.eyes[part.eye], size, pose);
-    let projection = camera.projection(size[0], size[1]);
     let marks = marks::marks(signer, pose, zones, name);
     marks::show(ui, seen, out, (part.rect, &projection, 1.0), &marks);
 }

@@ -1,0 +1,81 @@
+//! The pieces that a made sign was made from, with their time in it.
+
+use chereme_compose::{About, Note};
+use chereme_motion::{Instant, Span};
+use serde_json::Value;
+
+use super::tier_name;
+use crate::Corpus;
+use crate::address::Address;
+use crate::db::tiers;
+use crate::error::Result;
+
+/// A piece that a sign was made from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MadePart {
+    /// Its time in the made sign.
+    pub span: Span,
+    /// The gloss of the sign, or the word that is spelled.
+    pub gloss: String,
+    /// Where its movement comes from: an address, or the part of the recipe that makes it.
+    pub from: String,
+}
+
+impl MadePart {
+    /// Returns the address of its original; nothing where it was spelled, pointed or notated.
+    #[must_use]
+    pub fn original(&self) -> Option<Address> {
+        let address = self.from.parse().ok()?;
+        matches!(address, Address::Token(_) | Address::Recording(_)).then_some(address)
+    }
+}
+
+impl Corpus {
+    /// Returns the pieces that a stored sign was made from, as its tiers have them; none of a
+    /// recording that was not made.
+    ///
+    /// # Errors
+    /// Where the database fails.
+    pub fn made_parts(&self, recording: i64) -> Result<Vec<MadePart>> {
+        let connection = self.store.read();
+        let mut parts = Vec::new();
+        for tier in tiers::tiers(connection, recording)? {
+            if tier.name != SOURCE {
+                continue;
+            }
+            for row in tiers::annotations(connection, tier.id)? {
+                let said: Option<Value> = row.source.and_then(|it| serde_json::from_str(&it).ok());
+                let from = said.as_ref().and_then(|it| it["from"].as_str());
+                let Some(from) = from else { continue };
+                parts.push(MadePart {
+                    span: Span::between(
+                        Instant::from_micros(row.start_us),
+                        Instant::from_micros(row.end_us),
+                    ),
+                    gloss: row.value,
+                    from: from.to_owned(),
+                });
+            }
+        }
+        Ok(parts)
+    }
+}
+
+/// The tier that says from which sign each stretch is.
+const SOURCE: &str = "Source";
+
+/// Returns the pieces that notes tell of.
+pub(super) fn of(notes: &[Note]) -> Vec<MadePart> {
+    let gloss = |note: &&Note| note.about == About::Gloss;
+    let part = |note: &Note| {
+        debug_assert_eq!(tier_name(note), SOURCE);
+        MadePart {
+            span: note.span,
+            gloss: note.value.value().unwrap_or_default().to_owned(),
+            from: note.origin.clone(),
+        }
+    };
+    let mut parts: Vec<MadePart> = notes.iter().filter(gloss).map(part).collect();
+    parts.sort_by_key(|part| part.span.start());
+    parts
+}

@@ -1,0 +1,111 @@
+//! A placement of the open recipe that can be dragged on the stage.
+
+use chereme_corpus::recipe::{Goal, Hands, Length, towards};
+use chereme_motion::glam::DVec3;
+
+use crate::panes::recombine::offset_legs;
+
+/// A placement, as its card has it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Handle {
+    /// The number of the card.
+    pub(crate) card: u64,
+    /// The hands that are placed.
+    pub(crate) hand: Hands,
+    pub(crate) to: Goal,
+    /// The way by which the hands were moved: metres to the left, up and forward.
+    pub(crate) moved: Option<[f64; 3]>,
+}
+
+impl Handle {
+    /// Returns whether it is a point of body space, and no way from where the hands were.
+    pub(crate) fn is_point(&self) -> bool {
+        matches!(self.to, Goal::AtPoint(_))
+    }
+
+    /// Returns what a drag changes, in metres to the left, up and forward: the way, the way beside
+    /// another sign, or the point; of a named place the way to it, where it is known.
+    pub(crate) fn value(&self, arm: f64) -> Option<[f64; 3]> {
+        let sum = |legs: &[chereme_corpus::recipe::Leg]| {
+            let way = legs
+                .iter()
+                .map(|leg| towards(&leg.towards).unwrap_or(DVec3::ZERO) * leg.distance.metres(arm));
+            way.sum::<DVec3>().to_array()
+        };
+        match &self.to {
+            Goal::By(legs) => Some(sum(legs)),
+            Goal::Near { by, .. } => Some(sum(by)),
+            Goal::AtPoint(at) => Some(at.map(|length| length.metres(arm))),
+            Goal::At(_) | Goal::Best(_) => self.moved,
+        }
+    }
+
+    /// Returns the goal with another value; a named place that is dragged becomes a way.
+    pub(crate) fn goal(&self, value: [f64; 3]) -> Goal {
+        match &self.to {
+            Goal::By(_) | Goal::At(_) | Goal::Best(_) => Goal::By(offset_legs(value)),
+            Goal::Near { of, .. } => Goal::Near {
+                of: of.clone(),
+                by: offset_legs(value),
+            },
+            Goal::AtPoint(_) => Goal::AtPoint(value.map(Length::Metres)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_corpus::recipe::{Node, Recipe, Step};
+
+    fn handle(text: &str) -> Handle {
+        let recipe: Recipe = format!("A | {text}").parse().expect(text);
+        let Node::Pipe(pipe) = recipe.root() else {
+            panic!("no pipe")
+        };
+        let [Step::Place(place)] = pipe.steps.as_slice() else {
+            panic!("no place")
+        };
+        Handle {
+            card: 1,
+            hand: place.hand,
+            to: place.to.clone(),
+            moved: Some([0.1, 0.2, 0.3]),
+        }
+    }
+
+    #[test]
+    fn values_are_read_from_every_goal_and_written_back() {
+        for (text, value) in [
+            ("place both by left 25cm", [0.25, 0.0, 0.0]),
+            ("place right by down 5cm forward 10%", [0.0, -0.05, 0.06]),
+            ("place left near BOL by up 5cm", [0.0, 0.05, 0.0]),
+            ("place right at 5cm,140cm,30cm", [0.05, 1.4, 0.3]),
+            ("place right at chin", [0.1, 0.2, 0.3]),
+        ] {
+            let handle = handle(text);
+            let read = handle.value(0.6).expect("a value");
+            let off = DVec3::from(read).distance(DVec3::from(value));
+            assert!(off < 1e-9, "{text}: {read:?}");
+            let moved = Handle {
+                to: handle.goal([-0.1, 0.0, 0.035]),
+                ..handle.clone()
+            };
+            let again = moved.value(0.6).expect("a value");
+            assert!(DVec3::from(again).distance(DVec3::new(-0.1, 0.0, 0.035)) < 1e-9);
+            assert_eq!(moved.is_point(), handle.is_point());
+        }
+        let named = handle("place right at chin");
+        assert!(matches!(named.goal([0.0, 0.1, 0.0]), Goal::By(_)));
+        assert_eq!(
+            Handle {
+                moved: None,
+                ..named
+            }
+            .value(0.6),
+            None
+        );
+        let near = handle("place left near BOL by up 5cm");
+        assert!(matches!(near.goal([0.0; 3]), Goal::Near { of, .. } if of == "BOL"));
+    }
+}

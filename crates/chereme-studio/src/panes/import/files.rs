@@ -1,0 +1,203 @@
+//! What was understood of each file, and what of it a person changes before anything is written.
+
+use std::path::Path;
+
+use chereme_corpus::{FileReport, FileStatus};
+use eframe::egui::{CollapsingHeader, ComboBox, Grid, Id, RichText, Role, Ui, WidgetInfo};
+
+use super::known::Said;
+use super::{body, data};
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::panes::complete::{Line, complete, fitting};
+use crate::words::{fill, import as words, shell};
+
+/// Shows what was understood of a file.
+pub(super) fn show(
+    said: &mut Said,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    file: &FileReport,
+    (open, dry): (bool, bool),
+    out: &mut Outbox,
+) {
+    let name = Path::new(&file.path)
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy();
+    let colour = match file.status {
+        FileStatus::Refused => seen.colours().trouble,
+        FileStatus::Imported | FileStatus::Updated => ui.visuals().text_color(),
+        _ => ui.visuals().weak_text_color(),
+    };
+    let [_, warnings, notes] = data::counts(file);
+    let mut title = format!("{name} · {}", seen.say(data::status_text(file.status)));
+    for (count, text) in [(warnings, words::WARNINGS), (notes, words::NOTES)] {
+        if count > 0 {
+            title = format!("{title} · {}", fill(seen.say(text), &[("n", &count)]));
+        }
+    }
+    let header = CollapsingHeader::new(RichText::new(title).color(colour));
+    let open = open || file.status == FileStatus::Refused;
+    header
+        .id_salt((&file.path, dry))
+        .default_open(open)
+        .show(ui, |ui| {
+            if let Some(recording) = &file.recording {
+                ui.horizontal_wrapped(|ui| {
+                    ui.weak(seen.say(words::BECOMES));
+                    ui.label(recording);
+                    let there = seen.snapshot.recording_named(recording);
+                    if let Some(there) = there.filter(|_| !dry)
+                        && ui.small_button(seen.say(words::SHOW)).clicked()
+                    {
+                        out.send(Command::Recording(there.row.id));
+                    }
+                });
+            }
+            understood(said, ui, seen, file, dry);
+            findings(ui, seen, file);
+        });
+}
+
+fn understood(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport, dry: bool) {
+    let lines = data::movement(file);
+    let parts = data::parts(file);
+    if !lines.is_empty() || parts.is_some() {
+        ui.horizontal_top(|ui| {
+            if let Some(parts) = &parts {
+                body::show(ui, seen, parts);
+            }
+            ui.vertical(|ui| {
+                for (text, value) in &lines {
+                    ui.small(seen.say(*text));
+                    ui.add(eframe::egui::Label::new(value).wrap());
+                }
+            })
+            .response
+            .on_hover_text(data::reasons(file).join("\n"));
+        });
+    }
+    if dry {
+        joints(said, ui, seen, file);
+    }
+    let tiers = data::guesses(file, "tiers");
+    if !tiers.is_empty() {
+        ui.weak(seen.say(words::TIERS_ARE));
+        Grid::new(("tiers", &file.path))
+            .num_columns(2)
+            .striped(true)
+            .show(ui, |ui| {
+                for guess in &tiers {
+                    let label = ui.add(eframe::egui::Label::new(&guess.name).truncate());
+                    label.on_hover_text(&guess.why);
+                    if dry {
+                        tier(said, ui, seen, guess);
+                    } else {
+                        ui.label(&guess.role);
+                    }
+                    ui.end_row();
+                }
+            });
+    }
+    let columns = data::guesses(file, "columns");
+    if !columns.is_empty() {
+        let all: Vec<String> = columns
+            .iter()
+            .map(|it| format!("{} = {}", it.name, it.role))
+            .collect();
+        ui.small(all.join(", "));
+    }
+}
+
+/// What a tier is taken for, to be changed.
+fn tier(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, guess: &data::Guess) {
+    let chosen = said.tiers.get(&guess.name).cloned();
+    let now = chosen.clone().unwrap_or_else(|| guess.role.clone());
+    let shown = if now.is_empty() {
+        seen.say(words::NOT_KNOWN)
+    } else {
+        &now
+    };
+    let mut text = RichText::new(shown);
+    if chosen.is_some() {
+        text = text.strong();
+    } else if guess.sure < 0.6 {
+        text = text.color(seen.colours().trouble);
+    }
+    let combo = ComboBox::from_id_salt(&guess.name)
+        .selected_text(text)
+        .width(0.0);
+    let inner = combo.show_ui(ui, |ui| {
+        for role in data::ROLES {
+            if ui.selectable_label(now == role, role).clicked() {
+                said.tiers.insert(guess.name.clone(), role.to_owned());
+            }
+        }
+    });
+    let name = fill(seen.say(words::TIER_IS), &[("tier", &guess.name)]);
+    inner
+        .response
+        .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
+}
+
+/// Which joint each part of the body is, to be changed.
+fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport) {
+    let rows = data::joint_rows(file);
+    if rows.is_empty() {
+        return;
+    }
+    let title = RichText::new(seen.say(words::JOINTS_ARE)).small();
+    let header = CollapsingHeader::new(title).id_salt(("joints", &file.path));
+    header.show(ui, |ui| {
+        let names = data::joint_names(file);
+        let candidates = |typed: &str| fitting(names.iter().copied(), typed);
+        Grid::new(("joints", &file.path))
+            .num_columns(2)
+            .show(ui, |ui| {
+                for (part, joint) in &rows {
+                    let changed = said.joints.contains_key(part);
+                    let name = RichText::new(part).small();
+                    ui.label(if changed { name.strong() } else { name });
+                    let mut text = said.joints.get(part).unwrap_or(joint).clone();
+                    let label = fill(seen.say(words::JOINT_OF), &[("part", part)]);
+                    let line = Line {
+                        name: &label,
+                        hint: seen.say(words::NO_JOINT),
+                        width: 130.0,
+                    };
+                    let id = Id::unique(("joint", &file.path, part));
+                    if complete(ui, id, line, &mut text, &candidates).changed {
+                        if text == *joint {
+                            said.joints.remove(part);
+                        } else {
+                            said.joints.insert(part.clone(), text);
+                        }
+                    }
+                    ui.end_row();
+                }
+            });
+    });
+}
+
+/// What is odd about a file, with its line and what would be right.
+fn findings(ui: &mut Ui, seen: &Seen<'_>, file: &FileReport) {
+    for finding in &file.findings {
+        let colour = match finding.severity {
+            "note" => ui.visuals().weak_text_color(),
+            _ => seen.colours().trouble,
+        };
+        let place = match finding.line {
+            Some(line) => format!("{}: ", fill(seen.say(words::LINE), &[("n", &line)])),
+            None => String::new(),
+        };
+        let text = RichText::new(format!("{place}{}", finding.message))
+            .small()
+            .color(colour);
+        ui.label(text);
+        if let Some(remedy) = &finding.remedy {
+            let text = fill(seen.say(shell::REMEDY), &[("remedy", remedy)]);
+            ui.label(RichText::new(text).small());
+        }
+    }
+}

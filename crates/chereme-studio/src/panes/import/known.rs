@@ -1,0 +1,159 @@
+//! What a person knows better than the files.
+
+use std::collections::BTreeMap;
+
+use chereme_corpus::ImportOptions;
+use chereme_motion::Axes;
+use eframe::egui::{CollapsingHeader, ComboBox, Grid, Id, Role, Ui, WidgetInfo};
+
+use super::data;
+use crate::context::Seen;
+use crate::panes::complete::{Line, complete, fitting};
+use crate::words::{Text, fill, import as words};
+
+/// What a person says that files do not.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Said {
+    signer: String,
+    /// `right`, `left`, or nothing.
+    hand: Option<&'static str>,
+    metres_per_unit: Option<f64>,
+    licence: String,
+    mend_root: bool,
+    axes: Option<Axes>,
+    /// What tiers are, by name.
+    pub(super) tiers: BTreeMap<String, String>,
+    /// Which joint each part of the body is, blank where there is none.
+    pub(super) joints: BTreeMap<String, String>,
+}
+
+impl Said {
+    pub(super) fn options(&self, dry_run: bool) -> ImportOptions {
+        let text = |text: &str| Some(text.trim().to_owned()).filter(|text| !text.is_empty());
+        ImportOptions {
+            signer: text(&self.signer),
+            handedness: self.hand.map(str::to_owned),
+            metres_per_unit: self.metres_per_unit,
+            licence: text(&self.licence),
+            mend_root: self.mend_root,
+            axes: self.axes,
+            roles: data::roles(&self.joints),
+            mapping: data::mapping(&self.tiers),
+            dry_run,
+            ..ImportOptions::default()
+        }
+    }
+}
+
+/// What a person knows better than the files.
+pub(super) fn show(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>) {
+    CollapsingHeader::new(seen.say(words::KNOWN_BETTER))
+        .id_salt("known")
+        .show(ui, |ui| {
+            Grid::new("known").num_columns(2).show(ui, |ui| {
+                let label = ui.label(seen.say(words::SIGNER));
+                let signers = &seen.snapshot.overview.signers;
+                let candidates =
+                    |typed: &str| fitting(signers.iter().map(|it| it.name.as_str()), typed);
+                let line = Line {
+                    name: "",
+                    hint: seen.say(words::AS_FILES_SAY),
+                    width: 150.0,
+                };
+                let typed = complete(
+                    ui,
+                    Id::unique("import signer"),
+                    line,
+                    &mut said.signer,
+                    &candidates,
+                );
+                typed.response.labelled_by(label.id);
+                ui.end_row();
+                let hands = [
+                    (None, words::AS_FILES_SAY),
+                    (Some("right"), words::RIGHT),
+                    (Some("left"), words::LEFT),
+                ];
+                list(ui, seen, words::HANDEDNESS, &mut said.hand, &hands);
+                let units = [
+                    (None, words::AS_UNDERSTOOD),
+                    (Some(1.0), words::METRES),
+                    (Some(0.01), words::CENTIMETRES),
+                    (Some(0.001), words::MILLIMETRES),
+                    (Some(0.0254), words::INCHES),
+                ];
+                list(ui, seen, words::UNIT, &mut said.metres_per_unit, &units);
+                axes(ui, seen, &mut said.axes);
+                let label = ui.label(seen.say(words::LICENCE));
+                let none = |_: &str| Vec::new();
+                let line = Line {
+                    name: "",
+                    hint: "",
+                    width: 150.0,
+                };
+                let typed = complete(
+                    ui,
+                    Id::unique("import licence"),
+                    line,
+                    &mut said.licence,
+                    &none,
+                );
+                typed.response.labelled_by(label.id);
+                ui.end_row();
+            });
+            ui.checkbox(&mut said.mend_root, seen.say(words::MEND_ROOT));
+        });
+}
+
+/// Shows which axis is up and which is the signer's left.
+fn axes(ui: &mut Ui, seen: &Seen<'_>, value: &mut Option<Axes>) {
+    ui.label(seen.say(words::AXES));
+    let text = |axes: &Option<Axes>| match axes {
+        None => seen.say(words::AS_UNDERSTOOD).to_owned(),
+        Some(axes) => {
+            let [up, left] = data::axes_parts(*axes);
+            fill(seen.say(words::AXES_ARE), &[("up", &up), ("left", &left)])
+        }
+    };
+    let combo = ComboBox::from_id_salt("axes")
+        .selected_text(text(value))
+        .width(0.0);
+    let inner = combo.show_ui(ui, |ui| {
+        for axes in std::iter::once(None).chain(data::all_axes().map(Some)) {
+            let name = text(&axes);
+            ui.selectable_value(value, axes, name);
+        }
+    });
+    let name = format!("{}: {}", seen.say(words::AXES), text(value));
+    inner
+        .response
+        .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
+    ui.end_row();
+}
+
+fn list<T: PartialEq + Copy>(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    text: Text,
+    value: &mut T,
+    all: &[(T, Text)],
+) {
+    ui.label(seen.say(text));
+    let now = all
+        .iter()
+        .find(|(it, _)| it == value)
+        .map_or("", |(_, text)| seen.say(*text));
+    let combo = ComboBox::from_id_salt(text.en)
+        .selected_text(now)
+        .width(0.0);
+    let inner = combo.show_ui(ui, |ui| {
+        for (it, text) in all {
+            ui.selectable_value(value, *it, seen.say(*text));
+        }
+    });
+    let name = format!("{}: {now}", seen.say(text));
+    inner
+        .response
+        .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
+    ui.end_row();
+}

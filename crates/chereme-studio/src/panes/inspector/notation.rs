@@ -1,0 +1,126 @@
+//! HamNoSys for people without its font: the names of its symbols, part by part.
+
+use chereme_sign::hamnosys::{Class, Symbol, to_names};
+
+use crate::words::{Text, inspector as words};
+
+/// A part of a notation, in the order in which HamNoSys is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Part {
+    Hands,
+    Handshape,
+    Orientation,
+    Location,
+    Movement,
+}
+
+impl Part {
+    fn text(self) -> Text {
+        match self {
+            Self::Hands => words::BOTH_HANDS,
+            Self::Handshape => words::CONFIGURATION,
+            Self::Orientation => words::ORIENTATION,
+            Self::Location => words::PLACEMENT,
+            Self::Movement => words::MOVEMENT,
+        }
+    }
+
+    /// Returns the part that a symbol belongs to after one of `self`; nothing for brackets and signs
+    /// between, which go with what stands beside them.
+    fn after(self, class: Class) -> Option<Self> {
+        // What a movement leads to, and what changes in it, is of the movement.
+        if self == Self::Movement {
+            return Some(Self::Movement);
+        }
+        match class {
+            Class::Handshape | Class::HandshapeMark => Some(Self::Handshape),
+            Class::ExtendedFinger | Class::Palm => Some(Self::Orientation),
+            Class::Location | Class::LocationMark | Class::HandPart | Class::Contact => {
+                Some(Self::Location)
+            }
+            Class::Digit | Class::FingerPart if self <= Self::Handshape => Some(Self::Handshape),
+            Class::Digit | Class::FingerPart => Some(Self::Location),
+            Class::Movement | Class::MovementMark | Class::Manner | Class::Repetition => {
+                Some(Self::Movement)
+            }
+            Class::Punctuation | Class::Bracket | Class::Operator => None,
+        }
+    }
+}
+
+/// Returns the parts of a notation, each with the names of its symbols; nothing of a text that is none.
+pub(super) fn parts(text: &str) -> Vec<(Text, String)> {
+    let Ok(names) = to_names(text) else {
+        return Vec::new();
+    };
+    let mut parts: Vec<(Part, Vec<&str>)> = Vec::new();
+    let mut now = Part::Hands;
+    let mut waiting: Vec<&str> = Vec::new();
+    for name in names {
+        let short = name.strip_prefix("ham").unwrap_or(name);
+        let class = Symbol::from_name(name).map(Symbol::class);
+        let opens = name.ends_with("begin");
+        let next = class.and_then(|class| now.after(class));
+        match (next, parts.last_mut()) {
+            (Some(next), Some((part, all))) if *part == next => {
+                all.append(&mut waiting);
+                all.push(short);
+                now = next;
+            }
+            (Some(next), _) => {
+                let mut all = std::mem::take(&mut waiting);
+                all.push(short);
+                parts.push((next, all));
+                now = next;
+            }
+            (None, Some((_, all))) if !opens => {
+                all.append(&mut waiting);
+                all.push(short);
+            }
+            (None, None) if !opens => parts.push((Part::Hands, vec![short])),
+            (None, _) => waiting.push(short),
+        }
+    }
+    if let Some((_, all)) = parts.last_mut() {
+        all.append(&mut waiting);
+    }
+    let said = parts
+        .into_iter()
+        .map(|(part, all)| (part.text(), all.join(" ")));
+    said.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_sign::hamnosys::from_names;
+
+    fn said(names: &str) -> Vec<(Text, String)> {
+        parts(&from_names(names.split(' ')).expect("a notation"))
+    }
+
+    #[test]
+    fn a_notation_is_told_part_by_part() {
+        let simple = said("hamfinger2 hamextfingeru hampalml hamchin hamtouch hammoveo");
+        let want = [
+            (words::CONFIGURATION, "finger2"),
+            (words::ORIENTATION, "extfingeru palml"),
+            (words::PLACEMENT, "chin touch"),
+            (words::MOVEMENT, "moveo"),
+        ];
+        assert_eq!(simple, want.map(|(part, text)| (part, text.to_owned())));
+        let both = said(
+            "hamsymmpar hamfist hamthumboutmod hamextfingeru hampalml hamchest hamparbegin \
+             hammoved hamreplace hamfinger2 hamparend",
+        );
+        let want = [
+            (words::BOTH_HANDS, "symmpar"),
+            (words::CONFIGURATION, "fist thumboutmod"),
+            (words::ORIENTATION, "extfingeru palml"),
+            (words::PLACEMENT, "chest"),
+            (words::MOVEMENT, "parbegin moved replace finger2 parend"),
+        ];
+        assert_eq!(both, want.map(|(part, text)| (part, text.to_owned())));
+        assert!(parts("no notation").is_empty());
+    }
+}

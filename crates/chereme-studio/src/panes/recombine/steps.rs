@@ -1,0 +1,144 @@
+//! What was done to the recipe, to be taken back and done again in its order with what was done to
+//! the corpus.
+
+use chereme_corpus::{OperationKind, OperationRow};
+
+/// Steps that are remembered.
+const MOST: usize = 200;
+
+/// The steps of pages of type `T`.
+#[derive(Debug)]
+pub(super) struct Steps<T> {
+    done: Vec<Entry<T>>,
+    undone: Vec<Entry<T>>,
+    /// The newest operation of the corpus that is counted.
+    newest: Option<i64>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Entry<T> {
+    /// The page was the first, and became the second.
+    Page(T, T),
+    /// An operation of the corpus.
+    Corpus,
+}
+
+impl<T> Default for Steps<T> {
+    fn default() -> Self {
+        Self {
+            done: Vec::new(),
+            undone: Vec::new(),
+            newest: None,
+        }
+    }
+}
+
+impl<T: Clone> Steps<T> {
+    /// Takes in that the page became another.
+    pub(super) fn did(&mut self, before: T, after: T) {
+        self.done.push(Entry::Page(before, after));
+        self.undone.clear();
+        if self.done.len() > MOST {
+            self.done.remove(0);
+        }
+    }
+
+    /// Takes in what was done to the corpus since; `operations` are the newest first.
+    pub(super) fn follow(&mut self, operations: &[OperationRow]) {
+        let newest = operations.first().map(|it| it.id);
+        let Some(known) = self.newest else {
+            self.newest = newest.or(Some(0));
+            return;
+        };
+        let new = operations.iter().take_while(|it| it.id > known);
+        let new: Vec<OperationKind> = new.map(|it| it.kind).collect();
+        for kind in new.into_iter().rev() {
+            match kind {
+                OperationKind::Do => {
+                    self.done.push(Entry::Corpus);
+                    self.undone.clear();
+                }
+                OperationKind::Undo => go_over(&mut self.done, &mut self.undone),
+                OperationKind::Redo => go_over(&mut self.undone, &mut self.done),
+            }
+        }
+        self.newest = newest.or(self.newest);
+    }
+
+    /// Returns the page to go back to; nothing where it is the corpus's turn.
+    pub(super) fn back(&mut self) -> Option<T> {
+        let entry = self.done.pop_if(|it| matches!(it, Entry::Page(..)))?;
+        self.undone.push(entry.clone());
+        match entry {
+            Entry::Page(before, _) => Some(before),
+            Entry::Corpus => None,
+        }
+    }
+
+    /// Returns the page to go forward to; nothing where it is the corpus's turn.
+    pub(super) fn forward(&mut self) -> Option<T> {
+        let entry = self.undone.pop_if(|it| matches!(it, Entry::Page(..)))?;
+        self.done.push(entry.clone());
+        match entry {
+            Entry::Page(_, after) => Some(after),
+            Entry::Corpus => None,
+        }
+    }
+}
+
+/// Moves the newest operation of the corpus from one list to the other.
+fn go_over<T>(from: &mut Vec<Entry<T>>, to: &mut Vec<Entry<T>>) {
+    if let Some(at) = from.iter().rposition(|it| matches!(it, Entry::Corpus)) {
+        to.push(from.remove(at));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns operations of these kinds, the newest first; numbers count up from 1.
+    fn operations(kinds: &[OperationKind]) -> Vec<OperationRow> {
+        let row = |(at, kind): (usize, &OperationKind)| OperationRow {
+            id: at as i64 + 1,
+            at: String::new(),
+            author: String::new(),
+            kind: *kind,
+            target: None,
+            name: String::new(),
+            summary: String::new(),
+            changes: 1,
+            stands: true,
+        };
+        kinds.iter().enumerate().map(row).rev().collect()
+    }
+
+    #[test]
+    fn steps_of_recipe_and_corpus_are_taken_back_in_their_order() {
+        use OperationKind::{Do, Redo, Undo};
+        let mut steps: Steps<&str> = Steps::default();
+        steps.follow(&operations(&[Do]));
+        assert_eq!(steps.back(), None, "what was there before is the corpus's");
+        steps.did("", "A");
+        steps.did("A", "A | swap");
+        steps.follow(&operations(&[Do, Do]));
+        steps.did("A | swap", "A");
+        assert_eq!(steps.back(), Some("A | swap"));
+        assert_eq!(steps.back(), None, "the corpus's turn");
+        steps.follow(&operations(&[Do, Do, Undo]));
+        assert_eq!(
+            (steps.back(), steps.back(), steps.back()),
+            (Some("A"), Some(""), None)
+        );
+        assert_eq!(
+            (steps.forward(), steps.forward()),
+            (Some("A"), Some("A | swap"))
+        );
+        assert_eq!(steps.forward(), None, "the corpus's turn");
+        steps.follow(&operations(&[Do, Do, Undo, Redo]));
+        assert_eq!(steps.forward(), Some("A"));
+        steps.back();
+        steps.did("A | swap", "B");
+        assert_eq!(steps.forward(), None, "what was done instead ends it");
+    }
+}

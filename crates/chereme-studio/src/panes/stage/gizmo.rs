@@ -1,0 +1,389 @@
+//! The handle of a placement without a window: where its ends lie in the picture, and what a drag
+//! of it means in space.
+
+use chereme_figure::camera::Projection;
+use chereme_motion::{Anatomy, Clip};
+use glam::{DMat3, DVec3, Vec3};
+
+/// How long an axis is in the picture where it lies across, in points.
+pub(super) const REACH: f32 = 64.0;
+/// Axes that point at the eye so much that less than this is left of them are not drawn.
+const LEAST: f32 = 12.0;
+/// How many frames are looked at for where the body faces.
+const LOOKS: usize = 16;
+
+/// A line of sight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Ray {
+    pub(super) from: DVec3,
+    /// Its direction, of length 1.
+    pub(super) along: DVec3,
+}
+
+impl Ray {
+    /// Returns the line of sight through a place of the picture.
+    pub(super) fn through(projection: &Projection, [x, y]: [f32; 2]) -> Self {
+        let (from, along) = projection.ray(x, y);
+        Self {
+            from: from.as_dvec3(),
+            along: along.as_dvec3().normalize_or(DVec3::NEG_Z),
+        }
+    }
+
+    /// Returns where on the line through `origin` along the unit vector `axis` it comes nearest, in
+    /// metres from `origin`; nothing where both point the same way.
+    pub(super) fn along_axis(&self, origin: DVec3, axis: DVec3) -> Option<f64> {
+        let between = self.from - origin;
+        let slant = axis.dot(self.along);
+        let across = 1.0 - slant * slant;
+        (across > 1e-4).then(|| (axis.dot(between) - slant * self.along.dot(between)) / across)
+    }
+
+    /// Returns where it meets the plane through `origin` across the unit vector `normal`; nothing
+    /// where it runs along it, or away from it.
+    pub(super) fn on_plane(&self, origin: DVec3, normal: DVec3) -> Option<DVec3> {
+        let steep = normal.dot(self.along);
+        let far = normal.dot(origin - self.from) / steep;
+        (steep.abs() > 1e-4 && far > 0.0).then(|| self.from + self.along * far)
+    }
+}
+
+/// A signer's own directions, and the length of an arm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Directions {
+    /// Left, up and forward.
+    pub(super) axes: DMat3,
+    /// In metres.
+    pub(super) arm: f64,
+}
+
+impl Directions {
+    /// Returns those of a movement as placements mean them: up is up, left and forward are level.
+    pub(super) fn of(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
+        let step = clip.frames().div_ceil(LOOKS).max(1);
+        let facing = (0..clip.frames()).step_by(step).filter_map(|frame| {
+            let body = anatomy.body_frame(&clip.model_pose(frame))?;
+            Some(body.forward)
+        });
+        let facing: DVec3 = facing.sum();
+        let forward = DVec3::new(facing.x, 0.0, facing.z).normalize_or(DVec3::Z);
+        Some(Self {
+            axes: DMat3::from_cols(DVec3::Y.cross(forward), DVec3::Y, forward),
+            arm: anatomy.measures()?.arm,
+        })
+    }
+}
+
+/// What of the handle is dragged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Part {
+    /// One of left, up and forward.
+    Axis(usize),
+    /// Its middle: it goes across the line of sight.
+    Middle,
+}
+
+/// Where a drag began.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Begun {
+    pub(super) part: Part,
+    /// Where the handle was, in model space.
+    pub(super) origin: DVec3,
+    /// The value then, in metres to the left, up and forward.
+    pub(super) value: [f64; 3],
+    /// The line of sight of the pointer then.
+    pub(super) ray: Ray,
+    /// Where the eye looks.
+    pub(super) sight: DVec3,
+}
+
+impl Begun {
+    /// Returns the value while the pointer is on that line of sight, to the millimetre or to `step`.
+    pub(super) fn value(&self, ray: Ray, axes: DMat3, step: Option<f64>) -> Option<[f64; 3]> {
+        let way = match self.part {
+            Part::Axis(nth) => {
+                let axis = axes.col(nth);
+                let from = self.ray.along_axis(self.origin, axis)?;
+                let mut way = [0.0; 3];
+                way[nth] = ray.along_axis(self.origin, axis)? - from;
+                way
+            }
+            Part::Middle => {
+                let from = self.ray.on_plane(self.origin, self.sight)?;
+                let way = ray.on_plane(self.origin, self.sight)? - from;
+                (axes.transpose() * way).to_array()
+            }
+        };
+        let mut value = self.value;
+        for (nth, way) in way.into_iter().enumerate() {
+            let moves = self.part == Part::Middle || self.part == Part::Axis(nth);
+            if moves {
+                value[nth] = snapped(value[nth] + way, step);
+            }
+        }
+        Some(value)
+    }
+
+    /// Returns where the handle is at that value, in model space.
+    pub(super) fn place(&self, value: [f64; 3], axes: DMat3) -> DVec3 {
+        self.origin + axes * (DVec3::from(value) - DVec3::from(self.value))
+    }
+}
+
+/// Returns a length to the millimetre, or to `step`, as it is written in centimetres.
+pub(super) fn snapped(metres: f64, step: Option<f64>) -> f64 {
+    let step = step.unwrap_or(0.001);
+    let mm = ((metres / step).round() * step * 1000.0).round();
+    // No minus before nothing.
+    mm / 10.0 / 100.0 + 0.0
+}
+
+/// Returns the value moved by keys: so many metres to the picture's right, up, and away from the eye,
+/// each along the one of the signer's directions that goes that way most.
+pub(super) fn stepped(
+    value: [f64; 3],
+    [right, up, away]: [f64; 3],
+    (projection, axes): (&Projection, DMat3),
+) -> [f64; 3] {
+    let seen = [0, 1, 2].map(|nth| projection.turned(axes.col(nth).as_vec3()));
+    const ORDERS: [[usize; 3]; 6] = [
+        [0, 1, 2],
+        [0, 2, 1],
+        [1, 0, 2],
+        [1, 2, 0],
+        [2, 0, 1],
+        [2, 1, 0],
+    ];
+    let fits = |order: &[usize; 3]| -> f32 {
+        let [right, up, away] = order.map(|nth| seen[nth]);
+        right.x.abs() + up.y.abs() + away.z.abs()
+    };
+    let best = ORDERS
+        .into_iter()
+        .reduce(|a, b| if fits(&b) > fits(&a) { b } else { a });
+    let order = best.unwrap_or([0, 1, 2]);
+    let mut value = value;
+    for (at, way) in [right, up, away].into_iter().enumerate() {
+        let nth = order[at];
+        let sign = match at {
+            0 => seen[nth].x,
+            1 => seen[nth].y,
+            _ => -seen[nth].z,
+        };
+        if way != 0.0 {
+            value[nth] = snapped(value[nth] + way * f64::from(sign.signum()), None);
+        }
+    }
+    value
+}
+
+/// Where a handle lies in the picture, in points from its upper left corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Laid {
+    pub(super) middle: [f32; 2],
+    /// The ends of left, up and forward; none of one that points at the eye.
+    pub(super) ends: [Option<[f32; 2]>; 3],
+}
+
+/// Returns where a handle at `origin` lies; nothing where it is behind the eye.
+pub(super) fn laid(projection: &Projection, origin: DVec3, axes: DMat3) -> Option<Laid> {
+    let at = projection.project(origin.as_vec3());
+    let ends = [0, 1, 2].map(|nth| {
+        let way: Vec3 = projection.turned(axes.col(nth).as_vec3()) * REACH;
+        let length = way.x.hypot(way.y);
+        (length >= LEAST).then_some([at.x + way.x, at.y - way.y])
+    });
+    (at.depth > 0.0).then_some(Laid {
+        middle: [at.x, at.y],
+        ends,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_figure::camera::Camera;
+    use proptest::prelude::*;
+
+    fn front() -> Projection {
+        let camera = Camera {
+            eye: Vec3::new(0.0, 1.0, 7.0),
+            target: Vec3::new(0.0, 1.0, 0.0),
+            up: Vec3::Y,
+            half_height: 1.0,
+            near: 0.0,
+        };
+        camera.projection(400, 400)
+    }
+
+    /// Left, up and forward of a signer who faces +Z.
+    const OWN: DMat3 = DMat3::IDENTITY;
+
+    fn pixel(projection: &Projection, at: DVec3) -> [f32; 2] {
+        let at = projection.project(at.as_vec3());
+        [at.x, at.y]
+    }
+
+    #[test]
+    fn a_line_of_sight_goes_through_what_is_seen_there() {
+        let projection = front();
+        for at in [
+            DVec3::new(0.3, 1.2, 0.4),
+            DVec3::new(-0.5, 0.4, -0.3),
+            DVec3::new(0.0, 1.0, 0.0),
+        ] {
+            let ray = Ray::through(&projection, pixel(&projection, at));
+            let nearest = ray.from + ray.along * ray.along.dot(at - ray.from);
+            assert!(nearest.distance(at) < 1e-4, "{at}: {nearest}");
+        }
+    }
+
+    #[test]
+    fn rays_meet_axes_and_planes_where_closed_forms_say() {
+        // From (1, 2, 5) straight back: nearest to the x axis at x = 1, on z = 0 at (1, 2, 0).
+        let ray = Ray {
+            from: DVec3::new(1.0, 2.0, 5.0),
+            along: DVec3::NEG_Z,
+        };
+        assert_eq!(ray.along_axis(DVec3::ZERO, DVec3::X), Some(1.0));
+        assert_eq!(
+            ray.along_axis(DVec3::new(0.25, 9.0, 0.0), DVec3::X),
+            Some(0.75)
+        );
+        assert_eq!(ray.along_axis(DVec3::ZERO, DVec3::Z), None);
+        assert_eq!(
+            ray.on_plane(DVec3::ZERO, DVec3::Z),
+            Some(DVec3::new(1.0, 2.0, 0.0))
+        );
+        assert_eq!(ray.on_plane(DVec3::ZERO, DVec3::X), None);
+        assert_eq!(
+            ray.on_plane(DVec3::new(0.0, 0.0, 9.0), DVec3::Z),
+            None,
+            "behind"
+        );
+        // At 45 degrees from (0, 0, 1) it crosses the x axis at 1.
+        let slant = Ray {
+            from: DVec3::Z,
+            along: DVec3::new(1.0, 0.0, -1.0).normalize(),
+        };
+        let at = slant.along_axis(DVec3::ZERO, DVec3::X).expect("not along");
+        assert!((at - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn what_is_dragged_stays_below_the_pointer() {
+        let projection = front();
+        let origin = DVec3::new(-0.2, 1.1, 0.3);
+        for (part, way) in [
+            (Part::Axis(0), DVec3::new(0.15, 0.0, 0.0)),
+            (Part::Axis(1), DVec3::new(0.0, -0.2, 0.0)),
+            (Part::Middle, DVec3::new(0.1, 0.07, 0.0)),
+        ] {
+            let begun = Begun {
+                part,
+                origin,
+                value: [0.1, 0.0, 0.05],
+                ray: Ray::through(&projection, pixel(&projection, origin)),
+                sight: DVec3::NEG_Z,
+            };
+            let ray = Ray::through(&projection, pixel(&projection, origin + way));
+            let value = begun.value(ray, OWN, None).expect("a value");
+            let wanted = DVec3::new(0.1, 0.0, 0.05) + way;
+            assert!(
+                DVec3::from(value).distance(wanted) < 2e-3,
+                "{part:?}: {value:?}"
+            );
+            assert!(begun.place(value, OWN).distance(origin + way) < 2e-3);
+            let whole = begun.value(ray, OWN, Some(0.01)).expect("a value");
+            let moved = (0..3).filter(|nth| whole[*nth] != begun.value[*nth]);
+            for nth in moved {
+                let cm = whole[nth] * 100.0;
+                assert!((cm - cm.round()).abs() < 1e-6, "{whole:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn lengths_are_written_in_centimetres() {
+        for mm in -999..999 {
+            let metres = snapped(f64::from(mm) / 1000.0 + 0.0002, None);
+            let text = chereme_corpus::recipe::Length::Metres(metres).to_string();
+            assert_eq!(text, format!("{}cm", f64::from(mm) / 10.0));
+        }
+        assert_eq!(snapped(0.1872, Some(0.01)), 0.19);
+    }
+
+    #[test]
+    fn keys_go_where_the_picture_goes() {
+        let one = |from: Vec3, to: Vec3, up: Vec3, keys: [f64; 3]| {
+            let camera = Camera {
+                eye: from,
+                target: to,
+                up,
+                half_height: 1.0,
+                near: 0.0,
+            };
+            stepped([0.0; 3], keys, (&camera.projection(400, 400), OWN))
+        };
+        let (up, middle) = (Vec3::Y, Vec3::new(0.0, 1.0, 0.0));
+        let addressee = Vec3::new(0.0, 1.0, 7.0);
+        assert_eq!(
+            one(addressee, middle, up, [0.01, 0.0, 0.0]),
+            [0.01, 0.0, 0.0]
+        );
+        assert_eq!(
+            one(addressee, middle, up, [0.0, 0.05, 0.0]),
+            [0.0, 0.05, 0.0]
+        );
+        assert_eq!(
+            one(addressee, middle, up, [0.0, 0.0, 0.01]),
+            [0.0, 0.0, -0.01]
+        );
+        // From the signer's left, forward is to the left of the picture.
+        let left = Vec3::new(7.0, 1.0, 0.0);
+        assert_eq!(one(left, middle, up, [0.01, 0.0, 0.0]), [0.0, 0.0, -0.01]);
+        assert_eq!(one(left, middle, up, [0.0, 0.0, 0.01]), [-0.01, 0.0, 0.0]);
+        let above = Vec3::new(0.0, 8.0, 0.0);
+        assert_eq!(
+            one(above, middle, Vec3::NEG_Z, [0.0, 0.01, 0.0]),
+            [0.0, 0.0, -0.01]
+        );
+        assert_eq!(
+            one(above, middle, Vec3::NEG_Z, [0.0, 0.0, 0.01]),
+            [0.0, -0.01, 0.0]
+        );
+    }
+
+    #[test]
+    fn ends_lie_along_the_axes_and_none_points_at_the_eye() {
+        let laid = laid(&front(), DVec3::new(0.0, 1.0, 0.0), OWN).expect("seen");
+        assert_eq!(laid.middle, [200.0, 200.0]);
+        assert_eq!(laid.ends[0], Some([200.0 + REACH, 200.0]));
+        assert_eq!(laid.ends[1], Some([200.0, 200.0 - REACH]));
+        assert_eq!(laid.ends[2], None);
+        assert!(super::laid(&front(), DVec3::new(0.0, 1.0, 8.0), OWN).is_none());
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn the_nearest_place_is_seen_at_a_right_angle(
+            from in prop::array::uniform3(-3.0f64..3.0),
+            to in prop::array::uniform3(-1.0f64..1.0),
+            axis in prop::array::uniform3(-1.0f64..1.0),
+        ) {
+            let (from, to) = (DVec3::from(from), DVec3::from(to));
+            let (Some(along), Some(axis)) = ((to - from).try_normalize(), DVec3::from(axis).try_normalize())
+            else {
+                return Ok(());
+            };
+            let ray = Ray { from, along };
+            if let Some(far) = ray.along_axis(DVec3::ZERO, axis) {
+                let place = axis * far;
+                let on_ray = from + along * along.dot(place - from);
+                prop_assert!((place - on_ray).dot(axis).abs() < 1e-6 * (1.0 + far.abs()));
+            }
+        }
+    }
+}

@@ -1,0 +1,451 @@
+//! The handle of a placement on the stage: drawn at the placed wrists, dragged or moved by keys.
+
+use chereme_figure::camera::Projection;
+use chereme_motion::{Anatomy, ModelPose, Part as Joint, Side};
+use eframe::egui::{
+    self, Align2, Color32, EventFilter, FontId, Id, Key, Modifiers, PointerButton, Pos2, Rect,
+    Response, Role, Sense, Stroke, TextStyle, Ui, Vec2, WidgetInfo, vec2,
+};
+use glam::{DMat3, DVec3};
+
+use super::data::Part as Pane;
+use super::gizmo::{self, Begun, Directions, Laid, Part, Ray};
+use super::{Of, Stage, ui};
+use crate::action::Action;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::model::handle::Handle;
+use crate::words::{fill, recombine, stage as words};
+
+/// How near the pointer has to be to the middle and to the ends.
+const MIDDLE: f32 = 22.0;
+const END: f32 = 24.0;
+/// How far an arrow key goes, and with Shift, in metres; and what a drag with Ctrl snaps to.
+const STEP: f64 = 0.01;
+const FAR_STEP: f64 = 0.05;
+
+/// What the stage knows of the handle from frame to frame.
+#[derive(Default)]
+pub(super) struct Holding {
+    directions: Option<(Of, Option<Directions>)>,
+    pub(super) grab: Option<Grab>,
+    /// The widgets that it is now.
+    middles: Vec<Id>,
+    /// The card, and what it was before it was last dragged or moved by keys.
+    before: Option<(u64, chereme_corpus::recipe::Goal)>,
+}
+
+impl Holding {
+    pub(super) fn has_focus(&self, ctx: &egui::Context) -> bool {
+        let focused = ctx.memory(egui::Memory::focused);
+        focused.is_some_and(|id| self.middles.contains(&id))
+    }
+
+    /// Forgets the widgets of the last frame.
+    pub(super) fn begin(&mut self) {
+        self.middles.clear();
+    }
+}
+
+/// A drag that goes on.
+pub(super) struct Grab {
+    /// How the hand was when it began.
+    pub(super) pose: ModelPose,
+    card: u64,
+    side: Side,
+    begun: Begun,
+    was_playing: bool,
+    /// Escape was pressed: the rest of the drag does nothing.
+    over: bool,
+}
+
+/// A handle in one picture.
+struct Held<'a> {
+    handle: &'a Handle,
+    directions: Directions,
+    value: [f64; 3],
+    pane: Rect,
+    projection: Projection,
+    side: Side,
+    /// Whether it has axes too, and not only its middle.
+    whole: bool,
+}
+
+/// Shows the handle over a picture of the made movement.
+pub(super) fn show(
+    stage: &mut Stage,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    (pane, projection, pose): (&Pane, Projection, &ModelPose),
+) {
+    let (Some(handle), Some(showing)) = (&seen.shown.handle, &seen.shown.made) else {
+        stage.holding.grab = None;
+        return;
+    };
+    let made = &showing.made;
+    let of = Of(std::sync::Arc::as_ptr(made) as usize);
+    if stage.holding.directions.as_ref().map(|it| it.0) != Some(of) {
+        let directions = Directions::of(&made.clip, &made.anatomy);
+        stage.holding.directions = Some((of, directions));
+    }
+    let Some((_, Some(directions))) = stage.holding.directions else {
+        return;
+    };
+    let Some(value) = handle.value(directions.arm) else {
+        return;
+    };
+    let sides = handle.hand.sides(made.handedness);
+    let first = sides
+        .iter()
+        .copied()
+        .find(|side| *side == made.handedness.dominant());
+    let first = first.or(sides.first().copied());
+    for &side in sides {
+        let held = Held {
+            handle,
+            directions,
+            value,
+            pane: pane.rect,
+            projection,
+            side,
+            whole: Some(side) == first,
+        };
+        one(
+            &mut stage.holding,
+            ui,
+            seen,
+            out,
+            &held,
+            (&made.anatomy, pose),
+        );
+    }
+}
+
+/// Shows the handle of one hand, and takes what is done with it.
+fn one(
+    holding: &mut Holding,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    held: &Held<'_>,
+    (anatomy, pose): (&Anatomy, &ModelPose),
+) {
+    let Some(wrist) = anatomy.joint(Joint::Hand(held.side)) else {
+        return;
+    };
+    let wrist = pose.position(wrist);
+    let axes = held.directions.axes;
+    let own = holding.grab.as_ref().filter(|it| it.side == held.side);
+    let at = own.map_or(wrist, |grab| grab.begun.place(held.value, axes));
+    let Some(laid) = gizmo::laid(&held.projection, at, axes) else {
+        return;
+    };
+    let base = held.pane.min;
+    let spot = |[x, y]: [f32; 2]| base + vec2(x, y);
+    let middle = spot(laid.middle);
+    if !held.pane.contains(middle) {
+        return;
+    }
+    let id = ui
+        .scope_id()
+        .with(("handle", base.x as i64, base.y as i64, held.side.name()));
+    let mut ends = [None, None, None];
+    if held.whole {
+        for (nth, end) in laid.ends.iter().enumerate() {
+            let Some(end) = end else { continue };
+            let rect = Rect::from_center_size(spot(*end), Vec2::splat(END));
+            let response = ui.interact(rect, id.with(("end", nth)), Sense::DRAG);
+            let name = format!("{}, {}", name(seen, held.side), axis_name(seen, nth));
+            let cm = held.value[nth] * 100.0;
+            response.widget_info(|| WidgetInfo::slider(true, cm, &name));
+            ends[nth] = Some(response);
+        }
+    }
+    let rect = Rect::from_center_size(middle, Vec2::splat(MIDDLE));
+    let response = ui.interact(rect, id, Sense::click_and_drag());
+    holding.middles.push(response.id);
+    let text = value_text(seen, held);
+    response.widget_info(|| {
+        let mut info = WidgetInfo::labeled(Role::Slider, true, name(seen, held.side));
+        info.current_text_value = Some(text.clone());
+        info
+    });
+    if response.clicked() {
+        response.request_focus();
+    }
+    let parts = ends
+        .iter()
+        .enumerate()
+        .filter_map(|(nth, it)| Some((Part::Axis(nth), it.as_ref()?)))
+        .chain([(Part::Middle, &response)]);
+    let mut lit = None;
+    for (part, response) in parts {
+        if response.hovered() || response.dragged() {
+            lit = Some(part);
+        }
+        drag(holding, ui, seen, out, held, (part, response, at, pose));
+    }
+    keys(holding, ui, out, held, &response);
+    let grabbed = holding.grab.as_ref().filter(|it| it.side == held.side);
+    let dragged = grabbed.map(|grab| (grab.begun.part, grab.begun.origin));
+    paint(ui, seen, held, &laid, (lit, response.has_focus(), dragged));
+    if lit.is_some() || response.has_focus() {
+        let pointer = ui.input(|input| input.pointer.hover_pos());
+        let near = pointer.filter(|_| dragged.is_some()).unwrap_or(middle);
+        let below = near + vec2(14.0, 20.0);
+        ui::chip(ui, keep_in(held.pane, below), Align2::LEFT_TOP, &text);
+    }
+    response.on_hover_text(seen.say(words::HANDLE_HINT));
+}
+
+/// Keeps the place of a text in the picture.
+fn keep_in(pane: Rect, at: Pos2) -> Pos2 {
+    let (x, y) = (pane.max.x - 210.0, pane.max.y - 26.0);
+    egui::pos2(at.x.min(x).max(pane.min.x), at.y.min(y).max(pane.min.y))
+}
+
+fn name(seen: &Seen<'_>, side: Side) -> String {
+    let hand = match side {
+        Side::Right => recombine::RIGHT_HAND,
+        Side::Left => recombine::LEFT_HAND,
+    };
+    fill(seen.say(words::HANDLE), &[("hand", &seen.say(hand))])
+}
+
+fn axis_name(seen: &Seen<'_>, nth: usize) -> &'static str {
+    seen.say(
+        [
+            recombine::TO_THE_LEFT,
+            recombine::UPWARDS,
+            recombine::IN_FRONT,
+        ][nth],
+    )
+}
+
+/// Returns the value as people say it: `left 3.2 · up 10.0 · back 0.5 cm`.
+fn value_text(seen: &Seen<'_>, held: &Held<'_>) -> String {
+    let ways = [
+        [recombine::LEFT, recombine::RIGHT],
+        [recombine::UP, recombine::DOWN],
+        [recombine::FORWARD, recombine::BACK],
+    ];
+    let parts = held
+        .value
+        .iter()
+        .zip(ways)
+        .enumerate()
+        .map(|(nth, (metres, ways))| {
+            let cm = metres.abs() * 100.0;
+            let way = if held.handle.is_point() && nth == 1 {
+                recombine::ABOVE_FLOOR
+            } else {
+                ways[usize::from(*metres < 0.0)]
+            };
+            format!("{} {cm:.1}", seen.say(way))
+        });
+    let parts: Vec<String> = parts.collect();
+    format!("{} cm", parts.join(" · "))
+}
+
+fn drag(
+    holding: &mut Holding,
+    ui: &Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    held: &Held<'_>,
+    (part, response, at, pose): (Part, &Response, DVec3, &ModelPose),
+) {
+    let ray = |place: Pos2| {
+        let place = place - held.pane.min;
+        Ray::through(&held.projection, [place.x, place.y])
+    };
+    if response.drag_started_by(PointerButton::Primary)
+        && let Some(press) = ui.input(|input| input.pointer.press_origin())
+    {
+        response.request_focus();
+        let was_playing = seen.shown.on_stage().is_playing();
+        if was_playing {
+            out.send(Command::Do(Action::ShuttleStop));
+        }
+        holding.before = Some((held.handle.card, held.handle.to.clone()));
+        holding.grab = Some(Grab {
+            pose: pose.clone(),
+            card: held.handle.card,
+            side: held.side,
+            begun: Begun {
+                part,
+                origin: at,
+                value: held.value,
+                ray: ray(press),
+                sight: held.projection.sight().as_dvec3(),
+            },
+            was_playing,
+            over: false,
+        });
+    }
+    let Some(grab) = &mut holding.grab else {
+        return;
+    };
+    let own = grab.side == held.side && grab.begun.part == part && grab.card == held.handle.card;
+    if !own {
+        return;
+    }
+    if !grab.over && ui.input(|input| input.key_pressed(Key::Escape)) {
+        grab.over = true;
+        back(&mut holding.before, held, out);
+    } else if !grab.over
+        && response.dragged()
+        && let Some(place) = response.interact_pointer_pos()
+    {
+        let step = ui.input(|input| input.modifiers.command.then_some(STEP));
+        if let Some(value) = grab.begun.value(ray(place), held.directions.axes, step)
+            && value != held.value
+        {
+            send(held, value, out);
+        }
+    }
+    if response.drag_stopped() || !ui.input(|input| input.pointer.any_down()) {
+        if grab.was_playing {
+            out.send(Command::Do(Action::Play));
+        }
+        holding.grab = None;
+    }
+}
+
+fn send(held: &Held<'_>, value: [f64; 3], out: &mut Outbox) {
+    let goal = held.handle.goal(value);
+    out.send(Command::Placed(held.handle.card, goal));
+}
+
+/// Makes the card what it was before.
+fn back(
+    before: &mut Option<(u64, chereme_corpus::recipe::Goal)>,
+    held: &Held<'_>,
+    out: &mut Outbox,
+) {
+    if let Some((card, goal)) = before.take().filter(|it| it.0 == held.handle.card) {
+        out.send(Command::Placed(card, goal));
+    }
+}
+
+/// Arrow keys go where the picture goes, Page Up and Page Down away and nearer, Escape back.
+fn keys(holding: &mut Holding, ui: &Ui, out: &mut Outbox, held: &Held<'_>, response: &Response) {
+    if !response.has_focus() {
+        if response.lost_focus() {
+            holding.before = None;
+        }
+        return;
+    }
+    ui.memory_mut(|memory| {
+        let filter = EventFilter {
+            tab: false,
+            horizontal_arrows: true,
+            vertical_arrows: true,
+            escape: true,
+        };
+        memory.set_focus_lock_filter(response.id, filter);
+    });
+    if holding.grab.is_some() {
+        return;
+    }
+    let mut way = [0.0; 3];
+    let mut escape = false;
+    ui.input_mut(|input| {
+        for (shift, step) in [(Modifiers::SHIFT, FAR_STEP), (Modifiers::NONE, STEP)] {
+            for (key, at, sign) in [
+                (Key::ArrowRight, 0, 1.0),
+                (Key::ArrowLeft, 0, -1.0),
+                (Key::ArrowUp, 1, 1.0),
+                (Key::ArrowDown, 1, -1.0),
+                (Key::PageUp, 2, 1.0),
+                (Key::PageDown, 2, -1.0),
+            ] {
+                let times = input.count_and_consume_key(shift, key);
+                way[at] += sign * step * times as f64;
+            }
+        }
+        escape = input.consume_key(Modifiers::NONE, Key::Escape);
+    });
+    if way != [0.0; 3] {
+        if holding.before.is_none() {
+            holding.before = Some((held.handle.card, held.handle.to.clone()));
+        }
+        let axes = held.directions.axes;
+        send(
+            held,
+            gizmo::stepped(held.value, way, (&held.projection, axes)),
+            out,
+        );
+    } else if escape {
+        if holding.before.is_some() {
+            back(&mut holding.before, held, out);
+        } else {
+            response.surrender_focus();
+        }
+    }
+}
+
+/// Draws it: arrows with a letter each, a ring in the middle, and the way that it was dragged.
+fn paint(
+    ui: &Ui,
+    seen: &Seen<'_>,
+    held: &Held<'_>,
+    laid: &Laid,
+    (lit, focus, dragged): (Option<Part>, bool, Option<(Part, DVec3)>),
+) {
+    let colours = seen.colours();
+    let painter = ui.painter().with_clip_rect(held.pane);
+    let spot = |[x, y]: [f32; 2]| held.pane.min + vec2(x, y);
+    let middle = spot(laid.middle);
+    let paper = ui.visuals().extreme_bg_color;
+    if let Some((_, origin)) = dragged
+        && let Some(from) = gizmo::laid(&held.projection, origin, DMat3::IDENTITY)
+    {
+        let stroke = Stroke::new(1.5, colours.accent);
+        let line = [spot(from.middle), middle];
+        painter.extend(egui::Shape::dashed_line(&line, stroke, 5.0, 4.0));
+        painter.circle_stroke(spot(from.middle), 4.0, stroke);
+    }
+    let hues = [colours.accent, colours.good, colours.playhead];
+    let letters: Vec<char> = seen.say(words::HANDLE_LETTERS).chars().collect();
+    if held.whole {
+        for (nth, end) in laid.ends.iter().enumerate() {
+            let Some(end) = end.map(spot) else { continue };
+            let on = lit == Some(Part::Axis(nth));
+            arrow(&painter, [middle, end], (hues[nth], paper), on);
+            let letter = letters.get(nth).copied().unwrap_or(' ');
+            let small = TextStyle::Small.resolve(ui.style());
+            let font = FontId::new(small.size, small.family);
+            painter.text(end, Align2::CENTER_CENTER, letter, font, paper);
+        }
+    }
+    let on = lit == Some(Part::Middle) || focus;
+    let radius = if on { 8.0 } else { 6.5 };
+    painter.circle(
+        middle,
+        radius,
+        paper.gamma_multiply(0.85),
+        Stroke::new(2.5, colours.accent),
+    );
+    if focus {
+        painter.circle_stroke(middle, 12.0, Stroke::new(1.5, colours.accent));
+    }
+}
+
+/// Draws a line with a disc at its end for a letter.
+fn arrow(
+    painter: &egui::Painter,
+    [from, to]: [Pos2; 2],
+    (hue, paper): (Color32, Color32),
+    on: bool,
+) {
+    let width = if on { 4.0 } else { 2.5 };
+    painter.line_segment(
+        [from, to],
+        Stroke::new(width + 2.0, paper.gamma_multiply(0.7)),
+    );
+    painter.line_segment([from, to], Stroke::new(width, hue));
+    let radius = if on { 10.5 } else { 9.0 };
+    painter.circle(to, radius, hue, Stroke::new(1.5, paper));
+}

@@ -1,0 +1,144 @@
+//! What made movement was made from: the original of each of its pieces, at its time.
+
+use std::sync::Arc;
+
+use chereme_corpus::{MadePart, Moving};
+use chereme_motion::Instant;
+
+use super::scene::Subject;
+use crate::context::{Outbox, Seen};
+use crate::work::{Ended, Outcome, Work, WorkId};
+
+/// The originals of what is on the stage.
+#[derive(Default)]
+pub(super) struct Original {
+    source: Option<Source>,
+    work: Option<WorkId>,
+    parts: Vec<Piece>,
+    /// Whether the pieces were told, with or without originals.
+    told: bool,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Source {
+    Parts(Vec<MadePart>),
+    /// A stored recording, with its recipe.
+    Stored(i64, String),
+}
+
+/// A piece of the made movement.
+pub(super) struct Piece {
+    pub(super) part: MadePart,
+    /// Its original, where it has one.
+    pub(super) shown: Option<(Arc<Moving>, Subject)>,
+}
+
+impl Original {
+    /// Has the originals loaded where something else is on the stage; whether that is so.
+    pub(super) fn follow(&mut self, seen: &Seen<'_>, out: &mut Outbox) -> bool {
+        let source = match &seen.shown.made {
+            Some(showing) => Some(Source::Parts(showing.made.parts.clone())),
+            None => {
+                let shown = seen.shown.recording;
+                let glance = shown.and_then(|id| seen.snapshot.recording(id));
+                glance.and_then(|it| Some(Source::Stored(it.row.id, it.recipe.clone()?)))
+            }
+        };
+        if source == self.source {
+            return false;
+        }
+        let work = source.clone().map(|source| match source {
+            Source::Parts(parts) => Work::Originals(parts),
+            Source::Stored(recording, _) => Work::OriginalsOf(recording),
+        });
+        *self = Self {
+            source,
+            work: work.map(|work| out.work(work)),
+            ..Self::default()
+        };
+        true
+    }
+
+    /// Hears what was loaded; whether it was for this.
+    pub(super) fn hear(&mut self, id: WorkId, ended: &Ended) -> bool {
+        if self.work.take_if(|work| *work == id).is_none() {
+            return false;
+        }
+        if let Ok(Outcome::Originals(all)) = ended {
+            self.told = true;
+            self.parts = all
+                .iter()
+                .map(|(part, moving)| {
+                    let shown = moving.as_ref().and_then(|moving| {
+                        let subject = Subject::after(None, &moving.clip, &moving.anatomy)?;
+                        Some((moving.clone(), subject))
+                    });
+                    Piece {
+                        part: part.clone(),
+                        shown,
+                    }
+                })
+                .collect();
+        }
+        true
+    }
+
+    /// Returns whether any piece has an original to be seen.
+    pub(super) fn is_there(&self) -> bool {
+        self.parts.iter().any(|piece| piece.shown.is_some())
+    }
+
+    /// Returns what makes the movement where none of it has an original.
+    pub(super) fn made_by(&self) -> Option<&str> {
+        let none = self.told && !self.is_there();
+        let first = self.parts.first().filter(|_| none)?;
+        Some(&first.part.from)
+    }
+
+    /// Returns the piece that is played at `at`; between two the nearer one.
+    pub(super) fn piece(&self, at: Instant) -> Option<&Piece> {
+        let nearest = nearest(self.parts.iter().map(|piece| &piece.part), at)?;
+        self.parts.get(nearest)
+    }
+}
+
+/// Returns the place of the part whose time is nearest to `at`, the first of equal ones.
+fn nearest<'a>(parts: impl Iterator<Item = &'a MadePart>, at: Instant) -> Option<usize> {
+    let far = |part: &MadePart| {
+        let (start, end) = (part.span.start().micros(), part.span.end().micros());
+        (start - at.micros()).max(at.micros() - end + 1).max(0)
+    };
+    parts
+        .enumerate()
+        .min_by_key(|(_, part)| far(part))
+        .map(|(place, _)| place)
+}
+
+/// Returns the moment of the original while `at` is played: as far from its beginning, at most its end.
+pub(super) fn moment(piece: &MadePart, moving: &Moving, at: Instant) -> Instant {
+    let inside = at.shifted(-piece.span.start().micros()).max(Instant::ZERO);
+    inside.min(moving.clip.span().end())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_motion::Span;
+
+    #[test]
+    fn the_piece_that_is_played_is_the_one_there_or_the_nearest() {
+        let micros = Instant::from_micros;
+        let part = |start, end| MadePart {
+            span: Span::between(micros(start), micros(end)),
+            gloss: String::new(),
+            from: String::new(),
+        };
+        let parts = [part(0, 100), part(140, 200)];
+        let at = |at| nearest(parts.iter(), micros(at));
+        assert_eq!(
+            [0, 99, 110, 130, 140, 500].map(at),
+            [0, 0, 0, 1, 1, 1].map(Some)
+        );
+        assert_eq!(nearest([].iter(), micros(0)), None);
+    }
+}
