@@ -349,7 +349,7 @@ pub(super) fn value(
         said(ui, seen, words::USES, &uses.to_string());
     });
     if let Some(text) = &value.hamnosys {
-        super::ui::hamnosys(ui, seen, text);
+        super::token::hamnosys(ui, seen, text);
     }
     if uses > 0 && ui.button(seen.say(words::SEARCH_USES)).clicked() {
         let field = stored.field().to_string();

@@ -4,6 +4,8 @@ mod about;
 mod data;
 mod edit;
 mod notation;
+mod tier;
+mod token;
 mod ui;
 
 use std::collections::BTreeMap;

@@ -1,23 +1,21 @@
 //! The inspector's widgets, part by part.
 
 use chereme_corpus::{
-    Address, AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, Details, Hands,
-    Moment, StoredInventory, TierChange, TierName, TierRow, TokenDetails, ValueState, Values,
+    AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, Details, Moment,
+    ValueState,
 };
 use chereme_motion::{Instant, Span};
 use eframe::egui::{CollapsingHeader, Id, RichText, Ui};
 
 use super::about::{self, recording, recording_more, signer, signer_more};
 use super::data::{self, Line};
-use super::edit::{choice, field, grid, line, offered, said, title};
-use super::{Inspector, Thing, notation};
-use crate::command::Command;
+use super::edit::{grid, line, offered, said, title};
+use super::{Inspector, Thing};
 use crate::context::{Outbox, Seen};
 use crate::model::Found;
 use crate::panes::complete::fitting;
-use crate::panes::library::origin_text;
 use crate::panes::timeline::data::{time_text, value_text};
-use crate::words::{Text, fill, inspector as words, timeline};
+use crate::words::{Text, inspector as words, timeline};
 use crate::work::Work;
 
 pub(super) fn lines(ui: &mut Ui, seen: &Seen<'_>, id: &str, lines: &[Line]) {
@@ -94,7 +92,7 @@ pub(super) fn selected(it: &mut Inspector, ui: &mut Ui, seen: &Seen<'_>, out: &m
             found.is_none(),
             &tier.row.name,
             |ui| {
-                self::tier(ui, seen, tier, out);
+                super::tier::show(ui, seen, tier, out);
             },
         );
     }
@@ -142,7 +140,7 @@ pub(super) fn thing(
     match it.details(thing, out) {
         None => drop(ui.spinner()),
         Some(Err(wrong)) => drop(ui.label(RichText::new(wrong).color(seen.colours().trouble))),
-        Some(Ok(Details::Token(token))) => self::token(it, ui, seen, &token, out),
+        Some(Ok(Details::Token(token))) => super::token::show(it, ui, seen, &token, out),
         Some(Ok(Details::Sign(sign))) => about::sign(it, ui, seen, &sign, out),
         Some(Ok(Details::Signer(signer))) => signer_more(it, ui, seen, &signer),
         Some(Ok(Details::Recording(recording))) => recording_more(ui, seen, &recording),
@@ -152,7 +150,7 @@ pub(super) fn thing(
     }
 }
 
-fn span_text(span: Span) -> String {
+pub(super) fn span_text(span: Span) -> String {
     format!("{} – {}", time_text(span.start()), time_text(span.end()))
 }
 
@@ -165,7 +163,7 @@ fn missing<'a>(seen: &Seen<'a>, state: ValueState) -> &'static str {
 }
 
 /// Has an annotation changed.
-fn set(out: &mut Outbox, id: i64, times: [Option<Instant>; 2], value: Option<String>) {
+pub(super) fn set(out: &mut Outbox, id: i64, times: [Option<Instant>; 2], value: Option<String>) {
     let [start, end] = times.map(|at| at.map(Moment::Time));
     let action = AnnotationAction::Set {
         annotation: AnnotationName::Number(id),
@@ -178,7 +176,7 @@ fn set(out: &mut Outbox, id: i64, times: [Option<Instant>; 2], value: Option<Str
 }
 
 /// Returns what a value of the inventory of that row could be.
-fn values_like(seen: &Seen<'_>, inventory: Option<i64>, typed: &str) -> Vec<String> {
+pub(super) fn values_like(seen: &Seen<'_>, inventory: Option<i64>, typed: &str) -> Vec<String> {
     let all = &seen.snapshot.overview.inventories;
     let found = all.iter().find(|it| Some(it.id) == inventory);
     found.map_or(Vec::new(), |it| {
@@ -250,258 +248,4 @@ fn annotation(ui: &mut Ui, seen: &Seen<'_>, found: Found<'_>, out: &mut Outbox) 
             said(ui, seen, words::ANNOTATOR, annotator);
         }
     });
-}
-
-fn token(it: &mut Inspector, ui: &mut Ui, seen: &Seen<'_>, token: &TokenDetails, out: &mut Outbox) {
-    let row = &token.row;
-    grid(ui, "token", |ui| {
-        ui.weak(seen.say(words::SIGN));
-        link(it, ui, &row.gloss, Thing::Sign(row.sign_id));
-        ui.end_row();
-        let origin = origin_text(&row.origin).map_or(row.origin.as_str(), |text| seen.say(text));
-        said(ui, seen, words::ORIGIN, origin);
-        if let Some((start, end)) = row.start_us.zip(row.end_us) {
-            let micros = Instant::from_micros;
-            let span = Span::between(micros(start), micros(end));
-            said(ui, seen, words::SPAN, &span_text(span));
-        }
-        ui.weak(seen.say(words::CITATION));
-        if row.citation {
-            ui.label(seen.say(words::CITATION_IS));
-        } else if ui.small_button(seen.say(words::CITATION_MAKE)).clicked() {
-            out.work(Work::SetCitation(Address::Token(row.id)));
-        }
-        ui.end_row();
-        coding(it, ui, seen, token, out);
-        if let Some(recipe) = &token.recipe {
-            said(ui, seen, words::RECIPE, recipe);
-        }
-        if !token.made_from.is_empty() {
-            ui.weak(seen.say(words::MADE_FROM));
-            ui.horizontal_wrapped(|ui| {
-                for address in &token.made_from {
-                    match address.parse() {
-                        Ok(Address::Token(id)) => link(it, ui, address, Thing::Token(id)),
-                        _ => drop(ui.label(address)),
-                    }
-                }
-            });
-            ui.end_row();
-        }
-        if !token.made_into.is_empty() {
-            ui.weak(seen.say(words::MADE_INTO));
-            ui.horizontal_wrapped(|ui| {
-                for (recording, name) in &token.made_into {
-                    link(it, ui, name, Thing::Recording(*recording));
-                }
-            });
-            ui.end_row();
-        }
-    });
-    if let Some(notation) = &token.notation {
-        hamnosys(ui, seen, notation);
-    }
-    ui.horizontal_wrapped(|ui| {
-        if let Some(recipe) = &token.recipe
-            && ui.button(seen.say(words::OPEN_RECIPE)).clicked()
-        {
-            let opened = row.recording.clone().or(Some(row.gloss.clone()));
-            out.send(Command::Recipe(recipe.clone(), opened));
-        }
-        if row.recording_id.is_some() && ui.button(seen.say(words::RECOMBINE)).clicked() {
-            out.send(Command::Recipe(format!("token:{}", row.id), None));
-        }
-        if let (Some(recording), Some((start, end))) =
-            (row.recording_id, row.start_us.zip(row.end_us))
-            && seen.shown.recording != Some(recording)
-            && ui.button(seen.say(words::SHOW)).clicked()
-        {
-            let micros = Instant::from_micros;
-            out.send(Command::Place(
-                recording,
-                Span::between(micros(start), micros(end)),
-            ));
-        }
-    });
-}
-
-/// Shows a notation part by part, by the names of its symbols.
-pub(super) fn hamnosys(ui: &mut Ui, seen: &Seen<'_>, text: &str) {
-    let parts = notation::parts(text);
-    let title = RichText::new(seen.say(words::NOTATION));
-    CollapsingHeader::new(title)
-        .id_salt("hamnosys")
-        .default_open(true)
-        .show(ui, |ui| {
-            if parts.is_empty() {
-                ui.add(eframe::egui::Label::new(text).wrap());
-            }
-            lines(ui, seen, "hamnosys parts", &parts);
-        });
-}
-
-/// What a token is coded as; what an annotation says can be changed.
-fn coding(
-    it: &mut Inspector,
-    ui: &mut Ui,
-    seen: &Seen<'_>,
-    token: &TokenDetails,
-    out: &mut Outbox,
-) {
-    if token.values.is_empty() {
-        ui.label("");
-        ui.weak(seen.say(words::UNSET_ALL));
-        ui.end_row();
-    }
-    for value in &token.values {
-        let (texts, rest) = data::field_words(&value.field);
-        let name: Vec<&str> = texts
-            .iter()
-            .map(|text| seen.say(*text))
-            .chain(rest)
-            .collect();
-        let name = name.join(" ");
-        let now = match value.state.as_str() {
-            "value" => value.value.clone().unwrap_or_default(),
-            "not-applicable" => "n/a".to_owned(),
-            other => other.to_owned(),
-        };
-        let label = ui.add(eframe::egui::Label::new(RichText::new(&name).weak()).truncate());
-        let label = label.on_hover_text(&name).id;
-        ui.horizontal(|ui| {
-            if let Some(annotation) = value.annotation {
-                let key = Id::unique(("token value", token.row.id, &value.field, annotation));
-                let candidates = |typed: &str| values_like(seen, value.inventory, typed);
-                ui.set_max_width((ui.available_width() - 24.0).max(60.0));
-                if let Some(text) = field(ui, seen, key, label, &now, &candidates) {
-                    set(out, annotation, [None, None], Some(text));
-                }
-            } else {
-                ui.label(&now);
-            }
-            if let Some((inventory, id)) = value.inventory.zip(value.value.clone()) {
-                link(it, ui, "?", Thing::Value(inventory, id));
-            }
-        });
-        ui.end_row();
-    }
-}
-
-fn tier(ui: &mut Ui, seen: &Seen<'_>, tier: &chereme_corpus::TierContents, out: &mut Outbox) {
-    let row = &tier.row;
-    let change = |out: &mut Outbox, change: TierChange| {
-        out.work(Work::ChangeTier(TierName::Number(row.id), change));
-    };
-    grid(ui, "tier", |ui| {
-        let key = Id::unique(("tier name", row.id));
-        if let Some(name) = line(ui, seen, key, words::NAME, &row.name) {
-            let name = Some(name);
-            change(
-                out,
-                TierChange {
-                    name,
-                    ..TierChange::default()
-                },
-            );
-        }
-        said(ui, seen, words::ROLE, &data::role(row));
-        if let Some(hand) = choice(ui, seen, words::HAND, &row.hand, &hands(seen)) {
-            let hand = Some(hand.and_then(|name| Hands::of(&name)));
-            change(
-                out,
-                TierChange {
-                    hand,
-                    ..TierChange::default()
-                },
-            );
-        }
-        if let Some(inventory) = choice(
-            ui,
-            seen,
-            words::INVENTORY,
-            &row.inventory_id,
-            &inventories(seen, row),
-        ) {
-            let of = |id: i64| {
-                seen.snapshot
-                    .overview
-                    .inventories
-                    .iter()
-                    .find(|it| it.id == id)
-            };
-            let values = match inventory.and_then(of) {
-                Some(it) => Values::Inventory(it.inventory.id.clone()),
-                None => Values::Free,
-            };
-            let values = Some(values);
-            change(
-                out,
-                TierChange {
-                    values,
-                    ..TierChange::default()
-                },
-            );
-        }
-        let above = seen.snapshot.open.as_ref().and_then(|open| {
-            let tiers = &open.contents.tiers;
-            tiers.iter().find(|it| Some(it.row.id) == row.parent_id)
-        });
-        if let Some(above) = above {
-            let how = row
-                .stereotype
-                .as_deref()
-                .unwrap_or_default()
-                .replace('_', " ");
-            said(
-                ui,
-                seen,
-                words::PARENT,
-                &format!("{} ({how})", above.row.name),
-            );
-        }
-        for (text, value) in [
-            (words::PARTICIPANT, &row.participant),
-            (words::ANNOTATOR, &row.annotator),
-        ] {
-            if let Some(value) = value {
-                said(ui, seen, text, value);
-            }
-        }
-        let (n, values) = data::tier_counts(tier);
-        let counts: [(&str, &dyn std::fmt::Display); 2] = [("n", &n), ("values", &values)];
-        said(
-            ui,
-            seen,
-            words::COUNT,
-            &fill(seen.say(words::FILLED), &counts),
-        );
-    });
-}
-
-fn hands(seen: &Seen<'_>) -> Vec<(Option<String>, String)> {
-    [
-        (None, words::NOBODY),
-        (Some("right"), words::RIGHT),
-        (Some("left"), words::LEFT),
-        (Some("both"), words::BOTH),
-        (Some("dominant"), words::DOMINANT),
-        (Some("weak"), words::WEAK),
-    ]
-    .map(|(name, text)| (name.map(str::to_owned), seen.say(text).to_owned()))
-    .into()
-}
-
-/// The inventories that a tier could take its values from.
-fn inventories(seen: &Seen<'_>, row: &TierRow) -> Vec<(Option<i64>, String)> {
-    let fits = |it: &&StoredInventory| {
-        row.component.as_deref() == Some(it.inventory.component.name())
-            && it.inventory.feature == row.feature
-            || row.inventory_id == Some(it.id)
-    };
-    let all = &seen.snapshot.overview.inventories;
-    let named = all
-        .iter()
-        .filter(fits)
-        .map(|it| (Some(it.id), it.inventory.id.clone()));
-    [(None, "—".to_owned())].into_iter().chain(named).collect()
 }

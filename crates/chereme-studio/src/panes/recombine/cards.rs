@@ -7,8 +7,8 @@ use eframe::egui::{
 
 use super::Recombine;
 use super::live::{Note, Trouble};
-use super::settings;
 use super::stack::{Card, Stack, What};
+use super::{catalogue, settings};
 use crate::action::Action;
 use crate::context::Seen;
 use crate::words::{fill, recombine as words};
@@ -137,7 +137,7 @@ fn frame(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &m
 /// The line above a card: what it is, on or off, and what can be done with it.
 fn header(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &mut Vec<Did>) {
     let card = shown.card;
-    let title = seen.say(settings::title(&card.what));
+    let title = seen.say(catalogue::title(&card.what));
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let only = card.what.is_source() && stack.pieces() < 2;

@@ -1,13 +1,16 @@
 //! Recombination: a recipe as text and as a stack of cards, made while it changes, stored as a new sign.
 
 mod cards;
+mod catalogue;
 mod fields;
 mod live;
+mod operators;
 mod path;
 mod report;
 mod settings;
 pub(crate) mod stack;
 mod steps;
+mod store;
 mod suggest;
 
 use std::sync::Arc;
@@ -25,7 +28,7 @@ use crate::context::{Outbox, Seen};
 use crate::model::handle::Handle;
 use crate::model::made::Made;
 use crate::words::{fill, recombine as words};
-use crate::work::{Ended, Outcome, Work, WorkId};
+use crate::work::{Ended, Outcome, WorkId};
 pub(crate) use fields::selected_token;
 use live::Live;
 pub(crate) use path::offset_legs;
@@ -326,7 +329,7 @@ impl Recombine {
         ui.horizontal_wrapped(|ui| {
             if !self.stack.is_empty() {
                 ui.menu_button(seen.say(words::ADD_OPERATOR), |ui| {
-                    for (text, hint, step) in settings::operators() {
+                    for (text, hint, step) in catalogue::operators() {
                         let button = Button::new(seen.say(text)).shortcut_text(seen.say(hint));
                         if ui.add(button).clicked() {
                             wanted = Some(What::Step(step));
@@ -341,7 +344,7 @@ impl Recombine {
                 words::ADD_SOURCE
             };
             ui.menu_button(seen.say(text), |ui| {
-                for (text, node) in settings::sources() {
+                for (text, node) in catalogue::sources() {
                     if ui.button(seen.say(text)).clicked() {
                         wanted = Some(What::source(node));
                         ui.close();
@@ -352,107 +355,6 @@ impl Recombine {
         if let Some(what) = wanted {
             self.add(what);
         }
-    }
-
-    /// The bar below: the gloss, and storing.
-    fn storing(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
-        let made = self.live.made.is_some() && self.live.trouble.is_none() && self.wrong.is_none();
-        if let Some(made) = &self.live.made {
-            let time = format!("{:.2}", made.duration_us as f64 / 1e6);
-            let took = format!("{:.0}", self.live.took * 1000.0);
-            let values: [(&str, &dyn std::fmt::Display); 2] = [("time", &time), ("took", &took)];
-            let lasts = fill(seen.say(words::MADE_LASTS), &values);
-            ui.horizontal(|ui| {
-                ui.spacing_mut().item_spacing.x = 4.0;
-                let all = [(false, words::SHOW_ORIGINAL), (true, words::SHOW_MADE)];
-                for (made, text) in all {
-                    ui.selectable_value(&mut self.on_stage, made, seen.say(text));
-                }
-                let lasts = RichText::new(lasts).small().weak();
-                ui.add(eframe::egui::Label::new(lasts).truncate());
-            });
-        }
-        ui.horizontal(|ui| {
-            let text = if self.opened.is_some() {
-                words::STORE_AGAIN
-            } else {
-                words::STORE
-            };
-            let width = (ui.available_width() - 128.0).max(70.0);
-            let field = TextEdit::singleline(&mut self.gloss)
-                .hint_text(seen.say(words::GLOSS))
-                .desired_width(width);
-            let response = ui.add(field);
-            if self.naming {
-                response.request_focus();
-            }
-            response.widget_info(|| {
-                eframe::egui::WidgetInfo::labeled(
-                    eframe::egui::Role::TextInput,
-                    true,
-                    seen.say(words::GLOSS),
-                )
-            });
-            let entered = response.lost_focus()
-                && ui.input(|input| input.key_pressed(eframe::egui::Key::Enter));
-            let named = !self.gloss.trim().is_empty();
-            let ready = made && named && !seen.is_running(self.storing);
-            let why = if named {
-                words::NEEDS_RECIPE
-            } else {
-                words::NEEDS_GLOSS
-            };
-            let button = ui.add_enabled(ready, Button::new(seen.say(text)));
-            let pressed = button.on_disabled_hover_text(seen.say(why)).clicked();
-            if pressed || (entered && ready) {
-                self.store(out);
-            }
-        });
-        self.storing_again(ui, seen, out, made);
-        if let Some((gloss, recording)) = &self.stored {
-            ui.horizontal_wrapped(|ui| {
-                let text = fill(
-                    seen.say(crate::words::shell::NOTICE_STORED),
-                    &[("gloss", gloss)],
-                );
-                ui.label(RichText::new(text).color(seen.colours().good));
-                let there = seen.snapshot.recording(*recording).is_some();
-                if there && ui.small_button(seen.say(words::SHOW_STORED)).clicked() {
-                    out.send(Command::Recording(*recording));
-                }
-            });
-        }
-    }
-
-    /// The button that stores in the place of the sign whose recipe was opened.
-    fn storing_again(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, made: bool) {
-        let opened = self.opened.as_deref();
-        let opened = opened.and_then(|name| seen.snapshot.recording_named(name));
-        let Some(glance) = opened.filter(|it| it.recipe.is_some()) else {
-            return;
-        };
-        let text = fill(seen.say(words::REPLACE), &[("name", &glance.row.name)]);
-        let recipe = self.stack.text();
-        let same = glance.recipe.as_ref() == Some(&recipe);
-        let ready = made && !same && !seen.is_running(self.storing);
-        let why = if same {
-            words::REPLACE_SAME
-        } else {
-            words::NEEDS_RECIPE
-        };
-        let button = ui.add_enabled(ready, Button::new(text).truncate());
-        let button = button.on_hover_text(seen.say(words::REPLACE_TIP));
-        if button.on_disabled_hover_text(seen.say(why)).clicked() {
-            self.stored = None;
-            let recording = glance.row.id;
-            self.storing = Some(out.work(Work::RecombineAgain { recipe, recording }));
-        }
-    }
-
-    fn store(&mut self, out: &mut Outbox) {
-        let (recipe, gloss) = (self.stack.text(), self.gloss.trim().to_owned());
-        self.stored = None;
-        self.storing = Some(out.work(Work::Recombine { recipe, gloss }));
     }
 }
 

@@ -10,6 +10,7 @@
 //! | `original` | what made movement was made from |
 //! | `artist` | the thread that draws |
 //! | `ways` | what is remembered of it |
+//! | `tools` | the line above |
 //! | `transport` | the bar and the buttons below |
 
 mod artist;
@@ -19,6 +20,7 @@ mod handle;
 mod marks;
 mod original;
 mod scene;
+mod tools;
 mod transport;
 mod ui;
 mod ways;

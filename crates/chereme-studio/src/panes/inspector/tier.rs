@@ -1,0 +1,134 @@
+//! What is told of a tier, and changed.
+
+use chereme_corpus::{Hands, StoredInventory, TierChange, TierName, TierRow, Values};
+use eframe::egui::{Id, Ui};
+
+use super::data;
+use super::edit::{choice, grid, line, said};
+use crate::context::{Outbox, Seen};
+use crate::words::{fill, inspector as words};
+use crate::work::Work;
+
+pub(super) fn show(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    tier: &chereme_corpus::TierContents,
+    out: &mut Outbox,
+) {
+    let row = &tier.row;
+    let change = |out: &mut Outbox, change: TierChange| {
+        out.work(Work::ChangeTier(TierName::Number(row.id), change));
+    };
+    grid(ui, "tier", |ui| {
+        let key = Id::unique(("tier name", row.id));
+        if let Some(name) = line(ui, seen, key, words::NAME, &row.name) {
+            let name = Some(name);
+            change(
+                out,
+                TierChange {
+                    name,
+                    ..TierChange::default()
+                },
+            );
+        }
+        said(ui, seen, words::ROLE, &data::role(row));
+        if let Some(hand) = choice(ui, seen, words::HAND, &row.hand, &hands(seen)) {
+            let hand = Some(hand.and_then(|name| Hands::of(&name)));
+            change(
+                out,
+                TierChange {
+                    hand,
+                    ..TierChange::default()
+                },
+            );
+        }
+        if let Some(inventory) = choice(
+            ui,
+            seen,
+            words::INVENTORY,
+            &row.inventory_id,
+            &inventories(seen, row),
+        ) {
+            let of = |id: i64| {
+                seen.snapshot
+                    .overview
+                    .inventories
+                    .iter()
+                    .find(|it| it.id == id)
+            };
+            let values = match inventory.and_then(of) {
+                Some(it) => Values::Inventory(it.inventory.id.clone()),
+                None => Values::Free,
+            };
+            let values = Some(values);
+            change(
+                out,
+                TierChange {
+                    values,
+                    ..TierChange::default()
+                },
+            );
+        }
+        let above = seen.snapshot.open.as_ref().and_then(|open| {
+            let tiers = &open.contents.tiers;
+            tiers.iter().find(|it| Some(it.row.id) == row.parent_id)
+        });
+        if let Some(above) = above {
+            let how = row
+                .stereotype
+                .as_deref()
+                .unwrap_or_default()
+                .replace('_', " ");
+            said(
+                ui,
+                seen,
+                words::PARENT,
+                &format!("{} ({how})", above.row.name),
+            );
+        }
+        for (text, value) in [
+            (words::PARTICIPANT, &row.participant),
+            (words::ANNOTATOR, &row.annotator),
+        ] {
+            if let Some(value) = value {
+                said(ui, seen, text, value);
+            }
+        }
+        let (n, values) = data::tier_counts(tier);
+        let counts: [(&str, &dyn std::fmt::Display); 2] = [("n", &n), ("values", &values)];
+        said(
+            ui,
+            seen,
+            words::COUNT,
+            &fill(seen.say(words::FILLED), &counts),
+        );
+    });
+}
+
+fn hands(seen: &Seen<'_>) -> Vec<(Option<String>, String)> {
+    [
+        (None, words::NOBODY),
+        (Some("right"), words::RIGHT),
+        (Some("left"), words::LEFT),
+        (Some("both"), words::BOTH),
+        (Some("dominant"), words::DOMINANT),
+        (Some("weak"), words::WEAK),
+    ]
+    .map(|(name, text)| (name.map(str::to_owned), seen.say(text).to_owned()))
+    .into()
+}
+
+/// The inventories that a tier could take its values from.
+fn inventories(seen: &Seen<'_>, row: &TierRow) -> Vec<(Option<i64>, String)> {
+    let fits = |it: &&StoredInventory| {
+        row.component.as_deref() == Some(it.inventory.component.name())
+            && it.inventory.feature == row.feature
+            || row.inventory_id == Some(it.id)
+    };
+    let all = &seen.snapshot.overview.inventories;
+    let named = all
+        .iter()
+        .filter(fits)
+        .map(|it| (Some(it.id), it.inventory.id.clone()));
+    [(None, "—".to_owned())].into_iter().chain(named).collect()
+}

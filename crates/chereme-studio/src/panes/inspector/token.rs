@@ -1,0 +1,155 @@
+//! What is told of a token, and changed.
+
+use chereme_corpus::{Address, TokenDetails};
+use chereme_motion::{Instant, Span};
+use eframe::egui::{CollapsingHeader, Id, RichText, Ui};
+
+use super::edit::{field, grid, said};
+use super::ui::{lines, link, set, span_text, values_like};
+use super::{Inspector, Thing, data, notation};
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::panes::library::origin_text;
+use crate::words::inspector as words;
+use crate::work::Work;
+
+pub(super) fn show(
+    it: &mut Inspector,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    token: &TokenDetails,
+    out: &mut Outbox,
+) {
+    let row = &token.row;
+    grid(ui, "token", |ui| {
+        ui.weak(seen.say(words::SIGN));
+        link(it, ui, &row.gloss, Thing::Sign(row.sign_id));
+        ui.end_row();
+        let origin = origin_text(&row.origin).map_or(row.origin.as_str(), |text| seen.say(text));
+        said(ui, seen, words::ORIGIN, origin);
+        if let Some((start, end)) = row.start_us.zip(row.end_us) {
+            let micros = Instant::from_micros;
+            let span = Span::between(micros(start), micros(end));
+            said(ui, seen, words::SPAN, &span_text(span));
+        }
+        ui.weak(seen.say(words::CITATION));
+        if row.citation {
+            ui.label(seen.say(words::CITATION_IS));
+        } else if ui.small_button(seen.say(words::CITATION_MAKE)).clicked() {
+            out.work(Work::SetCitation(Address::Token(row.id)));
+        }
+        ui.end_row();
+        coding(it, ui, seen, token, out);
+        if let Some(recipe) = &token.recipe {
+            said(ui, seen, words::RECIPE, recipe);
+        }
+        if !token.made_from.is_empty() {
+            ui.weak(seen.say(words::MADE_FROM));
+            ui.horizontal_wrapped(|ui| {
+                for address in &token.made_from {
+                    match address.parse() {
+                        Ok(Address::Token(id)) => link(it, ui, address, Thing::Token(id)),
+                        _ => drop(ui.label(address)),
+                    }
+                }
+            });
+            ui.end_row();
+        }
+        if !token.made_into.is_empty() {
+            ui.weak(seen.say(words::MADE_INTO));
+            ui.horizontal_wrapped(|ui| {
+                for (recording, name) in &token.made_into {
+                    link(it, ui, name, Thing::Recording(*recording));
+                }
+            });
+            ui.end_row();
+        }
+    });
+    if let Some(notation) = &token.notation {
+        hamnosys(ui, seen, notation);
+    }
+    ui.horizontal_wrapped(|ui| {
+        if let Some(recipe) = &token.recipe
+            && ui.button(seen.say(words::OPEN_RECIPE)).clicked()
+        {
+            let opened = row.recording.clone().or(Some(row.gloss.clone()));
+            out.send(Command::Recipe(recipe.clone(), opened));
+        }
+        if row.recording_id.is_some() && ui.button(seen.say(words::RECOMBINE)).clicked() {
+            out.send(Command::Recipe(format!("token:{}", row.id), None));
+        }
+        if let (Some(recording), Some((start, end))) =
+            (row.recording_id, row.start_us.zip(row.end_us))
+            && seen.shown.recording != Some(recording)
+            && ui.button(seen.say(words::SHOW)).clicked()
+        {
+            let micros = Instant::from_micros;
+            out.send(Command::Place(
+                recording,
+                Span::between(micros(start), micros(end)),
+            ));
+        }
+    });
+}
+
+/// Shows a notation part by part, by the names of its symbols.
+pub(super) fn hamnosys(ui: &mut Ui, seen: &Seen<'_>, text: &str) {
+    let parts = notation::parts(text);
+    let title = RichText::new(seen.say(words::NOTATION));
+    CollapsingHeader::new(title)
+        .id_salt("hamnosys")
+        .default_open(true)
+        .show(ui, |ui| {
+            if parts.is_empty() {
+                ui.add(eframe::egui::Label::new(text).wrap());
+            }
+            lines(ui, seen, "hamnosys parts", &parts);
+        });
+}
+
+/// What a token is coded as; what an annotation says can be changed.
+fn coding(
+    it: &mut Inspector,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    token: &TokenDetails,
+    out: &mut Outbox,
+) {
+    if token.values.is_empty() {
+        ui.label("");
+        ui.weak(seen.say(words::UNSET_ALL));
+        ui.end_row();
+    }
+    for value in &token.values {
+        let (texts, rest) = data::field_words(&value.field);
+        let name: Vec<&str> = texts
+            .iter()
+            .map(|text| seen.say(*text))
+            .chain(rest)
+            .collect();
+        let name = name.join(" ");
+        let now = match value.state.as_str() {
+            "value" => value.value.clone().unwrap_or_default(),
+            "not-applicable" => "n/a".to_owned(),
+            other => other.to_owned(),
+        };
+        let label = ui.add(eframe::egui::Label::new(RichText::new(&name).weak()).truncate());
+        let label = label.on_hover_text(&name).id;
+        ui.horizontal(|ui| {
+            if let Some(annotation) = value.annotation {
+                let key = Id::unique(("token value", token.row.id, &value.field, annotation));
+                let candidates = |typed: &str| values_like(seen, value.inventory, typed);
+                ui.set_max_width((ui.available_width() - 24.0).max(60.0));
+                if let Some(text) = field(ui, seen, key, label, &now, &candidates) {
+                    set(out, annotation, [None, None], Some(text));
+                }
+            } else {
+                ui.label(&now);
+            }
+            if let Some((inventory, id)) = value.inventory.zip(value.value.clone()) {
+                link(it, ui, "?", Thing::Value(inventory, id));
+            }
+        });
+        ui.end_row();
+    }
+}

@@ -1,0 +1,191 @@
+//! Tests of the stack of cards.
+
+use super::*;
+use proptest::prelude::*;
+use std::collections::BTreeSet;
+
+fn stack(text: &str) -> Stack {
+    Stack::of(&text.parse().expect(text))
+}
+
+fn ids(stack: &Stack) -> Vec<u64> {
+    stack.cards().iter().map(|card| card.id).collect()
+}
+
+#[test]
+fn a_recipe_is_a_card_for_each_source_and_operator() {
+    let stack = stack("BOL | reverse | repeat 2 then via 0.3s spell LSF | swap");
+    let kinds: Vec<bool> = stack.cards().iter().map(|it| it.what.is_source()).collect();
+    assert_eq!(kinds, [true, false, false, true, false]);
+    assert_eq!(stack.pieces(), 2);
+    assert_eq!(stack.piece_of(2), 0..3);
+    let paths: Vec<(String, usize)> = stack.paths().into_iter().collect();
+    let want = [
+        ("/then/first/pipe/of", 0),
+        ("/then/first/pipe/steps/0", 1),
+        ("/then/first/pipe/steps/1", 2),
+        ("/then/next/0", 3),
+        ("/then/next/0/node/pipe/of", 3),
+        ("/then/next/0/node/pipe/steps/0", 4),
+    ];
+    assert_eq!(paths, want.map(|(path, at)| (path.to_owned(), at)));
+    assert_eq!(stack.card_at("/then/first/pipe/steps/1/place/to"), Some(2));
+    assert_eq!(self::stack("BOL").card_at(""), Some(0));
+    let nested = self::stack("(BOL then CHAT | swap) | reverse");
+    assert_eq!(nested.cards().len(), 2);
+    assert_eq!(nested.card_at("/pipe/of/then/next/0/node/pipe/of"), Some(0));
+}
+
+#[test]
+fn cards_that_are_off_stay_where_they_are_and_out_of_the_text() {
+    let mut stack = stack("BOL | reverse | repeat 2");
+    let reverse = stack.cards()[1].id;
+    stack.switch(reverse);
+    assert_eq!(stack.text(), "BOL | repeat 2");
+    let before = ids(&stack);
+    stack.take(&"BOL | repeat 3 | swap".parse().expect("a recipe"));
+    assert_eq!(ids(&stack)[..3], before[..]);
+    assert_eq!(stack.text(), "BOL | repeat 3 | swap");
+    stack.switch(reverse);
+    assert_eq!(stack.text(), "BOL | reverse | repeat 3 | swap");
+    let mut two = self::stack("A | reverse then B | swap then C");
+    two.switch(two.cards()[2].id);
+    assert_eq!(two.text(), "A | reverse then C");
+    two.take(&"A | reverse | swap then C".parse().expect("a recipe"));
+    two.switch(two.cards()[3].id);
+    assert_eq!(two.text(), "A | reverse | swap then B | swap then C");
+}
+
+#[test]
+fn what_is_not_filled_in_yet_is_left_out() {
+    let mut stack = stack("BOL");
+    let value = Choice::Value(String::new());
+    let empty = What::Step(Step::Configure(chereme_corpus::recipe::Configure {
+        hand: chereme_corpus::recipe::Hands::Dominant,
+        values: vec![value],
+        via: Transition::default(),
+    }));
+    let id = stack.add(None, empty).expect("added");
+    assert_eq!(stack.text(), "BOL");
+    if let Some(Card {
+        what: What::Step(Step::Configure(it)),
+        ..
+    }) = stack.get_mut(id)
+    {
+        it.values = vec![Choice::Value("U".into())];
+    }
+    assert_eq!(stack.text(), "BOL | configure dominant U");
+}
+
+#[test]
+fn cards_move_and_sources_take_along_what_is_done_to_them() {
+    let mut stack = stack("A | reverse | swap then B | mirror then C");
+    let id = |stack: &Stack, at: usize| stack.cards()[at].id;
+    let swap = id(&stack, 2);
+    assert!(stack.shift(swap, false));
+    assert_eq!(stack.text(), "A | swap | reverse then B | mirror then C");
+    assert!(!stack.shift(swap, false), "a source stays first");
+    assert!(stack.shift(swap, true) && stack.shift(swap, true));
+    assert_eq!(stack.text(), "A | reverse then B | swap | mirror then C");
+    let a = id(&stack, 0);
+    assert!(stack.shift(a, true));
+    assert_eq!(stack.text(), "B | swap | mirror then A | reverse then C");
+    assert!(stack.shift(a, true) && !stack.shift(a, true));
+    assert_eq!(stack.text(), "B | swap | mirror then C then A | reverse");
+    assert!(stack.move_to(a, 0));
+    assert_eq!(stack.text(), "A | reverse then B | swap | mirror then C");
+    assert!(stack.move_to(a, 4));
+    assert_eq!(stack.text(), "B | swap | mirror then A | reverse then C");
+    let copy = stack.duplicate(a).expect("a copy");
+    assert_eq!(
+        stack.text(),
+        "B | swap | mirror then A | reverse then A | reverse then C"
+    );
+    stack.remove(copy);
+    stack.remove(swap);
+    assert_eq!(stack.text(), "B | mirror then A | reverse then C");
+}
+
+const SOURCES: [&str; 7] = [
+    "ESCARGOT",
+    "token:41",
+    "spell LSF left with lsf hold 0.2s via sigmoid 0.25s",
+    "point right at 30cm,140cm,50cm with U",
+    "hamnosys \"…\" on signer:1",
+    "sigml HUIS",
+    "(A then B | swap)",
+];
+const STEPS: [&str; 16] = [
+    "configure right U",
+    "configure both from LION via 0.1s",
+    "configure right U, _",
+    "configure right best(configuration=U signer=same)",
+    "place both by left 25cm up 5cm",
+    "place right at chin with index",
+    "place left near BOL by up 5cm using fabrik",
+    "reverse",
+    "mirror left",
+    "repeat 3 scale 0.8 tempo 1.2 gap 0.1s",
+    "orient right palm up fingers forward by 30deg about up",
+    "amplify both 1.5",
+    "travel right down 20cm then up 20cm in 0.4s",
+    "from me to left",
+    "retime 1, 50%, to 0.3s",
+    "nonmanual from B",
+];
+
+fn texts() -> impl Strategy<Value = String> {
+    let steps = prop::collection::vec(prop::sample::select(&STEPS[..]), 0..4);
+    let piece = (prop::sample::select(&SOURCES[..]), steps).prop_map(|(source, steps)| {
+        let parts: Vec<&str> = [source].into_iter().chain(steps).collect();
+        parts.join(" | ")
+    });
+    prop::collection::vec(piece, 1..4).prop_map(|pieces| pieces.join(" then via 0.3s "))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+
+    #[test]
+    fn text_to_cards_and_back_is_the_same_recipe(text in texts(), other in texts()) {
+        let recipe: Recipe = text.parse().expect("a recipe");
+        let mut stack = Stack::of(&recipe);
+        prop_assert_eq!(stack.text(), recipe.to_string());
+        prop_assert_eq!(stack.recipe(), Some(Ok(recipe.clone())));
+        let before = ids(&stack);
+        stack.take(&recipe);
+        prop_assert_eq!(ids(&stack), before);
+        let other: Recipe = other.parse().expect("a recipe");
+        stack.take(&other);
+        prop_assert_eq!(stack.recipe(), Some(Ok(other)));
+        let unique: BTreeSet<u64> = ids(&stack).into_iter().collect();
+        prop_assert_eq!(unique.len(), stack.cards().len());
+    }
+
+    #[test]
+    fn whatever_is_moved_and_switched_the_text_is_that_of_the_cards(
+        text in texts(),
+        moves in prop::collection::vec((0usize..12, 0usize..14, 0u8..4), 0..8),
+    ) {
+        let mut stack = Stack::of(&text.parse().expect("a recipe"));
+        for (card, to, what) in moves {
+            let Some(id) = stack.cards().get(card).map(|card| card.id) else { continue };
+            match what {
+                0 => stack.switch(id),
+                1 => drop(stack.duplicate(id)),
+                2 => drop(stack.shift(id, to % 2 == 0)),
+                _ => drop(stack.move_to(id, to)),
+            }
+            prop_assert!(stack.cards()[0].what.is_source());
+        }
+        let all = ids(&stack);
+        if let Some(recipe) = stack.recipe() {
+            let recipe = recipe.expect("in range");
+            prop_assert_eq!(stack.text(), Stack::of(&recipe).text());
+            stack.take(&recipe);
+            let unique: BTreeSet<u64> = ids(&stack).into_iter().collect();
+            let before: BTreeSet<u64> = all.into_iter().collect();
+            prop_assert!(before.is_subset(&unique));
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! The bar below the cards: what was made, the gloss, and storing.
+
+use eframe::egui::{Button, RichText, TextEdit, Ui};
+
+use super::Recombine;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::words::{fill, recombine as words};
+use crate::work::Work;
+
+impl Recombine {
+    /// The bar below: the gloss, and storing.
+    pub(super) fn storing(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let made = self.live.made.is_some() && self.live.trouble.is_none() && self.wrong.is_none();
+        if let Some(made) = &self.live.made {
+            let time = format!("{:.2}", made.duration_us as f64 / 1e6);
+            let took = format!("{:.0}", self.live.took * 1000.0);
+            let values: [(&str, &dyn std::fmt::Display); 2] = [("time", &time), ("took", &took)];
+            let lasts = fill(seen.say(words::MADE_LASTS), &values);
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 4.0;
+                let all = [(false, words::SHOW_ORIGINAL), (true, words::SHOW_MADE)];
+                for (made, text) in all {
+                    ui.selectable_value(&mut self.on_stage, made, seen.say(text));
+                }
+                let lasts = RichText::new(lasts).small().weak();
+                ui.add(eframe::egui::Label::new(lasts).truncate());
+            });
+        }
+        ui.horizontal(|ui| {
+            let text = if self.opened.is_some() {
+                words::STORE_AGAIN
+            } else {
+                words::STORE
+            };
+            let width = (ui.available_width() - 128.0).max(70.0);
+            let field = TextEdit::singleline(&mut self.gloss)
+                .hint_text(seen.say(words::GLOSS))
+                .desired_width(width);
+            let response = ui.add(field);
+            if self.naming {
+                response.request_focus();
+            }
+            response.widget_info(|| {
+                eframe::egui::WidgetInfo::labeled(
+                    eframe::egui::Role::TextInput,
+                    true,
+                    seen.say(words::GLOSS),
+                )
+            });
+            let entered = response.lost_focus()
+                && ui.input(|input| input.key_pressed(eframe::egui::Key::Enter));
+            let named = !self.gloss.trim().is_empty();
+            let ready = made && named && !seen.is_running(self.storing);
+            let why = if named {
+                words::NEEDS_RECIPE
+            } else {
+                words::NEEDS_GLOSS
+            };
+            let button = ui.add_enabled(ready, Button::new(seen.say(text)));
+            let pressed = button.on_disabled_hover_text(seen.say(why)).clicked();
+            if pressed || (entered && ready) {
+                self.store(out);
+            }
+        });
+        self.storing_again(ui, seen, out, made);
+        if let Some((gloss, recording)) = &self.stored {
+            ui.horizontal_wrapped(|ui| {
+                let text = fill(
+                    seen.say(crate::words::shell::NOTICE_STORED),
+                    &[("gloss", gloss)],
+                );
+                ui.label(RichText::new(text).color(seen.colours().good));
+                let there = seen.snapshot.recording(*recording).is_some();
+                if there && ui.small_button(seen.say(words::SHOW_STORED)).clicked() {
+                    out.send(Command::Recording(*recording));
+                }
+            });
+        }
+    }
+
+    /// The button that stores in the place of the sign whose recipe was opened.
+    fn storing_again(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, made: bool) {
+        let opened = self.opened.as_deref();
+        let opened = opened.and_then(|name| seen.snapshot.recording_named(name));
+        let Some(glance) = opened.filter(|it| it.recipe.is_some()) else {
+            return;
+        };
+        let text = fill(seen.say(words::REPLACE), &[("name", &glance.row.name)]);
+        let recipe = self.stack.text();
+        let same = glance.recipe.as_ref() == Some(&recipe);
+        let ready = made && !same && !seen.is_running(self.storing);
+        let why = if same {
+            words::REPLACE_SAME
+        } else {
+            words::NEEDS_RECIPE
+        };
+        let button = ui.add_enabled(ready, Button::new(text).truncate());
+        let button = button.on_hover_text(seen.say(words::REPLACE_TIP));
+        if button.on_disabled_hover_text(seen.say(why)).clicked() {
+            self.stored = None;
+            let recording = glance.row.id;
+            self.storing = Some(out.work(Work::RecombineAgain { recipe, recording }));
+        }
+    }
+
+    fn store(&mut self, out: &mut Outbox) {
+        let (recipe, gloss) = (self.stack.text(), self.gloss.trim().to_owned());
+        self.stored = None;
+        self.storing = Some(out.work(Work::Recombine { recipe, gloss }));
+    }
+}

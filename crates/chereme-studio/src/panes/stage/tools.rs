@@ -1,0 +1,139 @@
+//! The line above the stage: into how many views it is parted, what is shown beside the signer, and
+//! how it is compared.
+
+use eframe::egui::{
+    Button, DragValue, Label, Rect, RichText, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+};
+
+use super::Stage;
+use super::data::Compare;
+use crate::action::Action;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::words::{fill, stage as words};
+
+/// What is shown beside the signer, and into how many views the stage is parted.
+pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
+    ui.horizontal_wrapped(|ui| {
+        for (count, text) in [
+            (1, words::SPLIT_1),
+            (2, words::SPLIT_2),
+            (4, words::SPLIT_4),
+        ] {
+            let keys = seen.keys.text(Action::StageSplit);
+            if split_button(ui, stage.eyes.len() == count, count, seen.say(text), &keys) {
+                stage.split(count);
+                stage.asked = None;
+            }
+        }
+        ui.add_space(6.0);
+        let toggles = [
+            (
+                words::TRAILS,
+                words::TRAILS_HINT,
+                Action::StageTrails,
+                stage.shows.trails.is_some(),
+            ),
+            (
+                words::GHOSTS,
+                words::GHOSTS_HINT,
+                Action::StageGhosts,
+                stage.shows.ghosts,
+            ),
+            (
+                words::PLACES,
+                words::PLACES_HINT,
+                Action::StagePlaces,
+                stage.places,
+            ),
+            (
+                words::GRID,
+                words::GRID_HINT,
+                Action::StageGrid,
+                stage.shows.grid,
+            ),
+        ];
+        for (text, hint, action, on) in toggles {
+            let hint = format!("{} ({})", seen.say(hint), seen.keys.text(action));
+            let button = Button::selectable(on, seen.say(text));
+            if ui.add(button).on_hover_text(hint).clicked() {
+                out.send(Command::Do(action));
+            }
+            if action == Action::StageTrails && on {
+                reach(stage, ui, seen);
+            }
+        }
+        if stage.original.is_there() {
+            ui.add_space(6.0);
+            compare(stage, ui, seen);
+        }
+        if let Some(showing) = &seen.shown.made {
+            ui.add_space(6.0);
+            let name = fill(seen.say(words::MADE_OF), &[("name", &showing.made.name)]);
+            let name = RichText::new(name).color(seen.colours().accent);
+            ui.add(Label::new(name).truncate());
+            let keys = seen.keys.text(Action::StageRecording);
+            let back = ui.small_button(seen.say(words::BACK)).on_hover_text(keys);
+            if back.clicked() {
+                out.send(Command::Made(None));
+            }
+        }
+    });
+    ui.add_space(4.0);
+}
+
+fn reach(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
+    let value = DragValue::new(&mut stage.reach)
+        .range(0.1..=2.0)
+        .speed(0.02)
+        .fixed_decimals(1)
+        .suffix(" s");
+    let response = ui.add(value);
+    let name = seen.say(words::REACH);
+    let seconds = stage.reach;
+    response.widget_info(|| WidgetInfo::slider(true, seconds, name));
+    if response.on_hover_text(name).changed() {
+        stage.shows.trails = Some(stage.reach);
+    }
+}
+
+fn compare(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>) {
+    let keys = seen.keys.text(Action::StageCompare);
+    ui.weak(format!("{}:", seen.say(words::ORIGINAL)));
+    for way in Compare::ALL {
+        let text = match way {
+            Compare::Beside => words::BESIDE,
+            Compare::Over => words::OVER,
+            Compare::Alone => words::ALONE,
+        };
+        let hint = format!("{} ({keys})", seen.say(words::COMPARE));
+        let button = Button::selectable(stage.compare == way, seen.say(text));
+        if ui.add(button).on_hover_text(hint).clicked() {
+            stage.compare = way;
+            stage.asked = None;
+        }
+    }
+}
+
+/// A button with a drawing of the stage parted into `count`.
+fn split_button(ui: &mut Ui, on: bool, count: usize, name: &str, keys: &str) -> bool {
+    let (rect, response) = ui.allocate_exact_size(vec2(28.0, 24.0), Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, name));
+    let visuals = ui.style().interact_selectable(&response, on);
+    let painter = ui.painter();
+    if on || response.hovered() || response.has_focus() {
+        let fill = visuals.weak_bg_fill;
+        painter.rect(rect, 5.0, fill, visuals.bg_stroke, StrokeKind::Inside);
+    }
+    let screen = Rect::from_center_size(rect.center(), vec2(16.0, 12.0));
+    let stroke = Stroke::new(1.2, visuals.text_color());
+    painter.rect_stroke(screen, 1.5, stroke, StrokeKind::Middle);
+    if count > 1 {
+        painter.vline(screen.center().x, screen.y_range(), stroke);
+    }
+    if count > 2 {
+        painter.hline(screen.x_range(), screen.center().y, stroke);
+    }
+    response.on_hover_text(format!("{name} ({keys})")).clicked()
+}
