@@ -12,6 +12,8 @@ use chereme_sign::Handedness;
 pub(crate) struct Made {
     /// What it is called: the gloss or the recipe.
     pub(crate) name: String,
+    /// The token whose notation it was made of, where it is that alone.
+    pub(crate) token: Option<i64>,
     pub(crate) clip: Clip,
     pub(crate) anatomy: Arc<Anatomy>,
     /// Which hand the signer signs with.
@@ -21,6 +23,17 @@ pub(crate) struct Made {
 }
 
 impl Made {
+    /// Returns what the notation of a token gave, called as its sign is.
+    pub(crate) fn notated(made: &Recombination, token: i64) -> Self {
+        let gloss = made.parts.first().map(|part| part.gloss.clone());
+        let of = Self::of(made);
+        Self {
+            name: gloss.filter(|it| !it.is_empty()).unwrap_or(of.name.clone()),
+            token: Some(token),
+            ..of
+        }
+    }
+
     /// Returns what a recipe gave.
     pub(crate) fn of(made: &Recombination) -> Self {
         let name = if made.gloss.is_empty() {
@@ -30,6 +43,7 @@ impl Made {
         };
         Self {
             name: name.clone(),
+            token: None,
             clip: made.clip.clone(),
             anatomy: made.anatomy.clone(),
             handedness: made.handedness,

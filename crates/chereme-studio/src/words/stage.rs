@@ -3,6 +3,8 @@
 texts! {
     TITLE: "Stage", "Scène";
     NO_RECORDING: "Choose a recording to see it here.", "Choisissez un enregistrement pour le voir ici.";
+    ONLY_SIGNS: "There are no recordings here, but signs; they are found in the search.", "Il n’y a pas d’enregistrements ici, mais des signes ; la recherche les trouve.";
+    TO_SIGNS: "To the search", "Vers la recherche";
     NO_MOVEMENT: "This recording holds no movement. Import the motion file of the same name.", "Cet enregistrement ne contient pas de mouvement. Importez le fichier de mouvement du même nom.";
     LOADING: "Loading the movement…", "Chargement du mouvement…";
     NO_FINGERS: "This skeleton has no fingers: its hands are mittens.", "Ce squelette n’a pas de doigts : les mains sont des moufles.";

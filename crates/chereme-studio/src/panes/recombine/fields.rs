@@ -399,6 +399,20 @@ pub(crate) fn selected_token(seen: &Seen<'_>) -> Option<(i64, String)> {
     Some((token.id, token.gloss.clone()))
 }
 
+/// Returns the recipe to begin with and its gloss: what is selected, or the notated sign on the stage.
+pub(super) fn selected_recipe(seen: &Seen<'_>) -> Option<(String, String)> {
+    if let Some(showing) = &seen.shown.made
+        && let Some(token) = showing.made.token
+    {
+        return Some((
+            format!("sigml \"token:{token}\""),
+            showing.made.name.clone(),
+        ));
+    }
+    let (token, gloss) = selected_token(seen)?;
+    Some((format!("token:{token}"), gloss))
+}
+
 /// Shows a sign by its gloss: typed with completion, the selected token, or a hit dropped on it.
 pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut String) -> bool {
     let inner = ui.horizontal_wrapped(|ui| {

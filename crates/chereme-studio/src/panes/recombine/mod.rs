@@ -314,12 +314,12 @@ impl Recombine {
         ui.strong(seen.say(words::EMPTY));
         ui.label(seen.say(words::EMPTY_MORE));
         ui.add_space(4.0);
-        if let Some((token, gloss)) = fields::selected_token(seen) {
+        if let Some((recipe, gloss)) = fields::selected_recipe(seen) {
             let text = fill(seen.say(words::BEGIN_SELECTED), &[("gloss", &gloss)]);
             let button = ui.button(text);
             let key = seen.keys.text(Action::RecombineSelected);
             if button.on_hover_text(key).clicked() {
-                self.open(&format!("token:{token}"), None, None);
+                self.open(&recipe, None, None);
             }
         }
     }
@@ -435,9 +435,9 @@ impl Pane for Recombine {
                 (self.come, self.naming) = (false, true);
                 Acted::Yes
             }
-            Action::RecombineSelected => match fields::selected_token(seen) {
-                Some((token, _)) => {
-                    out.send(Command::Recipe(format!("token:{token}"), None));
+            Action::RecombineSelected => match fields::selected_recipe(seen) {
+                Some((recipe, _)) => {
+                    out.send(Command::Recipe(recipe, None));
                     Acted::Yes
                 }
                 None => Acted::Cannot(crate::words::shell::NEEDS_ANNOTATION),

@@ -59,7 +59,7 @@ impl Notated {
         };
         self.making = None;
         let made = match ended {
-            Ok(Outcome::Previewed(made)) => Some(Arc::new(Made::of(made))),
+            Ok(Outcome::Previewed(made)) => Some(Arc::new(Made::notated(made, token))),
             _ => None,
         };
         self.made.insert(token, made);

@@ -88,11 +88,16 @@ impl Original {
         self.parts.iter().any(|piece| piece.shown.is_some())
     }
 
-    /// Returns what makes the movement where none of it has an original.
+    /// Returns what makes the movement where none of it has an original that one would look for: of
+    /// notation nobody expects one.
     pub(super) fn made_by(&self) -> Option<&str> {
         let none = self.told && !self.is_there();
         let first = self.parts.first().filter(|_| none)?;
-        Some(&first.part.from)
+        let from = &first.part.from;
+        let made = ["spell ", "point "]
+            .iter()
+            .any(|word| from.starts_with(word));
+        made.then_some(from)
     }
 
     /// Returns the piece that is played at `at`; between two the nearer one.

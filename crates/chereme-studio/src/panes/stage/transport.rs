@@ -135,7 +135,12 @@ fn bar(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
             track.y_range(),
             Stroke::new(1.0, visuals.weak_text_color()),
         );
-        response.on_hover_text_at_pointer(time_text(time(at.x)));
+        // Above, for the time of the playhead stands below.
+        let layer = egui::LayerId::new(egui::Order::Tooltip, response.id);
+        let above = ui.ctx().layer_painter(layer);
+        let place = pos2(at.x, rect.top() - 3.0);
+        let text = time_text(time(at.x));
+        super::ui::chip_on(&above, ui, place, egui::Align2::CENTER_BOTTOM, &text);
     }
 }
 

@@ -13,6 +13,8 @@ use super::artist::{Artist, Pane, Sheet, Wish};
 use super::data::{self, Compare, Look, Part, VIEWS, Who};
 use super::scene::Subject;
 use super::{Eye, Stage, handle, marks, movement, original, tools, transport};
+use crate::action::Action;
+use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::little;
 use crate::words::{Text, fill, stage as words};
@@ -33,7 +35,12 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
         .show(ui, |ui| transport::show(ui, seen, out));
     let (whole, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
     match why_nothing(stage, seen) {
-        Some(text) => little::empty(ui, whole, seen.say(text)),
+        Some(text) => {
+            little::empty(ui, whole, seen.say(text));
+            if text == words::ONLY_SIGNS {
+                to_signs(ui, seen, out, whole);
+            }
+        }
         None => panes(stage, ui, seen, out, whole),
     }
 }
@@ -43,13 +50,33 @@ fn why_nothing(stage: &Stage, seen: &Seen<'_>) -> Option<Text> {
     if seen.shown.made.is_some() {
         stage.signer.is_none().then_some(words::NO_MOVEMENT)
     } else if seen.shown.recording.is_none() {
-        Some(words::NO_RECORDING)
+        let overview = &seen.snapshot.overview;
+        let only_signs = overview.recordings.is_empty() && !overview.signs.is_empty();
+        Some(if only_signs {
+            words::ONLY_SIGNS
+        } else {
+            words::NO_RECORDING
+        })
     } else if !seen.reel.has_movement() {
         Some(words::NO_MOVEMENT)
     } else if stage.signer.is_none() {
         Some(words::LOADING)
     } else {
         None
+    }
+}
+
+/// Leads on to the signs of a corpus that has no recordings.
+fn to_signs(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, whole: Rect) {
+    let size = vec2(whole.width().min(200.0), 26.0);
+    let place = Rect::from_center_size(whole.center_bottom() - vec2(0.0, 28.0), size);
+    let button = Button::new(seen.say(words::TO_SIGNS));
+    let response = ui.put(place, button);
+    if response
+        .on_hover_text(seen.keys.text(Action::Search))
+        .clicked()
+    {
+        out.send(Command::Do(Action::Search));
     }
 }
 
@@ -360,14 +387,24 @@ fn no_original(seen: &Seen<'_>, made_by: &str) -> String {
 }
 
 pub(super) fn chip(ui: &Ui, at: egui::Pos2, anchor: Align2, text: &str) {
+    chip_on(ui.painter(), ui, at, anchor, text);
+}
+
+/// Writes a word or two on a ground of its own.
+pub(super) fn chip_on(
+    painter: &egui::Painter,
+    ui: &Ui,
+    at: egui::Pos2,
+    anchor: Align2,
+    text: &str,
+) {
     let font = TextStyle::Small.resolve(ui.style());
     let colour = ui.visuals().text_color();
-    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, colour);
+    let galley = painter.layout_no_wrap(text.to_owned(), font, colour);
     let rect = anchor.anchor_size(at, galley.size() + vec2(12.0, 6.0));
     let fill = ui.visuals().panel_fill.gamma_multiply(0.9);
-    ui.painter().rect_filled(rect, 5.0, fill);
-    ui.painter()
-        .galley(rect.min + vec2(6.0, 3.0), galley, colour);
+    painter.rect_filled(rect, 5.0, fill);
+    painter.galley(rect.min + vec2(6.0, 3.0), galley, colour);
 }
 
 /// What there is to say about the whole: that a moment is being loaded, that hands have no fingers.
