@@ -6,13 +6,13 @@ use chereme_formats::eaf::convert::{
     Annotation, Entry, EntryValue, Place, Tier, Timing, Vocabulary,
 };
 use chereme_formats::eaf::{Transcript, raw, to_raw};
-use chereme_motion::{Instant, Side, Span};
+use chereme_motion::{Side, Span};
 use chereme_sign::Stereotype;
 use chereme_sign::inventory::builtin_by_id;
 
 use super::notes::{Note, PHASE, TIERS};
-use super::score::Take;
 use super::signer;
+use super::takes::Take;
 
 /// When the first version was made; files do not change with the day on which they are made.
 const DATE: &str = "2025-11-21T00:00:00Z";
@@ -38,24 +38,26 @@ const PHASES: [(&str, &str, &str); 4] = [
 ];
 
 /// The values that any take uses, by inventory.
-pub(crate) type Used = BTreeMap<&'static str, BTreeSet<&'static str>>;
+pub(crate) type Used = BTreeMap<&'static str, BTreeSet<String>>;
 
 /// Adds the values of `notes` to those in use.
 pub(crate) fn count(notes: &[Note], used: &mut Used) {
     for note in notes {
         if let Some(inventory) = TIERS[note.tier].inventory {
-            used.entry(inventory).or_default().insert(note.value);
+            used.entry(inventory)
+                .or_default()
+                .insert(note.value.clone());
         }
     }
 }
 
 /// Returns the bytes of the file for `take`.
-pub(crate) fn write(take: &Take, notes: &[Note], used: &Used) -> Vec<u8> {
+pub(crate) fn write(take: &Take, signs: &[Span], notes: &[Note], used: &Used) -> Vec<u8> {
     let mut builder = Builder::default();
     if let Some([french, english]) = take.phrase {
-        builder.phrase(take, french, english);
+        builder.phrase(signs, french, english);
     }
-    let gloss = builder.glosses(take);
+    let gloss = builder.glosses(take, signs);
     for side in [Some(Side::Right), Some(Side::Left), None] {
         for (at, kind) in TIERS.iter().enumerate() {
             if kind.name.contains('@') == side.is_some() && at != PHASE {
@@ -165,20 +167,21 @@ impl Builder {
         }
     }
 
-    fn phrase(&mut self, take: &Take, french: &str, english: &str) {
-        let (first, last) = (take.signs.first(), take.signs.last());
-        let start = first.map_or(0.0, |(start, _)| *start);
-        let end = last.map_or(0.0, |(start, sign)| start + sign.length);
+    fn phrase(&mut self, signs: &[Span], french: &str, english: &str) {
+        let (Some(first), Some(last)) = (signs.first(), signs.last()) else {
+            return;
+        };
+        let whole = Span::between(first.start(), last.end());
         let tier = self.tier("Phrase FR".to_owned(), "phrase", None);
         self.tiers[tier].language = Some("fra".to_owned());
-        let place = self.add(tier, span(start, end), french, None);
+        let place = self.add(tier, whole, french, None);
         let below = Some((tier, Stereotype::SymbolicAssociation));
         let tier = self.tier("Phrase EN".to_owned(), "phrase translation", below);
         self.tiers[tier].language = Some("eng".to_owned());
-        self.add(tier, span(start, end), english, Some(place));
+        self.add(tier, whole, english, Some(place));
     }
 
-    fn glosses(&mut self, take: &Take) -> usize {
+    fn glosses(&mut self, take: &Take, signs: &[Span]) -> usize {
         let gloss = self.tier("Gloss".to_owned(), "gloss", None);
         let below = Some((gloss, Stereotype::SymbolicAssociation));
         let tiers = [("FR", "fra"), ("EN", "eng")].map(|(name, language)| {
@@ -186,11 +189,10 @@ impl Builder {
             self.tiers[tier].language = Some(language.to_owned());
             tier
         });
-        for (start, sign) in &take.signs {
-            let span = span(*start, start + sign.length);
-            let place = self.add(gloss, span, sign.gloss, None);
+        for (sign, span) in take.signs.iter().zip(signs) {
+            let place = self.add(gloss, *span, &sign.gloss, None);
             for (tier, means) in tiers.into_iter().zip(sign.means) {
-                self.add(tier, span, means, Some(place));
+                self.add(tier, *span, means, Some(place));
             }
         }
         gloss
@@ -209,21 +211,16 @@ impl Builder {
             _ => "RH",
         };
         let parent = gloss.map(|gloss| (gloss, Stereotype::IncludedIn));
-        let tier = self.tier(kind.name.replace('@', hand), kind.kind, parent);
+        let tier = self.tier(kind.name.replace('@', hand), &kind.kind(), parent);
         self.tiers[tier].vocabulary = Some(kind.inventory.unwrap_or("phases").to_owned());
         for note in notes {
             let parent = gloss.map(|tier| Place {
                 tier,
                 index: note.sign,
             });
-            self.add(tier, span(note.from, note.to), note.value, parent);
+            self.add(tier, note.span, &note.value, parent);
         }
     }
-}
-
-fn span(from: f64, to: f64) -> Span {
-    let at = |seconds: f64| Instant::from_millis((seconds * 1000.0).round() as i64);
-    Span::between(at(from), at(to))
 }
 
 fn vocabularies(used: &Used) -> Vec<Vocabulary> {

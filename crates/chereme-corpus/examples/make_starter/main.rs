@@ -1,7 +1,7 @@
 //! Makes the starter corpus in `corpus/`: `cargo run -p chereme-corpus --example make_starter`.
 
 use std::fs;
-use std::io;
+use std::io::{self, Write};
 use std::path::Path;
 
 #[path = "all.rs"]
@@ -11,11 +11,9 @@ fn main() -> io::Result<()> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpus");
     fs::create_dir_all(&folder)?;
     let performances = all::performances();
-    for (take, performance) in &performances {
-        let missed = performance.residual;
-        if missed > 1e-6 {
-            let what = format!("{}: a wrist misses its place by {missed} m", take.stem);
-            return Err(io::Error::other(what));
+    for (take, made) in &performances {
+        for warning in &made.report.warnings {
+            writeln!(io::stderr(), "{}: {warning}", take.stem)?;
         }
     }
     for (name, bytes) in all::files(&performances) {

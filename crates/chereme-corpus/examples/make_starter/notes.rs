@@ -1,52 +1,83 @@
-//! What is said of a take on each tier.
+//! What is said of a take on each tier: what the animator says about its movement.
 
-use chereme_motion::Side;
-use chereme_motion::glam::DVec3;
+use chereme_compose::{About, Made};
+use chereme_motion::{Instant, Side, Span};
+use chereme_sign::{Component, Reading};
 
-use super::facing;
-use super::perform::Performance;
-use super::score::{Part, Sign, Take, Tier};
+use super::perform::REST;
+use super::signs::{Finer, Sign};
+use super::takes::Take;
 
 /// A tier of the annotation files.
 pub(crate) struct TierKind {
     /// Its name; `@` stands for `RH` or `LH`.
     pub(crate) name: &'static str,
-    /// The name of its ELAN type.
-    pub(crate) kind: &'static str,
     /// The inventory whose values it has.
     pub(crate) inventory: Option<&'static str>,
+    component: Component,
+    feature: Option<&'static str>,
+}
+
+impl TierKind {
+    /// Returns the name of its ELAN type.
+    pub(crate) fn kind(&self) -> String {
+        self.name.trim_end_matches(" @").to_lowercase()
+    }
 }
 
 /// The tiers below the gloss, and beside it the phases.
-pub(crate) const TIERS: [TierKind; 9] = [
-    tier("Configuration @", "configuration", Some("configurations")),
-    tier("Placement @", "placement", Some("placements")),
-    tier("Movement @", "movement", Some("movements")),
-    tier(
-        "Movement direction @",
-        "movement direction",
-        Some("directions"),
-    ),
-    tier("Palm direction @", "palm direction", Some("palm")),
-    tier("Finger direction @", "finger direction", Some("fingers")),
-    tier("Brows", "brows", Some("brows")),
-    tier("Head", "head", Some("head")),
-    tier("Phase @", "phase", None),
-];
+pub(crate) const TIERS: [TierKind; 9] = {
+    use Component::{Configuration, Movement, NonManual, Orientation, Placement};
+    [
+        tier("Configuration @", "configurations", Configuration, None),
+        tier("Placement @", "placements", Placement, None),
+        tier("Movement @", "movements", Movement, None),
+        tier(
+            "Movement direction @",
+            "directions",
+            Movement,
+            Some("direction"),
+        ),
+        tier("Palm direction @", "palm", Orientation, Some("palm")),
+        tier(
+            "Finger direction @",
+            "fingers",
+            Orientation,
+            Some("fingers"),
+        ),
+        tier("Brows", "brows", NonManual, Some("brows")),
+        tier("Head", "head", NonManual, Some("head")),
+        tier("Phase @", "", Movement, Some("phase")),
+    ]
+};
 
-const fn tier(name: &'static str, kind: &'static str, inventory: Option<&'static str>) -> TierKind {
+const fn tier(
+    name: &'static str,
+    inventory: &'static str,
+    component: Component,
+    feature: Option<&'static str>,
+) -> TierKind {
     TierKind {
         name,
-        kind,
-        inventory,
+        inventory: if inventory.is_empty() {
+            None
+        } else {
+            Some(inventory)
+        },
+        component,
+        feature,
     }
 }
 
 /// The place of a tier in [`TIERS`].
 pub(crate) const CONFIGURATION: usize = 0;
-const PALM: usize = 4;
-const FINGERS: usize = 5;
-/// The place of the phases in [`TIERS`].
+/// The place of the placements.
+pub(crate) const PLACEMENT: usize = 1;
+/// The place of the movements.
+pub(crate) const MOVEMENT: usize = 2;
+/// The place of the movements' directions.
+pub(crate) const DIRECTION: usize = 3;
+/// The place of the phases.
 pub(crate) const PHASE: usize = 8;
 
 /// A value said of a stretch of time.
@@ -57,106 +88,171 @@ pub(crate) struct Note {
     /// The hand; none where the tier has none.
     pub(crate) side: Option<Side>,
     /// The value.
-    pub(crate) value: &'static str,
-    /// From when to when, in seconds.
-    pub(crate) from: f64,
-    /// The end.
-    pub(crate) to: f64,
+    pub(crate) value: String,
+    /// When.
+    pub(crate) span: Span,
     /// The place of the sign in the take.
     pub(crate) sign: usize,
 }
 
+/// Returns when each sign of a take is made.
+pub(crate) fn glosses(made: &Made) -> Vec<Span> {
+    let glosses = made.notes.iter().filter(|note| note.about == About::Gloss);
+    glosses.map(|note| later(note.span)).collect()
+}
+
 /// Returns what is said of the signs of `take`, tier by tier in order of time.
-pub(crate) fn notes(take: &Take, performance: &Performance) -> Vec<Note> {
-    let mut notes: Vec<Note> = Vec::new();
-    for (place, (start, sign)) in take.signs.iter().enumerate() {
-        let said = of_sign(sign);
-        notes.extend(said.into_iter().map(|note| Note {
-            from: start + note.from,
-            to: start + note.to,
-            sign: place,
-            ..note
-        }));
-    }
-    for (side, hand) in Side::BOTH.into_iter().zip(&performance.hands) {
-        notes.extend(hand.phases.iter().map(|&(value, from, to)| Note {
-            tier: PHASE,
-            side: Some(side),
-            value,
-            from,
-            to,
-            sign: 0,
-        }));
-    }
-    notes
-}
-
-/// Returns what is said of a sign, its start being nought; phases are left out.
-pub(crate) fn of_sign(sign: &Sign) -> Vec<Note> {
-    let note = |tier, side, value, from, to| Note {
-        tier,
-        side,
-        value,
-        from,
-        to,
-        sign: 0,
-    };
+pub(crate) fn notes(take: &Take, made: &Made) -> Vec<Note> {
+    let phases: Vec<Note> = Side::BOTH
+        .iter()
+        .flat_map(|side| phases(made, *side))
+        .collect();
     let mut notes = Vec::new();
-    for side in Side::BOTH {
-        let part = sign.part(side);
-        for shape in &part.shapes {
-            notes.push(note(CONFIGURATION, Some(side), shape.0, shape.1, shape.2));
+    for (n, (sign, span)) in take.signs.iter().zip(glosses(made)).enumerate() {
+        for tier in 0..PHASE {
+            for side in [Some(Side::Right), Some(Side::Left), None] {
+                let said = of_tier(sign, span, made, &phases, tier, side);
+                notes.extend(said.into_iter().map(|(value, span)| Note {
+                    tier,
+                    side,
+                    value,
+                    span,
+                    sign: n,
+                }));
+            }
         }
-        notes.extend(facings(sign, part, side));
     }
-    for says in &sign.says {
-        let (tier, side) = match says.0 {
-            Tier::Placement(side) => (1, Some(side)),
-            Tier::Movement(side) => (2, Some(side)),
-            Tier::Direction(side) => (3, Some(side)),
-            Tier::Brows => (6, None),
-            Tier::Head => (7, None),
-        };
-        notes.push(note(tier, side, says.1, says.2, says.3));
-    }
+    notes.extend(phases);
     notes
 }
 
-/// Returns where palm and fingers point at the start and, where that is another value, at the end.
-fn facings(sign: &Sign, part: &Part, side: Side) -> Vec<Note> {
-    let named = |beat: Option<&super::score::Beat>| {
-        let own = |[x, y, z]: [f64; 3]| DVec3::new(x * side.sign(), y, z);
-        let beat = beat?;
-        let fingers = own(beat.fingers).normalize();
-        facing::named(fingers, own(beat.palm).reject_from_normalized(fingers))
+/// Returns the values of one tier in one sign.
+fn of_tier(
+    sign: &Sign,
+    gloss: Span,
+    made: &Made,
+    phases: &[Note],
+    tier: usize,
+    side: Option<Side>,
+) -> Vec<(String, Span)> {
+    let kind = &TIERS[tier];
+    let own = made.notes.iter().filter(|note| match &note.about {
+        About::Component(component, feature) => {
+            let said = (*component, feature.as_deref()) == (kind.component, kind.feature);
+            said && note.hand == side && gloss.contains(later(note.span).start())
+        }
+        _ => false,
+    });
+    let mut said: Vec<(String, Span)> = Vec::new();
+    for note in own {
+        let (Reading::Value(value), span) = (&note.value, later(note.span)) else {
+            continue;
+        };
+        if said
+            .last()
+            .is_none_or(|(_, before)| before.end() <= span.start())
+        {
+            said.push((value.clone(), span));
+        }
+    }
+    let finer = sign
+        .finer
+        .iter()
+        .find(|finer| (finer.0, finer.1) == (tier, side));
+    if let Some(Finer(_, _, values)) = finer {
+        let spans: Vec<Span> = match said.len() == values.len() {
+            true => said.iter().map(|(_, span)| *span).collect(),
+            false if values.len() == 1 => {
+                said.first().zip(said.last()).map_or(vec![gloss], |(a, b)| {
+                    vec![Span::between(a.1.start(), b.1.end())]
+                })
+            }
+            false => shares(gloss, values.len()),
+        };
+        said = values
+            .iter()
+            .map(|value| (*value).to_owned())
+            .zip(spans)
+            .collect();
+    }
+    let own = phases.iter().filter(|phase| {
+        let stroke = phase.side == side && phase.value == "stroke";
+        stroke && gloss.contains(phase.span.start())
+    });
+    let strokes: Vec<Span> = own.map(|phase| phase.span).collect();
+    if let (Some(first), Some(last)) = (strokes.first(), strokes.last()) {
+        let whole = Span::between(first.start(), last.end());
+        if tier == MOVEMENT || tier == DIRECTION {
+            let shares = shares(whole, said.len());
+            said.iter_mut()
+                .zip(shares)
+                .for_each(|(said, share)| said.1 = share);
+        } else if let [(_, one), (_, other)] = &mut said[..] {
+            change(one, other, whole);
+        }
+    }
+    said
+}
+
+/// Lets a value that becomes another in a stroke last for its first third, the other one from its last on.
+fn change(one: &mut Span, other: &mut Span, stroke: Span) {
+    if one.end() < other.start() {
+        return;
+    }
+    let thirds = shares(stroke, 3);
+    *one = Span::between(one.start(), thirds[0].end());
+    *other = Span::between(thirds[2].start(), other.end());
+}
+
+/// Returns as many equal parts of a span.
+fn shares(span: Span, count: usize) -> Vec<Span> {
+    let (start, end) = (span.start().seconds(), span.end().seconds());
+    let at = |n: usize| {
+        let time = start + (end - start) * n as f64 / count as f64;
+        Instant::from_millis((time * 1000.0).round() as i64)
     };
-    let (Some(first), Some(last)) = (named(part.beats.first()), named(part.beats.last())) else {
-        return Vec::new();
-    };
-    let moves = part
-        .beats
-        .windows(2)
-        .find(|pair| pair[0].fingers != pair[1].fingers || pair[0].palm != pair[1].palm);
-    let [turning, turned] = moves.map_or([0.0, 0.0], |pair| [pair[0].at, sign.hold]);
-    let third = (turned - turning) / 3.0;
-    let mut notes = Vec::new();
-    for (tier, n) in [(FINGERS, 0), (PALM, 1)] {
-        let mut note = |value, from, to| {
-            notes.push(Note {
-                tier,
+    (0..count)
+        .map(|n| Span::between(at(n), at(n + 1)))
+        .collect()
+}
+
+/// Returns the phases of a hand: preparation, strokes and holds, retraction.
+fn phases(made: &Made, side: Side) -> Vec<Note> {
+    let mut all: Vec<Note> = Vec::new();
+    for note in made.notes.iter().filter(|note| note.hand == Some(side)) {
+        let value = match (&note.about, &note.value) {
+            (About::Transition, _) => "preparation",
+            (About::Component(Component::Movement, Some(feature)), Reading::Value(value))
+                if feature == "phase" =>
+            {
+                value
+            }
+            _ => continue,
+        };
+        let span = later(note.span);
+        match all.last_mut() {
+            Some(last) if last.value == value && last.span.end() >= span.start() => {
+                last.span = Span::between(last.span.start(), span.end().max(last.span.end()));
+            }
+            Some(last) if last.span.end() > span.start() => {}
+            _ => all.push(Note {
+                tier: PHASE,
                 side: Some(side),
-                value,
-                from,
-                to,
+                value: value.to_owned(),
+                span,
                 sign: 0,
-            });
-        };
-        if first[n] == last[n] {
-            note(first[n], 0.0, sign.length);
-        } else {
-            note(first[n], 0.0, turning + third);
-            note(last[n], turned - third, sign.length);
+            }),
         }
     }
-    notes
+    if let Some(last) = all.last_mut().filter(|last| last.value == "preparation") {
+        "retraction".clone_into(&mut last.value);
+    }
+    all
+}
+
+/// Returns a span of the animator's movement in the take, which begins with rest; in whole milliseconds.
+fn later(span: Span) -> Span {
+    let rest = REST as f64 / 60.0;
+    let at = |at: Instant| Instant::from_millis(((at.seconds() + rest) * 1000.0).round() as i64);
+    Span::between(at(span.start()), at(span.end()))
 }

@@ -1,178 +1,130 @@
-//! From a take to its movement: trunk, head, arms and fingers of every frame.
+//! From a take to its movement: the animator's, between moments of rest, by a signer who breathes.
 
 use std::sync::Arc;
 
+use chereme_compose::notation::{Settings, animate};
+use chereme_compose::{Made, Material};
 use chereme_motion::glam::{DQuat, DVec3, EulerRot};
-use chereme_motion::{Clip, HandAngles, ModelPose, Part, Pose, Rate, Side};
+use chereme_motion::{Anatomy, Channel, Clip, Pose, Rate, Side};
+use chereme_sign::Handedness;
+use chereme_sign::hamnosys::Notated;
 
-use super::arm;
 use super::noise::Noise;
-use super::score::Take;
-use super::track::{self, Body, HandTrack};
+use super::signer;
+use super::takes::Take;
 
 /// Frames a second.
-pub(crate) const FPS: u32 = 60;
+const FPS: u32 = 60;
+/// How many frames the signer rests before the animator's movement, and after it.
+pub(crate) const REST: usize = 15;
 
-/// How a performance went.
-pub(crate) struct Performance {
-    /// The movement.
-    pub(crate) clip: Clip,
-    /// The right and the left hand's course.
-    pub(crate) hands: [HandTrack; 2],
-    /// The largest distance of a wrist from where it should be, in metres.
-    pub(crate) residual: f64,
+/// Returns the signer before the first movement.
+pub(crate) fn stage() -> Material {
+    let skeleton = Arc::new(signer::skeleton());
+    let anatomy = Arc::new(Anatomy::detect(&skeleton));
+    let rate = Rate::new(FPS, 1).expect("a whole rate");
+    Material {
+        address: signer::NAME.to_owned(),
+        hash: String::new(),
+        gloss: String::new(),
+        signer: None,
+        handedness: Handedness::Right,
+        clip: Clip::still(skeleton, rate, 1),
+        anatomy,
+        held: Vec::new(),
+    }
 }
 
-/// Performs `take` on `body`.
-pub(crate) fn perform(body: &Body, take: &Take) -> Performance {
-    let rate = Rate::new(FPS, 1).expect("a whole rate");
-    let hands = Side::BOTH.map(|side| body.hand_track(take, side));
-    let motion = Motion {
-        body,
-        hands: &hands,
-        head: track::turns(take, |sign| &sign.head),
-        trunk: track::turns(take, |sign| &sign.trunk),
-        noise: (0..64)
-            .map(|channel| Noise::new(take.seed, channel))
-            .collect(),
-    };
-    let frames = (take.length * rate.per_second()).round() as usize;
-    let mut residual: f64 = 0.0;
-    let poses: Vec<Pose> = (0..frames)
+/// Performs `take`: the movement with rest before and after it, and what the animator says about it,
+/// whose times are those of the movement without the rest before.
+pub(crate) fn perform(stage: &Material, take: &Take) -> Made {
+    let signs: Vec<Notated> = take.signs.iter().map(|sign| sign.notated()).collect();
+    let signs: Vec<&Notated> = signs.iter().collect();
+    let mut settings = Settings::default();
+    settings.language.time_hold = take.hold.unwrap_or(settings.language.time_hold);
+    let made = animate(&signs, stage, &settings);
+    let made = made.unwrap_or_else(|error| panic!("{}: {error}", take.stem));
+    let channels = made.clip.channels().iter().map(rested).collect();
+    let clip = Clip::new(Arc::clone(made.clip.skeleton()), made.clip.rate(), channels);
+    let clip = clip.expect("channels of this skeleton");
+    let acts = |side: &Side| made.notes.iter().any(|note| note.hand == Some(*side));
+    let busy: Vec<Side> = Side::BOTH.into_iter().filter(acts).collect();
+    let clip = alive(&clip, &busy, take.seed);
+    Made { clip, ..made }
+}
+
+/// Returns a channel that rests before its first frame and after its last.
+fn rested(channel: &Channel) -> Channel {
+    fn longer<T: Clone>(frames: &[T]) -> Vec<T> {
+        let (first, last) = (frames.first(), frames.last());
+        let before = first.into_iter().cycle().take(REST);
+        let after = last.into_iter().cycle().take(REST);
+        before.chain(frames).chain(after).cloned().collect()
+    }
+    Channel {
+        rotations: longer(&channel.rotations),
+        translations: channel.translations.as_deref().map(longer),
+    }
+}
+
+/// Returns the movement of a signer who breathes, sways a little, and whose fingers are never quite still.
+///
+/// The trunk carries both arms and the head, so hands stay where they touch.
+fn alive(clip: &Clip, busy: &[Side], seed: u64) -> Clip {
+    let noise: Vec<Noise> = (0..32).map(|channel| Noise::new(seed, channel)).collect();
+    let poses: Vec<Pose> = (0..clip.frames())
         .map(|frame| {
-            let (pose, missed) = motion.pose(rate.instant(frame).seconds());
-            residual = residual.max(missed);
+            let time = clip.rate().instant(frame).seconds();
+            let at = |channel: usize| noise[channel].at(time);
+            let mut pose = clip.pose(frame);
+            sway(&mut pose, clip, &at, time);
+            for (n, side) in busy.iter().enumerate() {
+                fidget(&mut pose, clip, *side, |finger| at(12 + 5 * n + finger));
+            }
             pose
         })
         .collect();
-    let skeleton = Arc::new(body.skeleton.clone());
-    let clip = Clip::from_poses(skeleton, rate, &poses).expect("poses of this skeleton");
-    Performance {
-        clip,
-        hands,
-        residual,
+    Clip::from_poses(Arc::clone(clip.skeleton()), clip.rate(), &poses)
+        .expect("poses of this skeleton")
+}
+
+/// Breathing and small sways of the spine, and the head's own.
+fn sway(pose: &mut Pose, clip: &Clip, at: &impl Fn(usize) -> f64, time: f64) {
+    let breath = (time * std::f64::consts::TAU / 3.9).sin();
+    let spine = DVec3::new(at(0) * 0.35, at(1) * 0.5, at(2) * 0.3);
+    let head = DVec3::new(at(3) * 0.25 + 0.5 * breath, at(4) * 0.3, at(5) * 0.25);
+    let turns = [
+        ("Hips", DVec3::new(0.0, at(6) * 0.25, at(7) * 0.2)),
+        ("Spine", spine * 0.30),
+        ("Spine1", spine * 0.35 - DVec3::X * 0.3 * breath),
+        ("Spine2", spine * 0.35 - DVec3::X * 0.25 * breath),
+        ("Neck", head * 0.35),
+        ("Neck1", head * 0.25),
+        ("Head", head * 0.40),
+    ];
+    for (name, turn) in turns {
+        if let Some(joint) = clip.skeleton().find(name) {
+            let [x, y, z] = turn.to_array().map(f64::to_radians);
+            pose.rotations[joint] *= DQuat::from_euler(EulerRot::YXZ, y, x, z);
+        }
     }
 }
 
-struct Motion<'a> {
-    body: &'a Body,
-    hands: &'a [HandTrack; 2],
-    head: super::course::Turns,
-    trunk: super::course::Turns,
-    noise: Vec<Noise>,
-}
-
-impl Motion<'_> {
-    fn pose(&self, time: f64) -> (Pose, f64) {
-        let body = self.body;
-        let mut pose = body.skeleton.rest_pose();
-        self.turn_trunk(&mut pose, time);
-        let model = ModelPose::of(&body.skeleton, &pose);
-        let mut residual: f64 = 0.0;
-        for (n, side) in Side::BOTH.into_iter().enumerate() {
-            let reach = self.hands[n].at(time);
-            let carried = |part| {
-                let joint = body
-                    .anatomy
-                    .joint(part)
-                    .expect("the signer has a trunk and a head");
-                let from = body.rest.rotation(joint).inverse()
-                    * (reach.on_trunk - body.rest.position(joint));
-                model.point(joint, from)
-            };
-            let wander = DVec3::new(
-                self.noise(10 + n, time),
-                self.noise(12 + n, time),
-                self.noise(14 + n, time),
-            );
-            let place =
-                carried(Part::Chest).lerp(carried(Part::Head), reach.on_head) + wander * 0.0012;
-            let arm = body.anatomy.arm(side).expect("the signer has arms");
-            let (_, missed) = arm::reach(&body.skeleton, &mut pose, &arm, side, place, reach.raise);
-            residual = residual.max(missed);
-            let mut wrist = reach.wrist;
-            wrist.twist += self.noise(16 + n, time) * 0.008;
-            wrist.bend =
-                (wrist.bend * DQuat::from_rotation_z(self.noise(18 + n, time) * 0.008)).normalize();
-            arm::set_wrist(&mut pose, &arm, &wrist);
-            let angles = self.alive(self.hands[n].fingers.at(time), n, time);
-            body.anatomy
-                .set_hand_angles(&body.skeleton, side, &angles, &mut pose);
-        }
-        (pose, residual)
-    }
-
-    fn noise(&self, channel: usize, time: f64) -> f64 {
-        self.noise[channel].at(time)
-    }
-
-    /// Breathing, small sways, the turns of the score, and the trunk's share in what the hands do.
-    fn turn_trunk(&self, pose: &mut Pose, time: f64) {
-        let degrees = |pitch: f64, yaw: f64, roll: f64| {
-            let [pitch, yaw, roll] = [pitch, yaw, roll].map(f64::to_radians);
-            DQuat::from_euler(EulerRot::YXZ, yaw, pitch, roll)
-        };
-        let breath = (time * std::f64::consts::TAU / 3.9).sin();
-        let [right, left] = [0, 1].map(|n| self.hands[n].at(time).on_trunk);
-        let yaw = 9.0 * (right.z - left.z).clamp(-0.5, 0.5);
-        let lean = self.trunk.at(time);
-        let sway = DVec3::new(
-            self.noise(0, time) * 0.35,
-            self.noise(1, time) * 0.5,
-            self.noise(2, time) * 0.3,
-        );
-        let whole = lean + sway + DVec3::new(0.0, yaw, 0.0);
-        let mut set = |joint: &str, q: DQuat| {
-            if let Some(joint) = self.body.skeleton.find(joint) {
-                pose.rotations[joint] = q;
-            }
-        };
-        set(
-            "Hips",
-            degrees(0.0, self.noise(3, time) * 0.25, self.noise(4, time) * 0.2),
-        );
-        for (joint, share, chest) in [
-            ("Spine", 0.30, 0.0),
-            ("Spine1", 0.35, -0.3),
-            ("Spine2", 0.35, -0.25),
-        ] {
-            set(
-                joint,
-                degrees(
-                    whole.x * share + chest * breath,
-                    whole.y * share,
-                    whole.z * share,
-                ),
-            );
-        }
-        let look = self.head.at(time);
-        let steady = -0.85 * whole + DVec3::new(0.5 * breath, 0.0, 0.0);
-        let wander = DVec3::new(
-            self.noise(5, time) * 0.6,
-            self.noise(6, time) * 0.9,
-            self.noise(7, time) * 0.6,
-        );
-        let turn = look + steady + wander;
-        for (joint, share) in [("Neck", 0.35), ("Neck1", 0.25), ("Head", 0.40)] {
-            set(
-                joint,
-                degrees(turn.x * share, turn.y * share, turn.z * share),
-            );
-        }
-    }
-
-    /// Fingers are never quite still, unless the hand hangs during the whole take.
-    fn alive(&self, mut hand: HandAngles, n: usize, time: f64) -> HandAngles {
-        if self.hands[n].phases.is_empty() {
-            return hand;
-        }
-        for (finger, angles) in hand.fingers.iter_mut().enumerate() {
-            let more = self.noise(20 + 8 * n + finger, time) * 0.008;
-            for (angle, share) in angles.flexion.iter_mut().zip([1.0, 0.8, 0.5]) {
-                *angle += more * share;
+/// Bends the fingers a little more or less, by a number between -1 and 1 for each.
+fn fidget(pose: &mut Pose, clip: &Clip, side: Side, at: impl Fn(usize) -> f64) {
+    let prefix = match side {
+        Side::Left => "Left",
+        Side::Right => "Right",
+    };
+    for (finger, name) in ["Index", "Middle", "Ring", "Pinky"].iter().enumerate() {
+        for (segment, share) in (1..).zip([1.0, 0.8, 0.5]) {
+            let joint = clip
+                .skeleton()
+                .find(&format!("{prefix}Hand{name}{segment}"));
+            if let Some(joint) = joint {
+                let bend = -side.sign() * at(finger) * share * 0.008;
+                pose.rotations[joint] *= DQuat::from_rotation_z(bend);
             }
         }
-        hand.thumb.radial += self.noise(24 + 8 * n, time) * 0.006;
-        hand
     }
 }

@@ -2,8 +2,8 @@
 
 use chereme_motion::Side;
 
-use super::notes::{self, CONFIGURATION};
-use super::score::{Sign, Take};
+use super::notes::{CONFIGURATION, DIRECTION, MOVEMENT, Note, PLACEMENT};
+use super::takes::Take;
 
 /// Signs that are coded but not recorded.
 const LEXICON: &str = include_str!("lexicon.csv");
@@ -13,44 +13,38 @@ pub(crate) fn lexicon() -> Vec<u8> {
     LEXICON.as_bytes().to_vec()
 }
 
-/// Returns the README with the table of signs.
-pub(crate) fn readme<'t>(takes: impl Iterator<Item = &'t Take>) -> Vec<u8> {
-    let mut rows = String::new();
-    for take in takes {
-        let spelt = take
-            .signs
-            .iter()
-            .all(|(_, sign)| sign.gloss.starts_with("DS:"));
+/// Returns the README with the table of signs and their notation.
+pub(crate) fn readme<'t>(takes: impl Iterator<Item = (&'t Take, &'t Vec<Note>)>) -> Vec<u8> {
+    let (mut rows, mut notation) = (String::new(), String::new());
+    for (take, notes) in takes {
+        let glosses: Vec<&str> = take.signs.iter().map(|sign| &*sign.gloss).collect();
+        let spelt = glosses.iter().all(|gloss| gloss.starts_with("DS:"));
+        if take.phrase.is_some() {
+            let cells = [&glosses.join(" "), "as alone", "as alone", "", ""];
+            rows += &line(take.stem, &cells.map(str::to_owned));
+            continue;
+        }
         if spelt {
-            let last = take.signs.last().map_or("", |(_, sign)| sign.gloss);
-            let row = [
-                "DS:A".to_owned() + " … " + last,
-                "the letters".to_owned(),
-                String::new(),
-                "high-right".to_owned(),
-                "hold (J arc, Z zigzag)".to_owned(),
+            let all = [glosses[0], glosses[glosses.len() - 1]].join(" … ");
+            let cells = [
+                &all,
+                "the letters",
+                "",
+                "high-right, right",
+                "hold (J arc, Z zigzag)",
             ];
-            rows += &line(take.stem, &row);
-        } else if take.phrase.is_some() {
-            let glosses: Vec<&str> = take.signs.iter().map(|(_, sign)| sign.gloss).collect();
-            rows += &line(
-                take.stem,
-                &[
-                    glosses.join(" "),
-                    "as below".to_owned(),
-                    "as below".to_owned(),
-                    String::new(),
-                    String::new(),
-                ],
-            );
-        } else {
-            for (_, sign) in &take.signs {
-                rows += &line(take.stem, &coding(sign));
+            rows += &line(take.stem, &cells.map(str::to_owned));
+        }
+        for (n, sign) in take.signs.iter().enumerate() {
+            if !spelt {
+                rows += &line(take.stem, &coding(&sign.gloss, sign.means[1], n, notes));
             }
+            notation += &format!("- {}: `{}`\n", sign.gloss, sign.hamnosys());
         }
     }
     include_str!("README.in.md")
         .replace("{{signs}}", rows.trim_end())
+        .replace("{{notation}}", notation.trim_end())
         .into_bytes()
 }
 
@@ -58,23 +52,22 @@ fn line(stem: &str, cells: &[String; 5]) -> String {
     format!("| `{stem}` | {} |\n", cells.join(" | "))
 }
 
-fn coding(sign: &Sign) -> [String; 5] {
-    let notes = notes::of_sign(sign);
+fn coding(gloss: &str, means: &str, sign: usize, notes: &[Note]) -> [String; 5] {
     let said = |tier: usize, side: Side| {
         let mut values: Vec<&str> = notes
             .iter()
-            .filter(|note| note.tier == tier && note.side == Some(side))
-            .map(|note| note.value)
+            .filter(|note| (note.sign, note.tier, note.side) == (sign, tier, Some(side)))
+            .map(|note| &*note.value)
             .collect();
         values.dedup();
         values.join(" > ")
     };
-    let moves = [said(2, Side::Right), said(3, Side::Right)];
+    let moves = [said(MOVEMENT, Side::Right), said(DIRECTION, Side::Right)];
     [
-        format!("{} ({})", sign.gloss, sign.means[1]),
+        format!("{gloss} ({means})"),
         said(CONFIGURATION, Side::Right),
         said(CONFIGURATION, Side::Left),
-        said(1, Side::Right),
+        said(PLACEMENT, Side::Right),
         moves.join(" ").trim().to_owned(),
     ]
 }
