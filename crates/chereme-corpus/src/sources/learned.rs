@@ -209,8 +209,8 @@ mod tests {
             .expect("made");
         let told = made.report.steps[0].did.join("\n");
         for want in [
-            "0.32 s, the median of 30",
-            "0.30 s, the median of 25",
+            "0.25 s, the median of 30",
+            "0.26 s, the median of 25",
             "transitions of arms",
         ] {
             assert!(told.contains(want), "{told}");
