@@ -58,6 +58,20 @@ fn files_are_looked_at_before_anything_is_written_and_then_taken_in() {
         corpus.overview(1).expect("read").recordings.len()
     };
     assert_eq!(count(), 1, "nothing is written by looking");
+    let header = window.get_by_label("Which joint is which part of the body");
+    header.click_accesskit();
+    window.run_steps(12);
+    window.get_by_label("Joint of: head").focus();
+    window.run_steps(2);
+    window.get_by_label("Joint of: head").type_text("x");
+    window.run_steps(3);
+    click(&mut window, "Look again");
+    idle(&mut window);
+    assert!(shows(&window, "refused"), "there is no such joint");
+    click(&mut window, "Forget: head");
+    click(&mut window, "Look again");
+    idle(&mut window);
+    assert!(shows(&window, "parts found"));
     click(&mut window, "Take in");
     idle(&mut window);
     assert!(shows(&window, "Undo takes it all back"));

@@ -15,7 +15,10 @@ fn pictures(window: &Window<'_>) -> Vec<String> {
 }
 
 fn is_on(window: &Window<'_>, label: &str) -> bool {
-    let node = window.get_by_label(label);
+    is_chosen(&window.get_by_label(label))
+}
+
+fn is_chosen<'a>(node: &impl NodeT<'a>) -> bool {
     let node = node.accesskit_node();
     node.is_selected() == Some(true) || format!("{:?}", node.toggled()).contains("True")
 }
@@ -73,8 +76,7 @@ fn trails_ghosts_grid_and_places_are_shown_and_put_away() {
     window.run_steps(3);
     // The inspector tells of it too.
     let all = window.query_all_by_label("chin");
-    let chosen = all.filter(|node| node.accesskit_node().is_selected() == Some(true));
-    assert_eq!(chosen.count(), 1);
+    assert_eq!(all.filter(is_chosen).count(), 1);
 }
 
 #[test]

@@ -25,21 +25,19 @@ pub(crate) struct Made {
 impl Made {
     /// Returns what the notation of a token gave, called as its sign is.
     pub(crate) fn notated(made: &Recombination, token: i64) -> Self {
-        let gloss = made.parts.first().map(|part| part.gloss.clone());
-        let of = Self::of(made);
         Self {
-            name: gloss.filter(|it| !it.is_empty()).unwrap_or(of.name.clone()),
             token: Some(token),
-            ..of
+            ..Self::of(made)
         }
     }
 
     /// Returns what a recipe gave.
     pub(crate) fn of(made: &Recombination) -> Self {
-        let name = if made.gloss.is_empty() {
-            &made.recipe
-        } else {
-            &made.gloss
+        let name = match made.parts.as_slice() {
+            _ if !made.gloss.is_empty() => &made.gloss,
+            // A sign by itself is called by its gloss, whatever its address.
+            [part] if !part.gloss.is_empty() && !made.recipe.contains(" | ") => &part.gloss,
+            _ => &made.recipe,
         };
         Self {
             name: name.clone(),

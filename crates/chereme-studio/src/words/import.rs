@@ -39,6 +39,7 @@ texts! {
     AXES_ARE: "{up} up, {left} to the left", "{up} en haut, {left} à gauche";
     JOINTS_ARE: "Which joint is which part of the body", "Quelle articulation est quelle partie du corps";
     JOINT_OF: "Joint of: {part}", "Articulation de : {part}";
+    FORGET: "Forget: {what}", "Oublier : {what}";
     NO_JOINT: "none", "aucune";
     RATE: "Frame rate", "Cadence";
     JOINTS: "Joints", "Articulations";

@@ -30,6 +30,7 @@ texts! {
     NO_ORIGINAL: "No original: {made}", "Pas d’original : {made}";
     MADE_OF: "Made: {name}", "Composé : {name}";
     BACK: "Back to the recording", "Retour à l’enregistrement";
+    PUT_AWAY: "Put away", "Ranger";
     FIGURE: "The signer", "La personne qui signe";
     PLAY: "Play", "Lire";
     PAUSE: "Pause", "Pause";

@@ -103,6 +103,31 @@ pub(super) fn show(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>) {
             });
             ui.checkbox(&mut said.mend_root, seen.say(words::MEND_ROOT));
         });
+    joints(said, ui, seen);
+}
+
+/// The joints that were said, which can be forgotten again also where the files are refused for them.
+fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>) {
+    let mut forgotten = None;
+    for (part, joint) in &said.joints {
+        ui.horizontal(|ui| {
+            let joint = if joint.trim().is_empty() {
+                seen.say(words::NO_JOINT)
+            } else {
+                joint.trim()
+            };
+            ui.small(format!("{part} = {joint}"));
+            let name = fill(seen.say(words::FORGET), &[("what", part)]);
+            let button = ui.small_button("×");
+            button.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+            if button.on_hover_text(&name).clicked() {
+                forgotten = Some(part.clone());
+            }
+        });
+    }
+    if let Some(part) = forgotten {
+        said.joints.remove(&part);
+    }
 }
 
 /// Shows which axis is up and which is the signer's left.

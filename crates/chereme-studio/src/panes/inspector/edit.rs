@@ -15,9 +15,10 @@ pub(super) fn said(ui: &mut Ui, seen: &Seen<'_>, text: Text, value: &str) {
 
 /// Shows lines in two columns.
 pub(super) fn grid(ui: &mut Ui, id: &str, content: impl FnOnce(&mut Ui)) {
+    let names = (ui.available_width() * 0.3).clamp(56.0, 170.0);
     Grid::new(id)
         .num_columns(2)
-        .min_col_width(56.0)
+        .min_col_width(names)
         .show(ui, content);
 }
 

@@ -122,11 +122,10 @@ fn coding(
     }
     for value in &token.values {
         let (texts, rest) = data::field_words(&value.field);
-        let name: Vec<&str> = texts
-            .iter()
-            .map(|text| seen.say(*text))
-            .chain(rest)
-            .collect();
+        // What tells fields of one component apart stands before whose hand they are of.
+        let mut name: Vec<&str> = texts.iter().map(|text| seen.say(*text)).collect();
+        let after = name.len().min(1);
+        name.splice(after..after, rest);
         let name = name.join(" ");
         let now = match value.state.as_str() {
             "value" => value.value.clone().unwrap_or_default(),

@@ -15,6 +15,8 @@ use crate::words::{fill, recombine as words};
 
 /// Residuals above this are worth a look, in metres.
 const FAR: f64 = 0.005;
+/// How near the edge a dragged card makes the list scroll.
+const EDGE: f32 = 28.0;
 
 /// What is dragged: a card of the stack.
 struct Dragged(u64);
@@ -65,7 +67,7 @@ pub(super) fn show(pane: &mut Recombine, ui: &mut Ui, seen: &Seen<'_>) -> bool {
         });
         places.push(inner.response.rect);
     }
-    drop_between(ui, seen, &places, &mut did);
+    drop_between(ui, seen, (stack, &places), &mut did);
     let changed = did.iter().any(|it| !matches!(it, Did::Choose(_)));
     for did in did {
         match did {
@@ -277,8 +279,36 @@ fn told(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>) {
     }
 }
 
+/// Shows at the pointer which card is dragged.
+fn carried(ui: &Ui, seen: &Seen<'_>, stack: &Stack, (id, at): (u64, eframe::egui::Pos2)) {
+    let Some(place) = stack.position(id) else {
+        return;
+    };
+    let title = seen.say(catalogue::title(&stack.cards()[place].what));
+    let layer =
+        eframe::egui::LayerId::new(eframe::egui::Order::Tooltip, Id::unique("carried card"));
+    let painter = ui.ctx().layer_painter(layer);
+    let font = TextStyle::Button.resolve(ui.style());
+    let galley = painter.layout_no_wrap(title.to_owned(), font, ui.visuals().strong_text_color());
+    let size = galley.size() + vec2(20.0, 10.0);
+    let rect = Rect::from_min_size(at + vec2(10.0, -size.y / 2.0), size);
+    let stroke = Stroke::new(1.5, seen.colours().accent);
+    let kind = eframe::egui::StrokeKind::Inside;
+    painter.rect(rect, 6.0, ui.visuals().panel_fill, stroke, kind);
+    painter.galley(
+        rect.min + vec2(10.0, 5.0),
+        galley,
+        ui.visuals().text_color(),
+    );
+}
+
 /// Shows where a dragged card would go, and lets it go there.
-fn drop_between(ui: &mut Ui, seen: &Seen<'_>, places: &[Rect], did: &mut Vec<Did>) {
+fn drop_between(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    (stack, places): (&Stack, &[Rect]),
+    did: &mut Vec<Did>,
+) {
     let Some(dragged) = DragAndDrop::payload::<Dragged>(ui.ctx()) else {
         return;
     };
@@ -298,6 +328,14 @@ fn drop_between(ui: &mut Ui, seen: &Seen<'_>, places: &[Rect], did: &mut Vec<Did
     };
     let stroke = Stroke::new(3.0, seen.colours().accent);
     ui.painter().hline(first.x_range(), y, stroke);
+    carried(ui, seen, stack, (dragged.0, at));
+    // Near the edge, what is beyond it comes.
+    let clip = ui.clip_rect();
+    let beyond = (clip.top() + EDGE - at.y).max(0.0) - (at.y - clip.bottom() + EDGE).max(0.0);
+    if beyond != 0.0 {
+        ui.scroll_with_delta(vec2(0.0, beyond.clamp(-EDGE, EDGE) * 0.4));
+        ui.ctx().request_repaint();
+    }
     if ui.input(|input| input.pointer.any_released()) {
         DragAndDrop::take_payload::<Dragged>(ui.ctx());
         did.push(Did::Move(dragged.0, to));

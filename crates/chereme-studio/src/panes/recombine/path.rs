@@ -3,7 +3,8 @@
 use chereme_corpus::recipe::{Direction, Leg, Length, towards};
 use chereme_motion::glam::DVec3;
 use eframe::egui::{
-    Id, Pos2, Rect, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align2, Id, Pos2, Rect, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, pos2,
+    vec2,
 };
 
 use super::fields::{self, caption, choose, tidy};
@@ -277,8 +278,6 @@ fn draw(ui: &mut Ui, seen: &Seen<'_>, id: Id, path: &[Leg], board: Board) -> Opt
     let side = ui.available_width().clamp(80.0, 220.0);
     let (rect, response) = ui.allocate_exact_size(vec2(side, side * 0.7), Sense::drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, seen.say(words::BOARD_DRAW)));
-    let tip = response.clone().on_hover_text(seen.say(words::BOARD_DRAW));
-    drop(tip);
     let (painter, colours) = (ui.painter().with_clip_rect(rect), seen.colours());
     let rule = Stroke::new(1.0, colours.rule);
     painter.rect(
@@ -294,6 +293,19 @@ fn draw(ui: &mut Ui, seen: &Seen<'_>, id: Id, path: &[Leg], board: Board) -> Opt
         let y = rect.center().y + tenth as f32 * 0.1 * scale;
         painter.vline(x, rect.y_range(), Stroke::new(1.0, colours.stripe));
         painter.hline(rect.x_range(), y, Stroke::new(1.0, colours.stripe));
+    }
+    if !response.dragged() {
+        // In the picture, for a tip beside the pointer would lie over the ways below.
+        let font = TextStyle::Small.resolve(ui.style());
+        let at = rect.center_bottom() - vec2(0.0, 4.0);
+        let weak = ui.visuals().weak_text_color();
+        painter.text(
+            at,
+            Align2::CENTER_BOTTOM,
+            seen.say(words::BOARD_DRAW),
+            font,
+            weak,
+        );
     }
     let line_id = id.with("line");
     let mut line: Vec<Pos2> = ui.data(|data| data.get_temp(line_id)).unwrap_or_default();

@@ -4,7 +4,7 @@ use chereme_corpus::Overview;
 use chereme_figure::camera::Projection;
 use chereme_motion::{Anatomy, Side};
 use chereme_sign::component::Component;
-use eframe::egui::{Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+use eframe::egui::{Align2, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 use glam::DVec3;
 
 use super::scene::Subject;
@@ -116,6 +116,8 @@ pub(super) fn show(
 ) {
     let colours = seen.colours();
     let painter = ui.painter().with_clip_rect(rect);
+    let pointer = ui.input(|input| input.pointer.hover_pos());
+    let mut pointed = false;
     for (index, mark) in marks.iter().enumerate() {
         let at = projection.project(mark.at.as_vec3());
         let place = rect.min + vec2(at.x, at.y) * scale;
@@ -123,7 +125,14 @@ pub(super) fn show(
             continue;
         }
         let Some(zone) = &mark.zone else {
-            painter.circle_filled(place, 1.6, colours.accent.gamma_multiply(0.7));
+            let near = pointer.is_some_and(|at| at.distance(place) < REACH / 2.0) && !pointed;
+            let radius = if near { 3.0 } else { 1.6 };
+            painter.circle_filled(place, radius, colours.accent.gamma_multiply(0.7));
+            if near {
+                pointed = true;
+                let at = place + vec2(9.0, 0.0);
+                super::ui::chip_on(&painter, ui, at, Align2::LEFT_CENTER, &mark.name);
+            }
             continue;
         };
         let spot = Rect::from_center_size(place, Vec2::splat(REACH));

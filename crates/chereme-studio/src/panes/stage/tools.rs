@@ -74,7 +74,11 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
             let name = RichText::new(name).color(seen.colours().accent);
             ui.add(Label::new(name).truncate());
             let keys = seen.keys.text(Action::StageRecording);
-            let back = ui.small_button(seen.say(words::BACK)).on_hover_text(keys);
+            let back = match seen.shown.recording {
+                Some(_) => words::BACK,
+                None => words::PUT_AWAY,
+            };
+            let back = ui.small_button(seen.say(back)).on_hover_text(keys);
             if back.clicked() {
                 out.send(Command::Made(None));
             }
