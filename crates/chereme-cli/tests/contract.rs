@@ -122,6 +122,7 @@ const CASES: &[Case] = &[
     ("list @c inventories", 0, ROWS),
     ("list @c values --offset 3", 0, ROWS),
     ("list @c signers", 0, ROWS),
+    ("list @c searches", 0, &["/total", "/rows"]),
     ("list @c operations", 0, ROWS),
     ("list @c signs --where gloss=Z*", 0, &["/total", "/rows"]),
     (
@@ -152,6 +153,11 @@ const CASES: &[Case] = &[
     ("search @c 'handform=S'", 1, ERROR),
     ("search @c 'gloss=('", 1, ERROR),
     ("search @c", 2, ERROR),
+    ("search @c gloss=CHAT --keep cats", 0, HITS),
+    ("search @c gloss=CHAT --keep ''", 1, ERROR),
+    ("search @c @kept", 1, ERROR),
+    ("search @c --forget cats", 1, ERROR),
+    ("search @c gloss=CHAT --forget cats", 2, ERROR),
     (
         "annotate @c --in bowl add Gloss JOUR --start 1.6 --end 1.8",
         0,
@@ -369,6 +375,24 @@ fn what_was_done_can_be_undone_and_is_signed() {
     assert_eq!(log["rows"][1]["stands"], false);
     assert!(desk.run(&format!("redo {path}")).status.success());
     assert_eq!(desk.json(&format!("log {path}"))["rows"][2]["stands"], true);
+}
+
+#[test]
+fn a_search_is_kept_asked_again_and_forgotten() {
+    let desk = Desk::new();
+    let corpus = desk.corpus();
+    let path = corpus.display();
+    let line = format!("search {path} 'gloss=CHAT or gloss=BOL' --keep 'two signs'");
+    let first = desk.json(&line);
+    assert_eq!(first["notes"][0], "kept: @two signs asks this again");
+    let again = desk.json(&format!("search {path} '@Two Signs'"));
+    assert_eq!(again["hits"], first["hits"]);
+    let listed = desk.json(&format!("list {path} searches"));
+    assert_eq!(listed["rows"][0]["query"], "gloss=CHAT or gloss=BOL");
+    let gone = desk.json(&format!("search {path} --forget 'two signs'"));
+    assert_eq!(gone["name"], "two signs");
+    assert!(desk.run(&format!("undo {path}")).status.success());
+    assert_eq!(desk.json(&format!("list {path} searches"))["total"], 1);
 }
 
 #[test]

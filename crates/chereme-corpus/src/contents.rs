@@ -12,6 +12,7 @@ use crate::db::tiers::{self, TierRow};
 use crate::db::{OperationRow, history_log};
 use crate::error::Result;
 use crate::inventories::{self, StoredInventory};
+use crate::kept::{self, KeptSearch};
 
 /// A corpus at a glance, at one moment.
 #[derive(Debug, Clone, Default)]
@@ -26,6 +27,8 @@ pub struct Overview {
     pub signers: Vec<SignerRow>,
     /// The inventories, oldest first.
     pub inventories: Vec<StoredInventory>,
+    /// The searches that are kept, by name.
+    pub searches: Vec<KeptSearch>,
     /// The newest operations, the newest first.
     pub operations: Vec<OperationRow>,
 }
@@ -50,7 +53,7 @@ pub struct RecordingGlance {
 }
 
 /// A sign at a glance.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SignGlance {
     /// The row.
     pub id: i64,
@@ -62,6 +65,10 @@ pub struct SignGlance {
     pub tokens: u64,
     /// The token of its citation form, one with movement before a lexicon entry.
     pub citation: Option<i64>,
+    /// The recording that token lies in, and where.
+    pub place: Option<(i64, Span)>,
+    /// Whether that token is notated.
+    pub notated: bool,
 }
 
 /// What is said about one recording, at one moment.
@@ -170,6 +177,7 @@ impl Corpus {
                 .into_iter()
                 .map(inventories::read)
                 .collect::<Result<_>>()?,
+            searches: kept::searches(&reading)?,
             operations: history_log(&reading, operations)?,
         })
     }
@@ -228,6 +236,12 @@ mod tests {
         assert_eq!(overview.recordings.len(), 1);
         assert!(overview.recordings[0].frames > 0 && overview.recordings[0].rate.is_some());
         assert!(overview.signs.len() > 1 && overview.signs.iter().all(|s| s.citation.is_some()));
+        let recording = overview.recordings[0].row.id;
+        let placed = overview
+            .signs
+            .iter()
+            .filter_map(|s| Some((&*s.gloss, s.place?.0)));
+        assert_eq!(placed.collect::<Vec<_>>(), [("BOL", recording)]);
         assert!(!overview.inventories.is_empty());
         assert_eq!(overview.operations.len(), 1);
         let contents = other.contents(overview.recordings[0].row.id).expect("read");

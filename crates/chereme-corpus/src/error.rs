@@ -59,7 +59,36 @@ pub enum Error {
     Stopped,
 }
 
+/// Why the database refused, where people can do something about it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cause {
+    /// Another program is writing.
+    Busy,
+    /// The disk is full.
+    Full,
+    /// The file or its folder may not be written.
+    ReadOnly,
+    /// The file is damaged.
+    Damaged,
+}
+
 impl Error {
+    /// Returns why the database refused, where it did and people can do something about it.
+    #[must_use]
+    pub fn cause(&self) -> Option<Cause> {
+        use rusqlite::ErrorCode;
+        let Self::Database(error) = self else {
+            return None;
+        };
+        Some(match error.sqlite_error_code()? {
+            ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked => Cause::Busy,
+            ErrorCode::DiskFull => Cause::Full,
+            ErrorCode::ReadOnly => Cause::ReadOnly,
+            ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase => Cause::Damaged,
+            _ => return None,
+        })
+    }
+
     /// Returns the failure with that message, about nothing in particular.
     pub fn wrong(message: impl Into<String>) -> Self {
         Self::Wrong {
@@ -137,7 +166,7 @@ impl Error {
             Self::Damaged { .. } => {
                 Some("`chereme check` tells what else is wrong and how to mend it".into())
             }
-            Self::Database(error) => database_remedy(error),
+            Self::Database(_) => self.cause().map(|cause| remedy_of(cause).to_owned()),
             Self::Index(_) => Some("`chereme check --mend` makes the search index anew".into()),
             Self::Wrong { remedy, .. } => remedy.clone(),
             Self::Several { errors } => errors.first().and_then(Self::remedy),
@@ -177,20 +206,15 @@ fn several(errors: &[Error]) -> String {
     lines.join("\n")
 }
 
-fn database_remedy(error: &rusqlite::Error) -> Option<String> {
-    use rusqlite::ErrorCode;
-    let text = match error.sqlite_error_code()? {
-        ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked => {
-            "another program is writing to the corpus; try again when it is done"
-        }
-        ErrorCode::DiskFull => "the disk is full; make room and try again, nothing was lost",
-        ErrorCode::ReadOnly => "the file or its folder may not be written by you",
-        ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase => {
+fn remedy_of(cause: Cause) -> &'static str {
+    match cause {
+        Cause::Busy => "another program is writing to the corpus; try again when it is done",
+        Cause::Full => "the disk is full; make room and try again, nothing was lost",
+        Cause::ReadOnly => "the file or its folder may not be written by you",
+        Cause::Damaged => {
             "the file is damaged; `chereme check` tells where if it can still be opened, and a backup may be whole"
         }
-        _ => return None,
-    };
-    Some(text.to_owned())
+    }
 }
 
 /// What work on a corpus gives.

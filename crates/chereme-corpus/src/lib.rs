@@ -18,6 +18,7 @@ mod export;
 mod import;
 mod info;
 mod inventories;
+mod kept;
 mod kinematics;
 mod list;
 mod movement;
@@ -66,11 +67,12 @@ pub use details::{
     Details, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue,
 };
 pub use edit::{RecordingChange, SignChange, SignerChange};
-pub use error::{Error, Result};
+pub use error::{Cause, Error, Result};
 pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile};
 pub use import::{FileReport, FileStatus, ImportOptions, ImportReport, ReportFinding};
 pub use info::{Info, InventoryInfo, SignerInfo};
 pub use inventories::StoredInventory;
+pub use kept::KeptSearch;
 pub use kinematics::Curves;
 pub use list::{ListFilter, ListKind, Listing, cell_text};
 pub use movement::ChannelGroup;

@@ -35,13 +35,15 @@ pub enum ListKind {
     Values,
     /// Signers.
     Signers,
+    /// Searches that are kept.
+    Searches,
     /// Operations, the newest first.
     Operations,
 }
 
 impl ListKind {
     /// Every kind.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Recordings,
         Self::Signs,
         Self::Tokens,
@@ -50,6 +52,7 @@ impl ListKind {
         Self::Inventories,
         Self::Values,
         Self::Signers,
+        Self::Searches,
         Self::Operations,
     ];
 
@@ -65,6 +68,7 @@ impl ListKind {
             Self::Inventories => "inventories",
             Self::Values => "values",
             Self::Signers => "signers",
+            Self::Searches => "searches",
             Self::Operations => "operations",
         }
     }
@@ -82,6 +86,7 @@ impl ListKind {
     fn singular(self) -> &'static str {
         match self {
             Self::Inventories => "inventory",
+            Self::Searches => "search",
             other => other.name().trim_end_matches('s'),
         }
     }
@@ -96,6 +101,7 @@ impl ListKind {
             Self::Inventories => &rows::INVENTORIES,
             Self::Values => &rows::VALUES,
             Self::Signers => &rows::SIGNERS,
+            Self::Searches => &rows::SEARCHES,
             Self::Operations => &rows::OPERATIONS,
         }
     }

@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use chereme_corpus::Corpus;
+use chereme_corpus::{Corpus, KeptSearch};
 use chereme_tests::{repository, workers};
 
 fn main() -> ExitCode {
@@ -34,6 +34,10 @@ fn write(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     let desk = tempfile::tempdir()?;
     let path = workers::small_corpus(desk.path(), "store.chereme")?;
     let mut corpus = Corpus::open(&path, "maker")?;
+    corpus.keep_searches(&[KeptSearch {
+        name: "chin".to_owned(),
+        query: "right.configuration=S placement=chin".to_owned(),
+    }])?;
     corpus.recombine("BOL | reverse", "LOB")?;
     corpus.undo()?;
     corpus.redo()?;

@@ -8,7 +8,7 @@ use chereme_corpus::{Info, ListFilter, ListKind, cell_text};
 use crate::args::Cli;
 use crate::output::Output;
 
-/// List rows: recordings, signs, tokens, tiers, annotations, inventories, values, signers, operations
+/// List rows: recordings, signs, tokens, tiers, annotations, inventories, values, signers, searches, operations
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The corpus
@@ -95,6 +95,7 @@ fn numbered(what: &str, count: u64) -> String {
     match what {
         _ if count != 1 => what.to_owned(),
         "inventories" => "inventory".to_owned(),
+        "searches" => "search".to_owned(),
         _ => what.strip_suffix('s').unwrap_or(what).to_owned(),
     }
 }

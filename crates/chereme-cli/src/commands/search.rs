@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{Hit, Order, SearchOptions};
+use chereme_corpus::{Corpus, Hit, KeptSearch, Order, SearchOptions};
 use clap::ValueEnum;
 use serde_json::Value;
 
@@ -13,15 +13,22 @@ use crate::output::Output;
 /// Find the tokens that answer a query
 ///
 /// Lexicon entries are found like captured tokens. Quote the query for your shell, for example
-/// 'right.configuration=U placement=chin' or 'gloss:BO* not weak.configuration=S'.
+/// 'right.configuration=U placement=chin' or 'gloss:BO* not weak.configuration=S'. What --keep NAME
+/// kept in the corpus is asked as @NAME; `chereme list CORPUS searches` lists it.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = chereme_corpus::QUERY_HELP)]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// The query; words side by side must all hold
-    #[arg(required = true, value_name = "QUERY")]
+    /// The query, words side by side must all hold; or @NAME, a kept one
+    #[arg(required_unless_present = "forget", value_name = "QUERY")]
     query: Vec<String>,
+    /// Keep the query in the corpus under this name, in place of the one that has it
+    #[arg(long, value_name = "NAME")]
+    keep: Option<String>,
+    /// Keep the search of this name no longer
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["query", "keep"])]
+    forget: Option<String>,
     /// How many tokens to show at most
     #[arg(long, value_name = "N")]
     limit: Option<usize>,
@@ -53,6 +60,14 @@ const TABLE_ROWS: usize = 50;
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
+    if let Some(name) = &args.forget {
+        let forgotten = corpus.forget_search(name)?;
+        output.line(format!(
+            "@{} is kept no longer: {}",
+            forgotten.name, forgotten.query
+        ))?;
+        return output.document(forgotten);
+    }
     let limit = args.limit.or((!output.is_json()).then_some(TABLE_ROWS));
     let order = match args.sort {
         OrderWord::Rank => Order::Rank,
@@ -66,7 +81,11 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         facets: !args.no_facets,
         order,
     };
-    let answer = corpus.search(&args.query.join(" "), &options)?;
+    let query = args.query.join(" ");
+    let mut answer = corpus.search(&query, &options)?;
+    if let Some(name) = &args.keep {
+        answer.notes.push(keep(&mut corpus, name, query)?);
+    }
     let rows: Vec<Vec<String>> = answer.hits.iter().map(cells).collect();
     if !rows.is_empty() {
         output.table(
@@ -102,6 +121,14 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         output.line(format!("note: {note}"))?;
     }
     output.document(answer)
+}
+
+/// Keeps a query, and says so.
+fn keep(corpus: &mut Corpus, name: &str, query: String) -> Result<String> {
+    let name = name.trim().trim_start_matches('@').to_owned();
+    let said = format!("kept: @{name} asks this again");
+    corpus.keep_searches(&[KeptSearch { name, query }])?;
+    Ok(said)
 }
 
 fn cells(hit: &Hit) -> Vec<String> {

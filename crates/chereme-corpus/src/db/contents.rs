@@ -1,6 +1,6 @@
 //! Rows as a window shows them: many at once, little of each.
 
-use chereme_motion::Rate;
+use chereme_motion::{Instant, Rate, Span};
 use rusqlite::{Connection, OptionalExtension};
 
 use super::damaged;
@@ -60,9 +60,12 @@ pub(crate) fn recordings(connection: &Connection) -> Result<Vec<RecordingGlance>
 pub(crate) fn signs(connection: &Connection) -> Result<Vec<SignGlance>> {
     let mut statement = connection.prepare_cached(
         "SELECT s.id, s.gloss, s.notes, (SELECT count(*) FROM token t WHERE t.sign_id = s.id),
+                c.id, c.recording_id, c.start_us, c.end_us,
+                EXISTS (SELECT 1 FROM notation n WHERE n.token_id = c.id)
+         FROM sign s LEFT JOIN token c ON c.id =
                 (SELECT t.id FROM token t WHERE t.sign_id = s.id AND t.citation = 1
                  ORDER BY t.recording_id IS NULL, t.id LIMIT 1)
-         FROM sign s ORDER BY s.gloss",
+         ORDER BY s.gloss",
     )?;
     let signs = statement
         .query_map([], |row| {
@@ -72,10 +75,17 @@ pub(crate) fn signs(connection: &Connection) -> Result<Vec<SignGlance>> {
                 notes: row.get(2)?,
                 tokens: count(row.get(3)?),
                 citation: row.get(4)?,
+                place: place(row.get(5)?, row.get(6)?, row.get(7)?),
+                notated: row.get(8)?,
             })
         })?
         .collect::<rusqlite::Result<_>>()?;
     Ok(signs)
+}
+
+fn place(recording: Option<i64>, start: Option<i64>, end: Option<i64>) -> Option<(i64, Span)> {
+    let micros = Instant::from_micros;
+    Some((recording?, Span::between(micros(start?), micros(end?))))
 }
 
 /// Returns the annotations of a tier, by time.

@@ -15,7 +15,7 @@ use super::damaged;
 use crate::error::{Error, Result};
 
 /// The tables whose rows are recorded, and for each the columns that refer to a row with a uid.
-const TRACKED: [(&str, &[(&str, &str)]); 18] = [
+const TRACKED: [(&str, &[(&str, &str)]); 19] = [
     ("meta", &[]),
     ("signer", &[]),
     ("skeleton", &[]),
@@ -71,6 +71,7 @@ const TRACKED: [(&str, &[(&str, &str)]); 18] = [
             ("token_id", "token"),
         ],
     ),
+    ("kept_search", &[]),
 ];
 
 /// Changes that alter what the search index holds of tokens: table, event, and which tokens.

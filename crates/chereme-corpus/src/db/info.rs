@@ -7,7 +7,7 @@ use rusqlite::Connection;
 use crate::error::Result;
 use crate::info::{InventoryInfo, SignerInfo};
 
-const KINDS: [(&str, &str); 13] = [
+const KINDS: [(&str, &str); 14] = [
     ("recordings", "recording"),
     ("tracks", "track"),
     ("skeletons", "skeleton"),
@@ -20,6 +20,7 @@ const KINDS: [(&str, &str); 13] = [
     ("values", "inventory_value"),
     ("notations", "notation"),
     ("recipes", "recipe"),
+    ("searches", "kept_search"),
     ("operations", "operation"),
 ];
 

@@ -285,6 +285,16 @@ pub(crate) const SIGNERS: Table = Table {
     order: "g.name",
 };
 
+pub(crate) const SEARCHES: Table = Table {
+    columns: &[
+        number("id", "k.id"),
+        text("name", "k.name"),
+        text("query", "k.query"),
+    ],
+    from: "kept_search k",
+    order: "k.name",
+};
+
 pub(crate) const OPERATIONS: Table = Table {
     columns: &[
         number("id", "o.id"),

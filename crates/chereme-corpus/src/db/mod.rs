@@ -10,6 +10,7 @@ pub(crate) mod edits;
 pub(crate) mod history;
 pub(crate) mod info;
 pub(crate) mod inventories;
+pub(crate) mod kept;
 pub(crate) mod list;
 pub(crate) mod motion;
 pub(crate) mod notations;

@@ -101,6 +101,7 @@ pub(crate) fn page(
     ranks: &Ranks,
     range: std::ops::Range<usize>,
 ) -> Asked<Docs> {
+    ask.go_on()?;
     let places = Places::open(ask, found, order)?;
     let mut keyed: Vec<((u64, Key), DocAddress)> = Vec::with_capacity(found.len());
     for (&doc, rank) in found.iter().zip(ranks.iter()) {
@@ -228,6 +229,7 @@ pub(crate) fn hits(ask: &Ask<'_>, docs: &[DocAddress], scores: Option<&Scores>) 
     let ids = Numbers::rows(ask.searcher, "id")?;
     let mut hits = Vec::with_capacity(docs.len());
     for doc in docs {
+        ask.look()?;
         let token = ids.get(*doc).unwrap_or_default();
         let Some(row) = answers::hit(ask.connection, token)? else {
             continue;
@@ -308,6 +310,7 @@ fn row_facet(
     field: &str,
     named: Named,
 ) -> Result<Vec<(String, usize)>> {
+    ask.go_on()?;
     let rows = Numbers::rows(ask.searcher, field)?;
     let mut all: Vec<i64> = found.iter().filter_map(|doc| rows.get(*doc)).collect();
     all.sort_unstable();
@@ -350,6 +353,7 @@ fn coded_facets(
         let Some(column) = segment.fast_fields().str("facet")? else {
             continue;
         };
+        ask.go_on()?;
         let labels = ask.index.memory().labels(ask.searcher, segment)?;
         for (ordinal, count) in count_ordinals(&column, docs, &labels) {
             let Some((field, value)) = labels.values.get(ordinal) else {

@@ -78,8 +78,12 @@ impl Beside {
             let mut marks = glosses.remove(&recording).unwrap_or_default();
             self.collect(ask, recording, &mut marks)?;
             let marks = Marks::new(marks);
-            let passing = candidates.iter().filter(|one| self.holds(one, &marks));
-            found.extend(passing.map(|one| one.doc));
+            for one in candidates {
+                ask.look()?;
+                if self.holds(&one, &marks) {
+                    found.push(one.doc);
+                }
+            }
         }
         found.sort_unstable();
         Ok(found)
@@ -135,6 +139,7 @@ impl Beside {
 
     /// Adds the annotations of a recording that the relation may be to.
     fn collect(&self, ask: &Ask<'_>, recording: i64, marks: &mut Vec<Mark>) -> Result<()> {
+        ask.go_on()?;
         let mut add = |row: &CodedRow<'_>, passes: bool| {
             let wanted = passes || self.relation.is_none();
             if let Some((start, end)) = row.span.filter(|_| wanted) {

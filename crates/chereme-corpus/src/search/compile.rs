@@ -1,6 +1,6 @@
 //! From the tree of a query to a plan.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeSet;
 use std::ops::Bound;
 use std::sync::Arc;
@@ -12,12 +12,13 @@ use chereme_sign::query::{
 };
 use chereme_sign::text::{fold, nearest};
 use rusqlite::Connection;
-use tantivy::query::{ExistsQuery, RangeQuery};
+use tantivy::query::{ExistsQuery, Query, RangeQuery};
 use tantivy::{Searcher, Term};
 
 use super::any_term::AnyTerm;
 use super::beside::Beside;
 use super::component::ComponentTest;
+use super::docs::{self, Docs};
 use super::index::{Fields, SearchIndex};
 use super::known::{KnownReadings, Signs, terms_of};
 use super::plan::Plan;
@@ -36,6 +37,10 @@ pub(crate) struct Ask<'a> {
     pub(crate) fields: Fields,
     pub(crate) vocabulary: Arc<Vocabulary>,
     pub(crate) notes: RefCell<BTreeSet<String>>,
+    /// How many rows were looked at.
+    pub(crate) looked_at: Cell<u64>,
+    /// Hears how many, and says whether to go on.
+    pub(crate) hear: &'a RefCell<dyn FnMut(u64) -> Result<()> + 'a>,
 }
 
 /// Why a query has no answer.
@@ -72,6 +77,28 @@ impl Ask<'_> {
     pub(crate) fn readings(&self, component: Component) -> Result<Arc<KnownReadings>> {
         let mut memory = self.index.memory();
         memory.readings(self.searcher, self.fields.reading, component)
+    }
+
+    /// Returns the documents that the index has for a query.
+    pub(crate) fn run(&self, query: &dyn Query) -> Result<Docs> {
+        self.go_on()?;
+        docs::run(self.searcher, query)
+    }
+
+    /// Fails where whoever asked wants no answer any more.
+    pub(crate) fn go_on(&self) -> Result<()> {
+        (self.hear.borrow_mut())(self.looked_at.get())
+    }
+
+    /// Counts a row that was looked at, and asks now and then whether to go on.
+    pub(crate) fn look(&self) -> Result<()> {
+        const OFTEN: u64 = 64;
+        let rows = self.looked_at.get() + 1;
+        self.looked_at.set(rows);
+        if rows.is_multiple_of(OFTEN) {
+            self.go_on()?;
+        }
+        Ok(())
     }
 
     /// Returns the signs of the corpus.

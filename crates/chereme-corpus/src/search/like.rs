@@ -9,7 +9,6 @@ use tantivy::{DocAddress, Term};
 
 use super::any_term::AnyTerm;
 use super::compile::{Ask, Asked};
-use super::docs;
 use super::terms::{self, hand_codes, hands_of, phase_code, phase_counts};
 use crate::address::{self, Address, Name};
 use crate::db::search::answers;
@@ -72,7 +71,7 @@ impl Scores {
             let each = share * weight / total / slots.len() as f64;
             for slot in slots {
                 let query = AnyTerm::new(ask.fields.reading, slot.terms(ask)?);
-                for doc in docs::run(ask.searcher, &query)? {
+                for doc in ask.run(&query)? {
                     *self.scores.entry(doc).or_default() += each;
                 }
             }

@@ -22,12 +22,16 @@ mod texts;
 mod vocabulary;
 mod whole;
 
+use std::cell::RefCell;
+
 use chereme_sign::query::{Expr, Like, Pattern, Query, QueryError, Test, What};
 use rusqlite::Connection;
 
 use crate::Corpus;
 use crate::db::search as rows;
 use crate::error::{Error, Result};
+use crate::kept;
+use crate::progress::{Progress, Step, Unit, unheard};
 
 use answer::Ranks;
 pub use answer::{Answer, FACET_VALUES, Hit, Order};
@@ -63,21 +67,45 @@ impl Corpus {
     /// Finds the tokens that answer a query; see [`chereme_sign::query`] for the language.
     ///
     /// A search sees one state of the corpus: everything that was done before it, by this program or
-    /// another, and nothing that is being done meanwhile.
+    /// another, and nothing that is being done meanwhile. `@NAME` asks the query that is
+    /// [kept](Self::keep_searches) under that name.
     ///
     /// # Errors
     /// [`Error::Wrong`] with the place in the query that cannot be understood, or that names a value,
     /// signer… that there is not.
     pub fn search(&mut self, query: &str, options: &SearchOptions) -> Result<Answer> {
+        let mut hear = unheard;
+        self.search_until(query, options, &mut Progress::new(&mut hear))
+    }
+
+    /// Finds the same, and stops where `progress` says so; it is asked many times a second.
+    ///
+    /// # Errors
+    /// Those of [`search`](Self::search), and [`Error::Stopped`].
+    pub fn search_until(
+        &mut self,
+        query: &str,
+        options: &SearchOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Answer> {
         const ATTEMPTS: usize = 8;
+        let query = &*kept::resolved(self.store.read(), query)?;
         let parsed = Query::parse(query).map_err(|error| wrong(query, &error))?;
+        let hear = RefCell::new(|done| {
+            progress.tell(Step {
+                task: "",
+                done,
+                total: None,
+                unit: Unit::Items,
+            })
+        });
         for _ in 0..ATTEMPTS {
             let (connection, index) = self.store.searchable()?;
             let reading = rows::begin_reading(connection)?;
             if !index.is_current(connection)? {
                 continue;
             }
-            let answer = answer(connection, index, &parsed, options);
+            let answer = answer((connection, index), &parsed, options, &hear);
             drop(reading);
             return answer.map_err(|failure| match failure {
                 Failure::Query(error) => wrong(query, &error),
@@ -100,14 +128,16 @@ pub(crate) fn tokens(
         facets: false,
         ..SearchOptions::default()
     };
-    match answer(connection, index, &parsed, &options) {
+    let hear = RefCell::new(|_| Ok(()));
+    match answer((connection, index), &parsed, &options, &hear) {
         Ok(answer) => Ok(answer.hits.into_iter().map(|hit| hit.token).collect()),
         Err(Failure::Query(error)) => Err(wrong(query, &error)),
         Err(Failure::Other(error)) => Err(error),
     }
 }
 
-fn wrong(query: &str, error: &QueryError) -> Error {
+/// Returns the failure that a query cannot be understood.
+pub(crate) fn wrong(query: &str, error: &QueryError) -> Error {
     let mut lines: Vec<String> = error.render(query).lines().map(str::to_owned).collect();
     if !error.remedy.is_empty() {
         lines.pop();
@@ -125,10 +155,10 @@ fn wrong(query: &str, error: &QueryError) -> Error {
 }
 
 fn answer(
-    connection: &Connection,
-    index: &SearchIndex,
+    (connection, index): (&Connection, &SearchIndex),
     query: &Query,
     options: &SearchOptions,
+    hear: &RefCell<dyn FnMut(u64) -> Result<()> + '_>,
 ) -> Asked<Answer> {
     let (searcher, fields) = index.searcher();
     let ask = Ask {
@@ -138,6 +168,8 @@ fn answer(
         fields,
         vocabulary: index.memory().vocabulary(connection)?,
         notes: Default::default(),
+        looked_at: Default::default(),
+        hear,
     };
     let plan = compile::plan(&ask, &query.root)?;
     let found = plan::evaluate(&ask, &plan, None)?;

@@ -154,13 +154,13 @@ pub(crate) fn evaluate(ask: &Ask<'_>, plan: &Plan, within: Option<&[DocAddress]>
     };
     let candidates = || match within {
         Some(within) => Ok(within.to_vec()),
-        None => docs::run(ask.searcher, &AllQuery),
+        None => ask.run(&AllQuery),
     };
     match plan {
-        Plan::Index(query) => Ok(inside(docs::run(ask.searcher, query.as_ref())?)),
+        Plan::Index(query) => Ok(inside(ask.run(query.as_ref())?)),
         Plan::Without(query) => {
             let query = inverted(query.box_clone());
-            Ok(inside(docs::run(ask.searcher, query.as_ref())?))
+            Ok(inside(ask.run(query.as_ref())?))
         }
         Plan::And(plans) => {
             let mut order: Vec<&Plan> = plans.iter().collect();
@@ -182,7 +182,7 @@ pub(crate) fn evaluate(ask: &Ask<'_>, plan: &Plan, within: Option<&[DocAddress]>
         Plan::Beside(beside) => beside.filter(ask, candidates()?),
         Plan::Whole(text) => {
             let candidates = match &text.narrowed {
-                Some(query) => inside(docs::run(ask.searcher, query.as_ref())?),
+                Some(query) => inside(ask.run(query.as_ref())?),
                 None => candidates()?,
             };
             whole::filter(ask, text, candidates)

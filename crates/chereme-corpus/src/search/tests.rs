@@ -162,3 +162,60 @@ fn value_row(text: &str) -> TokenValueRow {
         ..TokenValueRow::default()
     }
 }
+
+#[test]
+fn a_search_stops_where_it_is_told_to() {
+    use crate::{Error, Progress, Step, unheard};
+    use std::ops::ControlFlow;
+
+    let mut sample = Sample::new();
+    sample.work(|connection| {
+        for n in 0..200 {
+            let row = TokenRow {
+                sign_id: signs::sign_glossed(connection, &format!("S{n}"))?,
+                origin: "lexicon".to_owned(),
+                ..TokenRow::default()
+            };
+            let token = signs::insert_token(connection, &row)?;
+            signs::set_values(connection, token, &[value_row("configuration=U")])?;
+        }
+        Ok(())
+    });
+    let options = SearchOptions::default();
+    for query in [
+        "",
+        "configuration=U",
+        "like S1",
+        "translation=x or gloss=S*",
+    ] {
+        let mut steps = 0;
+        let mut count = |_: Step<'_>| {
+            steps += 1;
+            ControlFlow::Continue(())
+        };
+        let whole = sample
+            .corpus
+            .search_until(query, &options, &mut Progress::new(&mut count));
+        assert!(whole.is_ok() && steps > 2, "{query}: {steps}");
+        for last in 0..steps {
+            let mut left = last;
+            let mut stop = |_: Step<'_>| {
+                left -= 1;
+                if left < 0 {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            };
+            let done = sample
+                .corpus
+                .search_until(query, &options, &mut Progress::new(&mut stop));
+            assert!(matches!(done, Err(Error::Stopped)), "{query} at {last}");
+        }
+        let mut hear = unheard;
+        let again = sample
+            .corpus
+            .search_until(query, &options, &mut Progress::new(&mut hear));
+        assert_eq!(again.ok(), whole.ok(), "{query}");
+    }
+}

@@ -120,6 +120,7 @@ pub(crate) fn filter(ask: &Ask<'_>, text: &WholeText, candidates: Docs) -> Asked
     let ids = Numbers::rows(ask.searcher, "id")?;
     let mut found = Docs::new();
     for doc in candidates {
+        ask.look()?;
         let token = ids.get(doc).unwrap_or_default();
         let (translations, comments) = answers::texts_of_token(ask.connection, token)?;
         let texts = if text.translation {

@@ -217,9 +217,8 @@ mod tests {
         let sign = |gloss: &str| SignGlance {
             id: 1,
             gloss: gloss.to_owned(),
-            notes: None,
             tokens: 1,
-            citation: None,
+            ..SignGlance::default()
         };
         let overview = Overview {
             inventories,

@@ -1,0 +1,43 @@
+//! Rows of kept searches.
+
+use rusqlite::{Connection, params};
+
+use crate::error::Result;
+use crate::kept::KeptSearch;
+
+/// Returns the kept searches with their rows, by name.
+pub(crate) fn searches(connection: &Connection) -> Result<Vec<(i64, KeptSearch)>> {
+    let mut statement =
+        connection.prepare_cached("SELECT id, name, query FROM kept_search ORDER BY name, id")?;
+    let rows = statement
+        .query_map([], |row| {
+            let (name, query) = (row.get(1)?, row.get(2)?);
+            Ok((row.get(0)?, KeptSearch { name, query }))
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Adds a search under a name that none has.
+pub(crate) fn insert(connection: &Connection, search: &KeptSearch) -> Result<()> {
+    connection
+        .prepare_cached("INSERT INTO kept_search (name, query) VALUES (?1, ?2)")?
+        .execute(params![search.name, search.query])?;
+    Ok(())
+}
+
+/// Gives a search another name and query.
+pub(crate) fn update(connection: &Connection, id: i64, search: &KeptSearch) -> Result<()> {
+    connection
+        .prepare_cached("UPDATE kept_search SET name = ?2, query = ?3 WHERE id = ?1")?
+        .execute(params![id, search.name, search.query])?;
+    Ok(())
+}
+
+/// Removes a search.
+pub(crate) fn delete(connection: &Connection, id: i64) -> Result<()> {
+    connection
+        .prepare_cached("DELETE FROM kept_search WHERE id = ?1")?
+        .execute([id])?;
+    Ok(())
+}

@@ -1,0 +1,210 @@
+//! Searches that are kept in the corpus under a name, so that they travel with it.
+//!
+//! Wherever a query is asked, `@NAME` asks the one that is kept under that name.
+
+use std::borrow::Cow;
+
+use chereme_sign::query::Query;
+use chereme_sign::text::{did_you_mean, fold, nearest};
+use rusqlite::Connection;
+use serde::Serialize;
+
+use crate::Corpus;
+use crate::db::kept as rows;
+use crate::error::{Error, Result};
+use crate::search::wrong;
+
+/// A query with a name.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct KeptSearch {
+    /// Its name; no other of the corpus has it, whatever the case and accents.
+    pub name: String,
+    /// The query as it was written.
+    pub query: String,
+}
+
+impl Corpus {
+    /// Returns the searches that are kept, by name.
+    ///
+    /// # Errors
+    /// Where the database fails.
+    pub fn kept_searches(&self) -> Result<Vec<KeptSearch>> {
+        searches(self.store.read())
+    }
+
+    /// Keeps searches under their names, each in place of the one that had its name.
+    ///
+    /// # Errors
+    /// Where a name is empty or a query cannot be understood; nothing is kept then.
+    pub fn keep_searches(&mut self, searches: &[KeptSearch]) -> Result<()> {
+        self.store.operation("keep search", |connection| {
+            for search in searches {
+                let search = KeptSearch {
+                    name: named(&search.name)?,
+                    query: resolved(connection, &search.query)?.into_owned(),
+                };
+                let query = &search.query;
+                Query::parse(query).map_err(|error| wrong(query, &error))?;
+                match found(connection, &search.name)? {
+                    Some((_, old)) if old == search => {}
+                    Some((id, _)) => rows::update(connection, id, &search)?,
+                    None => rows::insert(connection, &search)?,
+                }
+            }
+            let names: Vec<&str> = searches.iter().map(|it| it.name.trim()).collect();
+            Ok(((), names.join(", ")))
+        })
+    }
+
+    /// Gives a kept search another name.
+    ///
+    /// # Errors
+    /// Where there is none of that name, or the other name is empty or taken.
+    pub fn rename_search(&mut self, from: &str, to: &str) -> Result<()> {
+        self.store.operation("rename search", |connection| {
+            let (id, old) = there(connection, from)?;
+            let new = KeptSearch {
+                name: named(to)?,
+                query: old.query.clone(),
+            };
+            if found(connection, &new.name)?.is_some_and(|(other, _)| other != id) {
+                let text = format!("another search is kept as {:?}", new.name);
+                let error = Error::wrong(text).at(new.name);
+                return Err(error.advise("give it another name"));
+            }
+            if new != old {
+                rows::update(connection, id, &new)?;
+            }
+            Ok(((), format!("{} to {}", old.name, new.name)))
+        })
+    }
+
+    /// Keeps a search no longer, and returns it.
+    ///
+    /// # Errors
+    /// Where there is none of that name.
+    pub fn forget_search(&mut self, name: &str) -> Result<KeptSearch> {
+        self.store.operation("forget search", |connection| {
+            let (id, search) = there(connection, name)?;
+            rows::delete(connection, id)?;
+            let summary = search.name.clone();
+            Ok((search, summary))
+        })
+    }
+}
+
+/// Returns the searches that are kept, by name.
+pub(crate) fn searches(connection: &Connection) -> Result<Vec<KeptSearch>> {
+    let all = rows::searches(connection)?.into_iter();
+    Ok(all.map(|(_, search)| search).collect())
+}
+
+/// Returns the query that is meant: for `@NAME` the one that is kept under that name.
+pub(crate) fn resolved<'a>(connection: &Connection, query: &'a str) -> Result<Cow<'a, str>> {
+    match query.trim().strip_prefix('@') {
+        Some(name) => Ok(Cow::Owned(there(connection, name)?.1.query)),
+        None => Ok(Cow::Borrowed(query)),
+    }
+}
+
+fn named(name: &str) -> Result<String> {
+    let name = name.trim();
+    if name.is_empty() || name.contains(char::is_control) {
+        return Err(
+            Error::wrong("a search is kept under a name of one line").advise("give it a name")
+        );
+    }
+    Ok(name.strip_prefix('@').unwrap_or(name).to_owned())
+}
+
+fn found(connection: &Connection, name: &str) -> Result<Option<(i64, KeptSearch)>> {
+    let wanted = fold(name.trim());
+    let mut all = rows::searches(connection)?.into_iter();
+    Ok(all.find(|(_, search)| fold(&search.name) == wanted))
+}
+
+fn there(connection: &Connection, name: &str) -> Result<(i64, KeptSearch)> {
+    let name = name.trim();
+    let name = name.strip_prefix('@').unwrap_or(name);
+    if let Some(found) = found(connection, name)? {
+        return Ok(found);
+    }
+    let all = searches(connection)?;
+    let meant = did_you_mean(nearest(name, all.iter().map(|it| it.name.as_str())));
+    Err(
+        Error::wrong(format!("no search is kept as {name:?}{meant}"))
+            .at(format!("@{name}"))
+            .advise("`chereme list CORPUS searches` lists them"),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::SearchOptions;
+
+    fn kept(name: &str, query: &str) -> KeptSearch {
+        KeptSearch {
+            name: name.into(),
+            query: query.into(),
+        }
+    }
+
+    #[test]
+    fn searches_are_kept_renamed_forgotten_and_undone() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let keep = |corpus: &mut Corpus, one| corpus.keep_searches(&[one]);
+        keep(&mut corpus, kept(" Menton ", "placement=chin")).expect("kept");
+        keep(&mut corpus, kept("brefs", "duration<0.8s")).expect("kept");
+        keep(&mut corpus, kept("MENTON", "placement=head")).expect("in its place");
+        let now = |corpus: &Corpus| corpus.kept_searches().expect("read");
+        let (menton, brefs) = (
+            kept("MENTON", "placement=head"),
+            kept("brefs", "duration<0.8s"),
+        );
+        assert_eq!(now(&corpus), [menton.clone(), brefs.clone()]);
+        assert_eq!(corpus.overview(1).expect("read").searches, now(&corpus));
+        assert!(corpus.rename_search("brefs", "menton").is_err());
+        corpus.rename_search("brefs", "courts").expect("renamed");
+        assert_eq!(corpus.forget_search("@menton").expect("forgotten"), menton);
+        assert_eq!(now(&corpus), [kept("courts", "duration<0.8s")]);
+        corpus.undo().expect("undone");
+        corpus.undo().expect("undone");
+        assert_eq!(now(&corpus), [menton, brefs]);
+        let log = corpus.log(5).expect("read");
+        assert_eq!(
+            (log[2].name.as_str(), log[2].summary.as_str()),
+            ("forget search", "MENTON")
+        );
+    }
+
+    #[test]
+    fn a_name_is_asked_as_its_query() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let short = kept("petits gestes", "duration<0.8s");
+        corpus.keep_searches(&[short]).expect("kept");
+        let options = SearchOptions::default();
+        let answer = corpus.search(" @Petits Gestes", &options).expect("found");
+        assert_eq!((answer.query.as_str(), answer.total), ("duration<0.8s", 0));
+        corpus
+            .keep_searches(&[kept("same", "@petits gestes")])
+            .expect("kept");
+        assert_eq!(
+            corpus.kept_searches().expect("read")[1].query,
+            "duration<0.8s"
+        );
+        let error = corpus.search("@petit gestes", &options).expect_err("none");
+        assert!(
+            error.to_string().contains("did you mean \"petits gestes\""),
+            "{error}"
+        );
+        for (name, query) in [("", "gloss=A"), (" ", ""), ("a", "gloss=("), ("b", "@none")] {
+            assert!(
+                corpus.keep_searches(&[kept(name, query)]).is_err(),
+                "{name} {query}"
+            );
+        }
+    }
+}
