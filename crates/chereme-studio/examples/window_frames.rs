@@ -1,9 +1,10 @@
-//! Measures frames of a real window: `cargo run --release --example window_frames -- [CORPUS|two] [SECONDS]`.
+//! Measures frames of a real window: `cargo run --release --example window_frames -- [CORPUS|two|grid] [SECONDS]`.
 //!
 //! The window opens without waiting for the screen and plays its first recording in a loop, scrolls and zooms
 //! the timeline while it plays, drags an annotation among its neighbours, and closes. Without a corpus one is
 //! made with a recording of the starter corpus and with 200 tiers of 500 annotations; `two` makes one with a
-//! sign made from another instead, and only plays the two signers side by side. Prints for each scene how long
+//! sign made from another instead, and only plays the two signers side by side; `grid` imports the starter
+//! corpus, and shows all its signs as at least 24 looping little figures. Prints for each scene how long
 //! a frame took to compute on the window's thread, how far apart frames were, and how long pictures of the stage
 //! took on the thread that draws them.
 
@@ -25,8 +26,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let first = arguments.next();
     let two = first.as_deref() == Some("two");
+    let grid = first.as_deref() == Some("grid");
     let corpus = match first {
         Some(_) if two => pair(folder.path())?,
+        Some(_) if grid => starter(folder.path())?,
         Some(path) => PathBuf::from(path),
         None => made(folder.path())?,
     };
@@ -53,6 +56,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         studio: Studio::new(options),
         scenes: if two {
             VecDeque::from([Scene::Two])
+        } else if grid {
+            VecDeque::from([Scene::Grid])
         } else {
             VecDeque::from([Scene::Play, Scene::Scroll, Scene::Drag])
         },
@@ -88,6 +93,18 @@ fn made(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
         &options,
         &mut Progress::new(&mut hear),
     )?;
+    Ok(path)
+}
+
+/// The starter corpus, in a window so large that there is room for the figures.
+fn starter(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
+    std::fs::write(folder.join("studio.json"), r#"{ "scale": 0.7 }"#)?;
+    let files = unpack_starter(&folder.join("files"))?;
+    let path = folder.join("starter.chereme");
+    let mut corpus = Corpus::create(&path, "A")?;
+    let mut hear = unheard;
+    let options = ImportOptions::default();
+    corpus.import(&files, &options, &mut Progress::new(&mut hear))?;
     Ok(path)
 }
 
@@ -149,12 +166,22 @@ enum Scene {
     Scroll,
     /// Dragging an annotation to and fro.
     Drag,
+    /// Looking at hits as looping little figures.
+    Grid,
 }
 
 /// Where the timeline is in the window.
 const TIMELINE: Pos2 = Pos2::new(760.0, 690.0);
 
 impl Scene {
+    /// Returns how many frames only set the scene; figures are drawn by then.
+    fn sets(self) -> u64 {
+        match self {
+            Self::Grid => 900,
+            _ => 20,
+        }
+    }
+
     /// Returns what a person does in a frame of it.
     fn events(self, frame: u64) -> Vec<Event> {
         let key = |key, modifiers| Event::Key {
@@ -174,7 +201,10 @@ impl Scene {
             (Self::Two, 0) => vec![key(Key::PageDown, Modifiers::COMMAND)],
             (Self::Play, 0) | (Self::Two, 1) => vec![key(Key::L, Modifiers::COMMAND)],
             (Self::Play, 1) | (Self::Two, 2) => vec![key(Key::Space, Modifiers::COMMAND)],
-            (Self::Play | Self::Two, _) => Vec::new(),
+            (Self::Grid, 0) => vec![key(Key::F2, Modifiers::COMMAND)],
+            (Self::Grid, 4) => vec![key(Key::F, Modifiers::COMMAND)],
+            (Self::Grid, 10) => vec![key(Key::Enter, Modifiers::NONE)],
+            (Self::Play | Self::Two | Self::Grid, _) => Vec::new(),
             (Self::Scroll, frame) => {
                 let zooms = frame % 240 >= 180;
                 let up = frame % 120 >= 60;
@@ -230,7 +260,11 @@ impl eframe::App for Meter {
         self.studio.ui(ui);
         ui.ctx().request_repaint();
         // The first frames of a scene only set it.
-        if self.frame < 20 {
+        if self
+            .scenes
+            .front()
+            .is_none_or(|scene| self.frame < scene.sets())
+        {
             return;
         }
         let begun = *self.begun.get_or_insert(now);

@@ -114,6 +114,7 @@ actions! {
     SplitAnnotation "annotation.split" ANNOTATION_SPLIT Annotation Corpus;
     MergeAnnotation "annotation.merge" ANNOTATION_MERGE Annotation Corpus;
     DeleteAnnotation "annotation.delete" ANNOTATION_DELETE Annotation Corpus;
+    UseInRecipe "recombine.use" USE_IN_RECIPE Edit Corpus;
     RecombineSelected "recombine.selected" RECOMBINE_SELECTED Edit Corpus;
     StoreSign "recombine.store" STORE_SIGN Edit Corpus;
     CardUp "recombine.card-up" CARD_UP Edit Recombine repeats;
@@ -176,6 +177,9 @@ actions! {
     ShowTiers "tier.show-all" TIER_SHOW_ALL Tier Corpus;
     Play "play.toggle" PLAY Play Corpus;
     PlaySelection "play.selection" PLAY_SELECTION Play Corpus;
+    PlayAround "play.around" PLAY_AROUND Play Corpus;
+    OtherEnd "play.other-end" OTHER_END Play Corpus;
+    ToCentre "play.to-centre" TO_CENTRE Play Corpus;
     Loop "play.loop" LOOP Play Corpus;
     ShuttleBack "play.shuttle-back" SHUTTLE_BACK Play Corpus;
     ShuttleStop "play.shuttle-stop" SHUTTLE_STOP Play Corpus;
@@ -220,6 +224,8 @@ actions! {
     ZoomIn "view.zoom-in" ZOOM_IN View Corpus repeats;
     ZoomOut "view.zoom-out" ZOOM_OUT View Corpus repeats;
     ZoomAll "view.zoom-all" ZOOM_ALL View Corpus;
+    PageBack "view.page-back" PAGE_BACK View Corpus repeats;
+    PageForward "view.page-forward" PAGE_FORWARD View Corpus repeats;
     LaneSpeed "view.lane-speed" LANE_SPEED View Corpus;
     LaneAperture "view.lane-aperture" LANE_APERTURE View Corpus;
     LanePalm "view.lane-palm" LANE_PALM View Corpus;

@@ -5,8 +5,8 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use chereme_motion::Instant;
-use eframe::egui::{self, CentralPanel, Context, Frame, Panel, Ui};
-use egui_tiles::{Behavior, SimplificationOptions, TileId, Tree, UiResponse};
+use eframe::egui::{self, CentralPanel, Context, Frame, Panel, Response, Ui};
+use egui_tiles::{Behavior, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse};
 
 use crate::Options;
 use crate::choose::{Chooser, Chosen};
@@ -18,9 +18,11 @@ use crate::little::Figures;
 use crate::model::Snapshot;
 use crate::model::reel::Reel;
 use crate::overlay::Overlays;
+use crate::panes::carry::{self, Sprung};
 use crate::panes::{PaneKind, Panes};
 use crate::settings::{Folders, Settings};
 use crate::start::Start;
+use crate::words::Text;
 use crate::work::begin::{Begin, Beginning};
 use crate::work::desk::{Desk, News, Wake};
 use crate::work::{Lane, Outcome, Work};
@@ -45,6 +47,7 @@ pub struct Studio {
     pub(crate) panes: Panes,
     /// The pane that was used last.
     pub(crate) pane: Option<PaneKind>,
+    sprung: Sprung,
     pub(crate) start: Start,
     pub(crate) chooser: Chooser,
     pub(crate) overlays: Overlays,
@@ -98,6 +101,7 @@ impl Studio {
             little: Figures::default(),
             panes: Panes::default(),
             pane: None,
+            sprung: Sprung::default(),
             start: Start::default(),
             chooser: Chooser::default(),
             overlays: Overlays::default(),
@@ -188,31 +192,34 @@ impl Studio {
         let ended = self.beginning.as_mut().and_then(Beginning::ended);
         if let Some(ended) = ended {
             self.beginning = None;
+            let task = crate::words::shell::TASK_OPENING;
             match ended {
                 Ok(path) => self.open(&path),
-                Err(error) => self
-                    .overlays
-                    .notices
-                    .trouble(&error, self.settings.language),
+                Err(error) => {
+                    self.overlays
+                        .notices
+                        .trouble(&error, Some(task), self.settings.language)
+                }
             }
         }
         let news = self.desk.as_mut().map(Desk::news).unwrap_or_default();
         for news in news {
             match news {
                 News::Read(snapshot, own) => self.take_snapshot(snapshot, own),
-                News::Unread(error) => self
-                    .overlays
-                    .notices
-                    .trouble(&error, self.settings.language),
+                News::Unread(error) => {
+                    self.overlays
+                        .notices
+                        .trouble(&error, None, self.settings.language)
+                }
                 News::Far(..) => {}
-                News::Ended(id, ended, quiet) => {
+                News::Ended(id, ended, about) => {
                     if self.little.hear(id, &ended) {
                         continue;
                     }
                     self.panes.hear(id, &ended);
                     self.overlays.export.hear(id, &ended);
-                    if !(quiet && ended.is_err()) {
-                        self.hear(ended);
+                    if !(about.quiet && ended.is_err()) {
+                        self.hear(ended, about.task);
                     }
                 }
             }
@@ -315,6 +322,7 @@ impl Studio {
                 desk,
                 out,
                 pane,
+                sprung,
                 ..
             } = self;
             let (Some(snapshot), Some(desk)) = (snapshot.as_ref(), desk.as_ref()) else {
@@ -333,15 +341,19 @@ impl Studio {
                 dark: theme::is_dark(ui.ctx()),
                 running: &desk.running,
             };
-            tree.ui(
-                &mut Workbench {
-                    panes,
-                    seen,
-                    out,
-                    pane,
-                },
-                ui,
-            );
+            let mut workbench = Workbench {
+                panes,
+                seen,
+                out,
+                pane,
+                under: None,
+            };
+            tree.ui(&mut workbench, ui);
+            let under = workbench.under;
+            carry::show(ui.ctx(), &seen, out);
+            if let Some(pane) = sprung.follow(under, ui.input(|input| input.time)) {
+                layout::bring(tree, pane);
+            }
         });
     }
 
@@ -379,10 +391,10 @@ impl Studio {
         }
     }
 
-    fn hear(&mut self, ended: Result<Outcome, chereme_corpus::Error>) {
+    fn hear(&mut self, ended: Result<Outcome, chereme_corpus::Error>, task: Text) {
         let language = self.settings.language;
         match ended {
-            Err(error) => self.overlays.notices.trouble(&error, language),
+            Err(error) => self.overlays.notices.trouble(&error, Some(task), language),
             Ok(Outcome::Moved {
                 recording,
                 piece,
@@ -405,6 +417,8 @@ struct Workbench<'a> {
     seen: Seen<'a>,
     out: &'a mut Outbox,
     pane: &'a mut Option<PaneKind>,
+    /// The pane whose tab something is carried over.
+    under: Option<PaneKind>,
 }
 
 impl Behavior<PaneKind> for Workbench<'_> {
@@ -430,6 +444,22 @@ impl Behavior<PaneKind> for Workbench<'_> {
 
     fn tab_title_for_pane(&mut self, kind: &PaneKind) -> egui::WidgetText {
         self.seen.say(kind.title()).into()
+    }
+
+    fn on_tab_button(
+        &mut self,
+        tiles: &mut Tiles<PaneKind>,
+        tile: TileId,
+        button: Response,
+    ) -> Response {
+        if button.contains_pointer()
+            && carry::is_carrying(&button.ctx)
+            && let Some(Tile::Pane(kind)) = tiles.get(tile)
+        {
+            self.under = Some(*kind);
+            button.ctx.request_repaint();
+        }
+        button
     }
 
     fn simplification_options(&self) -> SimplificationOptions {

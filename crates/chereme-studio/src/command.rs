@@ -11,6 +11,7 @@ use crate::action::Action;
 use crate::choose::Choose;
 use crate::model::handle::Handle;
 use crate::model::made::Made;
+use crate::panes::Carried;
 use crate::panes::inspector::Thing;
 use crate::panes::stage::StageWays;
 use crate::settings::{Searches, Settings};
@@ -67,6 +68,10 @@ pub(crate) enum Command {
     Find(String),
     /// Turn to a recipe, that of the stored recording of that name where there is one.
     Recipe(String, Option<String>),
+    /// Begin to make a sign by a recipe, which may be empty.
+    Make { recipe: String, gloss: String },
+    /// Take a sign into the recipe.
+    Use(Carried),
     /// Change which queries are kept and remembered.
     Searches(Searches),
     /// Change what is remembered of the stage.

@@ -17,7 +17,7 @@ use crate::settings::Settings;
 use crate::theme::Colours;
 use crate::words::{Language, Text};
 use crate::work::desk::Running;
-use crate::work::{Work, WorkId};
+use crate::work::{Far, Work, WorkId};
 
 /// What is shown and selected; only commands change it.
 #[derive(Debug, Clone, Default)]
@@ -94,6 +94,11 @@ impl Seen<'_> {
 
     pub(crate) fn colours(&self) -> &'static Colours {
         Colours::of(self.dark)
+    }
+
+    /// Returns how far a piece of work is that runs.
+    pub(crate) fn far(&self, work: WorkId) -> Option<&Far> {
+        self.running.get(&work).map(|it| &it.far)
     }
 
     pub(crate) fn is_running(&self, work: Option<WorkId>) -> bool {

@@ -18,7 +18,7 @@ use crate::little::Figures;
 use crate::model::Snapshot;
 use crate::model::made::Made;
 use crate::model::reel::Reel;
-use crate::panes::PaneKind;
+use crate::panes::{Carried, PaneKind, recombine};
 use crate::player::Player;
 use crate::settings::ThemeChoice;
 use crate::theme;
@@ -28,6 +28,8 @@ use crate::work::begin::{Begin, Beginning};
 use crate::work::desk::Desk;
 
 const SECOND: i64 = 1_000_000;
+/// How much more than the selection is played around it, as in ELAN.
+const AROUND: i64 = 500_000;
 /// How often commands may ask for others within one frame.
 const ROUNDS: usize = 8;
 /// How a frame is stepped where a recording has no movement.
@@ -106,6 +108,14 @@ impl Studio {
                 self.panes.inspector.turn_to(thing);
                 layout::bring(&mut self.tree, PaneKind::Inspector);
             }
+            Command::Make { recipe, gloss } => {
+                self.panes.recombine.open(&recipe, None, Some(gloss));
+                self.bring(PaneKind::Recombine);
+            }
+            Command::Use(carried) => {
+                self.panes.recombine.take_in(&carried);
+                self.bring(PaneKind::Recombine);
+            }
             Command::Find(query) => {
                 let mut out = std::mem::take(&mut self.out);
                 self.panes.search.find(query, &mut out);
@@ -144,6 +154,7 @@ impl Studio {
                 self.shown.span = None;
                 self.shown.annotations.clear();
             }
+            Action::UseInRecipe => self.use_in_recipe(ctx),
             Action::NextRecording => self.walk_recordings(1),
             Action::PreviousRecording => self.walk_recordings(-1),
             Action::StoreSign => {
@@ -166,6 +177,23 @@ impl Studio {
         }
         let work = if back { Work::Undo } else { Work::Redo };
         self.out.work(work);
+    }
+
+    /// Takes the sign that is chosen in the pane that was used last into the recipe.
+    fn use_in_recipe(&mut self, ctx: &Context) {
+        let carried = match self.pane {
+            Some(PaneKind::Search) => self.panes.search.carried(),
+            Some(PaneKind::Library) => self.panes.library.carried(),
+            _ => None,
+        };
+        let selected = || {
+            let (token, gloss) = recombine::selected_token(&self.seen(ctx)?)?;
+            Some(Carried { token, gloss })
+        };
+        match carried.or_else(selected) {
+            Some(carried) => self.out.send(Command::Use(carried)),
+            None => self.out.send(Command::Hint(words::NEEDS_SIGN)),
+        }
     }
 
     /// Offers an action to the panes; the first that knows it does it.
@@ -231,6 +259,21 @@ impl Studio {
         match action {
             Action::Play => player.toggle(),
             Action::PlaySelection => player.play_part(part.unwrap_or(whole)),
+            Action::PlayAround => {
+                let span = part.unwrap_or(whole);
+                let start = span.start().shifted(-AROUND).max(whole.start());
+                let end = span.end().shifted(AROUND).min(whole.end());
+                player.play_part(Span::between(start, end));
+            }
+            Action::OtherEnd | Action::ToCentre => {
+                let Some(span) = part else { return true };
+                let middle = span.start().shifted(span.micros() / 2);
+                player.seek(match action {
+                    Action::ToCentre => middle,
+                    _ if at < middle => span.end(),
+                    _ => span.start(),
+                });
+            }
             Action::Loop => player.looping = !player.looping,
             Action::ShuttleBack => player.shuttle(-1.0),
             Action::ShuttleForward => player.shuttle(1.0),

@@ -58,7 +58,7 @@ const QUERIES: usize = 20;
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Searches {
-    /// By name, in the order of the alphabet.
+    /// Those that were kept here before corpora kept them, to be taken over.
     pub(crate) saved: Vec<SavedSearch>,
     /// The newest first.
     pub(crate) recent: Vec<String>,
@@ -72,31 +72,6 @@ pub(crate) struct SavedSearch {
 }
 
 impl Searches {
-    /// Keeps a query under a name, in place of the one that had it.
-    pub(crate) fn save(&mut self, name: &str, query: &str) {
-        self.delete(name);
-        self.saved.push(SavedSearch {
-            name: name.to_owned(),
-            query: query.to_owned(),
-        });
-        self.saved.sort_by(|a, b| a.name.cmp(&b.name));
-    }
-
-    /// Gives a kept query another name, where there is one and nothing has it.
-    pub(crate) fn rename(&mut self, from: &str, to: &str) {
-        let taken = to.is_empty() || self.saved.iter().any(|it| it.name == to);
-        if let Some(saved) = self.saved.iter_mut().find(|it| it.name == from)
-            && !taken
-        {
-            saved.name = to.to_owned();
-            self.saved.sort_by(|a, b| a.name.cmp(&b.name));
-        }
-    }
-
-    pub(crate) fn delete(&mut self, name: &str) {
-        self.saved.retain(|it| it.name != name);
-    }
-
     /// Puts a query at the head of those that were asked; returns whether that changes anything.
     pub(crate) fn asked(&mut self, query: &str) -> bool {
         let query = query.trim();
@@ -240,18 +215,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn queries_are_kept_by_name_and_remembered_once() {
+    fn queries_are_remembered_once_the_newest_first() {
         let mut searches = Searches::default();
-        searches.save("b", "placement=chin");
-        searches.save("a", "origin=made");
-        searches.save("b", "placement=chest");
-        searches.rename("a", "b");
-        searches.rename("b", "c");
-        let names: Vec<&str> = searches.saved.iter().map(|it| it.name.as_str()).collect();
-        assert_eq!(names, ["a", "c"]);
-        assert_eq!(searches.saved[1].query, "placement=chest");
-        searches.delete("a");
-        assert_eq!(searches.saved.len(), 1);
         assert!(searches.asked("x") && searches.asked("y") && searches.asked(" x "));
         assert!(!searches.asked("x") && !searches.asked(" "));
         assert_eq!(searches.recent, ["x", "y"]);

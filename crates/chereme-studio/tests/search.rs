@@ -154,15 +154,9 @@ fn facets_narrow_and_a_search_is_kept_renamed_and_deleted() {
     let name = window.get_by_role_and_label(Role::TextInput, "Name of this search");
     assert_eq!(name.value().as_deref(), Some("vees"));
     click(&mut window, "Save");
-    window.run_steps(3);
-    idle(&mut window);
-    if !has(&window, "Rename vees") {
-        let all: Vec<String> = window
-            .get_all_by_role(Role::Button)
-            .filter_map(|node| node.accesskit_node().label())
-            .collect();
-        panic!("{all:?}");
-    }
+    until(&mut window, "the kept search", |window| {
+        has(window, "Rename vees")
+    });
     click(&mut window, "Rename vees");
     window.run_steps(2);
     window
@@ -170,11 +164,21 @@ fn facets_narrow_and_a_search_is_kept_renamed_and_deleted() {
         .type_text("2");
     window.run_steps(2);
     window.key_press(Key::Enter);
-    window.run_steps(3);
-    assert!(has(&window, "Delete vees2"));
+    until(&mut window, "the other name", |window| {
+        has(window, "Delete vees2")
+    });
+    let path = window.state().corpus().expect("open").clone();
+    let kept = || {
+        let corpus = chereme_corpus::Corpus::open(&path, "B").expect("opened");
+        let all = corpus.kept_searches().expect("read");
+        all.into_iter().map(|it| it.name).collect::<Vec<_>>()
+    };
+    assert_eq!(kept(), ["vees2"], "it is in the corpus");
     click(&mut window, "Delete vees2");
-    window.run_steps(2);
-    assert!(!has(&window, "Delete vees2"));
+    until(&mut window, "an empty list", |window| {
+        !has(window, "Delete vees2")
+    });
+    assert!(kept().is_empty());
 }
 
 #[test]

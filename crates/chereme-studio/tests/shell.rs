@@ -64,7 +64,7 @@ fn what_was_opened_and_chosen_is_remembered() {
     window.run_steps(3);
     click(&mut window, "Français");
     window.run_steps(3);
-    assert!(has(&window, "Enregistrements"));
+    assert!(has(&window, "Fonds"));
     let path = window.state().corpus().expect("open").clone();
     drop(window);
     let mut window = self::window(options(folder.path()));

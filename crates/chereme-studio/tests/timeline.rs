@@ -135,7 +135,7 @@ fn a_gloss_is_made_on_a_dragged_selection_and_typed() {
     stored(&mut window, before);
     assert_eq!(operations(&window), before + 1);
     assert_eq!(values(&window, "Gloss"), ["maison"]);
-    assert!(has(&window, "Gloss: maison"));
+    until(&mut window, "the gloss", |it| has(it, "Gloss: maison"));
     press(&mut window, CTRL, Key::Z);
     until(&mut window, "the undo", |it| !has(it, "Gloss: maison"));
     idle(&mut window);

@@ -33,7 +33,7 @@ impl Chord {
 
     /// Returns whether a text field does something with it.
     pub(crate) fn is_for_text(self) -> bool {
-        const EDITING: [Key; 14] = [
+        const EDITING: [Key; 15] = [
             Key::A,
             Key::C,
             Key::V,
@@ -42,6 +42,7 @@ impl Chord {
             Key::Z,
             Key::Backspace,
             Key::Delete,
+            Key::Enter,
             Key::ArrowLeft,
             Key::ArrowRight,
             Key::ArrowUp,
@@ -64,7 +65,7 @@ impl Chord {
 
     /// Returns whether a button, a list or a slider that has the focus does something with it.
     pub(crate) fn is_for_widgets(self) -> bool {
-        const MOVING: [Key; 7] = [
+        const MOVING: [Key; 11] = [
             Key::Space,
             Key::Enter,
             Key::Tab,
@@ -72,6 +73,10 @@ impl Chord {
             Key::ArrowRight,
             Key::ArrowUp,
             Key::ArrowDown,
+            Key::PageUp,
+            Key::PageDown,
+            Key::Home,
+            Key::End,
         ];
         !self.ctrl && !self.alt && MOVING.contains(&self.key)
     }

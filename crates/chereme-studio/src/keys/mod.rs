@@ -1,6 +1,7 @@
 //! Which keys mean which action: default keymaps as a table, changes of the user's, and matching.
 
 pub(crate) mod chord;
+pub(crate) mod gestures;
 pub(crate) mod table;
 
 use std::collections::BTreeMap;

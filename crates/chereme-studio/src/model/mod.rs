@@ -57,6 +57,13 @@ impl Snapshot {
             .find(|it| it.row.name == name)
     }
 
+    /// Returns whether the sign of that gloss is notated.
+    pub(crate) fn is_notated(&self, gloss: &str) -> bool {
+        let signs = &self.overview.signs;
+        let at = signs.binary_search_by(|it| it.gloss.as_str().cmp(gloss));
+        at.is_ok_and(|at| signs[at].notated)
+    }
+
     /// Returns what is said about that recording, where it is the one that was read.
     pub(crate) fn contents(&self, recording: i64) -> Option<&Contents> {
         let contents = &self.open.as_deref()?.contents;

@@ -1,17 +1,18 @@
 //! The keys: which keymap, every action with its keys, and changing them.
 
 use eframe::egui::{
-    Align2, Button, ComboBox, Context, Event, Grid, Id, Key, Role, ScrollArea, Ui, WidgetInfo,
-    Window,
+    Align2, Button, ComboBox, Context, Event, Grid, Id, Key, Label, Role, ScrollArea, Ui,
+    WidgetInfo, Window,
 };
 
 use crate::action::{ACTIONS, Action, Menu};
 use crate::command::Command;
 use crate::context::Outbox;
 use crate::keys::chord::Chord;
+use crate::keys::gestures::GESTURES;
 use crate::keys::{Keymap, Keys};
 use crate::settings::Settings;
-use crate::words::{fill, shell as words};
+use crate::words::{Language, fill, gestures, shell as words};
 
 /// The window that shows and changes keys.
 #[derive(Debug, Default)]
@@ -51,6 +52,7 @@ impl KeysHelp {
                         ui.add_space(6.0);
                         ui.strong(title.of(language));
                         self.table(ui, menu, keys, settings);
+                        mouse(ui, menu, language);
                     }
                 });
             });
@@ -109,6 +111,30 @@ impl KeysHelp {
         settings.keys.insert(action.row().id.to_owned(), chords);
         out.send(Command::Settings(Box::new(settings)));
     }
+}
+
+/// Shows what the mouse does, below the keys of a menu.
+fn mouse(ui: &mut Ui, menu: Menu, language: Language) {
+    if !GESTURES.iter().any(|row| row.menu == menu) {
+        return;
+    }
+    ui.add_space(4.0);
+    ui.weak(gestures::TITLE.of(language));
+    Grid::new(("gestures", menu))
+        .num_columns(2)
+        .striped(true)
+        .min_col_width(240.0)
+        .show(ui, |ui| {
+            for row in GESTURES.iter().filter(|row| row.menu == menu) {
+                for text in [row.does.of(language), &row.text(language)] {
+                    ui.scope(|ui| {
+                        ui.set_max_width(260.0);
+                        ui.add(Label::new(text).wrap());
+                    });
+                }
+                ui.end_row();
+            }
+        });
 }
 
 fn keymaps(ui: &mut Ui, settings: &Settings, out: &mut Outbox) {

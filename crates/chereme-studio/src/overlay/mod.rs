@@ -5,6 +5,7 @@ pub(crate) mod keys;
 pub(crate) mod notices;
 pub(crate) mod palette;
 pub(crate) mod settings;
+pub(crate) mod trouble;
 
 use eframe::egui::{Context, Key, Modifiers};
 

@@ -4,13 +4,16 @@ use std::fmt::Display;
 
 use chereme_corpus::Error;
 use eframe::egui::text::{LayoutJob, TextFormat};
-use eframe::egui::{Align2, Area, Context, Frame, Id, Order, RichText, Style, TextStyle, vec2};
+use eframe::egui::{
+    Align2, Area, Context, Frame, Id, Order, RichText, ScrollArea, Style, TextStyle, vec2,
+};
 
+use super::trouble;
 use crate::command::Command;
 use crate::context::Outbox;
 use crate::theme;
 use crate::theme::Colours;
-use crate::words::{Language, fill, history, shell as words};
+use crate::words::{Language, Text, fill, history, shell as words};
 use crate::work::Outcome;
 
 /// How long good news is shown, in seconds.
@@ -24,6 +27,8 @@ pub(crate) struct Notice {
     id: u64,
     pub(crate) text: String,
     pub(crate) remedy: Option<String>,
+    /// What the corpus itself said.
+    detail: Option<String>,
     /// Whether it stays until it is put away.
     pub(crate) stays: bool,
     /// When it was first seen, on the window's clock.
@@ -49,15 +54,18 @@ impl Notices {
     }
 
     /// Tells what went wrong, and what helps.
-    pub(crate) fn trouble(&mut self, error: &Error, language: Language) {
+    pub(crate) fn trouble(&mut self, error: &Error, task: Option<Text>, language: Language) {
         if matches!(error, Error::Stopped) {
             self.hint(words::STOPPED.of(language));
             return;
         }
-        let remedy = error
-            .remedy()
-            .map(|remedy| fill(words::REMEDY.of(language), &[("remedy", &remedy)]));
-        self.add(error.to_string(), remedy, true);
+        let told = trouble::told(error, task, language);
+        self.all
+            .retain(|notice| notice.detail != told.detail || told.detail.is_none());
+        self.add(told.text, told.remedy, true);
+        if let Some(notice) = self.all.last_mut() {
+            notice.detail = told.detail;
+        }
     }
 
     /// Tells that the settings could not be written.
@@ -109,6 +117,7 @@ impl Notices {
             id: self.next,
             text,
             remedy,
+            detail: None,
             stays,
             since: None,
         });
@@ -150,6 +159,12 @@ impl Notices {
                     if let Some(remedy) = &notice.remedy {
                         ui.label(with_code(ui.style(), remedy, true));
                     }
+                    if let Some(detail) = &notice.detail {
+                        ui.separator();
+                        ScrollArea::vertical().max_height(120.0).show(ui, |ui| {
+                            ui.label(RichText::new(detail).small().weak());
+                        });
+                    }
                     if notice.stays && ui.button(words::CLOSE.of(language)).clicked() {
                         out.send(Command::Dismiss(notice.id));
                     }
@@ -184,11 +199,11 @@ mod tests {
     fn trouble_comes_with_what_helps_and_is_told_once() {
         let mut notices = Notices::default();
         let error = || Error::wrong("no").advise("yes");
-        notices.trouble(&error(), Language::French);
-        notices.trouble(&error(), Language::French);
+        notices.trouble(&error(), None, Language::French);
+        notices.trouble(&error(), None, Language::French);
         assert_eq!(notices.all.len(), 1);
-        assert_eq!(notices.all[0].remedy.as_deref(), Some("Ce qui aide : yes"));
-        notices.trouble(&Error::Stopped, Language::English);
+        assert_eq!(notices.all[0].detail.as_deref(), Some("no\n(yes)"));
+        notices.trouble(&Error::Stopped, None, Language::English);
         assert!(!notices.all[1].stays);
         for at in 0..9 {
             notices.hint(at.to_string());

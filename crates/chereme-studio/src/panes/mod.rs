@@ -3,17 +3,22 @@
 //! To add one: a variant of [`PaneKind`] with its title, a field of [`Panes`] with its arms, a place
 //! in [`layout::usual`](crate::layout::usual), and an action that shows it.
 
+pub(crate) mod bare;
+pub(crate) mod carry;
 pub(crate) mod complete;
 pub(crate) mod history;
 pub(crate) mod import;
 pub(crate) mod inspector;
 pub(crate) mod library;
+pub(crate) mod notated;
 pub(crate) mod recombine;
 pub(crate) mod search;
 pub(crate) mod stage;
 pub(crate) mod timeline;
 
-use eframe::egui::{Align2, Response, Role, Sense, StrokeKind, TextStyle, Ui, WidgetInfo, vec2};
+use eframe::egui::{
+    Align2, Id, Response, Role, Sense, StrokeKind, TextStyle, Ui, WidgetInfo, vec2,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
@@ -150,6 +155,13 @@ impl Panes {
     }
 }
 
+/// Returns how far a list of rows of one height is scrolled so that the row `at` is in sight.
+pub(crate) fn scrolled_to(at: usize, height: f32, now: f32, room: f32) -> f32 {
+    let top = at as f32 * height;
+    let least = (top + height - room).max(0.0);
+    now.clamp(least.min(top), top)
+}
+
 /// Shows a row of a list: a name, with something about it below; clicked, or Enter when it has the focus.
 pub(crate) fn list_row(
     ui: &mut Ui,
@@ -169,8 +181,21 @@ pub(crate) fn list_row_after(
     name: &str,
     about: &str,
 ) -> Response {
+    let id = ui.next_auto_id();
+    list_row_at(ui, id, (height, lead), chosen, (name, about))
+}
+
+/// Shows the same under an id of the caller's; it can be dragged.
+pub(crate) fn list_row_at(
+    ui: &mut Ui,
+    id: Id,
+    (height, lead): (f32, f32),
+    chosen: bool,
+    (name, about): (&str, &str),
+) -> Response {
     let size = vec2(ui.available_width(), height);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let (_, rect) = ui.allocate_space(size);
+    let response = ui.interact(rect, id, Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, name));
     if !ui.is_rect_visible(rect) {
         return response;

@@ -75,6 +75,9 @@ texts! {
     SELECTION_CLEAR: "Clear the selection", "Effacer la sélection";
     PLAY: "Play or pause", "Lecture ou pause";
     PLAY_SELECTION: "Play the selection", "Lire la sélection";
+    PLAY_AROUND: "Play around the selection", "Lire autour de la sélection";
+    OTHER_END: "To the other end of the selection", "À l’autre bout de la sélection";
+    TO_CENTRE: "To the centre of the selection", "Au centre de la sélection";
     LOOP: "Loop", "Lire en boucle";
     SHUTTLE_BACK: "Shuttle backwards", "Navette arrière";
     SHUTTLE_STOP: "Stop", "Arrêt";
@@ -116,6 +119,8 @@ texts! {
     NEARER: "Nearer", "Plus près";
     FARTHER: "Farther", "Plus loin";
     STAGE_RESET: "The view as it was", "Vue d’origine";
+    PAGE_BACK: "One page of the timeline back", "Une page de la ligne de temps en arrière";
+    PAGE_FORWARD: "One page of the timeline forward", "Une page de la ligne de temps en avant";
     ZOOM_IN: "Zoom in in time", "Agrandir le temps";
     ZOOM_OUT: "Zoom out in time", "Réduire le temps";
     ZOOM_ALL: "The whole recording", "Tout l’enregistrement";
@@ -125,7 +130,7 @@ texts! {
     LAYOUT_ANNOTATE: "Panes for annotating (the usual layout)", "Panneaux pour annoter (la disposition habituelle)";
     LAYOUT_SEARCH: "Panes for searching", "Panneaux pour rechercher";
     LAYOUT_RECOMBINE: "Panes for recombining", "Panneaux pour recombiner";
-    SHOW_LIBRARY: "Show the recordings", "Afficher les enregistrements";
+    SHOW_LIBRARY: "Show the library", "Afficher le fonds";
     SHOW_STAGE: "Show the stage", "Afficher la scène";
     SHOW_TIMELINE: "Show the timeline", "Afficher la ligne de temps";
     SHOW_SEARCH: "Search", "Rechercher";
@@ -133,6 +138,7 @@ texts! {
     SEARCH_VIEW: "Hits as figures or as a table", "Résultats en figures ou en tableau";
     SHOW_RECOMBINE: "Recombine", "Recombiner";
     STORE_SIGN: "Store what was made: its gloss", "Enregistrer le signe produit : sa glose";
+    USE_IN_RECIPE: "Use in the recipe", "Utiliser dans la recette";
     RECOMBINE_SELECTED: "Recombine what is selected", "Recombiner la sélection";
     CARD_UP: "Card up", "Monter la carte";
     CARD_DOWN: "Card down", "Descendre la carte";

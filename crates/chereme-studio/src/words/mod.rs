@@ -18,6 +18,7 @@ macro_rules! texts {
 
 pub(crate) mod actions;
 pub(crate) mod export;
+pub(crate) mod gestures;
 pub(crate) mod history;
 pub(crate) mod import;
 pub(crate) mod inspector;
@@ -28,6 +29,7 @@ pub(crate) mod search;
 pub(crate) mod shell;
 pub(crate) mod stage;
 pub(crate) mod timeline;
+pub(crate) mod trouble;
 
 /// A language of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -95,7 +97,7 @@ pub(crate) fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 12] = [
+    const TABLES: [&[(&str, Text)]; 14] = [
         actions::ALL,
         export::ALL,
         history::ALL,
@@ -108,6 +110,8 @@ mod tests {
         shell::ALL,
         stage::ALL,
         timeline::ALL,
+        gestures::ALL,
+        trouble::ALL,
     ];
 
     fn blanks(text: &str) -> Vec<&str> {

@@ -52,7 +52,11 @@ texts! {
     UNCLEAR: "is unclear", "est incertain";
     LIKE: "like {example}; how much counts:", "comme {example} ; ce qui compte :";
     ALIKE: "{share} % alike", "{share} % pareil";
+    MORE_LIKE: "Search for signs like this", "Rechercher des signes comme celui-ci";
     SAVED: "Saved", "Enregistrées";
+    OF_THIS_COMPUTER: "Searches that were kept on this computer before: {n}", "Recherches gardées auparavant sur cet ordinateur : {n}";
+    TAKE_OVER: "Take over into this corpus", "Reprendre dans ce corpus";
+    LEAVE_BEHIND: "Forget them", "Les oublier";
     SAVE_NAME: "Name of this search", "Nom de cette recherche";
     SAVE: "Save", "Enregistrer";
     NO_SAVED: "No search is saved yet.", "Aucune recherche enregistrée.";
@@ -73,6 +77,9 @@ texts! {
     EXAMPLE_UNSET: "what is still to be coded", "ce qui reste à coder";
     EXAMPLE_BESIDE: "at the same time as something else", "en même temps qu’autre chose";
     EXAMPLE_MADE: "signs that were made here", "signes composés ici";
+    LOOKED_AT: "looked at: {n}", "examinés : {n}";
+    STOPPED: "Stopped before there was an answer.", "Arrêté avant d’avoir une réponse.";
+    SEARCH_AGAIN: "Search again", "Rechercher de nouveau";
     SEARCHING: "Searching…", "Recherche…";
     STOP: "Stop", "Arrêter";
     FOUND: "Found: {n}", "Trouvés : {n}";

@@ -52,6 +52,7 @@ texts! {
     NOTICE_REDONE: "Done again: {what}", "Rétabli : {what}";
     NOTICE_CHANGED_ELSEWHERE: "Another program changed the corpus; it was read again.", "Un autre programme a modifié le corpus ; il a été relu.";
     NEEDS_SELECTION: "Select a span on a tier first: drag on the timeline.", "Sélectionnez d’abord un intervalle : glissez sur la ligne de temps.";
+    NEEDS_SIGN: "Choose a sign first: a hit, a sign of the library, or its gloss.", "Choisissez d’abord un signe : un résultat, un signe du fonds ou sa glose.";
     NEEDS_ANNOTATION: "Select an annotation first.", "Sélectionnez d’abord une annotation.";
     PALETTE_HINT: "Type what you want to do", "Écrivez ce que vous voulez faire";
     PALETTE_NONE: "No command is called like that.", "Aucune commande ne s’appelle ainsi.";

@@ -3,6 +3,7 @@
 texts! {
     TITLE: "Timeline", "Ligne de temps";
     EMPTY: "This recording has no tiers yet.", "Cet enregistrement n’a pas encore d’acteurs.";
+    NO_RECORDINGS: "This corpus has no recordings, and so no tiers. Its signs are in the library and in the search.", "Ce corpus n’a pas d’enregistrements, donc pas d’acteurs. Ses signes sont dans le fonds et la recherche.";
     NO_RECORDING: "Choose a recording to see its tiers.", "Choisissez un enregistrement pour voir ses acteurs.";
     TIER: "Tier {name}", "Acteur {name}";
     RULER: "Ruler", "Règle";

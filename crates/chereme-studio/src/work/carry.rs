@@ -50,10 +50,17 @@ pub(super) fn carry(
             .change_sign(&name, &change)
             .map(|_| Outcome::Changed)?,
         Work::SetCitation(token) => corpus.set_citation(&token).map(|_| Outcome::Changed)?,
+        Work::KeepSearches(all) => corpus.keep_searches(&all).map(|()| Outcome::Changed)?,
+        Work::RenameSearch(from, to) => corpus
+            .rename_search(&from, &to)
+            .map(|()| Outcome::Changed)?,
+        Work::ForgetSearch(name) => corpus.forget_search(&name).map(|_| Outcome::Changed)?,
         Work::Look(thing) => Outcome::Looked(look(corpus, thing)?),
         Work::Undo => Outcome::Undone(corpus.undo()?),
         Work::Redo => Outcome::Redone(corpus.redo()?),
-        Work::Search(query, options) => Outcome::Found(corpus.search(&query, &options)?),
+        Work::Search(query, options) => {
+            Outcome::Found(corpus.search_until(&query, &options, progress)?)
+        }
         Work::Around(tokens, most) => Outcome::Around(corpus.around(&tokens, most)?),
         Work::Preview(recipe) => Outcome::Previewed(Arc::new(corpus.preview(&recipe)?)),
         Work::Suggest(address) => Outcome::Suggested(corpus.suggest(&address)?),
@@ -67,7 +74,7 @@ pub(super) fn carry(
                 facets: false,
                 ..SearchOptions::default()
             };
-            let found = corpus.search(&query, &all)?;
+            let found = corpus.search_until(&query, &all, progress)?;
             let tokens = found.hits.iter().map(|hit| hit.token).collect();
             let what = ExportWhat::Tokens(tokens);
             Outcome::Exported(corpus.export(&what, &to, &options, progress)?)

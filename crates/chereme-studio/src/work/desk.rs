@@ -33,8 +33,16 @@ pub(crate) enum News {
     Unread(Error),
     /// A piece of work is that far.
     Far(WorkId, Far),
-    /// A piece of work ended; whether the pane that asked for it tells by itself what went wrong.
-    Ended(WorkId, Ended, bool),
+    /// A piece of work ended.
+    Ended(WorkId, Ended, About),
+}
+
+/// What a piece of work was about.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct About {
+    pub(crate) task: Text,
+    /// Whether the pane that asked for it tells by itself what went wrong.
+    pub(crate) quiet: bool,
 }
 
 /// Work that was given out and has not ended.
@@ -190,12 +198,12 @@ impl Station {
         let mut corpus = None;
         while let Ok(order) = orders.recv() {
             let Order { id, work, stop } = *order;
-            let quiet = work.is_quiet();
+            let (task, quiet) = (work.task(), work.is_quiet());
             let ended = self.carry_out(&mut corpus, id, work, &stop);
             if lane == Lane::Edit {
                 let _ = reader.send(Wish::Again);
             }
-            self.say(News::Ended(id, ended, quiet));
+            self.say(News::Ended(id, ended, About { task, quiet }));
         }
     }
 

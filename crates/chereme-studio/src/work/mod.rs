@@ -13,9 +13,9 @@ use std::sync::Arc;
 
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, Curves, Details,
-    Error, ExportOptions, ExportReport, ExportWhat, ImportOptions, ImportReport, MadePart, Moving,
-    Name, NewTier, OperationRow, Recombination, RecordingChange, Scheme, SearchOptions, SignChange,
-    SignerChange, Suggestions, TierChange, TierName, Unit,
+    Error, ExportOptions, ExportReport, ExportWhat, ImportOptions, ImportReport, KeptSearch,
+    MadePart, Moving, Name, NewTier, OperationRow, Recombination, RecordingChange, Scheme,
+    SearchOptions, SignChange, SignerChange, Suggestions, TierChange, TierName, Unit,
 };
 use chereme_motion::Span;
 
@@ -75,6 +75,12 @@ pub(crate) enum Work {
     ChangeSign(Name, Box<SignChange>),
     /// Makes a token the citation form of its sign.
     SetCitation(Address),
+    /// Keeps searches under their names.
+    KeepSearches(Vec<KeptSearch>),
+    /// Gives a kept search another name.
+    RenameSearch(String, String),
+    /// Keeps a search no longer.
+    ForgetSearch(String),
     /// Says all that is known of something.
     Look(Thing),
     /// Finds tokens.
@@ -225,6 +231,9 @@ impl Work {
             | Self::ChangeSigner(..)
             | Self::ChangeSign(..)
             | Self::SetCitation(_)
+            | Self::KeepSearches(_)
+            | Self::RenameSearch(..)
+            | Self::ForgetSearch(_)
             | Self::Undo
             | Self::Redo => Lane::Edit,
             Self::Search(..)

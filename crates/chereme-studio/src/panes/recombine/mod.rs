@@ -21,7 +21,7 @@ use eframe::egui::{
     Button, CollapsingHeader, Frame, Id, Panel, RichText, ScrollArea, TextEdit, Ui,
 };
 
-use super::{Acted, Pane};
+use super::{Acted, Carried, Pane, carry};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
@@ -173,6 +173,29 @@ impl Recombine {
             to: place.to.clone(),
             moved: note.and_then(|it| it.moved),
         })
+    }
+
+    /// Takes a sign in: where the chosen card, or any, waits for one, else as a source of its own.
+    pub(crate) fn take_in(&mut self, carried: &Carried) {
+        let name = format!("token:{}", carried.token);
+        let waiting = |card: &stack::Card| matches!(&card.what, What::Source { node: Node::Sign(name), .. } if name.trim().is_empty());
+        let cards = self.stack.cards();
+        let chosen = cards.iter().find(|it| Some(it.id) == self.chosen);
+        let found = chosen.filter(|it| waiting(it));
+        let found = found.or_else(|| cards.iter().find(|it| waiting(it)));
+        match found.map(|card| card.id) {
+            Some(id) => {
+                if let Some(card) = self.stack.get_mut(id)
+                    && let What::Source { node, .. } = &mut card.what
+                {
+                    *node = Node::Sign(name);
+                }
+                (self.chosen, self.focus) = (Some(id), Some(id));
+                self.follow_cards();
+            }
+            None if self.stack.is_empty() => self.open(&name, None, None),
+            None => self.add(What::source(Node::Sign(name))),
+        }
     }
 
     /// Gives the stage what was made, where it shall show it, and the recording back where not.
@@ -360,6 +383,7 @@ impl Recombine {
 
 impl Pane for Recombine {
     fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let whole = ui.available_rect_before_wrap();
         if !self.stack.is_empty() {
             Panel::bottom("recombine-store")
                 .frame(Frame::new().inner_margin(eframe::egui::Margin::symmetric(0, 6)))
@@ -398,6 +422,9 @@ impl Pane for Recombine {
                 }
             }
         });
+        if let Some(carried) = carry::let_go(ui, seen, whole) {
+            self.take_in(&carried);
+        }
         self.naming = false;
         let generation = seen.snapshot.overview.generation;
         if self.wrong.is_none() {

@@ -1,22 +1,15 @@
-//! Beside the query: what was asked before and what is kept, help by examples, facets, and what is
-//! said where nothing is found.
+//! Beside the query: what was asked before, help by examples, and what is said where nothing is found.
 
 use std::collections::BTreeMap;
 
-use chereme_corpus::{Around, SearchOptions};
+use chereme_corpus::Around;
 use chereme_sign::query::Query;
-use chereme_sign::{Component, Field};
-use eframe::egui::{
-    Button, Key, Label, Popup, PopupCloseBehavior, Rect, RichText, Role, ScrollArea, Sense,
-    TextEdit, Ui, WidgetInfo, vec2,
-};
+use eframe::egui::{Label, Popup, PopupCloseBehavior, RichText, Role, ScrollArea, Ui, WidgetInfo};
 
-use super::builder::{self, with_value};
-use super::rows::component_text;
+use super::builder;
+use super::kept::{Kept, only_counted};
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
-use crate::pickers;
-use crate::settings::Searches;
 use crate::words::{Text, fill, search as words};
 use crate::work::{Ended, Outcome, Work, WorkId};
 
@@ -39,14 +32,7 @@ const EXAMPLES: [(&str, Text); 9] = [
 /// What stands beside the query.
 #[derive(Debug, Default)]
 pub(super) struct Aside {
-    /// The name under which the query is to be kept, and the search that gets another name.
-    name: String,
-    /// The list was just opened: what is typed is a name.
-    opened_list: bool,
-    renaming: Option<(String, String)>,
-    /// How many each kept search finds, where it was counted.
-    counts: BTreeMap<String, Option<usize>>,
-    counting: BTreeMap<WorkId, String>,
+    kept: Kept,
     /// Where nothing is found: what each condition left out would give.
     without: Option<Without>,
     leaving: BTreeMap<WorkId, usize>,
@@ -80,7 +66,7 @@ pub(super) fn parts(query: &str) -> Vec<(String, String)> {
 
 impl Aside {
     pub(super) fn forget_counts(&mut self) {
-        self.counts.clear();
+        self.kept.forget_counts();
         self.without = None;
     }
 
@@ -88,14 +74,18 @@ impl Aside {
         self.without = None;
     }
 
+    /// Stops what is counted for a query that is no longer the one.
+    pub(super) fn stop(&mut self, out: &mut Outbox) {
+        let left = std::mem::take(&mut self.leaving).into_keys();
+        left.for_each(|id| out.send(Command::Stop(id)));
+    }
+
     pub(super) fn hear(&mut self, id: WorkId, ended: &Ended) {
         let total = match ended {
             Ok(Outcome::Found(answer)) => Some(answer.total),
             _ => None,
         };
-        if let Some(query) = self.counting.remove(&id) {
-            self.counts.insert(query, total);
-        }
+        self.kept.hear(id, ended);
         if let Some(at) = self.leaving.remove(&id)
             && let Some(without) = &mut self.without
             && let Some(part) = without.parts.get_mut(at)
@@ -126,16 +116,7 @@ impl Aside {
         out: &mut Outbox,
         query: &str,
     ) -> Option<String> {
-        let mut chosen = None;
-        let saved = ui.button(seen.say(words::SAVED));
-        self.opened_list |= saved.clicked();
-        Popup::from_toggle_button_response(&saved)
-            .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
-            .accessible_name(seen.say(words::SAVED))
-            .show(|ui| {
-                ui.set_min_width(300.0);
-                chosen = self.saved(ui, seen, out, query);
-            });
+        let mut chosen = self.kept.menu(ui, seen, out, query);
         let recent = ui.button(seen.say(words::RECENT));
         Popup::menu(&recent).show(|ui| {
             ui.set_min_width(260.0);
@@ -166,119 +147,6 @@ impl Aside {
                 chosen = chosen.take().or(by_example);
             });
         chosen
-    }
-
-    /// Draws the kept searches; returns the one that was chosen.
-    fn saved(
-        &mut self,
-        ui: &mut Ui,
-        seen: &Seen<'_>,
-        out: &mut Outbox,
-        query: &str,
-    ) -> Option<String> {
-        let mut chosen = None;
-        let mut next: Option<Searches> = None;
-        ui.horizontal(|ui| {
-            let hint = seen.say(words::SAVE_NAME);
-            let before = self.name.clone();
-            let field = TextEdit::singleline(&mut self.name)
-                .hint_text(hint)
-                .desired_width(170.0);
-            let response = ui.add(field);
-            let text = self.name.clone();
-            response.widget_info(|| WidgetInfo {
-                label: Some(hint.to_owned()),
-                ..WidgetInfo::text_edit(true, &before, &text, hint)
-            });
-            if std::mem::take(&mut self.opened_list) {
-                response.request_focus();
-            }
-            let named = !self.name.trim().is_empty() && Query::parse(query).is_ok();
-            let save = Button::new(seen.say(words::SAVE));
-            let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-            let pressed = ui.add_enabled(named, save).clicked();
-            if named && (pressed || entered) {
-                let mut searches = seen.settings.searches.clone();
-                searches.save(self.name.trim(), query);
-                self.name.clear();
-                next = Some(searches);
-            }
-        });
-        if seen.settings.searches.saved.is_empty() {
-            ui.weak(seen.say(words::NO_SAVED));
-        }
-        ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
-            for saved in &seen.settings.searches.saved {
-                self.count(&saved.query, out);
-                let known = self.counts.get(&saved.query).copied().flatten();
-                ui.push_id(&saved.name, |ui| {
-                    ui.horizontal(|ui| {
-                        let mut change = |searches| next = Some(searches);
-                        if self.rename(ui, seen, &saved.name, &mut change) {
-                            return;
-                        }
-                        let number = known.map_or(String::new(), |it| it.to_string());
-                        let button = Button::new(&saved.name).shortcut_text(number);
-                        if ui.add(button).on_hover_text(&saved.query).clicked() {
-                            chosen = Some(saved.query.clone());
-                        }
-                        let name = fill(seen.say(words::RENAME), &[("name", &saved.name)]);
-                        if named(ui, seen.say(words::RENAME_SHORT), &name) {
-                            self.renaming = Some((saved.name.clone(), saved.name.clone()));
-                        }
-                        let name = fill(seen.say(words::DELETE), &[("name", &saved.name)]);
-                        if named(ui, "×", &name) {
-                            let mut searches = seen.settings.searches.clone();
-                            searches.delete(&saved.name);
-                            change(searches);
-                        }
-                    });
-                });
-            }
-        });
-        if let Some(searches) = next {
-            out.send(Command::Searches(searches));
-        }
-        chosen
-    }
-
-    /// Draws the field in which a kept search gets another name, where it is this one.
-    fn rename(
-        &mut self,
-        ui: &mut Ui,
-        seen: &Seen<'_>,
-        name: &str,
-        change: &mut impl FnMut(Searches),
-    ) -> bool {
-        let Some((of, text)) = self.renaming.as_mut().filter(|(of, _)| of == name) else {
-            return false;
-        };
-        let hint = fill(seen.say(words::RENAME), &[("name", of)]);
-        let before = text.clone();
-        let response = ui.add(TextEdit::singleline(text).desired_width(200.0));
-        let shown = text.clone();
-        response.widget_info(|| WidgetInfo {
-            label: Some(hint.clone()),
-            ..WidgetInfo::text_edit(true, &before, &shown, &hint)
-        });
-        if response.lost_focus() {
-            let mut searches = seen.settings.searches.clone();
-            searches.rename(name, text.trim());
-            change(searches);
-            self.renaming = None;
-        } else if !response.has_focus() {
-            response.request_focus();
-        }
-        true
-    }
-
-    fn count(&mut self, query: &str, out: &mut Outbox) {
-        if self.counts.contains_key(query) {
-            return;
-        }
-        self.counts.insert(query.to_owned(), None);
-        let id = out.work(Work::Search(query.to_owned(), only_counted()));
-        self.counting.insert(id, query.to_owned());
     }
 
     /// Says that nothing was found, and which condition leaves everything out; returns the query that
@@ -329,21 +197,6 @@ impl Aside {
     }
 }
 
-fn only_counted() -> SearchOptions {
-    SearchOptions {
-        limit: Some(0),
-        facets: false,
-        ..SearchOptions::default()
-    }
-}
-
-/// Draws a small button with a sign, called `name`; returns whether it was pressed.
-fn named(ui: &mut Ui, sign: &str, name: &str) -> bool {
-    let response = ui.small_button(sign).on_hover_text(name);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
-    response.clicked()
-}
-
 /// Draws queries to begin with; returns the one that was chosen.
 pub(super) fn examples(ui: &mut Ui, seen: &Seen<'_>) -> Option<String> {
     let mut chosen = None;
@@ -357,113 +210,6 @@ pub(super) fn examples(ui: &mut Ui, seen: &Seen<'_>) -> Option<String> {
         });
     }
     chosen
-}
-
-/// Draws how often each value occurs; returns the query that wants the one that was chosen too.
-pub(super) fn facets(
-    ui: &mut Ui,
-    seen: &Seen<'_>,
-    facets: &BTreeMap<String, Vec<(String, usize)>>,
-    query: &str,
-    height: f32,
-) -> Option<String> {
-    let mut chosen = None;
-    ScrollArea::vertical()
-        .id_salt("facets")
-        .max_height(height)
-        .auto_shrink([false, true])
-        .show(ui, |ui| {
-            for field in order(facets.keys()) {
-                let values = &facets[field];
-                let name = facet_name(field, seen);
-                ui.label(RichText::new(name).small().weak());
-                let most = values.iter().map(|(_, count)| *count).max().unwrap_or(1);
-                for (value, count) in values {
-                    if facet(ui, seen, field, value, *count as f32 / most as f32, *count) {
-                        chosen = Some(with_value(query, field, value));
-                    }
-                }
-                ui.add_space(4.0);
-            }
-        });
-    chosen
-}
-
-/// Returns the fields of facets in the order of the components, the others after them.
-pub(super) fn order<'a>(fields: impl Iterator<Item = &'a String>) -> Vec<&'a String> {
-    let mut all: Vec<&String> = fields.collect();
-    let place = |field: &&String| {
-        let component = field.parse::<Field>().ok().map(|it| it.component);
-        Component::ALL
-            .iter()
-            .position(|it| Some(*it) == component)
-            .unwrap_or(Component::ALL.len())
-    };
-    all.sort_by_key(place);
-    all
-}
-
-fn facet_name(field: &str, seen: &Seen<'_>) -> String {
-    let Ok(known) = field.parse::<Field>() else {
-        return field.to_owned();
-    };
-    let mut name = seen.say(component_text(known.component)).to_owned();
-    for part in known.feature.iter() {
-        name.push_str(&format!(" · {part}"));
-    }
-    let hand = known.hand.map(|hand| hand.to_string());
-    let phase = known.phase.map(|phase| phase.to_string());
-    for part in hand.into_iter().chain(phase) {
-        name.push_str(&format!(" ({part})"));
-    }
-    name
-}
-
-/// Draws one value with its picture, its count, and a bar that is as long as it is frequent.
-fn facet(ui: &mut Ui, seen: &Seen<'_>, field: &str, value: &str, share: f32, count: usize) -> bool {
-    let parsed = field.parse::<Field>().ok();
-    let inventory = parsed.as_ref().and_then(|field| {
-        let all = seen.snapshot.overview.inventories.iter();
-        all.map(|it| &it.inventory)
-            .find(|it| it.component == field.component && it.feature == field.feature)
-    });
-    let size = vec2(ui.available_width() - 4.0, 26.0);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let name = format!("{field}={value} ({count})");
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
-    if ui.is_rect_visible(rect) {
-        let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-        let colours = seen.colours();
-        let bar = Rect::from_min_size(rect.min, vec2(rect.width() * share, rect.height()));
-        painter.rect_filled(bar.shrink(1.0), 3.0, colours.selection.gamma_multiply(0.5));
-        let picture = Rect::from_min_size(rect.min, vec2(26.0, 26.0));
-        let mut left = rect.left() + 6.0;
-        if let Some(inventory) = inventory
-            && pickers::picture(ui, picture.shrink(1.0), seen, inventory, value)
-        {
-            left = picture.right() + 5.0;
-        }
-        let visuals = ui.style().interact(&response);
-        let font = eframe::egui::TextStyle::Body.resolve(ui.style());
-        let text = visuals.text_color();
-        let at = eframe::egui::pos2(left, rect.center().y);
-        painter.text(
-            at,
-            eframe::egui::Align2::LEFT_CENTER,
-            value,
-            font.clone(),
-            text,
-        );
-        let at = rect.right_center() - vec2(6.0, 0.0);
-        let weak = ui.visuals().weak_text_color();
-        painter.text(at, eframe::egui::Align2::RIGHT_CENTER, count, font, weak);
-        if response.has_focus() || response.hovered() {
-            let stroke = eframe::egui::Stroke::new(1.0, colours.accent);
-            painter.rect_stroke(rect, 3.0, stroke, eframe::egui::StrokeKind::Inside);
-        }
-    }
-    let tip = fill(seen.say(words::FACET_TIP), &[("value", &value)]);
-    response.on_hover_text(tip).clicked()
 }
 
 #[cfg(test)]
@@ -483,19 +229,6 @@ mod tests {
         );
         assert!(parts("").is_empty());
         assert!(parts("a=(").is_empty());
-    }
-
-    #[test]
-    fn facets_stand_in_the_order_of_the_components() {
-        let fields = ["signer", "right.placement", "origin", "configuration"].map(str::to_owned);
-        let order: Vec<&str> = order(fields.iter())
-            .into_iter()
-            .map(String::as_str)
-            .collect();
-        assert_eq!(
-            order,
-            ["configuration", "right.placement", "signer", "origin"]
-        );
     }
 
     #[test]

@@ -5,14 +5,17 @@
 //! | `builder`, `rows` | the query as conditions: the data, and the rows |
 //! | `suggest`, `field` | the query as text: what could be written next, and the field |
 //! | `hits`, `results` | what was found: pages and order, and the grid and the table |
-//! | `notated` | signs that are only notated, made to be looked at |
-//! | `aside` | facets, saved and recent queries, help, and what is said where nothing is found |
+//! | `page` | the pane from top to bottom |
+//! | `facets` | how often each value occurs |
+//! | `aside`, `kept` | recent queries, help, and what is said where nothing is found; kept queries |
 
 mod aside;
 pub(crate) mod builder;
+mod facets;
 mod field;
 mod hits;
-mod notated;
+mod kept;
+mod page;
 mod results;
 mod rows;
 mod suggest;
@@ -21,11 +24,12 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use chereme_corpus::{Error, SearchOptions};
-use chereme_sign::query::Query;
-use eframe::egui::{RichText, Ui, vec2};
+use eframe::egui::Ui;
 
+use super::bare::{self, Bare};
 use super::inspector::Thing;
-use super::{Acted, Pane};
+use super::notated::Notated;
+use super::{Acted, Carried, Pane};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
@@ -34,7 +38,6 @@ use crate::work::{Ended, Outcome, Work, WorkId};
 pub(crate) use builder::with_value;
 use field::Field;
 use hits::{Found, NEIGHBOURS, PAGE, Sort};
-use notated::Notated;
 use rows::Rows;
 
 /// How long nothing is typed before what was typed is searched for, in seconds.
@@ -74,6 +77,8 @@ pub(crate) struct Search {
     query: String,
     /// What the corpus says is wrong with it.
     wrong: Option<Wrong>,
+    /// It was stopped before there was an answer.
+    stopped: bool,
     aside: aside::Aside,
     /// The moment of the corpus that was searched.
     generation: i64,
@@ -113,6 +118,7 @@ impl Default for Search {
             found: None,
             query: String::new(),
             wrong: None,
+            stopped: false,
             aside: aside::Aside::default(),
             generation: 0,
             at: 0,
@@ -133,13 +139,13 @@ impl Search {
 
     /// Searches for what is written.
     fn ask(&mut self, out: &mut Outbox) {
-        if let Some(old) = self.asked.take() {
-            out.send(Command::Stop(old));
-        }
+        let old = self.asked.take().into_iter();
+        let old = old.chain(std::mem::take(&mut self.pages).into_keys());
+        old.for_each(|id| out.send(Command::Stop(id)));
+        self.aside.stop(out);
         self.changed = None;
-        self.wrong = None;
+        (self.wrong, self.stopped) = (None, false);
         self.query = self.field.text.clone();
-        self.pages.clear();
         self.asked = Some(out.work(Work::Search(self.query.clone(), self.options(0))));
     }
 
@@ -219,9 +225,36 @@ impl Search {
                 }
             }
             None => {
-                self.notated.open(hit.token, out);
                 out.send(Command::Inspect(Thing::Token(hit.token)));
+                out.send(Command::Made(None));
+                if seen.snapshot.is_notated(&hit.gloss) {
+                    self.notated.open(hit.token, &hit.gloss, out);
+                }
             }
+        }
+    }
+
+    /// Returns the hit that the keys are at, to be taken elsewhere.
+    pub(crate) fn carried(&self) -> Option<Carried> {
+        self.found.as_ref()?.hit(self.at).map(results::carried)
+    }
+
+    /// Tells of the opened hit what can be done where nothing moves.
+    fn hint(&self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let found = self.found.as_ref().zip(self.opened);
+        let Some(hit) = found.and_then(|(found, at)| found.hit(at)) else {
+            return;
+        };
+        if hits::place(hit).is_some() {
+            return;
+        }
+        let bare = if seen.snapshot.is_notated(&hit.gloss) {
+            self.notated.bare(hit.token)
+        } else {
+            Some(Bare::Coded)
+        };
+        if let Some(bare) = bare {
+            bare::show(ui, seen, out, (hit.token, &hit.gloss), &bare);
         }
     }
 
@@ -260,131 +293,6 @@ impl Search {
         true
     }
 
-    /// Draws the query: its text, its rows, and what there is to do with it.
-    fn question(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
-        let now = ui.input(|input| input.time);
-        let wrong = self.wrong.as_ref().and_then(|wrong| wrong.from);
-        let wrong = wrong.filter(|_| self.query == self.field.text);
-        if std::mem::take(&mut self.come) {
-            self.field.take_focus();
-        }
-        let typed = self.field.ui(ui, seen, wrong);
-        if typed.changed {
-            self.changed = Some(now);
-            self.rows = Rows::default();
-        }
-        if typed.entered {
-            self.aside.remember(&self.field.text, seen, out);
-            self.ask(out);
-        }
-        if typed.down && self.found.as_ref().is_some_and(|found| found.total > 0) {
-            self.reach(self.at);
-        }
-        if let Some(wrong) = self
-            .wrong
-            .as_ref()
-            .filter(|_| self.query == self.field.text)
-        {
-            let trouble = seen.colours().trouble;
-            ui.label(RichText::new(&wrong.error).small().color(trouble));
-            if let Some(remedy) = &wrong.remedy {
-                ui.label(RichText::new(remedy).small());
-            }
-        }
-        self.tools(ui, seen, out);
-        if self.built && rows::show(ui, &mut self.rows, seen, &mut self.field.text) {
-            self.ask(out);
-        }
-        let settled = self.changed.is_some_and(|when| now - when >= PAUSE);
-        if settled && !typed.unfinished && Query::parse(&self.field.text).is_ok() {
-            self.ask(out);
-        } else if self.changed.is_some() {
-            ui.ctx().request_repaint_after_secs(PAUSE as f32);
-        }
-    }
-
-    fn tools(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
-        ui.horizontal_wrapped(|ui| {
-            let rows = ui.selectable_label(self.built, seen.say(words::ROWS));
-            if rows.clicked() {
-                self.built = !self.built;
-            }
-            let turned = self.aside.menus(ui, seen, out, &self.field.text);
-            if let Some(query) = turned {
-                self.turn_to(query, out);
-            }
-        });
-    }
-
-    /// Draws how many were found, and how they are shown.
-    fn status(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
-        ui.horizontal_wrapped(|ui| {
-            if let Some(running) = self.asked.filter(|id| seen.is_running(Some(*id))) {
-                ui.spinner();
-                ui.label(seen.say(words::SEARCHING));
-                if ui.button(seen.say(words::STOP)).clicked() {
-                    out.send(Command::Stop(running));
-                }
-            } else if let Some(found) = &self.found {
-                ui.strong(fill(seen.say(words::FOUND), &[("n", &found.total)]));
-            }
-            for (view, name) in [(View::Grid, words::GRID), (View::Table, words::TABLE)] {
-                if ui
-                    .selectable_label(self.view == view, seen.say(name))
-                    .on_hover_text(seen.keys.text(Action::SearchView))
-                    .clicked()
-                {
-                    self.view = view;
-                }
-            }
-            if self.view == View::Grid {
-                ui.checkbox(&mut self.playing, seen.say(words::LOOPING));
-                ui.checkbox(&mut self.close, seen.say(words::CLOSE_UP));
-            }
-            ui.checkbox(&mut self.counted, seen.say(words::FACETS));
-        });
-    }
-
-    fn answer(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
-        let Some(found) = &self.found else { return };
-        for note in &found.notes {
-            ui.label(RichText::new(note).small().weak());
-        }
-        if found.total == 0 {
-            if let Some(query) = self.aside.nothing(ui, seen, out, &self.query) {
-                self.turn_to(query, out);
-            }
-            return;
-        }
-        if !self.counted {
-            return results::show(self, ui, seen, out);
-        }
-        let wide = ui.available_width() > 520.0;
-        let facets = found.facets.clone();
-        let query = self.field.text.clone();
-        let mut wanted = None;
-        if wide {
-            let room = ui.available_size();
-            ui.horizontal_top(|ui| {
-                let side = (room.x * 0.28).clamp(150.0, 220.0);
-                ui.allocate_ui(vec2(room.x - side - 10.0, room.y), |ui| {
-                    ui.set_width(room.x - side - 10.0);
-                    ui.vertical(|ui| results::show(self, ui, seen, out));
-                });
-                ui.vertical(|ui| wanted = aside::facets(ui, seen, &facets, &query, room.y));
-            });
-        } else {
-            let high = (ui.available_height() * 0.35).min(150.0);
-            ui.allocate_ui(vec2(ui.available_width(), high), |ui| {
-                wanted = aside::facets(ui, seen, &facets, &query, high);
-            });
-            results::show(self, ui, seen, out);
-        }
-        if let Some(query) = wanted {
-            self.turn_to(query, out);
-        }
-    }
-
     /// Searches again where the corpus is another.
     fn follow(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
         let now = seen.snapshot.overview.generation;
@@ -393,7 +301,7 @@ impl Search {
         }
         self.generation = now;
         self.aside.forget_counts();
-        self.notated = Notated::default();
+        self.notated.follow(now);
         if self.found.is_some() && self.changed.is_none() {
             self.ask(out);
         }
@@ -432,6 +340,7 @@ impl Pane for Search {
             return;
         }
         self.status(ui, seen, out);
+        self.hint(ui, seen, out);
         self.answer(ui, seen, out);
     }
 
@@ -511,6 +420,7 @@ impl Search {
                     remedy: remedy.clone(),
                 });
             }
+            Err(Error::Stopped) => self.stopped = true,
             Err(error) => {
                 self.wrong = Some(Wrong {
                     from: None,

@@ -11,6 +11,7 @@ use super::hits::{self, Sort, coding};
 use super::{Search, View};
 use crate::context::{Outbox, Seen};
 use crate::little::{self, Cell, Focus, Motion};
+use crate::panes::{Carried, carry, scrolled_to};
 use crate::pickers;
 use crate::words::{Text, fill, search as words};
 
@@ -90,11 +91,17 @@ fn figure(
     let picture = Rect::from_min_size(rect.min, vec2(size.x, size.y - FOOT));
     let motion = motion(&hit, seen);
     let made = match &motion {
-        None if ui.is_rect_visible(rect) => search.notated.get(hit.token, out).map(Motion::Made),
+        None if ui.is_rect_visible(rect) && seen.snapshot.is_notated(&hit.gloss) => {
+            let made = search.notated.get(hit.token, &hit.gloss, out);
+            made.map(Motion::Made)
+        }
         _ => None,
     };
     let notated = motion.is_none();
-    match motion.or(made) {
+    let motion = motion.or(made);
+    carry::drag(&response, carried(&hit), motion.clone());
+    menu(&response, seen, &hit, out);
+    match motion {
         Some(motion) => {
             let playing = search.playing || response.hovered() || response.has_focus();
             let focus = focus(search.close, &search.field.text);
@@ -135,6 +142,18 @@ fn figure(
     if response.clicked() {
         search.open(at, seen, out);
     }
+}
+
+/// Returns a hit to be taken elsewhere.
+pub(super) fn carried(hit: &Hit) -> Carried {
+    Carried {
+        token: hit.token,
+        gloss: hit.gloss.clone(),
+    }
+}
+
+fn menu(response: &Response, seen: &Seen<'_>, hit: &Hit, out: &mut Outbox) {
+    response.context_menu(|ui| carry::menu(ui, seen, (hit.token, &hit.gloss), out));
 }
 
 fn text_colour(seen: &Seen<'_>) -> eframe::egui::Color32 {
@@ -295,6 +314,8 @@ fn line(
         Some(score) => format!("{} · {} %", hit.gloss, percent(score)),
         None => hit.gloss.clone(),
     };
+    carry::drag(&response, carried(&hit), motion(&hit, seen));
+    menu(&response, seen, &hit, out);
     if hit.recording.is_none() {
         let pictures = Rect::from_min_max(
             pos2(rect.left() + rect.width() * 0.44, rect.top()),
@@ -364,7 +385,7 @@ fn cell(
     hit: &Hit,
 ) -> Response {
     let id = Id::unique("hits").with(at);
-    let response = ui.interact(rect, id, Sense::click());
+    let response = ui.interact(rect, id, Sense::click_and_drag());
     let place = hits::place_text(hit, seen.say(words::LEXICON));
     let name = format!("{}, {place}", hit.gloss);
     let chosen = search.at == at;
@@ -439,17 +460,8 @@ fn scroll(search: &mut Search, ui: &Ui, name: &str, columns: usize, height: f32)
     let Some(at) = search.reach else {
         return area;
     };
-    let top = (at / columns) as f32 * height;
-    let room = ui.available_height();
-    let now = search.scrolled;
-    let offset = if top < now {
-        top
-    } else if top + height > now + room {
-        top + height - room
-    } else {
-        now
-    };
-    area.vertical_scroll_offset(offset.max(0.0))
+    let offset = scrolled_to(at / columns, height, search.scrolled, ui.available_height());
+    area.vertical_scroll_offset(offset)
 }
 
 /// Returns what of the signer figures show: the hand that the query is about, or all.

@@ -1,5 +1,6 @@
 //! What could be written next in a query: words of the language, values, names and glosses.
 
+use chereme_corpus::KeptSearch;
 use chereme_sign::query::{Completion, Expected, Missing, Property, TextField, complete};
 use chereme_sign::text::fold;
 use chereme_sign::{Component, Field};
@@ -44,6 +45,9 @@ pub(crate) fn offers(
     snapshot: &Snapshot,
     language: Language,
 ) -> Offers {
+    if let Some(name) = kept_name(query) {
+        return kept(query, name, snapshot);
+    }
     let completion = complete(query, cursor);
     let mut all: Vec<Offer> = completion
         .words
@@ -66,6 +70,34 @@ pub(crate) fn offers(
     Offers {
         replace: completion.replace,
         all,
+    }
+}
+
+/// Returns the name of a kept search, where a query is nothing but one: `@NAME`.
+fn kept_name(query: &str) -> Option<&str> {
+    query.trim().strip_prefix('@')
+}
+
+/// Returns the query that a kept search stands for, where a query is the name of one.
+pub(crate) fn kept_query<'a>(query: &str, snapshot: &'a Snapshot) -> Option<&'a str> {
+    let name = fold(kept_name(query)?.trim());
+    let mut all = snapshot.overview.searches.iter();
+    let found = all.find(|it| fold(&it.name) == name);
+    found.map(|it| it.query.as_str())
+}
+
+/// Returns the kept searches whose name holds what is written of it; each is offered as its query.
+fn kept(query: &str, name: &str, snapshot: &Snapshot) -> Offers {
+    let wanted = fold(name.trim());
+    let searches = snapshot.overview.searches.iter();
+    let fitting = searches.filter(|it| fold(&it.name).contains(&wanted));
+    let offer = |it: &KeptSearch| Offer {
+        text: it.query.clone(),
+        about: format!("@{}", it.name),
+    };
+    Offers {
+        replace: 0..query.chars().count(),
+        all: fitting.take(MOST).map(offer).collect(),
     }
 }
 
@@ -223,6 +255,10 @@ mod tests {
         let overview = Overview {
             inventories,
             signs: vec![sign("ESCARGOT"), sign("BON APPETIT")],
+            searches: vec![KeptSearch {
+                name: "À la tête".into(),
+                query: "placement=head".into(),
+            }],
             ..Overview::default()
         };
         Snapshot {
@@ -236,6 +272,15 @@ mod tests {
         let offers = offers(query, query.chars().count(), &snapshot, Language::English);
         let offer = offers.all.first()?;
         Some(offers.take(query, offer).0)
+    }
+
+    #[test]
+    fn kept_searches_are_offered_by_their_name_as_what_they_ask() {
+        assert_eq!(first("@TETE").as_deref(), Some("placement=head"));
+        let snapshot = snapshot();
+        assert_eq!(kept_query("@a la tete", &snapshot), Some("placement=head"));
+        assert_eq!(kept_query("@tete", &snapshot), None);
+        assert_eq!(kept_query("tete", &snapshot), None);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What the timeline shows, without a window: which time is where, ticks, rows, and bars.
 
-use chereme_corpus::{AnnotationColumns, ValueState};
+use chereme_corpus::{AnnotationColumns, TierContents, ValueState};
 use chereme_motion::{Instant, Span};
 
 /// How much wider than a recording the widest window is.
@@ -68,6 +68,49 @@ impl Window {
             ..self
         }
     }
+}
+
+/// Returns what of a recording is to be seen first, with `at` in it: all of it where that can be read
+/// (nothing is returned then), else so much that annotations of usual length can.
+pub(crate) fn first_window(
+    tiers: &[TierContents],
+    whole: Span,
+    at: f64,
+    width: f32,
+) -> Option<Window> {
+    /// How wide an annotation of usual length is at least where all is to be seen, and how wide it is
+    /// made where not.
+    const LEAST: f64 = 14.0;
+    const WIDE: f64 = 56.0;
+    /// What is to be seen where nothing is annotated, and the least ever.
+    const MINUTE: f64 = 60e6;
+    const FEW_SECONDS: f64 = 4e6;
+    let all = Window::whole(whole, width);
+    let mut lengths: Vec<i64> = Vec::new();
+    for tier in tiers {
+        let columns = &tier.annotations;
+        lengths.extend(
+            columns
+                .ends
+                .iter()
+                .zip(&columns.starts)
+                .map(|(end, start)| end - start),
+        );
+    }
+    let middle = lengths.len() / 2;
+    let usual = (!lengths.is_empty()).then(|| *lengths.select_nth_unstable(middle).1 as f64);
+    let points = f64::from(width.max(1.0));
+    let scale = match usual {
+        Some(usual) if usual / all.scale >= LEAST => return None,
+        Some(usual) => (usual.max(1000.0) / WIDE).max(FEW_SECONDS / points),
+        None if whole.micros() as f64 <= MINUTE => return None,
+        None => MINUTE / points,
+    };
+    if scale >= all.scale {
+        return None;
+    }
+    let start = at - points * scale * 0.1;
+    Some(Window { start, scale }.within(whole, width))
 }
 
 /// A mark of the ruler.
@@ -257,6 +300,31 @@ mod tests {
         ] {
             assert_eq!(at(&all, micros), want, "{micros}");
         }
+    }
+
+    #[test]
+    fn a_long_take_begins_with_what_can_be_read_around_the_playhead() {
+        let tiers = |length: i64, count: i64| -> Vec<TierContents> {
+            let spans: Vec<(i64, i64)> =
+                (0..count).map(|n| (n * length, (n + 1) * length)).collect();
+            let annotations = columns(&spans);
+            vec![TierContents {
+                row: chereme_corpus::TierRow::default(),
+                annotations,
+            }]
+        };
+        let hour = span(0, 3_600_000_000);
+        let first = |tiers: &[TierContents], whole, at| first_window(tiers, whole, at, 1000.0);
+        assert_eq!(first(&tiers(500_000, 6), span(0, 3_000_000), 0.0), None);
+        assert_eq!(first(&[], span(0, 50_000_000), 0.0), None);
+        let found = first(&tiers(500_000, 7200), hour, 1.8e9).expect("a part");
+        let usual = found.x(500_000.0) - found.x(0.0);
+        assert!((40.0..80.0).contains(&usual), "{usual}");
+        assert!((found.x(1.8e9) - 100.0).abs() < 1.0);
+        let bare = first(&[], hour, 0.0).expect("a part");
+        assert!((bare.micros(1000.0) - 60e6).abs() < 1.0);
+        let frames = first(&tiers(8_000, 400_000), hour, 0.0).expect("a part");
+        assert!(frames.micros(1000.0) >= 3.9e6);
     }
 
     #[test]

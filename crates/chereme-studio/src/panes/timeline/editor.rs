@@ -4,14 +4,14 @@ use std::collections::BTreeSet;
 
 use chereme_corpus::{StoredInventory, TierContents};
 use eframe::egui::{
-    Align, Align2, Area, Button, Id, Key, Layout, Modifiers, Order, Rect, Response, Role,
-    ScrollArea, TextEdit, Ui, WidgetInfo, text::CCursor, text::CCursorRange, vec2,
+    Align2, Area, Id, Key, Modifiers, Order, Rect, Response, Role, TextEdit, Ui, WidgetInfo,
+    text::CCursor, text::CCursorRange, vec2,
 };
 use serde::{Deserialize, Serialize};
 
 use super::edit::{self, Scene};
 use super::values::Choices;
-use super::{Timeline, changes, select};
+use super::{Timeline, changes, select, value_list};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::Outbox;
@@ -19,7 +19,6 @@ use crate::pickers::{self, Picker};
 use crate::words::{Text, fill, timeline as words};
 
 const WIDTH: f32 = 260.0;
-const LIST: f32 = 196.0;
 /// The height that the field with its list wants.
 const ROOM: f32 = 260.0;
 
@@ -49,10 +48,10 @@ pub(crate) struct Editing {
     pub(crate) text: String,
     /// What the text was at first.
     #[serde(default)]
-    before: String,
+    pub(super) before: String,
     /// The choice that arrow keys went to.
     #[serde(skip)]
-    marked: Option<usize>,
+    pub(super) marked: Option<usize>,
     /// Whether the field has had the focus yet.
     #[serde(skip)]
     begun: bool,
@@ -232,6 +231,8 @@ fn field(
     let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
     let (up, down) = (pressed(Key::ArrowUp), pressed(Key::ArrowDown));
     let (enter, tab, escape) = (pressed(Key::Enter), pressed(Key::Tab), pressed(Key::Escape));
+    // In ELAN it is Ctrl and Enter that keep a value.
+    let enter = enter | ui.input_mut(|input| input.consume_key(Modifiers::COMMAND, Key::Enter));
     // A text as it was opened filters nothing: the whole list is there to choose from.
     let filter = if editing.text == editing.before && !editing.again {
         ""
@@ -239,7 +240,7 @@ fn field(
         &editing.text
     };
     let fitting = choices.fitting(filter);
-    step(editing, &fitting, up, down);
+    value_list::step(editing, &fitting, up, down);
     let mut said = Said::Nothing;
     let mut turn = false;
     let opened = editing.begun;
@@ -257,17 +258,17 @@ fn field(
                 .text
                 .strip_prefix(before.as_str())
                 .unwrap_or_default();
-            if let Some(value) = picked(&before, typed, choices, digits) {
+            if let Some(value) = value_list::picked(&before, typed, choices, digits) {
                 said = Said::Keep(value.to_owned(), false);
             }
             if editing.text != before {
                 editing.marked = None;
             }
-            if let Some(value) = list(
+            if let Some(value) = value_list::show(
                 ui,
                 scene,
                 (editing, &fitting),
-                (choices, digits),
+                (stored, choices, digits),
                 up || down,
             ) {
                 said = Said::Keep(value, false);
@@ -367,35 +368,6 @@ fn switch(ui: &mut Ui, scene: &Scene<'_>, text: Text) -> bool {
     button.on_hover_text(keys).clicked()
 }
 
-/// Returns the value of a digit that was typed into the empty field, where digits pick there.
-fn picked<'a>(
-    before: &str,
-    typed: &str,
-    choices: &Choices,
-    digits: &'a [String],
-) -> Option<&'a String> {
-    let mut letters = typed.chars();
-    let digit = letters
-        .next()
-        .filter(|_| before.is_empty() && letters.next().is_none())?;
-    let number = digit.to_digit(10).filter(|number| *number > 0)? as usize;
-    digits
-        .get(number - 1)
-        .filter(|_| !choices.types_digit(digit))
-}
-
-/// Moves the mark among those that fit.
-fn step(editing: &mut Editing, fitting: &[usize], up: bool, down: bool) {
-    let here = fitting.iter().position(|at| Some(*at) == editing.marked);
-    let next = match (up, down, here) {
-        (true, _, here) => here.and_then(|here| here.checked_sub(1)),
-        (_, true, None) => Some(0),
-        (_, true, Some(here)) => Some((here + 1).min(fitting.len().saturating_sub(1))),
-        _ => here,
-    };
-    editing.marked = next.and_then(|next| fitting.get(next).copied());
-}
-
 fn text_field(ui: &mut Ui, editing: &mut Editing, label: &str) -> Response {
     let id = Id::unique("timeline value field");
     // The focus comes before the field is shown, so that what is typed in this frame is its own.
@@ -422,65 +394,6 @@ fn text_field(ui: &mut Ui, editing: &mut Editing, label: &str) -> Response {
         output.state.store(ui.ctx(), response.id);
     }
     response
-}
-
-/// Shows what fits; returns what was clicked.
-fn list(
-    ui: &mut Ui,
-    scene: &Scene<'_>,
-    (editing, fitting): (&Editing, &[usize]),
-    (choices, digits): (&Choices, &[String]),
-    moved: bool,
-) -> Option<String> {
-    let mut clicked = None;
-    if fitting.is_empty() {
-        let text = if choices.closed {
-            words::NO_SUCH_VALUE
-        } else {
-            words::NEW_VALUE
-        };
-        ui.weak(scene.seen.say(text));
-    }
-    let marked = editing.marked.or_else(|| {
-        let typed = !editing.text.trim().is_empty() && editing.text != editing.before;
-        fitting.first().copied().filter(|_| choices.closed && typed)
-    });
-    let height = ui.spacing().interact_size.y;
-    ui.spacing_mut().item_spacing.y = 0.0;
-    let mut scroll = ScrollArea::vertical().max_height(LIST);
-    let here = fitting.iter().position(|at| Some(*at) == marked);
-    if let Some(here) = here.filter(|_| moved) {
-        let top = (here as f32 + 0.5) * height - LIST / 2.0;
-        scroll = scroll.vertical_scroll_offset(top.max(0.0));
-    }
-    scroll.show_rows(ui, height, fitting.len(), |ui, range| {
-        for at in &fitting[range] {
-            let choice = &choices.all[*at];
-            let digit = digits.iter().position(|value| *value == choice.value);
-            let digit = digit.map_or(String::new(), |digit| (digit + 1).to_string());
-            let text = match &choice.name {
-                Some(name) => format!("{}  {name}", choice.value),
-                None => choice.value.clone(),
-            };
-            let size = vec2(ui.available_width(), height);
-            let layout = Layout::left_to_right(Align::Center);
-            let row = ui.allocate_ui_with_layout(size, layout, |ui| {
-                let button = Button::selectable(marked == Some(*at), text)
-                    .shortcut_text(digit)
-                    .truncate()
-                    .min_size(size);
-                ui.add(button)
-            });
-            let label = fill(scene.seen.say(words::VALUE), &[("value", &choice.value)]);
-            row.inner.widget_info(|| {
-                WidgetInfo::selected(Role::Button, true, marked == Some(*at), &label)
-            });
-            if row.inner.clicked() {
-                clicked = Some(choice.value.clone());
-            }
-        }
-    });
-    clicked
 }
 
 /// Puts what was typed where it belongs now: under the annotation that was stored meanwhile, or into a
@@ -542,11 +455,11 @@ mod tests {
             (true, false, Some(4)),
             (true, false, None),
         ] {
-            step(&mut it, &fitting, up, down);
+            value_list::step(&mut it, &fitting, up, down);
             assert_eq!(it.marked, want);
         }
         it.marked = Some(9);
-        step(&mut it, &fitting, false, false);
+        value_list::step(&mut it, &fitting, false, false);
         assert_eq!(it.marked, None);
     }
 

@@ -10,19 +10,24 @@
 //! | `lanes`, `lanes_ui` | movement as lanes |
 //! | `ways` | modes and switches that are remembered |
 //! | `edit`, `select`, `tiers` | what actions do |
-//! | `ui`, `gesture`, `paint` | rows, mouse, painting |
-//! | `editor`, `choose`, `tier_box`, `bar` | the field for values, the list of tiers, one tier, the tools |
+//! | `ui`, `names`, `above`, `paint` | rows, the names of tiers, what lies above them, painting |
+//! | `gesture`, `drag` | what the mouse begins, and does while it is held |
+//! | `editor`, `value_list` | the field for values, and what fits below it |
+//! | `choose`, `tier_box`, `bar` | the list of tiers, one tier, the tools |
 
+mod above;
 pub(crate) mod bar;
 mod changes;
 mod choose;
 pub(crate) mod data;
+mod drag;
 mod edit;
 mod editor;
 mod gesture;
 mod hold;
 pub(crate) mod lanes;
 mod lanes_ui;
+mod names;
 mod paint;
 mod rows;
 mod select;
@@ -31,6 +36,7 @@ mod spans;
 mod tier_box;
 mod tiers;
 mod ui;
+mod value_list;
 mod values;
 mod ways;
 
@@ -59,8 +65,9 @@ pub(crate) use ways::Ways;
 pub(crate) struct Timeline {
     /// What of the recording is to be seen; the whole where nothing is said.
     window: Option<Window>,
-    /// The recording the window is of.
+    /// The recording the window is of, and the windows of those that were shown before.
     of: Option<i64>,
+    windows: BTreeMap<i64, Option<Window>>,
     /// How wide the part with annotations was last, in points.
     width: f32,
     /// Where the playhead was last.
@@ -167,11 +174,32 @@ impl Timeline {
         self.window.unwrap_or_else(|| Window::whole(whole, width))
     }
 
+    /// Turns to a recording; returns whether it is shown for the first time.
+    fn turn_to(&mut self, recording: i64) -> bool {
+        if self.of == Some(recording) {
+            return false;
+        }
+        if let Some(before) = self.of.replace(recording) {
+            self.windows.insert(before, self.window);
+        }
+        self.gesture = None;
+        let known = self.windows.remove(&recording);
+        self.window = known.flatten();
+        known.is_none()
+    }
+
     fn zoom(&mut self, factor: f64, seen: &Seen<'_>) {
         let player = &seen.shown.player;
         let window = self.window(player.whole, self.width);
         let around = player.playhead().micros() as f64;
         self.window = Some(window.zoomed(factor, around, player.whole, self.width));
+    }
+
+    /// Moves through time by that share of what is to be seen; the playhead stays.
+    fn page(&mut self, share: f32, seen: &Seen<'_>) {
+        let whole = seen.shown.player.whole;
+        let window = self.window(whole, self.width);
+        self.window = Some(window.panned(share * self.width, whole, self.width));
     }
 
     /// Asks for changes as one operation.
@@ -270,6 +298,8 @@ impl Pane for Timeline {
             Action::ZoomIn => self.zoom(0.6, seen),
             Action::ZoomOut => self.zoom(1.0 / 0.6, seen),
             Action::ZoomAll => self.window = None,
+            Action::PageBack => self.page(-0.9, seen),
+            Action::PageForward => self.page(0.9, seen),
             other => {
                 if let Some(ways) = seen.settings.timeline.after(other) {
                     ways::change(seen, out, ways);

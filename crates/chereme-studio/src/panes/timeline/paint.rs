@@ -8,7 +8,7 @@ use eframe::egui::{
 };
 
 use super::data::{self, Bar, Window};
-use super::gesture::Sight;
+use super::drag::Sight;
 use super::snap::Catch;
 use crate::context::Seen;
 use crate::words::timeline as words;

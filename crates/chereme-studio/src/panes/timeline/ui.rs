@@ -6,14 +6,14 @@ use std::sync::Arc;
 use chereme_corpus::Contents;
 use chereme_motion::Instant;
 use eframe::egui::{
-    Align2, Color32, FontId, Id, Rangef, Rect, Response, Role, ScrollArea, Sense, TextStyle, Ui,
-    WidgetInfo, pos2, vec2,
+    Color32, CursorIcon, FontId, Id, Rangef, Rect, Role, ScrollArea, Sense, TextStyle, Ui,
+    WidgetInfo, vec2,
 };
 
 use super::data::{self, Window, time_text};
 use super::edit::Scene;
 use super::rows::Row;
-use super::{Ghost, Timeline, bar, choose, editor, paint, select, tier_box};
+use super::{Timeline, bar, choose, paint, select, tier_box};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
@@ -22,7 +22,7 @@ use crate::words::{fill, timeline as words};
 /// The least width of the names of tiers; at most they take this share of the pane.
 const NAMES: f32 = 96.0;
 const NAMES_SHARE: f32 = 0.35;
-const INDENT: f32 = 12.0;
+pub(super) const INDENT: f32 = 12.0;
 const ROW: f32 = 26.0;
 const RULER: f32 = 22.0;
 /// Annotations at least this wide are widgets of their own, for the keyboard and for assistive tools.
@@ -75,6 +75,9 @@ impl Layout {
 
 pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     let Some(recording) = seen.shown.recording else {
+        if seen.snapshot.overview.recordings.is_empty() {
+            return no_recordings(ui, seen, out);
+        }
         ui.label(seen.say(words::NO_RECORDING));
         return;
     };
@@ -82,9 +85,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
         ui.spinner();
         return;
     };
-    if timeline.of != Some(recording) {
-        (timeline.of, timeline.window, timeline.gesture) = (Some(recording), None, None);
-    }
+    let fresh = timeline.turn_to(recording);
     follow_up(timeline, &scene, out);
     ui.spacing_mut().item_spacing.y = 2.0;
     bar::show(ui, &scene, out);
@@ -93,6 +94,11 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
     let names = timeline.layout.names.min(most);
     let width = (ui.available_width() - names).max(40.0);
     timeline.width = width;
+    if fresh {
+        let player = &scene.seen.shown.player;
+        let at = scene.playhead() as f64;
+        timeline.window = data::first_window(&scene.contents.tiers, player.whole, at, width);
+    }
     let window = follow(timeline, &scene, width);
     ui.spacing_mut().item_spacing.y = 0.0;
     let mut frame = Drawing {
@@ -111,6 +117,19 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
     }
     choose::show(timeline, ui, &scene, out);
     tier_box::show(timeline, ui, &scene, out);
+}
+
+/// Says where to go in a corpus that has no recordings.
+fn no_recordings(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    ui.label(seen.say(words::NO_RECORDINGS));
+    ui.horizontal_wrapped(|ui| {
+        for action in [Action::ShowLibrary, Action::Search, Action::Import] {
+            let button = ui.button(seen.say(action.row().name));
+            if button.on_hover_text(seen.keys.text(action)).clicked() {
+                out.send(Command::Do(action));
+            }
+        }
+    });
 }
 
 /// Selects what was added, and lets go of what the snapshot has.
@@ -201,7 +220,12 @@ impl Drawing<'_, '_> {
         }
         paint::ruler(&painter, lane, &self.window, self.seen, &font);
         paint::playhead(&painter, lane, &self.window, self.seen);
-        if let Some(at) = response.interact_pointer_pos()
+        if response.dragged() && ui.input(|input| input.modifiers.alt) {
+            ui.set_cursor_icon(CursorIcon::Grabbing);
+            let whole = self.seen.shown.player.whole;
+            let by = -response.drag_delta().x;
+            self.timeline.window = Some(self.window.panned(by, whole, lane.width()));
+        } else if let Some(at) = response.interact_pointer_pos()
             && (response.dragged() || response.clicked())
         {
             self.out.seek(self.instant(at.x - lane.left()));
@@ -261,88 +285,6 @@ impl Drawing<'_, '_> {
         }
     }
 
-    /// Paints what is not in the snapshot: annotations as they will be, and what is being dragged.
-    fn overlay(&mut self, ui: &Ui, contents: &Contents, lane: Rect, sight: &super::gesture::Sight) {
-        let painter = ui.painter_at(lane);
-        let font = TextStyle::Body.resolve(ui.style());
-        let mut all: Vec<(Ghost, bool)> = Vec::new();
-        if sight.ghosts.is_empty() {
-            all.extend(self.timeline.ghosts.iter().map(|ghost| (*ghost, false)));
-        }
-        all.extend(sight.ghosts.iter().map(|ghost| (*ghost, sight.refused)));
-        if let Some(ghost) = self.new_ghost(contents) {
-            all.push((ghost, false));
-        }
-        for (ghost, refused) in &all {
-            let row = self.timeline.layout.rows.iter().find(|(at, _)| {
-                contents
-                    .tiers
-                    .get(*at)
-                    .is_some_and(|tier| tier.row.id == ghost.tier)
-            });
-            let Some((at, y)) = row else { continue };
-            let text = ghost.id.and_then(|id| self.seen.snapshot.annotation(id));
-            let text = text.map(|it| super::changes::typed(&it.tier.annotations, it.at));
-            let row = Rect::from_x_y_ranges(lane.x_range(), *y);
-            let tier = &contents.tiers[*at];
-            let what = (tier, text.unwrap_or_default(), *refused);
-            let span = (ghost.start, ghost.end);
-            paint::ghost(&painter, row, &self.window, span, what, (self.seen, &font));
-        }
-        let at = ui.input(|input| input.pointer.latest_pos());
-        paint::sight(&painter, lane, &self.window, (sight, at), self.seen);
-    }
-
-    /// Returns the annotation that is being typed or made while playing.
-    fn new_ghost(&self, contents: &Contents) -> Option<Ghost> {
-        let scene = Scene {
-            contents,
-            seen: self.seen,
-        };
-        if let Some(begun) = &self.timeline.begun {
-            let here = scene.playhead();
-            return Some(Ghost {
-                tier: begun.tier,
-                id: None,
-                start: begun.start.min(here),
-                end: begun.start.max(here),
-            });
-        }
-        let editing = self.timeline.editing.as_ref()?;
-        match editing.target {
-            editor::Target::New { tier, start, end } => Some(Ghost {
-                tier,
-                id: None,
-                start,
-                end,
-            }),
-            editor::Target::Of(_) => None,
-        }
-    }
-
-    fn editor(&mut self, ui: &mut Ui, contents: &Contents, lane: Rect) {
-        let scene = Scene {
-            contents,
-            seen: self.seen,
-        };
-        let Some(editing) = &self.timeline.editing else {
-            return;
-        };
-        let span = editing.span(&scene).unwrap_or_default();
-        let tier = editing.tier(&scene).map(|tier| tier.row.id);
-        let row = self
-            .timeline
-            .layout
-            .rows
-            .iter()
-            .find(|(at, _)| contents.tiers.get(*at).map(|tier| tier.row.id) == tier);
-        let y = row.map_or(Rangef::point(lane.bottom()), |(_, y)| *y);
-        let x =
-            (lane.left() + self.window.x(span.0 as f64)).clamp(lane.left(), lane.right() - 40.0);
-        let below = Rect::from_x_y_ranges(x..=x + 1.0, y);
-        editor::show(self.timeline, ui, &scene, below, self.out);
-    }
-
     fn row(
         &mut self,
         ui: &mut Ui,
@@ -369,98 +311,6 @@ impl Drawing<'_, '_> {
             rect.with_min_x(rect.left() + self.names),
             moving,
         );
-    }
-
-    /// The name of a tier, with the fold before it and a menu behind the other button.
-    fn header(&mut self, ui: &mut Ui, contents: &Contents, row: &Row, name: Rect) {
-        let tier = &contents.tiers[row.tier];
-        let scene = Scene {
-            contents,
-            seen: self.seen,
-        };
-        let chosen = scene.tier().is_some_and(|it| it.row.id == tier.row.id);
-        let label = fill(self.seen.say(words::TIER), &[("name", &tier.row.name)]);
-        let response = ui.interact(name, Id::unique(("tier", tier.row.id)), Sense::click());
-        response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &label));
-        if response.clicked() {
-            self.out.send(Command::Tier(Some(tier.row.id)));
-        }
-        self.header_menu(&response, tier.row.id);
-        let colours = self.seen.colours();
-        if chosen {
-            let mark = name.with_max_x(name.left() + 3.0);
-            ui.painter().rect_filled(mark, 0.0, colours.accent);
-        }
-        if response.has_focus() {
-            let stroke = eframe::egui::Stroke::new(1.5, colours.accent);
-            ui.painter().rect_stroke(
-                name.shrink(1.0),
-                3.0,
-                stroke,
-                eframe::egui::StrokeKind::Inside,
-            );
-        }
-        let visuals = ui.style().interact_selectable(&response, chosen);
-        let text = if chosen {
-            ui.visuals().strong_text_color()
-        } else {
-            visuals.text_color()
-        };
-        let left = name.left() + 6.0 + INDENT * row.depth as f32;
-        if row.has_below {
-            self.fold(
-                ui,
-                row,
-                (tier.row.id, &tier.row.name),
-                Rect::from_x_y_ranges(left..=left + 14.0, name.y_range()),
-            );
-        }
-        let from = pos2(left + 15.0, name.center().y);
-        let font = TextStyle::Body.resolve(ui.style());
-        let text = ui.painter_at(name.shrink2(vec2(2.0, 0.0))).text(
-            from,
-            Align2::LEFT_CENTER,
-            &tier.row.name,
-            font,
-            text,
-        );
-        if text.right() > name.right() - 2.0 {
-            response.on_hover_text(&tier.row.name);
-        }
-    }
-
-    fn fold(&mut self, ui: &mut Ui, row: &Row, (id, name): (i64, &str), rect: Rect) {
-        let words = if row.folded {
-            words::UNFOLD
-        } else {
-            words::FOLD
-        };
-        let label = fill(self.seen.say(words), &[("name", &name)]);
-        let response = ui.interact(rect, Id::unique(("fold", id)), Sense::click());
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
-        if response.clicked() {
-            self.out.send(Command::Tier(Some(id)));
-            self.out.send(Command::Do(Action::FoldTier));
-        }
-        paint::fold(ui, rect, row.folded, &response);
-    }
-
-    fn header_menu(&mut self, response: &Response, tier: i64) {
-        const EDIT: [Action; 3] = [Action::AddTier, Action::ChangeTier, Action::RemoveTier];
-        const SHOW: [Action; 4] = [
-            Action::TierUp,
-            Action::TierDown,
-            Action::HideTier,
-            Action::SelectOnTier,
-        ];
-        if response.secondary_clicked() {
-            self.out.send(Command::Tier(Some(tier)));
-        }
-        response.context_menu(|ui| {
-            bar::actions(ui, self.seen, &EDIT, self.out);
-            ui.separator();
-            bar::actions(ui, self.seen, &SHOW, self.out);
-        });
     }
 
     fn lane(

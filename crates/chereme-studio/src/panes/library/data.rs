@@ -1,17 +1,11 @@
-//! The recordings of the corpus, to choose one.
+//! What the lists of recordings and of signs say, without a window.
 
-use chereme_corpus::RecordingGlance;
+use chereme_corpus::{RecordingGlance, SignGlance};
 use chereme_motion::{Instant, Span};
 use chereme_sign::text::fold;
-use eframe::egui::{Rect, RichText, ScrollArea, TextEdit, Ui, Vec2, vec2};
 
-use super::Pane;
-use super::timeline::data::time_text;
-use crate::action::Action;
-use crate::command::Command;
-use crate::context::{Outbox, Seen};
-use crate::little::{self, Cell, Motion};
-use crate::words::{Text, library as words};
+use super::super::timeline::data::time_text;
+use crate::words::{Language, Text, library as words};
 
 /// A recording as the list shows it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -68,62 +62,56 @@ pub(crate) fn origin_text(origin: &str) -> Option<Text> {
     }
 }
 
-/// The pane.
-#[derive(Default)]
-pub(crate) struct Library {
-    filter: String,
+/// What there is to be seen of a sign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Moves {
+    /// Its citation form lies in a recording.
+    Recorded(i64, Span),
+    /// It is notated, and can be animated.
+    Notated,
+    /// It is coded, or only named.
+    Not,
 }
 
-impl Pane for Library {
-    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
-        let overview = &seen.snapshot.overview;
-        if overview.recordings.is_empty() {
-            ui.label(seen.say(words::EMPTY));
-            if ui.button(seen.say(words::IMPORT)).clicked() {
-                out.send(Command::Do(Action::Import));
-            }
-            return;
-        }
-        let filter = TextEdit::singleline(&mut self.filter)
-            .hint_text(seen.say(words::FILTER))
-            .desired_width(f32::INFINITY);
-        let label = ui.label(RichText::new(seen.say(words::FILTER)).small());
-        ui.add(filter).labelled_by(label.id);
-        let origin =
-            |name: &str| origin_text(name).map_or(name.to_owned(), |it| seen.say(it).to_owned());
-        let rows = rows(&overview.recordings, &self.filter, origin);
-        if rows.is_empty() {
-            ui.label(seen.say(words::NONE_FIT));
-            return;
-        }
-        let height = ui.spacing().interact_size.y * 2.1;
-        ScrollArea::vertical()
-            .auto_shrink(false)
-            .show_rows(ui, height, rows.len(), |ui, range| {
-                for row in &rows[range] {
-                    show(ui, row, height, seen, out);
-                }
-            });
-    }
+/// A sign as the list shows it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct SignRow {
+    pub(crate) gloss: String,
+    /// How many tokens it has, and where its citation form comes from.
+    pub(crate) about: String,
+    /// Its citation form.
+    pub(crate) token: Option<i64>,
+    pub(crate) moves: Moves,
 }
 
-fn show(ui: &mut Ui, row: &Row, height: f32, seen: &Seen<'_>, out: &mut Outbox) {
-    let chosen = seen.shown.recording == Some(row.id);
-    let lead = height - 4.0;
-    let response = super::list_row_after(ui, (height, lead), chosen, &row.name, &row.about);
-    if row.moves {
-        let at = response.rect.left_center() + vec2(4.0 + lead / 2.0, 0.0);
-        let motion = Motion::Span(row.id, row.whole);
-        let mut cell = Cell::new(motion, Vec2::splat(lead));
-        if response.hovered() || response.has_focus() {
-            cell = cell.playing(little::clock(ui));
+/// Returns the signs whose gloss holds `filter`, whatever its case and accents.
+pub(crate) fn signs(signs: &[SignGlance], filter: &str, language: Language) -> Vec<SignRow> {
+    let wanted = fold(filter.trim());
+    let fits = |it: &&SignGlance| wanted.is_empty() || fold(&it.gloss).contains(&wanted);
+    let row = |it: &SignGlance| {
+        let moves = match it.place {
+            Some((recording, span)) => Moves::Recorded(recording, span),
+            None if it.notated => Moves::Notated,
+            None => Moves::Not,
+        };
+        let what = match moves {
+            Moves::Recorded(..) => words::RECORDED,
+            Moves::Notated => words::NOTATED,
+            Moves::Not => words::IN_LEXICON,
+        };
+        let mut about = what.of(language).to_owned();
+        if it.tokens > 1 {
+            let count = crate::words::fill(words::TOKENS.of(language), &[("n", &it.tokens)]);
+            about = format!("{about} · {count}");
         }
-        let rect = Rect::from_center_size(at, cell.size);
-        seen.little.paint(ui, seen, out, &cell, rect);
-    }
-    if response.clicked() {
-        out.send(Command::Recording(row.id));
-    }
+        SignRow {
+            gloss: it.gloss.clone(),
+            about,
+            token: it.citation,
+            moves,
+        }
+    };
+    signs.iter().filter(fits).map(row).collect()
 }
 
 #[cfg(test)]
@@ -173,5 +161,36 @@ mod tests {
             rows(&all, "bol", str::to_owned)[0].about,
             "Zoé · made · 0:01.500"
         );
+    }
+
+    #[test]
+    fn signs_say_whether_there_is_something_to_see() {
+        let sign = |gloss: &str, tokens, citation| SignGlance {
+            gloss: gloss.into(),
+            tokens,
+            citation,
+            ..SignGlance::default()
+        };
+        let span = Span::between(Instant::ZERO, Instant::from_micros(9));
+        let all = [
+            SignGlance {
+                place: Some((4, span)),
+                ..sign("BOL", 3, Some(1))
+            },
+            SignGlance {
+                notated: true,
+                ..sign("ZÉRO", 1, Some(2))
+            },
+            sign("rien", 0, None),
+        ];
+        let shown = signs(&all, "", Language::English);
+        let moves: Vec<Moves> = shown.iter().map(|row| row.moves).collect();
+        assert_eq!(
+            moves,
+            [Moves::Recorded(4, span), Moves::Notated, Moves::Not]
+        );
+        assert_eq!(shown[0].about, "recorded · tokens: 3");
+        assert_eq!(signs(&all, "zer", Language::French)[0].token, Some(2));
+        assert!(signs(&all, "none", Language::French).is_empty());
     }
 }

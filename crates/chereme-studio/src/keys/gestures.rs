@@ -1,0 +1,124 @@
+//! What the mouse does, as one table: the help shows it beside the keys.
+
+use crate::action::Menu;
+use crate::words::{Language, Text, gestures as words};
+
+/// A key that is held meanwhile.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Held {
+    Ctrl,
+    Shift,
+    Alt,
+}
+
+/// What the hand does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Act {
+    Click,
+    DoubleClick,
+    RightClick,
+    Drag,
+    /// With the other button, or the one in the middle.
+    OtherDrag,
+    Wheel,
+}
+
+/// A row of the table.
+#[derive(Debug)]
+pub(crate) struct Gesture {
+    /// Among which keys it is told.
+    pub(crate) menu: Menu,
+    pub(crate) held: Option<Held>,
+    pub(crate) act: Act,
+    /// On what.
+    pub(crate) on: Text,
+    pub(crate) does: Text,
+}
+
+macro_rules! gestures {
+    ($($menu:ident $([$held:ident])? $act:ident $on:ident $does:ident;)*) => {
+        /// Every gesture, menu by menu.
+        pub(crate) const GESTURES: &[Gesture] = &[
+            $(Gesture {
+                menu: Menu::$menu,
+                held: gestures!(@ $($held)?),
+                act: Act::$act,
+                on: words::$on,
+                does: words::$does,
+            },)*
+        ];
+    };
+    (@ $held:ident) => { Some(Held::$held) };
+    (@) => { None };
+}
+
+gestures! {
+    Edit Click HIT OPEN_HIT;
+    Edit Drag HIT TO_CARD;
+    Edit RightClick HIT MENU_OF_SIGN;
+    Edit Drag CARD_HANDLE MOVE_CARD;
+    Annotation Click ANNOTATION SELECT;
+    Annotation [Ctrl] Click ANNOTATION ALSO;
+    Annotation [Shift] Click ANNOTATION UP_TO;
+    Annotation [Shift] Drag LANE FRAME;
+    Annotation DoubleClick ANNOTATION TYPE;
+    Annotation DoubleClick SELECTION MAKE_ON_SELECTION;
+    Annotation Drag SELECTED MOVE;
+    Annotation [Alt] Drag ANNOTATION MOVE;
+    Annotation [Alt] Drag EMPTY MAKE;
+    Timing Drag LANE SELECT_TIME;
+    Timing [Shift] Click EMPTY EXTEND;
+    Timing Drag EDGE RESIZE;
+    Tier Click TIER_NAME CHOOSE_TIER;
+    Tier RightClick TIER_NAME MENU_OF_TIER;
+    Play Click LANE PLAYHEAD;
+    Play Drag RULER SCRUB;
+    Stage Drag FIGURE ORBIT;
+    Stage [Shift] Drag FIGURE PAN;
+    Stage OtherDrag FIGURE PAN;
+    Stage Wheel FIGURE NEARER;
+    Stage Click PLACE_ON_BODY CHOOSE_PLACE;
+    Stage DoubleClick FIGURE RESET;
+    View [Ctrl] Wheel TIMELINE ZOOM;
+    View [Shift] Wheel TIMELINE SCROLL_TIME;
+    View Wheel TIMELINE SCROLL_TIERS;
+    View [Alt] Drag RULER SCROLL_TIME;
+}
+
+impl Gesture {
+    /// Returns what is done, as people read it: `Ctrl+click on an annotation`.
+    pub(crate) fn text(&self, language: Language) -> String {
+        let act = match self.act {
+            Act::Click => words::CLICK,
+            Act::DoubleClick => words::DOUBLE_CLICK,
+            Act::RightClick => words::RIGHT_CLICK,
+            Act::Drag => words::DRAG,
+            Act::OtherDrag => words::OTHER_DRAG,
+            Act::Wheel => words::WHEEL,
+        };
+        let held = match self.held {
+            Some(Held::Ctrl) => "Ctrl+",
+            Some(Held::Shift) => "Shift+",
+            Some(Held::Alt) => "Alt+",
+            None => "",
+        };
+        format!("{held}{} · {}", act.of(language), self.on.of(language))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gesture_means_one_thing() {
+        for (at, one) in GESTURES.iter().enumerate() {
+            let text = one.text(Language::English);
+            let same = |it: &&Gesture| it.text(Language::English) == text;
+            assert!(!GESTURES[at + 1..].iter().any(|it| same(&it)), "{text}");
+        }
+        let also = GESTURES.iter().find(|it| it.does == words::ALSO);
+        let text = also.map(|it| it.text(Language::English));
+        assert_eq!(text.as_deref(), Some("Ctrl+click · annotation"));
+    }
+}

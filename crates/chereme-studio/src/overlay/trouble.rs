@@ -1,0 +1,107 @@
+//! What went wrong, as people read it: a sentence and what helps in their language, and what the corpus
+//! itself said.
+
+use std::io::ErrorKind;
+
+use chereme_corpus::{Cause, Error};
+
+use crate::words::{Language, Text, fill, trouble as words};
+
+/// What is told of a failure.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Told {
+    pub(crate) text: String,
+    pub(crate) remedy: Option<String>,
+    /// What the corpus said, where that is in another language than the sentence.
+    pub(crate) detail: Option<String>,
+}
+
+/// Returns what is told of a failure of `task`, which is a noun such as `Import`.
+pub(crate) fn told(error: &Error, task: Option<Text>, language: Language) -> Told {
+    let helps = |remedy: &str| {
+        let text = crate::words::shell::REMEDY.of(language);
+        fill(text, &[("remedy", &remedy)])
+    };
+    if language == Language::English {
+        return Told {
+            text: error.to_string(),
+            remedy: error.remedy().map(|it| helps(&it)),
+            detail: None,
+        };
+    }
+    let said = match error.remedy() {
+        Some(remedy) => format!("{error}\n({remedy})"),
+        None => error.to_string(),
+    };
+    let (text, remedy) = sentence(error, task, language);
+    // Of a file everything is said by then.
+    let whole = matches!(error, Error::File { .. }) && remedy.is_some();
+    Told {
+        text,
+        remedy: remedy.map(|it| helps(it.of(language))),
+        detail: (!whole).then_some(said),
+    }
+}
+
+/// Returns what failed in one sentence, and what helps.
+fn sentence(error: &Error, task: Option<Text>, language: Language) -> (String, Option<Text>) {
+    let say = |text: Text| text.of(language).to_owned();
+    match error {
+        Error::File { path, source } => {
+            let (text, remedy) = match source.kind() {
+                ErrorKind::NotFound => (words::NOT_FOUND, Some(words::CHECK_PATH)),
+                ErrorKind::AlreadyExists => (words::THERE_ALREADY, Some(words::OTHER_NAME)),
+                ErrorKind::PermissionDenied => (words::NOT_ALLOWED, Some(words::ASK_RIGHTS)),
+                ErrorKind::StorageFull => (words::DISK_FULL, Some(words::MAKE_ROOM)),
+                _ => (words::FILE_FAILED, None),
+            };
+            (fill(&say(text), &[("path", &path.display())]), remedy)
+        }
+        Error::NotACorpus { path, .. } => {
+            let text = say(words::NOT_A_CORPUS);
+            (fill(&text, &[("path", &path.display())]), None)
+        }
+        Error::Database(_) => match error.cause() {
+            Some(Cause::Busy) => (say(words::BUSY), Some(words::TRY_AGAIN)),
+            Some(Cause::Full) => (say(words::DISK_FULL), Some(words::MAKE_ROOM)),
+            Some(Cause::ReadOnly) => (say(words::READ_ONLY), Some(words::ASK_RIGHTS)),
+            Some(Cause::Damaged) => (say(words::DAMAGED), Some(words::CHECK)),
+            None => (say(words::DATABASE), None),
+        },
+        Error::Index(_) => (say(words::INDEX), Some(words::MEND_INDEX)),
+        Error::Damaged { .. } => (say(words::DAMAGED), Some(words::CHECK)),
+        Error::Several { errors } => {
+            let text = say(words::SEVERAL);
+            (fill(&text, &[("n", &errors.len())]), None)
+        }
+        _ => match task {
+            Some(task) => (
+                fill(&say(words::TASK_FAILED), &[("task", &say(task))]),
+                None,
+            ),
+            None => (say(words::FAILED), None),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::words::shell;
+
+    #[test]
+    fn a_failure_is_told_in_the_language_of_the_window_with_what_was_said() {
+        let error = Error::wrong("no such tier").advise("add it");
+        let english = told(&error, Some(shell::TASK_EDIT), Language::English);
+        assert_eq!(english.text, "no such tier");
+        assert_eq!(english.remedy.as_deref(), Some("What helps: add it"));
+        assert_eq!(english.detail, None);
+        let french = told(&error, Some(shell::TASK_IMPORT), Language::French);
+        assert_eq!(french.text, "Importation : cela n’a pas été possible.");
+        assert_eq!(french.detail.as_deref(), Some("no such tier\n(add it)"));
+        let gone = Error::file("a.bvh", ErrorKind::NotFound.into());
+        let french = told(&gone, None, Language::French);
+        assert_eq!(french.text, "a.bvh : rien ne porte ce nom.");
+        assert!(french.remedy.is_some() && french.detail.is_none());
+    }
+}

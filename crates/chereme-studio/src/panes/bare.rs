@@ -1,0 +1,60 @@
+//! A sign that nothing moves of yet: what can be done about it.
+
+use eframe::egui::{Frame, Margin, Panel, RichText, Ui};
+
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::words::{fill, library as words};
+
+/// Why there is nothing to see of a sign.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Bare {
+    /// It is coded, or only named.
+    Coded,
+    /// It is notated and is being animated.
+    Making,
+    /// Its notation could not be animated, for this reason.
+    Failed(String),
+    /// What is seen was animated from its notation, and is stored nowhere.
+    Animated,
+}
+
+/// Says what there is of a sign, and offers what can be done.
+pub(crate) fn show(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    (token, gloss): (i64, &str),
+    bare: &Bare,
+) {
+    // Below what is listed, which stays where it is.
+    let frame = Frame::new().inner_margin(Margin::symmetric(0, 6));
+    let id = ui.scope_id().with("bare");
+    Panel::bottom(id).frame(frame).show(ui, |ui| {
+        let text = match bare {
+            Bare::Coded => words::ONLY_CODED,
+            Bare::Making => words::ANIMATING,
+            Bare::Failed(_) => words::NOT_ANIMATED,
+            Bare::Animated => words::ANIMATED,
+        };
+        ui.label(fill(seen.say(text), &[("gloss", &gloss)]));
+        if let Bare::Failed(why) = bare {
+            ui.label(RichText::new(why).small().weak());
+        }
+        ui.horizontal_wrapped(|ui| {
+            let (name, recipe) = match bare {
+                Bare::Making => return,
+                Bare::Animated => (words::TO_RECIPE, format!("token:{token}")),
+                Bare::Coded | Bare::Failed(_) => (words::MAKE, String::new()),
+            };
+            if ui.button(seen.say(name)).clicked() {
+                let gloss = gloss.to_owned();
+                out.send(Command::Make { recipe, gloss });
+            }
+            if *bare != Bare::Animated && ui.button(seen.say(words::ALIKE)).clicked() {
+                let query = format!("like token:{token} not origin=lexicon");
+                out.send(Command::Find(query));
+            }
+        });
+    });
+}

@@ -1,0 +1,154 @@
+//! Signs carried from lists to recipes: dragged with a little figure under the pointer, or by a menu.
+
+use eframe::egui::{
+    Align2, Area, Context, CursorIcon, DragAndDrop, Frame, Id, LayerId, Order, Rect, Response,
+    Stroke, StrokeKind, Ui, Vec2, vec2,
+};
+
+use super::inspector::Thing;
+use super::{Carried, PaneKind};
+use crate::action::Action;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::little::{self, Cell, Motion};
+use crate::words::{library as words, search};
+
+/// How large the figure under the pointer is.
+const FIGURE: f32 = 96.0;
+
+/// What moves under the pointer while a sign is carried.
+#[derive(Clone)]
+struct Picture {
+    gloss: String,
+    motion: Option<Motion>,
+}
+
+fn picture_id() -> Id {
+    Id::unique("carried")
+}
+
+/// Lets a row or figure of a list, which senses drags, be carried.
+pub(crate) fn drag(response: &Response, carried: Carried, motion: Option<Motion>) {
+    if !response.drag_started() {
+        return;
+    }
+    let gloss = carried.gloss.clone();
+    response.dnd_set_drag_payload(carried);
+    let ctx = &response.ctx;
+    let picture = Picture { gloss, motion };
+    ctx.data_mut(|data| data.insert_temp(picture_id(), picture));
+}
+
+/// Returns whether a sign is being carried.
+pub(crate) fn is_carrying(ctx: &Context) -> bool {
+    DragAndDrop::has_payload_of_type::<Carried>(ctx)
+}
+
+/// Returns the sign that is let go over `rect`, where nothing in it took it; marks the place meanwhile.
+pub(crate) fn let_go(ui: &Ui, seen: &Seen<'_>, rect: Rect) -> Option<Carried> {
+    let ctx = ui.ctx();
+    let over = ctx.pointer_latest_pos().is_some_and(|at| rect.contains(at));
+    if !over || !is_carrying(ctx) {
+        return None;
+    }
+    let stroke = Stroke::new(2.0, seen.colours().accent);
+    let painter = ui.painter();
+    painter.rect_stroke(rect.expand(6.0), 4.0, stroke, StrokeKind::Inside);
+    if !ui.input(|input| input.pointer.any_released()) {
+        return None;
+    }
+    DragAndDrop::take_payload::<Carried>(ctx).map(|it| (*it).clone())
+}
+
+/// Draws what is carried under the pointer; the panes are drawn already.
+pub(crate) fn show(ctx: &Context, seen: &Seen<'_>, out: &mut Outbox) {
+    if !is_carrying(ctx) {
+        return;
+    }
+    let picture: Option<Picture> = ctx.data(|data| data.get_temp(picture_id()));
+    let (Some(picture), Some(at)) = (picture, ctx.pointer_latest_pos()) else {
+        return;
+    };
+    ctx.set_cursor_icon(CursorIcon::Grabbing);
+    let area = Area::new(picture_id())
+        .order(Order::Tooltip)
+        .interactable(false)
+        .pivot(Align2::LEFT_TOP)
+        .constrain(false)
+        .fixed_pos(at + vec2(14.0, 14.0));
+    area.show(ctx, |ui| {
+        Frame::popup(ui.style()).inner_margin(4).show(ui, |ui| {
+            if let Some(motion) = picture.motion {
+                let (rect, _): (Rect, _) =
+                    ui.allocate_exact_size(Vec2::splat(FIGURE), eframe::egui::Sense::hover());
+                let cell = Cell::new(motion, rect.size()).playing(little::clock(ui));
+                seen.little.paint(ui, seen, out, &cell, rect);
+            }
+            ui.label(picture.gloss);
+        });
+    });
+    let layer = LayerId::new(Order::Tooltip, picture_id());
+    ctx.move_to_top(layer);
+}
+
+/// Tabs that open when something is held over them for a while.
+#[derive(Debug, Default)]
+pub(crate) struct Sprung(Option<(PaneKind, f64)>);
+
+impl Sprung {
+    /// How long it is held, in seconds.
+    const HELD: f64 = 0.35;
+
+    /// Returns the pane that comes to the front now.
+    pub(crate) fn follow(&mut self, under: Option<PaneKind>, now: f64) -> Option<PaneKind> {
+        let since = match (self.0, under) {
+            (Some((before, since)), Some(under)) if before == under => since,
+            _ => now,
+        };
+        self.0 = under.map(|under| (under, since));
+        under.filter(|_| now - since >= Self::HELD)
+    }
+}
+
+/// Draws the menu of a sign in a list.
+pub(crate) fn menu(ui: &mut Ui, seen: &Seen<'_>, (token, gloss): (i64, &str), out: &mut Outbox) {
+    let mut entry = |name: &str, command: Command, keys: String| {
+        let button = eframe::egui::Button::new(name).shortcut_text(keys);
+        if ui.add(button).clicked() {
+            out.send(command);
+            ui.close();
+        }
+    };
+    let carried = Carried {
+        token,
+        gloss: gloss.to_owned(),
+    };
+    let (used, like) = (Action::UseInRecipe, Action::SearchLike);
+    let name = seen.say(used.row().name);
+    entry(name, Command::Use(carried), seen.keys.text(used));
+    let query = format!("like token:{token}");
+    entry(
+        seen.say(search::MORE_LIKE),
+        Command::Find(query),
+        seen.keys.text(like),
+    );
+    let thing = Command::Inspect(Thing::Token(token));
+    entry(seen.say(words::INSPECT), thing, String::new());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tab_opens_after_a_while_and_not_in_passing() {
+        let mut sprung = Sprung::default();
+        let pane = Some(PaneKind::Recombine);
+        assert_eq!(sprung.follow(pane, 1.0), None);
+        assert_eq!(sprung.follow(Some(PaneKind::Search), 1.3), None);
+        assert_eq!(sprung.follow(pane, 1.5), None);
+        assert_eq!(sprung.follow(None, 1.7), None);
+        assert_eq!(sprung.follow(pane, 1.9), None);
+        assert_eq!(sprung.follow(pane, 2.3), pane);
+    }
+}

@@ -1,0 +1,352 @@
+//! The recordings and the signs of the corpus, to choose one.
+
+pub(crate) mod data;
+
+use std::sync::Arc;
+
+use eframe::egui::{
+    EventFilter, Id, Key, Modifiers, Rect, Response, RichText, ScrollArea, TextEdit, Ui, Vec2, vec2,
+};
+
+use super::bare::{self, Bare};
+use super::inspector::Thing;
+use super::notated::Notated;
+use super::{Carried, Pane};
+use crate::action::Action;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::little::{self, Cell, Motion};
+use crate::words::{Language, fill, library as words};
+use crate::work::{Ended, WorkId};
+pub(crate) use data::origin_text;
+use data::{Moves, Row, SignRow};
+
+/// What is listed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum List {
+    Recordings,
+    Signs,
+}
+
+/// The pane.
+#[derive(Default)]
+pub(crate) struct Library {
+    filter: String,
+    /// What was chosen to be listed; signs where there are no recordings.
+    list: Option<List>,
+    rows: Rows,
+    /// The row that keys are at, and the one that they go to.
+    at: usize,
+    reach: Option<usize>,
+    /// How far the list is scrolled.
+    scrolled: f32,
+    /// The sign that was chosen last.
+    chosen: Option<SignRow>,
+    notated: Notated,
+}
+
+/// The rows, found anew where what they depend on changed.
+#[derive(Default)]
+struct Rows {
+    of: Option<(usize, String, Language)>,
+    recordings: Vec<Row>,
+    signs: Vec<SignRow>,
+}
+
+impl Rows {
+    fn update(&mut self, seen: &Seen<'_>, filter: &str) {
+        let overview = &seen.snapshot.overview;
+        let now = (
+            Arc::as_ptr(overview) as usize,
+            filter.to_owned(),
+            seen.language,
+        );
+        if self.of.as_ref() == Some(&now) {
+            return;
+        }
+        let origin =
+            |name: &str| origin_text(name).map_or(name.to_owned(), |it| seen.say(it).to_owned());
+        self.recordings = data::rows(&overview.recordings, filter, origin);
+        self.signs = data::signs(&overview.signs, filter, seen.language);
+        self.of = Some(now);
+    }
+}
+
+impl Library {
+    /// Returns the sign that was chosen last, to be taken elsewhere.
+    pub(crate) fn carried(&self) -> Option<Carried> {
+        carried(self.chosen.as_ref()?)
+    }
+
+    fn listed(&self, seen: &Seen<'_>) -> List {
+        let none = seen.snapshot.overview.recordings.is_empty();
+        let usual = if none { List::Signs } else { List::Recordings };
+        self.list.unwrap_or(usual)
+    }
+
+    /// Draws what is listed, and the filter.
+    fn head(&mut self, ui: &mut Ui, seen: &Seen<'_>) -> List {
+        let list = self.listed(seen);
+        let overview = &seen.snapshot.overview;
+        ui.horizontal_wrapped(|ui| {
+            let all = [
+                (
+                    List::Recordings,
+                    words::RECORDINGS,
+                    overview.recordings.len(),
+                ),
+                (List::Signs, words::SIGNS, overview.signs.len()),
+            ];
+            for (of, name, count) in all {
+                let name = fill(seen.say(name), &[("n", &count)]);
+                if ui.selectable_label(list == of, name).clicked() && list != of {
+                    (self.list, self.at, self.scrolled) = (Some(of), 0, 0.0);
+                    self.reach = None;
+                }
+            }
+        });
+        let label = ui.label(RichText::new(seen.say(words::FILTER)).small());
+        let filter = TextEdit::singleline(&mut self.filter)
+            .hint_text(seen.say(words::FILTER))
+            .desired_width(f32::INFINITY);
+        let response = ui.add(filter).labelled_by(label.id);
+        if response.changed() {
+            (self.at, self.scrolled) = (0, 0.0);
+        }
+        let down = response.has_focus()
+            && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::ArrowDown));
+        if down {
+            self.reach = Some(0);
+        }
+        self.listed(seen)
+    }
+
+    /// Chooses a sign: it is shown at its place, or made of its notation; a bare one tells what can be done.
+    fn choose(&mut self, row: &SignRow, out: &mut Outbox) {
+        self.chosen = Some(row.clone());
+        let Some(token) = row.token else { return };
+        match row.moves {
+            Moves::Recorded(recording, span) => {
+                out.send(Command::Made(None));
+                out.send(Command::Place(recording, span));
+                return;
+            }
+            Moves::Notated => self.notated.open(token, &row.gloss, out),
+            Moves::Not => out.send(Command::Made(None)),
+        }
+        out.send(Command::Inspect(Thing::Token(token)));
+    }
+
+    /// Tells of the chosen sign what can be done where nothing moves.
+    fn hint(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let Some((row, token)) = self.chosen.as_ref().and_then(|row| Some((row, row.token?)))
+        else {
+            return;
+        };
+        let bare = match row.moves {
+            Moves::Recorded(..) => return,
+            Moves::Notated => self.notated.bare(token),
+            Moves::Not => Some(Bare::Coded),
+        };
+        if let Some(bare) = bare {
+            bare::show(ui, seen, out, (token, &row.gloss), &bare);
+        }
+    }
+
+    fn scroll(&mut self, ui: &Ui, height: f32) -> ScrollArea {
+        let area = ScrollArea::vertical().auto_shrink(false);
+        let Some(at) = self.reach else { return area };
+        let offset = super::scrolled_to(at, height, self.scrolled, ui.available_height());
+        area.vertical_scroll_offset(offset)
+    }
+
+    /// Takes the arrow keys where a row of the list has the focus.
+    fn keys(&mut self, ui: &Ui, total: usize) {
+        if total == 0 || ui.memory(|memory| memory.focused()) != Some(row_id(self.at)) {
+            return;
+        }
+        let mut to = None;
+        ui.input_mut(|input| {
+            for (key, by) in [
+                (Key::ArrowUp, -1),
+                (Key::ArrowDown, 1),
+                (Key::PageUp, -8),
+                (Key::PageDown, 8),
+                (Key::Home, isize::MIN / 2),
+                (Key::End, isize::MAX / 2),
+            ] {
+                if input.consume_key(Modifiers::NONE, key) {
+                    to = Some(self.at.saturating_add_signed(by).min(total - 1));
+                }
+            }
+        });
+        if let Some(to) = to {
+            (self.at, self.reach) = (to, Some(to));
+        }
+    }
+
+    /// Gives a row the focus that the keys went to, and keeps the keys where it has it.
+    fn focus(&mut self, ui: &Ui, response: &Response, at: usize) {
+        if self.reach == Some(at) {
+            self.reach = None;
+            response.request_focus();
+        }
+        if response.has_focus() {
+            self.at = at;
+            let arrows = EventFilter {
+                vertical_arrows: true,
+                ..EventFilter::default()
+            };
+            ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+        }
+    }
+
+    fn recordings(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let rows = std::mem::take(&mut self.rows.recordings);
+        let height = ui.spacing().interact_size.y * 2.1;
+        self.keys(ui, rows.len());
+        let area = self.scroll(ui, height + ui.spacing().item_spacing.y);
+        let shown = area.show_rows(ui, height, rows.len(), |ui, range| {
+            for at in range {
+                let row = &rows[at];
+                let chosen = seen.shown.recording == Some(row.id);
+                let lead = height - 4.0;
+                let said = (row.name.as_str(), row.about.as_str());
+                let response = super::list_row_at(ui, row_id(at), (height, lead), chosen, said);
+                self.focus(ui, &response, at);
+                if row.moves {
+                    let motion = Motion::Span(row.id, row.whole);
+                    figure(ui, seen, out, motion, &response, lead);
+                }
+                if response.clicked() {
+                    out.send(Command::Recording(row.id));
+                }
+                response.context_menu(|ui| {
+                    inspect(ui, seen, Thing::Recording(row.id), out);
+                });
+            }
+        });
+        self.scrolled = shown.state.clamped_offset().y;
+        self.rows.recordings = rows;
+    }
+
+    fn signs(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let rows = std::mem::take(&mut self.rows.signs);
+        let height = ui.spacing().interact_size.y * 2.1;
+        self.keys(ui, rows.len());
+        let area = self.scroll(ui, height + ui.spacing().item_spacing.y);
+        let shown = area.show_rows(ui, height, rows.len(), |ui, range| {
+            for at in range {
+                self.sign(ui, seen, out, (at, &rows[at]), height);
+            }
+        });
+        self.scrolled = shown.state.clamped_offset().y;
+        self.rows.signs = rows;
+    }
+
+    fn sign(
+        &mut self,
+        ui: &mut Ui,
+        seen: &Seen<'_>,
+        out: &mut Outbox,
+        (at, row): (usize, &SignRow),
+        height: f32,
+    ) {
+        let chosen = self.chosen.as_ref().is_some_and(|it| it.gloss == row.gloss);
+        let lead = height - 4.0;
+        let said = (row.gloss.as_str(), row.about.as_str());
+        let response = super::list_row_at(ui, row_id(at), (height, lead), chosen, said);
+        self.focus(ui, &response, at);
+        let motion = match (row.moves, row.token) {
+            (Moves::Recorded(recording, span), _) => Some(Motion::Span(recording, span)),
+            (Moves::Notated, Some(token)) if ui.is_rect_visible(response.rect) => {
+                self.notated.get(token, &row.gloss, out).map(Motion::Made)
+            }
+            _ => None,
+        };
+        if let Some(motion) = &motion {
+            figure(ui, seen, out, motion.clone(), &response, lead);
+        }
+        if let Some(carried) = carried(row) {
+            super::carry::drag(&response, carried, motion);
+        }
+        if response.clicked() {
+            self.choose(row, out);
+        }
+        response.context_menu(|ui| {
+            let Some(token) = row.token else { return };
+            let gloss = row.gloss.as_str();
+            super::carry::menu(ui, seen, (token, gloss), out);
+        });
+    }
+}
+
+/// The row at a place of the list, whatever stands there.
+fn row_id(at: usize) -> Id {
+    Id::unique("library").with(at)
+}
+
+fn carried(row: &SignRow) -> Option<Carried> {
+    let gloss = row.gloss.clone();
+    row.token.map(|token| Carried { token, gloss })
+}
+
+fn figure(
+    ui: &Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    motion: Motion,
+    response: &Response,
+    lead: f32,
+) {
+    let at = response.rect.left_center() + vec2(4.0 + lead / 2.0, 0.0);
+    let mut cell = Cell::new(motion, Vec2::splat(lead));
+    if response.hovered() || response.has_focus() {
+        cell = cell.playing(little::clock(ui));
+    }
+    let rect = Rect::from_center_size(at, cell.size);
+    seen.little.paint(ui, seen, out, &cell, rect);
+}
+
+fn inspect(ui: &mut Ui, seen: &Seen<'_>, thing: Thing, out: &mut Outbox) {
+    if ui.button(seen.say(words::INSPECT)).clicked() {
+        out.send(Command::Inspect(thing));
+        ui.close();
+    }
+}
+
+impl Pane for Library {
+    fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        self.notated.follow(seen.snapshot.overview.generation);
+        if let Some(made) = self.notated.wanted(out) {
+            out.send(Command::Made(Some(made)));
+        }
+        let overview = &seen.snapshot.overview;
+        if overview.recordings.is_empty() && overview.signs.is_empty() {
+            ui.label(seen.say(words::EMPTY));
+            if ui.button(seen.say(words::IMPORT)).clicked() {
+                out.send(Command::Do(Action::Import));
+            }
+            return;
+        }
+        let list = self.head(ui, seen);
+        self.rows.update(seen, &self.filter);
+        if list == List::Signs {
+            self.hint(ui, seen, out);
+        }
+        match list {
+            List::Recordings if self.rows.recordings.is_empty() => {
+                ui.label(seen.say(words::NONE_FIT));
+            }
+            List::Signs if self.rows.signs.is_empty() => {
+                ui.label(seen.say(words::NO_SIGN_FITS));
+            }
+            List::Recordings => self.recordings(ui, seen, out),
+            List::Signs => self.signs(ui, seen, out),
+        }
+    }
+
+    fn hear(&mut self, id: WorkId, ended: &Ended) {
+        self.notated.hear(id, ended);
+    }
+}

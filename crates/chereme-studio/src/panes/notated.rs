@@ -1,0 +1,140 @@
+//! Signs that are only notated, made one at a time so that they can be looked at.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
+
+use chereme_corpus::Error;
+
+use super::bare::Bare;
+use crate::context::Outbox;
+use crate::model::made::Made;
+use crate::work::{Ended, Outcome, Work, WorkId};
+
+/// How many made signs are kept.
+const KEPT: usize = 80;
+
+/// Signs made of their notation.
+#[derive(Debug, Default)]
+pub(crate) struct Notated {
+    /// What is being made: of which token, and what it is called.
+    making: Option<(WorkId, i64, String)>,
+    /// By token; why not where it could not be made.
+    made: BTreeMap<i64, Result<Arc<Made>, String>>,
+    /// The tokens in the order in which they were made.
+    order: VecDeque<i64>,
+    /// The token that is to be shown on the stage as soon as it is there.
+    wanted: Option<(i64, String)>,
+    /// The moment of the corpus that failures are of.
+    generation: i64,
+}
+
+impl Notated {
+    /// Returns the movement of a token; where it is not there it is made, one at a time.
+    pub(crate) fn get(&mut self, token: i64, gloss: &str, out: &mut Outbox) -> Option<Arc<Made>> {
+        if let Some(made) = self.made.get(&token) {
+            return made.as_ref().ok().cloned();
+        }
+        let first = self.wanted.as_ref().is_none_or(|(id, _)| *id == token);
+        if self.making.is_none() && first {
+            let recipe = format!("token:{token}");
+            let work = out.work(Work::Preview(recipe));
+            self.making = Some((work, token, gloss.to_owned()));
+        }
+        None
+    }
+
+    /// Has a token shown on the stage.
+    pub(crate) fn open(&mut self, token: i64, gloss: &str, out: &mut Outbox) {
+        self.wanted = Some((token, gloss.to_owned()));
+        self.get(token, gloss, out);
+    }
+
+    /// Returns what is to be shown on the stage now, once; asks for it where another was being made.
+    pub(crate) fn wanted(&mut self, out: &mut Outbox) -> Option<Arc<Made>> {
+        let (token, gloss) = self.wanted.clone()?;
+        let known = self.made.contains_key(&token);
+        let made = self.get(token, &gloss, out);
+        if known {
+            self.wanted = None;
+        }
+        made
+    }
+
+    /// Returns what there is to say of a token that was opened.
+    pub(crate) fn bare(&self, token: i64) -> Option<Bare> {
+        match self.made.get(&token) {
+            Some(Ok(_)) => Some(Bare::Animated),
+            Some(Err(why)) => Some(Bare::Failed(why.clone())),
+            None => self.wanted.is_some().then_some(Bare::Making),
+        }
+    }
+
+    /// Tries again what failed at another moment of the corpus.
+    pub(crate) fn follow(&mut self, generation: i64) {
+        if std::mem::replace(&mut self.generation, generation) != generation {
+            self.made.retain(|_, made| made.is_ok());
+            let made = &self.made;
+            self.order.retain(|token| made.contains_key(token));
+        }
+    }
+
+    pub(crate) fn hear(&mut self, id: WorkId, ended: &Ended) {
+        let Some((_, token, gloss)) = self.making.take_if(|(making, ..)| *making == id) else {
+            return;
+        };
+        let made = match ended {
+            Ok(Outcome::Previewed(made)) => Ok(Arc::new(Made {
+                name: gloss,
+                ..Made::notated(made, token)
+            })),
+            Err(Error::Stopped) | Ok(_) => Err(String::new()),
+            Err(error) => Err(error.to_string()),
+        };
+        self.made.insert(token, made);
+        self.order.push_back(token);
+        if self.order.len() > KEPT
+            && let Some(oldest) = self.order.pop_front()
+        {
+            self.made.remove(&oldest);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::command::Command;
+
+    fn asked(out: &mut Outbox) -> Vec<(WorkId, String)> {
+        let commands = out.take().into_iter();
+        let work = commands.filter_map(|command| match command {
+            Command::Work(id, Work::Preview(recipe)) => Some((id, recipe)),
+            _ => None,
+        });
+        work.collect()
+    }
+
+    #[test]
+    fn signs_are_made_one_at_a_time_and_what_cannot_be_made_is_not_asked_for_again() {
+        let (mut notated, mut out) = (Notated::default(), Outbox::default());
+        assert!(notated.get(3, "A", &mut out).is_none());
+        assert!(notated.get(4, "B", &mut out).is_none());
+        let first = asked(&mut out);
+        assert_eq!(first.len(), 1);
+        assert_eq!(first[0].1, "token:3");
+        notated.open(4, "B", &mut out);
+        assert_eq!(notated.bare(4), Some(Bare::Making));
+        notated.hear(first[0].0, &Err(Error::wrong("no hand")));
+        assert!(notated.get(3, "A", &mut out).is_none() && asked(&mut out).is_empty());
+        assert_eq!(notated.bare(3), Some(Bare::Failed("no hand".into())));
+        assert!(notated.get(5, "C", &mut out).is_none() && asked(&mut out).is_empty());
+        assert!(notated.wanted(&mut out).is_none());
+        assert_eq!(
+            asked(&mut out)[0].1,
+            "token:4",
+            "what is waited for goes first"
+        );
+        notated.follow(7);
+        assert!(notated.made.is_empty());
+    }
+}

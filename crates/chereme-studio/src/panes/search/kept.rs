@@ -1,0 +1,220 @@
+//! Kept searches: a list to choose from, with how many each finds. They are in the corpus; those that
+//! were kept on this computer before can be taken over.
+
+use std::collections::BTreeMap;
+
+use chereme_corpus::{KeptSearch, SearchOptions};
+use chereme_sign::query::Query;
+use eframe::egui::{
+    Button, Key, Popup, PopupCloseBehavior, Role, ScrollArea, TextEdit, Ui, WidgetInfo,
+};
+
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::settings::Searches;
+use crate::words::{fill, search as words};
+use crate::work::{Ended, Outcome, Work, WorkId};
+
+/// The list.
+#[derive(Debug, Default)]
+pub(super) struct Kept {
+    /// The name under which the query is to be kept, and the search that gets another name.
+    name: String,
+    renaming: Option<(String, String)>,
+    /// The list was just opened: what is typed is a name.
+    opened: bool,
+    /// How many each kept search finds, where it was counted.
+    counts: BTreeMap<String, Option<usize>>,
+    counting: BTreeMap<WorkId, String>,
+    /// Those of this computer while they are taken over, and whether they are.
+    taking: Option<WorkId>,
+    taken: bool,
+}
+
+impl Kept {
+    pub(super) fn forget_counts(&mut self) {
+        self.counts.clear();
+    }
+
+    pub(super) fn hear(&mut self, id: WorkId, ended: &Ended) {
+        if let Some(query) = self.counting.remove(&id) {
+            let total = match ended {
+                Ok(Outcome::Found(answer)) => Some(answer.total),
+                _ => None,
+            };
+            self.counts.insert(query, total);
+        }
+        if self.taking.take_if(|taking| *taking == id).is_some() {
+            self.taken = ended.is_ok();
+        }
+    }
+
+    /// Draws the button with the list behind it; returns the query that was chosen.
+    pub(super) fn menu(
+        &mut self,
+        ui: &mut Ui,
+        seen: &Seen<'_>,
+        out: &mut Outbox,
+        query: &str,
+    ) -> Option<String> {
+        if std::mem::take(&mut self.taken) {
+            out.send(Command::Searches(Searches {
+                saved: Vec::new(),
+                ..seen.settings.searches.clone()
+            }));
+        }
+        let saved = ui.button(seen.say(words::SAVED));
+        self.opened |= saved.clicked();
+        let mut chosen = None;
+        Popup::from_toggle_button_response(&saved)
+            .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+            .accessible_name(seen.say(words::SAVED))
+            .show(|ui| {
+                ui.set_min_width(300.0);
+                self.keep(ui, seen, out, query);
+                chosen = self.list(ui, seen, out);
+                self.of_this_computer(ui, seen, out);
+            });
+        chosen
+    }
+
+    /// Draws the field in which the query gets a name.
+    fn keep(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, query: &str) {
+        ui.horizontal(|ui| {
+            let hint = seen.say(words::SAVE_NAME);
+            let before = self.name.clone();
+            let field = TextEdit::singleline(&mut self.name)
+                .hint_text(hint)
+                .desired_width(170.0);
+            let response = ui.add(field);
+            let text = self.name.clone();
+            response.widget_info(|| WidgetInfo {
+                label: Some(hint.to_owned()),
+                ..WidgetInfo::text_edit(true, &before, &text, hint)
+            });
+            if std::mem::take(&mut self.opened) {
+                response.request_focus();
+            }
+            let named = !self.name.trim().is_empty() && Query::parse(query).is_ok();
+            let save = Button::new(seen.say(words::SAVE));
+            let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+            let pressed = ui.add_enabled(named, save).clicked();
+            if named && (pressed || entered) {
+                let name = std::mem::take(&mut self.name);
+                let query = query.to_owned();
+                out.work(Work::KeepSearches(vec![KeptSearch { name, query }]));
+            }
+        });
+    }
+
+    /// Draws the kept searches; returns the one that was chosen.
+    fn list(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) -> Option<String> {
+        let mut chosen = None;
+        let all = &seen.snapshot.overview.searches;
+        if all.is_empty() {
+            ui.weak(seen.say(words::NO_SAVED));
+        }
+        ScrollArea::vertical().max_height(320.0).show(ui, |ui| {
+            for kept in all {
+                self.count(&kept.query, out);
+                let known = self.counts.get(&kept.query).copied().flatten();
+                ui.push_id(&kept.name, |ui| {
+                    ui.horizontal(|ui| {
+                        if self.rename(ui, seen, &kept.name, out) {
+                            return;
+                        }
+                        let number = known.map_or(String::new(), |it| it.to_string());
+                        let button = Button::new(&kept.name).shortcut_text(number);
+                        let about = format!("{}\n@{}", kept.query, kept.name);
+                        if ui.add(button).on_hover_text(about).clicked() {
+                            chosen = Some(kept.query.clone());
+                        }
+                        let name = fill(seen.say(words::RENAME), &[("name", &kept.name)]);
+                        if named(ui, seen.say(words::RENAME_SHORT), &name) {
+                            self.renaming = Some((kept.name.clone(), kept.name.clone()));
+                        }
+                        let name = fill(seen.say(words::DELETE), &[("name", &kept.name)]);
+                        if named(ui, "×", &name) {
+                            out.work(Work::ForgetSearch(kept.name.clone()));
+                        }
+                    });
+                });
+            }
+        });
+        chosen
+    }
+
+    /// Draws the field in which a kept search gets another name, where it is this one.
+    fn rename(&mut self, ui: &mut Ui, seen: &Seen<'_>, name: &str, out: &mut Outbox) -> bool {
+        let Some((of, text)) = self.renaming.as_mut().filter(|(of, _)| of == name) else {
+            return false;
+        };
+        let hint = fill(seen.say(words::RENAME), &[("name", of)]);
+        let before = text.clone();
+        let response = ui.add(TextEdit::singleline(text).desired_width(200.0));
+        let shown = text.clone();
+        response.widget_info(|| WidgetInfo {
+            label: Some(hint.clone()),
+            ..WidgetInfo::text_edit(true, &before, &shown, &hint)
+        });
+        if response.lost_focus() {
+            let to = shown.trim();
+            if !to.is_empty() && to != name {
+                out.work(Work::RenameSearch(name.to_owned(), to.to_owned()));
+            }
+            self.renaming = None;
+        } else if !response.has_focus() {
+            response.request_focus();
+        }
+        true
+    }
+
+    /// Offers what was kept on this computer, before corpora kept searches.
+    fn of_this_computer(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let old = &seen.settings.searches.saved;
+        if old.is_empty() {
+            return;
+        }
+        ui.separator();
+        ui.weak(fill(
+            seen.say(words::OF_THIS_COMPUTER),
+            &[("n", &old.len())],
+        ));
+        ui.horizontal(|ui| {
+            let take = ui.button(seen.say(words::TAKE_OVER));
+            if take.clicked() && !seen.is_running(self.taking) {
+                let all = old.iter().map(|it| KeptSearch {
+                    name: it.name.clone(),
+                    query: it.query.clone(),
+                });
+                self.taking = Some(out.work(Work::KeepSearches(all.collect())));
+            }
+            self.taken |= ui.button(seen.say(words::LEAVE_BEHIND)).clicked();
+        });
+    }
+
+    fn count(&mut self, query: &str, out: &mut Outbox) {
+        if self.counts.contains_key(query) {
+            return;
+        }
+        self.counts.insert(query.to_owned(), None);
+        let id = out.work(Work::Search(query.to_owned(), only_counted()));
+        self.counting.insert(id, query.to_owned());
+    }
+}
+
+/// Returns the options of a search of which only the number of hits is wanted.
+pub(super) fn only_counted() -> SearchOptions {
+    SearchOptions {
+        limit: Some(0),
+        facets: false,
+        ..SearchOptions::default()
+    }
+}
+
+/// Draws a small button with a sign, called `name`; returns whether it was pressed.
+fn named(ui: &mut Ui, sign: &str, name: &str) -> bool {
+    let response = ui.small_button(sign).on_hover_text(name);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
+    response.clicked()
+}

@@ -1,0 +1,152 @@
+//! The page: the query, how many were found and how they are shown, what answers, and facets.
+
+use chereme_sign::query::Query;
+use eframe::egui::{RichText, Ui, vec2};
+
+use super::{PAUSE, Search, View, facets, results, rows, suggest};
+use crate::action::Action;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::words::{Language, fill, search as words};
+
+impl Search {
+    /// Draws the query: its text, its rows, and what there is to do with it.
+    pub(super) fn question(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let now = ui.input(|input| input.time);
+        let wrong = self.wrong.as_ref().and_then(|wrong| wrong.from);
+        let wrong = wrong.filter(|_| self.query == self.field.text);
+        if std::mem::take(&mut self.come) {
+            self.field.take_focus();
+        }
+        let typed = self.field.ui(ui, seen, wrong);
+        if typed.changed {
+            self.changed = Some(now);
+            self.rows = rows::Rows::default();
+        }
+        if typed.entered {
+            if let Some(query) = suggest::kept_query(&self.field.text, seen.snapshot) {
+                self.field.set(query.to_owned());
+                self.rows = rows::Rows::default();
+            }
+            self.aside.remember(&self.field.text, seen, out);
+            self.ask(out);
+        }
+        if typed.down && self.found.as_ref().is_some_and(|found| found.total > 0) {
+            self.reach(self.at);
+        }
+        if let Some(wrong) = self
+            .wrong
+            .as_ref()
+            .filter(|_| self.query == self.field.text)
+        {
+            let trouble = seen.colours().trouble;
+            if seen.language != Language::English {
+                ui.label(seen.say(crate::words::trouble::QUERY_WRONG));
+            }
+            ui.label(RichText::new(&wrong.error).small().color(trouble));
+            if let Some(remedy) = &wrong.remedy {
+                ui.label(RichText::new(remedy).small());
+            }
+        }
+        self.tools(ui, seen, out);
+        if self.built && rows::show(ui, &mut self.rows, seen, &mut self.field.text) {
+            self.ask(out);
+        }
+        let settled = self.changed.is_some_and(|when| now - when >= PAUSE);
+        if settled && !typed.unfinished && Query::parse(&self.field.text).is_ok() {
+            self.ask(out);
+        } else if self.changed.is_some() {
+            ui.ctx().request_repaint_after_secs(PAUSE as f32);
+        }
+    }
+
+    fn tools(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        ui.horizontal_wrapped(|ui| {
+            let rows = ui.selectable_label(self.built, seen.say(words::ROWS));
+            if rows.clicked() {
+                self.built = !self.built;
+            }
+            let turned = self.aside.menus(ui, seen, out, &self.field.text);
+            if let Some(query) = turned {
+                self.turn_to(query, out);
+            }
+        });
+    }
+
+    /// Draws how many were found, and how they are shown.
+    pub(super) fn status(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        ui.horizontal_wrapped(|ui| {
+            if let Some(running) = self.asked.filter(|id| seen.is_running(Some(*id))) {
+                ui.spinner();
+                ui.label(seen.say(words::SEARCHING));
+                if let Some(far) = seen.far(running).filter(|far| far.done > 0) {
+                    ui.weak(fill(seen.say(words::LOOKED_AT), &[("n", &far.done)]));
+                }
+                if ui.button(seen.say(words::STOP)).clicked() {
+                    out.send(Command::Stop(running));
+                }
+            } else if self.stopped {
+                ui.strong(seen.say(words::STOPPED));
+                if ui.button(seen.say(words::SEARCH_AGAIN)).clicked() {
+                    self.ask(out);
+                }
+            } else if let Some(found) = &self.found {
+                ui.strong(fill(seen.say(words::FOUND), &[("n", &found.total)]));
+            }
+            for (view, name) in [(View::Grid, words::GRID), (View::Table, words::TABLE)] {
+                if ui
+                    .selectable_label(self.view == view, seen.say(name))
+                    .on_hover_text(seen.keys.text(Action::SearchView))
+                    .clicked()
+                {
+                    self.view = view;
+                }
+            }
+            if self.view == View::Grid {
+                ui.checkbox(&mut self.playing, seen.say(words::LOOPING));
+                ui.checkbox(&mut self.close, seen.say(words::CLOSE_UP));
+            }
+            ui.checkbox(&mut self.counted, seen.say(words::FACETS));
+        });
+    }
+
+    pub(super) fn answer(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let Some(found) = &self.found else { return };
+        for note in &found.notes {
+            ui.label(RichText::new(note).small().weak());
+        }
+        if found.total == 0 {
+            if let Some(query) = self.aside.nothing(ui, seen, out, &self.query) {
+                self.turn_to(query, out);
+            }
+            return;
+        }
+        if !self.counted {
+            return results::show(self, ui, seen, out);
+        }
+        let wide = ui.available_width() > 520.0;
+        let facets = found.facets.clone();
+        let query = self.field.text.clone();
+        let mut wanted = None;
+        if wide {
+            let room = ui.available_size();
+            ui.horizontal_top(|ui| {
+                let side = (room.x * 0.28).clamp(150.0, 220.0);
+                ui.allocate_ui(vec2(room.x - side - 10.0, room.y), |ui| {
+                    ui.set_width(room.x - side - 10.0);
+                    ui.vertical(|ui| results::show(self, ui, seen, out));
+                });
+                ui.vertical(|ui| wanted = facets::show(ui, seen, &facets, &query, room.y));
+            });
+        } else {
+            let high = (ui.available_height() * 0.35).min(150.0);
+            ui.allocate_ui(vec2(ui.available_width(), high), |ui| {
+                wanted = facets::show(ui, seen, &facets, &query, high);
+            });
+            results::show(self, ui, seen, out);
+        }
+        if let Some(query) = wanted {
+            self.turn_to(query, out);
+        }
+    }
+}

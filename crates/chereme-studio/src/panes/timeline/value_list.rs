@@ -1,0 +1,154 @@
+//! The list under the field for values: what fits, with pictures where values have some, and digits.
+
+use chereme_corpus::StoredInventory;
+use eframe::egui::{
+    Align, Align2, Button, Layout, Rect, Response, Role, ScrollArea, TextStyle, Ui, Vec2,
+    WidgetInfo, vec2,
+};
+
+use super::edit::{self, Scene};
+use super::editor::Editing;
+use super::values::{Choice, Choices};
+use crate::panes::list_row_after;
+use crate::pickers;
+use crate::words::{fill, timeline as words};
+
+/// How high the list is, of names and of pictures.
+const LIST: f32 = 196.0;
+const PICTURES: f32 = 252.0;
+/// Height of a row with a picture.
+const PICTURE: f32 = 42.0;
+
+/// Shows what fits; returns what was clicked.
+pub(super) fn show(
+    ui: &mut Ui,
+    scene: &Scene<'_>,
+    (editing, fitting): (&Editing, &[usize]),
+    (stored, choices, digits): (Option<&StoredInventory>, &Choices, &[String]),
+    moved: bool,
+) -> Option<String> {
+    let mut clicked = None;
+    if fitting.is_empty() {
+        let text = if choices.closed {
+            words::NO_SUCH_VALUE
+        } else {
+            words::NEW_VALUE
+        };
+        ui.weak(scene.seen.say(text));
+    }
+    let marked = editing.marked.or_else(|| {
+        let typed = !editing.text.trim().is_empty() && editing.text != editing.before;
+        fitting.first().copied().filter(|_| choices.closed && typed)
+    });
+    let pictured = stored.filter(|it| edit::has_pictures(&it.inventory));
+    let (height, room) = match pictured {
+        Some(_) => (PICTURE, PICTURES),
+        None => (ui.spacing().interact_size.y, LIST),
+    };
+    ui.spacing_mut().item_spacing.y = 0.0;
+    let mut scroll = ScrollArea::vertical().max_height(room);
+    let here = fitting.iter().position(|at| Some(*at) == marked);
+    if let Some(here) = here.filter(|_| moved) {
+        let top = (here as f32 + 0.5) * height - room / 2.0;
+        scroll = scroll.vertical_scroll_offset(top.max(0.0));
+    }
+    scroll.show_rows(ui, height, fitting.len(), |ui, range| {
+        for at in &fitting[range] {
+            let choice = &choices.all[*at];
+            let digit = digits.iter().position(|value| *value == choice.value);
+            let digit = digit.map_or(String::new(), |digit| (digit + 1).to_string());
+            let chosen = marked == Some(*at);
+            let response = match pictured {
+                Some(stored) => by_picture(ui, scene, stored, (choice, &digit), chosen),
+                None => by_name(ui, (choice, digit), chosen, height),
+            };
+            let label = fill(scene.seen.say(words::VALUE), &[("value", &choice.value)]);
+            response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &label));
+            if response.clicked() {
+                clicked = Some(choice.value.clone());
+            }
+        }
+    });
+    clicked
+}
+
+fn by_name(ui: &mut Ui, (choice, digit): (&Choice, String), chosen: bool, height: f32) -> Response {
+    let text = match &choice.name {
+        Some(name) => format!("{}  {name}", choice.value),
+        None => choice.value.clone(),
+    };
+    let size = vec2(ui.available_width(), height);
+    let layout = Layout::left_to_right(Align::Center);
+    let row = ui.allocate_ui_with_layout(size, layout, |ui| {
+        let button = Button::selectable(chosen, text)
+            .shortcut_text(digit)
+            .truncate()
+            .min_size(size);
+        ui.add(button)
+    });
+    row.inner
+}
+
+/// Shows a value with its picture before it and its digit at the end.
+fn by_picture(
+    ui: &mut Ui,
+    scene: &Scene<'_>,
+    stored: &StoredInventory,
+    (choice, digit): (&Choice, &str),
+    chosen: bool,
+) -> Response {
+    let about = choice.name.as_deref().unwrap_or_default();
+    let response = list_row_after(ui, (PICTURE, PICTURE), chosen, &choice.value, about);
+    if !ui.is_rect_visible(response.rect) {
+        return response;
+    }
+    let square = Rect::from_min_size(response.rect.min, Vec2::splat(PICTURE)).shrink(2.0);
+    let inventory = &stored.inventory;
+    pickers::picture(
+        ui,
+        square.translate(vec2(3.0, 0.0)),
+        scene.seen,
+        inventory,
+        &choice.value,
+    );
+    let end = response.rect.right_center() - vec2(8.0, 0.0);
+    let font = TextStyle::Button.resolve(ui.style());
+    let weak = ui.visuals().weak_text_color();
+    let number = ui.painter().layout_no_wrap(digit.to_owned(), font, weak);
+    let at = Align2::RIGHT_CENTER.anchor_size(end, number.size());
+    let back = ui.visuals().window_fill;
+    if !digit.is_empty() {
+        ui.painter().rect_filled(at.expand(2.0), 3.0, back);
+    }
+    ui.painter().galley(at.min, number, weak);
+    response
+}
+
+/// Returns the value of a digit that was typed into the empty field, where digits pick there.
+pub(super) fn picked<'a>(
+    before: &str,
+    typed: &str,
+    choices: &Choices,
+    digits: &'a [String],
+) -> Option<&'a String> {
+    let mut letters = typed.chars();
+    let digit = letters
+        .next()
+        .filter(|_| before.is_empty() && letters.next().is_none())?;
+    let number = digit.to_digit(10).filter(|number| *number > 0)? as usize;
+    digits
+        .get(number - 1)
+        .filter(|_| !choices.types_digit(digit))
+}
+
+/// Moves the mark among those that fit.
+pub(super) fn step(editing: &mut Editing, fitting: &[usize], up: bool, down: bool) {
+    let here = fitting.iter().position(|at| Some(*at) == editing.marked);
+    let next = match (up, down, here) {
+        (true, _, here) => here.and_then(|here| here.checked_sub(1)),
+        (_, true, None) => Some(0),
+        (_, true, Some(here)) => Some((here + 1).min(fitting.len().saturating_sub(1))),
+        _ => here,
+    };
+    editing.marked = next.and_then(|next| fitting.get(next).copied());
+}

@@ -1,0 +1,51 @@
+//! What the mouse does.
+
+texts! {
+    TITLE: "Mouse", "Souris";
+    CLICK: "click", "clic";
+    DOUBLE_CLICK: "double click", "double clic";
+    RIGHT_CLICK: "right click", "clic droit";
+    DRAG: "drag", "glisser";
+    OTHER_DRAG: "drag with the right button", "glisser avec le bouton droit";
+    WHEEL: "wheel", "molette";
+    HIT: "hit or sign of the library", "résultat ou signe du fonds";
+    OPEN_HIT: "Opens it at its place", "L’ouvre à sa place";
+    TO_CARD: "To a card of the recipe; held over a tab, its pane opens", "Vers une carte de la recette ; tenu sur un onglet, son panneau s’ouvre";
+    MENU_OF_SIGN: "What can be done with it", "Ce qu’on peut en faire";
+    CARD_HANDLE: "handle of a card", "poignée d’une carte";
+    MOVE_CARD: "Moves the card", "Déplace la carte";
+    ANNOTATION: "annotation", "annotation";
+    SELECT: "Selects it and its time", "La sélectionne avec son temps";
+    ALSO: "Adds it to the selection, or takes it out", "L’ajoute à la sélection, ou l’en retire";
+    UP_TO: "Selects all up to it", "Sélectionne tout jusqu’à elle";
+    LANE: "tier", "acteur";
+    FRAME: "Selects all in the frame", "Sélectionne tout dans le cadre";
+    TYPE: "Types its value", "Saisit sa valeur";
+    SELECTION: "selected time", "temps sélectionné";
+    MAKE_ON_SELECTION: "Makes an annotation there", "Y crée une annotation";
+    SELECTED: "selected annotation", "annotation sélectionnée";
+    MOVE: "Moves it, also to another tier; at an edge, moves the edge", "La déplace, aussi vers un autre acteur ; au bord, déplace le bord";
+    EMPTY: "empty place of a tier", "place vide d’un acteur";
+    MAKE: "Makes an annotation", "Crée une annotation";
+    SELECT_TIME: "Selects time", "Sélectionne un temps";
+    EXTEND: "Brings the nearer end of the selection there", "Y amène le bout le plus proche de la sélection";
+    EDGE: "edge of a selected annotation", "bord d’une annotation sélectionnée";
+    RESIZE: "Moves the edge", "Déplace le bord";
+    TIER_NAME: "name of a tier", "nom d’un acteur";
+    CHOOSE_TIER: "Selects the tier", "Sélectionne l’acteur";
+    MENU_OF_TIER: "What can be done with the tier", "Ce qu’on peut faire de l’acteur";
+    PLAYHEAD: "Moves the playhead", "Déplace le curseur";
+    RULER: "ruler", "règle";
+    SCRUB: "Moves the playhead along", "Promène le curseur";
+    FIGURE: "signer", "personne qui signe";
+    ORBIT: "Turns the view", "Tourne la vue";
+    PAN: "Moves the view", "Déplace la vue";
+    NEARER: "Nearer, farther", "Plus près, plus loin";
+    PLACE_ON_BODY: "place on the body, when shown", "lieu du corps, quand ils sont montrés";
+    CHOOSE_PLACE: "Chooses the place", "Choisit le lieu";
+    RESET: "The view as it was", "Vue d’origine";
+    TIMELINE: "timeline", "ligne de temps";
+    ZOOM: "Zooms in time", "Agrandit ou réduit le temps";
+    SCROLL_TIME: "Moves through time", "Parcourt le temps";
+    SCROLL_TIERS: "Moves through the tiers", "Parcourt les acteurs";
+}

@@ -1,0 +1,26 @@
+//! What went wrong, where the corpus says it in another language.
+
+texts! {
+    FAILED: "That could not be done.", "Cela n’a pas été possible.";
+    TASK_FAILED: "{task}: that could not be done.", "{task} : cela n’a pas été possible.";
+    SEVERAL: "Changes that cannot be made: {n}; none was.", "Modifications impossibles : {n} ; aucune n’a été faite.";
+    NOT_FOUND: "{path}: there is nothing of this name.", "{path} : rien ne porte ce nom.";
+    THERE_ALREADY: "{path}: something of this name is there already.", "{path} : quelque chose porte déjà ce nom.";
+    NOT_ALLOWED: "{path} may not be read or written.", "{path} ne peut être ni lu ni écrit.";
+    FILE_FAILED: "{path} could not be read or written.", "{path} n’a pas pu être lu ou écrit.";
+    NOT_A_CORPUS: "{path} cannot be opened as a corpus.", "{path} ne s’ouvre pas comme corpus.";
+    DATABASE: "The corpus could not be read or written.", "Le corpus n’a pas pu être lu ou écrit.";
+    BUSY: "Another program is writing to the corpus.", "Un autre programme écrit dans le corpus.";
+    DISK_FULL: "The disk is full.", "Le disque est plein.";
+    READ_ONLY: "The corpus may not be written here.", "Le corpus ne peut pas être écrit ici.";
+    DAMAGED: "Something in the corpus is damaged.", "Quelque chose est abîmé dans le corpus.";
+    INDEX: "The search index has a fault.", "L’index de recherche a un défaut.";
+    CHECK_PATH: "check the spelling of the path", "vérifiez l’orthographe du chemin";
+    OTHER_NAME: "choose another name, or move the existing one away", "choisissez un autre nom, ou déplacez ce qui existe";
+    ASK_RIGHTS: "the file or its folder needs rights that you do not have", "le fichier ou son dossier demande des droits que vous n’avez pas";
+    TRY_AGAIN: "try again when it is done", "réessayez quand il aura fini";
+    MAKE_ROOM: "make room and try again; nothing was lost", "faites de la place et réessayez ; rien n’est perdu";
+    CHECK: "`chereme check` tells where, and how to mend it", "`chereme check` dit où, et comment réparer";
+    MEND_INDEX: "`chereme check --mend` makes it anew", "`chereme check --mend` le reconstruit";
+    QUERY_WRONG: "The query is not understood:", "La requête ne se comprend pas :";
+}

@@ -1,0 +1,133 @@
+//! Signs that nobody recorded, and signs taken from a list into a recipe: by the mouse, and by keys.
+
+mod common;
+
+use std::path::Path;
+
+use chereme_corpus::{Corpus, ImportOptions, Progress, unheard, unpack_starter};
+use chereme_studio::Options;
+use common::*;
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2};
+use egui_kittest::kittest::Queryable;
+
+const SIGML: &str = r#"<sigml>
+<hns_sign gloss="OUI"><hamnosys_manual>
+  <hamfist/><hamthumbacrossmod/><hamextfingero/><hampalmd/><hamnodding/>
+</hamnosys_manual></hns_sign>
+</sigml>
+"#;
+
+/// Opens a corpus with a sign that is notated and a lexicon of coded ones, and no recording.
+fn open_notated<'a>(folder: &Path) -> Window<'a> {
+    let files = unpack_starter(&folder.join("files")).expect("unpacked");
+    let lexicon = |path: &std::path::PathBuf| path.file_stem().is_some_and(|it| it == "lexicon");
+    let mut files: Vec<_> = files.into_iter().filter(lexicon).collect();
+    let sigml = folder.join("oui.sigml");
+    std::fs::write(&sigml, SIGML).expect("written");
+    files.push(sigml);
+    let path = folder.join("notated.chereme");
+    let mut corpus = Corpus::create(&path, "A").expect("made");
+    let mut hear = unheard;
+    let imported = corpus.import(
+        &files,
+        &ImportOptions::default(),
+        &mut Progress::new(&mut hear),
+    );
+    imported.expect("imported");
+    drop(corpus);
+    let mut window = window(Options {
+        corpus: Some(path),
+        ..options(folder)
+    });
+    until(&mut window, "the signs", |window| {
+        window.query_by_label_contains("Signs (").is_some()
+    });
+    idle(&mut window);
+    window
+}
+
+fn says(window: &Window<'_>, part: &str) -> bool {
+    window.query_all_by_label_contains(part).next().is_some()
+}
+
+#[test]
+fn signs_without_recordings_are_listed_animated_and_taken_into_a_recipe() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_notated(folder.path());
+    assert!(says(&window, "This corpus has no recordings"));
+    window.get_by_label("Filter").type_text("oui");
+    window.run_steps(3);
+    click(&mut window, "OUI");
+    until(&mut window, "the animated sign", |window| {
+        says(window, "OUI is animated from its notation")
+    });
+    idle(&mut window);
+    until(&mut window, "the stage", |window| says(window, "Made: OUI"));
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::ALT, Key::R);
+    window.run_steps(4);
+    idle(&mut window);
+    until(&mut window, "the card", |window| says(window, "Store"));
+    assert!(!says(&window, "A new sign begins with"));
+}
+
+#[test]
+fn a_coded_sign_says_what_can_be_done() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_notated(folder.path());
+    window.get_by_label("Filter").type_text("limace");
+    window.run_steps(3);
+    click(&mut window, "LIMACE");
+    window.run_steps(3);
+    assert!(says(&window, "LIMACE is coded, and nothing moves yet"));
+    click(&mut window, "Make it by a recipe");
+    window.run_steps(3);
+    assert!(!says(&window, "LIMACE is coded"), "the recipe is in front");
+}
+
+fn pointer(window: &mut Window<'_>, at: Pos2, pressed: Option<bool>) {
+    window.event(Event::PointerMoved(at));
+    if let Some(pressed) = pressed {
+        window.event(Event::PointerButton {
+            pos: at,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+    }
+    window.step();
+}
+
+#[test]
+fn a_hit_is_dragged_over_a_tab_to_the_recipe() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F2);
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    window.run_steps(3);
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    idle(&mut window);
+    window.run_steps(2);
+    let hit = window.get_by_label_contains("ESCARGOT, escargot").rect();
+    let tab = window.get_by_label("Recombine").rect();
+    pointer(&mut window, hit.center(), None);
+    pointer(&mut window, hit.center(), Some(true));
+    for by in 1..6 {
+        let at = hit.center().lerp(tab.center(), by as f32 / 5.0);
+        pointer(&mut window, at, None);
+    }
+    for _ in 0..40 {
+        pointer(&mut window, tab.center(), None);
+    }
+    assert!(says(&window, "Begin with"), "the pane came to the front");
+    let below = tab.center() + eframe::egui::vec2(0.0, 300.0);
+    pointer(&mut window, below, None);
+    pointer(&mut window, below, Some(false));
+    window.run_steps(3);
+    idle(&mut window);
+    assert!(
+        window.query_all_by_value("token:1").next().is_some() || says(&window, "token:"),
+        "the card has the sign"
+    );
+}
