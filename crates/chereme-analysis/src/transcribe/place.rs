@@ -1,6 +1,7 @@
 //! Where hands are: the nearest place on the body or in space, what touches, the two by each other.
 
 mod hand;
+mod together;
 
 use std::cell::OnceCell;
 
@@ -11,9 +12,10 @@ use glam::DVec3;
 
 use super::Found;
 use super::scene::{Axes, Scene};
-use hand::{Hand, RANK, Spotted, rank};
+use hand::{Hand, named_all};
 
 pub(super) use hand::named;
+pub(super) use together::Together;
 
 /// Places that are told apart; those within them (teeth, eyelids) are said where one is surer.
 const PLACES: [BodyLocation; 24] = [
@@ -53,8 +55,6 @@ const SIDES: [Option<Side>; 5] = [
 /// A hand touches the head or an arm where it is nearer than the first, the trunk where nearer than
 /// the second, the other hand where nearer than the third; in arm lengths.
 const TOUCH: [f64; 3] = [0.05, 0.07, 0.045];
-/// Hands are by each other where parts of them are nearer than this, in arm lengths.
-const TOGETHER: f64 = 0.125;
 /// How much a metre forward counts against one aside or up: depth varies most between signers.
 const DEPTH: f64 = 0.6;
 /// What is said costs so much, as a share of the distance: half-way between places of the trunk (or
@@ -71,13 +71,12 @@ const SAID: [f64; 2] = [0.25, 0.8];
 const SIDE: f64 = 0.05;
 const WIDE: f64 = 0.1;
 const ACROSS: f64 = 0.3;
+/// Half-way between places that another one lies between costs this besides: that one would be said.
+const SKIPS: f64 = 0.4;
+/// What lies nearer to the middle of two places than this share of the way to either lies between.
+const BETWEEN_THEM: f64 = 0.6;
 /// A distance is taken for so much more, in metres, before what is said counts against it.
 const FLOOR: f64 = 0.004;
-/// The two hands by each other are told rather than each at its place where that is not so much nearer:
-/// where they touch, and where they are close.
-const RATHER: [f64; 2] = [1.8, 1.2];
-/// So many pairs of parts of the hands are tried.
-const PAIRS: usize = 8;
 /// Half-way between two places may be meant that are nearer to each other than this, in metres.
 const APART: f64 = 0.2;
 /// As above, where one is at the neck and the other at the head.
@@ -137,8 +136,8 @@ struct Choice {
 struct Candidate<'c> {
     choice: &'c Choice,
     contact: Option<Contact>,
-    /// The part of the hand, where it must be said.
-    said: Option<HandPoint>,
+    /// The parts of the hand, where they must be said.
+    said: Option<&'c [HandPoint]>,
     residual: f64,
     /// The residual with what is said counted against it.
     score: f64,
@@ -159,7 +158,7 @@ impl Candidate<'_> {
             site,
             second,
             contact: self.contact,
-            by: self.said.map(named),
+            by: self.said.map(named_all),
             ..BodyPlace::default()
         }
     }
@@ -197,13 +196,27 @@ impl<'a> Body<'a> {
         self.choices[n].get_or_init(|| {
             let spots = self.spots(n);
             let mut all = Vec::new();
+            let plain: Vec<&Spot> = spots
+                .iter()
+                .filter(|spot| !is_rare(spot) && !is_top(spot))
+                .collect();
             for (k, first) in spots.iter().enumerate() {
                 all.push(choice(first, None));
                 for second in spots[k + 1..].iter().filter(|it| neighbours(first, it)) {
-                    all.push(choice(first, Some(second)));
+                    let more = if skips(first, second, &plain) {
+                        SKIPS
+                    } else {
+                        0.0
+                    };
+                    let mut add = |a: &Spot, b: &Spot| {
+                        let mut both = choice(a, Some(b));
+                        both.cost += more;
+                        all.push(both);
+                    };
+                    add(first, second);
                     // From where it is counted tells how far before it a hand is.
                     if first.region != second.region {
-                        all.push(choice(second, Some(first)));
+                        add(second, first);
                     }
                 }
             }
@@ -303,7 +316,7 @@ impl<'a> Body<'a> {
     fn weigh<'c>(
         &self,
         n: usize,
-        hand: &Hand,
+        hand: &'c Hand,
         choice: &'c Choice,
         symmetric: bool,
         all: &mut Vec<Candidate<'c>>,
@@ -331,15 +344,15 @@ impl<'a> Body<'a> {
             };
             let cost = between + choice.cost + more;
             let small = touching || (near && !trunk);
-            let mut add = |point: &Spotted, said: Option<HandPoint>, cost: f64| {
-                let distance = point.at.distance(spot.at);
+            let mut add = |at: DVec3, said: Option<&'c [HandPoint]>, cost: f64| {
+                let distance = at.distance(spot.at);
                 if touching && distance > TOUCH[usize::from(trunk)] * scene.arm {
                     return;
                 }
                 let residual = if touching {
                     distance
                 } else {
-                    ((point.at - goal) * DVec3::new(1.0, 1.0, DEPTH)).length()
+                    ((at - goal) * DVec3::new(1.0, 1.0, DEPTH)).length()
                 };
                 all.push(Candidate {
                     choice,
@@ -349,16 +362,16 @@ impl<'a> Body<'a> {
                     score: (residual + FLOOR) * (1.0 + cost),
                     distance,
                     small: said.is_some() || small,
-                    by: point.at,
+                    by: at,
                 });
             };
             let own = if small { meant } else { hand.middle() };
-            add(&own, None, cost);
-            if (small || near)
-                && within
-                && let Some(other) = hand.nearest(goal)
-            {
-                add(&other, Some(other.point), cost + SAID[usize::from(!small)]);
+            add(own.at, None, cost);
+            if (small || near) && within {
+                let cost = cost + SAID[usize::from(!small)];
+                if let Some((at, parts)) = hand.nearest(goal) {
+                    add(at, Some(parts), cost);
+                }
             }
         }
     }
@@ -462,121 +475,6 @@ impl<'a> Body<'a> {
             .map(|spotted| spotted.at)
             .collect()
     }
-
-    /// Returns how the two hands are by each other: the parts nearest to each other, their contact and
-    /// their distance in metres; nothing where they are apart.
-    pub(super) fn together(&self) -> Option<Together> {
-        self.pairs(1).into_iter().next()
-    }
-
-    /// Returns the pairs of parts of the two hands that are nearest to each other, the nearest first.
-    fn pairs(&self, most: usize) -> Vec<Together> {
-        let [Some(dominant), Some(other)] = &self.hands else {
-            return Vec::new();
-        };
-        let reach = TOGETHER * self.scene.arm;
-        let mut all: Vec<(f64, Together)> = Vec::new();
-        for own in &dominant.points {
-            for other in &other.points {
-                if own.at.distance(other.at) < reach {
-                    // Whole faces of the hand are sooner meant than what lies within them.
-                    let rank = RANK * (rank(own.point) + rank(other.point));
-                    let together = self.by_each_other([own, other]);
-                    all.push((together.distance + rank, together));
-                }
-            }
-        }
-        all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        all.truncate(most);
-        all.into_iter().map(|(_, together)| together).collect()
-    }
-
-    fn by_each_other(&self, [own, other]: [&Spotted; 2]) -> Together {
-        let distance = own.at.distance(other.at);
-        let arm = self.scene.arm;
-        let touching = distance < TOUCH[2] * arm;
-        let near = self.scene.language.hands_near * arm;
-        Together {
-            parts: [own.point, other.point],
-            at: [own.at, other.at],
-            distance,
-            contact: if touching {
-                Contact::Touch
-            } else {
-                Contact::Close
-            },
-            off: if touching {
-                distance
-            } else {
-                (distance - near).abs()
-            },
-            said: true,
-        }
-    }
-
-    /// Returns the pairs of parts that are meant where none are said: those that hands turn to each
-    /// other that mirror one another, or of which one comes upon the other.
-    fn meant_pairs(&self) -> Vec<Together> {
-        let [Some(dominant), Some(other)] = &self.hands else {
-            return Vec::new();
-        };
-        let own = dominant.meant(DVec3::NEG_X, Region::Trunk);
-        let mirrored = [own, other.meant(DVec3::X, Region::Trunk)];
-        let way = DVec3::new(-0.6, 1.0, 0.3).normalize();
-        let below = other.meant(-way, Region::Trunk);
-        let region = Region::Arm(self.scene.dominant.other());
-        let upon = [dominant.meant(below.out, region), below];
-        let reach = TOGETHER * self.scene.arm;
-        [mirrored, upon]
-            .iter()
-            .map(|[own, other]| Together {
-                said: false,
-                ..self.by_each_other([own, other])
-            })
-            .filter(|together| together.distance < reach)
-            .collect()
-    }
-
-    /// Returns how the two hands are by each other, and the place that they share, where that tells more
-    /// than the place of each, which is so far off as `apart` says.
-    pub(super) fn constellation(&self, apart: f64) -> Option<(Together, Placed)> {
-        let mut all = self.meant_pairs();
-        all.extend(self.pairs(PAIRS));
-        let (score, together, placed) = all
-            .into_iter()
-            .filter_map(|together| {
-                let mut placed = self.shared(together.at[0].midpoint(together.at[1]))?;
-                let said = if together.said { SAID[0] } else { 0.0 };
-                let off = together.off * (1.0 + said) + FLOOR * said;
-                placed.residual = placed.residual.max(together.off);
-                Some((placed.score + off, together, placed))
-            })
-            .min_by(|a, b| a.0.total_cmp(&b.0))?;
-        let rather = RATHER[usize::from(together.contact != Contact::Touch)];
-        (score < rather * apart).then_some((together, placed))
-    }
-
-    /// Returns the place nearest to a point that both hands share.
-    fn shared(&self, at: DVec3) -> Option<Placed> {
-        let mut placed = self.placed(0, &Hand::only(at), false)?;
-        placed.place.by = None;
-        Some(placed)
-    }
-}
-
-/// The two hands by each other.
-#[derive(Debug, Clone)]
-pub(super) struct Together {
-    /// The part of the dominant hand and of the other.
-    pub(super) parts: [HandPoint; 2],
-    pub(super) distance: f64,
-    /// Where they are.
-    pub(super) at: [DVec3; 2],
-    pub(super) contact: Contact,
-    /// How far they are from where they would be by that contact, in metres.
-    off: f64,
-    /// Whether the parts must be said.
-    said: bool,
 }
 
 /// Whether a place half-way between two can be meant: of one region, or of the neck and the head.
@@ -594,6 +492,17 @@ fn neighbours(a: &Spot, b: &Spot) -> bool {
         false => 0.0,
     };
     apart > 1e-3 && apart < most && !opposite && !arms
+}
+
+/// Whether a plain place lies between two.
+fn skips(a: &Spot, b: &Spot, plain: &[&Spot]) -> bool {
+    let middle = a.at.midpoint(b.at);
+    let reach = BETWEEN_THEM * a.at.distance(middle);
+    let others = plain
+        .iter()
+        .filter(|it| it.site != a.site && it.site != b.site);
+    let mut near = others.filter(|it| it.at.distance(middle) < reach);
+    near.next().is_some()
 }
 
 /// Whether a place is one that hands touch: they are hardly half-way before it.

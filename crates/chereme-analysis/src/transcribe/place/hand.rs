@@ -24,6 +24,8 @@ pub(super) struct Hand {
     axes: [DVec3; 3],
     shape: Handshape,
     pub(super) points: Vec<Spotted>,
+    /// The parts that may be named, one or two digits together, and how far away each counts more.
+    named: Vec<(DVec3, Vec<HandPoint>, f64)>,
 }
 
 impl Hand {
@@ -38,12 +40,14 @@ impl Hand {
         let track = scene.hands[n].as_ref()?;
         let (along, normal) = (track.along[frame], track.normal[frame]);
         // The scene shows the dominant hand as a right one.
-        let radial = normal.cross(along) * if n == 0 { 1.0 } else { -1.0 };
+        let radial = along.cross(normal) * if n == 0 { 1.0 } else { -1.0 };
+        let points = points(scene, axes, model, track.side);
         Some(Self {
             palm: track.palm[frame],
             axes: [along, normal, radial],
             shape: shape.cloned().unwrap_or_default(),
-            points: points(scene, axes, model, track.side),
+            named: nameable(&points),
+            points,
         })
     }
 
@@ -52,6 +56,9 @@ impl Hand {
         self.palm += by;
         for spotted in &mut self.points {
             spotted.at += by;
+        }
+        for (at, ..) in &mut self.named {
+            *at += by;
         }
     }
 
@@ -62,6 +69,7 @@ impl Hand {
             axes: [DVec3::Z, DVec3::NEG_Y, DVec3::X],
             shape: Handshape::default(),
             points: Vec::new(),
+            named: Vec::new(),
         }
     }
 
@@ -85,13 +93,11 @@ impl Hand {
         at.copied().unwrap_or_else(|| self.middle())
     }
 
-    /// Returns the point nearest to a place.
-    pub(super) fn nearest(&self, to: DVec3) -> Option<Spotted> {
-        let off = |spotted: &Spotted| spotted.at.distance(to) + RANK * rank(spotted.point);
-        self.points
-            .iter()
-            .min_by(|a, b| off(a).total_cmp(&off(b)))
-            .copied()
+    /// Returns where the parts are that are nearest to a place, and which.
+    pub(super) fn nearest(&self, to: DVec3) -> Option<(DVec3, &[HandPoint])> {
+        let off = |(at, _, more): &&(DVec3, Vec<HandPoint>, f64)| at.distance(to) + more;
+        let nearest = self.named.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+        nearest.map(|(at, parts, _)| (*at, parts.as_slice()))
     }
 
     /// Returns where several points are, taken together.
@@ -111,6 +117,30 @@ impl Hand {
 
 /// A part of the hand counts as so much farther, in metres, for each step that it is less likely meant.
 pub(super) const RANK: f64 = 0.002;
+/// Two digits together are so many steps less likely.
+const TWO: f64 = 1.0;
+/// They are meant together where they are nearer to each other than this, in metres.
+const PINCHED: f64 = 0.10;
+
+/// Returns the parts of a hand that are named, also tips and pads of the thumb and a finger together.
+fn nameable(points: &[Spotted]) -> Vec<(DVec3, Vec<HandPoint>, f64)> {
+    let mut all: Vec<_> = points
+        .iter()
+        .map(|it| (it.at, vec![it.point], RANK * rank(it.point)))
+        .collect();
+    let at = |point: HandPoint| Some(points.iter().find(|it| it.point == point)?.at);
+    for face in [Face::Middle, Face::Palmar] {
+        for finger in [Digit::Index, Digit::Middle] {
+            let both = [Digit::Thumb, finger].map(|digit| HandPoint::Tip(digit, face));
+            if let [Some(a), Some(b)] = both.map(at)
+                && a.distance(b) < PINCHED
+            {
+                all.push((a.midpoint(b), both.to_vec(), RANK * TWO));
+            }
+        }
+    }
+    all
+}
 
 /// Returns points of a hand's outline.
 fn points(scene: &Scene<'_>, axes: &Axes, model: &ModelPose, side: Half) -> Vec<Spotted> {
@@ -221,6 +251,16 @@ pub(super) fn rank(point: HandPoint) -> f64 {
         HandPoint::Base(of, _) => 1.5 + digit(of),
         _ => 3.0,
     }
+}
+
+/// Returns the site of a hand that is called by a point, or by the same points of several digits.
+pub(super) fn named_all(points: &[HandPoint]) -> HandSite {
+    let mut sites = points.iter().map(|point| named(*point));
+    let mut first = sites.next().unwrap_or_default();
+    for other in sites {
+        first.digits.0.extend(other.digits.0);
+    }
+    first
 }
 
 /// Returns the site of a hand that is called by a point.

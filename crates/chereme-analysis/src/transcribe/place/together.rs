@@ -1,0 +1,151 @@
+//! The two hands by each other.
+
+use chereme_sign::hamnosys::sites::{HandPoint, Region};
+use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Site};
+use glam::DVec3;
+
+use super::hand::{Hand, RANK, Spotted, rank};
+use super::{Body, DEPTH, FLOOR, Placed, SAID, TOUCH};
+
+/// Hands are by each other where parts of them are nearer than this, in arm lengths.
+const TOGETHER: f64 = 0.125;
+/// So many pairs of parts of the hands are tried.
+const PAIRS: usize = 8;
+/// The two hands by each other are told rather than each at its place where that is not so much nearer:
+/// where they touch, and where they are close.
+const RATHER: [f64; 2] = [1.8, 1.2];
+/// Where hands are of which no place is said.
+const NEUTRAL: Site<BodyLocation> = Site {
+    at: BodyLocation::NeutralSpace,
+    side: None,
+    approx: false,
+};
+
+/// The two hands by each other.
+#[derive(Debug, Clone)]
+pub(in crate::transcribe) struct Together {
+    /// The part of the dominant hand and of the other.
+    pub(in crate::transcribe) parts: [HandPoint; 2],
+    pub(in crate::transcribe) distance: f64,
+    /// Where they are.
+    pub(in crate::transcribe) at: [DVec3; 2],
+    pub(in crate::transcribe) contact: Contact,
+    /// How far they are from where they would be by that contact, in metres.
+    off: f64,
+    /// Whether the parts must be said.
+    said: bool,
+}
+
+impl Body<'_> {
+    /// Returns how the two hands are by each other: the parts nearest to each other, their contact and
+    /// their distance in metres; nothing where they are apart.
+    pub(in crate::transcribe) fn together(&self) -> Option<Together> {
+        self.pairs(1).into_iter().next()
+    }
+
+    /// Returns the pairs of parts of the two hands that are nearest to each other, the nearest first.
+    fn pairs(&self, most: usize) -> Vec<Together> {
+        let [Some(dominant), Some(other)] = &self.hands else {
+            return Vec::new();
+        };
+        let reach = TOGETHER * self.scene.arm;
+        let mut all: Vec<(f64, Together)> = Vec::new();
+        for own in &dominant.points {
+            for other in &other.points {
+                if own.at.distance(other.at) < reach {
+                    // Whole faces of the hand are sooner meant than what lies within them.
+                    let rank = RANK * (rank(own.point) + rank(other.point));
+                    let together = self.by_each_other([own, other]);
+                    all.push((together.distance + rank, together));
+                }
+            }
+        }
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all.truncate(most);
+        all.into_iter().map(|(_, together)| together).collect()
+    }
+
+    fn by_each_other(&self, [own, other]: [&Spotted; 2]) -> Together {
+        let distance = own.at.distance(other.at);
+        let arm = self.scene.arm;
+        let touching = distance < TOUCH[2] * arm;
+        let near = self.scene.language.hands_near * arm;
+        Together {
+            parts: [own.point, other.point],
+            at: [own.at, other.at],
+            distance,
+            contact: if touching {
+                Contact::Touch
+            } else {
+                Contact::Close
+            },
+            off: if touching {
+                distance
+            } else {
+                (distance - near).abs()
+            },
+            said: true,
+        }
+    }
+
+    /// Returns the pairs of parts that are meant where none are said: those that hands turn to each
+    /// other that mirror one another, or of which one comes upon the other.
+    fn meant_pairs(&self) -> Vec<Together> {
+        let [Some(dominant), Some(other)] = &self.hands else {
+            return Vec::new();
+        };
+        let own = dominant.meant(DVec3::NEG_X, Region::Trunk);
+        let mirrored = [own, other.meant(DVec3::X, Region::Trunk)];
+        let way = DVec3::new(-0.6, 1.0, 0.3).normalize();
+        let below = other.meant(-way, Region::Trunk);
+        let region = Region::Arm(self.scene.dominant.other());
+        let upon = [dominant.meant(below.out, region), below];
+        let reach = TOGETHER * self.scene.arm;
+        [mirrored, upon]
+            .iter()
+            .map(|[own, other]| Together {
+                said: false,
+                ..self.by_each_other([own, other])
+            })
+            .filter(|together| together.distance < reach)
+            .collect()
+    }
+
+    /// Returns how the two hands are by each other, and the place that they share, where that tells more
+    /// than the place of each, which is so far off as `apart` says.
+    pub(in crate::transcribe) fn constellation(&self, apart: f64) -> Option<(Together, Placed)> {
+        let mut all = self.meant_pairs();
+        all.extend(self.pairs(PAIRS));
+        let (score, together, placed) = all
+            .into_iter()
+            .filter_map(|together| {
+                let mut placed = self.shared(together.at[0].midpoint(together.at[1]))?;
+                let said = if together.said { SAID[0] } else { 0.0 };
+                let off = together.off * (1.0 + said) + FLOOR * said;
+                placed.residual = placed.residual.max(together.off);
+                Some((placed.score + off, together, placed))
+            })
+            .min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let rather = RATHER[usize::from(together.contact != Contact::Touch)];
+        (score < rather * apart).then_some((together, placed))
+    }
+
+    /// Returns the place nearest to a point that both hands share; no place where that is neutral space.
+    fn shared(&self, at: DVec3) -> Option<Placed> {
+        let mut placed = self.placed(0, &Hand::only(at), false)?;
+        placed.place.by = None;
+        let neutral = self.spot(0, &NEUTRAL)?;
+        let off = (at - self.goal(&neutral, None, 0, false)) * DVec3::new(1.0, 1.0, DEPTH);
+        let score = off.length() + FLOOR;
+        if score > placed.score {
+            return Some(placed);
+        }
+        Some(Placed {
+            runner_up: Some((placed.place, placed.residual)),
+            place: BodyPlace::default(),
+            residual: off.length(),
+            score,
+            ..placed
+        })
+    }
+}
