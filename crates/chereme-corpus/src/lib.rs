@@ -84,7 +84,7 @@ pub use recombine::{MadePart, Recombination};
 pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions};
 pub use starter::{starter_files, unpack_starter};
 pub use suggest::{Partner, Suggestions};
-pub use transcribe::{Transcribed, TranscribedFeature};
+pub use transcribe::{Transcribed, TranscribedFeature, TranscribedStage, TranscribedValue};
 
 /// An open corpus.
 pub struct Corpus {

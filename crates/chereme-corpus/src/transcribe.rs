@@ -1,6 +1,6 @@
 //! The notation of stored movement.
 
-use chereme_analysis::transcribe::{Feature, FeatureKind, Options, RunnerUp, transcribe};
+use chereme_analysis::transcribe::{Feature, FeatureKind, Options, Stage, transcribe};
 use chereme_motion::{Side, Span};
 use chereme_sign::hamnosys::{Notated, Sign, print, to_names};
 use serde::Serialize;
@@ -35,10 +35,29 @@ pub struct Transcribed {
     pub symbols: Vec<&'static str>,
     /// The notation's tree.
     pub sign: Sign,
+    /// The posture at the beginning and what is done after it, each with its time.
+    pub stages: Vec<TranscribedStage>,
     /// What was told, in the order of the notation.
     pub features: Vec<TranscribedFeature>,
     /// What could not be told, and what HamNoSys has no symbols for.
     pub findings: Vec<String>,
+}
+
+/// The posture that a sign begins with, or something that is done.
+#[derive(Debug, Clone, Serialize)]
+pub struct TranscribedStage {
+    /// The number of the action, from 1; nothing for the posture at the beginning.
+    pub action: Option<usize>,
+    /// The hand, where each does something for itself.
+    pub hand: Option<Side>,
+    /// From when, in microseconds from the start of the recording.
+    pub start_us: i64,
+    /// Until when, with all repetitions.
+    pub end_us: i64,
+    /// Its HamNoSys.
+    pub hamnosys: String,
+    /// The names of its symbols.
+    pub symbols: Vec<&'static str>,
 }
 
 /// A feature of notation, at a moment of a recording.
@@ -50,16 +69,32 @@ pub struct TranscribedFeature {
     pub hand: Option<Side>,
     /// The number of the action it belongs to, from 1; nothing for the posture at the beginning.
     pub action: Option<usize>,
-    /// When, in microseconds from the start of the recording.
+    /// When it is seen, in microseconds from the start of the recording.
     pub at_us: i64,
+    /// From when the posture or action lasts that it belongs to.
+    pub start_us: i64,
+    /// Until when it lasts.
+    pub end_us: i64,
     /// What it is.
-    pub value: String,
-    /// How far the movement is from it, in `unit`.
-    pub residual: f64,
+    #[serde(flatten)]
+    pub value: TranscribedValue,
     /// `deg`, `cm` or `share`.
     pub unit: chereme_analysis::transcribe::Unit,
-    /// What would have come next.
-    pub runner_up: Option<RunnerUp>,
+    /// What would have come next, its residual in the same unit.
+    pub runner_up: Option<TranscribedValue>,
+}
+
+/// A value of a feature, in words and in symbols.
+#[derive(Debug, Clone, Serialize)]
+pub struct TranscribedValue {
+    /// In words.
+    pub value: String,
+    /// As HamNoSys; empty where it is told by writing nothing.
+    pub hamnosys: String,
+    /// The names of the symbols.
+    pub symbols: Vec<&'static str>,
+    /// How far the movement is from it, in the feature's unit.
+    pub residual: f64,
 }
 
 impl Corpus {
@@ -105,14 +140,18 @@ impl Corpus {
             recording: stretch.recording.id,
             start_us: at(first),
             end_us: at(end).min(span_end(stretch.span, at(first))),
-            symbols: to_names(&printed.text)
-                .map_err(|error| Error::wrong(format!("what was written is odd: {error}")))?,
+            symbols: names(&printed.text)?,
             hamnosys: printed.text,
+            stages: written
+                .stages
+                .into_iter()
+                .map(|stage| staged(stage, &at))
+                .collect::<Result<_>>()?,
             features: written
                 .features
                 .into_iter()
                 .map(|feature| placed(feature, &at))
-                .collect(),
+                .collect::<Result<_>>()?,
             sign: written.sign,
             findings,
         })
@@ -178,15 +217,42 @@ fn span_end(span: Span, least: i64) -> i64 {
     span.end().micros().max(least)
 }
 
-fn placed(feature: Feature, at: &impl Fn(usize) -> i64) -> TranscribedFeature {
-    TranscribedFeature {
+fn names(text: &str) -> Result<Vec<&'static str>> {
+    to_names(text).map_err(|error| Error::wrong(format!("what was written is odd: {error}")))
+}
+
+fn staged(stage: Stage, at: &impl Fn(usize) -> i64) -> Result<TranscribedStage> {
+    Ok(TranscribedStage {
+        action: stage.action,
+        hand: stage.hand,
+        start_us: at(stage.frames.0),
+        end_us: at(stage.frames.1),
+        symbols: names(&stage.text)?,
+        hamnosys: stage.text,
+    })
+}
+
+fn placed(feature: Feature, at: &impl Fn(usize) -> i64) -> Result<TranscribedFeature> {
+    let value = |value: String, text: String, residual: f64| -> Result<TranscribedValue> {
+        Ok(TranscribedValue {
+            value,
+            symbols: names(&text)?,
+            hamnosys: text,
+            residual,
+        })
+    };
+    let runner_up = feature.runner_up;
+    Ok(TranscribedFeature {
         feature: feature.kind,
         hand: feature.hand,
         action: feature.action,
         at_us: at(feature.frame),
-        value: feature.value,
-        residual: feature.residual,
+        start_us: at(feature.frames.0),
+        end_us: at(feature.frames.1),
+        value: value(feature.value, feature.text, feature.residual)?,
         unit: feature.unit,
-        runner_up: feature.runner_up,
-    }
+        runner_up: runner_up
+            .map(|next| value(next.value, next.text, next.residual))
+            .transpose()?,
+    })
 }

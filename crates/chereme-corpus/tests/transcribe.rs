@@ -24,6 +24,18 @@ fn what_is_transcribed_can_be_kept_and_taken_back() {
     let sign: Address = "BOL".parse().expect("an address");
     let told = corpus.transcribe(&sign).expect("told");
     assert!(!told.features.is_empty() && told.start_us < told.end_us);
+    let text: String = told.stages.iter().map(|it| it.hamnosys.as_str()).collect();
+    if told.stages.iter().all(|stage| stage.hand.is_none()) {
+        assert_eq!(told.hamnosys, text, "stages in order are the whole");
+    }
+    for stage in &told.stages {
+        assert!(told.start_us <= stage.start_us && stage.start_us < stage.end_us);
+    }
+    for feature in &told.features {
+        let value = &feature.value;
+        assert_eq!(value.symbols.len(), value.hamnosys.chars().count());
+        assert!(feature.start_us <= feature.at_us && feature.at_us <= feature.end_us);
+    }
     let read = parse(&told.hamnosys).expect("HamNoSys that reads");
     assert_eq!(read.sign, told.sign, "{:?}", told.findings);
 

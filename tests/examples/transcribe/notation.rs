@@ -13,13 +13,13 @@ use chereme_sign::hamnosys::{Manual, Notated, Sign};
 
 use crate::Result;
 use crate::bodies;
-use crate::compare::compare;
+use crate::compare::{Verdict, compare};
 
 /// What is printed besides the table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum More<'a> {
     Nothing,
-    /// Every disagreement about a feature of the half that is tuned on, or `all`, or `show` with each.
+    /// Every disagreement about a feature, or `all`, or `show` with each; only the half that is tuned on.
     Why(&'a str),
     /// What is taken for what how often, in the half that is tuned on.
     Confusions(&'a str),
@@ -50,43 +50,57 @@ pub(crate) fn table(folder: &Path, body: &Path, more: More<'_>) -> Result<()> {
     let mut confusions: BTreeMap<(String, String), usize> = BTreeMap::new();
     let (mut parts, mut whole, mut failed, mut slow) = (0, 0, 0, 0.0_f64);
     let mut spent = 0.0;
-    for (name, entry) in bodies::signs(folder)? {
-        let tuned = is_tuned_on(&name);
-        for part in &entry.sign.parts {
-            let Some(again) = again(part, &entry, &stage, &settings, &options) else {
-                failed += 1;
-                continue;
-            };
-            let short = again.short;
-            parts += 1;
-            whole += usize::from(!short);
-            spent += again.seconds;
-            slow = slow.max(again.seconds);
-            if more == More::Why("show") {
-                show(&name, part, &again);
-            }
-            for verdict in compare(part, &again) {
-                let count = counts.entry(verdict.feature).or_default();
-                count.add(verdict.agrees, [true, !short, tuned, !tuned]);
-                match more {
-                    More::Confusions(of) if tuned && of == verdict.feature => {
-                        let mark = if verdict.agrees { "= " } else { "" };
-                        let pair = (verdict.written, format!("{mark}{}", verdict.found));
-                        *confusions.entry(pair).or_default() += 1;
-                    }
-                    More::Why(of)
-                        if tuned && !verdict.agrees && [verdict.feature, "all"].contains(&of) =>
-                    {
-                        println!(
-                            "{}{}\t{name}: {}   <>   {}",
-                            verdict.feature,
-                            if short { " (short)" } else { "" },
-                            verdict.written,
-                            verdict.found
-                        );
-                    }
-                    _ => {}
+    let signs = bodies::signs(folder)?;
+    let todo: Vec<(&str, &Notated, &Manual)> = signs
+        .iter()
+        .filter(|(name, _)| more == More::Nothing || is_tuned_on(name))
+        .flat_map(|(name, entry)| {
+            entry
+                .sign
+                .parts
+                .iter()
+                .map(move |part| (&**name, entry, part))
+        })
+        .collect();
+    let seen = seen(&todo, |(name, entry, part)| {
+        let again = again(part, entry, &stage, &settings, &options)?;
+        Some(Seen {
+            short: again.short,
+            seconds: again.seconds,
+            verdicts: compare(part, &again),
+            shown: (more == More::Why("show")).then(|| show(name, part, &again)),
+        })
+    });
+    for ((name, ..), seen) in todo.iter().zip(seen) {
+        let Some(seen) = seen else {
+            failed += 1;
+            continue;
+        };
+        let (short, tuned) = (seen.short, is_tuned_on(name));
+        parts += 1;
+        whole += usize::from(!short);
+        spent += seen.seconds;
+        slow = slow.max(seen.seconds);
+        print!("{}", seen.shown.unwrap_or_default());
+        for verdict in seen.verdicts {
+            let count = counts.entry(verdict.feature).or_default();
+            count.add(verdict.agrees, [true, !short, tuned, !tuned]);
+            match more {
+                More::Confusions(of) if of == verdict.feature => {
+                    let mark = if verdict.agrees { "= " } else { "" };
+                    let pair = (verdict.written, format!("{mark}{}", verdict.found));
+                    *confusions.entry(pair).or_default() += 1;
                 }
+                More::Why(of) if !verdict.agrees && [verdict.feature, "all"].contains(&of) => {
+                    println!(
+                        "{}{}\t{name}: {}   <>   {}",
+                        verdict.feature,
+                        if short { " (short)" } else { "" },
+                        verdict.written,
+                        verdict.found
+                    );
+                }
+                _ => {}
             }
         }
     }
@@ -106,6 +120,7 @@ pub(crate) fn table(folder: &Path, body: &Path, more: More<'_>) -> Result<()> {
     for (feature, counts) in counts {
         let (agree, of) = counts.0[0];
         let shares: Vec<String> = (0..4)
+            .filter(|&n| counts.0[n].1 > 0)
             .map(|n| format!("{:.1} %", counts.share(n)))
             .collect();
         println!("| {feature} | {agree} | {of} | {} |", shares.join(" | "));
@@ -120,6 +135,31 @@ fn is_tuned_on(name: &str) -> bool {
     });
     (hash >> 32) & 1 == 0
 }
+
+/// What is kept of a part of a sign.
+struct Seen {
+    short: bool,
+    seconds: f64,
+    verdicts: Vec<Verdict>,
+    shown: Option<String>,
+}
+
+/// Does something with each of many, on as many threads as the machine has; results are in their order.
+fn seen<T: Sync, R: Send>(all: &[T], does: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let share = all.len().div_ceil(threads).max(1);
+    let does = &does;
+    std::thread::scope(|scope| {
+        let work: Vec<_> = all
+            .chunks(share)
+            .map(|some| scope.spawn(move || some.iter().map(does).collect::<Vec<R>>()))
+            .collect();
+        work.into_iter()
+            .flat_map(|done| done.join().expect("no panic"))
+            .collect()
+    })
+}
+
 /// What came of a part of a sign.
 pub(crate) struct Again {
     pub(crate) found: Transcription,
@@ -177,12 +217,12 @@ fn again(
     })
 }
 
-fn show(name: &str, part: &Manual, again: &Again) {
-    println!("== {name}");
+fn show(name: &str, part: &Manual, again: &Again) -> String {
+    let mut text = format!("== {name}\n");
     for verdict in compare(part, again) {
         let mark = if verdict.agrees { ' ' } else { '*' };
-        println!(
-            " {mark} {}: {}  <>  {}",
+        text += &format!(
+            " {mark} {}: {}  <>  {}\n",
             verdict.feature, verdict.written, verdict.found
         );
     }
@@ -191,8 +231,8 @@ fn show(name: &str, part: &Manual, again: &Again) {
             .runner_up
             .as_ref()
             .map(|next| format!("{} {:.1}", next.value, next.residual));
-        println!(
-            "   {:?} @{} {:?} {}: {} {:.2}{} | {}",
+        text += &format!(
+            "   {:?} @{} {:?} {}: {} {:.2}{} | {}\n",
             feature.action,
             feature.frame,
             feature.hand,
@@ -203,4 +243,5 @@ fn show(name: &str, part: &Manual, again: &Again) {
             next.unwrap_or_default()
         );
     }
+    text
 }

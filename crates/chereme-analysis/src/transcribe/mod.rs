@@ -90,11 +90,28 @@ pub struct Transcription {
     pub sign: Sign,
     /// What was told, in the order of the notation.
     pub features: Vec<Feature>,
+    /// The posture at the beginning and what is done after it, in the order of the notation.
+    pub stages: Vec<Stage>,
     /// The frames of the sign itself, ways from and to rest cut off: its first, and the one after
     /// its last.
     pub frames: (usize, usize),
     /// What could not be told, and why.
     pub findings: Vec<String>,
+}
+
+/// The posture that a sign begins with, or something that is done.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Stage {
+    /// The number of the action, from 1; nothing for the posture at the beginning.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub action: Option<usize>,
+    /// The hand, where each does something for itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hand: Option<Side>,
+    /// Its first frame, and the one after its last, all repetitions counted in.
+    pub frames: (usize, usize),
+    /// Its HamNoSys.
+    pub text: String,
 }
 
 /// A feature of the notation.
@@ -105,13 +122,17 @@ pub struct Feature {
     /// The hand, where it is about one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hand: Option<Side>,
-    /// The frame, or the first frame of what it is about.
+    /// The frame in which it is seen, or the first frame of what it is about.
     pub frame: usize,
+    /// The frames of the posture or action that it belongs to: the first, and the one after the last.
+    pub frames: (usize, usize),
     /// The number of the action it belongs to, from 1; nothing for the posture at the beginning.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub action: Option<usize>,
     /// What it is, in words.
     pub value: String,
+    /// Its HamNoSys; empty where that is to write nothing.
+    pub text: String,
     /// How far the movement is from it.
     pub residual: f64,
     /// The unit of residuals.
@@ -200,6 +221,8 @@ impl Unit {
 pub struct RunnerUp {
     /// What it is, in words.
     pub value: String,
+    /// Its HamNoSys.
+    pub text: String,
     /// How far the movement is from it, in the unit of the feature.
     pub residual: f64,
 }

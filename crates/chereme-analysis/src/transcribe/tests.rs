@@ -7,7 +7,7 @@ use chereme_motion::{Channel, Clip, Finger, Joint, Rate, Side, Skeleton};
 use chereme_sign::hamnosys::angles::hand_angles;
 use chereme_sign::hamnosys::{
     Aim, BodyLocation, Compass, Contact, Directed, Direction, HandClass, HandsUsed, Handshape,
-    Manual, MotionKind, Place, Repeat, Size, ThumbPosition, WristMotion, orientation,
+    Manual, MotionKind, Place, Repeat, Size, ThumbPosition, WristMotion, orientation, to_names,
 };
 use glam::{DQuat, DVec3};
 
@@ -307,6 +307,100 @@ fn a_finger_at_the_chin_touches_it() {
     assert_eq!(place.contact, Some(Contact::Touch));
     assert!(place.by.is_some());
     assert!(part.actions.is_empty(), "{:?}", part.actions);
+}
+
+#[test]
+fn what_is_only_touched_on_the_way_is_brushed() {
+    let (clip, anatomy) = clip(0.3, |_| [None, None]);
+    let model = clip.model_pose(0);
+    let chin = anatomy
+        .landmark(clip.skeleton(), &model, "chin")
+        .expect("a chin");
+    let origin = anatomy.body_frame(&model).expect("a trunk").origin;
+    let mut own = Held::new([0.0; 3], "u", "l", HandClass::Finger2);
+    own.shape.form.thumb = Some(ThumbPosition::Across);
+    let tip = DVec3::Y * 0.125 - DVec3::Z * 0.025;
+    let part = read(0.4, |time| {
+        let across = 2.0 * ease(time) - 1.0;
+        let by = DVec3::new(-0.14 * across, 0.0, 0.12 * across * across);
+        [Some(own.moved(chin - origin - tip + by)), None]
+    });
+    let MotionKind::Target { posture, .. } = &part.actions[0].kind else {
+        panic!("{:?}", part.actions);
+    };
+    let Some(Place::Body(place)) = &posture.place else {
+        panic!("{posture:?}");
+    };
+    assert_eq!(place.contact, Some(Contact::Brushing));
+    assert_eq!(place.site.map(|site| site.at), Some(BodyLocation::Chin));
+}
+
+#[test]
+fn what_gets_bigger_each_time_grows() {
+    let own = before_chest(HandClass::Fist);
+    let growth = |by: f64| {
+        let part = read(1.5, |time| {
+            // Out and back and out, and so on, each with its stop.
+            let fifth = (time * 5.0).min(4.999);
+            let stroke = fifth as usize;
+            let far = by.powi(stroke.div_ceil(2) as i32);
+            let share = ease(fifth.fract());
+            let there = if stroke % 2 == 1 { 1.0 - share } else { share };
+            let size = if stroke % 2 == 1 { far / by } else { far };
+            [
+                Some(own.moved(DVec3::Z * (0.13 * ARM * size * there))),
+                None,
+            ]
+        });
+        match &part.actions[0].kind {
+            MotionKind::Repeated { repetition, .. } => repetition.growth.map(|it| it.increasing),
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(growth(1.0), None);
+    assert_eq!(growth(1.35), Some(true));
+    assert_eq!(growth(1.0 / 1.35), Some(false));
+}
+
+#[test]
+fn every_feature_and_stage_is_in_symbols_with_its_frames() {
+    let own = before_chest(HandClass::Flat);
+    let (clip, anatomy) = clip(0.3, |time| {
+        [
+            Some(own.moved(DVec3::NEG_Y * (0.13 * ARM * ease(time)))),
+            None,
+        ]
+    });
+    let written = transcribe(&clip, &anatomy, &Options::default()).expect("a sign");
+    let names = |text: &str| to_names(text).expect("symbols").join(" ");
+    let told = |kind: FeatureKind| {
+        let feature = written.features.iter().find(|it| it.kind == kind);
+        let feature = feature.expect("told");
+        let next = feature.runner_up.as_ref();
+        let next = next.map(|next| names(&next.text)).unwrap_or_default();
+        (names(&feature.text), next)
+    };
+    assert_eq!(told(FeatureKind::Handshape).0, "hamflathand");
+    assert_eq!(told(FeatureKind::Direction).0, "hamextfingeru");
+    assert_eq!(told(FeatureKind::Palm).0, "hampalml");
+    assert_eq!(told(FeatureKind::Course).0, "hammoved");
+    assert_eq!(told(FeatureKind::Movement).0, "hammoved hamsmallmod");
+    assert!(told(FeatureKind::Movement).1.contains("hamarc"));
+    assert_eq!(
+        told(FeatureKind::Size),
+        ("hamsmallmod".into(), String::new())
+    );
+    let [posture, action] = written.stages.as_slice() else {
+        panic!("{:?}", written.stages);
+    };
+    assert_eq!((posture.action, action.action), (None, Some(1)));
+    assert!(posture.frames.0 < posture.frames.1 && posture.frames.1 <= action.frames.0 + 1);
+    assert!(action.frames.1 <= clip.frames() && names(&action.text).starts_with("hammoved"));
+    let of = |feature: &Feature| match feature.action {
+        None => posture.frames,
+        Some(_) => action.frames,
+    };
+    assert!(written.features.iter().all(|it| it.frames == of(it)));
 }
 
 #[test]

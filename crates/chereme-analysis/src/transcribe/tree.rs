@@ -1,16 +1,17 @@
 //! The sign's tree, and its features in words.
 
 mod manner;
+mod tell;
 mod way;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::fmt::Display;
+use std::ops::RangeInclusive;
 
 use chereme_sign::hamnosys::{
     Aim, Amount, BodyPlace, Circular, Clock, Compass, Constellation, Contact, Curve, Directed,
-    Direction, Each, Ellipse, HandsUsed, Handshape, Manual, Motion, MotionKind, Place, Posture,
-    Repetition, Sign, Size, WristMotion, Zigzag,
+    Direction, Each, Ellipse, Growth, HandsUsed, Handshape, Manual, Motion, MotionKind, Place,
+    Posture, Repetition, Sign, Size, WristMotion, Zigzag,
 };
 use glam::DVec3;
 
@@ -22,7 +23,7 @@ use super::scene::{Scene, Track, length};
 use super::shape::Forms;
 use super::way::Way;
 use super::words;
-use super::{Feature, FeatureKind, Found, Options, RunnerUp, Transcription, Unit};
+use super::{Feature, FeatureKind, Found, Options, RunnerUp, Stage, Transcription, Unit};
 
 /// What is told of one hand in one frame.
 #[derive(Debug, Clone)]
@@ -60,11 +61,13 @@ struct Writer<'a> {
     options: &'a Options,
     forms: std::sync::Arc<Forms>,
     features: Vec<Feature>,
+    stages: Vec<Stage>,
     findings: Vec<String>,
     /// The handshapes that were told.
     shapes: RefCell<Shapes>,
-    /// The number of the action that is written.
+    /// The number of the action that is written, and the frames of what is written.
     action: Option<usize>,
+    frames: (usize, usize),
 }
 
 impl<'a> Writer<'a> {
@@ -74,9 +77,11 @@ impl<'a> Writer<'a> {
             options,
             forms: Forms::of(&options.language),
             features: Vec::new(),
+            stages: Vec::new(),
             findings: Vec::new(),
             shapes: RefCell::default(),
             action: None,
+            frames: (0, 0),
         }
     }
 
@@ -90,36 +95,37 @@ impl<'a> Writer<'a> {
         self.lacks();
         let frames = signing(scene, track);
         let (first, last) = (*frames.start(), *frames.end());
-        let mover = self.mover(lead, track, first, last);
-        let all = acts(scene, &mover, &frames);
-        let start = all
-            .first()
-            .map_or(first + (last - first) / 2, |act| *act.frames.start());
+        let (all, left) = self.acts(lead, track, &frames);
+        let start = left.unwrap_or(first + (last - first) / 2);
         let relation = relation(scene, &frames);
+        self.begins(None, (first, all.first().map_or(last + 1, |_| start + 1)));
         self.told_hands(&relation, start);
         let mut body = self.body(start);
         if let (Some(body), Some(by)) = (&mut body, behind(&relation, all.first())) {
             body.shift(1, by);
         }
         let posture = self.posture(start, &relation, body.as_ref());
-        let mut actions: Vec<Motion> = Vec::new();
-        let other = scene.hands[1].as_ref().filter(|_| lead == 0);
-        if let (RelationKind::Unlike { moves: true }, Some(other)) = (relation.kind, other) {
-            let others = acts(scene, &self.mover(1, other, first, last), &frames);
-            actions.extend(self.split(first, (track, &all), (other, &others)));
-        } else {
-            let mut before = first;
-            for (n, act) in all.iter().enumerate() {
-                self.action = Some(n + 1);
-                let idle = act.frames.start().saturating_sub(before);
-                actions.push(self.motion(lead, track, (act, idle), &relation));
-                before = act.until;
-            }
-        }
         let hands = match relation.kind {
             RelationKind::Alike(symmetry) => HandsUsed::Both(symmetry),
             _ => HandsUsed::Dominant,
         };
+        self.ends(None, words::begun(hands, posture.clone()));
+        let mut actions: Vec<Motion> = Vec::new();
+        let other = scene.hands[1].as_ref().filter(|_| lead == 0);
+        if let (RelationKind::Unlike { moves: true }, Some(other)) = (relation.kind, other) {
+            let (others, _) = self.acts(1, other, &frames);
+            actions.extend(self.split(first, (track, &all), (other, &others)));
+        } else {
+            let mut before = first;
+            for (n, act) in all.iter().enumerate() {
+                self.begins(Some(n + 1), (*act.frames.start(), act.until + 1));
+                let idle = act.frames.start().saturating_sub(before);
+                let motion = self.motion(lead, track, (act, idle), &relation);
+                self.ends(None, words::motion(&motion));
+                actions.push(motion);
+                before = act.until;
+            }
+        }
         let manual = Manual {
             hands,
             posture,
@@ -135,21 +141,31 @@ impl<'a> Writer<'a> {
                 parts: vec![manual],
             },
             features: self.features,
+            stages: self.stages,
             frames: (first, end),
             findings: self.findings,
         }
     }
 
-    /// Takes the parts of a hand whose ways tell what it does.
-    fn mover<'t>(&self, hand: usize, track: &'t Track, first: usize, last: usize) -> Mover<'t> {
-        let (mut meant, mut pivots) = (Vec::new(), Vec::new());
-        for frame in [first, last] {
-            if let Some(body) = self.body(frame) {
-                meant.extend(body.meant_at(hand).into_iter().map(|at| (at, frame)));
-                pivots.extend(body.tips(hand).into_iter().map(|at| (at, frame)));
-            }
+    /// Returns what a hand does, and the frame in which it leaves its first posture.
+    fn acts(
+        &self,
+        hand: usize,
+        track: &Track,
+        frames: &RangeInclusive<usize>,
+    ) -> (Vec<Act>, Option<usize>) {
+        let ends = [*frames.start(), *frames.end()];
+        let parts = |frame: usize| {
+            let body = self.body(frame);
+            body.map_or_else(Vec::new, |body| body.meant_at(hand))
+        };
+        let mut pivots = Vec::new();
+        for frame in ends {
+            let tips = self.body(frame).map(|body| body.tips(hand));
+            pivots.extend(tips.into_iter().flatten().map(|at| (at, frame)));
         }
-        Mover::new(track, &meant, &pivots)
+        let mover = Mover::new(track, ends, &parts, &pivots);
+        acts(self.scene, &mover, frames)
     }
 
     /// Looks at the body in a frame.
@@ -198,22 +214,6 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn told_hands(&mut self, relation: &Relation, frame: usize) {
-        self.features.push(Feature {
-            kind: FeatureKind::Hands,
-            hand: None,
-            frame,
-            action: None,
-            value: relation.kind.words(),
-            residual: relation.residual,
-            unit: Unit::Share,
-            runner_up: relation.runner_up.map(|(kind, residual)| RunnerUp {
-                value: kind.words(),
-                residual,
-            }),
-        });
-    }
-
     /// Tells shape, direction and palm of a hand in a frame.
     fn see(&self, track: &Track, frame: usize) -> Seen {
         let between = self.options.between;
@@ -230,63 +230,6 @@ impl<'a> Writer<'a> {
             shape: self.shape(track, frame),
             extended,
             palm,
-        }
-    }
-
-    fn told<T>(
-        &mut self,
-        kind: FeatureKind,
-        track: Option<&Track>,
-        frame: usize,
-        found: &Found<T>,
-        words: impl Fn(&T) -> String,
-    ) {
-        let unit = match kind {
-            FeatureKind::Location | FeatureKind::Contact | FeatureKind::Movement => {
-                Unit::Centimetres
-            }
-            FeatureKind::Hands
-            | FeatureKind::Size
-            | FeatureKind::Manner
-            | FeatureKind::Repetition => Unit::Share,
-            _ => Unit::Degrees,
-        };
-        let scale = if unit == Unit::Centimetres {
-            100.0
-        } else {
-            1.0
-        };
-        self.features.push(Feature {
-            kind,
-            hand: track.map(|track| track.side),
-            frame,
-            action: self.action,
-            value: words(&found.best),
-            residual: found.residual * scale,
-            unit,
-            runner_up: found.runner_up.as_ref().map(|(value, residual)| RunnerUp {
-                value: words(value),
-                residual: residual * scale,
-            }),
-        });
-    }
-
-    fn told_seen(&mut self, track: &Track, frame: usize, seen: &Seen, which: [bool; 3]) {
-        if let Some(shape) = seen.shape.as_ref().filter(|_| which[0]) {
-            self.told(
-                FeatureKind::Handshape,
-                Some(track),
-                frame,
-                shape,
-                words::shape,
-            );
-        }
-        if which[1] {
-            let found = &seen.extended;
-            self.told(FeatureKind::Direction, Some(track), frame, found, aimed);
-        }
-        if let Some(palm) = seen.palm.as_ref().filter(|_| which[2]) {
-            self.told(FeatureKind::Palm, Some(track), frame, palm, aimed);
         }
     }
 
@@ -382,44 +325,25 @@ impl<'a> Writer<'a> {
         Some(Place::Split(a, b))
     }
 
-    fn told_place(&mut self, track: Option<&Track>, frame: usize, placed: &Placed) {
-        let found = placed.found();
-        self.told(FeatureKind::Location, track, frame, &found, words::place);
-        let contact = Found {
-            best: placed.place.contact,
-            residual: placed.distance,
-            runner_up: None,
-        };
-        self.told(FeatureKind::Contact, track, frame, &contact, |contact| {
-            words::contact(*contact).to_owned()
-        });
-    }
-
     /// Writes the two hands by each other.
     fn constellation(&mut self, frame: usize, at: Placed, together: &Together) -> Constellation {
-        let found = at.found();
-        self.told(FeatureKind::Location, None, frame, &found, words::place);
+        self.told(
+            FeatureKind::Location,
+            None,
+            frame,
+            &at.found(),
+            words::place,
+        );
         let [dominant, other] = together.parts.map(named);
-        let contact = Found {
-            best: (dominant.clone(), other.clone()),
-            residual: together.distance,
-            runner_up: None,
-        };
-        self.told(FeatureKind::Contact, None, frame, &contact, |(a, b)| {
-            format!(
-                "{} by {}: {}",
-                words::hand_site(a),
-                words::hand_site(b),
-                words::contact(Some(together.contact))
-            )
-        });
-        Constellation {
+        let hands = Constellation {
             dominant: Some(dominant),
             other: Some(other),
             contact: Some(together.contact),
-            at: Some(at.place),
+            at: at.place.site.is_some().then_some(at.place),
             ..Constellation::default()
-        }
+        };
+        self.told_together(frame, &hands, together.distance);
+        hands
     }
 
     /// Writes what each hand does where they move for themselves.
@@ -439,10 +363,12 @@ impl<'a> Writer<'a> {
             acts.iter()
                 .enumerate()
                 .map(|(n, act)| {
-                    self.action = Some(n + 1);
+                    self.begins(Some(n + 1), (*act.frames.start(), act.until + 1));
                     let idle = act.frames.start().saturating_sub(before);
                     before = act.until;
-                    self.motion(lead, track, (act, idle), &alone)
+                    let motion = self.motion(lead, track, (act, idle), &alone);
+                    self.ends(Some(track.side), words::motion(&motion));
+                    motion
                 })
                 .collect()
         };
@@ -483,7 +409,7 @@ impl<'a> Writer<'a> {
             Kind::Way(_) => Some(self.way(track, act)),
             Kind::Sway(sway) => Some(self.sway(track, sway, first)),
             Kind::Change => {
-                self.told_movement(track, act, 0.0, None);
+                self.told_change(track, first);
                 None
             }
         };
@@ -527,55 +453,22 @@ impl<'a> Writer<'a> {
         let Some(repeat) = act.repeat else {
             return motion;
         };
-        let times = Found {
-            best: act.times,
-            residual: 0.0,
-            runner_up: None,
-        };
-        let first = *act.frames.start();
-        self.told(
-            FeatureKind::Repetition,
-            Some(track),
-            first,
-            &times,
-            |times| format!("{times} times"),
-        );
+        self.told_repetition(track, act, repeat);
         Motion::new(MotionKind::Repeated {
             motion: Box::new(motion),
             repetition: Repetition {
                 repeat,
                 second: None,
-                growth: None,
+                growth: act.grows.map(|increasing| Growth {
+                    increasing,
+                    size: None,
+                }),
                 shift: None,
                 shift_size: None,
                 shift_growth: None,
                 approx: false,
             },
         })
-    }
-
-    fn told_movement(
-        &mut self,
-        track: &Track,
-        act: &Act,
-        residual: f64,
-        runner_up: Option<(&'static str, f64)>,
-    ) {
-        let found = Found {
-            best: act.name(),
-            residual,
-            runner_up,
-        };
-        let first = *act.frames.start();
-        self.told(FeatureKind::Movement, Some(track), first, &found, |name| {
-            (*name).to_owned()
-        });
-    }
-
-    fn told_size(&mut self, track: &Track, frame: usize, found: &Found<Option<Size>>) {
-        self.told(FeatureKind::Size, Some(track), frame, found, |size| {
-            words::size(*size).to_owned()
-        });
     }
 }
 
@@ -669,11 +562,4 @@ fn sized(measure: f64, sizes: [f64; 3]) -> Found<Option<Size>> {
             .map(|(name, size)| (name, off(size), off(size)))
             .collect(),
     )
-}
-
-fn aimed<D: Display>(aim: &Aim<D>) -> String {
-    match &aim.second {
-        Some(second) => format!("{}|{second}", aim.first),
-        None => aim.first.to_string(),
-    }
 }

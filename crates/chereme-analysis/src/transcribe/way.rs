@@ -10,11 +10,21 @@ use super::scene::length;
 const POINTS: usize = 48;
 /// An arc at least so deep against its chord is one: half of the shallowest that is notated.
 const CURVED: f64 = 0.075;
+/// A shallower one is an arc where it is so deep at least, in metres and against its chord, and off by no
+/// more than this share of what a straight way is.
+const SHALLOW: (f64, f64, f64) = (0.02, 0.035, 0.15);
 /// A way round counts as a circle from this angle on: five sixths of a turn.
-const ROUND: f64 = TAU * 0.83;
+pub(super) const ROUND: f64 = TAU * 0.83;
+/// From this angle on it is part of a circle rather than an arc, of which the deepest is half a turn, where it
+/// is off by less than this share of the radius.
+const PART: f64 = TAU * 0.75;
+const PART_OFF: f64 = 0.12;
 
 /// A way there and back that is narrower than this against its length is no ellipse.
 const NARROW: f64 = 0.3;
+
+/// Part of a circle is hardly narrower than this.
+const WIDE: f64 = 0.7;
 
 /// A way that a hand goes; lengths in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,8 +60,9 @@ pub(super) enum Way {
         long: DVec3,
         /// The shorter radius against the longer one.
         narrow: f64,
-        /// From the centre to where it begins, of unit length.
+        /// From the centre to where it begins, and to where it ends, of unit length.
         start: DVec3,
+        end: DVec3,
     },
 }
 
@@ -62,7 +73,7 @@ pub(super) struct Fitted {
     /// The root of the mean square of the distance in metres.
     pub(super) residual: f64,
     /// The next simpler or deeper kind, with its residual.
-    pub(super) runner_up: Option<(&'static str, f64)>,
+    pub(super) runner_up: Option<(Way, f64)>,
 }
 
 impl Way {
@@ -74,6 +85,14 @@ impl Way {
             Self::Wave { wavy: false, .. } => "zigzag",
             Self::Wave { wavy: true, .. } => "waves",
             Self::Circle { .. } => "circle",
+        }
+    }
+
+    /// Returns where it goes: its chord, or the axis it goes round.
+    pub(super) fn line(&self) -> DVec3 {
+        match *self {
+            Self::Circle { axis, .. } => axis,
+            _ => self.chord(),
         }
     }
 
@@ -97,25 +116,27 @@ pub(super) fn fit(points: &[DVec3]) -> Fitted {
         return Fitted {
             way: circle,
             residual,
-            runner_up: Some(("straight", off_straight)),
+            runner_up: Some((straight, off_straight)),
         };
     }
     if let Some((wave, residual)) = wave(&points) {
         return Fitted {
             way: wave,
             residual,
-            runner_up: Some(("straight", off_straight)),
+            runner_up: Some((straight, off_straight)),
         };
     }
     let middle = points[points.len() / 2].midpoint(points[(points.len() - 1) / 2]);
     let bow = (middle - first - chord / 2.0).reject_from(chord.normalize_or(DVec3::X));
     let arc = Way::Arc { chord, bow };
     let off_arc = off(&points, |s| first + along_arc(chord, bow, s));
-    let curved = bow.length() > CURVED * chord.length() && off_arc < off_straight;
+    let (deep, wide) = (bow.length(), chord.length());
+    let exact = deep > SHALLOW.0 && deep > SHALLOW.1 * wide && off_arc < SHALLOW.2 * off_straight;
+    let curved = exact || (deep > CURVED * wide && off_arc < off_straight);
     let (way, residual, other) = if curved {
-        (arc, off_arc, ("straight", off_straight))
+        (arc, off_arc, (straight, off_straight))
     } else {
-        (straight, off_straight, ("arc", off_arc))
+        (straight, off_straight, (arc, off_arc))
     };
     Fitted {
         way,
@@ -195,7 +216,7 @@ fn circle(points: &[DVec3]) -> Option<(Way, f64)> {
             (a * d - b * c).atan2(a * c + b * d)
         })
         .sum();
-    if swept < ROUND {
+    if swept < PART {
         return None;
     }
     let [sxx, sxy, syy] = flat.iter().fold([0.0; 3], |[a, b, c], &(x, y)| {
@@ -210,7 +231,8 @@ fn circle(points: &[DVec3]) -> Option<(Way, f64)> {
             .fold(0.0, f64::max)
     };
     let (long, short) = (most(|p| p.0), most(|p| p.1));
-    if short < NARROW * long || short <= 0.0 {
+    let narrow = if swept < ROUND { WIDE } else { NARROW };
+    if short < narrow * long || short <= 0.0 {
         return None;
     }
     let squares = flat.iter().map(|point| {
@@ -222,14 +244,16 @@ fn circle(points: &[DVec3]) -> Option<(Way, f64)> {
         .iter()
         .map(|&point| (point - centre).dot(axis).powi(2));
     let residual = ((squares.sum::<f64>() + lift.sum::<f64>()) / points.len() as f64).sqrt();
-    (residual < 0.3 * long).then(|| {
-        let start = (points[0] - centre).reject_from_normalized(axis);
+    let most = if swept < ROUND { PART_OFF } else { 0.3 };
+    (residual < most * long).then(|| {
+        let spoke = |point: DVec3| (point - centre).reject_from_normalized(axis);
         let way = Way::Circle {
             axis,
             turns: swept / TAU,
             long: (x * cos + y * sin) * long,
             narrow: short / long,
-            start: start.normalize_or(x),
+            start: spoke(points[0]).normalize_or(x),
+            end: spoke(points[points.len() - 1]).normalize_or(x),
         };
         (way, residual)
     })
@@ -358,6 +382,23 @@ mod tests {
             assert!((long.length() - 0.1).abs() < 6e-3, "{long}");
             assert!((shape - narrow).abs() < 0.08, "{shape}");
         }
+    }
+
+    #[test]
+    fn most_of_a_circle_is_part_of_one_and_half_of_it_an_arc() {
+        let turn = |share: f64| {
+            fit(&along(40, |s| {
+                let (sin, cos) = (TAU * share * s).sin_cos();
+                DVec3::new(0.1 * cos, 0.1 * sin, 0.3)
+            }))
+        };
+        assert_eq!(turn(0.5).way.kind(), "arc");
+        let Way::Circle { end, turns, .. } = turn(0.79).way else {
+            panic!("{:?}", turn(0.79));
+        };
+        let (sin, cos) = (TAU * 0.79).sin_cos();
+        assert!(end.distance(DVec3::new(cos, sin, 0.0)) < 0.1, "{end}");
+        assert!((turns - 0.79).abs() < 0.03, "{turns}");
     }
 
     #[test]

@@ -1,10 +1,112 @@
-//! Features in words, as tables show them.
+//! Features in words, as tables show them, and in symbols.
 
+use std::fmt::Display;
+
+use chereme_sign::hamnosys::symbol::Kind;
 use chereme_sign::hamnosys::{
-    Bend, BodyPlace, Contact, Digit, Digits, Form, HandSite, Handshape, Side, Site, Size,
+    Aim, Bend, BodyPlace, Compass, Constellation, Contact, Digit, Digits, Direction, Each, Form,
+    HandSite, HandsUsed, Handshape, Manual, Motion, Place, Posture, Repeat, Side, Sign, Site, Size,
+    Symbol, text_of,
 };
 
-pub(super) fn shape(shape: &Handshape) -> String {
+/// A value in words and as HamNoSys; that is empty where nothing is written for it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Said {
+    pub(super) words: String,
+    pub(super) text: String,
+}
+
+impl Said {
+    pub(super) fn new(words: impl Into<String>, text: impl Into<String>) -> Self {
+        Self {
+            words: words.into(),
+            text: text.into(),
+        }
+    }
+
+    /// A value with one symbol, or with none where the usual is not written.
+    fn marked(words: &str, mark: Option<Kind>) -> Self {
+        let symbol = mark.and_then(Symbol::of).map(Symbol::char);
+        Self::new(words, symbol.map(String::from).unwrap_or_default())
+    }
+}
+
+fn manual(part: Manual) -> String {
+    text_of(&Sign { parts: vec![part] })
+}
+
+/// Returns the HamNoSys of a posture of those who act.
+pub(super) fn begun(hands: HandsUsed, posture: Posture) -> String {
+    manual(Manual {
+        hands,
+        posture,
+        ..Manual::default()
+    })
+}
+
+fn posture(posture: Posture) -> String {
+    begun(HandsUsed::Dominant, posture)
+}
+
+/// Returns the HamNoSys of a motion.
+pub(super) fn motion(motion: &Motion) -> String {
+    manual(Manual {
+        actions: vec![motion.clone()],
+        ..Manual::default()
+    })
+}
+
+/// Returns the HamNoSys of which hands act.
+pub(super) fn hands(hands: HandsUsed) -> String {
+    manual(Manual {
+        hands,
+        ..Manual::default()
+    })
+}
+
+pub(super) fn direction(aim: &Aim<Direction>) -> Said {
+    let text = posture(Posture {
+        extended: Each::Shared(*aim),
+        ..Posture::default()
+    });
+    Said::new(aimed(aim), text)
+}
+
+pub(super) fn palm(aim: &Aim<Compass>) -> Said {
+    let text = posture(Posture {
+        palm: Each::Shared(*aim),
+        ..Posture::default()
+    });
+    Said::new(aimed(aim), text)
+}
+
+/// Returns a direction that something goes, or the axis it goes round.
+pub(super) fn course(aim: &Aim<Direction>, round: bool) -> Said {
+    let kind = if round { Kind::Circle } else { Kind::Move };
+    let text = match aim.first.corner_parts() {
+        None => vec![aim.first],
+        Some((one, two)) => vec![one, two],
+    };
+    let symbols = text.into_iter().filter_map(|way| Symbol::of(kind(way)));
+    Said::new(aimed(aim), symbols.map(Symbol::char).collect::<String>())
+}
+
+fn aimed<D: Display>(aim: &Aim<D>) -> String {
+    match &aim.second {
+        Some(second) => format!("{}|{second}", aim.first),
+        None => aim.first.to_string(),
+    }
+}
+
+pub(super) fn shape(shape: &Handshape) -> Said {
+    let text = posture(Posture {
+        shape: Each::Shared(shape.clone()),
+        ..Posture::default()
+    });
+    Said::new(shaped(shape), text)
+}
+
+fn shaped(shape: &Handshape) -> String {
     let mut words = form(&shape.form);
     if let Some(second) = &shape.between {
         words = format!("{words} | {}", form(second));
@@ -54,12 +156,65 @@ fn digits(digits: &Digits) -> String {
         .collect()
 }
 
-pub(super) fn place(place: &BodyPlace) -> String {
-    let mut words = place.site.as_ref().map(site).unwrap_or_default();
+/// Returns a place without how near the hand comes to it.
+pub(super) fn place(place: &BodyPlace) -> Said {
+    let neutral = || "neutral space".to_owned();
+    let mut words = place.site.as_ref().map_or_else(neutral, site);
     if let Some(second) = &place.second {
         words = format!("{words} | {}", site(second));
     }
-    words
+    let alone = BodyPlace {
+        site: place.site,
+        second: place.second,
+        ..BodyPlace::default()
+    };
+    Said::new(words, placed(Place::Body(alone)))
+}
+
+/// Returns how near a hand comes to a place, with the part of it that is meant.
+pub(super) fn nearness(place: &BodyPlace) -> Said {
+    let alone = BodyPlace {
+        contact: place.contact,
+        by: place.by.clone(),
+        ..BodyPlace::default()
+    };
+    let mut words = contact(place.contact).to_owned();
+    if let Some(by) = &place.by {
+        words = format!("{words} by {}", hand_site(by));
+    }
+    let says = alone.contact.is_some() || alone.by.is_some();
+    let far = alone.contact == Some(Contact::ArmExtended) && alone.by.is_none();
+    Said::new(
+        words,
+        match (far, says) {
+            (true, _) => Said::marked("", Some(Kind::Contact(Contact::ArmExtended))).text,
+            (_, true) => placed(Place::Body(alone)),
+            _ => String::new(),
+        },
+    )
+}
+
+/// Returns how the two hands are by each other.
+pub(super) fn together(hands: &Constellation) -> Said {
+    let part = |site: &Option<HandSite>| site.as_ref().map(hand_site).unwrap_or_default();
+    let words = format!(
+        "{} by {}: {}",
+        part(&hands.dominant),
+        part(&hands.other),
+        contact(hands.contact)
+    );
+    let alone = Constellation {
+        at: None,
+        ..hands.clone()
+    };
+    Said::new(words, placed(Place::Hands(alone)))
+}
+
+fn placed(place: Place) -> String {
+    posture(Posture {
+        place: Some(place),
+        ..Posture::default()
+    })
 }
 
 fn site<L: std::fmt::Debug>(site: &Site<L>) -> String {
@@ -85,7 +240,7 @@ fn side_name(side: Side) -> &'static str {
     }
 }
 
-pub(super) fn hand_site(site: &HandSite) -> String {
+fn hand_site(site: &HandSite) -> String {
     let mut words = site
         .at
         .map(|at| format!("{at:?}").to_lowercase())
@@ -99,7 +254,7 @@ pub(super) fn hand_site(site: &HandSite) -> String {
     words
 }
 
-pub(super) fn contact(contact: Option<Contact>) -> &'static str {
+fn contact(contact: Option<Contact>) -> &'static str {
     match contact {
         None => "none",
         Some(Contact::Touch) => "touch",
@@ -111,10 +266,20 @@ pub(super) fn contact(contact: Option<Contact>) -> &'static str {
     }
 }
 
-pub(super) fn size(size: Option<Size>) -> &'static str {
-    match size {
+pub(super) fn size(size: Option<Size>) -> Said {
+    let words = match size {
         Some(Size::Small) => "small",
         None => "usual",
         Some(Size::Big) => "big",
-    }
+    };
+    Said::marked(words, size.map(Kind::Size))
+}
+
+pub(super) fn repetition(times: usize, repeat: Repeat) -> Said {
+    Said::marked(&format!("{times} times"), Some(Kind::Repeat(repeat)))
+}
+
+pub(super) fn manner(words: &str, marks: &[Kind]) -> Said {
+    let symbols = marks.iter().filter_map(|mark| Symbol::of(*mark));
+    Said::new(words, symbols.map(Symbol::char).collect::<String>())
 }

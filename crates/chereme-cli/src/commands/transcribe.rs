@@ -12,6 +12,13 @@ use crate::output::Output;
 ///
 /// The residual says how far the movement is from what was written, the runner-up what would have come
 /// next. The symbols are shown by the HamNoSys font only: `--names` writes their names.
+///
+/// `--json` gives "gloss", "token", "recording", "start_us", "end_us", the whole as "hamnosys" and "symbols" and as
+/// the tree "sign"; "stages", the posture at the beginning and each action with "action", "hand", "start_us",
+/// "end_us", "hamnosys", "symbols"; "features", each with "feature", "hand", "action" (null for the posture), "at_us",
+/// "start_us", "end_us", "value", "hamnosys", "symbols", "residual", "unit" (deg, cm or share) and "runner_up"
+/// ("value", "hamnosys", "symbols", "residual"; null where there is none); "findings". Times are microseconds
+/// from the start of the recording.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -52,6 +59,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 "feature",
                 "hand",
                 "action",
+                "seconds",
                 "value",
                 "residual",
                 "runner-up",
@@ -65,6 +73,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     output.document(written)
 }
 
+fn seconds(micros: i64) -> f64 {
+    micros as f64 / 1e6
+}
+
 fn row(feature: &TranscribedFeature) -> Vec<String> {
     let residual = |residual: f64| format!("{residual:.1}{}", feature.unit.sign());
     vec![
@@ -73,8 +85,13 @@ fn row(feature: &TranscribedFeature) -> Vec<String> {
             .hand
             .map_or_else(String::new, |hand| hand.name().to_owned()),
         feature.action.map_or_else(String::new, |n| n.to_string()),
-        feature.value.clone(),
-        residual(feature.residual),
+        format!(
+            "{:.2}-{:.2}",
+            seconds(feature.start_us),
+            seconds(feature.end_us)
+        ),
+        feature.value.value.clone(),
+        residual(feature.value.residual),
         feature.runner_up.as_ref().map_or_else(String::new, |next| {
             format!("{}, {}", next.value, residual(next.residual))
         }),

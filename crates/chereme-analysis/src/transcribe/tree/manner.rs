@@ -1,5 +1,6 @@
 //! In which manner something is done: how long it takes against what is usual, and how it runs.
 
+use chereme_sign::hamnosys::symbol::{Kind as Symbol, Mark};
 use chereme_sign::hamnosys::{BodyLanguage, Manner};
 
 use super::super::scene::Scene;
@@ -30,6 +31,18 @@ impl Tempo {
             Self::Tense => "tense",
             Self::Halt => "sudden stop",
         }
+    }
+
+    /// Returns its symbol.
+    fn mark(self) -> Option<Symbol> {
+        let mark = match self {
+            Self::Usual => return None,
+            Self::Fast => Mark::Fast,
+            Self::Slow => Mark::Slow,
+            Self::Tense => Mark::Tense,
+            Self::Halt => Mark::Halt,
+        };
+        Some(Symbol::Manner(mark))
     }
 
     /// Returns its share of the usual time, and what it costs to say it.
@@ -91,8 +104,13 @@ impl Writer<'_> {
         };
         let first = *act.frames.start();
         self.told(FeatureKind::Manner, Some(track), first, &found, |tempo| {
+            let marks: Vec<Symbol> = tempo
+                .mark()
+                .into_iter()
+                .chain(rest.then_some(Symbol::Manner(Mark::Rest)))
+                .collect();
             let rest = if rest { ", after a rest" } else { "" };
-            format!("{}{rest}", tempo.name())
+            words::manner(&format!("{}{rest}", tempo.name()), &marks)
         });
         match found.best {
             Tempo::Usual => {}
@@ -109,11 +127,15 @@ impl Writer<'_> {
 fn tempo(scene: &Scene<'_>, track: &Track, act: &Act, into_contact: bool) -> Option<Found<Tempo>> {
     let l = scene.language;
     let (first, last) = (*act.frames.start(), *act.frames.end());
-    if let Kind::Sway(Sway::Wrist { cycles, .. }) = &act.kind {
+    if let Kind::Sway(sway) = &act.kind {
+        let (cycles, usual) = match sway {
+            Sway::Wrist { cycles, .. } => (cycles, l.time_wrist),
+            Sway::Play { cycles, .. } => (cycles, l.time_play),
+        };
         let each = scene.seconds(last - first) / cycles.max(1.0);
         let tempi = [Tempo::Usual, Tempo::Fast, Tempo::Slow];
         return Some(nearest(&tempi, l, |_, factor| {
-            let off = (each / (l.time_wrist * factor)).ln().abs();
+            let off = (each / (usual * factor)).ln().abs();
             (off, off)
         }));
     }

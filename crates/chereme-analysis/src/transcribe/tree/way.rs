@@ -1,5 +1,7 @@
 //! The motions of a hand: ways, swaying, and what changes on the way.
 
+use super::super::acts::wrist_name;
+use super::super::way::ROUND;
 use super::*;
 
 impl Writer<'_> {
@@ -8,93 +10,39 @@ impl Writer<'_> {
         let Kind::Way(fitted) = &act.kind else {
             return Motion::new(MotionKind::Still);
         };
-        self.told_movement(track, act, fitted.residual, fitted.runner_up);
         let first = *act.frames.start();
-        let l = self.scene.language;
-        let arm = self.scene.arm;
-        let course = |writer: &mut Self, v: DVec3| {
-            let found = aim::nearest(v.normalize_or(DVec3::Z), false);
-            writer.told(FeatureKind::Course, Some(track), first, &found, aimed);
-            found.best.first
+        let scene = self.scene;
+        let kind = Found {
+            best: fitted.way,
+            residual: fitted.residual,
+            runner_up: fitted.runner_up,
         };
-        if let Way::Circle {
-            axis,
-            long,
-            narrow,
-            start,
-            ..
-        } = fitted.way
-        {
-            let axis = course(self, axis);
-            let size = sized(
-                long.length() / arm,
-                [l.circle_small, l.circle_normal, l.circle_big],
-            );
-            self.told_size(track, first, &size);
-            return Motion::new(MotionKind::Circular(circular(
-                axis, size.best, long, narrow, start, l,
-            )));
-        }
-        let chord = fitted.way.chord();
-        let direction = course(self, chord);
-        let size = sized(
-            chord.length() / arm,
-            [l.move_small, l.move_normal, l.move_big],
-        );
-        self.told_size(track, first, &size);
-        let mut directed = Directed {
-            direction,
-            second: None,
-            size: Amount {
-                first: size.best,
-                second: None,
-            },
-            curve: None,
-            zigzag: None,
-            ellipse: None,
+        let written = |way: &Way| Some(written(scene, way));
+        self.told_movement(track, first, &kind, Way::kind, written);
+        let round = matches!(fitted.way, Way::Circle { .. });
+        let found = aim::nearest(fitted.way.line().normalize_or(DVec3::Z), false);
+        self.told(FeatureKind::Course, Some(track), first, &found, |aim| {
+            words::course(aim, round)
+        });
+        self.told_size(track, first, &size(scene, &fitted.way));
+        Motion::new(super::way::written(scene, &fitted.way))
+    }
+
+    /// Tells that a hand takes another posture where it is.
+    pub(super) fn told_change(&mut self, track: &Track, frame: usize) {
+        let found = Found {
+            best: (),
+            residual: 0.0,
+            runner_up: None,
         };
-        match fitted.way {
-            Way::Arc { chord, bow } => {
-                let back = aim::from_out(DVec3::from(direction.vector())).inverse();
-                let flat = back * bow;
-                let deep = bow.length() / chord.length().max(1e-9);
-                directed.curve = Some(Curve {
-                    to: Compass::nearest((-flat.x).atan2(-flat.y)),
-                    size: sized(deep, [l.arc_small, l.arc_normal, l.arc_big]).best,
-                });
-            }
-            Way::Wave { width, wavy, .. } => {
-                directed.zigzag = Some(Zigzag {
-                    wavy,
-                    size: sized(width / arm, [l.zigzag_small, l.zigzag_normal, l.zigzag_big]).best,
-                    growth: None,
-                });
-            }
-            _ => {}
-        }
-        Motion::new(MotionKind::Directed(directed))
+        self.told_movement(track, frame, &found, |()| "replacement", |()| None);
     }
 
     /// Writes a wrist or fingers going to and fro.
     pub(super) fn sway(&mut self, track: &Track, sway: &Sway, first: usize) -> Motion {
         let l = self.scene.language;
-        let told = |writer: &mut Self, runner_up| {
-            let found = Found {
-                best: sway.name(),
-                residual: 0.0,
-                runner_up,
-            };
-            writer.told(
-                FeatureKind::Movement,
-                Some(track),
-                first,
-                &found,
-                |name: &&str| (*name).to_owned(),
-            );
-        };
         match sway {
-            Sway::Play { digits } => {
-                told(self, None);
+            Sway::Play { digits, .. } => {
                 let fingers =
                     digits.0.len() == 4 && !digits.contains(chereme_sign::hamnosys::Digit::Thumb);
                 let digits = if fingers {
@@ -102,15 +50,22 @@ impl Writer<'_> {
                 } else {
                     digits.clone()
                 };
-                Motion::new(MotionKind::FingerPlay(digits))
+                let kind = MotionKind::FingerPlay(digits);
+                let found = Found {
+                    best: (),
+                    residual: 0.0,
+                    runner_up: None,
+                };
+                let name = sway.name();
+                self.told_movement(track, first, &found, |()| name, |()| Some(kind.clone()));
+                Motion::new(kind)
             }
             Sway::Wrist {
                 motion,
                 angle,
                 cycles: _,
-                ..
+                runner_up,
             } => {
-                told(self, None);
                 let usual = match motion {
                     WristMotion::Nodding => l.wrist_nodding,
                     WristMotion::Swinging => l.wrist_swinging,
@@ -121,11 +76,27 @@ impl Writer<'_> {
                     angle.to_degrees() / usual,
                     [l.wrist_small, 1.0, l.wrist_big],
                 );
-                self.told_size(track, first, &size);
-                Motion::new(MotionKind::Wrist {
+                // The other way about the wrist is off by all that the hand sways.
+                // By the way of the fingertips that another movement would leave out.
+                let found = Found {
+                    best: *motion,
+                    residual: 0.0,
+                    runner_up: runner_up
+                        .map(|(motion, of)| (motion, (angle - of) * self.scene.hand)),
+                };
+                let written = |motion: &WristMotion| MotionKind::Wrist {
                     motion: *motion,
                     size: size.best,
-                })
+                };
+                self.told_movement(
+                    track,
+                    first,
+                    &found,
+                    |motion| wrist_name(*motion),
+                    |motion| Some(written(motion)),
+                );
+                self.told_size(track, first, &size);
+                Motion::new(written(motion))
             }
         }
     }
@@ -165,7 +136,7 @@ impl Writer<'_> {
         posture
     }
 
-    /// Tells what is touched at the end of an act that was not at its beginning.
+    /// Tells what is touched at the end of an act that was not at its beginning, or else brushed on the way.
     pub(super) fn reached(
         &mut self,
         hand: usize,
@@ -188,37 +159,107 @@ impl Writer<'_> {
             && touching(&before).is_none_or(|was| was.parts != together.parts)
         {
             let [dominant, other] = together.parts.map(named);
-            let contact = Found {
-                best: (),
-                residual: together.distance,
-                runner_up: None,
-            };
-            let value = format!(
-                "{} by {}: {}",
-                words::hand_site(&dominant),
-                words::hand_site(&other),
-                words::contact(Some(together.contact))
-            );
-            self.told(FeatureKind::Contact, None, last, &contact, |()| {
-                value.clone()
-            });
-            return Some(Place::Hands(Constellation {
+            let hands = Constellation {
                 dominant: Some(dominant),
                 other: Some(other),
                 contact: Some(together.contact),
                 ..Constellation::default()
-            }));
+            };
+            self.told_together(last, &hands, together.distance);
+            return Some(Place::Hands(hands));
         }
         let touched = |body: &Body<'_>| {
             let placed = body.place(hand, false)?;
             (placed.place.contact == Some(Contact::Touch)).then_some(placed)
         };
-        let placed = touched(&after)?;
         let was = touched(&before).map(|placed| placed.place.site);
+        let Some(placed) = touched(&after) else {
+            let middle = first + (last - first) / 2;
+            let mut placed = touched(&self.body(middle)?).filter(|_| was.is_none())?;
+            placed.place.contact = Some(Contact::Brushing);
+            self.told_place(self.scene.hands[hand].as_ref(), middle, &placed);
+            return Some(Place::Body(placed.place));
+        };
         if was == Some(placed.place.site) {
             return None;
         }
         self.told_place(self.scene.hands[hand].as_ref(), last, &placed);
         Some(Place::Body(placed.place))
+    }
+}
+
+/// Returns a way in notation.
+pub(super) fn written(scene: &Scene<'_>, way: &Way) -> MotionKind {
+    let (l, arm) = (scene.language, scene.arm);
+    let direction = aim::nearest(way.line().normalize_or(DVec3::Z), false)
+        .best
+        .first;
+    let size = size(scene, way).best;
+    let mut directed = Directed {
+        direction,
+        second: None,
+        size: Amount {
+            first: size,
+            second: None,
+        },
+        curve: None,
+        zigzag: None,
+        ellipse: None,
+    };
+    match *way {
+        Way::Circle {
+            turns,
+            long,
+            narrow,
+            start,
+            end,
+            ..
+        } => {
+            let mut round = circular(direction, size, long, narrow, start, l);
+            // Where part of a circle ends must be said, and then where it begins as well.
+            if turns * std::f64::consts::TAU < ROUND {
+                let back = aim::from_out(DVec3::from(direction.vector())).inverse();
+                let hour = |spoke: DVec3| {
+                    let flat = back * spoke;
+                    Compass::nearest((-flat.x).atan2(-flat.y))
+                };
+                round.clock.start = Some(hour(start));
+                round.clock.end = Some(hour(end));
+            }
+            return MotionKind::Circular(round);
+        }
+        Way::Arc { chord, bow } => {
+            let back = aim::from_out(DVec3::from(direction.vector())).inverse();
+            let flat = back * bow;
+            let deep = bow.length() / chord.length().max(1e-9);
+            directed.curve = Some(Curve {
+                to: Compass::nearest((-flat.x).atan2(-flat.y)),
+                size: sized(deep, [l.arc_small, l.arc_normal, l.arc_big]).best,
+            });
+        }
+        Way::Wave { width, wavy, .. } => {
+            directed.zigzag = Some(Zigzag {
+                wavy,
+                size: sized(width / arm, [l.zigzag_small, l.zigzag_normal, l.zigzag_big]).best,
+                growth: None,
+            });
+        }
+        Way::Straight { .. } => {}
+    }
+    MotionKind::Directed(directed)
+}
+
+/// Returns the size of a way: of its chord, or of a circle's longer radius.
+fn size(scene: &Scene<'_>, way: &Way) -> Found<Option<Size>> {
+    let (l, arm) = (scene.language, scene.arm);
+    match way {
+        Way::Circle { long, .. } => sized(
+            long.length() / arm,
+            [l.circle_small, l.circle_normal, l.circle_big],
+        ),
+        other => sized(
+            other.chord().length() / arm,
+            [l.move_small, l.move_normal, l.move_big],
+        ),
     }
 }

@@ -1,0 +1,147 @@
+//! Repetitions folded: circles on end, there and back again, the same again.
+
+use chereme_sign::hamnosys::Repeat;
+use glam::DVec3;
+
+use super::super::scene::{Scene, Track, scaled};
+use super::super::way::Way;
+use super::{Act, Kind};
+
+/// Two changes are the same, or each other's opposite, where they differ by less than this share.
+const ALIKE: f64 = 0.5;
+/// What is done again grows where each time is by so much more than the one before: some half of what it
+/// grows by in notation.
+const GROWS: f64 = 1.18;
+
+/// What an act changes, each part by what is usual: a way, a turn, the fingers.
+fn change(scene: &Scene<'_>, track: &Track, act: &Act) -> Vec<f64> {
+    let (first, last) = (act.first(), act.last());
+    let chord = match &act.kind {
+        Kind::Way(fitted) => fitted.way.chord() / (scene.language.move_normal * scene.arm),
+        _ => DVec3::ZERO,
+    };
+    // Forth and back are opposite only in one and the same frame: that of the body.
+    let turn = scaled(track.turned[last] * track.turned[first].inverse()) / 0.8;
+    let mut all = chord.to_array().to_vec();
+    if act.turned {
+        all.extend(turn.to_array());
+    } else {
+        all.extend([0.0; 3]);
+    }
+    let (a, b) = (
+        track.angles[first].to_array(),
+        track.angles[last].to_array(),
+    );
+    let share = if act.reshaped { 0.25 } else { 0.0 };
+    all.extend(a.iter().zip(b).map(|(a, b)| share * (b - a)));
+    all
+}
+
+fn apart(a: &[f64], b: &[f64], sign: f64) -> f64 {
+    let off: Vec<f64> = a.iter().zip(b).map(|(x, y)| x - sign * y).collect();
+    norm(&off) / norm(a).max(norm(b)).max(1e-9)
+}
+
+/// Folds repetitions: circles on end, there and back again, and on and on.
+pub(super) fn folded(scene: &Scene<'_>, track: &Track, acts: Vec<Act>) -> Vec<Act> {
+    let changes: Vec<Vec<f64>> = acts.iter().map(|act| change(scene, track, act)).collect();
+    let mut found: Vec<Act> = Vec::new();
+    let mut n = 0;
+    while n < acts.len() {
+        let run = |sign: f64| {
+            let mut end = n + 1;
+            while end < acts.len()
+                && !is_round(&acts[end - 1])
+                && apart(&changes[end - 1], &changes[end], sign) < ALIKE
+            {
+                end += 1;
+            }
+            end - n
+        };
+        let mut act = acts[n].clone();
+        let rounds = rounds(&acts[n..]);
+        let (to_and_fro, on) = (run(-1.0), run(1.0));
+        act.grows = match (is_round(&act), to_and_fro >= 3) {
+            (true, _) => None,
+            (_, true) => growth(&changes[n..n + to_and_fro], 2),
+            _ => growth(&changes[n..n + on], 1),
+        };
+        if is_round(&act) {
+            let turns: f64 = acts[n..n + rounds].iter().filter_map(turns).sum();
+            act.times = (turns.round() as usize).max(1);
+            act.repeat = repeat(act.times, Repeat::FromStart, Repeat::FromStartSeveral);
+            act.until = acts[n + rounds - 1].until;
+            n += rounds;
+        } else if to_and_fro >= 3 {
+            act.times = to_and_fro.div_ceil(2);
+            act.repeat = repeat(act.times, Repeat::FromStart, Repeat::FromStartSeveral);
+            act.until = acts[n + to_and_fro - 1].until;
+            n += to_and_fro;
+        } else if on >= 2 {
+            act.times = on;
+            act.repeat = repeat(on, Repeat::Continue, Repeat::ContinueSeveral);
+            act.until = acts[n + on - 1].until;
+            n += on;
+        } else {
+            n += 1;
+        }
+        found.push(act);
+    }
+    found
+}
+
+/// Tells whether what is done again grows, or shrinks, from each time to the next; `step` counts ways back.
+fn growth(changes: &[Vec<f64>], step: usize) -> Option<bool> {
+    let sizes: Vec<f64> = changes.iter().step_by(step).map(|it| norm(it)).collect();
+    let by = |least: fn(f64, f64) -> bool| sizes.windows(2).all(|pair| least(pair[0], pair[1]));
+    match sizes.len() {
+        // Two that differ are no more than two that differ.
+        0..=2 => None,
+        _ if by(|a, b| b > GROWS * a) => Some(true),
+        _ if by(|a, b| a > GROWS * b) => Some(false),
+        _ => None,
+    }
+}
+
+fn norm(v: &[f64]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+fn repeat(times: usize, once: Repeat, several: Repeat) -> Option<Repeat> {
+    match times {
+        0 | 1 => None,
+        2 => Some(once),
+        _ => Some(several),
+    }
+}
+
+fn turns(act: &Act) -> Option<f64> {
+    match &act.kind {
+        Kind::Way(fitted) => match fitted.way {
+            Way::Circle { turns, .. } => Some(turns),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+fn is_round(act: &Act) -> bool {
+    turns(act).is_some()
+}
+
+/// Returns how many circles about one axis follow each other.
+fn rounds(acts: &[Act]) -> usize {
+    let axis = |act: &Act| match &act.kind {
+        Kind::Way(fitted) => match fitted.way {
+            Way::Circle { axis, .. } => Some(axis),
+            _ => None,
+        },
+        _ => None,
+    };
+    let Some(first) = acts.first().and_then(axis) else {
+        return 0;
+    };
+    acts.iter()
+        .take_while(|act| axis(act).is_some_and(|axis| axis.dot(first) > 0.7))
+        .count()
+}

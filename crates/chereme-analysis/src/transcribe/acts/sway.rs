@@ -1,0 +1,194 @@
+//! Hands that go to and fro about the wrist, and fingers that play.
+
+use chereme_sign::hamnosys::{Digit, Digits, WristMotion};
+use glam::DVec3;
+
+use super::super::scene::{Scene, Track, scaled};
+
+/// The least range of a hand or finger that goes to and fro, in radians.
+const SWAY: f64 = 0.12;
+/// A hand sways about one axis while it turns about another one at least by this share of that turn.
+const BESIDES: f64 = 0.4;
+
+/// A hand or fingers that go to and fro.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::transcribe) enum Sway {
+    /// About the wrist, so far to either side in radians, so often.
+    Wrist {
+        motion: WristMotion,
+        angle: f64,
+        cycles: f64,
+        runner_up: Option<(WristMotion, f64)>,
+    },
+    /// Fingers play, each so often.
+    Play { digits: Digits, cycles: f64 },
+}
+
+impl Sway {
+    pub(in crate::transcribe) fn name(&self) -> &'static str {
+        match self {
+            Self::Play { .. } => "fingerplay",
+            Self::Wrist { motion, .. } => wrist_name(*motion),
+        }
+    }
+}
+
+/// Returns a movement of the wrist in a word.
+pub(in crate::transcribe) fn wrist_name(motion: WristMotion) -> &'static str {
+    match motion {
+        WristMotion::Nodding => "nodding",
+        WristMotion::Swinging => "swinging",
+        WristMotion::Twisting => "twisting",
+        WristMotion::StirCw => "stirring",
+        WristMotion::StirCcw => "stirring back",
+    }
+}
+
+/// Returns how the hand sways about the wrist, from the middle of its range.
+pub(super) fn wrist(track: &Track, first: usize, last: usize) -> Option<Sway> {
+    let start = track.turned[first].inverse();
+    let turns: Vec<DVec3> = (first..=last)
+        .map(|n| scaled(start * track.turned[n]))
+        .collect();
+    let parts: [Vec<f64>; 3] = std::array::from_fn(|axis| turns.iter().map(|t| t[axis]).collect());
+    let swings = parts.each_ref().map(|part| Swing::of(part));
+    let widest = swings.iter().map(|swing| swing.range).fold(0.0, f64::max);
+    // A hand may turn to another posture while it sways about another axis.
+    let sways = |swing: &Swing| {
+        swing.range >= SWAY.max(BESIDES * widest)
+            && swing.turning >= 2
+            && swing.net < 0.45 * swing.range
+    };
+    let most = (0..3)
+        .filter(|&axis| sways(&swings[axis]))
+        .max_by(|&a, &b| swings[a].range.total_cmp(&swings[b].range))?;
+    let swing = swings[most];
+    let motions = [
+        WristMotion::Twisting,
+        WristMotion::Swinging,
+        WristMotion::Nodding,
+    ];
+    let (y, z) = (&swings[1], &swings[2]);
+    let round: f64 = (1..turns.len())
+        .map(|n| turns[n - 1].y * turns[n].z - turns[n - 1].z * turns[n].y)
+        .sum::<f64>()
+        / 2.0;
+    let narrow = y.range.min(z.range) / y.range.max(z.range).max(1e-9);
+    let full = std::f64::consts::PI * y.range * z.range / 4.0;
+    if most != 0 && narrow > 0.45 && round.abs() > 0.5 * full {
+        // As the signer sees it, from nodding over to swinging.
+        let motion = if round > 0.0 {
+            WristMotion::StirCw
+        } else {
+            WristMotion::StirCcw
+        };
+        return Some(Sway::Wrist {
+            motion,
+            angle: (y.range + z.range) / 4.0,
+            cycles: (round.abs() / full).max(1.0),
+            runner_up: Some((motions[most], swing.range / 2.0)),
+        });
+    }
+    if !(0.2..=0.8).contains(&swing.start) {
+        return None;
+    }
+    let next = (0..3)
+        .filter(|&axis| axis != most)
+        .max_by(|&a, &b| swings[a].range.total_cmp(&swings[b].range));
+    Some(Sway::Wrist {
+        motion: motions[most],
+        angle: swing.range / 2.0,
+        cycles: swing.turning as f64 / 2.0,
+        runner_up: next.map(|axis| (motions[axis], swings[axis].range / 2.0)),
+    })
+}
+
+/// Returns whether fingers play over the whole of a stretch, and which.
+pub(super) fn play(scene: &Scene<'_>, track: &Track, first: usize, last: usize) -> Option<Sway> {
+    let column = |digit: usize| -> Vec<f64> {
+        let at = |n: usize| match digit {
+            0 => track.angles[n].thumb.radial,
+            _ => track.angles[n].fingers[digit - 1].flexion[0],
+        };
+        (first..=last).map(at).collect()
+    };
+    let columns: [Vec<f64>; 5] = std::array::from_fn(column);
+    let swings = columns.each_ref().map(|column| Swing::of(column));
+    let playing: Vec<usize> = (0..5)
+        .filter(|&digit| swings[digit].turning >= 3 && swings[digit].range > SWAY)
+        .collect();
+    if playing.len() < 2 {
+        return None;
+    }
+    let apart = playing
+        .windows(2)
+        .any(|pair| correlation(&columns[pair[0]], &columns[pair[1]]).abs() < 0.75);
+    let often = playing
+        .iter()
+        .any(|&digit| swings[digit].turning as f64 / scene.seconds(last - first) > 4.0);
+    let digits = playing.iter().map(|&digit| Digit::ALL[digit]).collect();
+    let turning: usize = playing.iter().map(|&digit| swings[digit].turning).sum();
+    (apart && often).then_some(Sway::Play {
+        digits: Digits(digits),
+        cycles: turning as f64 / (2 * playing.len()) as f64,
+    })
+}
+
+/// A number that goes to and fro.
+#[derive(Debug, Clone, Copy)]
+struct Swing {
+    range: f64,
+    /// How often it turns back.
+    turning: usize,
+    /// Where in its range it starts, 0 to 1.
+    start: f64,
+    /// From its start to its end.
+    net: f64,
+}
+
+impl Swing {
+    fn of(values: &[f64]) -> Self {
+        let (low, high) = values
+            .iter()
+            .fold((f64::MAX, f64::MIN), |(l, h), &v| (l.min(v), h.max(v)));
+        let range = high - low;
+        let (mut turning, mut up, mut edge) = (0, None, values[0]);
+        for &value in values {
+            let back = match up {
+                None => {
+                    if (value - edge).abs() > 0.3 * range {
+                        up = Some(value > edge);
+                        edge = value;
+                    }
+                    continue;
+                }
+                Some(true) => edge - value,
+                Some(false) => value - edge,
+            };
+            if back < 0.0 {
+                edge = value;
+            } else if back > 0.3 * range {
+                turning += 1;
+                up = up.map(|up| !up);
+                edge = value;
+            }
+        }
+        let last = values[values.len() - 1];
+        Self {
+            range,
+            turning: if range > 1e-9 { turning } else { 0 },
+            start: (values[0] - low) / range.max(1e-9),
+            net: (last - values[0]).abs(),
+        }
+    }
+}
+
+fn correlation(a: &[f64], b: &[f64]) -> f64 {
+    let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
+    let (ma, mb) = (mean(a), mean(b));
+    let [ab, aa, bb] = a.iter().zip(b).fold([0.0; 3], |[ab, aa, bb], (x, y)| {
+        let (x, y) = (x - ma, y - mb);
+        [ab + x * y, aa + x * x, bb + y * y]
+    });
+    ab / (aa * bb).sqrt().max(1e-12)
+}

@@ -1,0 +1,162 @@
+//! Features: what was told, in words and in symbols.
+
+use chereme_sign::hamnosys::{MotionKind, Repeat};
+
+use super::super::Stage;
+use super::super::words::{self, Said};
+use super::*;
+
+impl Writer<'_> {
+    pub(super) fn told<T>(
+        &mut self,
+        kind: FeatureKind,
+        track: Option<&Track>,
+        frame: usize,
+        found: &Found<T>,
+        said: impl Fn(&T) -> Said,
+    ) {
+        let unit = match kind {
+            FeatureKind::Location | FeatureKind::Contact | FeatureKind::Movement => {
+                Unit::Centimetres
+            }
+            FeatureKind::Hands
+            | FeatureKind::Size
+            | FeatureKind::Manner
+            | FeatureKind::Repetition => Unit::Share,
+            _ => Unit::Degrees,
+        };
+        let scale = if unit == Unit::Centimetres {
+            100.0
+        } else {
+            1.0
+        };
+        let Said { words, text } = said(&found.best);
+        self.features.push(Feature {
+            kind,
+            hand: track.map(|track| track.side),
+            frame,
+            frames: self.frames,
+            action: self.action,
+            value: words,
+            text,
+            residual: found.residual * scale,
+            unit,
+            runner_up: found.runner_up.as_ref().map(|(value, residual)| {
+                let Said { words, text } = said(value);
+                RunnerUp {
+                    value: words,
+                    text,
+                    residual: residual * scale,
+                }
+            }),
+        });
+    }
+
+    /// Says which posture or action features belong to from here on.
+    pub(super) fn begins(&mut self, action: Option<usize>, frames: (usize, usize)) {
+        self.action = action;
+        self.frames = frames;
+    }
+
+    /// Notes the HamNoSys of what features belonged to.
+    pub(super) fn ends(&mut self, hand: Option<chereme_motion::Side>, text: String) {
+        self.stages.push(Stage {
+            action: self.action,
+            hand,
+            frames: self.frames,
+            text,
+        });
+    }
+
+    pub(super) fn told_hands(&mut self, relation: &Relation, frame: usize) {
+        let found = Found {
+            best: relation.kind,
+            residual: relation.residual,
+            runner_up: relation.runner_up,
+        };
+        self.told(FeatureKind::Hands, None, frame, &found, |kind| {
+            let hands = match kind {
+                RelationKind::Alike(symmetry) => HandsUsed::Both(*symmetry),
+                _ => HandsUsed::Dominant,
+            };
+            Said::new(kind.words(), words::hands(hands))
+        });
+    }
+
+    pub(super) fn told_seen(&mut self, track: &Track, frame: usize, seen: &Seen, which: [bool; 3]) {
+        let hand = Some(track);
+        if let Some(shape) = seen.shape.as_ref().filter(|_| which[0]) {
+            self.told(FeatureKind::Handshape, hand, frame, shape, words::shape);
+        }
+        if which[1] {
+            let found = &seen.extended;
+            self.told(FeatureKind::Direction, hand, frame, found, words::direction);
+        }
+        if let Some(palm) = seen.palm.as_ref().filter(|_| which[2]) {
+            self.told(FeatureKind::Palm, hand, frame, palm, words::palm);
+        }
+    }
+
+    pub(super) fn told_place(&mut self, track: Option<&Track>, frame: usize, placed: &Placed) {
+        self.told(
+            FeatureKind::Location,
+            track,
+            frame,
+            &placed.found(),
+            words::place,
+        );
+        let contact = Found {
+            best: &placed.place,
+            residual: placed.distance,
+            runner_up: None,
+        };
+        self.told(FeatureKind::Contact, track, frame, &contact, |place| {
+            words::nearness(place)
+        });
+    }
+
+    /// Tells how the two hands are by each other.
+    pub(super) fn told_together(&mut self, frame: usize, hands: &Constellation, distance: f64) {
+        let contact = Found {
+            best: hands,
+            residual: distance,
+            runner_up: None,
+        };
+        self.told(FeatureKind::Contact, None, frame, &contact, |hands| {
+            words::together(hands)
+        });
+    }
+
+    pub(super) fn told_repetition(&mut self, track: &Track, act: &Act, repeat: Repeat) {
+        let times = Found {
+            best: act.times,
+            residual: 0.0,
+            runner_up: None,
+        };
+        let first = *act.frames.start();
+        self.told(FeatureKind::Repetition, Some(track), first, &times, |n| {
+            words::repetition(*n, repeat)
+        });
+    }
+
+    pub(super) fn told_size(&mut self, track: &Track, frame: usize, found: &Found<Option<Size>>) {
+        self.told(FeatureKind::Size, Some(track), frame, found, |size| {
+            words::size(*size)
+        });
+    }
+
+    /// Tells the kind of a movement; `written` is the notation of a value.
+    pub(super) fn told_movement<T>(
+        &mut self,
+        track: &Track,
+        frame: usize,
+        found: &Found<T>,
+        name: impl Fn(&T) -> &'static str,
+        written: impl Fn(&T) -> Option<MotionKind>,
+    ) {
+        self.told(FeatureKind::Movement, Some(track), frame, found, |value| {
+            let text = written(value).map(|kind| words::motion(&Motion::new(kind)));
+            Said::new(name(value), text.unwrap_or_default())
+        });
+    }
+}
