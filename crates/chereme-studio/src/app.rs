@@ -153,6 +153,12 @@ impl Studio {
         self.panes.stage.drawing_time()
     }
 
+    /// Returns whether the pictures on the stage are those that were asked for last.
+    #[must_use]
+    pub fn is_drawn(&self) -> bool {
+        self.panes.stage.is_drawn()
+    }
+
     /// Returns the open corpus's file.
     #[must_use]
     pub fn corpus(&self) -> Option<&PathBuf> {

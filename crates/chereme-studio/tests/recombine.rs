@@ -286,6 +286,11 @@ fn a_placed_hand_is_moved_on_the_stage_by_keys_and_by_dragging() {
     assert_eq!(recipe_of(&window), "ESCARGOT | place right by up 10cm");
     idle(&mut window);
 
+    // The handle lies where the hand is in the picture.
+    press(&mut window, "Pause");
+    until(&mut window, "the picture", |window| {
+        window.state().is_drawn()
+    });
     let from = window.get_by_label("Move: right hand").rect().center();
     let to = from + eframe::egui::vec2(-30.0, -40.0);
     window.drag_at(from);
@@ -311,6 +316,25 @@ fn a_placed_hand_is_moved_on_the_stage_by_keys_and_by_dragging() {
     );
     key(&mut window, Modifiers::COMMAND, Key::Y);
     assert_eq!(recipe_of(&window), dragged);
+
+    // A key that never seems to be let go of does not hold the steps together.
+    window.event(eframe::egui::Event::Key {
+        key: Key::R,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    });
+    window.run_steps(40);
+    window.get_by_label("Move: right hand").focus();
+    window.run_steps(2);
+    key(&mut window, Modifiers::NONE, Key::ArrowUp);
+    window.run_steps(40);
+    let once = recipe_of(&window);
+    key(&mut window, Modifiers::NONE, Key::ArrowUp);
+    window.run_steps(40);
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(recipe_of(&window), once);
 }
 
 fn recipe_of_stored(window: &Window<'_>) -> String {

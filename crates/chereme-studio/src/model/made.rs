@@ -8,7 +8,6 @@ use chereme_sign::Handedness;
 
 /// A made clip, with its name and what it was made from.
 #[derive(Debug, Clone)]
-#[allow(dead_code, reason = "for the preview of recipes")]
 pub(crate) struct Made {
     /// What it is called: the gloss or the recipe.
     pub(crate) name: String,

@@ -35,6 +35,9 @@ pub(crate) use path::offset_legs;
 use stack::{Card, Stack, What};
 use steps::Steps;
 
+/// Changes that follow each other faster than this, in seconds, are one step.
+const SETTLES: f64 = 0.4;
+
 /// The pane.
 #[derive(Default)]
 pub(crate) struct Recombine {
@@ -65,6 +68,8 @@ pub(crate) struct Recombine {
     steps: Steps<Page>,
     /// The recipe as it was when it was last left alone.
     settled: Page,
+    /// The text as it became last, and when, in seconds of the window's clock.
+    changed: (String, f64),
 }
 
 /// The recipe as it is taken back to.
@@ -126,10 +131,33 @@ impl Recombine {
         }
     }
 
+    /// Takes in what was done to the corpus; what was done to the recipe before is a step before it.
+    fn count(&mut self, operations: &[OperationRow]) {
+        if self.steps.is_behind(operations) {
+            self.settle();
+            self.steps.follow(operations);
+        }
+    }
+
+    /// Takes a change in as a step when nothing is dragged or typed, and no other has followed at once.
+    fn settle_in_time(&mut self, ui: &Ui) {
+        let (now, held) = ui.input(|input| (input.time, input.pointer.any_down()));
+        if self.changed.0 != self.text {
+            self.changed = (self.text.clone(), now);
+        }
+        let rest = self.changed.1 + SETTLES - now;
+        if rest > 0.0 {
+            let rest = std::time::Duration::from_secs_f64(rest);
+            ui.ctx().request_repaint_after(rest);
+        } else if !held && !ui.ctx().text_edit_focused() {
+            self.settle();
+        }
+    }
+
     /// Takes a step of the recipe back, or does it again; whether it was its turn.
     pub(crate) fn walk(&mut self, back: bool, operations: &[OperationRow]) -> bool {
+        self.count(operations);
         self.settle();
-        self.steps.follow(operations);
         let page = if back {
             self.steps.back()
         } else {
@@ -437,11 +465,8 @@ impl Pane for Recombine {
         if seen.shown.handle != handle {
             out.send(Command::Handle(handle));
         }
-        self.steps.follow(&seen.snapshot.overview.operations);
-        let busy = ui.input(|input| input.pointer.any_down() || !input.keys_down.is_empty());
-        if !busy && !ui.ctx().text_edit_focused() {
-            self.settle();
-        }
+        self.count(&seen.snapshot.overview.operations);
+        self.settle_in_time(ui);
     }
 
     fn act(&mut self, action: Action, seen: &Seen<'_>, out: &mut Outbox) -> Acted {

@@ -43,6 +43,11 @@ impl<T: Clone> Steps<T> {
         }
     }
 
+    /// Returns whether something was done to the corpus that is not counted.
+    pub(super) fn is_behind(&self, operations: &[OperationRow]) -> bool {
+        self.newest.is_none() || operations.first().map(|it| it.id) > self.newest
+    }
+
     /// Takes in what was done to the corpus since; `operations` are the newest first.
     pub(super) fn follow(&mut self, operations: &[OperationRow]) {
         let newest = operations.first().map(|it| it.id);

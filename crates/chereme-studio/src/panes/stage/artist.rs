@@ -19,6 +19,8 @@ pub(super) struct Wish {
     pub(super) figures: Vec<(Arc<Body>, ModelPose)>,
     pub(super) panes: Vec<Pane>,
     pub(super) style: Style,
+    /// Counted up from wish to wish.
+    pub(super) number: u64,
 }
 
 /// A picture from one place.
@@ -44,6 +46,10 @@ pub(super) struct Sheet {
 /// Pictures.
 pub(super) struct Drawn {
     pub(super) images: Vec<ColorImage>,
+    /// The number of their wish.
+    pub(super) number: u64,
+    /// The posture of the first figure.
+    pub(super) posture: Option<ModelPose>,
     /// How long they took.
     pub(super) took: Duration,
 }
@@ -156,6 +162,8 @@ impl Hand {
         let images = wish.panes.iter().map(|pane| self.pane(pane, &wish.style));
         Drawn {
             images: images.collect(),
+            number: wish.number,
+            posture: wish.figures.first().map(|(_, pose)| pose.clone()),
             took: begun.elapsed(),
         }
     }

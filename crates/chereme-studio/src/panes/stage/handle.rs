@@ -159,6 +159,7 @@ fn one(
             let name = format!("{}, {}", name(seen, held.side), axis_name(seen, nth));
             let cm = held.value[nth] * 100.0;
             response.widget_info(|| WidgetInfo::slider(true, cm, &name));
+            assisted(ui, out, held, nth, response.id);
             ends[nth] = Some(response);
         }
     }
@@ -197,6 +198,22 @@ fn one(
         ui::chip(ui, keep_in(held.pane, below), Align2::LEFT_TOP, &text);
     }
     response.on_hover_text(seen.say(words::HANDLE_HINT));
+}
+
+/// Lets assistive technology go along an axis, by whole steps.
+fn assisted(ui: &Ui, out: &mut Outbox, held: &Held<'_>, nth: usize, id: Id) {
+    use egui::accesskit::Action::{Decrement, Increment};
+    ui.ctx().accesskit_node_builder(id, |node| {
+        node.add_action(Increment);
+        node.add_action(Decrement);
+    });
+    let asked = |action| ui.input(|input| input.num_accesskit_action_requests(id, action));
+    let steps = asked(Increment) as f64 - asked(Decrement) as f64;
+    if steps != 0.0 {
+        let mut value = held.value;
+        value[nth] = gizmo::snapped(value[nth] + steps * STEP, None);
+        send(held, value, out);
+    }
 }
 
 /// Keeps the place of a text in the picture.

@@ -30,7 +30,7 @@ use std::time::Duration;
 
 use chereme_corpus::Overview;
 use chereme_figure::View;
-use chereme_motion::Side;
+use chereme_motion::{ModelPose, Side};
 use eframe::egui::{Context, TextureHandle, Ui};
 
 use crate::action::Action;
@@ -67,6 +67,11 @@ pub(crate) struct Stage {
     places: bool,
     zones: Option<(Arc<Overview>, Vec<Zone>)>,
     textures: Vec<TextureHandle>,
+    /// The signer's posture in the pictures that are shown.
+    drawn: Option<ModelPose>,
+    /// The numbers of the last wish and of the one that the pictures are of.
+    wished: u64,
+    shown: u64,
     /// What the pictures that were asked for last show.
     asked: Option<Look>,
     /// Whether the moment at the playhead is not loaded yet.
@@ -99,6 +104,9 @@ impl Default for Stage {
             places: false,
             zones: None,
             textures: Vec::new(),
+            drawn: None,
+            wished: 0,
+            shown: 0,
             asked: None,
             coming: false,
             took: Duration::ZERO,
@@ -149,6 +157,11 @@ impl Stage {
     /// Returns how long the last pictures took to draw.
     pub(crate) fn drawing_time(&self) -> Duration {
         self.took
+    }
+
+    /// Returns whether the pictures are those that were asked for last.
+    pub(crate) fn is_drawn(&self) -> bool {
+        self.asked.is_some() && self.wished == self.shown
     }
 
     /// Returns how the original is shown, where there is one.

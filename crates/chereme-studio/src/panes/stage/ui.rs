@@ -154,7 +154,7 @@ fn turn(stage: &mut Stage, ui: &Ui, response: &Response, part: &Part) {
 }
 
 /// Wishes for the pictures where they are others than the last, and shows those there are; returns
-/// the signer's posture.
+/// the signer's posture in them, for what is laid over them.
 fn pictures(
     stage: &mut Stage,
     ui: &mut Ui,
@@ -168,6 +168,7 @@ fn pictures(
     });
     if let Some(drawn) = artist.take() {
         stage.took = drawn.took;
+        (stage.drawn, stage.shown) = (drawn.posture, drawn.number);
         let options = TextureOptions::LINEAR;
         stage.textures.truncate(drawn.images.len());
         for (index, image) in drawn.images.into_iter().enumerate() {
@@ -209,12 +210,19 @@ fn pictures(
     {
         wish(stage, seen, look, pose);
     }
+    let joints = signer_joints(stage);
     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     for (part, texture) in parts.iter().zip(&stage.textures) {
         ui.painter()
             .image(texture.id(), part.rect, whole, Color32::WHITE);
     }
-    pose
+    let drawn = stage.drawn.as_ref();
+    let same = drawn.filter(|it| Some(it.positions().len()) == joints);
+    same.cloned().or(pose)
+}
+
+fn signer_joints(stage: &Stage) -> Option<usize> {
+    stage.signer.as_ref().map(|(_, it)| it.skeleton.len())
 }
 
 fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
@@ -283,7 +291,9 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
             layers,
         });
     }
+    stage.wished += 1;
     artist.wish(Wish {
+        number: stage.wished,
         figures,
         panes,
         style: Style {
