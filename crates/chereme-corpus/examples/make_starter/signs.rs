@@ -190,8 +190,8 @@ pub(crate) fn escargot() -> Sign {
             "ESCARGOT",
             ["escargot", "snail"],
             "parbegin finger2 thumboutmod pinky plus flathand parend \
-             parbegin extfingerol plus extfingeror parend parbegin palmd plus palmd parend \
-             parbegin middlefinger fingermidjoint plus handback parend touch \
+             parbegin extfingerol plus extfingeror parend parbegin palmd between palmdl plus palmd parend \
+             parbegin ringfinger fingermidjoint plus handback parend touch \
              parbegin moveo smallmod swinging repeatcontinueseveral parend slow",
         )
     }
@@ -242,7 +242,7 @@ pub(crate) fn week_end() -> Sign {
         ..sign(
             "WEEK-END",
             ["week-end", "weekend"],
-            "finger23spread thumbacrossmod indexfinger middlefinger ringfinger extfingeru palmd shoulders \
+            "finger23spread thumbacrossmod indexfinger middlefinger ringfinger extfingeru palmd shoulders lrat \
              parbegin mover largemod replace flathand thumbacrossmod doublehooked parend",
         )
     }
