@@ -4,16 +4,19 @@
 //! |---|---|
 //! | [`dtw`] | dynamic time warping: alignments, distances, nearest neighbours |
 //! | [`kinematics`](mod@kinematics) | how hands move, frame by frame |
+//! | [`measure`](mod@measure) | the size and time of movements whose kind is told |
 //! | [`score`](mod@score) | how alike two performances are, component by component, with their alignment |
 //! | [`strokes`](mod@strokes) | transitions of wrists and fingers between two minima of their speed |
 //! | [`transcribe`](mod@transcribe) | the notation of a sign: HamNoSys with residuals |
 
 pub mod dtw;
 pub mod kinematics;
+pub mod measure;
 pub mod score;
 pub mod strokes;
 pub mod transcribe;
 
 pub use kinematics::{Kinematics, kinematics};
+pub use measure::measure;
 pub use score::{Score, ScoreError, ScoreOptions, score};
 pub use transcribe::{Transcription, transcribe};

@@ -52,6 +52,34 @@ const REFUSED: &[&str] = &[
     "/files/0/findings/0/remedy",
 ];
 
+const ANIMATED: &[&str] = &[
+    "/recipe",
+    "/duration_us",
+    "/notes/0/about",
+    "/notes/0/feature",
+    "/notes/0/hand",
+    "/notes/0/value",
+    "/notes/0/start_us",
+    "/notes/0/end_us",
+    "/notes/0/from",
+    "/curves",
+    "/findings",
+    "/report/warnings",
+    "/report/steps/0/did",
+    "/report/steps/0/residual",
+    "/report/steps/0/hands/0/hand",
+    "/report/steps/0/hands/0/off_m",
+    "/report/steps/0/hands/0/short_m",
+    "/report/steps/0/hands/0/turned_deg",
+    "/report/steps/0/hands/0/pushed_m",
+];
+const SPOKEN: &[&str] = &[
+    "/report/steps/0/language/from",
+    "/report/steps/0/language/values/move.normal/value",
+    "/report/steps/0/language/values/move.normal/count",
+    "/report/steps/0/language/values/move.normal/of",
+];
+
 const CASES: &[Case] = &[
     ("new @d/a.chereme", 0, &["/corpus"]),
     ("new @c", 1, ERROR),
@@ -210,13 +238,29 @@ const CASES: &[Case] = &[
     (
         "animate @c 'hamflathand hamextfingeru hampalml hammoveo' --explain",
         0,
-        &["/recipe", "/report/steps"],
+        ANIMATED,
     ),
+    (
+        "animate @c MERCI MERCI --language default --signer recording:1",
+        0,
+        ANIMATED,
+    ),
+    ("animate @c MERCI --language @more/language.json", 0, SPOKEN),
+    ("animate @c MERCI --language mesured", 1, ERROR),
+    ("animate @c MERCI --language @in/notes.txt", 1, ERROR),
     ("animate @c 'hamsmallmod hampalmx' --as X", 1, ERROR),
     (
         "animate @c 'hamflathand hamsmallmod hampalmx' --as ODD",
         0,
-        &["/recipe", "/report/warnings"],
+        &[
+            "/recipe",
+            "/report/warnings",
+            "/findings/0/symbol",
+            "/findings/0/message",
+            "/findings/0/remedy",
+            "/findings/0/line",
+            "/findings/0/file",
+        ],
     ),
     ("animate @c NONE --as X", 1, ERROR),
     ("animate @c MERCI --signer signer:nobody", 1, ERROR),
@@ -462,6 +506,10 @@ impl Desk {
             ("broken.bvh", "a skeleton should be here\n".to_owned()),
             ("broken.sigml", "<sigml>\n<hns_sign>\n".to_owned()),
             ("other.bvh", files::bvh(40, 2)),
+            (
+                "language.json",
+                r#"{"version": 1, "values": {"move.normal": [0.3, "arm", "mine"]}}"#.to_owned(),
+            ),
             (
                 "changes.csv",
                 "recording,tier,start,end,value\nbowl,Gloss,1.6,1.8,JOUR\n".to_owned(),

@@ -76,6 +76,7 @@ impl Shelf {
             handedness: Handedness::Right,
             clip: movement(&skeleton),
             anatomy: Arc::new(Anatomy::detect(&skeleton)),
+            curves: Vec::new(),
             held: held
                 .map(|(component, value)| Held {
                     hand: Some(Side::Right),

@@ -115,6 +115,11 @@ fn check(node: &Node, depth: usize, parts: &mut usize) -> Result<(), RecipeError
         Node::Hamnosys(notation) | Node::Sigml(notation) => {
             named(step, &notation.of, "nothing is notated")?;
             optional(
+                notation.language.as_deref(),
+                step,
+                "the name of the body language is empty",
+            )?;
+            optional(
                 notation.on.as_deref(),
                 step,
                 "the name of the signer is empty",

@@ -136,6 +136,9 @@ pub enum Cause {
     /// Notation that cannot be animated.
     #[error(transparent)]
     Notation(#[from] crate::notation::NotationError),
+    /// Body language with numbers that are none.
+    #[error("the body language cannot be used: {0}; make the sign again")]
+    Language(String),
     /// The skeleton has no such arm.
     #[error("there is no {} arm (shoulder, elbow, wrist) in this skeleton; name its joints in a roles file, or use a recording that has one", .0.name())]
     NoArm(Side),

@@ -8,7 +8,8 @@ use chereme_sign::Handedness;
 use crate::contact::{self, Carry, Keep};
 use crate::course::{self, Courses};
 use crate::error::{Cause, MakeError};
-use crate::made::{ChannelReport, Made, Report, StepReport};
+use crate::language::Language;
+use crate::made::{ChannelReport, HandReport, Made, Report, StepReport};
 use crate::notation;
 use crate::ops::{self, join};
 use crate::poses::HandPose;
@@ -51,13 +52,14 @@ pub fn evaluate(resolved: &Resolved) -> Result<Made, MakeError> {
         .collect();
     let (anatomy, handedness) = (Arc::clone(&work.anatomy), work.handedness);
     let (signer, mut notes) = (work.signer.clone(), work.notes.clone());
+    let curves = work.curves.clone();
     notes.sort_by_key(|note| (note.span.start(), note.span.end()));
     Ok(Made {
         clip: work.into_clip().map_err(|error| fault(error.into()))?,
         anatomy,
         handedness,
         signer,
-        curves: Vec::new(),
+        curves,
         notes,
         report,
     })
@@ -94,6 +96,8 @@ struct Done {
     did: Vec<String>,
     residual: Option<f64>,
     moved: Option<[f64; 3]>,
+    language: Option<Language>,
+    hands: Vec<HandReport>,
 }
 
 impl From<Vec<String>> for Done {
@@ -110,7 +114,7 @@ impl From<(Vec<String>, f64)> for Done {
         Self {
             did,
             residual: Some(residual),
-            moved: None,
+            ..Self::default()
         }
     }
 }
@@ -208,6 +212,8 @@ impl Evaluator<'_> {
             did: done.did,
             residual: done.residual,
             moved: done.moved,
+            language: done.language,
+            hands: done.hands,
         });
     }
 
@@ -267,19 +273,34 @@ impl Evaluator<'_> {
             return Err(Cause::Input);
         };
         let stage = self.material(path.to_owned())?;
-        let settings = notation::Settings {
+        let spoken = match self.inputs.get(&format!("{path}/language")) {
+            Some(Input::Language(language)) => Some(language.clone()),
+            _ => None,
+        };
+        let mut settings = notation::Settings {
             rate: stage.clip.rate(),
             ..notation::Settings::default()
         };
+        if let Some(language) = &spoken {
+            let whole = language.whole();
+            settings.language = whole.map_err(|error| Cause::Language(error.to_string()))?;
+        }
         let signs: Vec<_> = signs.iter().collect();
         let made = notation::animate(&signs, stage, &settings)?;
         let steps = made.report.steps.iter();
         let did = steps.flat_map(|step| step.did.iter().map(|did| format!("{} {did}", step.step)));
-        let did: Vec<String> = did.collect();
+        let mut did: Vec<String> = did.collect();
+        did.extend(spoken.iter().flat_map(Language::told));
         let residual = made.report.steps.iter().filter_map(|step| step.residual);
         let residual = residual.fold(0.0, f64::max);
         self.report.warnings.extend(made.report.warnings.clone());
-        Ok((Work::made(made, &leaf.to_string()), (did, residual).into()))
+        let hands = made.report.steps.first().map(|step| step.hands.clone());
+        let done = Done {
+            language: spoken,
+            hands: hands.unwrap_or_default(),
+            ..(did, residual).into()
+        };
+        Ok((Work::made(made, &leaf.to_string()), done))
     }
 
     fn step(

@@ -40,6 +40,7 @@ mod error;
 mod evaluate;
 mod explain;
 mod json;
+mod language;
 mod learn;
 mod lookup;
 pub mod made;
@@ -62,9 +63,12 @@ pub use check::{DEEPEST, MOST_PARTS, MOST_REPETITIONS};
 pub use error::{Cause, MakeError, Problem, RecipeError, TextError};
 pub use evaluate::{ENGINE, evaluate};
 pub use json::VERSION;
+pub use language::{Language, LanguageValue};
 pub use learn::{CourseLearner, Stretch, bridge, learn_course};
 pub use lookup::{letters_in, value_in};
-pub use made::{About, ChannelReport, Curve, JoinReport, Made, Note, Report, StepReport};
+pub use made::{
+    About, ChannelReport, Curve, HandReport, JoinReport, Made, Note, Report, StepReport,
+};
 pub use poses::{Exact, HandPose, PoseOrigin};
 pub use recipe::Recipe;
 pub use resolve::{

@@ -7,6 +7,8 @@ use std::sync::Arc;
 
 use chereme_motion::Anatomy;
 
+use crate::language::Language;
+
 /// A made sign or utterance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Made {
@@ -18,7 +20,7 @@ pub struct Made {
     pub handedness: Handedness,
     /// Whose body moves, where known.
     pub signer: Option<String>,
-    /// How much there is of each non-manual at each frame, of signs made from notation.
+    /// How much there is of each non-manual at each frame.
     pub curves: Vec<Curve>,
     /// What is said about it.
     pub notes: Vec<Note>,
@@ -92,6 +94,27 @@ pub struct StepReport {
     /// The way by which a placement moved the hands: metres to the signer's left, up and forward.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub moved: Option<[f64; 3]>,
+    /// The body language that notation was animated with, where it is not the usual one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub language: Option<Language>,
+    /// Of notation: how near each hand came to what is written.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub hands: Vec<HandReport>,
+}
+
+/// How near a hand came to what is written; the worst of all frames.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct HandReport {
+    /// The hand.
+    pub hand: Side,
+    /// How far it is off its way, in metres.
+    pub off_m: f64,
+    /// How far it stays short of what it touches, in metres.
+    pub short_m: f64,
+    /// How far it is turned from what is written, in degrees.
+    pub turned_deg: f64,
+    /// How far it was moved out of the trunk, in metres.
+    pub pushed_m: f64,
 }
 
 /// Where the movement of a channel comes from.

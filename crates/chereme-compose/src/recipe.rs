@@ -151,12 +151,16 @@ pub struct Spell {
     pub on: Option<String>,
 }
 
-/// Movement from notation: `hamnosys "…" on signer:1`, `sigml HUIS`.
+/// Movement from notation: `hamnosys "…" with default on signer:1`, `sigml HUIS`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Notation {
     /// The symbols of the sign, or the name of what the corpus knows as notation.
     pub of: String,
+    /// The body language: `default` for the program's own, `measured` for what the corpus's captured
+    /// signs show, or a file; without one what is measured.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub language: Option<String>,
     /// Whose body signs; without one the corpus chooses.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,

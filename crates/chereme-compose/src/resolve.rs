@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::body;
 use crate::error::{Cause, MakeError};
+use crate::language::Language;
 use crate::poses::{self, HandPose};
 use crate::recipe::*;
 use crate::sources::{
@@ -60,6 +61,8 @@ pub enum Input {
     Letters(Vec<LetterInput>),
     /// Signs as notation.
     Notation(Vec<Notated>),
+    /// Body language that differs from the usual one.
+    Language(Language),
     /// Learned courses.
     Courses(LearnedProfile),
     /// How long letters are held, and how long the hand takes from one to the next.
@@ -363,6 +366,13 @@ impl Resolver<'_> {
         let setting = self.keep(path.clone(), stage)?;
         let at = format!("{path}/of");
         self.inputs.0.insert(at, Input::Notation(found));
+        let signer = setting.signer.as_deref();
+        let named = notation.language.as_deref();
+        let language = self.sources.body_language(named, signer)?;
+        if !language.is_usual() {
+            let at = format!("{path}/language");
+            self.inputs.0.insert(at, Input::Language(language));
+        }
         Ok(setting)
     }
 

@@ -8,6 +8,9 @@ use chereme_sign::inventory::{Inventory, InventoryValue, Landmark};
 use chereme_sign::{Component, Handedness, Reading};
 use serde::{Deserialize, Serialize};
 
+use crate::language::Language;
+use crate::made::Curve;
+
 /// Where recipes find movement, values and examples; a corpus implements it.
 ///
 /// Every question is asked while a recipe is [resolved](crate::Recipe); evaluating asks nothing.
@@ -61,6 +64,20 @@ pub trait Sources {
             address: name.to_owned(),
             nearest: None,
         })
+    }
+
+    /// Returns the body language that notation is animated with: `default`, a file, or, for
+    /// `measured` and where nothing is named, what captured movement shows, the signer's own where
+    /// there is enough of it.
+    ///
+    /// # Errors
+    /// [`SourceError::Language`] where a file is none; [`SourceError::Unreadable`].
+    fn body_language(
+        &self,
+        _named: Option<&str>,
+        _signer: Option<&str>,
+    ) -> Result<Language, SourceError> {
+        Ok(Language::default())
     }
 
     /// Returns the letters of `word` in an alphabet, or in the corpus's usual one.
@@ -164,6 +181,8 @@ pub struct Material {
     pub anatomy: Arc<Anatomy>,
     /// The component values it holds, in any order.
     pub held: Vec<Held>,
+    /// Scalar curves of it, a value a frame.
+    pub curves: Vec<Curve>,
 }
 
 /// A value of a component over a span of a piece of movement.
@@ -336,6 +355,16 @@ pub enum SourceError {
         alphabet: String,
         /// The letters that it has.
         known: String,
+    },
+    /// A body language is none.
+    #[error(
+        "the body language {name:?} cannot be used: {message}; name default, measured, or a file such as {{\"version\": 1, \"values\": {{\"move.big\": [0.5, \"arm\", \"mine\"]}}}}"
+    )]
+    Language {
+        /// The name as written.
+        name: String,
+        /// What is wrong with it.
+        message: String,
     },
     /// A query is not understood.
     #[error("the query {query:?} is not understood: {message}")]

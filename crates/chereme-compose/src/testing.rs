@@ -244,6 +244,7 @@ impl Shelf {
                     handedness: Handedness::Right,
                     clip: clip(skeleton, 120, seed),
                     anatomy: Arc::new(Anatomy::detect(skeleton)),
+                    curves: Vec::new(),
                     held,
                 }
             };

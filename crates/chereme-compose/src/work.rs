@@ -7,7 +7,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Anatomy, Channel, Clip, Instant, Part, Pose, Rate, Side, Skeleton, Span};
 use chereme_sign::{Component, Handedness, Reading};
 
-use crate::made::{About, Made, Note};
+use crate::made::{About, Curve, Made, Note};
 use crate::sources::Material;
 
 /// Movement in the making.
@@ -21,6 +21,8 @@ pub(crate) struct Work {
     pub(crate) handedness: Handedness,
     pub(crate) signer: Option<String>,
     pub(crate) notes: Vec<Note>,
+    /// A value a frame of each.
+    pub(crate) curves: Vec<Curve>,
     /// Sources and operators of each channel of the body, in order.
     pub(crate) from: BTreeMap<Group, Vec<String>>,
 }
@@ -117,6 +119,7 @@ impl Work {
             channels: clip.channels().to_vec(),
             handedness: material.handedness,
             signer: material.signer.clone(),
+            curves: material.curves.clone(),
             from: Group::ALL
                 .into_iter()
                 .map(|group| (group, source()))
@@ -135,6 +138,7 @@ impl Work {
             handedness: made.handedness,
             signer: made.signer,
             notes: made.notes,
+            curves: made.curves,
             from: Group::ALL
                 .into_iter()
                 .map(|group| (group, vec![leaf.to_owned()]))
@@ -289,6 +293,15 @@ impl Work {
                 *places = moved.collect();
             }
             channel.rotations = new;
+        }
+        for curve in &mut self.curves {
+            let old = &curve.values;
+            let value = |&at: &f64| {
+                let (first, second, share) = between(at);
+                old[first] + (old[second] - old[first]) * share
+            };
+            let new = at.iter().map(value).collect();
+            curve.values = new;
         }
         self.frames = at.len();
     }

@@ -11,13 +11,24 @@ use serde_json::json;
 
 use crate::Corpus;
 use crate::error::{Error, Result};
-use crate::recombine::Recombination;
+use crate::recombine::{NotationFinding, Recombination};
 use crate::sources::CorpusSources;
 use crate::sources::notation::NEXT;
 use crate::{inventories, notation};
 
 /// The longest file of plain HamNoSys that is read.
 const MOST_BYTES: u64 = 1 << 20;
+
+/// Who signs what is notated, and how.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Staging<'a> {
+    /// The address of a signer or a recording whose body signs; without one the corpus chooses, and one
+    /// without any movement takes the body that comes with the program.
+    pub signer: Option<&'a str>,
+    /// The body language: `default`, `measured` in the corpus's captured signs, or a file; without one
+    /// what is measured, where there is enough of it.
+    pub language: Option<&'a str>,
+}
 
 impl Corpus {
     /// Makes movement of notation: of HamNoSys text, of a SiGML or HamNoSys file, or of signs that the
@@ -26,19 +37,16 @@ impl Corpus {
     /// Of HamNoSys that cannot be read whole, what was understood is made; the report's warnings say
     /// what was not, and what is odd about a file.
     ///
-    /// `signer` is the address of a signer or a recording whose body signs; without one the corpus
-    /// chooses, and one without any movement takes the body that comes with the program.
-    ///
     /// # Errors
     /// Where the notation cannot be read, with the symbol or the line; where nothing notated has that
     /// name; where the body has no arms. Nothing half-made is stored.
     pub fn animate(
         &mut self,
         notation: &[&str],
-        signer: Option<&str>,
+        staging: &Staging<'_>,
         gloss: Option<&str>,
     ) -> Result<Recombination> {
-        let (node, findings) = leaf(notation, signer)?;
+        let (node, findings) = leaf(notation, staging)?;
         let recipe = json!({"version": VERSION, "make": node}).to_string();
         let mut done = match gloss {
             Some(gloss) => self.recombine(&recipe, gloss),
@@ -47,7 +55,9 @@ impl Corpus {
         for finding in &findings {
             done.explanation += &format!("\nwarning: {finding}");
         }
-        done.report.warnings.splice(0..0, findings);
+        let told = findings.iter().map(ToString::to_string);
+        done.report.warnings.splice(0..0, told);
+        done.findings = findings;
         Ok(done)
     }
 
@@ -68,8 +78,12 @@ impl Corpus {
 }
 
 /// Returns the recipe's leaf, and what is odd about the notation.
-fn leaf(notation: &[&str], signer: Option<&str>) -> Result<(Node, Vec<String>)> {
-    let on = signer.map(str::to_owned);
+fn leaf(notation: &[&str], staging: &Staging<'_>) -> Result<(Node, Vec<NotationFinding>)> {
+    let notated = |of: String| Notation {
+        of,
+        language: staging.language.map(str::to_owned),
+        on: staging.signer.map(str::to_owned),
+    };
     let text = match notation {
         [] => {
             return Err(Error::wrong("there is no notation")
@@ -81,29 +95,30 @@ fn leaf(notation: &[&str], signer: Option<&str>) -> Result<(Node, Vec<String>)> 
     Ok(match text {
         Some(text) => {
             let (of, findings) = understood(&text)?;
-            (Node::Hamnosys(Notation { of, on }), findings)
+            (Node::Hamnosys(notated(of)), findings)
         }
         None => {
             let findings = notation.iter().flat_map(|name| odd_in_file(name)).collect();
             let of = notation.join(NEXT);
-            (Node::Sigml(Notation { of, on }), findings)
+            (Node::Sigml(notated(of)), findings)
         }
     })
 }
 
 /// Returns HamNoSys text that can be read whole: as it is, or what was understood of it, with what is odd.
-fn understood(text: &str) -> Result<(String, Vec<String>)> {
+fn understood(text: &str) -> Result<(String, Vec<NotationFinding>)> {
     let (read, whole) = match hamnosys::parse(text) {
         Ok(read) => (read, None),
         Err(error) => (hamnosys::parse_lenient(text), Some(error)),
     };
-    let told = |finding: &hamnosys::Finding| {
-        format!(
-            "symbol {}: {}; {}",
-            finding.index, finding.message, finding.remedy
-        )
+    let told = |finding: &hamnosys::Finding| NotationFinding {
+        file: None,
+        line: None,
+        symbol: Some(finding.index),
+        message: finding.message.clone(),
+        remedy: Some(finding.remedy.to_owned()),
     };
-    let mut findings: Vec<String> = read.findings.iter().map(told).collect();
+    let mut findings: Vec<NotationFinding> = read.findings.iter().map(told).collect();
     let Some(error) = whole else {
         return Ok((text.to_owned(), findings));
     };
@@ -114,7 +129,13 @@ fn understood(text: &str) -> Result<(String, Vec<String>)> {
         ));
     }
     let names = hamnosys::to_names(&known).unwrap_or_default();
-    findings.push(format!("made of what was understood: {}", names.join(" ")));
+    findings.push(NotationFinding {
+        file: None,
+        line: None,
+        symbol: None,
+        message: format!("made of what was understood: {}", names.join(" ")),
+        remedy: None,
+    });
     Ok((known, findings))
 }
 
@@ -125,17 +146,18 @@ fn unspelled(sign: &Sign) -> Result<Sign> {
 }
 
 /// Returns what is odd about a SiGML file, with its line.
-fn odd_in_file(name: &str) -> Vec<String> {
+fn odd_in_file(name: &str) -> Vec<NotationFinding> {
     let path = Path::new(name);
     if !path.is_file() {
         return Vec::new();
     }
     let findings = notation::read_notation(path).map(|(_, findings)| findings);
-    let told = |finding: Finding| {
-        let line = finding
-            .line
-            .map_or_else(String::new, |line| format!(", line {line}"));
-        format!("{name}{line}: {}", finding.message)
+    let told = |finding: Finding| NotationFinding {
+        file: Some(name.to_owned()),
+        line: finding.line,
+        symbol: None,
+        message: finding.message,
+        remedy: finding.remedy,
     };
     findings.into_iter().flatten().map(told).collect()
 }
@@ -184,11 +206,14 @@ mod tests {
             understood("hamfist hamextfingeru hampalml hamparend hamchest").expect("some of it");
         assert!(hamnosys::parse(&known).is_ok());
         assert!(
-            findings.iter().any(|it| it.contains("symbol 3")),
+            findings.iter().any(|it| it.symbol == Some(3)),
             "{findings:?}"
         );
         let last = findings.last().expect("what was made");
-        assert!(last.contains("hamfist hamextfingeru hampalml"), "{last}");
+        assert!(
+            last.message.contains("hamfist hamextfingeru hampalml"),
+            "{last}"
+        );
         assert!(understood("hamparend").is_err(), "nothing is understood");
     }
 
@@ -198,7 +223,9 @@ mod tests {
         let path = folder.path().join("a.chereme");
         let mut corpus = Corpus::create(&path, "A").expect("made");
         let odd = "hamfist hamextfingeru hampalml hamparend hamchest";
-        let done = corpus.animate(&[odd], None, Some("ODD")).expect("made");
+        let done = corpus
+            .animate(&[odd], &Staging::default(), Some("ODD"))
+            .expect("made");
         assert!(done.report.warnings[0].contains("symbol 3"));
         assert!(done.explanation.contains("made of what was understood"));
         assert!(corpus.preview(&done.recipe).is_ok(), "{}", done.recipe);
@@ -207,7 +234,7 @@ mod tests {
                     extfidir=\"uuo\" palmor=\"l\"/></sign_manual></hamgestural_sign></sigml>";
         fs::write(&file, text).expect("written");
         let done = corpus
-            .animate(&[&file.to_string_lossy()], None, None)
+            .animate(&[&file.to_string_lossy()], &Staging::default(), None)
             .expect("made");
         assert!(
             done.report.warnings[0].contains("line 1"),

@@ -11,6 +11,7 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::Corpus;
+use crate::curves;
 use crate::db::check as rows;
 use crate::db::motion::hex;
 use crate::db::search::State;
@@ -271,6 +272,7 @@ impl Looking<'_, '_> {
                 return Err(crate::Error::wrong(what));
             }
         }
+        curves::of_track(connection, &track, 0..track.frames())?;
         Ok(())
     }
 

@@ -10,6 +10,7 @@ mod around;
 mod check;
 pub(crate) mod codec;
 mod contents;
+mod curves;
 pub(crate) mod db;
 mod details;
 mod edit;
@@ -48,6 +49,7 @@ pub use chereme_sign::query::HELP as QUERY_HELP;
 pub use chereme_sign::{Stereotype, TierRole};
 
 pub use address::{Address, Name, Stretch};
+pub use animate::Staging;
 pub use annotate::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
     AnnotationOrigin, NewTier, RemovedTiers, Scheme, TierChange, TierName, Values,
@@ -80,7 +82,7 @@ pub use notation::{Notation, read_notation};
 pub use paths::paths_like;
 pub use picture::{Moving, Picture, PictureOptions, built_in_body, draw_clip};
 pub use progress::{Progress, Step, Unit, unheard};
-pub use recombine::{MadePart, Recombination};
+pub use recombine::{MadePart, NotationFinding, Recombination, TimedNote};
 pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions};
 pub use starter::{starter_files, unpack_starter};
 pub use suggest::{Partner, Suggestions};

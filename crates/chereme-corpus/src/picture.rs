@@ -16,6 +16,7 @@ use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{self, Address, Stretch};
+use crate::animate::Staging;
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::movement::{ChannelGroup, Track};
@@ -162,7 +163,11 @@ impl Corpus {
     ) -> Result<Picture> {
         let body = self.chosen_body()?;
         let name = format!("token:{}", notated.token);
-        let done = self.animate(&[&name], Some(&body), None)?;
+        let staging = Staging {
+            signer: Some(&body),
+            language: None,
+        };
+        let done = self.animate(&[&name], &staging, None)?;
         let title = &notated.document.gloss;
         let picture = draw_clip(&done.clip, &done.anatomy, title, to, options, progress)?;
         Ok(Picture {

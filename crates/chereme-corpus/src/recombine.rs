@@ -20,6 +20,7 @@ use sha2::{Digest, Sha256};
 
 use crate::Corpus;
 use crate::address::{self, Address, Name};
+use crate::curves;
 use crate::db::motion::hex;
 use crate::db::recipes::{self, RecipeRow};
 use crate::db::recordings::{self, MotionTrackRow, RecordingRow};
@@ -51,6 +52,13 @@ pub struct Recombination {
     pub name: Option<String>,
     /// How long it lasts, in microseconds.
     pub duration_us: i64,
+    /// What is said about it, by time: the signs it was made of, component values, strokes, holds and
+    /// transitions. Where it is stored these are its annotations.
+    pub notes: Vec<TimedNote>,
+    /// The names of its scalar curves, such as those of non-manuals.
+    pub curves: Vec<String>,
+    /// What was odd about the notation that it was made of.
+    pub findings: Vec<NotationFinding>,
     /// What making it told.
     pub report: Report,
     /// The same for people.
@@ -68,6 +76,56 @@ pub struct Recombination {
     /// The pieces that it was made from, in their order, with their time in it.
     #[serde(skip)]
     pub parts: Vec<MadePart>,
+}
+
+/// Something said about a stretch of made movement.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct TimedNote {
+    /// `sign`, `transition`, or a component such as `movement`.
+    pub about: &'static str,
+    /// The part of the component: `phase` of movement tells strokes and holds.
+    pub feature: Option<String>,
+    /// The hand; nothing for signs and non-manuals.
+    pub hand: Option<Side>,
+    /// The gloss, or the component's value; nothing where nothing is told.
+    pub value: Option<String>,
+    /// When it starts, in microseconds from the first frame.
+    pub start_us: i64,
+    /// The first microsecond after it.
+    pub end_us: i64,
+    /// Where the movement comes from; of notation with what is done, such as `arc o`.
+    pub from: String,
+}
+
+/// Something odd about notation, which was made into movement in spite of it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct NotationFinding {
+    /// The file, where it is about one.
+    pub file: Option<String>,
+    /// The line of the file, from 1.
+    pub line: Option<u64>,
+    /// The symbol of HamNoSys text, from 0.
+    pub symbol: Option<usize>,
+    /// What is odd.
+    pub message: String,
+    /// What would be right, where something can be done.
+    pub remedy: Option<String>,
+}
+
+impl std::fmt::Display for NotationFinding {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match (&self.file, self.line, self.symbol) {
+            (Some(file), Some(line), _) => write!(f, "{file}, line {line}: ")?,
+            (Some(file), None, _) => write!(f, "{file}: ")?,
+            (None, _, Some(symbol)) => write!(f, "symbol {symbol}: ")?,
+            _ => {}
+        }
+        f.write_str(&self.message)?;
+        match &self.remedy {
+            Some(remedy) => write!(f, "; {remedy}"),
+            None => Ok(()),
+        }
+    }
 }
 
 impl Corpus {
@@ -177,12 +235,32 @@ fn recombination(recipe: &Recipe, gloss: String, made: Made) -> Recombination {
         recording: None,
         name: None,
         duration_us: made.clip.span().micros(),
+        notes: made.notes.iter().map(timed).collect(),
+        curves: made.curves.into_iter().map(|curve| curve.name).collect(),
+        findings: Vec::new(),
         explanation: made.report.to_string(),
         report: made.report,
         clip: made.clip,
         anatomy: made.anatomy,
         handedness: made.handedness,
         parts: parts::of(&made.notes),
+    }
+}
+
+fn timed(note: &Note) -> TimedNote {
+    let (about, feature) = match &note.about {
+        About::Gloss => ("sign", None),
+        About::Transition => ("transition", None),
+        About::Component(component, feature) => (component.name(), feature.clone()),
+    };
+    TimedNote {
+        about,
+        feature,
+        hand: note.hand,
+        value: note.value.value().map(str::to_owned),
+        start_us: note.span.start().micros(),
+        end_us: note.span.end().micros(),
+        from: note.origin.clone(),
     }
 }
 
@@ -323,6 +401,7 @@ fn store_movement(
             .collect();
         movement::store_block(connection, track, &numbers, first, rows.len(), &part)?;
     }
+    curves::store(connection, track, &made.curves, clip.frames())?;
     Ok(())
 }
 

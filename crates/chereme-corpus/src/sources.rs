@@ -4,7 +4,8 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use chereme_compose::{
-    Example, Held, LearnedProfile, Letter, Material, SourceError, Sources, SpellingTimes, Value,
+    Example, Held, Language, LearnedProfile, Letter, Material, SourceError, Sources, SpellingTimes,
+    Value,
 };
 use chereme_motion::{Instant, Side, Span};
 use chereme_sign::Inventory;
@@ -15,6 +16,7 @@ use rusqlite::Connection;
 use sha2::{Digest, Sha256};
 
 use crate::address::{self, Address, Name, Stretch};
+use crate::curves;
 use crate::db::history;
 use crate::db::motion;
 use crate::db::recordings::{self, RecordingRow};
@@ -24,7 +26,9 @@ use crate::error::{Error, Result};
 use crate::inventories::StoredInventory;
 use crate::movement::{ChannelGroup, Track};
 use crate::search::index::SearchIndex;
+use learned::language::Samples;
 
+mod language;
 mod learned;
 pub(crate) mod notation;
 
@@ -44,6 +48,8 @@ pub(crate) struct CorpusSources<'a> {
 pub(crate) struct Learned {
     /// The newest operation when it was learned, and what it was.
     profile: Option<(Option<i64>, Option<LearnedProfile>)>,
+    /// Likewise of body language.
+    samples: Option<(Option<i64>, Samples)>,
 }
 
 impl CorpusSources<'_> {
@@ -98,6 +104,7 @@ impl CorpusSources<'_> {
             clip,
             anatomy: Arc::new(track.anatomy(self.connection)?),
             held: self.held(stretch, handedness)?,
+            curves: curves::of_track(self.connection, &track, frames)?,
         })
     }
 
@@ -111,6 +118,7 @@ impl CorpusSources<'_> {
         };
         let mut material = self.load(&stretch)?;
         material.held.clear();
+        material.curves.clear();
         Ok(material)
     }
 
@@ -344,6 +352,14 @@ impl Sources for CorpusSources<'_> {
         let profile = learned::profile(self.connection).map_err(|error| unreadable(&error))?;
         learned.profile = Some((newest, profile.clone()));
         Ok(profile)
+    }
+
+    fn body_language(
+        &self,
+        named: Option<&str>,
+        signer: Option<&str>,
+    ) -> std::result::Result<Language, SourceError> {
+        self.spoken(named, signer)
     }
 
     fn spelling_times(&self) -> std::result::Result<SpellingTimes, SourceError> {

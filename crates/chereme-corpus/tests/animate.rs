@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use chereme_corpus::{Corpus, ImportOptions, Progress, SearchOptions, unheard};
+use chereme_corpus::{Corpus, ImportOptions, Progress, SearchOptions, Staging, unheard};
 
 const CHIN: &str = r#"<sigml><hamgestural_sign gloss="MERCI"><sign_manual>
   <handconfig handshape="flat"/><handconfig extfidir="u"/><handconfig palmor="u"/>
@@ -22,7 +22,7 @@ fn a_notated_sign_moves_is_found_by_its_components_and_is_taken_back() {
     let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
     let file = folder.path().join("merci.sigml");
     fs::write(&file, CHIN).expect("written");
-    let preview = corpus.animate(&[&file.display().to_string()], None, None);
+    let preview = corpus.animate(&[&file.display().to_string()], &Staging::default(), None);
     assert!(
         preview
             .expect("a file that no corpus holds")
@@ -38,13 +38,13 @@ fn a_notated_sign_moves_is_found_by_its_components_and_is_taken_back() {
         )
         .expect("taken in");
 
-    let done = corpus.animate(&["MERCI"], None, Some("THANKS"));
+    let done = corpus.animate(&["MERCI"], &Staging::default(), Some("THANKS"));
     let done = done.expect("the corpus has it, and the program a body");
     assert!(done.duration_us > 500_000, "{}", done.duration_us);
     let found = glosses(&mut corpus, "configuration=flat placement=chin origin=made");
     assert_eq!(found, ["THANKS"]);
 
-    let twice = corpus.animate(&["MERCI", "MERCI"], None, None);
+    let twice = corpus.animate(&["MERCI", "MERCI"], &Staging::default(), None);
     assert!(twice.expect("one after the other").duration_us > done.duration_us);
     let near = corpus.preview("THANKS | reverse | place right near MERCI");
     assert!(near.is_ok(), "{:?}", near.err());
@@ -61,8 +61,12 @@ fn what_cannot_be_read_is_told_and_nothing_is_stored() {
         ("hamflathand hamparbegin", None, "symbol"),
         ("hamflathand hamextfingeru", Some("signer:nobody"), "nobody"),
     ] {
+        let staging = Staging {
+            signer,
+            language: None,
+        };
         let error = corpus
-            .animate(&[notation], signer, Some("X"))
+            .animate(&[notation], &staging, Some("X"))
             .map(|done| done.recipe)
             .expect_err(notation);
         assert!(error.to_string().contains(said), "{notation}: {error}");

@@ -15,6 +15,7 @@ pub(crate) struct Shelf(Material);
 impl Shelf {
     pub(crate) fn new(clip: Clip, anatomy: &Arc<Anatomy>) -> Self {
         Self(Material {
+            curves: Vec::new(),
             address: "token:1".into(),
             hash: "1".into(),
             gloss: "A".into(),

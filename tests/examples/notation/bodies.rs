@@ -35,6 +35,7 @@ pub(crate) fn movement(path: &Path) -> Result<Material> {
     let anatomy = Anatomy::detect(clip.skeleton()).with_clip(&clip);
     let name = path.file_stem().unwrap_or_default();
     Ok(Material {
+        curves: Vec::new(),
         address: name.to_string_lossy().into_owned(),
         hash: String::new(),
         gloss: String::new(),

@@ -24,7 +24,7 @@ mod place;
 mod scene;
 mod shape;
 mod tree;
-mod way;
+pub(crate) mod way;
 mod words;
 
 #[cfg(test)]

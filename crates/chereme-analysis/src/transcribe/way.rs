@@ -28,7 +28,7 @@ const WIDE: f64 = 0.7;
 
 /// A way that a hand goes; lengths in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Way {
+pub(crate) enum Way {
     /// Straight.
     Straight {
         /// From start to end.
@@ -68,8 +68,8 @@ pub(super) enum Way {
 
 /// A way that was fitted, with how far off it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Fitted {
-    pub(super) way: Way,
+pub(crate) struct Fitted {
+    pub(crate) way: Way,
     /// The root of the mean square of the distance in metres.
     pub(super) residual: f64,
     /// The next simpler or deeper kind, with its residual.
@@ -106,7 +106,7 @@ impl Way {
 }
 
 /// Fits every kind of way to points in order of time and returns the best.
-pub(super) fn fit(points: &[DVec3]) -> Fitted {
+pub(crate) fn fit(points: &[DVec3]) -> Fitted {
     let points = evenly(points, POINTS);
     let (first, last) = (points[0], points[points.len() - 1]);
     let chord = last - first;
@@ -146,7 +146,7 @@ pub(super) fn fit(points: &[DVec3]) -> Fitted {
 }
 
 /// Returns points evenly along the way through others.
-pub(super) fn evenly(points: &[DVec3], count: usize) -> Vec<DVec3> {
+pub(crate) fn evenly(points: &[DVec3], count: usize) -> Vec<DVec3> {
     let whole = length(points);
     if points.len() < 2 || whole <= 0.0 {
         return vec![points.first().copied().unwrap_or_default(); count];

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
+use chereme_corpus::Staging;
 
 use crate::args::Cli;
 use crate::output::Output;
@@ -29,6 +30,10 @@ pub(crate) struct Args {
     /// Whose body signs: signer:NAME, or recording:NAME for its skeleton; else the corpus chooses
     #[arg(long, value_name = "SIGNER")]
     signer: Option<String>,
+    /// How large, how long and how deep movements are: default, measured (in the corpus's captured signs,
+    /// where eight or more show it), or a file of numbers and places in the form of the program's own; else measured
+    #[arg(long, value_name = "LANGUAGE")]
+    language: Option<String>,
     /// The gloss of the new sign; without it nothing is stored
     #[arg(long = "as", value_name = "GLOSS")]
     gloss: Option<String>,
@@ -43,6 +48,10 @@ pub(crate) struct Args {
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
     let notation: Vec<&str> = args.notation.iter().map(String::as_str).collect();
-    let done = corpus.animate(&notation, args.signer.as_deref(), args.gloss.as_deref())?;
+    let staging = Staging {
+        signer: args.signer.as_deref(),
+        language: args.language.as_deref(),
+    };
+    let done = corpus.animate(&notation, &staging, args.gloss.as_deref())?;
     super::recombine::tell(&done, args.explain, args.draw.as_deref(), output)
 }

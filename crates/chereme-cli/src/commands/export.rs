@@ -11,7 +11,8 @@ use crate::output::{Bar, Output};
 /// Take things away: movement, annotations, tables, or the whole enriched database
 ///
 /// The ending of --to says the format: .bvh (movement of a recording or token), .eaf (a recording's
-/// tiers, for ELAN), .csv or .tsv (tokens with all components), .sigml (notated signs as gestural SiGML),
+/// tiers, for ELAN), .csv or .tsv (tokens with all components), .curves.csv (how much there is of each
+/// non-manual, frame by frame), .sigml (notated signs as gestural SiGML),
 /// .hsigml (the same as HamNoSys's symbols), .hns or .txt (as HamNoSys text, a sign a line), or none: a
 /// folder with the database, a table a file, the recordings, the inventories, checksums and provenance.
 /// The same corpus always gives the same bytes.

@@ -41,7 +41,7 @@ use std::sync::Arc;
 use chereme_motion::{Channel, Clip, ClipError, Rate, Side};
 use chereme_sign::hamnosys::{BodyLanguage, NonmanualPart, Notated};
 
-use crate::made::{ChannelReport, Made, Report, StepReport};
+use crate::made::{ChannelReport, HandReport, Made, Report, StepReport};
 use crate::sources::Material;
 use crate::work::Group;
 
@@ -206,6 +206,17 @@ fn report(
     tolerance: f64,
 ) -> Report {
     let mut report = Report::default();
+    let hands = sides.into_iter().zip(fits).filter_map(|(hand, fit)| {
+        let fit = fit?;
+        Some(HandReport {
+            hand,
+            off_m: fit.residual,
+            short_m: fit.parted,
+            turned_deg: fit.turned.to_degrees(),
+            pushed_m: fit.pushed,
+        })
+    });
+    let hands: Vec<HandReport> = hands.collect();
     for (n, sign) in signs.iter().enumerate() {
         let span = &plan.signs[n];
         report.steps.push(StepReport {
@@ -218,6 +229,8 @@ fn report(
                 .map(|fit| fit.residual)
                 .reduce(f64::max),
             moved: None,
+            language: None,
+            hands: hands.clone(),
         });
     }
     let moved = |side: Side| {

@@ -241,7 +241,9 @@ impl Planner<'_> {
             Region::Arm(_) => out * (0.08 * stage.arm),
             _ => DVec3::ZERO,
         };
-        let offset = stage.direction(DVec3::from(found.offset) * stage.shoulders);
+        let own = self.language.places.get(&found.landmark);
+        let offset = DVec3::from(found.offset) + own.map_or(DVec3::ZERO, |by| DVec3::from(*by));
+        let offset = stage.direction(offset * stage.shoulders);
         Placed {
             at: root + offset + flesh,
             out,

@@ -26,6 +26,7 @@ fn stage(axes: Axes) -> Material {
         handedness: Handedness::Right,
         clip: Clip::still(skeleton, Rate::new(60, 1).expect("a rate"), 1),
         anatomy,
+        curves: Vec::new(),
         held: Vec::new(),
     }
 }

@@ -5,7 +5,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 
 use crate::course::{Course, Courses};
 use crate::error::Cause;
-use crate::made::{About, JoinReport, Note};
+use crate::made::{About, Curve, JoinReport, Note};
 use crate::work::{Group, Work};
 
 /// The most joints times frames that are made: about 300 MB of rotations.
@@ -91,6 +91,7 @@ pub(crate) fn join(
         };
         extend(first, &second, joint, cut, seam.offset, course);
     }
+    curves(first, &second, seam);
     let shift = first.rate.instant(seam.offset).micros();
     notes(first, &second, seam, shift, what);
     first.frames = frames;
@@ -132,6 +133,32 @@ fn extend(first: &mut Work, second: &Work, joint: usize, cut: Cut, offset: usize
         places.truncate(leave + 1);
         places.extend(way().map(|w| from.lerp(to, course.share(w))));
         places.extend((enter..second.frames).map(|frame| second.translation(joint, frame)));
+    }
+}
+
+/// Lets every curve go from where the first leaves it to where the second takes it up; what only one of
+/// them has is nought in the other.
+fn curves(first: &mut Work, second: &Work, seam: &Seam) {
+    let (leave, enter) = (seam.body.leave, seam.body.enter);
+    let none = |name: &str, frames: usize| Curve {
+        name: name.to_owned(),
+        values: vec![0.0; frames],
+    };
+    for next in &second.curves {
+        if first.curves.iter().all(|own| own.name != next.name) {
+            first.curves.push(none(&next.name, first.frames));
+        }
+    }
+    let steps = (seam.offset + enter - leave) as f64;
+    for own in &mut first.curves {
+        let next = second.curves.iter().find(|next| next.name == own.name);
+        let next = next.map_or_else(|| vec![0.0; second.frames], |next| next.values.clone());
+        let (a, b) = (own.values[leave], next[enter]);
+        own.values.truncate(leave + 1);
+        let way = leave + 1..seam.offset + enter;
+        own.values
+            .extend(way.map(|frame| a + (b - a) * (frame - leave) as f64 / steps));
+        own.values.extend_from_slice(&next[enter..]);
     }
 }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use chereme_sign::Component;
 
 use crate::error::Cause;
-use crate::made::{About, Note};
+use crate::made::{About, Curve, Note};
 use crate::ops::retarget;
 use crate::sources::Material;
 use crate::work::{Group, Work, groups};
@@ -54,6 +54,15 @@ pub(crate) fn nonmanual(
         })
         .collect();
     work.notes.extend(notes);
+    // Trunk and shoulders stay this sign's own.
+    let of_body = |curve: &Curve| {
+        ["body.", "shoulders."]
+            .iter()
+            .any(|part| curve.name.starts_with(part))
+    };
+    work.curves.retain(of_body);
+    work.curves
+        .extend(other.curves.into_iter().filter(|curve| !of_body(curve)));
     work.changed([Group::Head], operator);
     Ok(vec![format!(
         "{} joints of the head from {} ({seconds:.2} s stretched to {own:.2} s)",

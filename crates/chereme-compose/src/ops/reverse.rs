@@ -14,6 +14,9 @@ pub(crate) fn reverse(work: &mut Work) -> Vec<String> {
             places.reverse();
         }
     }
+    for curve in &mut work.curves {
+        curve.values.reverse();
+    }
     let end = work.end().micros();
     let mut did = vec![format!("{} frames played backwards", work.frames)];
     for note in &mut work.notes {

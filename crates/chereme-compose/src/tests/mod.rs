@@ -1,6 +1,7 @@
 //! Recipes from text to movement, on bodies of plain and of odd axes.
 
 mod choices;
+mod curves;
 mod laws;
 mod operators;
 mod robust;

@@ -111,13 +111,21 @@ impl Parser<'_> {
     }
 
     fn notation(&mut self, what: &'static str) -> Parsed<Notation> {
-        let of = self.name(what)?;
-        let on = if self.accept("on") {
-            Some(self.name("a signer")?)
-        } else {
-            None
+        let mut notation = Notation {
+            of: self.name(what)?,
+            language: None,
+            on: None,
         };
-        Ok(Notation { of, on })
+        loop {
+            if self.accept("with") {
+                let language = self.name("\"default\", \"measured\" or a file of body language")?;
+                notation.language = Some(language);
+            } else if self.accept("on") {
+                notation.on = Some(self.name("a signer")?);
+            } else {
+                return Ok(notation);
+            }
+        }
     }
 
     fn spell(&mut self) -> Parsed<Node> {

@@ -166,6 +166,7 @@ impl Display for Spell {
 impl Display for Notation {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "{}", Name(&self.of))?;
+        option(f, "with", self.language.as_deref().map(Name))?;
         option(f, "on", self.on.as_deref().map(Name))
     }
 }

@@ -24,6 +24,7 @@ pub(crate) fn stage() -> Material {
     let anatomy = Arc::new(Anatomy::detect(&skeleton));
     let rate = Rate::new(FPS, 1).expect("a whole rate");
     Material {
+        curves: Vec::new(),
         address: signer::NAME.to_owned(),
         hash: String::new(),
         gloss: String::new(),

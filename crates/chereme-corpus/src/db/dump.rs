@@ -10,7 +10,7 @@ use super::open;
 use crate::error::Result;
 
 /// The tables that a reader of the data wants, in the order in which they build on each other.
-pub(crate) const TABLES: [&str; 20] = [
+pub(crate) const TABLES: [&str; 22] = [
     "meta",
     "signer",
     "skeleton",
@@ -18,6 +18,8 @@ pub(crate) const TABLES: [&str; 20] = [
     "source_file",
     "track",
     "track_block",
+    "curve",
+    "curve_block",
     "inventory",
     "inventory_value",
     "tier",

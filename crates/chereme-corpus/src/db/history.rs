@@ -15,7 +15,7 @@ use super::damaged;
 use crate::error::{Error, Result};
 
 /// The tables whose rows are recorded, and for each the columns that refer to a row with a uid.
-const TRACKED: [(&str, &[(&str, &str)]); 19] = [
+const TRACKED: [(&str, &[(&str, &str)]); 21] = [
     ("meta", &[]),
     ("signer", &[]),
     ("skeleton", &[]),
@@ -26,6 +26,8 @@ const TRACKED: [(&str, &[(&str, &str)]); 19] = [
         &[("recording_id", "recording"), ("skeleton_id", "skeleton")],
     ),
     ("track_block", &[("track_id", "track")]),
+    ("curve", &[("track_id", "track")]),
+    ("curve_block", &[("track_id", "track")]),
     ("inventory", &[]),
     ("inventory_value", &[("inventory_id", "inventory")]),
     (

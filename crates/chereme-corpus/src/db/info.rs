@@ -7,9 +7,10 @@ use rusqlite::Connection;
 use crate::error::Result;
 use crate::info::{InventoryInfo, SignerInfo};
 
-const KINDS: [(&str, &str); 14] = [
+const KINDS: [(&str, &str); 15] = [
     ("recordings", "recording"),
     ("tracks", "track"),
+    ("curves", "curve"),
     ("skeletons", "skeleton"),
     ("signers", "signer"),
     ("signs", "sign"),

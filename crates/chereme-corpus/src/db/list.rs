@@ -89,6 +89,7 @@ pub(crate) const RECORDINGS: Table = Table {
         number("duration_us", "r.duration_us"),
         number("frames", "k.frames"),
         number("rate", "k.rate_frames * 1.0 / k.rate_seconds"),
+        number("curves", "(SELECT count(*) FROM curve c WHERE c.track_id = k.id)"),
         number("joints", "(SELECT joints FROM skeleton s WHERE s.id = k.skeleton_id)"),
         number("tiers", "(SELECT count(*) FROM tier t WHERE t.recording_id = r.id)"),
         number(

@@ -5,6 +5,7 @@
 
 pub(crate) mod check;
 pub(crate) mod contents;
+pub(crate) mod curves;
 pub(crate) mod dump;
 pub(crate) mod edits;
 pub(crate) mod history;
@@ -19,6 +20,7 @@ pub(crate) mod recipes;
 pub(crate) mod recordings;
 pub(crate) mod search;
 pub(crate) mod signs;
+pub(crate) mod spans;
 pub(crate) mod tiers;
 
 use std::path::{Path, PathBuf};

@@ -24,10 +24,7 @@ pub(crate) fn insert_block(
     frames: usize,
     data: &[u8],
 ) -> Result<()> {
-    let hash = Sha256::digest(data);
-    connection
-        .prepare_cached("INSERT OR IGNORE INTO block (hash, data) VALUES (?1, ?2)")?
-        .execute(params![hash.as_slice(), data])?;
+    let hash = insert_bytes(connection, data)?;
     connection
         .prepare_cached(
             "INSERT INTO track_block (track_id, channel_group, first_frame, frames, hash)
@@ -38,9 +35,18 @@ pub(crate) fn insert_block(
             group,
             first_frame as i64,
             frames as i64,
-            hash.as_slice()
+            hash
         ])?;
     Ok(())
+}
+
+/// Stores the bytes of a block, where they are not there yet, and returns its name.
+pub(super) fn insert_bytes(connection: &Connection, data: &[u8]) -> Result<Vec<u8>> {
+    let hash = Sha256::digest(data).to_vec();
+    connection
+        .prepare_cached("INSERT OR IGNORE INTO block (hash, data) VALUES (?1, ?2)")?
+        .execute(params![hash, data])?;
+    Ok(hash)
 }
 
 /// Calls `take` with the blocks of one channel group that hold any of `frames`, in order.
@@ -77,7 +83,8 @@ pub(crate) fn blocks(
     Ok(())
 }
 
-/// Returns the SHA-256 over the names of a track's blocks: the name of its movement.
+/// Returns the SHA-256 over the names of a track's blocks, and of its curves where it has any: the name
+/// of its movement.
 pub(crate) fn content_hash(connection: &Connection, track: i64) -> Result<String> {
     let mut statement = connection.prepare_cached(
         "SELECT channel_group, first_frame, hash FROM track_block WHERE track_id = ?1
@@ -90,6 +97,7 @@ pub(crate) fn content_hash(connection: &Connection, track: i64) -> Result<String
         digest.update(row.get::<_, i64>(1)?.to_le_bytes());
         digest.update(row.get_ref(2)?.as_blob().unwrap_or_default());
     }
+    super::curves::digest(connection, track, &mut digest)?;
     Ok(hex(&digest.finalize()))
 }
 

@@ -375,6 +375,10 @@ pub(crate) fn clear_motion(
     for sql in [
         "DELETE FROM track_block WHERE track_id IN
              (SELECT id FROM track WHERE recording_id = ?1 AND kind = 'skeleton')",
+        "DELETE FROM curve WHERE track_id IN
+             (SELECT id FROM track WHERE recording_id = ?1 AND kind = 'skeleton')",
+        "DELETE FROM curve_block WHERE track_id IN
+             (SELECT id FROM track WHERE recording_id = ?1 AND kind = 'skeleton')",
         "DELETE FROM track WHERE recording_id = ?1 AND kind = 'skeleton'",
     ] {
         connection.prepare_cached(sql)?.execute([recording])?;

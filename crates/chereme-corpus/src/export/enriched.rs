@@ -12,6 +12,8 @@ use sha2::{Digest, Sha256};
 
 use super::bvh;
 use crate::address::Stretch;
+use crate::curves;
+use crate::db::curves as rows;
 use crate::db::motion::hex;
 use crate::db::recordings::{self, RecordingRow};
 use crate::db::{dump, recipes, signs, tiers};
@@ -154,6 +156,16 @@ impl Folder {
             token: None,
         };
         bvh::write(connection, &stretch, &mut out, progress)?;
+        out.flush().map_err(fault)?;
+        let track = recordings::motion_track(connection, recording.id)?;
+        let track = track.map_or(0, |track| track.id);
+        if rows::names(connection, track)?.is_empty() {
+            return Ok(());
+        }
+        let path = self.make(&format!("recordings/{name}.curves.csv"))?;
+        let fault = |error| Error::file(&path, error);
+        let mut out = BufWriter::new(File::create(&path).map_err(fault)?);
+        curves::write_table(connection, &stretch, b',', &mut out)?;
         out.flush().map_err(fault)
     }
 

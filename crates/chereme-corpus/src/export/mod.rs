@@ -19,6 +19,7 @@ use uuid::Uuid;
 
 use crate::Corpus;
 use crate::address::{self, Address, Name, Stretch};
+use crate::curves;
 use crate::db::motion::hex;
 use crate::db::search as rows;
 use crate::db::{list, recordings, signs};
@@ -69,6 +70,7 @@ impl Corpus {
     /// | extension | what is written |
     /// |---|---|
     /// | `.csv`, `.tsv` | a token a row, with its components; of a tier its annotations |
+    /// | `.curves.csv`, `.curves.tsv` | the scalar curves of one recording or token, a frame a row |
     /// | `.eaf` | the tiers of one recording, for ELAN |
     /// | `.bvh` | the movement of one recording or token |
     /// | `.sigml` | notated tokens as gestural SiGML |
@@ -101,7 +103,9 @@ impl Corpus {
             (None, _) => return Err(no_format(to, "only everything can be written as a folder")),
             (Some(extension), _) => {
                 let reading = rows::begin_reading(connection)?;
+                let curves = is_of_curves(to);
                 let format = Format::of(extension)
+                    .map(|format| format.of_curves(curves))
                     .ok_or_else(|| no_format(to, &format!("{extension:?} is no format")))?;
                 let file = whole(to, options.force, &mut |out| {
                     let notes = &mut report.notes;
@@ -119,6 +123,8 @@ impl Corpus {
 enum Format {
     /// A table with this between its cells.
     Table(u8),
+    /// Likewise, of curves.
+    Curves(u8),
     Eaf,
     Bvh,
     Notation(notation::Form),
@@ -137,6 +143,21 @@ impl Format {
             _ => None,
         }
     }
+
+    /// Returns the format of curves instead of that of tokens.
+    fn of_curves(self, curves: bool) -> Self {
+        match self {
+            Self::Table(delimiter) if curves => Self::Curves(delimiter),
+            other => other,
+        }
+    }
+}
+
+/// Tells whether a file's name ends in `.curves` before its extension.
+fn is_of_curves(to: &Path) -> bool {
+    let stem = to.file_stem().map(Path::new);
+    let inner = stem.and_then(Path::extension);
+    inner.is_some_and(|inner| inner.eq_ignore_ascii_case("curves"))
 }
 
 fn write_file(
@@ -154,6 +175,10 @@ fn write_file(
         (Format::Table(delimiter), _) => {
             let tokens = tokens(connection, what)?;
             csv::tokens(connection, &tokens, delimiter, out, notes, progress)
+        }
+        (Format::Curves(delimiter), _) => {
+            let stretch = stretch(connection, what)?;
+            curves::write_table(connection, &stretch, delimiter, out)
         }
         (Format::Eaf, _) => {
             let stretch = stretch(connection, what)?;
@@ -176,7 +201,7 @@ fn write_file(
 
 fn no_format(to: &Path, message: &str) -> Error {
     Error::wrong(message).at(to.display().to_string()).advise(
-        "end the name in .csv, .tsv, .eaf, .bvh, .sigml, .hsigml or .hns; a name without a dot is a \
+        "end the name in .csv, .tsv, .curves.csv, .eaf, .bvh, .sigml, .hsigml or .hns; a name without a dot is a \
          folder of everything",
     )
 }

@@ -1,6 +1,8 @@
 //! What recipes learn from the whole corpus: the usual course of its transitions, and the usual times
 //! of its handshapes.
 
+pub(crate) mod language;
+
 use chereme_analysis::strokes::{Mover, strokes};
 use chereme_compose::{
     CourseLearner, LearnedCourse, LearnedProfile, MedianTime, SpellingTimes, Stretch,

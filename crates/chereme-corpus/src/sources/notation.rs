@@ -99,6 +99,7 @@ fn material(made: Made, address: String, hash: String, gloss: String) -> Materia
         signer: made.signer,
         handedness: made.handedness,
         held: held.collect(),
+        curves: made.curves,
         clip: made.clip,
         anatomy: made.anatomy,
     }
@@ -144,6 +145,7 @@ pub(crate) fn own_body() -> Result<Material> {
         clip,
         anatomy: Arc::new(anatomy),
         held: Vec::new(),
+        curves: Vec::new(),
     })
 }
 

@@ -8,6 +8,7 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
+use chereme_motion::Anatomy;
 use serde::{Deserialize, Serialize};
 
 /// The form of body-language files that this program reads.
@@ -33,6 +34,22 @@ pub enum LanguageError {
     /// A value is missing from the file that must hold all.
     #[error("{0:?} is missing")]
     Missing(&'static str),
+    /// A place that no body has.
+    #[error("{name:?} is no place of the body{}; places are those of landmarks, such as chin, chest, right-ear", crate::text::did_you_mean(nearest.as_deref()))]
+    Place {
+        /// The name.
+        name: String,
+        /// One near to it.
+        nearest: Option<String>,
+    },
+    /// A place lies too far from where it is usual.
+    #[error("{name} is moved by {by} shoulder widths; it must be from -1 to 1")]
+    Far {
+        /// The place.
+        name: String,
+        /// The number.
+        by: f64,
+    },
     /// A number is not finite, negative or beyond what is possible.
     #[error("{name} is {value}; it must be from 0 to {most}")]
     Range {
@@ -61,7 +78,19 @@ struct File {
     version: u32,
     #[serde(default)]
     description: String,
+    #[serde(default)]
     values: BTreeMap<String, (f64, String, String)>,
+    #[serde(default)]
+    places: BTreeMap<String, [f64; 3]>,
+}
+
+/// What a file of body language says otherwise than another.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LanguageChanges {
+    /// Numbers by the names of [`BodyLanguage::NAMES`].
+    pub values: BTreeMap<String, f64>,
+    /// As [`BodyLanguage::places`].
+    pub places: BTreeMap<String, [f64; 3]>,
 }
 
 macro_rules! body_language {
@@ -73,6 +102,9 @@ macro_rules! body_language {
         #[derive(Debug, Clone, PartialEq)]
         pub struct BodyLanguage {
             $(#[doc = $doc] pub $field: f64,)*
+            /// How far places of the body lie from where a skeleton's measures put them: the landmark's
+            /// name with the way to the left, up and forward in shoulder widths.
+            pub places: BTreeMap<String, [f64; 3]>,
         }
 
         impl BodyLanguage {
@@ -82,7 +114,17 @@ macro_rules! body_language {
             fn complete(values: &BTreeMap<String, (f64, String, String)>) -> Result<Self, LanguageError> {
                 Ok(Self {
                     $($field: values.get($name).ok_or(LanguageError::Missing($name))?.0,)*
+                    places: BTreeMap::new(),
                 })
+            }
+
+            /// Returns the number with a name of [`NAMES`](Self::NAMES).
+            #[must_use]
+            pub fn value(&self, name: &str) -> Option<f64> {
+                match name {
+                    $($name => Some(self.$field),)*
+                    _ => None,
+                }
             }
 
             fn slot(&mut self, name: &str) -> Option<&mut f64> {
@@ -220,17 +262,28 @@ impl BodyLanguage {
         Self::complete(&file.values)
     }
 
-    /// Returns this body language with the values that a file of the same form holds.
+    /// Returns what a file of the same form says: all of its values and places.
     ///
     /// # Errors
     /// [`LanguageError`] naming what is unknown, in another unit, or out of range.
+    pub fn changes(text: &str) -> Result<LanguageChanges, LanguageError> {
+        let file = read(text)?;
+        let values = file.values.into_iter();
+        Ok(LanguageChanges {
+            values: values.map(|(name, (value, ..))| (name, value)).collect(),
+            places: file.places,
+        })
+    }
+
+    /// Returns this body language with the values and places that a file of the same form holds.
+    ///
+    /// # Errors
+    /// As [`changes`](Self::changes).
     pub fn with_file(&self, text: &str) -> Result<Self, LanguageError> {
-        let mut changed = self.clone();
-        for (name, (value, ..)) in read(text)?.values {
-            if let Some(slot) = changed.slot(&name) {
-                *slot = value;
-            }
-        }
+        let LanguageChanges { values, places } = Self::changes(text)?;
+        let values = values.iter().map(|(name, value)| (name.as_str(), *value));
+        let mut changed = self.with_measured(values)?;
+        changed.places.extend(places);
         Ok(changed)
     }
 
@@ -262,7 +315,28 @@ fn read(text: &str) -> Result<File, LanguageError> {
     for (name, (value, unit, _)) in &file.values {
         check(name, *value, Some(unit))?;
     }
+    file.places
+        .iter()
+        .try_for_each(|(name, by)| check_place(name, by))?;
     Ok(file)
+}
+
+fn check_place(name: &str, by: &[f64; 3]) -> Result<(), LanguageError> {
+    let known = Anatomy::landmarks();
+    if !known.iter().any(|known| known == name) {
+        let nearest = crate::text::nearest(name, known.iter().map(String::as_str));
+        return Err(LanguageError::Place {
+            name: name.to_owned(),
+            nearest: nearest.map(str::to_owned),
+        });
+    }
+    match by.iter().find(|by| !(-1.0..=1.0).contains(*by)) {
+        Some(&by) => Err(LanguageError::Far {
+            name: name.to_owned(),
+            by,
+        }),
+        None => Ok(()),
+    }
 }
 
 fn check(name: &str, value: f64, found: Option<&str>) -> Result<(), LanguageError> {

@@ -13,6 +13,7 @@ use crate::words::{Text, recombine as words};
 pub(super) fn sources() -> [(Text, Node); 5] {
     let notation = || Notation {
         of: String::new(),
+        language: None,
         on: None,
     };
     [

@@ -166,6 +166,8 @@ mod tests {
             did: vec![did.into()],
             residual,
             moved: None,
+            language: None,
+            hands: Vec::new(),
         };
         let report = Report {
             steps: vec![

@@ -1,0 +1,166 @@
+//! The size and time of movements whose kind someone has told: what a signer's body language is made of.
+
+use std::ops::Range;
+
+use chereme_motion::{Anatomy, Clip, Side};
+use glam::{DQuat, DVec3};
+
+use crate::strokes::{Mover, between_minima, place_in, smoothed, speeds, strokes};
+use crate::transcribe::way::{self, Way};
+
+/// The least peak of speed of a stroke, in metres per second: small ones are slow.
+const LEAST: f64 = 0.05;
+/// A stroke shorter than this share of the longest beside it is none, but the hand coming to rest.
+const AMONG: f64 = 1.0 / 3.0;
+/// This share of a stroke lies in the stretch that it is looked for in.
+const INSIDE: f64 = 2.0 / 3.0;
+
+/// What kind of movement is measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// The wrist goes from place to place, straight or curved.
+    Stroke,
+    /// It goes round.
+    Round,
+    /// It goes to and fro across its way.
+    Wave,
+    /// The fingers go from shape to shape.
+    Shape,
+    /// The hand goes from where one thing ends to where another begins.
+    Transition,
+}
+
+/// What a movement measures.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Measured {
+    /// How long it takes; of a [`Kind::Round`] one turn.
+    pub seconds: f64,
+    /// From where it starts to where it ends, in metres; nought for what goes round.
+    pub length: f64,
+    /// How far it bulges from the straight line against its length; half the width of a wave in metres.
+    pub depth: f64,
+    /// The radius of what goes round in metres: the mean of the longer and the shorter.
+    pub radius: f64,
+    /// How far the hand turns against the trunk from start to end, in radians.
+    pub turn: f64,
+    /// How many strokes there were of about its size; what is measured is the first.
+    pub strokes: usize,
+}
+
+/// Measures the movement of one hand that lies in `within`; the frames around it show where strokes
+/// begin and end.
+///
+/// A stroke lies between two minima of the wrist's speed; where there are several in the stretch the
+/// first one is measured, so that repetitions and ways back do not count. What goes round, in waves, or
+/// from one sign to the next is measured over the stretch itself. Lengths are those of the wrist in the
+/// space of the trunk. Nothing where the skeleton has no such hand, or the movement is not of that kind.
+#[must_use]
+pub fn measure(
+    clip: &Clip,
+    anatomy: &Anatomy,
+    side: Side,
+    within: Range<usize>,
+    kind: Kind,
+) -> Option<Measured> {
+    let within = within.start..within.end.min(clip.frames());
+    let arm = anatomy.arm(side)?;
+    let base = clip.skeleton().parent(arm.clavicle.unwrap_or(arm.upper));
+    let wrist = |frame: usize| place_in(clip, arm.hand, DVec3::ZERO, base, frame);
+    if within.len() < 3 {
+        return None;
+    }
+    let path = || -> Vec<DVec3> { within.clone().map(wrist).collect() };
+    let whole = within.len() as f64 * clip.rate().frame_time();
+    match kind {
+        Kind::Stroke => stroke(clip, wrist, &within),
+        Kind::Shape => {
+            let found = strokes(clip, anatomy, side, Mover::Fingers);
+            let mut inside = found.iter().filter(|frames| is_inside(frames, &within));
+            let first = inside.next()?;
+            Some(Measured {
+                seconds: (first.len() - 1) as f64 * clip.rate().frame_time(),
+                strokes: 1 + inside.count(),
+                ..Measured::default()
+            })
+        }
+        Kind::Round => match way::fit(&path()).way {
+            Way::Circle {
+                turns,
+                long,
+                narrow,
+                ..
+            } => Some(Measured {
+                seconds: whole / turns,
+                radius: long.length() * (1.0 + narrow) / 2.0,
+                strokes: 1,
+                ..Measured::default()
+            }),
+            _ => None,
+        },
+        Kind::Wave => match way::fit(&path()).way {
+            Way::Wave { chord, width, .. } => Some(Measured {
+                seconds: whole,
+                length: chord.length(),
+                depth: width,
+                strokes: 1,
+                ..Measured::default()
+            }),
+            _ => None,
+        },
+        Kind::Transition => {
+            let (first, last) = (within.start, within.end - 1);
+            let turned = |frame| turned_in(clip, arm.hand, base, frame);
+            Some(Measured {
+                seconds: whole,
+                length: wrist(first).distance(wrist(last)),
+                turn: turned(first).angle_between(turned(last)),
+                strokes: 1,
+                ..Measured::default()
+            })
+        }
+    }
+}
+
+fn stroke(clip: &Clip, wrist: impl Fn(usize) -> DVec3, within: &Range<usize>) -> Option<Measured> {
+    let all: Vec<DVec3> = (0..clip.frames()).map(wrist).collect();
+    let raw = speeds(all.len(), clip, |a, b| all[a].distance(all[b]));
+    let mut found = between_minima(&smoothed(&raw, clip), LEAST);
+    found.retain(|frames| frames.len() > 2 && is_inside(frames, within));
+    let long = |frames: &Range<usize>| all[frames.start].distance(all[frames.end - 1]);
+    let longest = found.iter().map(long).fold(0.0, f64::max);
+    found.retain(|frames| long(frames) >= AMONG * longest);
+    let first = found.first()?;
+    let points = &all[first.clone()];
+    let chord = points[points.len() - 1] - points[0];
+    let length = chord.length();
+    if length <= 0.0 {
+        return None;
+    }
+    let even = way::evenly(points, 49);
+    let bow = (even[24] - points[0] - chord / 2.0).reject_from_normalized(chord / length);
+    Some(Measured {
+        seconds: (first.len() - 1) as f64 * clip.rate().frame_time(),
+        length,
+        depth: bow.length() / length,
+        strokes: found.len(),
+        ..Measured::default()
+    })
+}
+
+fn is_inside(frames: &Range<usize>, within: &Range<usize>) -> bool {
+    let shared = frames
+        .end
+        .min(within.end)
+        .saturating_sub(frames.start.max(within.start));
+    shared as f64 >= INSIDE * frames.len() as f64
+}
+
+/// Returns how a joint is turned in the space of `base`, a joint above it, or of the model.
+fn turned_in(clip: &Clip, joint: usize, base: Option<usize>, frame: usize) -> DQuat {
+    let above = clip.skeleton().ancestors(joint);
+    above
+        .take_while(|&joint| Some(joint) != base)
+        .fold(DQuat::IDENTITY, |turned, joint| {
+            clip.channel(joint).rotations[frame] * turned
+        })
+}

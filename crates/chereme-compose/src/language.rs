@@ -1,0 +1,130 @@
+//! The body language that notation is animated with: which of its numbers are not the usual ones, and
+//! where they come from.
+
+use std::collections::BTreeMap;
+
+use chereme_sign::hamnosys::{BodyLanguage, LanguageError};
+use serde::{Deserialize, Serialize};
+
+/// Numbers of body language in place of the usual ones; see [`BodyLanguage`].
+///
+/// It is stored beside a recipe, so that what is measured later changes no sign that was made before.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Language {
+    /// `measured` in the corpus, or the file; empty where everything is as usual.
+    #[serde(default)]
+    pub from: String,
+    /// Numbers by the names of [`BodyLanguage::NAMES`].
+    #[serde(default)]
+    pub values: BTreeMap<String, LanguageValue>,
+    /// As [`BodyLanguage::places`].
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub places: BTreeMap<String, [f64; 3]>,
+}
+
+/// A number of body language with where it comes from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LanguageValue {
+    /// The number: the median of what was measured, in the unit that [`BodyLanguage::NAMES`] tells.
+    pub value: f64,
+    /// Half of what was measured lies between these; nothing for what was not measured itself.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub quartiles: Option<[f64; 2]>,
+    /// How many movements were measured.
+    #[serde(default)]
+    pub count: usize,
+    /// Whose movements they were, or what the number follows from.
+    pub of: String,
+}
+
+impl Language {
+    /// Tells whether everything is as usual.
+    #[must_use]
+    pub fn is_usual(&self) -> bool {
+        self.values.is_empty() && self.places.is_empty()
+    }
+
+    /// Returns the whole body language: the usual one with these numbers and places.
+    ///
+    /// # Errors
+    /// [`LanguageError`] where a name is unknown or a number out of range.
+    pub fn whole(&self) -> Result<BodyLanguage, LanguageError> {
+        let values = self.values.iter();
+        let values = values.map(|(name, value)| (name.as_str(), value.value));
+        let mut whole = BodyLanguage::usual().with_measured(values)?;
+        whole.places.clone_from(&self.places);
+        Ok(whole)
+    }
+
+    /// Says each number and place for people; nothing where everything is as usual.
+    #[must_use]
+    pub fn told(&self) -> Vec<String> {
+        let unit = |name: &str| {
+            let known = BodyLanguage::NAMES.iter().find(|(own, _)| *own == name);
+            known.map_or("", |(_, unit)| *unit)
+        };
+        let number = |(name, it): (&String, &LanguageValue)| {
+            let usual = BodyLanguage::usual().value(name).unwrap_or_default();
+            let spread = match it.quartiles {
+                Some([low, high]) => {
+                    format!(", half of {} from {low:.3} to {high:.3}", it.count)
+                }
+                None => String::new(),
+            };
+            format!(
+                "body language: {name} {:.3} {}{spread} ({}; usually {usual:.3})",
+                it.value,
+                unit(name),
+                it.of
+            )
+        };
+        let place = |(name, [left, up, forward]): (&String, &[f64; 3])| {
+            format!(
+                "body language: {name} moved {left} left, {up} up, {forward} forward in shoulder widths ({})",
+                self.from
+            )
+        };
+        let numbers = self.values.iter().map(number);
+        numbers.chain(self.places.iter().map(place)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_measured_is_told_with_its_spread_and_takes_the_place_of_the_usual() {
+        let mut language = Language {
+            from: "measured".into(),
+            ..Language::default()
+        };
+        assert!(language.is_usual() && language.told().is_empty());
+        assert_eq!(&language.whole().expect("usual"), BodyLanguage::usual());
+        let value = LanguageValue {
+            value: 0.31,
+            quartiles: Some([0.25, 0.4]),
+            count: 12,
+            of: "signer:Anna".into(),
+        };
+        language.values.insert("move.normal".into(), value);
+        language.places.insert("chin".into(), [0.0, 0.1, 0.0]);
+        let whole = language.whole().expect("in range");
+        assert_eq!(whole.move_normal, 0.31);
+        assert_eq!(whole.places["chin"], [0.0, 0.1, 0.0]);
+        let told = language.told();
+        assert!(
+            told[0].contains("0.310 arm, half of 12 from 0.250 to 0.400 (signer:Anna"),
+            "{told:?}"
+        );
+        assert!(told[1].contains("chin moved 0 left, 0.1 up"));
+        let text = serde_json::to_string(&language).expect("JSON");
+        let back: Language = serde_json::from_str(&text).expect("the same");
+        assert_eq!(back, language);
+        let odd = text.replace("move.normal", "move.odd");
+        let odd: Language = serde_json::from_str(&odd).expect("JSON");
+        assert!(odd.whole().is_err());
+    }
+}

@@ -1,0 +1,211 @@
+//! Scalar curves and body language go through recipes.
+
+use std::collections::BTreeMap;
+
+use crate::made::{Curve, Made};
+use crate::sources::{
+    Example, LearnedProfile, Letter, Material, SourceError, Sources, SpellingTimes, Value,
+};
+use crate::testing::Shelf;
+use crate::{Input, Language, LanguageValue, Recipe, evaluate, resolve, restore};
+use chereme_sign::Component;
+
+fn ramp(name: &str, frames: usize) -> Curve {
+    Curve {
+        name: name.to_owned(),
+        values: (0..frames).map(|n| n as f64 / frames as f64).collect(),
+    }
+}
+
+fn shelf() -> Shelf {
+    let mut shelf = Shelf::new();
+    let bol = shelf.materials.get_mut("BOL").expect("there");
+    let frames = bol.clip.frames();
+    bol.curves = vec![ramp("brows.RB", frames), ramp("body.TF", frames)];
+    shelf
+}
+
+fn made(recipe: &str, sources: &dyn Sources) -> Made {
+    let recipe: Recipe = recipe.parse().expect(recipe);
+    let resolved = resolve(&recipe, sources).expect("resolved");
+    evaluate(&resolved).expect("made")
+}
+
+fn names(made: &Made) -> Vec<&str> {
+    made.curves
+        .iter()
+        .map(|curve| curve.name.as_str())
+        .collect()
+}
+
+#[test]
+fn curves_are_as_long_as_the_movement_whatever_is_done_to_it() {
+    let shelf = shelf();
+    for recipe in [
+        "BOL",
+        "BOL | reverse",
+        "BOL | retime 150%",
+        "BOL | repeat 2 tempo 1.3",
+        "BOL then LIMACE",
+        "LIMACE then BOL then BOL",
+        "BOL | place both by up 5cm | swap",
+        "ESCARGOT | nonmanual from BOL",
+    ] {
+        let made = made(recipe, &shelf);
+        assert!(!made.curves.is_empty(), "{recipe}");
+        for curve in &made.curves {
+            assert_eq!(
+                curve.values.len(),
+                made.clip.frames(),
+                "{recipe} {}",
+                curve.name
+            );
+            assert!(
+                curve.values.iter().all(|it| (0.0..=1.0).contains(it)),
+                "{recipe}"
+            );
+        }
+    }
+}
+
+#[test]
+fn curves_are_turned_back_joined_and_taken_over() {
+    let shelf = shelf();
+    let plain = made("BOL", &shelf);
+    let back = made("BOL | reverse", &shelf);
+    let turned: Vec<f64> = plain.curves[0].values.iter().rev().copied().collect();
+    assert_eq!(back.curves[0].values, turned);
+
+    let both = made("BOL then LIMACE", &shelf);
+    assert_eq!(both.curves[0].values[..60], plain.curves[0].values[..60]);
+    assert_eq!(both.curves[0].values.last(), Some(&0.0));
+    let other = made("LIMACE then BOL", &shelf);
+    assert_eq!(other.curves[0].values[0], 0.0);
+    assert_eq!(other.curves[0].values.last(), plain.curves[0].values.last());
+
+    assert_eq!(
+        names(&made("ESCARGOT | nonmanual from BOL", &shelf)),
+        ["brows.RB"]
+    );
+    assert_eq!(
+        names(&made("BOL | nonmanual from ESCARGOT", &shelf)),
+        ["body.TF"]
+    );
+}
+
+/// A shelf with a body language of its own.
+struct Speaking(Shelf, Language);
+
+impl Sources for Speaking {
+    fn material(&self, address: &str) -> Result<Material, SourceError> {
+        match address {
+            "stage" => self.0.stage(None),
+            address => self.0.material(address),
+        }
+    }
+
+    fn stage(&self, signer: Option<&str>) -> Result<Material, SourceError> {
+        self.0.stage(signer)
+    }
+
+    fn value(&self, component: Component, text: &str) -> Result<Value, SourceError> {
+        self.0.value(component, text)
+    }
+
+    fn values(&self, component: Component) -> Vec<Value> {
+        self.0.values(component)
+    }
+
+    fn holding(&self, component: Component, value: &str) -> Result<Vec<Example>, SourceError> {
+        self.0.holding(component, value)
+    }
+
+    fn best(&self, query: &str, signer: Option<&str>) -> Result<Vec<Example>, SourceError> {
+        self.0.best(query, signer)
+    }
+
+    fn letters(&self, alphabet: Option<&str>, word: &str) -> Result<Vec<Letter>, SourceError> {
+        self.0.letters(alphabet, word)
+    }
+
+    fn learned_profile(&self) -> Result<Option<LearnedProfile>, SourceError> {
+        self.0.learned_profile()
+    }
+
+    fn spelling_times(&self) -> Result<SpellingTimes, SourceError> {
+        self.0.spelling_times()
+    }
+
+    fn body_language(
+        &self,
+        named: Option<&str>,
+        _signer: Option<&str>,
+    ) -> Result<Language, SourceError> {
+        Ok(match named {
+            Some("default") => Language::default(),
+            _ => self.1.clone(),
+        })
+    }
+}
+
+#[test]
+fn a_made_sign_keeps_the_body_language_that_it_was_made_with() {
+    let speaking = |value: f64| {
+        let value = LanguageValue {
+            value,
+            quartiles: Some([value * 0.9, value * 1.1]),
+            count: 20,
+            of: "signer:1".into(),
+        };
+        let language = Language {
+            from: "measured".into(),
+            values: BTreeMap::from([("time.straight".into(), value)]),
+            places: BTreeMap::new(),
+        };
+        Speaking(Shelf::new(), language)
+    };
+    let text = "hamnosys \"hamflathand hamextfingero hampalmd hamchest hammoveo\"";
+    let (slow, slower) = (speaking(1.0), speaking(2.0));
+    let usual = made(&format!("{text} with default"), &slow);
+    let measured = made(text, &slow);
+    assert!(measured.clip.frames() > usual.clip.frames() + 30);
+    assert!(usual.report.steps[0].language.is_none());
+    let step = &measured.report.steps[0];
+    assert_eq!(step.language.as_ref().map(|it| it.values.len()), Some(1));
+    assert!(
+        step.did
+            .iter()
+            .any(|did| did.contains("time.straight 1.000 s, half of 20")),
+        "{:?}",
+        step.did
+    );
+
+    let recipe: Recipe = text.parse().expect("a recipe");
+    let inputs = resolve(&recipe, &slow).expect("resolved").inputs().clone();
+    let json = serde_json::to_string(&inputs).expect("JSON");
+    let inputs: crate::Inputs = serde_json::from_str(&json).expect("JSON");
+    assert!(
+        inputs
+            .0
+            .values()
+            .any(|input| matches!(input, Input::Language(_)))
+    );
+    let again = restore(&recipe, inputs, &slower).expect("restored");
+    assert_eq!(evaluate(&again).expect("made").clip, measured.clip);
+    assert!(made(text, &slower).clip.frames() > measured.clip.frames() + 30);
+}
+
+#[test]
+fn the_body_language_of_notation_is_printed_as_it_is_read() {
+    for text in [
+        "hamnosys hamfist with default on signer:1",
+        "sigml HUIS with \"my own.json\"",
+        "sigml HUIS on signer:1",
+    ] {
+        let recipe: Recipe = text.parse().expect(text);
+        assert_eq!(recipe.to_string(), text);
+        let json = serde_json::to_string(&recipe).expect("JSON");
+        assert_eq!(serde_json::from_str::<Recipe>(&json).expect("JSON"), recipe);
+    }
+    assert!("sigml HUIS with".parse::<Recipe>().is_err());
+}

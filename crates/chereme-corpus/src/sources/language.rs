@@ -1,0 +1,118 @@
+//! The body language that notation is animated with: the usual one, what was measured, or a file.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use chereme_compose::{Language, LanguageValue, SourceError};
+use chereme_sign::hamnosys::BodyLanguage;
+use chereme_sign::text::nearest;
+
+use super::learned::language::Samples;
+use super::{CorpusSources, unreadable};
+use crate::db::history;
+
+/// The longest file of body language that is read.
+const MOST_BYTES: u64 = 1 << 20;
+/// The names that are no files.
+const DEFAULT: &str = "default";
+const MEASURED: &str = "measured";
+
+impl CorpusSources<'_> {
+    pub(super) fn spoken(
+        &self,
+        named: Option<&str>,
+        signer: Option<&str>,
+    ) -> Result<Language, SourceError> {
+        match named {
+            Some(DEFAULT) => Ok(Language::default()),
+            None | Some(MEASURED) => self.measured(signer),
+            Some(file) => read(file),
+        }
+    }
+
+    fn measured(&self, signer: Option<&str>) -> Result<Language, SourceError> {
+        let newest = history::newest(self.connection).map_err(|error| unreadable(&error))?;
+        let mut learned = self.learned.borrow_mut();
+        if let Some((_, samples)) = learned.samples.as_ref().filter(|(at, _)| *at == newest) {
+            return Ok(samples.language(signer));
+        }
+        let samples = Samples::of(self.connection, self.inventories);
+        let samples = samples.map_err(|error| unreadable(&error))?;
+        let language = samples.language(signer);
+        learned.samples = Some((newest, samples));
+        Ok(language)
+    }
+}
+
+fn read(file: &str) -> Result<Language, SourceError> {
+    let fault = |message: String| SourceError::Language {
+        name: file.to_owned(),
+        message,
+    };
+    let path = Path::new(file);
+    if !path.is_file() {
+        let meant = nearest(file, [DEFAULT, MEASURED]);
+        let hint = chereme_sign::text::did_you_mean(meant);
+        return Err(fault(format!("there is no such file{hint}")));
+    }
+    let size = fs::metadata(path).map(|it| it.len());
+    if size.map_err(|error| fault(error.to_string()))? > MOST_BYTES {
+        return Err(fault("the file is longer than a megabyte".to_owned()));
+    }
+    let text = fs::read_to_string(path).map_err(|error| fault(error.to_string()))?;
+    let changes = BodyLanguage::changes(&text).map_err(|error| fault(error.to_string()))?;
+    let values = changes.values.into_iter().map(|(name, value)| {
+        let value = LanguageValue {
+            value,
+            quartiles: None,
+            count: 0,
+            of: file.to_owned(),
+        };
+        (name, value)
+    });
+    Ok(Language {
+        from: file.to_owned(),
+        values: values.collect::<BTreeMap<_, _>>(),
+        places: changes.places,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_that_is_none_is_refused_with_what_would_be_right() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let says = |name: &str| read(name).expect_err(name).to_string();
+        assert!(says("mesured").contains("measured"));
+        let path = folder.path().join("mine.json");
+        let file = path.display().to_string();
+        for (text, said) in [
+            ("{", "line 1"),
+            (r#"{"version": 9}"#, "version 9"),
+            (
+                r#"{"version": 1, "values": {"move.bik": [0.5, "arm", ""]}}"#,
+                "move.big",
+            ),
+            (
+                r#"{"version": 1, "values": {"move.big": [0.5, "cm", ""]}}"#,
+                "\"arm\"",
+            ),
+            (r#"{"version": 1, "places": {"chinn": [0, 0, 0]}}"#, "chin"),
+            (
+                r#"{"version": 1, "places": {"chin": [0, 7, 0]}}"#,
+                "-1 to 1",
+            ),
+        ] {
+            fs::write(&path, text).expect("written");
+            assert!(says(&file).contains(said), "{text}: {}", says(&file));
+        }
+        let text = r#"{"version": 1, "values": {"move.big": [0.5, "arm", "me"]}, "places": {"chin": [0, 0.1, 0]}}"#;
+        fs::write(&path, text).expect("written");
+        let language = read(&file).expect("good");
+        assert_eq!(language.values["move.big"].value, 0.5);
+        assert_eq!(language.places["chin"], [0.0, 0.1, 0.0]);
+    }
+}

@@ -1,0 +1,509 @@
+//! Body language as captured movement shows it: how large, how long and how deep what people annotated
+//! is.
+//!
+//! Only captured movement counts, and only where someone has told the kind of a movement: on a tier, or
+//! in the lexicon entry of its sign. What the program itself told is not asked: its categories are those
+//! of the usual body language. Movements whose size nobody has marked are of the usual one.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use chereme_analysis::measure::{Kind, Measured, measure};
+use chereme_compose::{Language, LanguageValue};
+use chereme_motion::{Anatomy, Instant, Side, Span};
+use chereme_sign::Component;
+use chereme_sign::hamnosys::BodyLanguage;
+use chereme_sign::{HandRef, Handedness};
+use rusqlite::Connection;
+
+use crate::address::{Address, Name};
+use crate::db::recordings;
+use crate::db::spans::{self, LexiconMovement, MovementSpan};
+use crate::error::Result;
+use crate::inventories::StoredInventory;
+use crate::movement::{ChannelGroup, Track};
+
+/// Fewer movements than these tell nothing: the usual number stays.
+const FEWEST: usize = 8;
+/// The most annotations that are looked at, and the most movements that are measured: evenly spread.
+const MOST_SPANS: usize = 50_000;
+const MOST_MEASURED: usize = 600;
+/// What is looked at before and after a stretch, in microseconds: annotations are not that exact.
+const AROUND: i64 = 300_000;
+/// The shortest transition, in seconds, whatever its way takes of it.
+const LEAST_TRANSITION: f64 = 0.05;
+/// Names of a small, a usual and a big one; those that are not measured keep their share of the usual.
+const SIZES: [[&str; 3]; 2] = [
+    ["move.small", "move.normal", "move.big"],
+    ["circle.small", "circle.normal", "circle.big"],
+];
+
+/// What was measured: for each number whose movement it was and how much.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Samples(BTreeMap<&'static str, Vec<(Option<String>, f64)>>);
+
+/// A movement that someone has told the kind of.
+#[derive(Debug, Clone, PartialEq)]
+struct Told {
+    recording: i64,
+    span: Span,
+    hand: Option<String>,
+    kind: String,
+    size: Option<String>,
+    /// Whether it is in the usual manner, so that its time tells something.
+    plain: bool,
+    /// Whether the stretch is a whole sign, in which only one stroke may be.
+    sign: bool,
+}
+
+impl Samples {
+    /// Measures what is annotated in captured movement.
+    pub(crate) fn of(connection: &Connection, inventories: &[StoredInventory]) -> Result<Self> {
+        let spans = spans::movement_spans(connection, MOST_SPANS)?;
+        let lexicon = spans::lexicon_movements(connection, MOST_SPANS)?;
+        let mut told = on_tiers(&spans, inventories);
+        told.extend(in_lexicon(&lexicon));
+        told.sort_by_key(|told| (told.recording, told.span.start(), told.span.end()));
+        let count = told.len().min(MOST_MEASURED);
+        let spread = (0..count).map(|n| &told[n * told.len() / count]);
+        let mut samples = Self::default();
+        let mut body: Option<Body> = None;
+        for told in spread {
+            if body
+                .as_ref()
+                .is_none_or(|it| it.recording != told.recording)
+            {
+                body = Some(Body::of(connection, told.recording)?);
+            }
+            if let Some(body) = &body {
+                samples.take(connection, body, told)?;
+            }
+        }
+        Ok(samples)
+    }
+
+    fn take(&mut self, connection: &Connection, body: &Body, told: &Told) -> Result<()> {
+        let Some((track, anatomy)) = &body.track else {
+            return Ok(());
+        };
+        let kind = match told.kind.as_str() {
+            "hold" | "held" => {
+                let name = if told.kind == "held" {
+                    "time.end"
+                } else {
+                    "time.hold"
+                };
+                self.add(name, body, told.span.seconds());
+                return Ok(());
+            }
+            "straight" | "arc" => Kind::Stroke,
+            "circle" => Kind::Round,
+            "zigzag" | "wavy" => Kind::Wave,
+            "opening" | "closing" | "bending" => Kind::Shape,
+            "preparation" => Kind::Transition,
+            _ => return Ok(()),
+        };
+        let side = body.side(told.hand.as_deref());
+        let groups = match (side, kind) {
+            (Side::Right, Kind::Shape) => [ChannelGroup::RightHand, ChannelGroup::RightArm],
+            (Side::Left, Kind::Shape) => [ChannelGroup::LeftHand, ChannelGroup::LeftArm],
+            (Side::Right, _) => [ChannelGroup::RightArm; 2],
+            (Side::Left, _) => [ChannelGroup::LeftArm; 2],
+        };
+        let groups = if groups[0] == groups[1] {
+            &groups[..1]
+        } else {
+            &groups[..]
+        };
+        let around = Span::between(
+            Instant::from_micros(told.span.start().micros() - AROUND),
+            Instant::from_micros(told.span.end().micros() + AROUND),
+        );
+        let (frames, own) = (track.frames_in(around), track.frames_in(told.span));
+        let within: Range<usize> =
+            own.start.saturating_sub(frames.start)..own.end.saturating_sub(frames.start);
+        let clip = track.clip(connection, frames, groups)?;
+        let found = measure(&clip, anatomy, side, within, kind);
+        let arm = anatomy.measures().map(|it| it.arm).filter(|arm| *arm > 0.0);
+        if let (Some(found), Some(arm)) = (found, arm)
+            && (!told.sign || found.strokes == 1)
+        {
+            self.measured(body, told, &found, arm);
+        }
+        Ok(())
+    }
+
+    fn measured(&mut self, body: &Body, told: &Told, found: &Measured, arm: f64) {
+        let sized = |names: [&'static str; 3]| match told.size.as_deref() {
+            Some("small") => names[0],
+            Some("large") => names[2],
+            _ => names[1],
+        };
+        let time = match told.kind.as_str() {
+            "straight" => {
+                self.add(sized(SIZES[0]), body, found.length / arm);
+                "time.straight"
+            }
+            "arc" => {
+                self.add(sized(SIZES[0]), body, found.length / arm);
+                self.add("arc.normal", body, found.depth);
+                "time.arc"
+            }
+            "circle" => {
+                self.add(sized(SIZES[1]), body, found.radius / arm);
+                "time.circle"
+            }
+            "zigzag" | "wavy" => {
+                self.add(sized(SIZES[0]), body, found.length / arm);
+                self.add("zigzag.normal", body, found.depth / arm);
+                return;
+            }
+            "preparation" => {
+                let usual = BodyLanguage::usual();
+                let way = usual.time_transition_arm * found.length / arm;
+                let turn = usual.time_turn * found.turn / std::f64::consts::FRAC_PI_2;
+                let rest = (found.seconds - way - turn).max(LEAST_TRANSITION);
+                self.add("time.transition", body, rest);
+                return;
+            }
+            _ => "time.replace",
+        };
+        if told.plain {
+            self.add(time, body, found.seconds);
+        }
+    }
+
+    fn add(&mut self, name: &'static str, body: &Body, value: f64) {
+        let known = BodyLanguage::usual().with_measured([(name, value)]);
+        if known.is_ok() {
+            let of = (body.signer.clone(), value);
+            self.0.entry(name).or_default().push(of);
+        }
+    }
+
+    /// Returns the numbers that there are enough movements for, the signer's own where they are enough.
+    pub(crate) fn language(&self, signer: Option<&str>) -> Language {
+        let mut values = BTreeMap::new();
+        for (name, samples) in &self.0 {
+            let own = samples
+                .iter()
+                .filter(|(of, _)| of.is_some() && of.as_deref() == signer);
+            let own: Vec<f64> = own.map(|(_, value)| *value).collect();
+            let all = samples.iter().map(|(_, value)| *value).collect();
+            let told = summed(own, signer.unwrap_or_default());
+            if let Some(value) = told.or_else(|| summed(all, "all captured signers")) {
+                values.insert((*name).to_owned(), value);
+            }
+        }
+        SIZES.iter().for_each(|names| rising(&mut values, names));
+        Language {
+            from: "measured".to_owned(),
+            values,
+            places: BTreeMap::new(),
+        }
+    }
+}
+
+/// Returns the median and the quartiles; nothing where there are too few.
+fn summed(mut values: Vec<f64>, of: &str) -> Option<LanguageValue> {
+    if values.len() < FEWEST {
+        return None;
+    }
+    values.sort_unstable_by(f64::total_cmp);
+    let at = |share: f64| {
+        let place = share * (values.len() - 1) as f64;
+        let (low, high) = (place.floor() as usize, place.ceil() as usize);
+        values[low] + (values[high] - values[low]) * place.fract()
+    };
+    Some(LanguageValue {
+        value: at(0.5),
+        quartiles: Some([at(0.25), at(0.75)]),
+        count: values.len(),
+        of: of.to_owned(),
+    })
+}
+
+/// Lets a small and a big size that are not measured follow the usual one, and leaves out what does not
+/// rise from small to big.
+fn rising(values: &mut BTreeMap<String, LanguageValue>, names: &[&str; 3]) {
+    let usual = |name: &str| BodyLanguage::usual().value(name).unwrap_or_default();
+    if let Some(measured) = values.get(names[1]).map(|it| it.value) {
+        let grown = measured / usual(names[1]).max(1e-9);
+        for name in [names[0], names[2]] {
+            let of = format!("as {} is to its usual size", names[1]);
+            values.entry(name.to_owned()).or_insert(LanguageValue {
+                value: usual(name) * grown,
+                quartiles: None,
+                count: 0,
+                of,
+            });
+        }
+    }
+    let now = names.map(|name| values.get(name).map_or(usual(name), |it| it.value));
+    if !(now[0] < now[1] && now[1] < now[2]) {
+        names.iter().for_each(|name| {
+            values.remove(*name);
+        });
+    }
+}
+
+/// Returns what component tiers tell: kinds of movement with the size and manner that go with them, and
+/// phases.
+fn on_tiers(spans: &[MovementSpan], inventories: &[StoredInventory]) -> Vec<Told> {
+    let id = |span: &MovementSpan| -> String {
+        let own = inventories
+            .iter()
+            .find(|it| Some(it.id) == span.inventory_id);
+        let own = own.and_then(|it| it.inventory.find(span.value.trim()));
+        let any = || {
+            let same = inventories.iter().filter(|it| {
+                it.inventory.component == Component::Movement
+                    && it.inventory.feature == span.feature
+            });
+            same.into_iter()
+                .find_map(|it| it.inventory.find(span.value.trim()))
+        };
+        own.or_else(any)
+            .map_or(span.value.trim(), |value| value.id.as_str())
+            .to_owned()
+    };
+    let mut told = Vec::new();
+    for (n, span) in spans.iter().enumerate() {
+        let kind = match span.feature.as_deref() {
+            None => id(span),
+            Some("phase") => match id(span).as_str() {
+                "hold" => "held".to_owned(),
+                "preparation" => "preparation".to_owned(),
+                _ => continue,
+            },
+            _ => continue,
+        };
+        let beside = |feature: &str| {
+            // Spans come by recording and time: what shares time lies near.
+            let near = spans[n.saturating_sub(64)..].iter();
+            let near = near.take_while(|it| {
+                it.recording_id < span.recording_id
+                    || (it.recording_id == span.recording_id && it.start_us < span.end_us)
+            });
+            let mut near = near.filter(|it| {
+                it.recording_id == span.recording_id
+                    && it.hand == span.hand
+                    && it.feature.as_deref() == Some(feature)
+            });
+            let half = (span.end_us - span.start_us) / 2;
+            near.find(|it| it.end_us.min(span.end_us) - it.start_us.max(span.start_us) > half)
+                .map(&id)
+        };
+        told.push(Told {
+            recording: span.recording_id,
+            span: between(span.start_us, span.end_us),
+            hand: span.hand.clone(),
+            size: beside("size"),
+            plain: beside("manner").is_none_or(|manner| manner == "plain"),
+            kind,
+            sign: false,
+        });
+    }
+    told
+}
+
+/// Returns what lexicon entries tell of captured tokens on whose movement nothing is annotated: those
+/// with one movement of one size, made once, on which all entries of the sign agree.
+fn in_lexicon(rows: &[LexiconMovement]) -> Vec<Told> {
+    let mut told = Vec::new();
+    for token in rows.chunk_by(|a, b| a.token == b.token) {
+        let said = |feature: Option<&str>| -> Vec<&str> {
+            let own = token.iter().filter(|row| row.feature.as_deref() == feature);
+            let mut values: Vec<&str> = own.map(|row| row.value.as_str()).collect();
+            values.sort_unstable();
+            values.dedup();
+            values
+        };
+        let alone = token
+            .chunk_by(|a, b| a.entry == b.entry)
+            .all(|entry| entry.iter().filter(|row| row.feature.is_none()).count() == 1);
+        let (kinds, sizes) = (said(None), said(Some("size")));
+        let once = said(Some("repetition")).iter().all(|it| *it == "once");
+        if let ([kind @ ("straight" | "arc")], [] | [_], true, true) =
+            (kinds.as_slice(), sizes.as_slice(), alone, once)
+        {
+            told.push(Told {
+                recording: token[0].recording_id,
+                span: between(token[0].start_us, token[0].end_us),
+                hand: Some("dominant".to_owned()),
+                kind: (*kind).to_owned(),
+                size: sizes.first().map(|size| (*size).to_owned()),
+                plain: said(Some("manner")).iter().all(|it| *it == "plain"),
+                sign: true,
+            });
+        }
+    }
+    told
+}
+
+fn between(start: i64, end: i64) -> Span {
+    Span::between(Instant::from_micros(start), Instant::from_micros(end))
+}
+
+/// Whose movement a recording holds.
+struct Body {
+    recording: i64,
+    track: Option<(Track, Anatomy)>,
+    signer: Option<String>,
+    handedness: Handedness,
+}
+
+impl Body {
+    fn of(connection: &Connection, recording: i64) -> Result<Self> {
+        let row = recordings::recording(connection, recording)?;
+        let signer = match row.signer_id {
+            Some(id) => recordings::signer(connection, id)?,
+            None => None,
+        };
+        let left = signer
+            .as_ref()
+            .is_some_and(|it| it.handedness.as_deref() == Some("left"));
+        let track = match recordings::motion_track(connection, recording)? {
+            Some(_) => {
+                let track = Track::of(connection, recording)?;
+                let anatomy = track.anatomy(connection)?;
+                Some((track, anatomy))
+            }
+            None => None,
+        };
+        Ok(Self {
+            recording,
+            track,
+            signer: signer.map(|it| Address::Signer(Name::Text(it.name)).to_string()),
+            handedness: if left {
+                Handedness::Left
+            } else {
+                Handedness::Right
+            },
+        })
+    }
+
+    /// Returns the hand that is meant; of both the dominant one.
+    fn side(&self, hand: Option<&str>) -> Side {
+        let hand = hand.and_then(|hand| hand.parse::<HandRef>().ok());
+        hand.unwrap_or(HandRef::Dominant).resolve(self.handedness)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn samples(name: &'static str, values: impl IntoIterator<Item = (u8, f64)>) -> Samples {
+        let of = |signer: u8| Some(format!("signer:{}", char::from(b'A' + signer)));
+        let all = values
+            .into_iter()
+            .map(|(signer, value)| (of(signer), value));
+        Samples(BTreeMap::from([(name, all.collect())]))
+    }
+
+    #[test]
+    fn a_number_needs_eight_movements_and_the_signers_own_go_first() {
+        let many =
+            |count: usize| samples("time.arc", (0..count).map(|n| (0, 0.5 + 0.01 * n as f64)));
+        assert!(many(7).language(None).is_usual());
+        let language = many(9).language(None);
+        let value = &language.values["time.arc"];
+        assert!((value.value - 0.54).abs() < 1e-12);
+        let [low, high] = value.quartiles.expect("spread");
+        assert!((low - 0.52).abs() < 1e-12 && (high - 0.56).abs() < 1e-12);
+        assert_eq!(
+            (value.count, value.of.as_str()),
+            (9, "all captured signers")
+        );
+        let two = samples(
+            "time.arc",
+            (0..16).map(|n| (n / 8, if n < 8 { 0.4 } else { 0.8 })),
+        );
+        let of = |signer| two.language(signer).values["time.arc"].clone();
+        assert_eq!(
+            (of(Some("signer:B")).value, of(Some("signer:B")).count),
+            (0.8, 8)
+        );
+        assert_eq!(of(Some("signer:B")).of, "signer:B");
+        assert_eq!(of(Some("signer:C")).count, 16);
+    }
+
+    #[test]
+    fn sizes_rise_and_those_that_nobody_marked_follow_the_usual_one() {
+        let language = samples("move.normal", (0..8).map(|_| (0, 0.5))).language(None);
+        assert_eq!(language.values["move.normal"].value, 0.5);
+        let big = &language.values["move.big"];
+        assert!((big.value - 0.9).abs() < 1e-12 && big.count == 0, "{big:?}");
+        assert!(big.of.contains("move.normal"));
+        let odd = samples("move.small", (0..8).map(|_| (0, 0.7))).language(None);
+        assert!(odd.is_usual(), "smaller than small: {odd:?}");
+    }
+
+    #[test]
+    fn size_and_manner_go_with_the_movement_that_they_share_time_with() {
+        let span = |feature: Option<&str>, start_us: i64, end_us: i64, value: &str| MovementSpan {
+            recording_id: 1,
+            hand: Some("right".into()),
+            feature: feature.map(str::to_owned),
+            start_us,
+            end_us,
+            value: value.into(),
+            inventory_id: None,
+        };
+        let told = on_tiers(
+            &[
+                span(None, 0, 400, "straight"),
+                span(Some("size"), 0, 380, "large"),
+                span(Some("phase"), 400, 500, "hold"),
+                span(None, 500, 900, "arc"),
+                span(Some("manner"), 520, 900, "fast"),
+                span(Some("phase"), 500, 900, "stroke"),
+            ],
+            &[],
+        );
+        let seen: Vec<_> = told
+            .iter()
+            .map(|it| (it.kind.as_str(), it.size.as_deref(), it.plain))
+            .collect();
+        assert_eq!(
+            seen,
+            [
+                ("straight", Some("large"), true),
+                ("held", None, true),
+                ("arc", None, false)
+            ]
+        );
+    }
+
+    #[test]
+    fn a_lexicon_tells_what_a_token_is_where_its_entries_agree() {
+        let row = |token, entry, feature: Option<&str>, value: &str| LexiconMovement {
+            token,
+            entry,
+            recording_id: 3,
+            start_us: 0,
+            end_us: 1,
+            feature: feature.map(str::to_owned),
+            value: value.into(),
+        };
+        let rows = [
+            row(1, 10, None, "straight"),
+            row(1, 10, Some("size"), "small"),
+            row(1, 11, None, "straight"),
+            row(1, 11, Some("size"), "small"),
+            row(2, 10, None, "straight"),
+            row(2, 11, None, "arc"),
+            row(3, 12, None, "straight"),
+            row(3, 12, None, "straight"),
+            row(4, 13, None, "arc"),
+            row(4, 13, Some("repetition"), "several"),
+        ];
+        let told = in_lexicon(&rows);
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert_eq!(
+            (told[0].kind.as_str(), told[0].size.as_deref(), told[0].sign),
+            ("straight", Some("small"), true)
+        );
+    }
+}
