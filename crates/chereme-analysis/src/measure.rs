@@ -12,6 +12,8 @@ use crate::transcribe::way::{self, Way};
 const LEAST: f64 = 0.05;
 /// A stroke shorter than this share of the longest beside it is none, but the hand coming to rest.
 const AMONG: f64 = 1.0 / 3.0;
+/// A speed below this share of the peak is a hold.
+const STILL: f64 = 0.1;
 /// This share of a stroke lies in the stretch that it is looked for in.
 const INSIDE: f64 = 2.0 / 3.0;
 
@@ -51,8 +53,8 @@ pub struct Measured {
 /// begin and end.
 ///
 /// A stroke lies between two minima of the wrist's speed; where there are several in the stretch the
-/// first one is measured, so that repetitions and ways back do not count. What goes round, in waves, or
-/// from one sign to the next is measured over the stretch itself. Lengths are those of the wrist in the
+/// first one is measured, so that repetitions and ways back do not count. What goes round or in
+/// waves is measured over the stretch without the holds at its ends, a transition over the stretch itself. Lengths are those of the wrist in the
 /// space of the trunk. Nothing where the skeleton has no such hand, or the movement is not of that kind.
 #[must_use]
 pub fn measure(
@@ -69,6 +71,10 @@ pub fn measure(
     if within.len() < 3 {
         return None;
     }
+    let within = match kind {
+        Kind::Round | Kind::Wave => moving(clip, wrist, within),
+        _ => within,
+    };
     let path = || -> Vec<DVec3> { within.clone().map(wrist).collect() };
     let whole = within.len() as f64 * clip.rate().frame_time();
     match kind {
@@ -145,6 +151,19 @@ fn stroke(clip: &Clip, wrist: impl Fn(usize) -> DVec3, within: &Range<usize>) ->
         strokes: found.len(),
         ..Measured::default()
     })
+}
+
+/// Returns a stretch without the holds at its beginning and its end.
+fn moving(clip: &Clip, wrist: impl Fn(usize) -> DVec3, within: Range<usize>) -> Range<usize> {
+    let all: Vec<DVec3> = (0..clip.frames()).map(wrist).collect();
+    let raw = speeds(all.len(), clip, |a, b| all[a].distance(all[b]));
+    let speeds = smoothed(&raw, clip);
+    let peak = speeds[within.clone()].iter().copied().fold(0.0, f64::max);
+    let moves = |frame: &usize| speeds[*frame] >= STILL * peak;
+    match (within.clone().find(moves), within.clone().rfind(moves)) {
+        (Some(first), Some(last)) => first..last + 1,
+        _ => within,
+    }
 }
 
 fn is_inside(frames: &Range<usize>, within: &Range<usize>) -> bool {
