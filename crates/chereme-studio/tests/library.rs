@@ -11,7 +11,7 @@ use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::kittest::Queryable;
 
 const SIGML: &str = r#"<sigml>
-<hns_sign gloss="OUI"><hamnosys_manual>
+<hns_sign gloss="HOCHER"><hamnosys_manual>
   <hamfist/><hamthumbacrossmod/><hamextfingero/><hampalmd/><hamnodding/>
 </hamnosys_manual></hns_sign>
 </sigml>
@@ -55,14 +55,16 @@ fn signs_without_recordings_are_listed_animated_and_taken_into_a_recipe() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_notated(folder.path());
     assert!(says(&window, "This corpus has no recordings"));
-    window.get_by_label("Filter").type_text("oui");
+    window.get_by_label("Filter").type_text("hocher");
     window.run_steps(3);
-    click(&mut window, "OUI");
+    click(&mut window, "HOCHER");
     until(&mut window, "the animated sign", |window| {
-        says(window, "OUI is animated from its notation")
+        says(window, "HOCHER is animated from its notation")
     });
     idle(&mut window);
-    until(&mut window, "the stage", |window| says(window, "Made: OUI"));
+    until(&mut window, "the stage", |window| {
+        says(window, "Made: HOCHER")
+    });
     window.key_press_modifiers(Modifiers::COMMAND | Modifiers::ALT, Key::R);
     window.run_steps(4);
     idle(&mut window);

@@ -17,7 +17,8 @@ pub(crate) mod stage;
 pub(crate) mod timeline;
 
 use eframe::egui::{
-    Align2, Id, Response, Role, Sense, StrokeKind, TextStyle, Ui, WidgetInfo, vec2,
+    Align2, Color32, Id, Response, RichText, Role, Sense, StrokeKind, TextStyle, TextWrapMode, Ui,
+    WidgetInfo, WidgetText, pos2, vec2,
 };
 use serde::{Deserialize, Serialize};
 
@@ -211,17 +212,26 @@ pub(crate) fn list_row_at(
         );
     }
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-    let at = rect.left_center() + vec2(8.0 + lead, 0.0);
-    let (body, small) = (
-        TextStyle::Body.resolve(ui.style()),
-        TextStyle::Small.resolve(ui.style()),
-    );
+    let left = rect.left() + 8.0 + lead;
+    let put = |text: &str, style: TextStyle, colour: Color32, y: Align2| {
+        let width = rect.right() - 6.0 - left;
+        let text = RichText::new(text).color(colour);
+        let cut = Some(TextWrapMode::Truncate);
+        let galley = WidgetText::from(text).into_galley(ui, cut, width, style);
+        let at = y.anchor_size(pos2(left, rect.center().y), galley.size());
+        painter.galley(at.min, galley, colour);
+    };
+    let colour = visuals.text_color();
     if about.is_empty() {
-        painter.text(at, Align2::LEFT_CENTER, name, body, visuals.text_color());
+        put(name, TextStyle::Body, colour, Align2::LEFT_CENTER);
     } else {
-        painter.text(at, Align2::LEFT_BOTTOM, name, body, visuals.text_color());
-        let weak = visuals.text_color().gamma_multiply(0.75);
-        painter.text(at + vec2(0.0, 2.0), Align2::LEFT_TOP, about, small, weak);
+        put(name, TextStyle::Body, colour, Align2::LEFT_BOTTOM);
+        put(
+            about,
+            TextStyle::Small,
+            colour.gamma_multiply(0.75),
+            Align2::LEFT_TOP,
+        );
     }
     response
 }

@@ -24,7 +24,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use chereme_corpus::{Error, SearchOptions};
-use eframe::egui::Ui;
+use eframe::egui::{ScrollArea, Ui};
 
 use super::bare::{self, Bare};
 use super::inspector::Thing;
@@ -42,6 +42,8 @@ use rows::Rows;
 
 /// How long nothing is typed before what was typed is searched for, in seconds.
 const PAUSE: f64 = 0.35;
+/// How high the pane is at least for its hits to have room below the query; in a lower one all is scrolled.
+const LOW: f32 = 330.0;
 /// The most hits of which all neighbours are asked for at once.
 const MOST_AROUND: usize = 64;
 
@@ -240,7 +242,7 @@ impl Search {
     }
 
     /// Tells of the opened hit what can be done where nothing moves.
-    fn hint(&self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    pub(super) fn hint(&self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let found = self.found.as_ref().zip(self.opened);
         let Some(hit) = found.and_then(|(found, at)| found.hit(at)) else {
             return;
@@ -332,16 +334,12 @@ impl Pane for Search {
             }
             return;
         }
-        self.question(ui, seen, out);
-        if self.found.is_none() && self.asked.is_none() {
-            if let Some(query) = aside::examples(ui, seen) {
-                self.turn_to(query, out);
-            }
-            return;
+        if ui.available_height() < LOW {
+            let area = ScrollArea::vertical().id_salt("low").auto_shrink(false);
+            area.show(ui, |ui| self.page(ui, seen, out, Some(LOW)));
+        } else {
+            self.page(ui, seen, out, None);
         }
-        self.status(ui, seen, out);
-        self.hint(ui, seen, out);
-        self.answer(ui, seen, out);
     }
 
     fn act(&mut self, action: Action, seen: &Seen<'_>, out: &mut Outbox) -> Acted {

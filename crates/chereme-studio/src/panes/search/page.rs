@@ -3,15 +3,40 @@
 use chereme_sign::query::Query;
 use eframe::egui::{RichText, Ui, vec2};
 
-use super::{PAUSE, Search, View, facets, results, rows, suggest};
+use super::{PAUSE, Search, View, aside, facets, results, rows, suggest};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::{Language, fill, search as words};
 
 impl Search {
+    /// Draws all of it; the hits are as high as there is room, or `high`.
+    pub(super) fn page(
+        &mut self,
+        ui: &mut Ui,
+        seen: &Seen<'_>,
+        out: &mut Outbox,
+        high: Option<f32>,
+    ) {
+        self.question(ui, seen, out);
+        if self.found.is_none() && self.asked.is_none() {
+            if let Some(query) = aside::examples(ui, seen) {
+                self.turn_to(query, out);
+            }
+            return;
+        }
+        self.status(ui, seen, out);
+        let room = ui.available_size();
+        let size = vec2(room.x, high.unwrap_or(room.y));
+        ui.allocate_ui(size, |ui| {
+            ui.set_width(room.x);
+            self.hint(ui, seen, out);
+            self.answer(ui, seen, out);
+        });
+    }
+
     /// Draws the query: its text, its rows, and what there is to do with it.
-    pub(super) fn question(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn question(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let now = ui.input(|input| input.time);
         let wrong = self.wrong.as_ref().and_then(|wrong| wrong.from);
         let wrong = wrong.filter(|_| self.query == self.field.text);
@@ -74,7 +99,7 @@ impl Search {
     }
 
     /// Draws how many were found, and how they are shown.
-    pub(super) fn status(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn status(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         ui.horizontal_wrapped(|ui| {
             if let Some(running) = self.asked.filter(|id| seen.is_running(Some(*id))) {
                 ui.spinner();
@@ -110,7 +135,7 @@ impl Search {
         });
     }
 
-    pub(super) fn answer(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    fn answer(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let Some(found) = &self.found else { return };
         for note in &found.notes {
             ui.label(RichText::new(note).small().weak());
