@@ -1,6 +1,7 @@
 //! All that is known of one token, sign, signer or recording, read at one moment.
 
 use chereme_motion::anatomy::Measures;
+use rusqlite::Connection;
 
 use crate::Corpus;
 use crate::address::{self, Address, Name};
@@ -10,6 +11,7 @@ use crate::db::signs::{self, TokenRow};
 use crate::db::{edits, notations, recipes};
 use crate::error::{Error, Result};
 use crate::movement::Track;
+use crate::notation;
 
 /// All that is known of one thing.
 #[derive(Debug, Clone, PartialEq)]
@@ -107,6 +109,23 @@ pub struct RecordingDetails {
     pub engine: Option<String>,
 }
 
+/// Returns a token in HamNoSys, as it was written or as its SiGML is written so; nothing where it is not
+/// notated.
+fn hamnosys(connection: &Connection, token: i64) -> Result<Option<String>> {
+    if notations::of_token(connection, token)?.is_none() {
+        return Ok(None);
+    }
+    // What cannot be read is told by the check of the corpus, and keeps nothing else from being seen.
+    let Ok(notation) = notation::find(connection, &Address::Token(token)) else {
+        return Ok(None);
+    };
+    let text = match notation.text {
+        Some(text) => text,
+        None => notation.document.hamnosys().text,
+    };
+    Ok(Some(text).filter(|text| !text.is_empty()))
+}
+
 impl Corpus {
     /// Returns all that is known of a token.
     ///
@@ -140,7 +159,7 @@ impl Corpus {
         };
         Ok(TokenDetails {
             values: values.into_iter().map(value).collect(),
-            notation: notations::of_token(&reading, row.id)?.and_then(|it| it.text),
+            notation: hamnosys(&reading, row.id)?,
             recipe: recipe.map(|it| it.text),
             made_from,
             made_into: recipes::made_from(&reading, row.id)?,
