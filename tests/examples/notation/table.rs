@@ -52,6 +52,15 @@ pub(crate) fn list(folder: &Path, path: &str) -> Result<()> {
     Ok(())
 }
 
+/// Returns by how many degrees hands are said to be turned otherwise than written.
+fn turned_by(warnings: &[String]) -> f64 {
+    let degrees = warnings.iter().filter_map(|warning| {
+        let (_, rest) = warning.split_once("turned up to ")?;
+        rest.split_once('°')?.0.parse().ok()
+    });
+    degrees.fold(0.0, f64::max)
+}
+
 /// Prints what holds for all signs on each body.
 pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
     let signs = bodies::signs(folder)?;
@@ -62,8 +71,8 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
             ..Settings::default()
         };
         let mut all = Worst::default();
-        let (mut frames, mut failed, mut short, mut off, mut turned, mut pushed) =
-            (0, 0, 0, 0, 0, 0);
+        let (mut frames, mut failed, mut short, mut off) = (0, 0, 0, 0);
+        let (mut turned, mut told, mut pushed) = (0, 0, 0);
         let mut spent = std::time::Duration::ZERO;
         let mut list: Vec<(String, Worst)> = Vec::new();
         for (name, notated) in &signs {
@@ -82,7 +91,9 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
                 |word: &str| usize::from(made.report.warnings.iter().any(|w| w.contains(word)));
             short += warned("short of what it touches");
             off += warned("off its way");
-            turned += warned("turned");
+            let most = turned_by(&made.report.warnings);
+            turned += usize::from(most > 22.5);
+            told += usize::from(most > 0.0);
             pushed += warned("out of the trunk");
             let own = worst(&made);
             list.push((name.clone(), own));
@@ -95,7 +106,7 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
             frames as f64 / spent.as_secs_f64()
         );
         println!(
-            "  short of what they touch {short}, off their way {off}, turned less {turned}, moved out of the trunk {pushed}"
+            "  short of what they touch {short}, off their way {off}, turned by more than 22.5° {turned}, by more than 10° {told}, moved out of the trunk {pushed}"
         );
         println!("  worst: {all:?}");
         let by: [Judged; 6] = [

@@ -8,22 +8,26 @@
 //! |---|---|
 //! | `plan` | from the tree to events: postures, transitions, who acts in which frame |
 //! | `place` | where hands are: on the body, in space, by each other |
+//! | `ease` | where in its place a hand is, so that its arm is at ease |
 //! | `motion` | motions, repetitions, sequences |
 //! | `path`, `pace` | ways through space; how they run in time |
 //! | `stage` | the body: its surface, points of its hands |
 //! | `thumb`, `rest` | the thumb of a pinch; hands at rest |
 //! | `arm` | elbow, collar bone, wrist |
 //! | `track` | from events to what hands should do in each frame |
+//! | `part` | two hands that would go through each other |
 //! | `solve` | from that to postures of an arm, without jumps |
 //! | `warp` | time stretched where an arm would go too fast |
 //! | `nonmanual` | head, trunk, shoulders; the curves of all non-manuals |
 //! | `notes` | what is said about the movement |
 
 mod arm;
+mod ease;
 mod motion;
 mod nonmanual;
 mod notes;
 mod pace;
+mod part;
 mod path;
 mod place;
 mod plan;
@@ -120,9 +124,22 @@ pub fn animate(
         total,
     };
     let hands = sides.map(|side| body.hand(side));
-    let made = [0, 1].map(|n| {
+    let [mut first, mut second] = [0, 1].map(|n| track::wanted(&plan, n, &timing));
+    let parted = match hands {
+        [Some(a), Some(b)] => part::part(&body, [a, b], [&mut first, &mut second], rate),
+        _ => None,
+    };
+    let made = [&first, &second].map(|wanted| {
+        let n = usize::from(std::ptr::eq(wanted, &second));
         let hand = hands[n]?;
-        Some(track::Made::of(&body, hand, &plan, n, &limits, &timing))
+        Some(track::Made::of(
+            &body,
+            hand,
+            (&plan, n),
+            wanted,
+            &limits,
+            &timing,
+        ))
     });
     let moved: Vec<_> = made.iter().flatten().map(track::Made::moved).collect();
     let warp = Warp::of(&moved, rate, &fastest(&settings.language, &body));
@@ -137,11 +154,18 @@ pub fn animate(
         fits[n] = Some(track.fit);
         lay(&mut channels, hand, track);
     }
+    if let Some(parted) = parted {
+        plan.remarks.push(format!(
+            "the hands would go through each other at {:.2} s: each goes {:.1} cm aside",
+            warp.at(parted.time),
+            parted.by * 100.0
+        ));
+    }
     plan.stretch(&warp);
     let language = &settings.language;
     nonmanual::turn(&body, signs, &plan.signs, language, rate, &mut channels);
     let clip = Clip::new(Arc::clone(&body.skeleton), settings.rate, channels)?;
-    let report = report(signs, &plan, sides, fits, limits.tolerance);
+    let report = report(signs, &plan, sides, fits);
     Ok(Made {
         curves: nonmanual::curves(signs, &plan.signs, language, rate, total),
         notes: notes::notes(signs, &plan, sides, &clip),
@@ -198,13 +222,7 @@ fn lay(channels: &mut [Channel], hand: &stage::Hand, track: Track) {
     }
 }
 
-fn report(
-    signs: &[&Notated],
-    plan: &Plan,
-    sides: [Side; 2],
-    fits: [Option<Fit>; 2],
-    tolerance: f64,
-) -> Report {
+fn report(signs: &[&Notated], plan: &Plan, sides: [Side; 2], fits: [Option<Fit>; 2]) -> Report {
     let mut report = Report::default();
     let hands = sides.into_iter().zip(fits).filter_map(|(hand, fit)| {
         let fit = fit?;
@@ -272,11 +290,12 @@ fn report(
                 fit.residual * 100.0
             ));
         }
-        if fit.turned > tolerance + 1e-6 {
+        if let Some(hindrance) = fit.hindered {
             report.warnings.push(format!(
-                "the {} hand is turned up to {:.0}° less than written: the wrist goes no farther",
+                "the {} hand is turned up to {:.0}° less than written: {}",
                 side.name(),
-                fit.turned.to_degrees()
+                fit.turned.to_degrees(),
+                hindrance.says()
             ));
         }
         if fit.pushed > 5e-3 {

@@ -58,7 +58,15 @@ impl Planner<'_> {
             slower: env.slower * self.slower(manner),
             ..*env
         };
+        let at_once = matches!(
+            motion.kind,
+            MotionKind::Parallel(_) | MotionKind::Target { .. }
+        );
+        if at_once {
+            self.enter();
+        }
         let end = self.kind(&motion.kind, manner, who, time, &env);
+        self.leave(who, at_once);
         if manner.bouncing {
             return self.bounce(who, time, end);
         }
@@ -480,13 +488,23 @@ impl Planner<'_> {
 
     /// Returns how long a motion takes, planning it on the side.
     fn length_of(&mut self, motion: &Motion, who: Who, env: &Env) -> f64 {
+        self.enter();
+        let end = self.aside(|planner| planner.motion(motion, who, 0.0, env));
+        if let Some(trail) = &mut self.trail {
+            trail.within -= 1;
+        }
+        end
+    }
+
+    /// Plans something on the side: what it gives, and nothing of it remains.
+    pub(crate) fn aside<T>(&mut self, plan: impl FnOnce(&mut Self) -> T) -> T {
         let state = self.state.clone();
         let events = [0, 1].map(|n| self.plan.events[n].len());
         let phases = self.plan.phases.len();
         let (named, together) = (self.named.clone(), self.together.clone());
         let contacts = [0, 1].map(|n| self.plan.contacts[n].len());
         let at_body = self.at_body.clone();
-        let end = self.motion(motion, who, 0.0, env);
+        let end = plan(self);
         self.state = state;
         self.named = named;
         self.together = together;
@@ -519,6 +537,12 @@ impl Planner<'_> {
         let now = self.state.clone();
         self.fixed = staying(motion, who);
         self.assume(posture, named);
+        if let Some(place) = &posture.place {
+            self.placed();
+            if self.fixed.is_none() {
+                self.ease(place, named, None);
+            }
+        }
         self.fixed = None;
         let goal = self.state.clone();
         let contact = posture.place.as_ref().is_some_and(meets);

@@ -15,6 +15,9 @@ use chereme_sign::hamnosys::{
 use super::plan::{Frame, Planner, Who, acting};
 use super::solve::Arm;
 
+/// How far a hand turns off what is written to lie on the skin, in radians: it still reads as written.
+const LAID: f64 = 0.17;
+
 /// Where a point of a hand should be.
 #[derive(Debug, Clone)]
 struct Goal {
@@ -169,7 +172,7 @@ impl Planner<'_> {
         if !(1e-6..1.2).contains(&angle) {
             return;
         }
-        let share = (self.limits.tolerance / angle).min(1.0);
+        let share = (LAID / angle).min(1.0);
         let turn = DQuat::IDENTITY.slerp(turn, share);
         self.state[n].rotation = (turn * self.state[n].rotation).normalize();
     }

@@ -169,8 +169,12 @@ pub(crate) struct Planner<'a> {
     pub(crate) begun: bool,
     /// The hand that stays where it is while the other comes to it.
     pub(crate) fixed: Option<usize>,
+    /// How hands are held in what is planned on the side.
+    pub(crate) trail: Option<super::ease::Trail>,
     /// Where each hand was last at the body in this sign.
     pub(crate) at_body: [Option<BodyPlace>; 2],
+    /// The postures that handshapes have.
+    shaped: [Vec<(Handshape, usize)>; 2],
     speed: f64,
     pub(crate) plan: Plan,
 }
@@ -208,7 +212,9 @@ impl<'a> Planner<'a> {
             together: None,
             begun: false,
             fixed: None,
+            trail: None,
             at_body: [None, None],
+            shaped: [Vec::new(), Vec::new()],
             speed: 1.0,
             plan: Plan {
                 start,
@@ -273,6 +279,9 @@ impl<'a> Planner<'a> {
         }
         self.begun = true;
         self.start_behind(part, who);
+        if let Some(place) = &posture.place {
+            self.ease(place, named, Some((part.actions.as_slice(), who)));
+        }
         let (goal, dropped) = (
             self.state.clone(),
             [0, 1]
@@ -462,6 +471,10 @@ impl<'a> Planner<'a> {
         if self.state[n].handshape == *shape && self.state[n].shape > 0 {
             return;
         }
+        if let Some((_, index)) = self.shaped[n].iter().find(|(known, _)| known == shape) {
+            (self.state[n].shape, self.state[n].handshape) = (*index, shape.clone());
+            return;
+        }
         let side = self.sides[n];
         let angles = hand_angles(shape, self.language);
         let posed = thumb::met(self.stage, side, shape, &angles);
@@ -470,6 +483,7 @@ impl<'a> Planner<'a> {
             self.plan.shapes[n].push(posed);
             self.plan.shapes[n].len() - 1
         });
+        self.shaped[n].push((shape.clone(), index));
         self.state[n].shape = index;
         self.state[n].handshape = shape.clone();
     }

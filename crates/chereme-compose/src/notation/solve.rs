@@ -18,7 +18,7 @@ use super::track::Wanted;
 /// How often the arm's plane is chosen, in seconds; between, it goes smoothly.
 const CHOSEN: f64 = 1.0 / 30.0;
 /// Planes that are weighed against the rule's: the first, the last and the step, in degrees.
-const PLANES: (f64, f64, f64) = (-60.0, 110.0, 10.0);
+const PLANES: (f64, f64, f64) = (-70.0, 120.0, 10.0);
 /// How fast a wrist bends and a forearm turns at most, and the arm's plane, in radians a second.
 const BENDING: f64 = 28.0;
 const SWIVEL: f64 = 7.0;
@@ -30,6 +30,10 @@ const AROUND: f64 = 0.09;
 const MARGIN: f64 = 0.006;
 /// How far a hand turns about its point to leave the trunk or come within reach, in radians.
 const MOST_TURNED: f64 = 0.7;
+/// What a hand costs that is turned from what is written by all that is still as written.
+const TURNED: f64 = 25.0;
+/// The same where it touches nothing.
+const NEAR_TURNED: f64 = 0.22;
 /// How often a hand that gives way is brought to its place again.
 const TRIES: usize = 14;
 
@@ -65,6 +69,29 @@ pub(crate) struct Arm<'a> {
     pub(crate) hand: &'a Hand,
     pub(crate) held: Held,
     pub(crate) limits: &'a Limits,
+}
+
+/// What keeps a hand from being turned as it should be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Hindrance {
+    Wrist,
+    Forearm,
+    Reach,
+    Trunk,
+    Haste,
+}
+
+impl Hindrance {
+    /// Returns it in words.
+    pub(crate) fn says(self) -> &'static str {
+        match self {
+            Self::Wrist => "the wrist bends no farther",
+            Self::Forearm => "the forearm turns no farther",
+            Self::Reach => "the arm does not reach",
+            Self::Trunk => "the trunk is in the way",
+            Self::Haste => "there is no time for it",
+        }
+    }
 }
 
 /// A hand that should be somewhere.
@@ -197,6 +224,58 @@ impl<'a> Arm<'a> {
         refined(&choices, best(&choices))
     }
 
+    /// Returns what the best plane costs for a hand that is somewhere, alone.
+    pub(crate) fn strain(&self, wrist: DVec3, turned: DQuat) -> f64 {
+        let rig = self.rig();
+        let (first, last, step) = PLANES;
+        let count = ((last - first) / step).round() as usize + 1;
+        let mut least = f64::INFINITY;
+        for n in 0..count {
+            let degrees = first + step * n as f64;
+            let posed = rig.reach(wrist, degrees.to_radians(), self.limits);
+            let asked = rig.wrist(&posed, turned, &self.held);
+            let off = |high: bool| {
+                let angles = asked.allowed(self.limits, high);
+                if angles == asked {
+                    return 0.0;
+                }
+                rig.hung(&posed, &angles, &self.held).angle_between(turned)
+            };
+            let over = asked.turned(self.limits) > 1.0;
+            let apart = if over {
+                off(false).min(off(true))
+            } else {
+                off(false)
+            };
+            let missed = posed.wrist.distance(wrist) / rig.length();
+            let cost = 0.3 * off_rule(degrees)
+                + self.off(apart)
+                + self.within(&posed)
+                + 4e3 * missed * missed;
+            least = least.min(cost);
+        }
+        least
+    }
+
+    /// Returns what a hand costs that is turned off what is written.
+    fn off(&self, apart: f64) -> f64 {
+        let apart = apart / self.limits.tolerance;
+        let over = (apart - 1.0).max(0.0);
+        TURNED * apart.min(1.0).powi(2) + 12.0 * over + 25.0 * over * over
+    }
+
+    /// Returns what it costs that an upper arm is in the trunk.
+    fn within(&self, posed: &Posed) -> f64 {
+        [0.6, 1.0]
+            .map(|share| {
+                let at = posed.shoulder.lerp(posed.elbow, share);
+                let deep = self.stage.torso.way_out(at, 0.035).length() / self.rig().length();
+                3e4 * deep * deep
+            })
+            .iter()
+            .sum()
+    }
+
     /// Returns the planes over time that cost least together, each with the end at which a forearm
     /// stops.
     fn choose<'w>(&self, wants: impl Iterator<Item = (Want<'w>, bool)>, dt: f64) -> Vec<Choice> {
@@ -270,16 +349,13 @@ impl<'a> Arm<'a> {
                 let hung = self.hang(&coarse, plane, high, tries);
                 let bend = (hung.angles.bend(self.limits) - 0.6).max(0.0);
                 let twist = (hung.angles.turned(self.limits) - 0.75).max(0.0);
-                let apart = hung.rotation.angle_between(want.turned) / self.limits.tolerance;
-                let mut cost = 0.7 * (degrees / 36.0).powi(2)
+                let apart = hung.rotation.angle_between(want.turned);
+                let missed = hung.residual / self.rig().length();
+                let cost = off_rule(degrees)
                     + 3.0 * (bend * bend + twist * twist)
-                    + given * (3.0 * apart.powi(2) + 25.0 * (apart - 1.0).max(0.0).powi(2));
-                for share in [0.6, 1.0] {
-                    let at = hung.posed.shoulder.lerp(hung.posed.elbow, share);
-                    let deep = self.stage.torso.way_out(at, 0.035).length() / self.rig().length();
-                    cost += 2e4 * deep * deep;
-                }
-                cost += 4e3 * (hung.residual / self.rig().length()).powi(2);
+                    + given * self.off(apart)
+                    + self.within(&hung.posed)
+                    + 4e3 * missed * missed;
                 choices.push(Choice {
                     plane,
                     angles: hung.angles,
@@ -298,6 +374,7 @@ impl<'a> Arm<'a> {
         // A hand that is placed by a fingertip turns about it; one placed by its palm is moved.
         let pivot = smooth((want.offset.length() / self.hand.length() - 0.55) / 0.25);
         let turns = pivot.max(want.touch);
+        let most = NEAR_TURNED + (MOST_TURNED - NEAR_TURNED) * want.touch;
         let mut turned = want.turned;
         let mut push = DVec3::ZERO;
         let mut wrist = want.point - turned * want.offset;
@@ -318,7 +395,7 @@ impl<'a> Arm<'a> {
                 let lever = at - want.point;
                 let far = lever.length();
                 let across = by - lever * (by.dot(lever) / (far * far).max(1e-9));
-                let given = turned.angle_between(want.turned) < MOST_TURNED;
+                let given = turned.angle_between(want.turned) < most;
                 // What lies behind the point does not come out by turning.
                 let helps = across.length() > 0.5 * by.length() && far > 0.2 * self.hand.length();
                 if !given || share <= 0.0 || by.length() <= 1e-4 || !helps {
@@ -415,6 +492,24 @@ impl<'a> Arm<'a> {
             posed,
             rotation,
             pushed,
+        }
+    }
+
+    /// Returns what keeps a hand from being turned as it should be.
+    pub(crate) fn hindrance(&self, row: &Row, got: &Got) -> Hindrance {
+        let wrist = row.point + row.push - row.turned * row.offset;
+        let posed = self.rig().reach(wrist, row.plane, self.limits);
+        let asked = self.rig().wrist(&posed, row.turned, &self.held);
+        if asked.turned(self.limits) > 1.01 {
+            Hindrance::Forearm
+        } else if asked.bend(self.limits) > 1.01 {
+            Hindrance::Wrist
+        } else if got.pushed > 1e-3 {
+            Hindrance::Trunk
+        } else if posed.wrist.distance(wrist) > 5e-3 {
+            Hindrance::Reach
+        } else {
+            Hindrance::Haste
         }
     }
 
@@ -516,6 +611,12 @@ fn calm(rows: &mut [Row], rate: f64) {
             }
         }
     }
+}
+
+/// Returns what a plane costs, in degrees against the rule's: past 60° no steeper.
+fn off_rule(degrees: f64) -> f64 {
+    let near = degrees.abs().min(60.0);
+    0.7 * (near / 36.0).powi(2) + 0.05 * (degrees.abs() - near)
 }
 
 /// Returns what it costs to go from one choice to another within `dt` seconds.

@@ -573,3 +573,39 @@ fn the_hand_that_does_nothing_stays_where_the_other_comes_to_it() {
     let [begin, end] = [0.0, 1.0].map(|share| landmark(&made, share, "left-wrist"));
     assert!(begin.distance(end) < 5e-3, "{begin} to {end}");
 }
+
+#[test]
+fn hands_that_would_go_through_each_other_make_way_and_it_is_told() {
+    let mut across = directed("l");
+    if let MotionKind::Directed(directed) = &mut across.kind {
+        directed.size.first = Some(Size::Big);
+    }
+    let posture = posture(
+        HandClass::Fist,
+        "o",
+        "l",
+        Some(at(BodyLocation::Chest, None)),
+    );
+    let made = made(&notated(mirrored(), posture, vec![across]), Axes::Plain);
+    let said = made.report.warnings.iter();
+    assert!(
+        said.clone()
+            .any(|said| said.contains("go through each other")),
+        "{:?}",
+        made.report.warnings
+    );
+    let palms = |frame: usize| {
+        let model = made.clip.model_pose(frame);
+        Side::BOTH.map(|side| {
+            let hand = made.anatomy.joint(chereme_motion::Part::Hand(side));
+            let along = made.anatomy.hand_direction(side, &model);
+            model.position(hand.expect("a hand")) + along.expect("a direction") * 0.06
+        })
+    };
+    let nearest = (0..made.clip.frames()).map(|frame| {
+        let [a, b] = palms(frame);
+        a.distance(b)
+    });
+    let nearest = nearest.fold(f64::INFINITY, f64::min);
+    assert!(nearest > 0.02, "{nearest}");
+}

@@ -8,7 +8,7 @@ use chereme_motion::glam::{DQuat, DVec3};
 use super::arm::Limits;
 use super::pace::{Pace, Paces};
 use super::plan::{Act, Event, Plan};
-use super::solve::{Arm, Got, Row};
+use super::solve::{Arm, Got, Hindrance, Row};
 use super::stage::{Hand, Stage};
 use super::warp::{Moved, Warp};
 
@@ -22,6 +22,9 @@ pub(crate) struct Track {
     pub(crate) fit: Fit,
 }
 
+/// From which angle on it is told that a hand is turned otherwise than written, in radians.
+pub(crate) const TOLD: f64 = 10.0 * std::f64::consts::PI / 180.0;
+
 /// How well a hand came where it should during signs, transitions left out.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Fit {
@@ -32,6 +35,8 @@ pub(crate) struct Fit {
     /// The largest angle by which its orientation gave way to the wrist, in radians; the way from one
     /// orientation to another is free.
     pub(crate) turned: f64,
+    /// What it gave way to then, where that is told.
+    pub(crate) hindered: Option<Hindrance>,
     /// The farthest it was moved out of the trunk, in metres.
     pub(crate) pushed: f64,
 }
@@ -93,14 +98,13 @@ impl<'a> Made<'a> {
     pub(crate) fn of(
         stage: &'a Stage,
         hand: &'a Hand,
-        plan: &Plan,
-        n: usize,
+        (plan, n): (&Plan, usize),
+        wanted: &Wanted<'_>,
         limits: &'a Limits,
         timing: &Timing<'_>,
     ) -> Self {
-        let wanted = wanted(plan, n, timing);
         let solver = Arm::of(stage, hand, limits);
-        let rows = solver.rows(&wanted, timing.rate);
+        let rows = solver.rows(wanted, timing.rate);
         let mut got: Vec<Got> = Vec::with_capacity(rows.len());
         let mut arm: [Vec<DQuat>; 4] = std::array::from_fn(|_| Vec::with_capacity(rows.len()));
         for (frame, row) in rows.iter().enumerate() {
@@ -119,7 +123,11 @@ impl<'a> Made<'a> {
         let mut fit = Fit::default();
         for (frame, (got, row)) in got.iter().zip(&rows).enumerate() {
             let time = frame as f64 / timing.rate;
+            let turned = fit.turned;
             fit.take(got, row, !free[frame], plan, n, [time, 1.0 / timing.rate]);
+            if fit.turned > turned.max(TOLD) {
+                fit.hindered = Some(solver.hindrance(row, got));
+            }
         }
         Self {
             hand,
@@ -205,7 +213,8 @@ fn signing(plan: &Plan, time: f64) -> bool {
         .any(|sign| (sign.from..=sign.to).contains(&time))
 }
 
-fn wanted<'a>(plan: &'a Plan, n: usize, timing: &Timing<'_>) -> Wanted<'a> {
+/// Returns what a hand should do at each frame.
+pub(crate) fn wanted<'a>(plan: &'a Plan, n: usize, timing: &Timing<'_>) -> Wanted<'a> {
     let &Timing { paces, rate, total } = timing;
     let start = &plan.start[n];
     let mut order: Vec<&Event> = plan.events[n].iter().collect();

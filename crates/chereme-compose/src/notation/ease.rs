@@ -1,0 +1,262 @@
+//! Hands at ease: a place in space is a region, and where in it a hand is decides how well its wrist
+//! can be turned as written.
+//!
+//! A hand that touches nothing is shifted by a few centimetres, with all of the movement that begins
+//! there, to where the arm need not turn the hand off what is written, nor lead it into the trunk.
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Motion, Place};
+
+use super::motion::Env;
+use super::plan::{Planner, Who, acting};
+use super::solve::Arm;
+
+/// How far from the point that is meant a hand is still at no other place, in arm lengths: to either
+/// side, up or down, forward or back. Half-way between two levels of the body is a place of its own.
+const ROOM: DVec3 = DVec3::new(0.045, 0.015, 0.05);
+/// How much of this room there is in space before the trunk, close to it or before the face, close
+/// to the face.
+const SHARES: [f64; 3] = [1.0, 0.8, 0.5];
+/// What it costs to be at the end of its room; a hand turned by half its bin costs six.
+const SHIFTED: f64 = 3.0;
+/// The strain from which on a hand looks for a better place: that of 22.5° off what is written, where
+/// another direction would be read.
+const STRAINED: f64 = 25.0;
+/// How many postures are weighed at most: those that strain the arm most.
+const WEIGHED: usize = 6;
+/// How near to the trunk the point of a hand comes that does not touch it, in metres.
+const NEAR: f64 = 0.03;
+
+/// How a hand is held at one moment of a sign.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Stance {
+    point: DVec3,
+    rotation: DQuat,
+    offset: DVec3,
+}
+
+/// How hands are held one after the other while what they do is planned on the side.
+#[derive(Debug, Default)]
+pub(crate) struct Trail {
+    /// Within what is done at once, nothing in between is held.
+    pub(crate) within: usize,
+    /// Hands went to a place of its own: what comes is not shifted with what was.
+    over: bool,
+    seen: Vec<(usize, Stance)>,
+}
+
+impl Planner<'_> {
+    /// Begins a part of a motion in which what comes between is not held.
+    pub(crate) fn enter(&mut self) {
+        if let Some(trail) = &mut self.trail {
+            trail.within += 1;
+        }
+    }
+
+    /// Ends such a part, or any motion of those who act: how they are held now counts.
+    pub(crate) fn leave(&mut self, who: Who, entered: bool) {
+        let Some(mut trail) = self.trail.take() else {
+            return;
+        };
+        trail.within -= usize::from(entered);
+        if trail.within == 0 && !trail.over {
+            for (n, _) in acting(who) {
+                trail.note(n, self.stance(n));
+            }
+        }
+        self.trail = Some(trail);
+    }
+
+    /// Tells that hands go to a place of its own.
+    pub(crate) fn placed(&mut self) {
+        if let Some(trail) = &mut self.trail {
+            trail.over = true;
+        }
+    }
+
+    fn stance(&self, n: usize) -> Stance {
+        let state = &self.state[n];
+        Stance {
+            point: state.point,
+            rotation: state.rotation,
+            offset: state.offset,
+        }
+    }
+
+    /// Shifts hands within their place to where their arms are at ease, now and while they do what
+    /// `follows`.
+    pub(crate) fn ease(&mut self, place: &Place, named: Who, follows: Option<(&[Motion], Who)>) {
+        if self.trail.is_some() {
+            return;
+        }
+        match place {
+            Place::Body(body) => {
+                let axes = named.map(|frame| frame.map(|frame| frame.axes));
+                self.shift(room(body), axes, named, follows);
+            }
+            Place::Split(a, b) => {
+                for (n, place) in [a, b].into_iter().enumerate() {
+                    let mut only: Who = [None, None];
+                    only[n] = named[n].or(Some(self.own_frame()));
+                    if let Some(place) = place {
+                        self.ease(place, only, follows);
+                    }
+                }
+            }
+            Place::Hands(hands) => {
+                let free = hands.at.as_ref().map_or(SHARES[0], room);
+                // What is relative to each other goes together.
+                let one = Some(DVec3::ONE);
+                self.shift(free, [one; 2], named, follows);
+            }
+            Place::Hand(_) | Place::Named(_) => {}
+        }
+    }
+
+    fn shift(
+        &mut self,
+        room: f64,
+        axes: [Option<DVec3>; 2],
+        named: Who,
+        follows: Option<(&[Motion], Who)>,
+    ) {
+        if room <= 0.0 {
+            return;
+        }
+        let room = ROOM * (room * self.stage.arm);
+        let mut trail = Trail::default();
+        for (n, _) in acting(named) {
+            trail.note(n, self.stance(n));
+        }
+        if let Some((motions, who)) = follows {
+            self.trail = Some(trail);
+            self.aside(|planner| {
+                let mut now = 0.0;
+                for motion in motions {
+                    now = planner.motion(motion, who, now, &Env::default());
+                }
+            });
+            trail = self.trail.take().unwrap_or_default();
+        }
+        let mut seen = trail.seen;
+        seen.retain(|(n, _)| axes[*n].is_some());
+        let mut strained: Vec<(f64, (usize, Stance))> = seen
+            .into_iter()
+            .map(|(n, stance)| (self.strain(n, &stance, DVec3::ZERO), (n, stance)))
+            .collect();
+        strained.sort_by(|a, b| b.0.total_cmp(&a.0));
+        if strained.first().is_none_or(|(most, _)| *most < STRAINED) {
+            return;
+        }
+        strained.truncate(WEIGHED);
+        let by = |local: DVec3, n: usize| {
+            let axes = axes[n].unwrap_or(DVec3::ONE);
+            self.stage.direction(local * axes)
+        };
+        let cost = |local: DVec3| {
+            let sum: f64 = strained
+                .iter()
+                .map(|(_, (n, stance))| self.strain(*n, stance, by(local, *n)))
+                .sum();
+            let share = (local / room).length();
+            sum + SHIFTED * share * share
+        };
+        let best = lowest(cost, room);
+        let shifts = [0, 1].map(|n| by(best, n));
+        for (n, _) in acting(named) {
+            let was = self.state[n].point;
+            self.state[n].point += shifts[n];
+            let now = self.state[n].point;
+            for at in self.named.values_mut() {
+                at[n] = at[n].map(|at| if at == was { now } else { at });
+            }
+        }
+    }
+
+    /// Returns how much it strains an arm to hold its hand so, shifted.
+    fn strain(&self, n: usize, stance: &Stance, by: DVec3) -> f64 {
+        let Some(hand) = self.stage.hand(self.sides[n]) else {
+            return 0.0;
+        };
+        let point = stance.point + by;
+        let deep = self.stage.torso.way_out(point, NEAR).length() / self.stage.arm;
+        let wrist = point - stance.rotation * stance.offset;
+        let arm = Arm::of(self.stage, hand, &self.limits);
+        arm.strain(wrist, stance.rotation) + 4e3 * deep * deep
+    }
+}
+
+impl Trail {
+    fn note(&mut self, n: usize, stance: Stance) {
+        let near = |(other, known): &(usize, Stance)| {
+            *other == n
+                && known.point.distance(stance.point) < 5e-3
+                && known.rotation.angle_between(stance.rotation) < 0.05
+        };
+        if !self.seen.iter().any(near) {
+            self.seen.push((n, stance));
+        }
+    }
+}
+
+/// Returns how much room a hand has at a place: none where it touches.
+fn room(place: &BodyPlace) -> f64 {
+    let trunk = |at: BodyLocation| {
+        use BodyLocation as B;
+        matches!(
+            at,
+            B::NeutralSpace
+                | B::Shoulders
+                | B::ShoulderTop
+                | B::Chest
+                | B::Stomach
+                | B::BelowStomach
+                | B::Neck
+        )
+    };
+    let trunk = place.site.is_none_or(|site| trunk(site.at));
+    match (place.contact, trunk) {
+        _ if place.behind => 0.0,
+        (None | Some(Contact::ArmExtended), true) => SHARES[0],
+        (None | Some(Contact::ArmExtended), false) | (Some(Contact::Close), true) => SHARES[1],
+        (Some(Contact::Close), false) => SHARES[2],
+        _ => 0.0,
+    }
+}
+
+/// Returns where about nothing a function is low, by a search along the axes.
+fn lowest(cost: impl Fn(DVec3) -> f64, room: DVec3) -> DVec3 {
+    let (mut best, mut least, mut step) = (DVec3::ZERO, cost(DVec3::ZERO), 0.7);
+    for _ in 0..7 {
+        let ways = [DVec3::X, DVec3::Y, DVec3::Z];
+        let near = ways
+            .into_iter()
+            .flat_map(|way| [best + way * room * step, best - way * room * step]);
+        let next = near
+            .filter(|at| (*at / room).length() <= 1.0)
+            .map(|at| (at, cost(at)))
+            .min_by(|a, b| a.1.total_cmp(&b.1));
+        match next {
+            Some((at, lower)) if lower < least - 1e-3 => (best, least) = (at, lower),
+            _ if step < 0.2 => break,
+            _ => step *= 0.5,
+        }
+    }
+    best
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hands_go_to_what_is_lowest_in_their_room_and_not_beyond() {
+        let room = DVec3::new(0.03, 0.01, 0.03);
+        let at = DVec3::new(0.012, 0.0, -0.006);
+        let near = lowest(|by| by.distance_squared(at) * 1e4, room);
+        assert!(near.distance(at) < 6e-3, "{near}");
+        let far = lowest(|by| 10.0 * by.distance(DVec3::new(0.5, 0.0, 0.0)), room);
+        assert!(far.x > 0.02 && (far / room).length() <= 1.0, "{far}");
+        assert_eq!(lowest(|by| by.length_squared(), room), DVec3::ZERO);
+    }
+}

@@ -1,0 +1,165 @@
+//! Two hands that would go through each other make way.
+
+use std::ops::Range;
+
+use chereme_motion::glam::DVec3;
+
+use super::stage::{Hand, Stage};
+use super::track::Wanted;
+
+/// How near to each other the bones of two hands come, in lengths of a hand: as thick as a palm.
+const NEAR: f64 = 0.19;
+/// Farther apart than this, in lengths of a hand, hands do not meet.
+const FAR: f64 = 2.2;
+/// How long before and after hands make way, in seconds.
+const AROUND: f64 = 0.14;
+/// How long hands are near to each other at most that pass, in seconds.
+const LONGEST: f64 = 0.6;
+/// How often it is looked again whether they are apart.
+const TRIES: usize = 3;
+/// The numbers of a hand's outline that stand for it: palm, and joints and tips of index and middle finger.
+const BONES: [usize; 6] = [1, 6, 7, 8, 9, 10];
+
+/// Where two hands make way.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Parted {
+    /// When they are nearest, in seconds as planned.
+    pub(crate) time: f64,
+    /// How far each goes aside, in metres.
+    pub(crate) by: f64,
+}
+
+/// Two hands while they are too near to each other.
+struct Meeting {
+    frames: Range<usize>,
+    nearest: usize,
+    /// The way from the second hand's bones to the first's there.
+    way: DVec3,
+}
+
+/// Leads hands past each other that would go through each other, each half of the way aside; those
+/// that touch, or come near and part again, stay as they are.
+pub(crate) fn part(
+    stage: &Stage,
+    hands: [&Hand; 2],
+    [first, second]: [&mut Wanted<'_>; 2],
+    rate: f64,
+) -> Option<Parted> {
+    let length = hands[0].length();
+    let around = ((AROUND * rate).ceil() as usize).max(1);
+    let mut parted: Option<Parted> = None;
+    for _ in 0..TRIES {
+        let mut meetings = meetings(length, first, second);
+        let long = (LONGEST * rate) as usize;
+        meetings.retain(|meeting| meeting.frames.len() < long && passes(meeting, first, second));
+        if meetings.is_empty() {
+            break;
+        }
+        for meeting in meetings {
+            let (n, total) = (meeting.nearest, first.points.len());
+            let aside = aside(stage, &meeting, first, second);
+            let along = meeting.way.dot(aside);
+            let by = 0.5 * (NEAR * length * 1.1 - along).max(0.0);
+            let frames = meeting.frames.start.saturating_sub(around)
+                ..(meeting.frames.end + around).min(total);
+            for frame in frames {
+                let before = meeting.frames.start.saturating_sub(frame);
+                let after = (frame + 1).saturating_sub(meeting.frames.end);
+                let share = 1.0 - before.max(after) as f64 / (around + 1) as f64;
+                let share = share * share * (3.0 - 2.0 * share);
+                let free = 1.0 - first.touch[frame].max(second.touch[frame]);
+                first.points[frame] += aside * (by * share * free);
+                second.points[frame] -= aside * (by * share * free);
+            }
+            let most = parted.map_or(0.0, |parted| parted.by);
+            if by > most {
+                let time = n as f64 / rate;
+                parted = Some(Parted { time, by });
+            }
+        }
+    }
+    parted
+}
+
+/// Tells whether hands are on other sides of each other afterwards.
+fn passes(meeting: &Meeting, first: &Wanted<'_>, second: &Wanted<'_>) -> bool {
+    let Range { start, end } = meeting.frames;
+    let Some(before) = start.checked_sub(1).filter(|_| end < first.points.len()) else {
+        return false;
+    };
+    let palms = |frame: usize| bones(first, frame)[0] - bones(second, frame)[0];
+    palms(before).dot(palms(end)) < 0.0
+}
+
+/// Returns the unit vector by which hands make way: across their ways, as they are already apart, else
+/// the first before the second.
+fn aside(stage: &Stage, meeting: &Meeting, first: &Wanted<'_>, second: &Wanted<'_>) -> DVec3 {
+    let n = meeting.nearest;
+    let last = first.points.len() - 1;
+    let way =
+        |wanted: &Wanted<'_>| wanted.points[(n + 1).min(last)] - wanted.points[n.saturating_sub(1)];
+    let across = |v: DVec3| match (way(first) - way(second)).try_normalize() {
+        Some(going) => v.reject_from_normalized(going),
+        None => v,
+    };
+    let own = across(meeting.way);
+    if own.length() > 4e-3 {
+        return own.normalize();
+    }
+    let usual = across(stage.forward * 0.8 + DVec3::Y * 0.6);
+    usual.try_normalize().unwrap_or(DVec3::Y)
+}
+
+/// Returns when hands that do not touch are too near to each other.
+fn meetings(length: f64, first: &Wanted<'_>, second: &Wanted<'_>) -> Vec<Meeting> {
+    let mut all: Vec<Meeting> = Vec::new();
+    let mut least = f64::INFINITY;
+    for frame in 0..first.points.len() {
+        if first.points[frame].distance(second.points[frame]) > FAR * length
+            || first.touch[frame].max(second.touch[frame]) > 0.0
+        {
+            continue;
+        }
+        let way = nearest(bones(first, frame), bones(second, frame));
+        let apart = way.length();
+        if apart >= NEAR * length {
+            continue;
+        }
+        match all.last_mut().filter(|last| last.frames.end == frame) {
+            Some(last) => {
+                last.frames.end = frame + 1;
+                if apart < least {
+                    (last.nearest, last.way) = (frame, way);
+                    least = apart;
+                }
+            }
+            None => {
+                all.push(Meeting {
+                    frames: frame..frame + 1,
+                    nearest: frame,
+                    way,
+                });
+                least = apart;
+            }
+        }
+    }
+    all
+}
+
+/// Returns the shortest way from a point of the second to one of the first.
+fn nearest(first: [DVec3; BONES.len()], second: [DVec3; BONES.len()]) -> DVec3 {
+    let pairs = first
+        .iter()
+        .flat_map(|a| second.iter().map(move |b| *a - *b));
+    pairs
+        .min_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))
+        .unwrap_or(DVec3::INFINITY)
+}
+
+/// Returns where the bones of a hand are that is as it should be.
+fn bones(wanted: &Wanted<'_>, frame: usize) -> [DVec3; BONES.len()] {
+    let [_, outline] = wanted.outlines.at(frame);
+    let turned = wanted.turns[frame];
+    let wrist = wanted.points[frame] - turned * wanted.offsets[frame];
+    BONES.map(|n| wrist + turned * outline.get(n).copied().unwrap_or(DVec3::ZERO))
+}
