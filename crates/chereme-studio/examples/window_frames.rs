@@ -99,12 +99,13 @@ fn made(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
 /// The starter corpus, in a window so large that there is room for the figures.
 fn starter(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     std::fs::write(folder.join("studio.json"), r#"{ "scale": 0.7 }"#)?;
-    let files = unpack_starter(&folder.join("files"))?;
+    let files = folder.join("files");
+    unpack_starter(&files)?;
     let path = folder.join("starter.chereme");
     let mut corpus = Corpus::create(&path, "A")?;
     let mut hear = unheard;
     let options = ImportOptions::default();
-    corpus.import(&files, &options, &mut Progress::new(&mut hear))?;
+    corpus.import(&[files], &options, &mut Progress::new(&mut hear))?;
     Ok(path)
 }
 
