@@ -239,9 +239,13 @@ pub(crate) fn signer(connection: &Connection, name: &Name) -> Result<SignerRow> 
         let all = recordings::signers(connection).unwrap_or_default();
         let known: Vec<&str> = all.iter().map(|signer| signer.name.as_str()).collect();
         let address = Address::Signer(name.clone()).to_string();
+        let remedy = match known.as_slice() {
+            [] => "the corpus knows no signer; a recording's body is recording:NAME".to_owned(),
+            known => format!("the signers are: {}", known.join(", ")),
+        };
         Error::wrong(format!("there is no {address}"))
             .at(address)
-            .advise(format!("the signers are: {}", known.join(", ")))
+            .advise(remedy)
     })
 }
 

@@ -10,10 +10,11 @@ use chereme_sign::hamnosys::{self, Sign};
 use serde_json::json;
 
 use crate::Corpus;
+use crate::address::{self, Address};
 use crate::error::{Error, Result};
 use crate::recombine::{NotationFinding, Recombination};
 use crate::sources::CorpusSources;
-use crate::sources::notation::NEXT;
+use crate::sources::notation::{NEXT, OWN_BODY};
 use crate::{inventories, notation};
 
 /// The longest file of plain HamNoSys that is read.
@@ -46,6 +47,9 @@ impl Corpus {
         staging: &Staging<'_>,
         gloss: Option<&str>,
     ) -> Result<Recombination> {
+        if let Some(signer) = staging.signer {
+            self.check_body(signer)?;
+        }
         let (node, findings) = leaf(notation, staging)?;
         let recipe = json!({"version": VERSION, "make": node}).to_string();
         let mut done = match gloss {
@@ -59,6 +63,21 @@ impl Corpus {
         done.report.warnings.splice(0..0, told);
         done.findings = findings;
         Ok(done)
+    }
+
+    /// Refuses whom the corpus does not know.
+    fn check_body(&self, signer: &str) -> Result<()> {
+        let connection = self.store.read();
+        match signer.parse() {
+            _ if signer == OWN_BODY => Ok(()),
+            Ok(Address::Recording(name)) => address::recording(connection, &name).map(drop),
+            Ok(Address::Signer(name)) => address::signer(connection, &name).map(drop),
+            _ => Err(
+                Error::wrong(format!("{signer:?} names nobody's body")).advise(
+                    "write signer:NAME or recording:NAME; `chereme list CORPUS signers` lists them",
+                ),
+            ),
+        }
     }
 
     /// Returns the address of the body that the corpus chooses where none is named.
@@ -98,7 +117,10 @@ fn leaf(notation: &[&str], staging: &Staging<'_>) -> Result<(Node, Vec<NotationF
             (Node::Hamnosys(notated(of)), findings)
         }
         None => {
-            let findings = notation.iter().flat_map(|name| odd_in_file(name)).collect();
+            let mut findings = Vec::new();
+            for name in notation {
+                findings.extend(odd_in_file(name)?);
+            }
             let of = notation.join(NEXT);
             (Node::Sigml(notated(of)), findings)
         }
@@ -145,13 +167,19 @@ fn unspelled(sign: &Sign) -> Result<Sign> {
     tree.map_err(|error| Error::wrong(format!("the notation cannot be copied: {error}")))
 }
 
-/// Returns what is odd about a SiGML file, with its line.
-fn odd_in_file(name: &str) -> Vec<NotationFinding> {
+/// Returns what is odd about a file of notation; nothing of what is no file's name.
+fn odd_in_file(name: &str) -> Result<Vec<NotationFinding>> {
+    const ENDINGS: [&str; 5] = ["sigml", "hsigml", "xml", "hns", "txt"];
     let path = Path::new(name);
     if !path.is_file() {
-        return Vec::new();
+        let ending = path.extension().and_then(|it| it.to_str());
+        if name.contains(char::is_whitespace) || !ending.is_some_and(|it| ENDINGS.contains(&it)) {
+            return Ok(Vec::new());
+        }
+        return Err(Error::wrong(format!("there is no file {name:?}"))
+            .advise("name a file, or a sign that the corpus holds as notation by its gloss"));
     }
-    let findings = notation::read_notation(path).map(|(_, findings)| findings);
+    let (_, findings) = notation::read_notation(path)?;
     let told = |finding: Finding| NotationFinding {
         file: Some(name.to_owned()),
         line: finding.line,
@@ -159,7 +187,7 @@ fn odd_in_file(name: &str) -> Vec<NotationFinding> {
         message: finding.message,
         remedy: finding.remedy,
     };
-    findings.into_iter().flatten().map(told).collect()
+    Ok(findings.into_iter().map(told).collect())
 }
 
 /// Returns HamNoSys text, typed or from a file of it; nothing for anything else.

@@ -19,7 +19,7 @@ use crate::notation::{self, Notation};
 use crate::starter;
 
 /// The address of the body that comes with the program, for a corpus without movement.
-pub(super) const OWN_BODY: &str = "built-in body";
+pub(crate) const OWN_BODY: &str = "built-in body";
 
 /// The recording of the starter corpus whose first frame is that body at rest.
 const OWN_RECORDING: &str = "bol.bvh";
