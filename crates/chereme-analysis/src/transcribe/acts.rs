@@ -69,7 +69,7 @@ pub(super) struct Act {
 #[derive(Debug, Clone)]
 pub(super) enum Kind {
     /// The hand goes a way.
-    Way(Fitted),
+    Way(Box<Fitted>),
     /// Wrist or fingers go to and fro where the hand is.
     Sway(Sway),
     /// The hand takes another posture where it is.
@@ -414,7 +414,7 @@ fn going(
         frames: first..=last,
         turned: track.turn(first, last).length() > least,
         reshaped: plays.is_none() && track.reshaped(first, last) > RESHAPED,
-        kind: Kind::Way(fitted),
+        kind: Kind::Way(Box::new(fitted)),
         with,
         repeat: None,
         times: 1,
