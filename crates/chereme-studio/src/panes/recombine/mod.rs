@@ -139,9 +139,13 @@ impl Recombine {
         }
     }
 
-    /// Takes a change in as a step when nothing is dragged or typed, and no other has followed at once.
+    /// Takes a change in as a step when nothing is dragged or typed, and no other has followed at once; what
+    /// was changed before the mouse is pressed is a step of its own.
     fn settle_in_time(&mut self, ui: &Ui) {
         let (now, held) = ui.input(|input| (input.time, input.pointer.any_down()));
+        if ui.input(|input| input.pointer.any_pressed()) {
+            self.settle();
+        }
         if self.changed.0 != self.text {
             self.changed = (self.text.clone(), now);
         }
