@@ -46,7 +46,10 @@ pub(super) fn show(
         None => (ui.spacing().interact_size.y, LIST),
     };
     ui.spacing_mut().item_spacing.y = 0.0;
-    let mut scroll = ScrollArea::vertical().max_height(room);
+    // The box remembers the height of the list before, which may have been a short one.
+    let mut scroll = ScrollArea::vertical()
+        .max_height(room)
+        .min_scrolled_height(room);
     let here = fitting.iter().position(|at| Some(*at) == marked);
     if let Some(here) = here.filter(|_| moved) {
         let top = (here as f32 + 0.5) * height - room / 2.0;
