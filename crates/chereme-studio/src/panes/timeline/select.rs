@@ -116,9 +116,10 @@ fn also(scene: &Scene<'_>, out: &mut Outbox, forwards: bool) {
 fn neighbour<'a>(scene: &Scene<'a>, by: isize) -> Option<&'a TierContents> {
     let rows = shown_rows(scene.contents, scene.seen);
     let tier = |row: &Row| &scene.contents.tiers[row.tier];
+    let current = scene.tier().map(|it| it.row.id);
     let here = rows
         .iter()
-        .position(|row| Some(tier(row).row.id) == scene.seen.shown.tier);
+        .position(|row| Some(tier(row).row.id) == current);
     let next = here.map_or(Some(0), |here| here.checked_add_signed(by))?;
     rows.get(next).map(tier)
 }
