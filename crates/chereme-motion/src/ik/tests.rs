@@ -326,7 +326,7 @@ proptest! {
                 let residual = after.position(arm.hand).distance(target.position);
                 prop_assert!((residual - reach.residual_m).abs() < 1e-12);
                 prop_assert!(reach.clamped || residual < 1e-3, "{name} {reach:?}");
-                prop_assert!(reach.clamped || reach.soft || residual < 1e-9, "{name} {reach:?}");
+                prop_assert!(reach.clamped || reach.soft || residual < 1e-8, "{name} {reach:?}");
                 prop_assert!(after.rotation(arm.hand).angle_between(target.rotation) < 1e-7);
                 let moved = [Some(arm.upper), Some(arm.forearm), Some(arm.hand), arm.clavicle.filter(|_| help)];
                 for joint in 0..skeleton.len() {
