@@ -404,10 +404,15 @@ pub(super) fn selected_recipe(seen: &Seen<'_>) -> Option<(String, String)> {
     if let Some(showing) = &seen.shown.made
         && let Some(token) = showing.made.token
     {
-        return Some((
-            format!("sigml \"token:{token}\""),
-            showing.made.name.clone(),
-        ));
+        let gloss = showing.made.name.clone();
+        let signs = &seen.snapshot.overview.signs;
+        let only = |gloss: &String| signs.iter().any(|it| it.gloss == *gloss && it.tokens == 1);
+        // A gloss is easier to read, where it says which token is meant.
+        let recipe = match gloss.contains('"') || !only(&gloss) {
+            true => format!("sigml \"token:{token}\""),
+            false => format!("sigml \"{gloss}\""),
+        };
+        return Some((recipe, gloss));
     }
     let (token, gloss) = selected_token(seen)?;
     Some((format!("token:{token}"), gloss))
