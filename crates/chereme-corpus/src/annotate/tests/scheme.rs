@@ -1,0 +1,79 @@
+//! Whole sets of tiers at once.
+
+use super::*;
+
+#[test]
+fn a_recording_gets_the_usual_tiers_or_those_of_another_at_once() {
+    let (_folder, mut corpus) = corpus();
+    corpus
+        .store
+        .operation("fill", |connection| {
+            let empty = RecordingRow {
+                name: "Take 2".to_owned(),
+                ..recordings::recording(connection, 1)?
+            };
+            Ok((
+                recordings::insert_recording(connection, &empty)?,
+                String::new(),
+            ))
+        })
+        .expect("a recording");
+    let (first, second) = (Name::Number(1), Name::Text("Take 2".into()));
+    let shape = |corpus: &Corpus, recording: &Name| -> Vec<String> {
+        let read = corpus.store.read();
+        let id = crate::address::recording(read, recording)
+            .expect("a recording")
+            .id;
+        let tiers = crate::db::tiers::tiers(read, id).expect("tiers");
+        let name = |id: Option<i64>| tiers.iter().find(|it| Some(it.id) == id).map(|it| &it.name);
+        let line = |it: &TierRow| {
+            format!(
+                "{} {} {:?} {:?} {:?} {:?} {:?}",
+                it.name,
+                it.role,
+                it.component,
+                it.feature,
+                it.hand,
+                it.inventory_id,
+                name(it.parent_id)
+            )
+        };
+        tiers.iter().map(line).collect()
+    };
+    let error = corpus.add_tiers(&first, &Scheme::Like(second.clone()));
+    assert!(error.is_err_and(|it| it.to_string().contains("no tiers")));
+    corpus
+        .add_tiers(&second, &Scheme::Like(first.clone()))
+        .expect("added");
+    assert_eq!(shape(&corpus, &second), shape(&corpus, &first));
+    let again = corpus.add_tiers(&second, &Scheme::Like(first));
+    assert!(again.is_err_and(|it| it.to_string().contains("already")));
+    corpus.undo().expect("undone");
+    assert_eq!(shape(&corpus, &second), Vec::<String>::new());
+
+    let added = corpus.add_tiers(&second, &Scheme::Usual).expect("added");
+    assert_eq!(added.len(), 18);
+    let said = shape(&corpus, &second);
+    assert!(said.contains(&"Gloss gloss None None None None None".to_owned()));
+    let palm = said
+        .iter()
+        .find(|it| it.starts_with("Palm direction LH"))
+        .expect("a tier");
+    assert!(
+        palm.contains("Some(\"palm\") Some(\"left\") Some("),
+        "{palm}"
+    );
+    assert!(palm.ends_with("Some(\"Gloss\")"), "{palm}");
+
+    let before = shape(&corpus, &Name::Number(1)).len();
+    let names: Vec<String> = corpus
+        .add_tiers(&Name::Number(1), &Scheme::Usual)
+        .expect("added")
+        .into_iter()
+        .map(|it| it.name)
+        .collect();
+    assert_eq!(shape(&corpus, &Name::Number(1)).len(), before + names.len());
+    for there in ["Gloss", "Translation", "Comment", "Configuration RH"] {
+        assert!(!names.iter().any(|it| it == there), "{there} has its tier");
+    }
+}
