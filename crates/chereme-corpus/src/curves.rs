@@ -153,3 +153,41 @@ pub(crate) fn write_table(
         .flush()
         .map_err(|error| Error::wrong(format!("the curves cannot be written: {error}")))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curves_come_back_as_they_were_made_and_go_and_return_with_their_sign() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("vraag.sigml");
+        let text = "<sigml><hamgestural_sign gloss=\"VRAAG\"><sign_nonmanual><facialexpr_tier>\
+                    <eye_brows movement=\"RB\"/></facialexpr_tier></sign_nonmanual><sign_manual>\
+                    <handconfig handshape=\"flat\" extfidir=\"uo\" palmor=\"l\"/>\
+                    <directedmotion direction=\"o\"/></sign_manual></hamgestural_sign></sigml>";
+        std::fs::write(&file, text).expect("written");
+        let path = folder.path().join("a.chereme");
+        let mut corpus = Corpus::create(&path, "A").expect("made");
+        let recipe = format!("sigml {:?} | repeat 8", file.display().to_string());
+        let (_, made, _) = corpus.make(&recipe).expect("made");
+        assert!(made.clip.frames() > BLOCK_FRAMES, "more than one block");
+        let most = made.curves[0].values.iter().copied().fold(0.0, f64::max);
+        assert!(most > 0.9, "the brows are raised: {most}");
+        corpus.recombine(&recipe, "VRAAG").expect("stored");
+        let sign = Address::Gloss("VRAAG".into());
+        let stored = corpus.curves_of(&sign).expect("read");
+        assert_eq!(stored.len(), made.curves.len());
+        for (stored, made) in stored.iter().zip(&made.curves) {
+            assert_eq!(stored.name, made.name);
+            assert_eq!(stored.values.len(), made.values.len());
+            let pairs = stored.values.iter().zip(&made.values);
+            assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() <= 0.5 / SCALE));
+        }
+        let plain = "hamnosys \"hamflathand hamextfingeru hampalml hamchest\"";
+        corpus.recombine_again(&sign, plain).expect("made anew");
+        assert_eq!(corpus.curves_of(&sign).expect("read"), []);
+        corpus.undo().expect("undone");
+        assert_eq!(corpus.curves_of(&sign).expect("read"), stored);
+    }
+}

@@ -172,7 +172,7 @@ impl Corpus {
         Ok(inventories)
     }
 
-    fn make(&mut self, recipe: &str) -> Result<(Resolved, Made, Recipe)> {
+    pub(crate) fn make(&mut self, recipe: &str) -> Result<(Resolved, Made, Recipe)> {
         let recipe = read(recipe)?;
         let inventories = self.inventories_now()?;
         let (connection, index) = self.store.searchable()?;

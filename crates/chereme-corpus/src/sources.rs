@@ -239,7 +239,11 @@ impl Sources for CorpusSources<'_> {
         };
         let find = || -> Result<Option<Material>> {
             let mut recordings = recordings::recordings(self.connection)?;
-            recordings.retain(|row| wanted.is_none() || row.signer_id == wanted);
+            // What was made has a body that comes from elsewhere, and may be made anew on another.
+            recordings.retain(|row| match wanted {
+                Some(signer) => row.signer_id == Some(signer),
+                None => row.origin != "made",
+            });
             let rank = |origin: &str| {
                 ["captured", "generated", "made"]
                     .iter()
