@@ -43,7 +43,8 @@ impl Corpus {
     }
 
     /// Returns the notations that a name stands for: those of a file that was imported, by its name
-    /// (`BABY.sigml`, or `BABY`), in the order of the file; or else that of an address.
+    /// (`BABY.sigml`, or `BABY`), in the order of the file; or else that of an address. Where the file
+    /// holds several signs, `BABY` is the one that is glossed so.
     ///
     /// # Errors
     /// Where no file has the name, and it names nothing notated.
@@ -52,16 +53,25 @@ impl Corpus {
     }
 }
 
-/// Returns the notations of the file of this name, or else of an address.
+/// Returns the notations of the file of this name, or else of an address. Where `NAME.sigml` holds
+/// several signs and one of them is `NAME`, that sign is meant.
 pub(crate) fn named(connection: &Connection, name: &str) -> Result<Vec<Notation>> {
     let name = name.trim();
-    for file in [name.to_owned(), format!("{name}.sigml")] {
-        let rows = notations::of_file(connection, &file)?;
-        if !rows.is_empty() {
-            return rows.into_iter().map(read).collect();
-        }
+    let of_file = |file: &str| -> Result<Vec<Notation>> {
+        let rows = notations::of_file(connection, file)?;
+        rows.into_iter().map(read).collect()
+    };
+    let whole = of_file(name)?;
+    if !whole.is_empty() {
+        return Ok(whole);
     }
-    Ok(vec![find(connection, &name.parse()?)?])
+    let all = of_file(&format!("{name}.sigml"))?;
+    if all.is_empty() {
+        return Ok(vec![find(connection, &name.parse()?)?]);
+    }
+    let (sign, others): (Vec<_>, Vec<_>) =
+        (all.into_iter()).partition(|found| found.document.gloss == name);
+    Ok(if sign.is_empty() { others } else { sign })
 }
 
 /// Returns the notation of what an address names.

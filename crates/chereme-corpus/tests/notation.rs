@@ -151,6 +151,16 @@ fn a_file_of_notation_becomes_signs_that_are_found_by_their_components() {
 }
 
 #[test]
+fn a_sign_is_meant_where_its_file_has_its_name_and_holds_others() {
+    let mut desk = Desk::new();
+    desk.import("MERCI.sigml", TWO);
+    for (name, count) in [("MERCI", 1), ("MERCI.sigml", 2), ("OUI", 1)] {
+        let found = desk.corpus.notations(name).expect(name);
+        assert_eq!(found.len(), count, "{name}");
+    }
+}
+
+#[test]
 fn notation_is_undone_and_done_again() {
     let mut desk = Desk::new();
     desk.import("two.sigml", TWO);
