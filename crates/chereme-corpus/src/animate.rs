@@ -1,6 +1,5 @@
 //! Movement from notation: HamNoSys text, SiGML files, and signs that the corpus holds as notation.
 
-use std::fs;
 use std::path::Path;
 
 use chereme_compose::recipe::{Node, Notation};
@@ -16,9 +15,6 @@ use crate::recombine::{NotationFinding, Recombination};
 use crate::sources::CorpusSources;
 use crate::sources::notation::{NEXT, OWN_BODY};
 use crate::{inventories, notation};
-
-/// The longest file of plain HamNoSys that is read.
-const MOST_BYTES: u64 = 1 << 20;
 
 /// Who signs what is notated, and how.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -190,24 +186,21 @@ fn odd_in_file(name: &str) -> Result<Vec<NotationFinding>> {
     Ok(findings.into_iter().map(told).collect())
 }
 
-/// Returns HamNoSys text, typed or from a file of it; nothing for anything else.
+/// Returns HamNoSys text, typed or from a file of one sign; nothing for anything else.
 fn plain_text(notation: &str) -> Result<Option<String>> {
     let path = Path::new(notation);
-    let extension = path
+    let lines = path
         .extension()
-        .and_then(|it| it.to_str())
-        .unwrap_or_default();
-    if matches!(extension, "hns" | "txt") && path.is_file() {
-        let size = fs::metadata(path)
-            .map_err(|error| Error::file(path, error))?
-            .len();
-        if size > MOST_BYTES {
-            return Err(Error::wrong("it is too long for the HamNoSys of a sign")
-                .at(notation)
-                .advise("import it as a lexicon, then animate its signs by gloss"));
+        .is_some_and(|it| it == "hns" || it == "txt");
+    if lines && path.is_file() {
+        let (mut signs, _) = notation::read_notation(path)?;
+        let whole: Vec<_> = signs.iter().filter_map(|it| it.text.as_deref()).collect();
+        let whole = whole.join(" ");
+        if signs.len() > 1 && hamnosys::parse(&whole).is_ok() {
+            return Ok(Some(whole));
         }
-        let text = fs::read_to_string(path).map_err(|error| Error::file(path, error))?;
-        return Ok(Some(text.trim().to_owned()));
+        let one = if signs.len() == 1 { signs.pop() } else { None };
+        return Ok(one.and_then(|sign| sign.text));
     }
     let symbols = notation
         .chars()
@@ -222,6 +215,7 @@ fn plain_text(notation: &str) -> Result<Option<String>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
     fn an_odd_string_is_made_of_what_was_understood_and_says_so() {

@@ -1,10 +1,11 @@
 //! Signs as notation: those that the corpus holds, and those of files beside it.
 
 use std::collections::BTreeMap;
-use std::fs;
+use std::fs::{self, File};
+use std::io::Read;
 use std::path::Path;
 
-use chereme_formats::{Finding, sigml};
+use chereme_formats::{Finding, hns, sigml};
 use chereme_sign::hamnosys::Notated;
 use rusqlite::Connection;
 use serde::Serialize;
@@ -14,6 +15,11 @@ use crate::address::{self, Address, Name};
 use crate::db::notations::{self, NotationRow};
 use crate::db::{damaged, signs};
 use crate::error::{Error, Result};
+
+/// How much of a file is looked at to tell what it is, in bytes.
+const LOOKED_AT: u64 = 1 << 16;
+/// The longest file of notation that is read from beside a corpus, in bytes.
+const MOST_BYTES: u64 = 1 << 26;
 
 /// A token as notation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -136,19 +142,77 @@ pub(crate) fn read(row: NotationRow) -> Result<Notation> {
     })
 }
 
-/// Reads the signs of a SiGML file that need not be in any corpus, and what is odd about it.
+/// How a file of notation is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Form {
+    /// SiGML, gestural or of symbols.
+    Sigml,
+    /// HamNoSys, a sign a line.
+    Lines,
+}
+
+impl Form {
+    /// Returns how a file is written, by the ending of its name; of `.xml` and `.txt`, which may be
+    /// anything, by what they begin with.
+    pub(crate) fn of(path: &Path) -> Option<Self> {
+        let ending = path.extension()?.to_string_lossy().to_lowercase();
+        match ending.as_str() {
+            "sigml" | "hsigml" => Some(Self::Sigml),
+            "hns" => Some(Self::Lines),
+            "xml" => (beginning(path).windows(6))
+                .any(|six| six.eq_ignore_ascii_case(b"<sigml"))
+                .then_some(Self::Sigml),
+            "txt" => hns::holds_some(&beginning(path)).then_some(Self::Lines),
+            _ => None,
+        }
+    }
+}
+
+/// Returns the first bytes of a file; none where it cannot be read.
+fn beginning(path: &Path) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    if let Ok(file) = File::open(path) {
+        // What cannot be read is told by those who read all of it.
+        let _ = file.take(LOOKED_AT).read_to_end(&mut bytes);
+    }
+    bytes
+}
+
+/// Returns the signs of a file with their lines, and what is odd about it.
+pub(crate) fn read_signs(bytes: &[u8], form: Form) -> Result<(Vec<(Notated, u64)>, Vec<Finding>)> {
+    let wrong = |error: &dyn std::error::Error| Error::wrong(error.to_string());
+    Ok(match form {
+        Form::Sigml => {
+            let (signs, findings) = sigml::read(bytes).map_err(|error| {
+                wrong(&error).advise("a SiGML file holds <hamgestural_sign> elements")
+            })?;
+            let signs = signs.into_iter().map(|entry| (entry.sign, entry.line.0));
+            (signs.collect(), findings)
+        }
+        Form::Lines => {
+            let (signs, findings) = hns::read(bytes).map_err(|error| {
+                wrong(&error).advise("write a sign a line: the gloss, a tab, and HamNoSys")
+            })?;
+            let signs = signs.into_iter().map(|entry| (entry.sign, entry.line));
+            (signs.collect(), findings)
+        }
+    })
+}
+
+/// Reads the signs of a file, SiGML or lines of HamNoSys, that need not be in any corpus, and what is odd
+/// about it.
 ///
 /// # Errors
-/// Where the file cannot be read, or is no SiGML.
+/// Where the file cannot be read, or holds no notation.
 pub fn read_notation(path: &Path) -> Result<(Vec<Notated>, Vec<Finding>)> {
-    let bytes = fs::read(path).map_err(|error| Error::file(path, error))?;
-    let (signs, findings) = sigml::read(&bytes).map_err(|error| {
-        Error::wrong(error.to_string())
+    let size = fs::metadata(path).map_err(|error| Error::file(path, error))?;
+    if size.len() > MOST_BYTES {
+        return Err(Error::wrong("it is too long for signs in a row")
             .at(path.display().to_string())
-            .advise("a SiGML file holds <hamgestural_sign> elements")
-    })?;
-    Ok((
-        signs.into_iter().map(|entry| entry.sign).collect(),
-        findings,
-    ))
+            .advise("import it, then animate its signs by gloss"));
+    }
+    let bytes = fs::read(path).map_err(|error| Error::file(path, error))?;
+    let (signs, findings) = read_signs(&bytes, Form::of(path).unwrap_or(Form::Sigml))
+        .map_err(|error| error.at(path.display().to_string()))?;
+    Ok((signs.into_iter().map(|(sign, _)| sign).collect(), findings))
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use chereme_corpus::{
     Corpus, ExportOptions, ExportWhat, FileStatus, ImportOptions, ImportReport, ListFilter,
-    ListKind, Progress, SearchOptions, read_notation, unheard,
+    ListKind, Progress, SearchOptions, Staging, read_notation, unheard,
 };
 use chereme_sign::hamnosys::{MotionKind, from_names};
 
@@ -239,6 +239,24 @@ fn notation_is_given_back_in_each_of_its_forms() {
         .filter_map(|line| line.split('\t').next())
         .collect();
     assert_eq!(glosses, ["MERCI", "OUI"]);
+    for name in ["all.hns", "all.txt"] {
+        let mut other = Desk::new();
+        let report = other.import(name, &text);
+        assert_eq!(report.created["notations"], 2, "{name}");
+        assert_eq!(other.glosses("placement=chin"), ["MERCI"], "{name}");
+        let (again, _) = other.export(&ExportWhat::All, "again.hns");
+        assert_eq!(again, text.as_bytes(), "{name}");
+        let path = other.folder.path().join(name);
+        let both = other
+            .corpus
+            .animate(&[&path.to_string_lossy()], &Staging::default(), None)
+            .expect("both signs in a row");
+        let one = other
+            .corpus
+            .animate(&["MERCI"], &Staging::default(), None)
+            .expect("one");
+        assert!(both.duration_us > one.duration_us);
+    }
     let (table, _) = desk.export(&ExportWhat::All, "all.csv");
     let mut other = Desk::new();
     other.import("all.csv", &String::from_utf8(table).expect("text"));
@@ -247,6 +265,29 @@ fn notation_is_given_back_in_each_of_its_forms() {
         other.glosses("configuration=flat placement=chin"),
         ["MERCI"]
     );
+}
+
+#[test]
+fn what_files_hold_says_whether_they_are_notation() {
+    let mut desk = Desk::new();
+    desk.write("notes.txt", "nothing of the kind");
+    desk.write("other.xml", "<html/>");
+    desk.write("two.xml", TWO);
+    desk.write(
+        "own.txt",
+        "hamflathand hamextfingeru hampalml\nhamfist hamextfingeru hampalml",
+    );
+    let mut progress = unheard;
+    let report = desk
+        .corpus
+        .import(
+            &[desk.folder.path().to_path_buf()],
+            &ImportOptions::default(),
+            &mut Progress::new(&mut progress),
+        )
+        .expect("taken in");
+    assert_eq!(report.created["notations"], 4, "{report:?}");
+    assert_eq!(desk.glosses("gloss:own"), ["own-1", "own-2"]);
 }
 
 #[test]

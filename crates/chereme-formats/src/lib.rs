@@ -3,6 +3,7 @@
 pub mod bvh;
 pub mod eaf;
 mod finding;
+pub mod hns;
 pub mod lexicon;
 pub mod roles;
 pub mod sigml;

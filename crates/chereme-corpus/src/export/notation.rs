@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::io::Write;
 
-use chereme_formats::sigml;
+use chereme_formats::{hns, sigml};
 use chereme_sign::hamnosys::Notated;
 use rusqlite::Connection;
 
@@ -46,7 +46,7 @@ pub(super) fn write(
     let (bytes, lost) = match form {
         Form::Gestural => (sigml::write_gestural(&signs), Vec::new()),
         Form::Symbols => sigml::write_symbols(&signs),
-        Form::Text => lines(&signs),
+        Form::Text => hns::write(&signs),
     };
     tell_lost(&signs, &lost, notes);
     out.write_all(&bytes)
@@ -70,25 +70,6 @@ fn notated(
         })?;
     }
     Ok(signs)
-}
-
-fn lines(signs: &[Notated]) -> (Vec<u8>, Vec<Vec<String>>) {
-    let (mut text, mut lost) = (String::new(), Vec::new());
-    for sign in signs {
-        let printed = sign.hamnosys();
-        let gloss = sign.gloss.replace(['\t', '\n', '\r'], " ");
-        text += &format!("{gloss}\t{}\n", printed.text);
-        let mut own: Vec<String> = printed
-            .losses
-            .into_iter()
-            .map(|loss| loss.message)
-            .collect();
-        if !sign.nonmanual.is_empty() {
-            own.push("what face and body do".to_owned());
-        }
-        lost.push(own);
-    }
-    (text.into_bytes(), lost)
 }
 
 /// Tells what the file does not say, each kind of thing with how often and the first sign it is in.

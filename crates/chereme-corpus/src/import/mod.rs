@@ -7,9 +7,9 @@ mod bvh;
 pub(crate) mod eaf;
 mod inventory;
 mod lexicon;
+mod notated;
 mod notation;
 mod report;
-mod sigml;
 #[cfg(test)]
 mod tests;
 
@@ -28,6 +28,7 @@ use crate::Corpus;
 use crate::db::motion::hex;
 use crate::error::{Error, Result};
 use crate::inventories::{self, StoredInventory};
+use crate::notation::Form;
 use crate::progress::{Progress, Step, Unit};
 
 pub use report::{FileReport, FileStatus, ImportReport, ReportFinding};
@@ -66,7 +67,7 @@ enum Kind {
     Inventory,
     Bvh,
     Lexicon,
-    Sigml,
+    Notation(Form),
     Eaf,
 }
 
@@ -158,7 +159,7 @@ fn import_files(
             continue;
         };
         let mut created = report.created.clone();
-        if *kind == Kind::Sigml {
+        if matches!(kind, Kind::Notation(_)) {
             tell_small(&mut small, files, progress)?;
         }
         connection.execute_batch("SAVEPOINT file")?;
@@ -175,7 +176,7 @@ fn import_files(
             progress,
         );
         // Only files of notation add no inventory.
-        if *kind != Kind::Sigml {
+        if !matches!(kind, Kind::Notation(_)) {
             inventories = None;
         }
         match done {
@@ -202,7 +203,9 @@ fn tell_small(
     progress: &mut Progress<'_>,
 ) -> Result<()> {
     if done.is_multiple_of(64) {
-        let small = files.iter().filter(|(_, kind)| *kind == Some(Kind::Sigml));
+        let small = files
+            .iter()
+            .filter(|(_, kind)| matches!(kind, Some(Kind::Notation(_))));
         progress.tell(Step {
             task: "notation",
             done: *done,
@@ -255,7 +258,7 @@ fn import_file(
         Kind::Bvh => bvh::import(&mut job, progress),
         Kind::Eaf => eaf::import(&mut job),
         Kind::Lexicon => lexicon::import(&mut job, progress),
-        Kind::Sigml => sigml::import(&mut job),
+        Kind::Notation(form) => notated::import(&mut job, form),
         Kind::Inventory => inventory::import(&mut job),
     }
 }
@@ -301,7 +304,7 @@ fn gather(paths: &[PathBuf]) -> Result<Vec<(PathBuf, Option<Kind>)>> {
                     return Err(Error::wrong("this kind of file is not known")
                         .at(path.display().to_string())
                         .advise(
-                            "files end in .bvh, .eaf, .csv, .tsv (lexicons), .sigml (notation) or .json (inventories)",
+                            "files end in .bvh, .eaf, .csv, .tsv (lexicons), .sigml, .hns (notation) or .json (inventories)",
                         ));
                 }
             }
@@ -342,7 +345,6 @@ fn kind(path: &Path) -> Option<Kind> {
         "eaf" => Some(Kind::Eaf),
         "csv" | "tsv" => Some(Kind::Lexicon),
         "json" => Some(Kind::Inventory),
-        "sigml" | "hsigml" => Some(Kind::Sigml),
-        _ => None,
+        _ => Form::of(path).map(Kind::Notation),
     }
 }

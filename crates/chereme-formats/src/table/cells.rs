@@ -149,7 +149,11 @@ fn fit(mut row: Row, width: usize, findings: &mut Findings) -> Row {
     row
 }
 
-fn decode<'b>(bytes: &'b [u8], findings: &mut Findings) -> Result<Cow<'b, str>, TableError> {
+/// Returns the text of bytes in UTF-8, UTF-16 or Latin-1.
+pub(crate) fn decode<'b>(
+    bytes: &'b [u8],
+    findings: &mut Findings,
+) -> Result<Cow<'b, str>, TableError> {
     let little: Option<fn([u8; 2]) -> u16> = match bytes {
         [0xff, 0xfe, ..] => Some(u16::from_le_bytes),
         [0xfe, 0xff, ..] => Some(u16::from_be_bytes),
@@ -163,7 +167,7 @@ fn decode<'b>(bytes: &'b [u8], findings: &mut Findings) -> Result<Cow<'b, str>, 
             .map(|c| c.unwrap_or('\u{fffd}'))
             .collect();
         findings.add("another encoding", || {
-            Finding::note(None, "the table is in UTF-16")
+            Finding::note(None, "the text is in UTF-16")
         });
         return printable(text.into());
     }
@@ -182,7 +186,7 @@ fn decode<'b>(bytes: &'b [u8], findings: &mut Findings) -> Result<Cow<'b, str>, 
             findings.add("another encoding", || {
                 Finding::warning(
                     line,
-                    "the table is not UTF-8; it was read as Latin-1, so accents may be wrong",
+                    "the text is not UTF-8; it was read as Latin-1, so accents may be wrong",
                 )
                 .with_remedy("save it as UTF-8")
             });

@@ -8,4 +8,4 @@ pub mod annotations;
 mod cells;
 
 pub use cells::TableError;
-pub(crate) use cells::{Cells, Row};
+pub(crate) use cells::{Cells, Row, decode};

@@ -1,8 +1,9 @@
-//! SiGML files: each sign a lexicon entry with its notation, and with components from it.
+//! Files of notation, SiGML or lines of HamNoSys: each sign a lexicon entry with its notation, and with
+//! components from it.
 
 use std::collections::BTreeMap;
 
-use chereme_formats::sigml::{self, Entry};
+use chereme_sign::hamnosys::Notated;
 use serde_json::json;
 
 use super::notation::{Words, document, lost};
@@ -11,16 +12,15 @@ use super::{FileReport, FileStatus, Job};
 use crate::db::notations::{self, NotationRow};
 use crate::db::recordings::{self, SourceFileRow};
 use crate::db::signs::{self, TokenRow};
-use crate::error::{Error, Result};
+use crate::error::Result;
+use crate::notation::{self, Form};
 
-pub(super) fn import(job: &mut Job<'_>) -> Result<FileReport> {
+pub(super) fn import(job: &mut Job<'_>, form: Form) -> Result<FileReport> {
     if recordings::source_file_hashed(job.connection, &job.hash)?.is_some() {
         return Ok(FileReport::unchanged(job.path));
     }
     let bytes = job.bytes()?;
-    let (entries, findings) = sigml::read(&bytes).map_err(|error| {
-        Error::wrong(error.to_string()).advise("a SiGML file holds <hamgestural_sign> elements")
-    })?;
+    let (entries, findings) = notation::read_signs(&bytes, form)?;
     let mut report = FileReport::new(job.path, FileStatus::Imported);
     report
         .findings
@@ -29,18 +29,27 @@ pub(super) fn import(job: &mut Job<'_>) -> Result<FileReport> {
     let row = SourceFileRow {
         id: 0,
         recording_id: None,
-        kind: "sigml".into(),
+        kind: match form {
+            Form::Sigml => "sigml",
+            Form::Lines => "lexicon",
+        }
+        .to_owned(),
         name: job.file_name.clone(),
         hash: job.hash.clone(),
     };
     let file = recordings::insert_source_file(job.connection, &row, Some(&bytes))?;
     let inventories = job.inventories.clone();
     let words = Words::new(&inventories);
-    let mut earlier = Earlier::new(earlier);
-    for entry in &entries {
-        import_entry(job, entry, file, &words, &mut earlier, &mut report)?;
+    let mut place = Place {
+        file,
+        form,
+        several: entries.len() > 1,
+        earlier: Earlier::new(earlier),
+    };
+    for (sign, line) in &entries {
+        import_sign(job, sign, *line, &words, &mut place, &mut report)?;
     }
-    let left = earlier.0.values().map(Vec::len).sum::<usize>();
+    let left = place.earlier.0.values().map(Vec::len).sum::<usize>();
     if left > 0 {
         report.findings.push(ReportFinding::warning(
             format!("{left} signs of an earlier file of this name are not in it; they were kept"),
@@ -68,38 +77,49 @@ impl Earlier {
     }
 }
 
-fn import_entry(
-    job: &mut Job<'_>,
-    entry: &Entry,
+/// The file that signs come from.
+struct Place {
     file: i64,
+    form: Form,
+    several: bool,
+    earlier: Earlier,
+}
+
+fn import_sign(
+    job: &mut Job<'_>,
+    sign: &Notated,
+    line: u64,
     words: &Words<'_>,
-    earlier: &mut Earlier,
+    place: &mut Place,
     report: &mut FileReport,
 ) -> Result<()> {
-    let gloss = match entry.sign.gloss.as_str() {
-        "" => job.stem.clone(),
-        gloss => gloss.to_owned(),
+    let gloss = match (sign.gloss.as_str(), place.form) {
+        ("", Form::Lines) if place.several => format!("{}-{line}", job.stem),
+        ("", _) => job.stem.clone(),
+        (gloss, _) => gloss.to_owned(),
     };
-    let line = i64::try_from(entry.line.0).ok();
-    let token = match earlier.next(&gloss) {
+    let row = i64::try_from(line).ok();
+    let token = match place.earlier.next(&gloss) {
         Some(token) => token,
-        None => insert_token(job, &gloss, line)?,
+        None => insert_token(job, &gloss, row)?,
     };
-    let mapped = words.map(&entry.sign);
+    let mapped = words.map(sign);
     signs::set_values(job.connection, token, &words.rows(&mapped))?;
     let row = NotationRow {
         token_id: token,
-        source_file_id: Some(file),
-        line,
-        system: "sigml".to_owned(),
-        text: entry.sign.text.clone(),
-        document: document(&entry.sign)?,
+        source_file_id: Some(place.file),
+        line: row,
+        system: match place.form {
+            Form::Sigml => "sigml",
+            Form::Lines => "hamnosys",
+        }
+        .to_owned(),
+        text: sign.text.clone(),
+        document: document(sign)?,
         ..NotationRow::default()
     };
     notations::set(job.connection, &row)?;
-    if let Some(note) = lost(&gloss, entry.line.0, &mapped) {
-        report.findings.push(note);
-    }
+    report.findings.extend(lost(&gloss, line, &mapped));
     Ok(())
 }
 

@@ -1,0 +1,237 @@
+//! HamNoSys as lines of text (`.hns`, `.txt`): a sign a line, its gloss before it.
+//!
+//! A line holds a gloss, a tab and HamNoSys, as characters or as names of symbols. What stands before the
+//! first symbol of a line is its gloss, whatever parts the two; a line may have none.
+
+use crate::finding::Finding;
+use crate::table::{TableError, decode};
+use crate::tally::Findings;
+use chereme_sign::hamnosys::{Notated, parse_lenient, symbol::Symbol};
+
+/// How many bytes at most are looked at to tell whether a file holds HamNoSys.
+const LOOKED_AT: usize = 1 << 16;
+
+/// A notated sign and its line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Entry {
+    /// The sign; its gloss is empty where the line has none.
+    pub sign: Notated,
+    /// The line of the file, counted from 1.
+    pub line: u64,
+}
+
+/// Why bytes could not be read as lines of HamNoSys.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Error {
+    /// The file is not text.
+    #[error("line {line}: this is not text; save it as lines of text in UTF-8")]
+    NotText {
+        /// The line, counted from 1.
+        line: u64,
+    },
+    /// No line has a symbol.
+    #[error(
+        "no line holds HamNoSys; a line is a gloss, a tab and symbols, as characters or by name: \
+         hamflathand hamextfingeru hampalml"
+    )]
+    Nothing,
+}
+
+/// Reads lines of HamNoSys, and tells what is odd about them.
+///
+/// A line that is odd gives the sign that was understood. Blank lines mean nothing; others without a symbol are
+/// told.
+///
+/// # Errors
+/// Where the bytes are no text, or no line of them has a symbol.
+pub fn read(bytes: &[u8]) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
+    let mut findings = Findings::default();
+    let text = decode(bytes, &mut findings).map_err(|error| match error {
+        TableError::NotText { line } => Error::NotText { line },
+        _ => Error::Nothing,
+    })?;
+    let mut entries = Vec::new();
+    for (line, text) in (1..).zip(text.lines()) {
+        match begin(text) {
+            Some(at) => entries.push(entry(line, text.split_at(at), &mut findings)),
+            None if text.trim().is_empty() => {}
+            None => findings.add("lines without HamNoSys", || {
+                Finding::warning(line, "the line holds no HamNoSys; it was left out")
+                    .with_remedy("write the gloss, a tab, and HamNoSys")
+            }),
+        }
+    }
+    if entries.is_empty() {
+        return Err(Error::Nothing);
+    }
+    Ok((entries, findings.finish()))
+}
+
+/// Returns whether the beginning of a file holds HamNoSys.
+#[must_use]
+pub fn holds_some(bytes: &[u8]) -> bool {
+    let text = decode(
+        &bytes[..bytes.len().min(LOOKED_AT)],
+        &mut Findings::default(),
+    );
+    text.is_ok_and(|text| text.lines().any(|line| begin(line).is_some()))
+}
+
+/// Writes signs as lines, and returns for each what HamNoSys does not say.
+#[must_use]
+pub fn write<'s>(signs: impl IntoIterator<Item = &'s Notated>) -> (Vec<u8>, Vec<Vec<String>>) {
+    let (mut text, mut lost) = (String::new(), Vec::new());
+    for sign in signs {
+        let printed = sign.hamnosys();
+        let gloss = sign.gloss.replace(['\t', '\n', '\r'], " ");
+        text += &format!("{gloss}\t{}\n", printed.text);
+        let mut own: Vec<String> = printed
+            .losses
+            .into_iter()
+            .map(|loss| loss.message)
+            .collect();
+        if !sign.nonmanual.is_empty() {
+            own.push("what face and body do".to_owned());
+        }
+        lost.push(own);
+    }
+    (text.into_bytes(), lost)
+}
+
+/// Returns the byte at which the first symbol of a line stands.
+fn begin(line: &str) -> Option<usize> {
+    let character =
+        |c: char| ('\u{e000}'..='\u{f8ff}').contains(&c) && Symbol::from_char(c).is_some();
+    let word = |rest: &str| {
+        let end = rest.find(|c: char| !c.is_ascii_alphanumeric());
+        Symbol::from_name(&rest[..end.unwrap_or(rest.len())]).is_some()
+    };
+    let named = (line.match_indices("ham").map(|(at, _)| at))
+        .find(|&at| !line[..at].ends_with(|c: char| c.is_alphanumeric()) && word(&line[at..]));
+    [line.find(character), named].into_iter().flatten().min()
+}
+
+fn entry(line: u64, (gloss, text): (&str, &str), findings: &mut Findings) -> Entry {
+    let parting = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | ':' | '=' | '|' | '"');
+    let (gloss, text) = (
+        gloss.trim_matches(parting),
+        text.trim().trim_end_matches('"'),
+    );
+    let read = parse_lenient(text);
+    for found in read.findings {
+        findings.add("odd symbols", || {
+            let message = format!("symbol {}: {}", found.index, found.message);
+            let told = if found.dropped {
+                Finding::warning(line, message)
+            } else {
+                Finding::note(line, message)
+            };
+            told.with_remedy(found.remedy)
+        });
+    }
+    Entry {
+        sign: Notated {
+            gloss: gloss.to_owned(),
+            text: Some(text.to_owned()),
+            sign: read.sign,
+            ..Notated::default()
+        },
+        line,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn glosses(text: &str) -> Vec<(u64, String, String)> {
+        let (entries, _) = read(text.as_bytes()).expect("read");
+        let told = |entry: Entry| {
+            (
+                entry.line,
+                entry.sign.gloss,
+                entry.sign.text.unwrap_or_default(),
+            )
+        };
+        entries.into_iter().map(told).collect()
+    }
+
+    #[test]
+    fn what_stands_before_the_first_symbol_is_the_gloss() {
+        let flat = "hamflathand hamextfingeru hampalml";
+        for (line, gloss) in [
+            (format!("MERCI\t{flat}"), "MERCI"),
+            (format!("BON JOUR: {flat}"), "BON JOUR"),
+            (format!("1 0 117 58 bac {flat} "), "1 0 117 58 bac"),
+            (format!("\"hamster\",\"{flat}\""), "hamster"),
+            (format!("\u{feff}  {flat}"), ""),
+        ] {
+            assert_eq!(
+                glosses(&line),
+                [(1, gloss.to_owned(), flat.to_owned())],
+                "{line:?}"
+            );
+        }
+        let characters = "\u{e001}\u{e020}\u{e03c}";
+        assert_eq!(
+            glosses(&format!("\nÀ\t{characters}\r\n\r\nB {flat}\n")),
+            [
+                (2, "À".to_owned(), characters.to_owned()),
+                (4, "B".to_owned(), flat.to_owned())
+            ]
+        );
+    }
+
+    #[test]
+    fn lines_without_symbols_and_odd_symbols_are_told() {
+        let (entries, findings) =
+            read(b"a title\nA\thamfist hamextfingeru hampalml hamparend\nB\t\n").expect("read");
+        assert_eq!(entries.len(), 1);
+        let told: Vec<_> = findings
+            .iter()
+            .map(|it| (it.line, it.message.as_str()))
+            .collect();
+        assert_eq!(told.len(), 3, "{told:?}");
+        assert_eq!(
+            told[0],
+            (Some(1), "the line holds no HamNoSys; it was left out")
+        );
+        assert!(
+            told[1].0 == Some(2) && told[1].1.starts_with("symbol 3"),
+            "{told:?}"
+        );
+        assert_eq!(told[2].0, Some(3));
+        assert_eq!(read(b"nothing of the kind\n"), Err(Error::Nothing));
+        assert_eq!(read(b""), Err(Error::Nothing));
+        assert_eq!(read(b"A\n\0"), Err(Error::NotText { line: 2 }));
+        assert!(holds_some(b"x\ny hamfist") && !holds_some(b"a hamster") && !holds_some(b"\0"));
+    }
+
+    #[test]
+    fn what_is_written_reads_back() {
+        let text =
+            "A\thamflathand hamextfingeru hampalml\nB B\thamfist hamextfingero hampalmd hammoveo\n";
+        let (first, _) = read(text.as_bytes()).expect("read");
+        let (bytes, lost) = write(first.iter().map(|entry| &entry.sign));
+        let (second, findings) = read(&bytes).expect("read again");
+        assert_eq!((lost, findings), (vec![Vec::<String>::new(); 2], vec![]));
+        for (one, other) in first.iter().zip(&second) {
+            assert_eq!((&one.sign.gloss, one.line), (&other.sign.gloss, other.line));
+            assert_eq!(one.sign.hamnosys().text, other.sign.hamnosys().text);
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+        #[test]
+        fn no_bytes_make_it_fail(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
+            let _ = read(&bytes);
+        }
+
+        #[test]
+        fn no_characters_make_it_fail(text in "[\u{e000}-\u{e0f0} a\t\nhm]{0,80}") {
+            let _ = read(text.as_bytes());
+        }
+    }
+}
