@@ -178,8 +178,11 @@ fn beginning(path: &Path) -> Vec<u8> {
     bytes
 }
 
-/// Returns the signs of a file with their lines, and what is odd about it.
-pub(crate) fn read_signs(bytes: &[u8], form: Form) -> Result<(Vec<(Notated, u64)>, Vec<Finding>)> {
+/// Signs of a file, each with its line.
+pub(crate) type Signs = Vec<(Notated, u64)>;
+
+/// Returns the signs of a file, and what is odd about it.
+pub(crate) fn read_signs(bytes: &[u8], form: Form) -> Result<(Signs, Vec<Finding>)> {
     let wrong = |error: &dyn std::error::Error| Error::wrong(error.to_string());
     Ok(match form {
         Form::Sigml => {
