@@ -11,6 +11,9 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 use serde_json::{Value, json};
 
+/// How many characters wide the rule below a table's titles is at most, unless they are wider.
+const RULE: usize = 100;
+
 /// Where a command writes; a reader that goes away early ends the program quietly.
 pub(crate) struct Output {
     json: bool,
@@ -80,7 +83,8 @@ impl Output {
         };
         let head = print(&mut header.iter().copied());
         self.line(&head)?;
-        self.line("-".repeat(widths.iter().sum::<usize>() + 2 * widths.len().saturating_sub(1)))?;
+        let rule = widths.iter().sum::<usize>() + 2 * widths.len().saturating_sub(1);
+        self.line("-".repeat(rule.min(RULE.max(head.chars().count()))))?;
         for row in rows {
             let text = print(&mut row.iter().map(String::as_str));
             self.line(text)?;

@@ -76,7 +76,7 @@ pub use info::{Info, InventoryInfo, SignerInfo};
 pub use inventories::StoredInventory;
 pub use kept::KeptSearch;
 pub use kinematics::Curves;
-pub use list::{ListFilter, ListKind, Listing, cell_text};
+pub use list::{ListFilter, ListKind, Listing, cell_text, components_text};
 pub use movement::ChannelGroup;
 pub use notation::{Notation, read_notation};
 pub use paths::paths_like;

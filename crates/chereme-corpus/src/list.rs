@@ -1,9 +1,12 @@
 //! Rows of the corpus as lists, filtered and sorted.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::str::FromStr;
 
+use chereme_sign::hamnosys::to_names;
 use chereme_sign::text::{did_you_mean, nearest};
+use chereme_sign::{Field, Phase};
 use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -369,8 +372,12 @@ pub fn cell_text(value: &Value) -> String {
         Value::Bool(yes) => if *yes { "yes" } else { "no" }.to_owned(),
         Value::Array(all) => all.iter().map(cell_text).collect::<Vec<_>>().join(", "),
         Value::Object(map) if map.contains_key("system") && map.contains_key("document") => {
-            let text = map.get("text").filter(|text| text.is_string());
-            cell_text(text.or(map.get("system")).unwrap_or(&Value::Null))
+            let text = map.get("text").and_then(Value::as_str);
+            let names = text.and_then(|text| to_names(text).ok());
+            match names.map(|names| names.join(" ")) {
+                Some(names) => names,
+                None => text.map_or_else(|| cell_text(&map["system"]), str::to_owned),
+            }
         }
         Value::Object(map) => match (map.get("language"), map.get("text")) {
             (Some(Value::String(language)), Some(Value::String(text))) if map.len() == 2 => {
@@ -380,13 +387,44 @@ pub fn cell_text(value: &Value) -> String {
                     format!("{text} ({language})")
                 }
             }
-            _ => {
-                let pair = |(key, value): (&String, &Value)| format!("{key}={}", cell_text(value));
-                map.iter().map(pair).collect::<Vec<_>>().join(" ")
-            }
+            _ => components_text(map),
         },
         other => other.to_string(),
     }
+}
+
+/// Returns fields with their values as people read them in a table: successive values of a component
+/// in one, such as `right.configuration=S>C`, values at a time as `arc+twisting`.
+#[must_use]
+pub fn components_text<'v>(fields: impl IntoIterator<Item = (&'v String, &'v Value)>) -> String {
+    let mut cells: Vec<(String, BTreeMap<_, String>)> = Vec::new();
+    for (name, value) in fields {
+        let (field, phase) = match name.parse::<Field>() {
+            Ok(field @ Field { phase: Some(_), .. }) => {
+                let whole = Field {
+                    phase: None,
+                    ..field.clone()
+                };
+                (whole.to_string(), field.phase)
+            }
+            _ => (name.clone(), None),
+        };
+        let text = match value {
+            Value::Array(all) => all.iter().map(cell_text).collect::<Vec<_>>().join("+"),
+            one => cell_text(one),
+        };
+        match cells.iter_mut().find(|(known, _)| *known == field) {
+            Some((_, phases)) => {
+                phases.insert(phase, text);
+            }
+            None => cells.push((field, BTreeMap::from([(phase, text)]))),
+        }
+    }
+    let told = cells.into_iter().map(|(field, phases)| {
+        let values: Vec<_> = phases.into_values().collect();
+        format!("{field}={}", values.join(">"))
+    });
+    told.collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]
@@ -395,6 +433,7 @@ mod tests {
     use crate::db::tiers::{AnnotationRow, TierRow};
     use crate::db::{recordings, signs as sign_rows};
     use crate::{inventories, tokens};
+    use serde_json::json;
 
     fn corpus() -> (tempfile::TempDir, Corpus) {
         let folder = tempfile::tempdir().expect("a folder");
@@ -544,6 +583,23 @@ mod tests {
             cell_text(&texts.rows[0]["translations"]),
             "bowl (en), schaal"
         );
+    }
+
+    #[test]
+    fn components_are_read_in_the_order_of_their_phases() {
+        let row = json!({
+            "final.right.configuration": "A", "initial.right.configuration": "S",
+            "middle.right.configuration": "C", "middle2.right.configuration": ["1", "U"],
+            "right.movement": ["arc", "wrist"], "initial.weak.placement": "chin",
+        });
+        assert_eq!(
+            cell_text(&row),
+            "right.configuration=S>C>1+U>A right.movement=arc+wrist weak.placement=chin"
+        );
+        let notation = json!({ "system": "hamnosys", "text": "\u{e000}\u{e020}", "document": {} });
+        assert_eq!(cell_text(&notation), "hamfist hamextfingeru");
+        let notation = json!({ "system": "sigml", "text": null, "document": {} });
+        assert_eq!(cell_text(&notation), "sigml");
     }
 
     #[test]

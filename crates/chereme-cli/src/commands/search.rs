@@ -3,9 +3,8 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{Corpus, Hit, KeptSearch, Order, SearchOptions};
+use chereme_corpus::{Corpus, Hit, KeptSearch, Order, SearchOptions, components_text};
 use clap::ValueEnum;
-use serde_json::Value;
 
 use crate::args::Cli;
 use crate::output::Output;
@@ -137,21 +136,6 @@ fn cells(hit: &Hit) -> Vec<String> {
         .start_us
         .zip(hit.end_us)
         .map(|(start, end)| seconds(end - start));
-    let components: Vec<String> = hit
-        .components
-        .iter()
-        .map(|(field, value)| {
-            let text = match value {
-                Value::String(text) => text.clone(),
-                Value::Array(all) => {
-                    let all: Vec<&str> = all.iter().filter_map(Value::as_str).collect();
-                    all.join("+")
-                }
-                other => other.to_string(),
-            };
-            format!("{field}={text}")
-        })
-        .collect();
     vec![
         hit.token.to_string(),
         hit.gloss.clone(),
@@ -159,6 +143,6 @@ fn cells(hit: &Hit) -> Vec<String> {
         hit.start_us.map(seconds).unwrap_or_default(),
         length.unwrap_or_default(),
         hit.origin.clone(),
-        components.join(" "),
+        components_text(&hit.components),
     ]
 }
