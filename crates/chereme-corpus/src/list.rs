@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::str::FromStr;
 
+use chereme_sign::Field;
 use chereme_sign::hamnosys::to_names;
 use chereme_sign::text::{did_you_mean, nearest};
-use chereme_sign::{Field, Phase};
 use rusqlite::Connection;
 use serde::Serialize;
 use serde_json::{Map, Value};
