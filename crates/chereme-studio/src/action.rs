@@ -109,10 +109,21 @@ actions! {
     SearchLike "edit.search-like" SEARCH_LIKE Edit Corpus;
     SearchView "edit.search-view" SEARCH_VIEW Edit Corpus;
     ClearSelection "edit.clear-selection" SELECTION_CLEAR Edit Corpus;
+    Copy "edit.copy" COPY Edit Corpus;
+    CopyWithBelow "edit.copy-with-below" COPY_WITH_BELOW Edit Corpus;
+    Cut "edit.cut" CUT Edit Corpus;
+    Paste "edit.paste" PASTE Edit Corpus;
+    PasteHere "edit.paste-here" PASTE_HERE Edit Corpus;
+    CopyTime "edit.copy-time" COPY_TIME Edit Corpus;
     NewAnnotation "annotation.new" ANNOTATION_NEW Annotation Corpus;
+    NewBefore "annotation.new-before" ANNOTATION_NEW_BEFORE Annotation Corpus;
+    NewAfter "annotation.new-after" ANNOTATION_NEW_AFTER Annotation Corpus;
+    NewBelow "annotation.new-below" ANNOTATION_NEW_BELOW Annotation Corpus;
+    Duplicate "annotation.duplicate" ANNOTATION_DUPLICATE Annotation Corpus;
     BeginEndAnnotation "annotation.begin-end" ANNOTATION_BEGIN_END Annotation Corpus;
     SplitAnnotation "annotation.split" ANNOTATION_SPLIT Annotation Corpus;
     MergeAnnotation "annotation.merge" ANNOTATION_MERGE Annotation Corpus;
+    MergePrevious "annotation.merge-previous" ANNOTATION_MERGE_PREVIOUS Annotation Corpus;
     DeleteAnnotation "annotation.delete" ANNOTATION_DELETE Annotation Corpus;
     UseInRecipe "recombine.use" USE_IN_RECIPE Edit Corpus;
     RecombineSelected "recombine.selected" RECOMBINE_SELECTED Edit Corpus;
@@ -126,6 +137,8 @@ actions! {
     MoveToTier "annotation.move-to-tier" ANNOTATION_MOVE Annotation Corpus;
     NextAnnotation "annotation.next" ANNOTATION_NEXT Annotation Corpus repeats;
     PreviousAnnotation "annotation.previous" ANNOTATION_PREVIOUS Annotation Corpus repeats;
+    FirstAnnotation "annotation.first" ANNOTATION_FIRST Annotation Corpus;
+    LastAnnotation "annotation.last" ANNOTATION_LAST Annotation Corpus;
     AnnotationBelow "annotation.below" ANNOTATION_BELOW Annotation Corpus repeats;
     AnnotationAbove "annotation.above" ANNOTATION_ABOVE Annotation Corpus repeats;
     AlsoNext "annotation.also-next" ALSO_NEXT Annotation Corpus repeats;
@@ -145,6 +158,8 @@ actions! {
     Value9 "value.9" VALUE_9 Value Corpus;
     StartHere "timing.start-here" START_HERE Timing Corpus;
     EndHere "timing.end-here" END_HERE Timing Corpus;
+    StartToNeighbour "timing.start-to-neighbour" START_TO_NEIGHBOUR Timing Corpus;
+    EndToNeighbour "timing.end-to-neighbour" END_TO_NEIGHBOUR Timing Corpus;
     ToSelection "timing.to-selection" TO_SELECTION Timing Corpus;
     StartEarlier "timing.start-earlier" START_EARLIER Timing Corpus repeats;
     StartLater "timing.start-later" START_LATER Timing Corpus repeats;
@@ -178,6 +193,8 @@ actions! {
     Play "play.toggle" PLAY Play Corpus;
     PlaySelection "play.selection" PLAY_SELECTION Play Corpus;
     PlayAround "play.around" PLAY_AROUND Play Corpus;
+    StepAndRepeat "play.step-and-repeat" STEP_AND_REPEAT Play Corpus;
+    GoToTime "play.go-to-time" GO_TO_TIME Play Corpus;
     OtherEnd "play.other-end" OTHER_END Play Corpus;
     ToCentre "play.to-centre" TO_CENTRE Play Corpus;
     Loop "play.loop" LOOP Play Corpus;

@@ -10,6 +10,7 @@ use egui_tiles::{Behavior, SimplificationOptions, Tile, TileId, Tiles, Tree, UiR
 
 use crate::Options;
 use crate::choose::{Chooser, Chosen};
+use crate::clipboard::Clipboard;
 use crate::command::Command;
 use crate::context::{Outbox, Seen, Shown};
 use crate::draft::Drafts;
@@ -26,7 +27,7 @@ use crate::words::Text;
 use crate::work::begin::{Begin, Beginning};
 use crate::work::desk::{Desk, News, Wake};
 use crate::work::{Lane, Outcome, Work};
-use crate::{layout, theme};
+use crate::{clipboard, layout, theme};
 
 /// The window's whole state; [`ui`](Self::ui) is one frame of it.
 pub struct Studio {
@@ -50,6 +51,7 @@ pub struct Studio {
     sprung: Sprung,
     pub(crate) start: Start,
     pub(crate) chooser: Chooser,
+    pub(crate) clipboard: Clipboard,
     pub(crate) overlays: Overlays,
     pub(crate) out: Outbox,
     pub(crate) drafts: Drafts,
@@ -104,6 +106,7 @@ impl Studio {
             sprung: Sprung::default(),
             start: Start::default(),
             chooser: Chooser::default(),
+            clipboard: Clipboard::default(),
             overlays: Overlays::default(),
             out,
             drafts: Drafts::default(),
@@ -123,6 +126,10 @@ impl Studio {
         self.listen();
         self.hear_chooser(&ctx);
         self.tick(&ctx);
+        if let Some((action, text)) = self.clipboard.came(&ctx) {
+            self.paste(action, text, &ctx);
+            self.carry_out(&ctx);
+        }
         self.take_keys(&ctx);
         self.panes.timeline.next_frame();
         self.take_dropped(&ctx);
@@ -174,6 +181,7 @@ impl Studio {
             .is_some_and(|desk| !desk.running.is_empty());
         self.beginning.is_none()
             && !self.chooser.is_open()
+            && !self.clipboard.is_waiting()
             && !working
             && self.desk.is_some() == self.snapshot.is_some()
     }
@@ -284,10 +292,12 @@ impl Studio {
                 typing: ctx.text_edit_focused() || self.panes.timeline.is_typing(),
                 focused: ctx.memory(|memory| memory.focused().is_some()),
                 held: self.panes.stage.is_held(ctx),
+                marked: clipboard::is_text_marked(ctx),
             };
-            let Some(action) = ctx.input_mut(|input| self.keys.take(input, place)) else {
+            let Some((action, text)) = ctx.input_mut(|input| self.keys.take(input, place)) else {
                 return;
             };
+            self.clipboard.give(text);
             self.out.send(Command::Do(action));
             self.carry_out(ctx);
         }

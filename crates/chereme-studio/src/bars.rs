@@ -1,6 +1,6 @@
 //! The menu bar above, and the status line below.
 
-use eframe::egui::{Align, Button, Layout, MenuBar, ProgressBar, Ui};
+use eframe::egui::{Align, Button, Layout, MenuBar, ProgressBar, ScrollArea, Ui};
 
 use crate::action::{ACTIONS, Action, Context, Menu};
 use crate::app::Studio;
@@ -10,6 +10,8 @@ use crate::words::{fill, shell as words};
 use crate::work::Lane;
 use crate::work::begin::Begin;
 
+/// What a menu leaves free of the window's height.
+const MARGIN: f32 = 60.0;
 /// The room that the three layouts want beside the menus.
 const LAYOUTS: f32 = 280.0;
 
@@ -19,10 +21,16 @@ impl Studio {
         MenuBar::new().ui(ui, |ui| {
             for (menu, title) in Menu::ALL {
                 ui.menu_button(title.of(language), |ui| {
-                    self.menu(ui, menu);
-                    if menu == Menu::File {
-                        self.recent_menu(ui);
-                    }
+                    let room = ui.ctx().content_rect().height() - MARGIN;
+                    ScrollArea::vertical()
+                        .max_height(room)
+                        .min_scrolled_height(room)
+                        .show(ui, |ui| {
+                            self.menu(ui, menu);
+                            if menu == Menu::File {
+                                self.recent_menu(ui);
+                            }
+                        });
                 });
             }
             if self.snapshot.is_some() && ui.available_width() > LAYOUTS {

@@ -80,6 +80,10 @@ pub(crate) enum Command {
     Settings(Box<Settings>),
     /// Say something that goes away by itself.
     Hint(Text),
+    /// The same, filled in already.
+    Say(String),
+    /// Put a text on the clipboard.
+    Copy(String),
     /// Say something that stays, with what helps.
     Tell(String, Text),
     /// Put a notice away.

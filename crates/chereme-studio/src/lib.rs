@@ -25,6 +25,7 @@ mod action;
 mod app;
 mod bars;
 mod choose;
+mod clipboard;
 mod command;
 mod context;
 mod draft;

@@ -136,6 +136,8 @@ impl Studio {
                 let text = text.of(self.settings.language);
                 self.overlays.notices.hint(text);
             }
+            Command::Say(text) => self.overlays.notices.hint(text),
+            Command::Copy(text) => self.clipboard.put(ctx, text),
             Command::Tell(text, remedy) => {
                 let remedy = remedy.of(self.settings.language);
                 self.overlays.notices.say(&text, Some(remedy));
@@ -155,6 +157,11 @@ impl Studio {
                 self.shown.annotations.clear();
             }
             Action::UseInRecipe => self.use_in_recipe(ctx),
+            Action::Paste | Action::PasteHere => {
+                if let Some(text) = self.clipboard.given(ctx, action) {
+                    self.paste(action, text, ctx);
+                }
+            }
             Action::NextRecording => self.walk_recordings(1),
             Action::PreviousRecording => self.walk_recordings(-1),
             Action::StoreSign => {
@@ -194,6 +201,12 @@ impl Studio {
             Some(carried) => self.out.send(Command::Use(carried)),
             None => self.out.send(Command::Hint(words::NEEDS_SIGN)),
         }
+    }
+
+    /// Pastes a text where the action says.
+    pub(crate) fn paste(&mut self, action: Action, text: String, ctx: &Context) {
+        self.panes.timeline.hold_clip(text);
+        self.act_in_panes(action, ctx);
     }
 
     /// Offers an action to the panes; the first that knows it does it.
@@ -265,6 +278,7 @@ impl Studio {
                 let end = span.end().shifted(AROUND).min(whole.end());
                 player.play_part(Span::between(start, end));
             }
+            Action::StepAndRepeat => player.step_and_repeat(part),
             Action::OtherEnd | Action::ToCentre => {
                 let Some(span) = part else { return true };
                 let middle = span.start().shifted(span.micros() / 2);

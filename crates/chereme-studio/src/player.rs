@@ -20,6 +20,28 @@ pub(crate) struct Player {
     pub(crate) speed: f64,
     /// Whether it begins again at the end.
     pub(crate) looping: bool,
+    /// What is stepped through, where that is so.
+    steps: Option<Steps>,
+}
+
+/// How long a piece of step and repeat is, how far the next lies on, how often each is played, and the rest
+/// between, in seconds.
+const PIECE: i64 = 2_000_000;
+const STEP: i64 = 1_000_000;
+const TIMES: u32 = 2;
+const REST: f64 = 0.4;
+
+/// Short pieces played one after the other, each several times.
+#[derive(Debug, Clone, PartialEq)]
+struct Steps {
+    /// What the pieces are of.
+    of: Span,
+    /// How far the next lies on, in microseconds.
+    by: i64,
+    /// How often the piece was played.
+    played: u32,
+    /// How long it still rests, in seconds.
+    rest: f64,
 }
 
 impl Default for Player {
@@ -31,6 +53,7 @@ impl Default for Player {
             direction: 0.0,
             speed: 1.0,
             looping: false,
+            steps: None,
         }
     }
 }
@@ -40,7 +63,7 @@ impl Player {
     pub(crate) fn load(&mut self, whole: Span) {
         self.at = whole.start().micros() as f64;
         self.whole = whole;
-        self.part = None;
+        (self.part, self.steps) = (None, None);
         self.direction = 0.0;
     }
 
@@ -78,7 +101,7 @@ impl Player {
             self.stop();
             return;
         }
-        self.part = None;
+        (self.part, self.steps) = (None, None);
         if self.at >= self.last() {
             self.at = self.whole.start().micros() as f64;
         }
@@ -89,18 +112,68 @@ impl Player {
     pub(crate) fn play_part(&mut self, part: Span) {
         if let Some(part) = part.intersection(self.whole) {
             self.at = part.start().micros() as f64;
-            self.part = Some(part);
+            (self.part, self.steps) = (Some(part), None);
             self.direction = 1.0;
         }
     }
 
+    /// Plays short pieces of `part`, or of all from the playhead on, each twice and overlapping the one
+    /// before; stops where it does so already.
+    pub(crate) fn step_and_repeat(&mut self, part: Option<Span>) {
+        if self.is_playing() && self.steps.is_some() {
+            self.stop();
+            return;
+        }
+        let rest = Span::between(self.playhead(), self.whole.end());
+        let Some(of) = part.unwrap_or(rest).intersection(self.whole) else {
+            return;
+        };
+        let piece = PIECE.min(of.micros());
+        let end = of.start().shifted(piece);
+        self.play_part(Span::between(of.start(), end));
+        self.steps = Some(Steps {
+            of,
+            by: STEP.min(piece / 2).max(1),
+            played: 0,
+            rest: 0.0,
+        });
+    }
+
+    /// Goes on to the same piece again, or to the next; stops after the last.
+    fn next_piece(&mut self) {
+        let (Some(steps), Some(part)) = (&mut self.steps, self.part) else {
+            return;
+        };
+        (steps.played, steps.rest) = (steps.played + 1, REST);
+        if steps.played >= TIMES {
+            steps.played = 0;
+            let end = part.end().shifted(steps.by).min(steps.of.end());
+            let next = if part.end() < steps.of.end() {
+                Some(Span::between(end.shifted(-part.micros()), end))
+            } else {
+                let start = steps.of.start();
+                self.looping
+                    .then(|| Span::between(start, start.shifted(part.micros())))
+            };
+            if next.is_none() {
+                self.stop();
+                self.at = self.clamped(part.end().micros() as f64);
+                return;
+            }
+            self.part = next;
+        }
+        let start = self.part.map_or(self.whole.start(), |it| it.start());
+        self.at = start.micros() as f64;
+    }
+
     pub(crate) fn stop(&mut self) {
         self.direction = 0.0;
+        self.steps = None;
     }
 
     /// Shuttles: pressed again the same way it doubles, up to eight times.
     pub(crate) fn shuttle(&mut self, sign: f64) {
-        self.part = None;
+        (self.part, self.steps) = (None, None);
         self.direction = if self.direction * sign > 0.0 {
             (self.direction * 2.0).clamp(-8.0, 8.0)
         } else {
@@ -132,6 +205,10 @@ impl Player {
         if !self.is_playing() || self.whole.is_empty() {
             return;
         }
+        if let Some(steps) = self.steps.as_mut().filter(|it| it.rest > 0.0) {
+            steps.rest -= seconds;
+            return;
+        }
         let span = self.part.unwrap_or(self.whole);
         let (start, end) = (span.start().micros() as f64, span.end().micros() as f64);
         self.at += seconds * 1e6 * self.direction * self.speed;
@@ -142,6 +219,9 @@ impl Player {
         };
         if !over {
             return;
+        }
+        if self.steps.is_some() {
+            return self.next_piece();
         }
         if self.looping {
             self.at = start + (self.at - start).rem_euclid((end - start).max(1.0));
@@ -200,6 +280,25 @@ mod tests {
         assert_eq!(player.playhead().micros(), 600_000);
         player.shuttle(-1.0);
         assert!(player.direction() < 0.0 && player.part.is_none());
+    }
+
+    #[test]
+    fn short_pieces_are_repeated_and_stepped_through() {
+        let mut player = Player::default();
+        player.load(span(0, 10_000_000));
+        player.step_and_repeat(Some(span(1_000_000, 4_500_000)));
+        let mut starts = Vec::new();
+        while player.is_playing() {
+            starts.push(player.part.map(|it| it.start().micros() / 100_000));
+            player.advance(2.1);
+            player.advance(0.5);
+        }
+        let want = [10, 10, 20, 20, 25, 25].map(Some);
+        assert_eq!(starts, want);
+        assert_eq!(player.playhead().micros(), 4_500_000);
+        player.step_and_repeat(None);
+        player.step_and_repeat(None);
+        assert!(!player.is_playing());
     }
 
     #[test]

@@ -2,121 +2,15 @@
 
 mod common;
 
-use std::collections::BTreeMap;
-
-use chereme_corpus::{AnnotationColumns, Corpus, TierName};
-use common::{Window, click, has, idle, open_small, until};
+use chereme_corpus::{Corpus, TierName};
+use common::tiers::*;
+use common::{Window, click, has, idle, until};
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Role, pos2};
 use egui_kittest::kittest::Queryable;
-
-const CTRL: Modifiers = Modifiers::COMMAND;
-const ALT: Modifiers = Modifiers::ALT;
-const NONE: Modifiers = Modifiers::NONE;
-
-fn opened<'a>(folder: &std::path::Path) -> Window<'a> {
-    let mut window = open_small(folder);
-    until(&mut window, "the tiers", |it| has(it, "Tier Gloss"));
-    idle(&mut window);
-    window
-}
-
-/// Returns what a tier says, as `(start in milliseconds, end, value)`.
-fn says(window: &Window<'_>, tier: &str) -> Vec<(i64, i64, String)> {
-    let path = window.state().corpus().expect("open").clone();
-    let corpus = Corpus::open(&path, "reader").expect("opened");
-    let recording = corpus.overview(1).expect("read").recordings[0].row.id;
-    let contents = corpus.contents(recording).expect("read");
-    let tier = contents.tiers.iter().find(|it| it.row.name == tier);
-    let columns: AnnotationColumns = tier.expect("a tier").annotations.clone();
-    (0..columns.len())
-        .map(|at| {
-            let millis = |micros: i64| (micros + 500) / 1000;
-            (
-                millis(columns.starts[at]),
-                millis(columns.ends[at]),
-                columns.values[at].to_string(),
-            )
-        })
-        .collect()
-}
-
-/// Returns the values of a tier.
-fn values(window: &Window<'_>, tier: &str) -> Vec<String> {
-    says(window, tier).into_iter().map(|it| it.2).collect()
-}
-
-fn operations(window: &Window<'_>) -> usize {
-    let path = window.state().corpus().expect("open").clone();
-    Corpus::open(&path, "reader")
-        .expect("opened")
-        .log(999)
-        .expect("read")
-        .len()
-}
-
-fn press(window: &mut Window<'_>, modifiers: Modifiers, key: Key) {
-    window.key_press_modifiers(modifiers, key);
-    window.run_steps(2);
-}
-
-fn stored(window: &mut Window<'_>, operations_before: usize) {
-    until(window, "the edit", |it| {
-        it.state().is_idle() && operations(it) > operations_before
-    });
-    window.run_steps(2);
-}
-
-fn rect(window: &Window<'_>, label: &str) -> eframe::egui::Rect {
-    window.get_by_label(label).rect()
-}
-
-fn pointer(window: &mut Window<'_>, at: Pos2, pressed: Option<bool>, modifiers: Modifiers) {
-    window.event_modifiers(Event::PointerMoved(at), modifiers);
-    if let Some(pressed) = pressed {
-        let event = Event::PointerButton {
-            pos: at,
-            button: PointerButton::Primary,
-            pressed,
-            modifiers,
-        };
-        window.event_modifiers(event, modifiers);
-    }
-    window.step();
-}
-
-fn drag(window: &mut Window<'_>, from: Pos2, to: Pos2, modifiers: Modifiers) {
-    pointer(window, from, None, modifiers);
-    pointer(window, from, Some(true), modifiers);
-    for step in 1..=4 {
-        let at = from + (to - from) * (step as f32 / 4.0);
-        pointer(window, at, None, modifiers);
-    }
-    pointer(window, to, Some(false), modifiers);
-    window.step();
-}
-
-fn click_with(window: &mut Window<'_>, label: &str, modifiers: Modifiers) {
-    let at = rect(window, label).center();
-    pointer(window, at, Some(true), modifiers);
-    pointer(window, at, Some(false), modifiers);
-    window.run_steps(2);
-}
 
 /// Returns the field for the name of a tier.
 fn named<'w>(window: &'w Window<'_>) -> egui_kittest::Node<'w> {
     window.get_by_role_and_label(Role::TextInput, "Name of the tier")
-}
-
-/// Removes every annotation of the glosses, so that the tier is free.
-fn emptied<'a>(folder: &std::path::Path) -> Window<'a> {
-    let mut window = opened(folder);
-    click(&mut window, "Tier Gloss");
-    press(&mut window, CTRL, Key::A);
-    let before = operations(&window);
-    press(&mut window, CTRL | ALT, Key::D);
-    stored(&mut window, before);
-    assert!(says(&window, "Gloss").is_empty());
-    window
 }
 
 #[test]
@@ -222,32 +116,6 @@ fn alt_and_drag_makes_one_at_once_and_escape_drops_it() {
     press(&mut window, NONE, Key::Enter);
     stored(&mut window, before);
     assert_eq!(values(&window, "Gloss"), ["b"]);
-}
-
-/// Three glosses a, b, c at 10-20, 30-40 and 60-70 % of the recording.
-fn three<'a>(folder: &std::path::Path) -> Window<'a> {
-    let mut window = emptied(folder);
-    let lane = rect(&window, "Lane of Gloss");
-    for (text, from, to) in [("a", 0.1, 0.2), ("b", 0.3, 0.4), ("c", 0.6, 0.7)] {
-        let at = |x: f32| pos2(lane.left() + lane.width() * x, lane.center().y);
-        let before = operations(&window);
-        drag(&mut window, at(from), at(to), ALT);
-        window.get_by_label("Value on Gloss").type_text(text);
-        window.step();
-        press(&mut window, NONE, Key::Enter);
-        stored(&mut window, before);
-    }
-    // Nothing catches, so that distances are those of the mouse.
-    for switch in [Key::F6, Key::F7] {
-        press(&mut window, Modifiers::SHIFT, switch);
-    }
-    window
-}
-
-fn spans(window: &Window<'_>) -> BTreeMap<String, (i64, i64)> {
-    let all = says(window, "Gloss").into_iter();
-    all.map(|(start, end, value)| (value, (start, end)))
-        .collect()
 }
 
 #[test]

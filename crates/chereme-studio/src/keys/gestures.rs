@@ -61,6 +61,7 @@ gestures! {
     Annotation [Ctrl] Click ANNOTATION ALSO;
     Annotation [Shift] Click ANNOTATION UP_TO;
     Annotation [Shift] Drag LANE FRAME;
+    Annotation RightClick LANE MENU_OF_ANNOTATION;
     Annotation DoubleClick ANNOTATION TYPE;
     Annotation DoubleClick SELECTION MAKE_ON_SELECTION;
     Annotation Drag SELECTED MOVE;

@@ -6,7 +6,7 @@ pub(crate) mod table;
 
 use std::collections::BTreeMap;
 
-use eframe::egui::{Event, InputState};
+use eframe::egui::{Event, InputState, Key, Modifiers};
 use serde::{Deserialize, Serialize};
 
 use crate::action::{ACTIONS, Action, Context};
@@ -57,6 +57,8 @@ pub(crate) struct Place {
     pub(crate) focused: bool,
     /// Whether that widget is a handle on the stage, which goes to and from the eye too.
     pub(crate) held: bool,
+    /// Whether text of a label is marked, which is what is copied then.
+    pub(crate) marked: bool,
 }
 
 impl Keys {
@@ -123,12 +125,22 @@ impl Keys {
             .map(|row| row.action)
     }
 
-    /// Takes the first pressed key that means an action out of the input, and returns the action.
+    /// Takes the first pressed key that means an action out of the input, and returns the action, with the
+    /// text where it came with one to paste.
     ///
     /// One at a time, since what it does decides where those after it go: into a field, perhaps.
-    pub(crate) fn take(&self, input: &mut InputState, place: Place) -> Option<Action> {
+    pub(crate) fn take(
+        &self,
+        input: &mut InputState,
+        place: Place,
+    ) -> Option<(Action, Option<String>)> {
+        // The system tells of these keys by what they ask for.
+        let clipboard = |key| self.action(Chord::new(key, Modifiers::COMMAND), place);
         loop {
             let pressed = |event: &Event| match event {
+                Event::Copy if !place.marked => Some((clipboard(Key::C)?, false)),
+                Event::Cut if !place.marked => Some((clipboard(Key::X)?, false)),
+                Event::Paste(_) => Some((clipboard(Key::V)?, false)),
                 Event::Key {
                     key,
                     pressed: true,
@@ -140,9 +152,12 @@ impl Keys {
             };
             let mut found = input.events.iter().enumerate();
             let (at, (action, repeat)) = found.find_map(|(at, it)| Some((at, pressed(it)?)))?;
-            input.events.remove(at);
+            let text = match input.events.remove(at) {
+                Event::Paste(text) => Some(text),
+                _ => None,
+            };
             if !repeat || action.row().repeats {
-                return Some(action);
+                return Some((action, text));
             }
         }
     }
@@ -158,6 +173,7 @@ mod tests {
         typing: false,
         focused: false,
         held: false,
+        marked: false,
     };
 
     fn chord(text: &str) -> Chord {

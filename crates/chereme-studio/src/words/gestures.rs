@@ -17,6 +17,7 @@ texts! {
     ANNOTATION: "annotation", "annotation";
     SELECT: "Selects it and its time", "La sélectionne avec son temps";
     ALSO: "Adds it to the selection, or takes it out", "L’ajoute à la sélection, ou l’en retire";
+    MENU_OF_ANNOTATION: "What can be done with it", "Ce qu’on peut en faire";
     UP_TO: "Selects all up to it", "Sélectionne tout jusqu’à elle";
     LANE: "tier", "acteur";
     FRAME: "Selects all in the frame", "Sélectionne tout dans le cadre";

@@ -1,6 +1,8 @@
 //! What the tests that drive the window share.
 #![allow(dead_code, unreachable_pub, reason = "each test uses some of it")]
 
+pub mod tiers;
+
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 

@@ -150,7 +150,7 @@ pub(super) fn put(
     let then = Then {
         select: items.len() == 1,
         ghosts: ghosts.collect(),
-        typed: None,
+        ..Then::default()
     };
     timeline.change(asked, then, out);
     None

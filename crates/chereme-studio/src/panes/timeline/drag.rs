@@ -313,7 +313,7 @@ impl Drawing<'_, '_> {
             let then = Then {
                 select: items.len() == 1,
                 ghosts,
-                typed: None,
+                ..Then::default()
             };
             self.out.send(Command::Tier(Some(to)));
             self.timeline.change(asked, then, self.out);

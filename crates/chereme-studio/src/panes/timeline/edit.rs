@@ -289,7 +289,7 @@ fn by_digit(timeline: &mut Timeline, scene: &Scene<'_>, digit: usize, out: &mut 
 }
 
 /// Returns the annotation that is selected alone, or else the one of the tier at the playhead.
-fn alone(scene: &Scene<'_>) -> Option<i64> {
+pub(super) fn alone(scene: &Scene<'_>) -> Option<i64> {
     scene.seen.shown.annotation().or_else(|| {
         let tier = scene.tier()?;
         let at = super::data::at(&tier.annotations, scene.playhead())?;
@@ -471,6 +471,7 @@ pub(super) fn keep(timeline: &mut Timeline, editing: Editing, value: &str, out: 
         select,
         ghosts,
         typed: Some(editing),
+        ..Then::default()
     };
     timeline.change(changes, then, out);
 }

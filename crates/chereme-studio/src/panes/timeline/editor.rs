@@ -201,7 +201,7 @@ fn done(
             }
             if let Some(at) = next {
                 select::select(tier, at, out);
-                timeline.to_select = None;
+                timeline.to_select.clear();
                 timeline.edit_at(tier, at);
             }
         }

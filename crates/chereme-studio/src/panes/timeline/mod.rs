@@ -9,26 +9,33 @@
 //! | `values` | what can be said on a tier, and the digits |
 //! | `lanes`, `lanes_ui` | movement as lanes |
 //! | `ways` | modes and switches that are remembered |
-//! | `edit`, `select`, `tiers` | what actions do |
+//! | `edit`, `select`, `tiers`, `beside` | what actions do |
+//! | `clip`, `paste`, `paste_box` | the clipboard: its text, where that goes, what of it has no place |
 //! | `ui`, `names`, `above`, `paint` | rows, the names of tiers, what lies above them, painting |
-//! | `gesture`, `drag` | what the mouse begins, and does while it is held |
+//! | `gesture`, `drag`, `menu` | what the mouse begins, and does while it is held; its other button |
 //! | `editor`, `value_list` | the field for values, and what fits below it |
-//! | `choose`, `tier_box`, `bar` | the list of tiers, one tier, the tools |
+//! | `choose`, `tier_box`, `go`, `bar` | the list of tiers, one tier, a time, the tools |
 
 mod above;
 pub(crate) mod bar;
+mod beside;
 mod changes;
 mod choose;
+mod clip;
 pub(crate) mod data;
 mod drag;
 mod edit;
 mod editor;
 mod gesture;
+mod go;
 mod hold;
 pub(crate) mod lanes;
 mod lanes_ui;
+mod menu;
 mod names;
 mod paint;
+mod paste;
+mod paste_box;
 mod rows;
 mod select;
 mod snap;
@@ -85,7 +92,9 @@ pub(crate) struct Timeline {
     /// The snapshot that the ghosts stand over.
     over: usize,
     /// Annotations to be selected as soon as they are there.
-    to_select: Option<i64>,
+    to_select: BTreeSet<i64>,
+    /// Whether the value of what is to be selected is to be typed.
+    to_edit: bool,
     /// The annotation that was begun and not ended.
     begun: Option<Begun>,
     /// The value that is being typed.
@@ -95,6 +104,10 @@ pub(crate) struct Timeline {
     picker: Picker,
     digits: values::Digits,
     choose: Option<choose::Choose>,
+    paste_box: Option<paste_box::PasteBox>,
+    go_box: Option<go::GoBox>,
+    /// The text that is to be pasted.
+    clip: Option<String>,
     tier_box: Option<tier_box::TierBox>,
     /// A tier that was asked for, described again where it is refused.
     tier_asked: Option<(WorkId, tier_box::TierBox)>,
@@ -139,6 +152,8 @@ impl Ghost {
 struct Then {
     /// Select what was added.
     select: bool,
+    /// Have its value typed.
+    edit: bool,
     /// What it will look like.
     ghosts: Vec<Ghost>,
     /// What was typed for it; put back where it is refused.
@@ -155,7 +170,7 @@ impl Then {
                 start,
                 end,
             }],
-            typed: None,
+            ..Self::default()
         }
     }
 }
@@ -242,8 +257,21 @@ impl Timeline {
 
     /// Returns whether a value is being typed, so that letters are no keys.
     pub(crate) fn is_typing(&self) -> bool {
-        let open = self.editing.is_some() || self.choose.is_some() || self.tier_box.is_some();
-        open && self.drawn
+        self.is_open() && self.drawn
+    }
+
+    /// Returns whether a field or a list is open.
+    fn is_open(&self) -> bool {
+        self.editing.is_some()
+            || self.choose.is_some()
+            || self.tier_box.is_some()
+            || self.paste_box.is_some()
+            || self.go_box.is_some()
+    }
+
+    /// Takes the text that is to be pasted.
+    pub(crate) fn hold_clip(&mut self, text: String) {
+        self.clip = Some(text);
     }
 
     /// A frame begins, in which the pane may or may not be in sight.
@@ -308,13 +336,14 @@ impl Pane for Timeline {
                 let Some(scene) = Scene::of(seen) else {
                     return Acted::No;
                 };
-                let acted = [select::act, edit::act, tiers::act]
+                if other == Action::GoToTime {
+                    self.go_box = Some(go::GoBox::default());
+                }
+                let acted = [select::act, edit::act, tiers::act, paste::act, beside::act]
                     .into_iter()
                     .map(|act| act(self, other, &scene, out))
                     .find(|acted| *acted != Acted::No);
-                let open =
-                    self.editing.is_some() || self.choose.is_some() || self.tier_box.is_some();
-                if open && !self.drawn {
+                if self.is_open() && !self.drawn {
                     out.send(Command::Do(Action::ShowTimeline));
                 }
                 return acted.unwrap_or(Acted::No);
@@ -336,7 +365,8 @@ impl Pane for Timeline {
         };
         match ended {
             Ok(Outcome::Annotated(report)) if then.select => {
-                self.to_select = report.annotations.first().copied();
+                self.to_select = report.annotations.iter().copied().collect();
+                self.to_edit = then.edit;
             }
             Ok(_) => {}
             Err(_) => {

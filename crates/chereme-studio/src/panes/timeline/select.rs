@@ -12,6 +12,7 @@ use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::Acted;
+use crate::words::timeline as words;
 
 const SECOND: i64 = 1_000_000;
 
@@ -23,8 +24,28 @@ pub(super) fn act(
     out: &mut Outbox,
 ) -> Acted {
     match action {
-        Action::NextAnnotation => walk(scene, out, true),
-        Action::PreviousAnnotation => walk(scene, out, false),
+        Action::NextAnnotation | Action::PreviousAnnotation => {
+            if !walk(scene, out, action == Action::NextAnnotation) {
+                return Acted::Cannot(words::LAST_OF_TIER);
+            }
+        }
+        Action::FirstAnnotation | Action::LastAnnotation => {
+            let Some(tier) = scene.tier() else {
+                return Acted::Cannot(words::NEEDS_TIER);
+            };
+            let last = tier.annotations.len().checked_sub(1);
+            let at = last.map(|last| {
+                if action == Action::LastAnnotation {
+                    last
+                } else {
+                    0
+                }
+            });
+            match at {
+                Some(at) => select(tier, at, out),
+                None => return Acted::Cannot(words::LAST_OF_TIER),
+            }
+        }
         Action::AnnotationBelow => climb(scene, out, 1),
         Action::AnnotationAbove => climb(scene, out, -1),
         Action::NextTier => step_tier(scene, out, 1),
@@ -66,9 +87,12 @@ pub(super) fn shown_rows(contents: &Contents, seen: &Seen<'_>) -> Vec<Row> {
     rows(&contents.tiers, &ways.folded, &ways.hidden)
 }
 
-/// Selects the annotation after or before the selected one, or the playhead, on the selected tier.
-fn walk(scene: &Scene<'_>, out: &mut Outbox, forwards: bool) {
-    let Some(tier) = scene.tier() else { return };
+/// Selects the annotation after or before the selected one, or the playhead, on the selected tier; in a loop
+/// after the last the first. Returns whether there is one.
+fn walk(scene: &Scene<'_>, out: &mut Outbox, forwards: bool) -> bool {
+    let Some(tier) = scene.tier() else {
+        return false;
+    };
     let columns = &tier.annotations;
     let mut chosen = hold::places(tier, &scene.seen.shown.annotations);
     let selected = if forwards {
@@ -85,9 +109,17 @@ fn walk(scene: &Scene<'_>, out: &mut Outbox, forwards: bool) {
         (None, true) => Some(after),
         (None, false) => after.checked_sub(1),
     };
-    if let Some(at) = next.filter(|at| *at < columns.len()) {
+    let round = scene.seen.shown.player.looping.then_some(if forwards {
+        0
+    } else {
+        columns.len().wrapping_sub(1)
+    });
+    let inside = |at: &usize| *at < columns.len();
+    let found = next.filter(inside).or(round.filter(inside));
+    if let Some(at) = found {
         select(tier, at, out);
     }
+    found.is_some()
 }
 
 /// Adds the annotation after or before those that are selected to them.
@@ -107,7 +139,7 @@ fn also(scene: &Scene<'_>, out: &mut Outbox, forwards: bool) {
             out.send(Command::Annotations(all));
         }
         Some(_) => {}
-        None if chosen.is_empty() => walk(scene, out, forwards),
+        None if chosen.is_empty() => drop(walk(scene, out, forwards)),
         None => {}
     }
 }

@@ -13,7 +13,7 @@ use eframe::egui::{
 use super::data::{self, Window, time_text};
 use super::edit::Scene;
 use super::rows::Row;
-use super::{Timeline, bar, choose, paint, select, tier_box};
+use super::{Timeline, bar, choose, go, paint, paste_box, select, tier_box};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
@@ -117,6 +117,8 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
     }
     choose::show(timeline, ui, &scene, out);
     tier_box::show(timeline, ui, &scene, out);
+    paste_box::show(timeline, ui, &scene, out);
+    go::show(timeline, ui, &scene, out);
 }
 
 /// Says where to go in a corpus that has no recordings.
@@ -135,10 +137,13 @@ fn no_recordings(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
 /// Selects what was added, and lets go of what the snapshot has.
 fn follow_up(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) {
     timeline.settle(scene.seen.snapshot.open.as_ref());
-    let there = |id: &i64| scene.seen.snapshot.annotation(*id).is_some();
-    if let Some(id) = timeline.to_select.filter(there) {
-        timeline.to_select = None;
-        out.send(Command::Annotations(BTreeSet::from([id])));
+    let first = timeline.to_select.first();
+    if first.is_some_and(|id| scene.seen.snapshot.annotation(*id).is_some()) {
+        let all = std::mem::take(&mut timeline.to_select);
+        if std::mem::take(&mut timeline.to_edit) {
+            timeline.edit(scene, all.clone());
+        }
+        out.send(Command::Annotations(all));
     }
     if let Some(name) = &timeline.tier_named {
         let tiers = &scene.contents.tiers;
@@ -355,9 +360,11 @@ impl Drawing<'_, '_> {
                     paint::focus(&painter, here, self.seen);
                 }
                 self.lane_mouse(ui, &own, contents, at, lane);
+                self.lane_menu(&own, contents, at, lane);
             }
         }
         self.lane_mouse(ui, &response, contents, at, lane);
+        self.lane_menu(&response, contents, at, lane);
     }
 
     /// Ctrl and wheel zoom around the pointer; Shift and wheel, or a wheel sideways, pan.

@@ -1,0 +1,76 @@
+//! The clipboard of the system, and what is waited for from it.
+
+use eframe::egui::text_selection::LabelSelectionState;
+use eframe::egui::{Context, Event, ViewportCommand};
+
+use crate::action::Action;
+
+/// How many frames the system is waited for.
+const PATIENCE: u32 = 4;
+
+/// What was copied here, and what is to be pasted.
+#[derive(Debug, Default)]
+pub(crate) struct Clipboard {
+    /// What was copied here last: pasted where the system's clipboard gives nothing.
+    own: String,
+    /// What came with the key that pastes.
+    given: Option<String>,
+    /// What waits for the system's text, and for how many frames.
+    waits: Option<(Action, u32)>,
+}
+
+impl Clipboard {
+    /// Puts a text on the system's clipboard.
+    pub(crate) fn put(&mut self, ctx: &Context, text: String) {
+        ctx.copy_text(text.clone());
+        self.own = text;
+    }
+
+    /// Takes the text that came with a key.
+    pub(crate) fn give(&mut self, text: Option<String>) {
+        if text.is_some() {
+            self.given = text;
+        }
+    }
+
+    /// Returns the text to paste; where none is at hand the system is asked, and it [`came`](Self::came)
+    /// later.
+    pub(crate) fn given(&mut self, ctx: &Context, action: Action) -> Option<String> {
+        let given = self.given.take();
+        if given.is_none() {
+            ctx.send_viewport_cmd(ViewportCommand::RequestPaste);
+            self.waits = Some((action, 0));
+        }
+        given
+    }
+
+    /// Returns what was waited for when it came, or what was copied here where nothing comes.
+    pub(crate) fn came(&mut self, ctx: &Context) -> Option<(Action, String)> {
+        let (action, frames) = self.waits?;
+        let text = ctx.input_mut(|input| {
+            let is = |event: &Event| matches!(event, Event::Paste(_));
+            let at = input.events.iter().position(is)?;
+            match input.events.remove(at) {
+                Event::Paste(text) => Some(text),
+                _ => None,
+            }
+        });
+        if text.is_none() && frames < PATIENCE {
+            self.waits = Some((action, frames + 1));
+            ctx.request_repaint();
+            return None;
+        }
+        self.waits = None;
+        Some((action, text.unwrap_or_else(|| self.own.clone())))
+    }
+
+    pub(crate) fn is_waiting(&self) -> bool {
+        self.waits.is_some()
+    }
+}
+
+/// Returns whether text of a label is marked.
+pub(crate) fn is_text_marked(ctx: &Context) -> bool {
+    let marks = ctx.plugin::<LabelSelectionState>();
+    marks.lock().has_selection()
+}

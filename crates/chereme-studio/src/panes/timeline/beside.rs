@@ -1,0 +1,290 @@
+//! Annotations made, merged and stretched beside the selected one, and below it.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use chereme_corpus::{AnnotationAction, AnnotationChange, AnnotationName, TierContents, TierName};
+
+use super::edit::{self, Scene};
+use super::hold::{self, Kind};
+use super::spans::{Grip, Item};
+use super::{Ghost, Then, Timeline, changes, paste};
+use crate::action::Action;
+use crate::context::Outbox;
+use crate::panes::Acted;
+use crate::words::{shell, timeline as words};
+
+/// Does an action about what lies beside or below the selected annotation.
+pub(super) fn act(
+    timeline: &mut Timeline,
+    action: Action,
+    scene: &Scene<'_>,
+    out: &mut Outbox,
+) -> Acted {
+    match action {
+        Action::NewBefore => new(timeline, scene, false, out),
+        Action::NewAfter => new(timeline, scene, true, out),
+        Action::NewBelow => new_below(timeline, scene, out),
+        Action::MergePrevious => merge_previous(timeline, scene, out),
+        Action::StartToNeighbour => stretch(timeline, scene, Grip::Start, out),
+        Action::EndToNeighbour => stretch(timeline, scene, Grip::End, out),
+        _ => Acted::No,
+    }
+}
+
+/// Returns the annotation that is selected alone, or the one of the tier at the playhead.
+fn found<'a>(scene: &Scene<'a>) -> Option<(&'a TierContents, usize)> {
+    let it = scene.seen.snapshot.annotation(edit::alone(scene)?)?;
+    Some((it.tier, it.at))
+}
+
+/// Begins an annotation in the gap before or after one, as long as that one where there is room; where
+/// there are no gaps it takes half of it, and on a list the place beside it.
+fn new(timeline: &mut Timeline, scene: &Scene<'_>, after: bool, out: &mut Outbox) -> Acted {
+    let Some((tier, at)) = found(scene) else {
+        return Acted::Cannot(shell::NEEDS_ANNOTATION);
+    };
+    let columns = &tier.annotations;
+    let parent = columns.parents[at];
+    let kind = Kind::of(&tier.row);
+    match kind {
+        Kind::Listed if paste::is_association(tier) => Acted::Cannot(words::ONLY_ONE),
+        Kind::Listed => {
+            let family = columns.parents[..at].iter().filter(|it| **it == parent);
+            let place = family.count() + usize::from(after);
+            let add = AnnotationAction::Add {
+                tier: TierName::Number(tier.row.id),
+                start: None,
+                end: None,
+                parent: parent.map(AnnotationName::Number),
+                order: u32::try_from(place).ok(),
+                value: String::new(),
+                confidence: None,
+            };
+            let then = Then {
+                select: true,
+                edit: true,
+                ..Then::default()
+            };
+            timeline.change(vec![add.into()], then, out)
+        }
+        _ => {
+            let here = (columns.starts[at], columns.ends[at]);
+            let span = if kind == Kind::Tiled {
+                let middle = scene.stepped((here.0 + here.1) / 2, 0);
+                let half = if after {
+                    (middle, here.1)
+                } else {
+                    (here.0, middle)
+                };
+                Some(half).filter(|half| half.0 < half.1 && *half != here)
+            } else {
+                let gap = gap(scene, tier, at, after);
+                let length = here.1 - here.0;
+                Some(if after {
+                    (gap.0, gap.1.min(gap.0 + length))
+                } else {
+                    (gap.0.max(gap.1 - length), gap.1)
+                })
+                .filter(|it| it.1 - it.0 >= hold::LEAST)
+            };
+            let Some(span) = span else {
+                return Acted::Cannot(words::NO_ROOM_BESIDE);
+            };
+            timeline.edit_new(scene, tier.row.id, span);
+            Acted::Yes
+        }
+    }
+}
+
+/// Returns the free time before or after an annotation: up to its neighbour, the end of the annotation
+/// above, or that of the recording.
+fn gap(scene: &Scene<'_>, tier: &TierContents, at: usize, after: bool) -> (i64, i64) {
+    let columns = &tier.annotations;
+    let mut limits = hold::limits(scene.contents, scene.frames().is_some());
+    if limits.to > scene.contents.recording.duration_us {
+        limits.to = scene.contents.recording.duration_us.max(columns.ends[at]);
+    }
+    let above = columns.parents[at].and_then(|id| scene.seen.snapshot.annotation(id));
+    let above = above.map(|it| {
+        (
+            it.tier.annotations.starts[it.at],
+            it.tier.annotations.ends[it.at],
+        )
+    });
+    let (from, to) = above.unwrap_or((limits.from, limits.to));
+    if after {
+        let next = columns.starts.get(at + 1).map_or(to, |it| (*it).min(to));
+        (columns.ends[at], next)
+    } else {
+        let previous = at
+            .checked_sub(1)
+            .map_or(from, |it| columns.ends[it].max(from));
+        (previous, columns.starts[at])
+    }
+}
+
+/// Adds an empty annotation on every tier below the selected ones that has none there, all the way down.
+fn new_below(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Acted {
+    let mut chosen = scene.seen.shown.annotations.clone();
+    if chosen.is_empty() {
+        chosen.extend(edit::alone(scene));
+    }
+    if chosen.is_empty() {
+        return Acted::Cannot(shell::NEEDS_ANNOTATION);
+    }
+    let adds = below(&scene.contents.tiers, &chosen);
+    if adds.is_empty() {
+        return Acted::Cannot(words::NOTHING_BELOW);
+    }
+    let ghosts = adds.iter().map(|(tier, span)| Ghost {
+        tier: *tier,
+        id: None,
+        start: span.0,
+        end: span.1,
+    });
+    let then = Then {
+        ghosts: ghosts.collect(),
+        ..Then::default()
+    };
+    let asked = adds
+        .iter()
+        .map(|(tier, span)| changes::add(*tier, *span, ""));
+    timeline.change(asked.collect(), then, out)
+}
+
+/// Returns what is missing below annotations, parents first, as `(tier, span)`.
+fn below(tiers: &[TierContents], chosen: &BTreeSet<i64>) -> Vec<(i64, (i64, i64))> {
+    let mut under: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
+    // Tiers with annotations on them, those that are there by their id.
+    let mut open: Vec<(i64, (i64, i64), Option<i64>)> = Vec::new();
+    for tier in tiers {
+        let columns = &tier.annotations;
+        for (at, parent) in columns.parents.iter().enumerate() {
+            if let Some(parent) = parent {
+                under.entry((tier.row.id, *parent)).or_default().push(at);
+            }
+        }
+        open.extend(hold::places(tier, chosen).map(|at| {
+            let span = (columns.starts[at], columns.ends[at]);
+            (tier.row.id, span, Some(columns.ids[at]))
+        }));
+    }
+    let (mut adds, mut seen, mut at) = (Vec::new(), BTreeSet::new(), 0);
+    while let Some((above, span, id)) = open.get(at).copied() {
+        at += 1;
+        if id.is_some_and(|id| !seen.insert(id)) {
+            continue;
+        }
+        for tier in tiers.iter().filter(|it| it.row.parent_id == Some(above)) {
+            let columns = &tier.annotations;
+            let there = id.and_then(|id| under.get(&(tier.row.id, id)));
+            if there.is_none() {
+                adds.push((tier.row.id, span));
+                open.push((tier.row.id, span, None));
+            }
+            for at in there.into_iter().flatten() {
+                let span = (columns.starts[*at], columns.ends[*at]);
+                open.push((tier.row.id, span, Some(columns.ids[*at])));
+            }
+        }
+    }
+    adds
+}
+
+fn merge_previous(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Acted {
+    let chosen = &scene.seen.shown.annotations;
+    let first = match scene.tier() {
+        Some(tier) if chosen.len() > 1 => hold::places(tier, chosen).next().map(|at| (tier, at)),
+        _ => found(scene),
+    };
+    let Some((tier, at)) = first else {
+        return Acted::Cannot(shell::NEEDS_ANNOTATION);
+    };
+    let Some(before) = at.checked_sub(1) else {
+        return Acted::Cannot(words::NO_PREVIOUS);
+    };
+    let ids = &tier.annotations.ids;
+    let mut both = chosen.clone();
+    both.extend([ids[before], ids[at]]);
+    let closed = scene.inventory(tier).is_some();
+    let then = Then {
+        select: true,
+        ..Then::default()
+    };
+    match changes::merge(tier, &both, closed) {
+        Some(changes) => timeline.change(changes, then, out),
+        None => Acted::Cannot(words::NO_PREVIOUS),
+    }
+}
+
+/// Brings the starts or ends of the selected annotations to their neighbours, or to the ends of the
+/// annotations above.
+fn stretch(timeline: &mut Timeline, scene: &Scene<'_>, grip: Grip, out: &mut Outbox) -> Acted {
+    let mut chosen = scene.seen.shown.annotations.clone();
+    if chosen.is_empty() {
+        chosen.extend(edit::alone(scene));
+    }
+    if chosen.is_empty() {
+        return Acted::Cannot(shell::NEEDS_ANNOTATION);
+    }
+    let mut changed: Vec<AnnotationChange> = Vec::new();
+    let mut ghosts = Vec::new();
+    for tier in &scene.contents.tiers {
+        let kind = Kind::of(&tier.row);
+        let columns = &tier.annotations;
+        for at in hold::places(tier, &chosen) {
+            let last = if grip == Grip::End {
+                columns.len() - 1
+            } else {
+                0
+            };
+            if !matches!(kind, Kind::Root | Kind::Inside) || (kind == Kind::Root && at == last) {
+                continue;
+            }
+            let gap = gap(scene, tier, at, grip == Grip::End);
+            if gap.0 >= gap.1 {
+                continue;
+            }
+            let (start, end) = (columns.starts[at], columns.ends[at]);
+            let item = Item {
+                id: columns.ids[at],
+                start: start.min(gap.0),
+                end: end.max(gap.1),
+            };
+            changed.extend(changes::respan(&[item]));
+            ghosts.push(Ghost::of(tier.row.id, &item));
+        }
+    }
+    if changed.is_empty() {
+        return Acted::Cannot(words::NO_NEIGHBOUR);
+    }
+    let then = Then {
+        ghosts,
+        ..Then::default()
+    };
+    timeline.change(changed, then, out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::hold::tests::contents;
+    use super::*;
+
+    #[test]
+    fn what_is_missing_below_is_made_all_the_way_down() {
+        let all = contents(&[
+            (1, None, "", &[(1, 0, 100, None), (2, 500, 600, None)]),
+            (2, Some(1), "Included_In", &[(3, 10, 20, Some(1))]),
+            (3, Some(2), "Symbolic_Association", &[]),
+            (4, Some(1), "Time_Subdivision", &[]),
+            (5, None, "", &[]),
+        ]);
+        let below = |ids: &[i64]| below(&all.tiers, &ids.iter().copied().collect());
+        assert_eq!(below(&[1]), [(4, (0, 100)), (3, (10, 20))]);
+        let whole = (500, 600);
+        assert_eq!(below(&[2]), [(2, whole), (4, whole), (3, whole)]);
+        assert_eq!(below(&[3]), [(3, (10, 20))]);
+        // What hangs below another that is chosen too is made once.
+        assert_eq!(below(&[1, 3]).len(), 2);
+    }
+}

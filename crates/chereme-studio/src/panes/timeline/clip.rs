@@ -1,0 +1,342 @@
+//! Annotations as text for the clipboard: a table with tabs, as spreadsheets give and take it.
+//!
+//! What is copied has the columns `tier`, `start`, `end` and `value`, times in seconds. What is pasted
+//! may have them in any order and by other names, or none and times beside each other; a single column is
+//! values, and a line without tabs one value.
+
+use chereme_corpus::Moment;
+use chereme_sign::text::fold;
+
+use crate::words::{Text, timeline as words};
+
+/// An annotation that a text asks for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Said {
+    /// The line of the text, counted from 1.
+    pub(crate) line: usize,
+    /// The name of its tier, where that is said.
+    pub(crate) tier: Option<String>,
+    pub(crate) start: i64,
+    pub(crate) end: i64,
+    pub(crate) value: String,
+}
+
+/// A line that is not understood, or has no place.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Odd {
+    pub(crate) line: usize,
+    /// Why; `{text}` in it is what it is about.
+    pub(crate) why: Text,
+    pub(crate) text: String,
+}
+
+/// What a text is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Clip {
+    /// Annotations, and lines that are none.
+    Rows(Vec<Said>, Vec<Odd>),
+    /// Values, one below the other, each with its line.
+    Values(Vec<(usize, String)>),
+}
+
+/// Returns annotations, each as `(tier, start, end, value)`, as text.
+pub(crate) fn write<'a>(rows: impl Iterator<Item = (&'a str, i64, i64, String)>) -> String {
+    let mut text = String::from("tier\tstart\tend\tvalue\n");
+    for (tier, start, end, value) in rows {
+        let cells = [cell(tier), seconds(start), seconds(end), cell(&value)];
+        text.push_str(&cells.join("\t"));
+        text.push('\n');
+    }
+    text
+}
+
+/// Returns a time in seconds, to the microsecond where it has any.
+fn seconds(micros: i64) -> String {
+    let sign = if micros < 0 { "-" } else { "" };
+    let (whole, part) = (micros.abs() / 1_000_000, micros.abs() % 1_000_000);
+    let part = format!("{part:06}");
+    let short = part.trim_end_matches('0');
+    format!("{sign}{whole}.{}", &part[..short.len().max(3)])
+}
+
+fn cell(text: &str) -> String {
+    if text.contains(['\t', '\n', '\r']) || text.starts_with('"') {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
+
+/// Reads a text; `frame` returns when a frame is.
+pub(crate) fn read(text: &str, frame: impl Fn(u64) -> Option<i64>) -> Clip {
+    let rows = cells(text);
+    if rows.iter().all(|(_, cells)| cells.len() == 1) {
+        let values = rows
+            .into_iter()
+            .map(|(line, mut cells)| (line, cells.remove(0)));
+        return Clip::Values(values.collect());
+    }
+    let mut odd = Vec::new();
+    let titled = rows.first().and_then(|(_, cells)| Columns::named(cells));
+    let (columns, rows) = match titled {
+        Some(columns) => (columns, &rows[1..]),
+        None => {
+            let found = rows.iter().find_map(|(_, cells)| Columns::guessed(cells));
+            (found.unwrap_or_default(), &rows[..])
+        }
+    };
+    let mut said = Vec::new();
+    for (line, cells) in rows {
+        match columns.row(*line, cells, &frame) {
+            Ok(row) => said.push(row),
+            Err(why) => odd.push(why),
+        }
+    }
+    Clip::Rows(said, odd)
+}
+
+/// Which column is what.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+struct Columns {
+    tier: Option<usize>,
+    start: Option<usize>,
+    end: Option<usize>,
+    length: Option<usize>,
+    value: Option<usize>,
+    /// Whether plain numbers are milliseconds.
+    millis: bool,
+}
+
+impl Columns {
+    /// Reads a row of names, as this window, ELAN and people write them.
+    fn named(cells: &[String]) -> Option<Self> {
+        const NAMES: [&[&str]; 5] = [
+            &["tier", "acteur"],
+            &["start", "begin", "from", "debut"],
+            &["end", "to", "fin"],
+            &["duration", "length", "duree"],
+            &[
+                "value",
+                "annotation",
+                "gloss",
+                "text",
+                "valeur",
+                "glose",
+                "texte",
+            ],
+        ];
+        let mut at: [Option<usize>; 5] = [None; 5];
+        for (column, cell) in cells.iter().enumerate() {
+            let name = fold(cell.trim());
+            let fits = |names: &&[&str]| names.iter().any(|it| name.starts_with(it));
+            if let Some(what) = NAMES.iter().position(fits) {
+                at[what].get_or_insert(column);
+            }
+        }
+        let [tier, start, end, length, value] = at;
+        let title = start.and_then(|start| cells.get(start)).map(|it| fold(it));
+        let millis = title.is_some_and(|it| it.contains("msec") || it.contains("(ms)"));
+        (start.is_some() && (end.is_some() || length.is_some())).then_some(Self {
+            tier,
+            start,
+            end,
+            length,
+            value,
+            millis,
+        })
+    }
+
+    /// Finds two times beside each other: the tier is before them, the value after.
+    fn guessed(cells: &[String]) -> Option<Self> {
+        let is_time = |cell: &String| moment(cell, false).is_some();
+        let start =
+            (1..cells.len()).find(|at| is_time(&cells[at - 1]) && is_time(&cells[*at]))? - 1;
+        Some(Self {
+            tier: start.checked_sub(1),
+            start: Some(start),
+            end: Some(start + 1),
+            value: Some(start + 2),
+            ..Self::default()
+        })
+    }
+
+    fn row(
+        &self,
+        line: usize,
+        cells: &[String],
+        frame: &impl Fn(u64) -> Option<i64>,
+    ) -> Result<Said, Odd> {
+        let cell = |at: Option<usize>| {
+            let text = at.and_then(|at| cells.get(at)).map(|it| it.trim());
+            text.filter(|text| !text.is_empty())
+        };
+        let odd = |why: Text, text: &str| Odd {
+            line,
+            why,
+            text: text.to_owned(),
+        };
+        let time = |text: &str| {
+            let at = match moment(text, self.millis) {
+                Some(Moment::Time(at)) => Some(at.micros()),
+                Some(Moment::Frame(at)) => frame(at),
+                None => None,
+            };
+            at.ok_or_else(|| odd(words::ODD_TIME, text))
+        };
+        let (Some(start), Some(end)) = (cell(self.start), cell(self.end).or(cell(self.length)))
+        else {
+            return Err(odd(words::ODD_ROW, cells.join(" ").trim()));
+        };
+        let (from, mut to) = (time(start)?, time(end)?);
+        if cell(self.end).is_none() {
+            to += from;
+        }
+        if to <= from {
+            return Err(odd(words::ODD_ENDS, end));
+        }
+        let value = self.value.and_then(|at| cells.get(at));
+        Ok(Said {
+            line,
+            tier: cell(self.tier).map(str::to_owned),
+            start: from,
+            end: to,
+            value: value.cloned().unwrap_or_default(),
+        })
+    }
+}
+
+/// Reads a time, also with a comma before the decimals as French spreadsheets write it.
+fn moment(text: &str, millis: bool) -> Option<Moment> {
+    let text = text.trim().replace(',', ".");
+    if millis && text.bytes().all(|it| it.is_ascii_digit()) {
+        return format!("{text}ms").parse().ok();
+    }
+    text.parse().ok()
+}
+
+/// Returns the cells of every line that is not blank; a cell in quotes may hold tabs and line breaks.
+fn cells(text: &str) -> Vec<(usize, Vec<String>)> {
+    let mut rows: Vec<(usize, Vec<String>)> = Vec::new();
+    let mut letters = text.chars().peekable();
+    let (mut line, mut began) = (1, 1);
+    let (mut row, mut cell, mut quoted) = (Vec::new(), String::new(), false);
+    let mut end = |row: &mut Vec<String>, cell: &mut String, line| {
+        row.push(std::mem::take(cell));
+        let whole = std::mem::take(row);
+        if whole.iter().any(|it| !it.trim().is_empty()) {
+            rows.push((line, whole));
+        }
+    };
+    while let Some(letter) = letters.next() {
+        match letter {
+            '"' if quoted && letters.peek() == Some(&'"') => {
+                letters.next();
+                cell.push('"');
+            }
+            '"' if quoted => quoted = false,
+            '"' if cell.is_empty() => quoted = true,
+            '\r' if !quoted => {}
+            '\t' if !quoted => row.push(std::mem::take(&mut cell)),
+            '\n' if !quoted => {
+                end(&mut row, &mut cell, began);
+                line += 1;
+                began = line;
+            }
+            other => {
+                line += usize::from(other == '\n');
+                cell.push(other);
+            }
+        }
+    }
+    end(&mut row, &mut cell, began);
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows(text: &str) -> (Vec<Said>, Vec<(usize, Text)>) {
+        match read(text, |frame| (frame < 100).then_some(frame as i64 * 10_000)) {
+            Clip::Rows(said, odd) => (said, odd.into_iter().map(|it| (it.line, it.why)).collect()),
+            Clip::Values(values) => panic!("{values:?}"),
+        }
+    }
+
+    fn said(line: usize, tier: Option<&str>, (start, end): (i64, i64), value: &str) -> Said {
+        Said {
+            line,
+            tier: tier.map(str::to_owned),
+            start,
+            end,
+            value: value.into(),
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let all = [
+            ("Gloss", 1_250_000, 1_500_001, "MAISON"),
+            ("Free", 2_000_000, 3_000_000, "two\nlines\tand \"more\""),
+            ("Free", 4_000_000, 5_000_000, "\"quoted\""),
+            ("Free", 6_000_000, 7_000_000, ""),
+        ];
+        let text = write(all.iter().map(|it| (it.0, it.1, it.2, it.3.to_owned())));
+        assert!(text.starts_with("tier\tstart\tend\tvalue\nGloss\t1.250\t1.500001\tMAISON\n"));
+        let (found, odd) = rows(&text);
+        let want = all.iter().zip([2, 3, 5, 6]);
+        let want: Vec<Said> = want
+            .map(|(it, line)| said(line, Some(it.0), (it.1, it.2), it.3))
+            .collect();
+        assert_eq!((found, odd), (want, vec![]));
+    }
+
+    #[test]
+    fn tables_of_others_are_understood_with_and_without_names() {
+        let one = |tier: Option<&str>, line| said(line, tier, (1_500_000, 2_000_000), "A");
+        for (text, want) in [
+            ("1.5\t2\tA", one(None, 1)),
+            ("Gloss\t1,5\t0:02\tA\n", one(Some("Gloss"), 1)),
+            ("Value\tEnd\tBegin\r\nA\t2s\t1500ms\r\n", one(None, 2)),
+            (
+                "Début\tDurée\tActeur\tGlose\n1.5\t0.5\tG\tA",
+                one(Some("G"), 2),
+            ),
+            (
+                "Tier\tBegin Time - msec\tEnd Time - msec\tAnnotation\nG\t1500\t2000\tA",
+                one(Some("G"), 2),
+            ),
+        ] {
+            assert_eq!(rows(text), (vec![want], vec![]), "{text}");
+        }
+        let (frames, _) = rows("G\tf10\tf20\tB");
+        assert_eq!(frames, [said(1, Some("G"), (100_000, 200_000), "B")]);
+    }
+
+    #[test]
+    fn lines_that_are_no_annotations_are_told() {
+        let text = "start\tend\tvalue\nsoon\t2\tA\n3\t2\tB\n\t\t\n\tx\ty\nf500\tf600\tC\n1\t2\tD";
+        let (found, odd) = rows(text);
+        assert_eq!(found, [said(7, None, (1_000_000, 2_000_000), "D")]);
+        let want = [
+            (2, words::ODD_TIME),
+            (3, words::ODD_ENDS),
+            (5, words::ODD_ROW),
+            (6, words::ODD_TIME),
+        ];
+        assert_eq!(odd, want);
+        assert_eq!(rows("a\tb\nc\td").1.len(), 2);
+    }
+
+    #[test]
+    fn a_column_is_values() {
+        for (text, want) in [
+            ("MAISON", vec![(1, "MAISON")]),
+            ("A\r\n\r\nB\n", vec![(1, "A"), (3, "B")]),
+            ("", vec![]),
+        ] {
+            let want = want.into_iter().map(|(line, it)| (line, it.to_owned()));
+            assert_eq!(read(text, |_| None), Clip::Values(want.collect()));
+        }
+    }
+}

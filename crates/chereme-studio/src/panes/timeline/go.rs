@@ -1,0 +1,165 @@
+//! Going to a time that is typed.
+
+use chereme_corpus::Moment;
+use chereme_motion::{Instant, Span};
+use eframe::egui::{
+    Align2, Id, Key, Label, Modifiers, Role, TextEdit, Ui, WidgetInfo, Window, vec2,
+};
+
+use super::Timeline;
+use super::data::time_text;
+use super::edit::Scene;
+use super::snap::Frames;
+use crate::context::Outbox;
+use crate::words::{fill, shell, timeline as words};
+
+/// The field while it is open.
+#[derive(Debug, Default)]
+pub(super) struct GoBox {
+    text: String,
+}
+
+/// Returns the time that a text means: a time, `f512` for the frame that the stage calls so, `+2` and
+/// `-0.5` from `now`, `50%` of the whole. Nothing where it is none.
+fn target(text: &str, now: i64, whole: Span, frames: Option<Frames>) -> Option<i64> {
+    let text = text.trim().to_lowercase().replace(',', ".");
+    let (from, end) = (whole.start().micros(), whole.end().micros());
+    if let Some(share) = text.strip_suffix('%') {
+        let share: f64 = share.trim().parse().ok()?;
+        let share = Some(share).filter(|it| (0.0..=100.0).contains(it))?;
+        return Some(from + ((end - from) as f64 * share / 100.0) as i64);
+    }
+    let (sign, rest) = match text.as_bytes().first()? {
+        b'+' => (Some(1), text[1..].trim()),
+        b'-' => (Some(-1), text[1..].trim()),
+        _ => (None, text.as_str()),
+    };
+    let named = ["frame", "image", "#"]
+        .into_iter()
+        .find_map(|it| rest.strip_prefix(it));
+    let moment: Moment = match named {
+        Some(number) => format!("f{}", number.trim()).parse().ok()?,
+        None => rest.parse().ok()?,
+    };
+    match (moment, sign) {
+        (Moment::Time(at), None) => Some(at.micros()),
+        (Moment::Time(by), Some(sign)) => now.checked_add(by.micros().checked_mul(sign)?),
+        (Moment::Frame(at), None) => {
+            let frames = frames?;
+            let at = usize::try_from(at.checked_sub(1)?).ok()?;
+            Some(frames.rate.instant(at).micros() + frames.offset)
+        }
+        (Moment::Frame(by), Some(sign)) => {
+            let by = i64::try_from(by).ok().filter(|it| *it < 1 << 40)?;
+            Some(frames?.stepped(now, by * sign))
+        }
+    }
+}
+
+/// Shows the field, and goes where it says.
+pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
+    let Some(mut shown) = timeline.go_box.take() else {
+        return;
+    };
+    let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+    let (mut go, mut drop) = (pressed(Key::Enter), pressed(Key::Escape));
+    let (say, frames) = (|text| scene.seen.say(text), scene.frames());
+    let whole = scene.seen.shown.player.whole;
+    let mut to = None;
+    Window::new(say(words::GO_TITLE))
+        .id(Id::unique("timeline go"))
+        .collapsible(false)
+        .resizable(false)
+        .anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0))
+        .fixed_size(vec2(330.0, 120.0))
+        .show(ui.ctx(), |ui| {
+            let field = TextEdit::singleline(&mut shown.text)
+                .id(Id::unique("timeline go field"))
+                .hint_text(say(words::GO_FIELD))
+                .desired_width(f32::INFINITY);
+            let response = ui.add(field);
+            let label = say(words::GO_FIELD);
+            response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, label));
+            response.request_focus();
+            to = target(&shown.text, scene.playhead(), whole, frames);
+            let inside =
+                to.is_none_or(|at| at >= whole.start().micros() && at <= whole.end().micros());
+            match to {
+                Some(_) if !inside => {
+                    let text = fill(say(words::GO_BEYOND), &[("time", &time_text(whole.end()))]);
+                    ui.colored_label(scene.seen.colours().trouble, text);
+                }
+                Some(at) => drop_label(ui, &there(scene, at)),
+                None if shown.text.trim().is_empty() => drop_label(ui, say(words::GO_HOW)),
+                None => {
+                    let text = Label::new(
+                        eframe::egui::RichText::new(say(words::GO_HOW))
+                            .color(scene.seen.colours().trouble),
+                    );
+                    ui.add(text.wrap());
+                }
+            }
+            to = to.filter(|_| inside);
+            ui.horizontal(|ui| {
+                go |= ui
+                    .add_enabled(to.is_some(), eframe::egui::Button::new(say(words::GO)))
+                    .clicked();
+                drop |= ui.button(say(shell::CANCEL)).clicked();
+            });
+        });
+    match to.filter(|_| go) {
+        Some(at) => out.seek(Instant::from_micros(at)),
+        None if !drop => timeline.go_box = Some(shown),
+        None => {}
+    }
+}
+
+fn drop_label(ui: &mut Ui, text: &str) {
+    ui.add(Label::new(text).wrap());
+}
+
+/// Returns a time as the stage tells it.
+fn there(scene: &Scene<'_>, at: i64) -> String {
+    let time = time_text(Instant::from_micros(at));
+    let Some(frames) = scene.frames() else {
+        return time;
+    };
+    let own = Instant::from_micros((at - frames.offset).max(0));
+    let frame = frames.rate.frame_at(own) + 1;
+    let values: [(&str, &dyn std::fmt::Display); 2] = [("time", &time), ("frame", &frame)];
+    fill(scene.seen.say(words::GO_THERE), &values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_motion::Rate;
+
+    #[test]
+    fn times_frames_shares_and_ways_from_here_are_understood() {
+        let whole = Span::between(Instant::ZERO, Instant::from_micros(100_000_000));
+        let frames = Frames {
+            rate: Rate::new(50, 1).expect("a rate"),
+            offset: 1_000_000,
+        };
+        for (text, want) in [
+            ("1:23.4", Some(83_400_000)),
+            (" 83,4 ", Some(83_400_000)),
+            ("f1", Some(1_000_000)),
+            ("Frame 51", Some(2_000_000)),
+            ("#0", None),
+            ("+2", Some(12_000_000)),
+            ("-0.5", Some(9_500_000)),
+            ("+f5", Some(10_100_000)),
+            ("50 %", Some(50_000_000)),
+            ("101%", None),
+            ("", None),
+            ("soon", None),
+            ("f99999999999999999999", None),
+        ] {
+            let found = target(text, 10_000_000, whole, Some(frames));
+            assert_eq!(found, want, "{text}");
+        }
+        assert_eq!(target("f3", 0, whole, None), None);
+    }
+}

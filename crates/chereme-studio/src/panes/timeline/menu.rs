@@ -1,0 +1,83 @@
+//! What can be done on a lane, behind the other button of the mouse.
+
+use std::collections::BTreeSet;
+
+use chereme_corpus::Contents;
+use eframe::egui::{Rect, Response};
+
+use super::ui::Drawing;
+use super::{bar, data};
+use crate::action::Action;
+use crate::command::Command;
+use crate::words::timeline as words;
+
+const VALUE: [Action; 2] = [Action::EditValue, Action::PictureValue];
+const CLIP: [Action; 6] = [
+    Action::Cut,
+    Action::Copy,
+    Action::CopyWithBelow,
+    Action::Paste,
+    Action::PasteHere,
+    Action::Duplicate,
+];
+const NEW: [Action; 4] = [
+    Action::NewAnnotation,
+    Action::NewBefore,
+    Action::NewAfter,
+    Action::NewBelow,
+];
+const SHAPE: [Action; 5] = [
+    Action::SplitAnnotation,
+    Action::MergeAnnotation,
+    Action::MergePrevious,
+    Action::StartToNeighbour,
+    Action::EndToNeighbour,
+];
+const AWAY: [Action; 3] = [
+    Action::CopyToTier,
+    Action::MoveToTier,
+    Action::DeleteAnnotation,
+];
+
+impl Drawing<'_, '_> {
+    /// Shows the menu, about the annotation under the pointer where that is not among several; where none
+    /// is, the playhead goes there.
+    pub(super) fn lane_menu(
+        &mut self,
+        response: &Response,
+        contents: &Contents,
+        at: usize,
+        lane: Rect,
+    ) {
+        let tier = &contents.tiers[at];
+        if response.secondary_clicked()
+            && let Some(pointer) = response.interact_pointer_pos()
+        {
+            let here = self.instant(pointer.x - lane.left());
+            let under = data::at(&tier.annotations, here.micros());
+            let under = under.map(|under| tier.annotations.ids[under]);
+            self.out.send(Command::Tier(Some(tier.row.id)));
+            match under {
+                Some(id) if self.seen.shown.annotations.contains(&id) => {}
+                Some(id) => self.out.send(Command::Annotations(BTreeSet::from([id]))),
+                None => {
+                    self.out.send(Command::Annotations(BTreeSet::new()));
+                    self.out.seek(here);
+                }
+            }
+        }
+        response.context_menu(|ui| {
+            bar::actions(ui, self.seen, &VALUE, self.out);
+            ui.separator();
+            bar::actions(ui, self.seen, &CLIP, self.out);
+            ui.separator();
+            for (title, part) in [(words::MENU_NEW, &NEW[..]), (words::MENU_BESIDE, &SHAPE)] {
+                ui.menu_button(self.seen.say(title), |ui| {
+                    bar::actions(ui, self.seen, part, self.out);
+                });
+            }
+            ui.separator();
+            bar::actions(ui, self.seen, &AWAY, self.out);
+        });
+    }
+}

@@ -1,0 +1,65 @@
+//! What of a pasted text has no place: told line by line, before anything is pasted.
+
+use eframe::egui::{Align2, Id, Key, Label, Modifiers, ScrollArea, Ui, Window, vec2};
+
+use super::Timeline;
+use super::edit::Scene;
+use super::paste::{self, Plan};
+use crate::context::Outbox;
+use crate::words::{fill, shell, timeline as words};
+
+/// How many lines are told.
+const MOST: usize = 200;
+
+/// The list while it is open.
+#[derive(Debug)]
+pub(super) struct PasteBox {
+    pub(super) plan: Plan,
+}
+
+/// Shows the list, and pastes the others where that is said.
+pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
+    let Some(shown) = timeline.paste_box.take() else {
+        return;
+    };
+    let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+    let (mut keep, mut drop) = (pressed(Key::Enter), pressed(Key::Escape));
+    let say = |text| scene.seen.say(text);
+    let PasteBox { plan } = &shown;
+    Window::new(say(words::PASTE_TITLE))
+        .id(Id::unique("timeline paste"))
+        .collapsible(false)
+        .resizable(false)
+        .anchor(Align2::CENTER_CENTER, vec2(0.0, 0.0))
+        .fixed_size(vec2(380.0, 260.0))
+        .show(ui.ctx(), |ui| {
+            ui.add(Label::new(say(words::PASTE_ABOUT)).wrap());
+            let room = ui.available_height() - ui.spacing().interact_size.y * 1.6;
+            ScrollArea::vertical()
+                .auto_shrink(false)
+                .max_height(room)
+                .show(ui, |ui| {
+                    for odd in plan.odd.iter().take(MOST) {
+                        let what = fill(say(odd.why), &[("text", &odd.text)]);
+                        let said: [(&str, &dyn std::fmt::Display); 2] =
+                            [("n", &odd.line), ("what", &what)];
+                        ui.add(Label::new(fill(say(words::PASTE_LINE), &said)).wrap());
+                    }
+                    if let Some(more) = plan.odd.len().checked_sub(MOST + 1) {
+                        ui.weak(fill(say(words::PASTE_MORE), &[("n", &(more + 1))]));
+                    }
+                });
+            ui.horizontal(|ui| {
+                if !plan.adds.is_empty() {
+                    let rest = fill(say(words::PASTE_REST), &[("n", &plan.adds.len())]);
+                    keep |= ui.button(rest).clicked();
+                }
+                drop |= ui.button(say(shell::CANCEL)).clicked();
+            });
+        });
+    if keep && !plan.adds.is_empty() {
+        paste::put(timeline, &plan.adds, out);
+    } else if !drop && !keep {
+        timeline.paste_box = Some(shown);
+    }
+}
