@@ -1,14 +1,32 @@
 //! Directions: where the hand's axis points, and where its palm faces about that axis.
 
-use std::f64::consts::FRAC_PI_4;
+mod wrist;
+
+use std::f64::consts::FRAC_PI_8;
+use std::sync::OnceLock;
 
 use chereme_sign::hamnosys::{Aim, Compass, Direction, Frame, orientation};
 use glam::{DQuat, DVec3};
 
 use super::Found;
 
-/// By how much half-way between two directions must be nearer than one of them, in radians.
+pub(super) use wrist::Wrist;
+
+/// By how much what is less likely by one neper must be nearer where only a direction is told, in radians.
 const PLAIN: f64 = 0.035;
+/// Half-way between two directions is so much less likely to be meant than one of them, in nepers: between
+/// neighbours, those 60 degrees apart, and those at a right angle; half-way between two palms.
+const HALF: [f64; 3] = [1.5, 2.2, 3.5];
+const HALF_PALM: f64 = 1.2;
+/// A hand hardly has a direction without a symbol of its own: it is so much less likely.
+const CORNER: f64 = 5.0;
+/// How far hands are from what is meant, in degrees: shares of normal distributions in three dimensions. Most
+/// hold it, some nearly, and of the others anything may be expected.
+const SPREAD: [(f64, f64); 3] = [(0.75, 1.0), (0.12, 4.0), (0.13, 15.0)];
+/// Directions farther from what is measured than this are not looked at, in radians.
+const LOOKED_AT: f64 = 1.3;
+/// What is beyond the end of wrist and forearm is the less likely meant by a neper for so many degrees.
+const BEYOND: f64 = 8.0;
 /// Two directions may be joined that are at most so far apart, in radians: a right angle.
 const APART: f64 = 1.58;
 
@@ -34,77 +52,196 @@ pub(super) fn from_out(direction: DVec3) -> DQuat {
     DQuat::from_rotation_arc(DVec3::Z, direction)
 }
 
-/// Returns the direction nearest to a unit vector (left, up, forward): one of the 26, or half-way
-/// between two that have symbols and are neighbours. Residuals are in degrees.
-pub(super) fn nearest(direction: DVec3, between: bool) -> Found<Aim<Direction>> {
-    let mut found: Vec<(Aim<Direction>, f64, f64)> = Direction::all()
-        .map(|d| {
-            let off = DVec3::from(d.vector()).angle_between(direction);
-            (Aim::at(d), off, off)
-        })
-        .collect();
-    if between {
-        let mut near = found.clone();
-        near.retain(|(aim, ..)| aim.first.has_symbol());
-        for (n, (a, off_a, _)) in near.iter().enumerate() {
-            for (b, off_b, _) in &near[n + 1..] {
-                let (va, vb) = (vector(a), vector(b));
-                if va.angle_between(vb) > APART {
-                    continue;
-                }
-                let (first, second) = if off_a <= off_b { (a, b) } else { (b, a) };
+/// A direction that may be meant.
+struct Pointing {
+    aim: Aim<Direction>,
+    at: DVec3,
+    /// How much less likely it is than another one, in nepers.
+    cost: f64,
+}
+
+/// Returns the 26 directions, and what is half-way between two that have symbols and says another one.
+fn pointings() -> &'static [Pointing] {
+    static ALL: OnceLock<Vec<Pointing>> = OnceLock::new();
+    ALL.get_or_init(|| {
+        let mut all: Vec<Pointing> = Direction::all()
+            .map(|direction| Pointing {
+                aim: Aim::at(direction),
+                at: direction.vector().into(),
+                cost: if direction.has_symbol() { 0.0 } else { CORNER },
+            })
+            .collect();
+        let plain: Vec<Direction> = Direction::all().filter(|it| it.has_symbol()).collect();
+        let mut pairs = Vec::new();
+        for (n, &first) in plain.iter().enumerate() {
+            for &second in &plain[n + 1..] {
+                let apart = DVec3::from(first.vector()).angle_between(second.vector().into());
                 let aim = Aim {
-                    first: first.first,
-                    second: Some(second.first),
+                    first,
+                    second: Some(second),
                     approx: false,
                     frame: Frame::Plain,
                 };
-                let off = vector(&aim).angle_between(direction);
-                // Those next to each other say the same more plainly.
-                let wide = va.angle_between(vb) / APART;
-                found.push((aim, off, off + PLAIN * (1.0 + wide)));
+                pairs.extend((apart < APART).then_some((apart, aim)));
             }
         }
-    }
-    Found::of(found).degrees()
+        // What several pairs say is said by those nearest to each other.
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (apart, aim) in pairs {
+            let at = vector(&aim);
+            let wide = usize::from(apart > 0.9) + usize::from(apart > 1.3);
+            if all.iter().all(|other| other.at.distance(at) > 1e-6) {
+                let cost = HALF[wide];
+                all.push(Pointing { aim, at, cost });
+            }
+        }
+        all
+    })
 }
 
-/// Returns the palm's direction: the angle about the hand's axis, as
-/// [`orientation`](chereme_sign::hamnosys::orientation) counts it. Residuals are in degrees.
-///
-/// `along` and `normal` are as measured; `aim` is what the axis was told to be.
-pub(super) fn palm(
-    along: DVec3,
-    normal: DVec3,
-    aim: &Aim<Direction>,
-    between: bool,
-) -> Found<Aim<Compass>> {
-    let told = vector(aim);
-    let onto = DQuat::from_rotation_arc(along, told);
-    let angle_of = orientation::palm_angle(told.to_array(), (onto * normal).to_array());
-    let off = |angle: f64| wrapped(angle_of - angle).abs();
-    let mut found: Vec<(Aim<Compass>, f64, f64)> = Compass::ALL
-        .iter()
-        .map(|&palm| (Aim::at(palm), off(palm.angle()), off(palm.angle())))
-        .collect();
-    if between {
-        for (n, &first) in Compass::ALL.iter().enumerate() {
-            let next = Compass::ALL[(n + 1) % 8];
-            let off = off(first.angle() + FRAC_PI_4 / 2.0);
-            let (first, second) =
-                if matches!(first, Compass::D | Compass::R | Compass::U | Compass::L) {
-                    (first, next)
-                } else {
-                    (next, first)
-                };
-            let aim = Aim {
-                second: Some(second),
-                ..Aim::at(first)
-            };
-            found.push((aim, off, off + PLAIN));
-        }
+/// Returns the directions that may be told, half-way ones or not.
+fn told(between: bool) -> impl Iterator<Item = &'static Pointing> {
+    let all = pointings().iter();
+    all.filter(move |it| between || it.aim.second.is_none())
+}
+
+/// Returns the palms that may be told, with their angles and how much less likely they are.
+fn palms(between: bool) -> Vec<(Aim<Compass>, f64, f64)> {
+    let whole = Compass::ALL.map(|palm| (Aim::at(palm), palm.angle(), 0.0));
+    let half = (0..8).map(|n| {
+        let (palm, next) = (Compass::ALL[n], Compass::ALL[(n + 1) % 8]);
+        let main = matches!(palm, Compass::D | Compass::R | Compass::U | Compass::L);
+        let (first, second) = if main { (palm, next) } else { (next, palm) };
+        let aim = Aim {
+            second: Some(second),
+            ..Aim::at(first)
+        };
+        (aim, palm.angle() + FRAC_PI_8, HALF_PALM)
+    });
+    let half = half.filter(|_| between);
+    whole.into_iter().chain(half).collect()
+}
+
+/// Names what is half-way by the nearer one first.
+fn nearer_first(aim: &Aim<Direction>, to: DVec3) -> Aim<Direction> {
+    let off = |direction: Direction| DVec3::from(direction.vector()).angle_between(to);
+    match aim.second {
+        Some(second) if off(second) < off(aim.first) => Aim {
+            first: second,
+            second: Some(aim.first),
+            ..*aim
+        },
+        _ => *aim,
     }
-    Found::of(found).degrees()
+}
+
+/// Returns the direction nearest to a unit vector (left, up, forward): one of the 26, or half-way
+/// between two that have symbols and are neighbours. Residuals are in degrees.
+pub(super) fn nearest(direction: DVec3, between: bool) -> Found<Aim<Direction>> {
+    let found = told(between).map(|it| {
+        let off = it.at.angle_between(direction);
+        let cost = it.aim.second.map_or(0.0, |_| it.cost);
+        let aim = nearer_first(&it.aim, direction);
+        (aim, off, off + PLAIN * cost)
+    });
+    Found::of(found.collect()).degrees()
+}
+
+/// How a hand is turned.
+#[derive(Debug, Clone)]
+pub(super) struct Turned {
+    pub(super) extended: Found<Aim<Direction>>,
+    pub(super) palm: Found<Aim<Compass>>,
+    /// By how many degrees what is told is beyond the end of wrist or forearm, where the hand stopped there.
+    pub(super) beyond: f64,
+}
+
+/// A direction and palm that may be meant.
+#[derive(Clone, Copy)]
+struct Meant {
+    pointing: &'static Pointing,
+    palm: (Aim<Compass>, f64),
+    beyond: f64,
+    score: f64,
+}
+
+/// Returns the direction and palm that a hand is most likely meant to have, the two together; the palm is the
+/// angle about the hand's axis, as [`orientation`](chereme_sign::hamnosys::orientation) counts it. Residuals
+/// are how far the hand is from them, in degrees.
+///
+/// A hand that stops where its wrist or forearm ends may be meant to be turned farther: it is then as near to
+/// what would stop there as to what it shows.
+pub(super) fn turned(along: DVec3, normal: DVec3, wrist: Option<&Wrist>, between: bool) -> Turned {
+    let facing = normal.reject_from_normalized(along);
+    let own = [along, facing.normalize_or(along.any_orthonormal_vector())];
+    let palms = palms(between);
+    let mut all: Vec<Meant> = Vec::new();
+    let far = |it: &&Pointing| it.at.angle_between(along) > LOOKED_AT;
+    for pointing in told(between).filter(|it| !far(it)) {
+        all.extend(palms.iter().map(|&(palm, angle, cost)| {
+            let facing = orientation::palm(pointing.at.to_array(), angle);
+            let (likely, beyond) = likely(own, [pointing.at, facing.into()], wrist);
+            Meant {
+                pointing,
+                palm: (palm, angle),
+                beyond,
+                score: pointing.cost + cost - likely,
+            }
+        }));
+    }
+    all.sort_by(|a, b| a.score.total_cmp(&b.score));
+    let best = all[0];
+    let is_best = |it: &Meant| std::ptr::eq(it.pointing, best.pointing);
+    let to = |it: &Meant| {
+        let off = it.pointing.at.angle_between(along).to_degrees();
+        (nearer_first(&it.pointing.aim, along), off)
+    };
+    let onto = DQuat::from_rotation_arc(along, best.pointing.at);
+    let shown = orientation::palm_angle(best.pointing.at.to_array(), (onto * own[1]).to_array());
+    let about = |it: &Meant| (it.palm.0, wrapped(shown - it.palm.1).abs().to_degrees());
+    let (extended, palm) = (to(&best), about(&best));
+    Turned {
+        extended: Found {
+            best: extended.0,
+            residual: extended.1,
+            runner_up: all.iter().find(|it| !is_best(it)).map(to),
+        },
+        palm: Found {
+            best: palm.0,
+            residual: palm.1,
+            runner_up: all[1..].iter().find(|it| is_best(it)).map(about),
+        },
+        beyond: best.beyond,
+    }
+}
+
+/// Returns how likely a hand is turned as it is that was meant to be turned otherwise, as a logarithm, and by
+/// how many degrees it stopped before.
+fn likely(own: [DVec3; 2], meant: [DVec3; 2], wrist: Option<&Wrist>) -> (f64, f64) {
+    let of = |off: f64| {
+        let parts = SPREAD.iter();
+        let density = |(share, spread): &(f64, f64)| {
+            share * (-0.5 * (off / spread).powi(2)).exp() / spread.powi(3)
+        };
+        parts.map(density).sum::<f64>().max(f64::MIN_POSITIVE).ln()
+    };
+    let free = (of(apart(own, meant)), 0.0);
+    let stopped = wrist.map_or_else(Vec::new, |wrist| wrist.stopped(meant));
+    stopped.into_iter().fold(free, |best, at| {
+        let beyond = apart(at, meant);
+        let likely = of(apart(own, at)) - beyond / BEYOND;
+        if likely > best.0 {
+            (likely, beyond)
+        } else {
+            best
+        }
+    })
+}
+
+/// Returns the angle of the turn between two hands, each an axis and a palm across it, in degrees.
+fn apart([a, p]: [DVec3; 2], [b, q]: [DVec3; 2]) -> f64 {
+    let trace = a.dot(b) + p.dot(q) + a.cross(p).dot(b.cross(q));
+    ((trace - 1.0) / 2.0).clamp(-1.0, 1.0).acos().to_degrees()
 }
 
 #[cfg(test)]
@@ -141,13 +278,40 @@ mod tests {
                 let along = DVec3::from(direction.vector());
                 let normal = orientation::palm(along.to_array(), palm_of.angle());
                 let aim = Aim::at(direction);
-                let found = palm(tilt * along, tilt * DVec3::from(normal), &aim, false);
-                assert_eq!(found.best, Aim::at(palm_of), "{direction} {palm_of}");
-                assert!(found.residual < 8.0);
+                let found = turned(tilt * along, tilt * DVec3::from(normal), None, false);
+                if direction.has_symbol() {
+                    assert_eq!(found.extended.best, aim, "{direction} {palm_of}");
+                    assert_eq!(found.palm.best, Aim::at(palm_of), "{direction} {palm_of}");
+                }
+                assert!(found.palm.residual < 8.0);
+                let exact = turned(along, normal.into(), None, true);
+                assert_eq!(
+                    (exact.extended.best, exact.palm.best),
+                    (aim, Aim::at(palm_of))
+                );
             }
         }
         // The palm of a hand that points up with `d` faces away from the signer.
-        let out = palm(DVec3::Y, DVec3::Z, &Aim::at(Direction::UP), true);
-        assert_eq!(out.best, Aim::at(Compass::D));
+        let out = turned(DVec3::Y, DVec3::Z, None, true);
+        assert_eq!(out.palm.best, Aim::at(Compass::D));
+    }
+
+    #[test]
+    fn a_hand_that_stops_at_its_end_is_told_to_be_where_it_was_meant_to_be() {
+        let arm = [
+            DVec3::new(-0.2, 0.0, 0.0),
+            DVec3::new(-0.25, -0.3, 0.05),
+            DVec3::new(-0.2, -0.25, 0.3),
+        ];
+        let wrist = Wrist::of(arm, false, chereme_sign::hamnosys::BodyLanguage::usual());
+        let meant = [DVec3::Y, DVec3::X];
+        let stopped = wrist.map_or_else(Vec::new, |wrist| wrist.stopped(meant));
+        // Thumb up, it does not bend so far.
+        let [along, normal] = stopped[0];
+        assert!(along.angle_between(DVec3::Y) > 0.2);
+        let found = turned(along, normal, wrist.as_ref(), true);
+        assert_eq!(found.extended.best, Aim::at(Direction::UP));
+        assert!(found.beyond > 10.0 && found.extended.residual > 10.0);
+        assert!(turned(along, normal, None, true).extended.best != Aim::at(Direction::UP));
     }
 }

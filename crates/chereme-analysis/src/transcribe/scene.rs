@@ -30,6 +30,8 @@ pub(super) struct Scene<'a> {
 pub(super) struct Track {
     pub(super) side: Side,
     pub(super) wrist: Vec<DVec3>,
+    /// The shoulder and the elbow.
+    pub(super) arm: Vec<[DVec3; 2]>,
     /// The middle of the palm.
     pub(super) palm: Vec<DVec3>,
     /// From the wrist to the middle knuckle, of unit length.
@@ -185,6 +187,8 @@ impl<'a> Scene<'a> {
         let shoulder = model.position(arm.upper);
         let (a, n) = (axes.direction(along), axes.direction(normal));
         track.wrist.push(axes.place(wrist));
+        let upper = [shoulder, model.position(arm.forearm)];
+        track.arm.push(upper.map(|at| axes.place(at)));
         let palm = anatomy.landmark(self.clip.skeleton(), model, palm_name(side));
         track.palm.push(axes.place(palm.unwrap_or(wrist)));
         track.along.push(a);
@@ -221,6 +225,7 @@ impl Track {
         Self {
             side,
             wrist: Vec::new(),
+            arm: Vec::new(),
             palm: Vec::new(),
             along: Vec::new(),
             normal: Vec::new(),

@@ -31,6 +31,8 @@ pub(super) struct Seen {
     shape: Option<Found<Handshape>>,
     extended: Found<Aim<Direction>>,
     palm: Option<Found<Aim<Compass>>>,
+    /// By how many degrees wrist or forearm stop it from being turned so.
+    beyond: f64,
 }
 
 /// Writes down what the hands of a scene do.
@@ -217,19 +219,27 @@ impl<'a> Writer<'a> {
     /// Tells shape, direction and palm of a hand in a frame.
     fn see(&self, track: &Track, frame: usize) -> Seen {
         let between = self.options.between;
-        let extended = aim::nearest(track.along[frame], between);
-        let palm = track.faces.then(|| {
-            aim::palm(
-                track.along[frame],
-                track.normal[frame],
-                &extended.best,
-                between,
-            )
-        });
+        let along = track.along[frame];
+        let shape = self.shape(track, frame);
+        if !track.faces {
+            return Seen {
+                shape,
+                extended: aim::nearest(along, between),
+                palm: None,
+                beyond: 0.0,
+            };
+        }
+        // The scene shows the dominant hand as a right one.
+        let left = track.side != self.scene.dominant;
+        let [shoulder, elbow] = track.arm[frame];
+        let arm = [shoulder, elbow, track.wrist[frame]];
+        let wrist = aim::Wrist::of(arm, left, self.scene.language);
+        let turned = aim::turned(along, track.normal[frame], wrist.as_ref(), between);
         Seen {
-            shape: self.shape(track, frame),
-            extended,
-            palm,
+            shape,
+            extended: turned.extended,
+            palm: Some(turned.palm),
+            beyond: turned.beyond,
         }
     }
 

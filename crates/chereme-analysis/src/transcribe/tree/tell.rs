@@ -85,6 +85,13 @@ impl Writer<'_> {
 
     pub(super) fn told_seen(&mut self, track: &Track, frame: usize, seen: &Seen, which: [bool; 3]) {
         let hand = Some(track);
+        if (which[1] || which[2]) && seen.beyond > 1.0 {
+            self.findings.push(format!(
+                "the {} wrist or forearm is at its end in frame {frame}: what is told is {:.0}° beyond it",
+                track.side.name(),
+                seen.beyond
+            ));
+        }
         if let Some(shape) = seen.shape.as_ref().filter(|_| which[0]) {
             self.told(FeatureKind::Handshape, hand, frame, shape, words::shape);
         }

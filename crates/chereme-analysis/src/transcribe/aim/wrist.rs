@@ -1,0 +1,206 @@
+//! What a wrist and forearm can do: a hand that should be turned farther stops at their end.
+
+use chereme_sign::hamnosys::BodyLanguage;
+use glam::{DQuat, DVec3};
+
+/// A forearm whose hand may be turned only so far.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::transcribe) struct Wrist {
+    /// From elbow to wrist, and where the palm faces while the thumb is up; of unit length.
+    forearm: DVec3,
+    inner: DVec3,
+    /// Makes a right hand of a left one.
+    mirror: DVec3,
+    /// How far back and forth it bends, towards the little finger and the thumb, and turns palm down and
+    /// up; in radians.
+    flexion: [f64; 2],
+    deviation: [f64; 2],
+    turn: [f64; 2],
+}
+
+/// A hand's axis and where its palm faces, of unit length and at right angles.
+pub(super) type Axes = [DVec3; 2];
+
+impl Wrist {
+    /// Looks at an arm by its shoulder, elbow and wrist to the left, up and forward; nothing where it is too
+    /// straight to tell how the forearm is turned. `left` where it is that of a left hand.
+    pub(in crate::transcribe) fn of(
+        [shoulder, elbow, wrist]: [DVec3; 3],
+        left: bool,
+        language: &BodyLanguage,
+    ) -> Option<Self> {
+        const BENT: f64 = 0.02;
+        let mirror = DVec3::new(if left { -1.0 } else { 1.0 }, 1.0, 1.0);
+        let [upper, lower] = [elbow - shoulder, wrist - elbow].map(|bone| bone * mirror);
+        let forearm = lower.try_normalize()?;
+        let aside = upper.reject_from((upper + lower).try_normalize()?);
+        let across = (upper + lower).cross(aside).try_normalize()?;
+        if aside.length() < BENT * (upper.length() + lower.length()) {
+            return None;
+        }
+        let angles = |less: f64, more: f64| [less.to_radians(), more.to_radians()];
+        Some(Self {
+            forearm,
+            inner: forearm.cross(across.cross(forearm)).try_normalize()?,
+            mirror,
+            flexion: angles(language.limit_extension, language.limit_flexion),
+            deviation: angles(language.limit_ulnar, language.limit_radial),
+            turn: angles(language.limit_pronation, language.limit_supination),
+        })
+    }
+
+    /// Returns how a hand may be turned that should be turned like this, if it cannot be: at the ends of wrist
+    /// and forearm, bent less in either way alike or the shortest way back, and turned to either end.
+    pub(super) fn stopped(&self, asked: Axes) -> Vec<Axes> {
+        let [flexion, deviation, turn] = self.angles(asked.map(|axis| axis * self.mirror));
+        let ends = [(flexion, self.flexion), (deviation, self.deviation)];
+        let ends = ends.map(|(angle, range)| range[usize::from(angle > 0.0)]);
+        let bend = (flexion / ends[0]).hypot(deviation / ends[1]);
+        let turned = !(-self.turn[0]..=self.turn[1]).contains(&turn);
+        let bends = if bend > 1.0 {
+            let nearest = nearest_on_ellipse([flexion, deviation], ends);
+            vec![[flexion / bend, deviation / bend], nearest]
+        } else {
+            vec![[flexion, deviation]]
+        };
+        let turns = if turned {
+            vec![self.turn[1], -self.turn[0]]
+        } else {
+            vec![turn]
+        };
+        if bend <= 1.0 && !turned {
+            return Vec::new();
+        }
+        let all = turns.iter().flat_map(|&turn| {
+            bends
+                .iter()
+                .map(move |[flexion, deviation]| [*flexion, *deviation, turn])
+        });
+        all.map(|angles| self.hung(angles).map(|axis| axis * self.mirror))
+            .collect()
+    }
+
+    /// Returns how a hand hangs on the forearm: towards its palm, towards its thumb, and turned palm up from
+    /// thumb up.
+    fn angles(&self, [along, palm]: Axes) -> [f64; 3] {
+        let forearm = self.forearm;
+        let radial = along.cross(palm);
+        let deviation = (-forearm.dot(radial)).clamp(-1.0, 1.0).asin();
+        let flexion = (-forearm.dot(palm)).atan2(forearm.dot(along));
+        let aligned = DQuat::from_rotation_arc(along, forearm) * palm;
+        let turn = forearm
+            .dot(self.inner.cross(aligned))
+            .atan2(self.inner.dot(aligned));
+        [flexion, deviation, turn]
+    }
+
+    /// Returns the hand that hangs like this: what [`angles`](Self::angles) takes apart.
+    fn hung(&self, [flexion, deviation, turn]: [f64; 3]) -> Axes {
+        let palm = DQuat::from_axis_angle(self.forearm, turn) * self.inner;
+        let radial = self.forearm.cross(palm);
+        let across = deviation.cos();
+        let seen = self.forearm * (across * flexion.cos())
+            - palm * (across * flexion.sin())
+            - radial * deviation.sin();
+        let bent = DQuat::from_rotation_arc(seen.normalize(), self.forearm);
+        [self.forearm, palm].map(|axis| bent * axis)
+    }
+}
+
+/// Returns the point of an ellipse about nothing with these half axes that is nearest to a point outside: by
+/// Newton's method for where the normal leads to the point (Eberly, *Distance from a point to an ellipse*).
+fn nearest_on_ellipse(point: [f64; 2], ends: [f64; 2]) -> [f64; 2] {
+    let at = |t: f64| -> [f64; 2] {
+        std::array::from_fn(|n| ends[n] * point[n] / (t + ends[n] * ends[n]))
+    };
+    let from = |n: usize| ends[n] * point[n].abs() - ends[n] * ends[n];
+    let mut t = from(0).max(from(1)).max(0.0);
+    for _ in 0..8 {
+        let shares = at(t);
+        let over = shares.iter().map(|share| share * share).sum::<f64>() - 1.0;
+        let slope: f64 = (0..2)
+            .map(|n| shares[n] * shares[n] / (t + ends[n] * ends[n]))
+            .sum();
+        t += over / (2.0 * slope).max(1e-12);
+    }
+    let shares = at(t);
+    std::array::from_fn(|n| ends[n] * shares[n])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wrist(left: bool) -> Wrist {
+        let arm = [
+            DVec3::new(-0.2, 0.0, 0.0),
+            DVec3::new(-0.25, -0.3, 0.05),
+            DVec3::new(-0.15, -0.2, 0.3),
+        ];
+        let flip = DVec3::new(if left { -1.0 } else { 1.0 }, 1.0, 1.0);
+        let arm = arm.map(|at| at * flip);
+        Wrist::of(arm, left, BodyLanguage::usual()).expect("a bent arm")
+    }
+
+    #[test]
+    fn what_hangs_within_its_range_hangs_so_and_what_does_not_stops_at_its_end() {
+        let wrist = wrist(false);
+        for (angles, free) in [
+            ([0.3, -0.2, 0.5], true),
+            ([-1.0, 0.2, -1.2], true),
+            ([0.4, 0.7, 0.0], false),
+            ([0.0, 0.0, 2.2], false),
+        ] {
+            let hung = wrist.hung(angles);
+            let again = wrist.angles(hung);
+            for (a, b) in angles.iter().zip(again) {
+                assert!((a - b).abs() < 1e-2, "{angles:?} {again:?}");
+            }
+            let stopped = wrist.stopped(hung);
+            assert_eq!(stopped.is_empty(), free, "{angles:?}");
+            for at in stopped {
+                let again = wrist.stopped(at);
+                let off = again
+                    .first()
+                    .map_or(0.0, |again| again[0].angle_between(at[0]));
+                assert!(off < 1e-2, "{angles:?} {off}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_left_hand_stops_where_the_mirrored_right_one_does() {
+        let flip = DVec3::new(-1.0, 1.0, 1.0);
+        let asked = [DVec3::Y, DVec3::Z];
+        let right = wrist(false).stopped(asked);
+        let left = wrist(true).stopped(asked.map(|axis| axis * flip));
+        assert!(!right.is_empty() && right.len() == left.len());
+        for (a, b) in right.iter().flatten().zip(left.iter().flatten()) {
+            assert!((*a * flip).distance(*b) < 1e-9);
+        }
+    }
+
+    #[test]
+    fn an_ellipse_is_met_where_no_other_point_of_it_is_nearer() {
+        for (point, ends) in [
+            ([1.0, 1.0], [1.4, 0.4]),
+            ([0.1, -0.9], [1.3, 0.7]),
+            ([-2.0, 0.0], [1.0, 0.5]),
+        ] {
+            let [x, y] = nearest_on_ellipse(point, ends);
+            assert!(((x / ends[0]).hypot(y / ends[1]) - 1.0).abs() < 1e-6);
+            let own = (x - point[0]).hypot(y - point[1]);
+            for n in 0..360 {
+                let (sin, cos) = f64::from(n).to_radians().sin_cos();
+                let other = (ends[0] * cos - point[0]).hypot(ends[1] * sin - point[1]);
+                assert!(own <= other + 1e-9, "{point:?} {n}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_straight_arm_does_not_tell_how_it_is_turned() {
+        let arm = [DVec3::ZERO, DVec3::Z, DVec3::Z * 2.0];
+        assert!(Wrist::of(arm, false, BodyLanguage::usual()).is_none());
+    }
+}
