@@ -12,6 +12,7 @@ use chereme_figure::{
 };
 use chereme_motion::anatomy::Anatomy;
 use chereme_motion::{Clip, Instant, Side, Span};
+use chereme_sign::hamnosys::drawing;
 use serde::Serialize;
 
 use crate::Corpus;
@@ -26,6 +27,9 @@ use crate::sources::notation::own_body;
 
 /// A stretch longer than this is drawn only in part.
 const LONGEST: i64 = 120_000_000;
+
+/// How high a symbol of notation is drawn, in pixels of a picture that can be shown at any size.
+const SYMBOL: f32 = 64.0;
 
 /// What a picture should show.
 #[derive(Debug, Clone)]
@@ -63,7 +67,7 @@ pub struct Picture {
     pub title: String,
     /// Its size in bytes.
     pub bytes: u64,
-    /// How many pictures follow each other or stand side by side.
+    /// How many pictures, or symbols of a notation, follow each other or stand side by side.
     pub frames: usize,
     /// The body on which notation was animated, where the sign has no movement of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -127,6 +131,7 @@ impl Corpus {
 
     /// Draws movement to a file: a contact sheet where it ends in `.png`, an animation where it ends
     /// in `.gif`. A sign that is there as notation only is animated, on the body that the corpus chooses.
+    /// Where the file ends in `.svg`, the notation itself is drawn, symbol by symbol.
     ///
     /// # Errors
     /// Where there is nothing to draw, the ending is another, or the file is there already.
@@ -138,6 +143,9 @@ impl Corpus {
         progress: &mut Progress<'_>,
     ) -> Result<Picture> {
         let connection = self.store.read();
+        if extension(to) == "svg" {
+            return draw_symbols(&notation::find(connection, address)?, to, options.force);
+        }
         let stretch = match address::stretch(connection, address) {
             Ok(stretch) => stretch,
             Err(error) => {
@@ -257,6 +265,29 @@ impl Corpus {
     }
 }
 
+/// Draws the symbols of a notation to an SVG.
+fn draw_symbols(notated: &Notation, to: &Path, force: bool) -> Result<Picture> {
+    let text = match &notated.text {
+        Some(text) => text.clone(),
+        None => notated.document.hamnosys().text,
+    };
+    let unknown =
+        || Error::wrong("the notation holds what is no symbol").at(&notated.document.gloss);
+    let symbols = drawing::drawn(&text).ok_or_else(unknown)?.len();
+    let picture = drawing::svg(&text, SYMBOL).ok_or_else(unknown)?;
+    let bytes = write(to, force, |out| {
+        out.write_all(picture.as_bytes())
+            .map_err(|error| Error::file(to, error))
+    })?;
+    Ok(Picture {
+        path: to.to_owned(),
+        title: notated.document.gloss.clone(),
+        bytes,
+        frames: symbols,
+        animated_on: None,
+    })
+}
+
 /// Draws a clip to a file; see [`Corpus::draw`].
 ///
 /// # Errors
@@ -316,7 +347,7 @@ pub fn draw_clip(
         _ => {
             return Err(ending(
                 to,
-                "write a contact sheet to .png, or an animation to .gif",
+                "write a contact sheet to .png, an animation to .gif, or the notation to .svg",
             ));
         }
     };

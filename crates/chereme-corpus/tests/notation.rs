@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use chereme_corpus::{
     Corpus, ExportOptions, ExportWhat, FileStatus, ImportOptions, ImportReport, ListFilter,
-    ListKind, Progress, SearchOptions, Staging, read_notation, unheard,
+    ListKind, PictureOptions, Progress, SearchOptions, Staging, read_notation, unheard,
 };
 use chereme_sign::hamnosys::{MotionKind, from_names};
 
@@ -265,6 +265,23 @@ fn notation_is_given_back_in_each_of_its_forms() {
         other.glosses("configuration=flat placement=chin"),
         ["MERCI"]
     );
+}
+
+#[test]
+fn a_notation_is_drawn_symbol_by_symbol() {
+    let mut desk = Desk::new();
+    desk.import("two.sigml", TWO);
+    let path = desk.folder.path().join("oui.svg");
+    let address = "OUI".parse().expect("an address");
+    let mut progress = unheard;
+    let mut progress = Progress::new(&mut progress);
+    let options = PictureOptions::default();
+    let picture = desk.corpus.draw(&address, &path, &options, &mut progress);
+    assert_eq!(picture.expect("drawn").frames, 5);
+    let text = fs::read_to_string(&path).expect("there");
+    assert!(text.contains("<title>hamnodding</title>"), "{text}");
+    let again = desk.corpus.draw(&address, &path, &options, &mut progress);
+    assert!(again.is_err(), "it is not written over");
 }
 
 #[test]

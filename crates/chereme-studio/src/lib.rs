@@ -41,6 +41,7 @@ mod pickers;
 mod player;
 mod settings;
 mod start;
+mod symbols;
 mod theme;
 mod words;
 mod work;

@@ -10,15 +10,17 @@ use clap::ValueEnum;
 use crate::args::Cli;
 use crate::output::{Bar, Output};
 
-/// Draw movement as a contact sheet (.png) or an animation (.gif), or handshapes (.png)
+/// Draw movement as a contact sheet (.png) or an animation (.gif), handshapes (.png), or notation (.svg)
 ///
 /// WHAT is a gloss, token:41, recording:3, recording:"NGT Thanks", or inventory:configurations and
 /// inventory:configurations/U for handshapes. A sign that is there as notation only is animated first.
+/// The symbols of HamNoSys are drawn by the program, no font is needed.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   chereme render mine.chereme ESCARGOT --to escargot.png
   chereme render ngt.chereme BABYSITTEN --to babysitten.gif --speed 0.5
+  chereme render ngt.chereme BABYSITTEN --to notation.svg
   chereme render mine.chereme inventory:configurations --to handshapes.png")]
 pub(crate) struct Args {
     /// The corpus
@@ -94,11 +96,13 @@ fn say(picture: &Picture, output: &mut Output) -> Result<()> {
             picture.title
         ))?;
     }
+    let symbols = picture.path.extension().is_some_and(|it| it == "svg");
     output.line(format!(
-        "drew {} to {}: {} frames, {} KB",
+        "drew {} to {}: {} {}, {} KB",
         picture.title,
         picture.path.display(),
         picture.frames,
+        if symbols { "symbols" } else { "frames" },
         picture.bytes.div_ceil(1024)
     ))
 }

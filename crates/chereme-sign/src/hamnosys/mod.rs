@@ -61,6 +61,7 @@
 pub mod angles;
 pub mod components;
 pub mod direction;
+pub mod drawing;
 mod error;
 pub mod language;
 mod lex;

@@ -1,4 +1,4 @@
-//! HamNoSys for people without its font: the names of its symbols, part by part.
+//! HamNoSys for people without its font: its symbols part by part.
 
 use chereme_sign::hamnosys::{Class, Symbol, to_names};
 
@@ -48,46 +48,52 @@ impl Part {
     }
 }
 
-/// Returns the parts of a notation, each with the names of its symbols; nothing of a text that is none.
-pub(super) fn parts(text: &str) -> Vec<(Text, String)> {
+/// Returns the parts of a notation, each with its symbols; nothing of a text that is none.
+pub(super) fn parts(text: &str) -> Vec<(Text, Vec<Symbol>)> {
     let Ok(names) = to_names(text) else {
         return Vec::new();
     };
-    let mut parts: Vec<(Part, Vec<&str>)> = Vec::new();
+    let mut parts: Vec<(Part, Vec<Symbol>)> = Vec::new();
     let mut now = Part::Hands;
-    let mut waiting: Vec<&str> = Vec::new();
-    for name in names {
-        let short = name.strip_prefix("ham").unwrap_or(name);
-        let class = Symbol::from_name(name).map(Symbol::class);
-        let opens = name.ends_with("begin");
-        let next = class.and_then(|class| now.after(class));
-        match (next, parts.last_mut()) {
+    let mut waiting: Vec<Symbol> = Vec::new();
+    for symbol in names.into_iter().filter_map(Symbol::from_name) {
+        let opens = symbol.name().ends_with("begin");
+        match (now.after(symbol.class()), parts.last_mut()) {
             (Some(next), Some((part, all))) if *part == next => {
                 all.append(&mut waiting);
-                all.push(short);
+                all.push(symbol);
                 now = next;
             }
             (Some(next), _) => {
                 let mut all = std::mem::take(&mut waiting);
-                all.push(short);
+                all.push(symbol);
                 parts.push((next, all));
                 now = next;
             }
             (None, Some((_, all))) if !opens => {
                 all.append(&mut waiting);
-                all.push(short);
+                all.push(symbol);
             }
-            (None, None) if !opens => parts.push((Part::Hands, vec![short])),
-            (None, _) => waiting.push(short),
+            (None, None) if !opens => parts.push((Part::Hands, vec![symbol])),
+            (None, _) => waiting.push(symbol),
         }
     }
     if let Some((_, all)) = parts.last_mut() {
         all.append(&mut waiting);
     }
-    let said = parts
+    parts
         .into_iter()
-        .map(|(part, all)| (part.text(), all.join(" ")));
-    said.collect()
+        .map(|(part, all)| (part.text(), all))
+        .collect()
+}
+
+/// Returns the names of symbols, short.
+pub(super) fn names(symbols: &[Symbol]) -> String {
+    let short = |symbol: &Symbol| {
+        let name = symbol.name();
+        name.strip_prefix("ham").unwrap_or(name)
+    };
+    symbols.iter().map(short).collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]
@@ -96,7 +102,11 @@ mod tests {
     use chereme_sign::hamnosys::from_names;
 
     fn said(names: &str) -> Vec<(Text, String)> {
-        parts(&from_names(names.split(' ')).expect("a notation"))
+        let parts = parts(&from_names(names.split(' ')).expect("a notation"));
+        parts
+            .into_iter()
+            .map(|(part, symbols)| (part, super::names(&symbols)))
+            .collect()
     }
 
     #[test]

@@ -2,14 +2,15 @@
 
 use chereme_corpus::{Address, TokenDetails};
 use chereme_motion::{Instant, Span};
-use eframe::egui::{CollapsingHeader, Id, RichText, Ui};
+use eframe::egui::{CollapsingHeader, Id, Label, RichText, Ui};
 
 use super::edit::{field, grid, said};
-use super::ui::{lines, link, set, span_text, values_like};
+use super::ui::{link, set, span_text, values_like};
 use super::{Inspector, Thing, data, notation};
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::library::origin_text;
+use crate::symbols;
 use crate::words::inspector as words;
 use crate::work::Work;
 
@@ -92,7 +93,7 @@ pub(super) fn show(
     });
 }
 
-/// Shows a notation part by part, by the names of its symbols.
+/// Shows a notation part by part: its symbols drawn, and their names.
 pub(super) fn hamnosys(ui: &mut Ui, seen: &Seen<'_>, text: &str) {
     let parts = notation::parts(text);
     let title = RichText::new(seen.say(words::NOTATION));
@@ -101,9 +102,19 @@ pub(super) fn hamnosys(ui: &mut Ui, seen: &Seen<'_>, text: &str) {
         .default_open(true)
         .show(ui, |ui| {
             if parts.is_empty() {
-                ui.add(eframe::egui::Label::new(text).wrap());
+                ui.add(Label::new(text).wrap());
             }
-            lines(ui, seen, "hamnosys parts", &parts);
+            grid(ui, "hamnosys parts", |ui| {
+                for (part, drawn) in &parts {
+                    let names = notation::names(drawn);
+                    ui.weak(seen.say(*part));
+                    ui.vertical(|ui| {
+                        symbols::strip(ui, drawn, &names);
+                        ui.add(Label::new(RichText::new(&names).small().weak()).wrap());
+                    });
+                    ui.end_row();
+                }
+            });
         });
 }
 
@@ -132,7 +143,7 @@ fn coding(
             "not-applicable" => "n/a".to_owned(),
             other => other.to_owned(),
         };
-        let label = ui.add(eframe::egui::Label::new(RichText::new(&name).weak()).truncate());
+        let label = ui.add(Label::new(RichText::new(&name).weak()).truncate());
         let label = label.on_hover_text(&name).id;
         ui.horizontal(|ui| {
             if let Some(annotation) = value.annotation {

@@ -1,0 +1,248 @@
+//! How the symbols of HamNoSys are drawn, for people and pictures without its font.
+//!
+//! Each symbol is drawn anew from what it means: hands seen from their backs with the fingers that are out, the
+//! body with the place that is meant, arrows for ways. What is meant is a line or a solid; what it is shown on
+//! is thin. Right is the signer's right.
+//!
+//! Directions of hands are wedges, ways are arrows. Those across the body are seen from behind it; those with
+//! *out* or *in* from above, the body being the bar below; those up or down as well from the right side, the body
+//! being the bar at the left. Circles are seen from behind, above and a little from the right, and turn as
+//! they are seen to.
+
+mod hands;
+mod marks;
+mod places;
+mod ways;
+
+use std::fmt::Write as _;
+
+use super::symbol::{Class, Kind, Symbol};
+use super::to_names;
+
+/// A point in ems: from the left, and from the top down.
+pub type Point = [f32; 2];
+
+/// What a line of a drawing is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ink {
+    /// What the meaning is shown on: the body, the hand.
+    Thin,
+    /// What is meant.
+    Line,
+    /// What is meant, as a convex solid whose rim the points are.
+    Solid,
+}
+
+/// A line through points, or a solid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stroke {
+    /// What it is for.
+    pub ink: Ink,
+    /// Its points, two or more; each from 0 to 1 from the top, and from 0 to the drawing's width.
+    pub points: Vec<Point>,
+}
+
+/// A drawn symbol, in a box one em high.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Drawing {
+    /// How wide its box is, in ems.
+    pub width: f32,
+    /// What it consists of, in the order in which it is drawn.
+    pub strokes: Vec<Stroke>,
+}
+
+impl Drawing {
+    fn new(width: f32) -> Self {
+        Self {
+            width,
+            strokes: Vec::new(),
+        }
+    }
+
+    fn with(mut self, ink: Ink, points: impl Into<Vec<Point>>) -> Self {
+        let points = points.into();
+        self.strokes.push(Stroke { ink, points });
+        self
+    }
+
+    fn thin(self, points: impl Into<Vec<Point>>) -> Self {
+        self.with(Ink::Thin, points)
+    }
+
+    fn line(self, points: impl Into<Vec<Point>>) -> Self {
+        self.with(Ink::Line, points)
+    }
+
+    fn solid(self, points: impl Into<Vec<Point>>) -> Self {
+        self.with(Ink::Solid, points)
+    }
+
+    fn dot(self, at: Point) -> Self {
+        self.solid(oval(at, [0.07, 0.07]))
+    }
+
+    /// Adds the two sides of an arrow's head at the end of a way.
+    fn head(self, points: &[Point], size: f32) -> Self {
+        let [.., before, tip] = points else {
+            return self;
+        };
+        let [x, y] = [tip[0] - before[0], tip[1] - before[1]];
+        let length = x.hypot(y).max(1e-6);
+        let [x, y] = [x / length * size, y / length * size];
+        let side = |to: f32| [tip[0] - x - to * y * 0.7, tip[1] - y + to * x * 0.7];
+        self.line([side(1.0), *tip, side(-1.0)])
+    }
+
+    fn arrow(self, points: impl Into<Vec<Point>>) -> Self {
+        let points = points.into();
+        let with = self.line(points.clone());
+        with.head(&points, HEAD)
+    }
+}
+
+/// How long the sides of an arrow's head are.
+const HEAD: f32 = 0.2;
+
+/// Returns part of an ellipse, from and to in turns, clockwise from the right.
+fn arc(centre: Point, radii: [f32; 2], from: f32, to: f32) -> Vec<Point> {
+    const STEPS: u8 = 24;
+    (0..=STEPS)
+        .map(|step| {
+            let turn = from + (to - from) * f32::from(step) / f32::from(STEPS);
+            let (sin, cos) = (turn * std::f32::consts::TAU).sin_cos();
+            [centre[0] + radii[0] * cos, centre[1] + radii[1] * sin]
+        })
+        .collect()
+}
+
+/// Returns an ellipse.
+fn oval(centre: Point, radii: [f32; 2]) -> Vec<Point> {
+    arc(centre, radii, 0.0, 1.0)
+}
+
+/// Returns a point from the middle of the page: to the right, and up.
+fn seen(centre: Point, right: f32, up: f32) -> Point {
+    [centre[0] + right, centre[1] - up]
+}
+
+/// Returns how a symbol is drawn.
+#[must_use]
+pub fn drawing(symbol: Symbol) -> Drawing {
+    match symbol.kind() {
+        Kind::Punctuation | Kind::AltBegin | Kind::AltOr | Kind::AltEnd => {
+            marks::punctuation(symbol.char())
+        }
+        kind => match symbol.class() {
+            Class::Handshape | Class::HandshapeMark => hands::shape(kind),
+            Class::HandPart | Class::Digit | Class::FingerPart => hands::part(kind),
+            Class::Location | Class::LocationMark => places::place(kind),
+            Class::ExtendedFinger | Class::Palm | Class::Movement | Class::MovementMark => {
+                ways::way(kind)
+            }
+            _ => marks::mark(kind),
+        },
+    }
+}
+
+/// Returns the symbols of a text with their drawings, one after the other; nothing where it is no HamNoSys.
+#[must_use]
+pub fn drawn(text: &str) -> Option<Vec<(Symbol, Drawing)>> {
+    let names = to_names(text).ok()?;
+    let symbols = names.into_iter().filter_map(Symbol::from_name);
+    Some(symbols.map(|symbol| (symbol, drawing(symbol))).collect())
+}
+
+/// The empty room between two symbols, in ems.
+pub const GAP: f32 = 0.16;
+/// How wide thin and other lines are, in ems.
+pub const WIDTHS: [f32; 2] = [0.03, 0.06];
+
+/// Returns a text of HamNoSys as a picture in SVG, a symbol `em` units high, with the names of the symbols as
+/// titles; nothing where it is no HamNoSys.
+#[must_use]
+pub fn svg(text: &str, em: f32) -> Option<String> {
+    let symbols = drawn(text)?;
+    let wide: f32 = symbols.iter().map(|(_, it)| it.width + GAP).sum();
+    let (width, height) = ((wide + GAP) * em, (1.0 + 2.0 * GAP) * em);
+    let mut out = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.1}\" height=\"{height:.1}\" \
+         viewBox=\"0 0 {width:.1} {height:.1}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
+    );
+    let mut left = GAP;
+    for (symbol, drawing) in symbols {
+        let _ = writeln!(out, "<g><title>{}</title>", symbol.name());
+        for stroke in drawing.strokes {
+            let points: Vec<String> = (stroke.points.iter())
+                .map(|[x, y]| format!("{:.2},{:.2}", (left + x) * em, (GAP + y) * em))
+                .collect();
+            let points = points.join(" ");
+            let _ = match stroke.ink {
+                Ink::Solid => writeln!(out, "<polygon points=\"{points}\"/>"),
+                ink => writeln!(
+                    out,
+                    "<polyline points=\"{points}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2}\"/>",
+                    if ink == Ink::Thin { "#888" } else { "#000" },
+                    WIDTHS[usize::from(ink == Ink::Line)] * em
+                ),
+            };
+        }
+        out += "</g>\n";
+        left += drawing.width + GAP;
+    }
+    out += "</svg>\n";
+    Some(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn every_symbol_is_drawn_inside_its_box_and_unlike_every_other() {
+        let mut seen: BTreeMap<String, Symbol> = BTreeMap::new();
+        for symbol in Symbol::all() {
+            let drawing = drawing(symbol);
+            assert!(drawing.width > 0.1 && drawing.width <= 1.0, "{symbol}");
+            assert_eq!(
+                drawing.strokes.is_empty(),
+                symbol.kind() == Kind::Space,
+                "{symbol}"
+            );
+            for stroke in &drawing.strokes {
+                assert!(stroke.points.len() > 1, "{symbol}");
+                for [x, y] in &stroke.points {
+                    let inside =
+                        (-1e-3..=drawing.width + 1e-3).contains(x) && (-1e-3..=1.001).contains(y);
+                    assert!(inside, "{symbol}: {x} {y}");
+                }
+            }
+            if let Some(other) = seen.insert(format!("{drawing:?}"), symbol) {
+                // An old name of the same place.
+                assert_eq!(
+                    (other.kind(), symbol.class()),
+                    (symbol.kind(), other.class())
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_text_is_a_picture_that_names_its_symbols() {
+        let picture = svg("hamfinger2 hamextfingeru hampalml", 20.0).expect("HamNoSys");
+        let titles: Vec<_> = picture
+            .lines()
+            .filter(|line| line.contains("<title>"))
+            .collect();
+        assert_eq!(
+            titles,
+            [
+                "<g><title>hamfinger2</title>",
+                "<g><title>hamextfingeru</title>",
+                "<g><title>hampalml</title>"
+            ]
+        );
+        assert_eq!(svg("no notation", 20.0), None);
+        assert_eq!(drawn("\u{e000}").map(|all| all.len()), Some(1));
+    }
+}
