@@ -11,7 +11,8 @@ use crate::output::Output;
 /// Write a captured or made sign in HamNoSys, and tell how sure each feature is
 ///
 /// The residual says how far the movement is from what was written, the runner-up what would have come
-/// next. The symbols are shown by the HamNoSys font only: `--names` writes their names.
+/// next. The characters are shown by a HamNoSys font only; their names stand below them, `--names` writes
+/// nothing else, and `render TOKEN --to it.svg` draws what was stored.
 ///
 /// `--json` gives "gloss", "token", "recording", "start_us", "end_us", the whole as "hamnosys" and "symbols" and as
 /// the tree "sign"; "stages", the posture at the beginning and each action with "action", "hand", "start_us",
@@ -53,6 +54,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         output.line(written.symbols.join(" "))?;
     } else {
         output.line(format!("{}: {}", written.gloss, written.hamnosys))?;
+        output.line(written.symbols.join(" "))?;
         let rows: Vec<Vec<String>> = written.features.iter().map(row).collect();
         output.table(
             &[
