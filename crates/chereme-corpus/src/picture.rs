@@ -12,7 +12,7 @@ use chereme_figure::{
 };
 use chereme_motion::anatomy::Anatomy;
 use chereme_motion::{Clip, Instant, Side, Span};
-use chereme_sign::hamnosys::drawing;
+use chereme_sign::hamnosys::{Symbol, drawing};
 use serde::Serialize;
 
 use crate::Corpus;
@@ -28,6 +28,8 @@ use crate::sources::notation::own_body;
 /// A stretch longer than this is drawn only in part.
 const LONGEST: i64 = 120_000_000;
 
+/// What the symbols of HamNoSys are called beside the inventories.
+const SYMBOLS: &str = "hamnosys";
 /// How high a symbol of notation is drawn, in pixels of a picture that can be shown at any size.
 const SYMBOL: f32 = 64.0;
 
@@ -184,7 +186,8 @@ impl Corpus {
         })
     }
 
-    /// Draws handshapes to a PNG: one value, or all values of an inventory that have a posture.
+    /// Draws handshapes to a PNG: one value, or all values of an inventory that have a posture. The symbols of
+    /// HamNoSys, as the inventory `hamnosys`, are drawn to an SVG.
     ///
     /// # Errors
     /// Where no inventory is called so, or it has no handshape of that name.
@@ -196,6 +199,13 @@ impl Corpus {
         to: &Path,
         options: &PictureOptions,
     ) -> Result<Picture> {
+        if inventory == SYMBOLS && value.is_none() {
+            if extension(to) != "svg" {
+                return Err(ending(to, "the symbols of HamNoSys are drawn to an .svg"));
+            }
+            let chart = drawing::chart();
+            return written(&chart, SYMBOLS, Symbol::all().len(), to, options.force);
+        }
         let all = inventories::load(self.store.read())?;
         let ids: Vec<&str> = all.iter().map(|it| it.inventory.id.as_str()).collect();
         let stored = all
@@ -275,13 +285,18 @@ fn draw_symbols(notated: &Notation, to: &Path, force: bool) -> Result<Picture> {
         || Error::wrong("the notation holds what is no symbol").at(&notated.document.gloss);
     let symbols = drawing::drawn(&text).ok_or_else(unknown)?.len();
     let picture = drawing::svg(&text, SYMBOL).ok_or_else(unknown)?;
+    written(&picture, &notated.document.gloss, symbols, to, force)
+}
+
+/// Writes a picture in SVG.
+fn written(picture: &str, title: &str, symbols: usize, to: &Path, force: bool) -> Result<Picture> {
     let bytes = write(to, force, |out| {
         out.write_all(picture.as_bytes())
             .map_err(|error| Error::file(to, error))
     })?;
     Ok(Picture {
         path: to.to_owned(),
-        title: notated.document.gloss.clone(),
+        title: title.to_owned(),
         bytes,
         frames: symbols,
         animated_on: None,

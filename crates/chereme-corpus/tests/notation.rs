@@ -7,6 +7,7 @@ use chereme_corpus::{
     Corpus, ExportOptions, ExportWhat, FileStatus, ImportOptions, ImportReport, ListFilter,
     ListKind, PictureOptions, Progress, SearchOptions, Staging, read_notation, unheard,
 };
+use chereme_motion::Side;
 use chereme_sign::hamnosys::{MotionKind, from_names};
 
 const TWO: &str = r#"<sigml>
@@ -282,6 +283,11 @@ fn a_notation_is_drawn_symbol_by_symbol() {
     assert!(text.contains("<title>hamnodding</title>"), "{text}");
     let again = desk.corpus.draw(&address, &path, &options, &mut progress);
     assert!(again.is_err(), "it is not written over");
+    let all = desk.folder.path().join("all.svg");
+    let drawn = desk
+        .corpus
+        .draw_handshapes("hamnosys", None, Side::Right, &all, &options);
+    assert_eq!(drawn.expect("drawn").frames, 209);
 }
 
 #[test]

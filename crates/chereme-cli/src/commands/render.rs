@@ -14,7 +14,7 @@ use crate::output::{Bar, Output};
 ///
 /// WHAT is a gloss, token:41, recording:3, recording:"NGT Thanks", or inventory:configurations and
 /// inventory:configurations/U for handshapes. A sign that is there as notation only is animated first.
-/// The symbols of HamNoSys are drawn by the program, no font is needed.
+/// The symbols of HamNoSys are drawn by the program, no font is needed: inventory:hamnosys shows all.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -14,6 +14,7 @@ mod marks;
 mod places;
 mod ways;
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use super::symbol::{Class, Kind, Symbol};
@@ -163,40 +164,85 @@ pub const WIDTHS: [f32; 2] = [0.03, 0.06];
 pub fn svg(text: &str, em: f32) -> Option<String> {
     let symbols = drawn(text)?;
     let wide: f32 = symbols.iter().map(|(_, it)| it.width + GAP).sum();
-    let (width, height) = ((wide + GAP) * em, (1.0 + 2.0 * GAP) * em);
-    let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.1}\" height=\"{height:.1}\" \
-         viewBox=\"0 0 {width:.1} {height:.1}\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
-    );
+    let mut out = String::new();
     let mut left = GAP;
     for (symbol, drawing) in symbols {
-        let _ = writeln!(out, "<g><title>{}</title>", symbol.name());
-        for stroke in drawing.strokes {
-            let points: Vec<String> = (stroke.points.iter())
-                .map(|[x, y]| format!("{:.2},{:.2}", (left + x) * em, (GAP + y) * em))
-                .collect();
-            let points = points.join(" ");
-            let _ = match stroke.ink {
-                Ink::Solid => writeln!(out, "<polygon points=\"{points}\"/>"),
-                ink => writeln!(
-                    out,
-                    "<polyline points=\"{points}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2}\"/>",
-                    if ink == Ink::Thin { "#888" } else { "#000" },
-                    WIDTHS[usize::from(ink == Ink::Line)] * em
-                ),
-            };
-        }
-        out += "</g>\n";
+        draw(&mut out, symbol, &drawing, [left * em, GAP * em], em);
         left += drawing.width + GAP;
     }
-    out += "</svg>\n";
-    Some(out)
+    Some(page((wide + GAP) * em, (1.0 + 2.0 * GAP) * em, &out))
+}
+
+/// Returns all 209 symbols with their names as a picture in SVG, class by class.
+#[must_use]
+pub fn chart() -> String {
+    const COLUMNS: usize = 12;
+    const EM: f32 = 40.0;
+    const CELL: Point = [104.0, 76.0];
+    let mut classes: BTreeMap<Class, Vec<Symbol>> = BTreeMap::new();
+    for symbol in Symbol::all() {
+        classes.entry(symbol.class()).or_default().push(symbol);
+    }
+    let mut out = String::new();
+    let mut top = 0.0;
+    for symbols in classes.values() {
+        for (number, symbol) in symbols.iter().enumerate() {
+            let (column, row) = (number % COLUMNS, number / COLUMNS);
+            let drawing = drawing(*symbol);
+            let [left, y] = [column as f32 * CELL[0], top + row as f32 * CELL[1]];
+            let middle = left + CELL[0] / 2.0;
+            draw(
+                &mut out,
+                *symbol,
+                &drawing,
+                [middle - drawing.width * EM / 2.0, y + 8.0],
+                EM,
+            );
+            let name = symbol.name();
+            let name = name.strip_prefix("ham").unwrap_or(name);
+            let _ = writeln!(
+                out,
+                "<text x=\"{middle:.1}\" y=\"{:.1}\">{name}</text>",
+                y + EM + 24.0
+            );
+        }
+        top += symbols.len().div_ceil(COLUMNS) as f32 * CELL[1] + 12.0;
+    }
+    page(COLUMNS as f32 * CELL[0], top, &out)
+}
+
+fn page(width: f32, height: f32, drawn: &str) -> String {
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.1}\" height=\"{height:.1}\" \
+         viewBox=\"0 0 {width:.1} {height:.1}\" stroke-linecap=\"round\" stroke-linejoin=\"round\" \
+         text-anchor=\"middle\" font-family=\"sans-serif\" font-size=\"10\">\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n{drawn}</svg>\n"
+    )
+}
+
+fn draw(out: &mut String, symbol: Symbol, drawing: &Drawing, [left, top]: Point, em: f32) {
+    let _ = writeln!(out, "<g><title>{}</title>", symbol.name());
+    for stroke in &drawing.strokes {
+        let points: Vec<String> = (stroke.points.iter())
+            .map(|[x, y]| format!("{:.1},{:.1}", left + x * em, top + y * em))
+            .collect();
+        let points = points.join(" ");
+        let _ = match stroke.ink {
+            Ink::Solid => writeln!(out, "<polygon points=\"{points}\"/>"),
+            ink => writeln!(
+                out,
+                "<polyline points=\"{points}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.1}\"/>",
+                if ink == Ink::Thin { "#888" } else { "#000" },
+                WIDTHS[usize::from(ink == Ink::Line)] * em
+            ),
+        };
+    }
+    *out += "</g>\n";
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeMap;
 
     #[test]
     fn every_symbol_is_drawn_inside_its_box_and_unlike_every_other() {
@@ -225,6 +271,17 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn the_chart_beside_the_code_shows_every_symbol_as_it_is_drawn() {
+        let chart = chart();
+        assert_eq!(chart.matches("<title>").count(), Symbol::all().len());
+        let beside = include_str!("../../../pictures/symbols.svg");
+        assert!(
+            chart == beside,
+            "make it again: `chereme render CORPUS inventory:hamnosys --to crates/chereme-sign/pictures/symbols.svg`"
+        );
     }
 
     #[test]
