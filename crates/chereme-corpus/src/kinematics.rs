@@ -3,9 +3,11 @@
 use std::ops::Range;
 
 use chereme_analysis::kinematics::{Kinematics, kinematics, minima};
+use chereme_compose::Curve;
 use chereme_motion::{Rate, Span};
 
 use crate::Corpus;
+use crate::curves;
 use crate::error::Result;
 use crate::movement::{ChannelGroup, Track};
 
@@ -26,6 +28,8 @@ pub struct Curves {
     pub kinematics: Kinematics,
     /// The frames at which a wrist is slowest between two strokes, in order, of both hands.
     pub minima: Vec<usize>,
+    /// The scalar curves that are stored beside the movement, such as those of its non-manuals.
+    pub stored: Vec<Curve>,
 }
 
 impl Corpus {
@@ -57,6 +61,7 @@ impl Corpus {
             offset_us: track.row.offset_us,
             kinematics: cut(all, &inside),
             minima: slow,
+            stored: curves::of_track(connection, &track, wanted.clone())?,
             frames: wanted,
         })
     }

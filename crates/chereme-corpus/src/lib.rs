@@ -52,12 +52,13 @@ pub use address::{Address, Name, Stretch};
 pub use animate::Staging;
 pub use annotate::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
-    AnnotationOrigin, NewTier, RemovedTiers, Scheme, TierChange, TierName, Values,
+    AnnotationOrigin, Copied, NewTier, RemovedTiers, Scheme, TierChange, TierName, Values,
 };
 pub use around::Around;
 pub use check::{CheckReport, Fault};
 pub use chereme_analysis::kinematics::{HandCurves, Kinematics};
 pub use chereme_analysis::{Score, ScoreOptions};
+pub use chereme_compose::Curve;
 pub use contents::{
     AnnotationColumns, Contents, Overview, RecordingGlance, SignGlance, TierContents, ValueState,
 };

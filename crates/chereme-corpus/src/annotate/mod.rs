@@ -5,6 +5,7 @@
 
 mod arrange;
 mod bulk;
+mod copies;
 mod names;
 mod scheme;
 mod scope;
@@ -22,6 +23,7 @@ use chereme_sign::{Reading, Stereotype};
 use rusqlite::Connection;
 use serde::Serialize;
 
+pub use copies::Copied;
 pub use names::{AnnotationName, TierName};
 pub use scheme::Scheme;
 pub use tiers::{NewTier, RemovedTiers, TierChange, Values};

@@ -1,6 +1,7 @@
 //! The tier rules through the store, and what follows from changes.
 
 mod arrange;
+mod copies;
 mod laws;
 mod scheme;
 

@@ -264,7 +264,7 @@ fn changed_row(
     Ok(row)
 }
 
-fn check_name(all: &[TierRow], row: &TierRow) -> Result<()> {
+pub(super) fn check_name(all: &[TierRow], row: &TierRow) -> Result<()> {
     if row.name.is_empty() {
         return Err(Error::wrong("a tier needs a name"));
     }

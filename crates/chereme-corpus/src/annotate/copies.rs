@@ -1,0 +1,156 @@
+//! Tiers copied beside themselves, and put in another order.
+
+use chereme_sign::Stereotype;
+use chereme_sign::text::fold;
+use rusqlite::Connection;
+
+use super::names::{self, TierName};
+use super::tiers::check_name;
+use crate::Corpus;
+use crate::address::{self, Name};
+use crate::db::tiers::{self as rows, AnnotationRow, TierRow};
+use crate::error::{Error, Result};
+use crate::inventories;
+use crate::tokens;
+
+/// Which annotations go along when a tier is copied.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum Copied {
+    /// All of them.
+    #[default]
+    All,
+    /// All of them, without values.
+    Times,
+    /// None.
+    Nothing,
+    /// Those whose value holds this text, whatever its case and accents; on tiers without gaps the others
+    /// go along without values.
+    Holding(String),
+}
+
+impl Corpus {
+    /// Copies a tier under another name, with the annotations that are to go along; it hangs where that one
+    /// hangs and stands below it. Tiers below it are not copied.
+    ///
+    /// # Errors
+    /// Where the tier is not there, or the recording has one of that name.
+    pub fn copy_tier(&mut self, tier: &TierName, name: &str, copied: &Copied) -> Result<TierRow> {
+        self.store.operation("copy tier", |connection| {
+            let from = names::tier(connection, tier)?;
+            let row = TierRow {
+                id: 0,
+                name: name.trim().to_owned(),
+                source: None,
+                ..from.clone()
+            };
+            let all = rows::tiers(connection, from.recording_id)?;
+            check_name(&all, &row)?;
+            let id = rows::insert_tier(connection, &row)?;
+            let annotations = rows::annotations(connection, from.id)?;
+            let mut count = 0_u64;
+            for annotation in annotations {
+                if let Some(copy) = copy(annotation, &row, copied) {
+                    rows::insert_annotation(
+                        connection,
+                        &AnnotationRow {
+                            tier_id: id,
+                            ..copy
+                        },
+                    )?;
+                    count += 1;
+                }
+            }
+            let place = all
+                .iter()
+                .position(|it| it.id == from.id)
+                .map_or(0, |it| it + 1);
+            let mut order: Vec<i64> = all.iter().map(|it| it.id).collect();
+            order.insert(place, id);
+            put_in_order(connection, from.recording_id, &order)?;
+            let inventories = inventories::load_of(connection, from.recording_id)?;
+            tokens::derive(connection, from.recording_id, None, &inventories)?;
+            let recording = crate::db::recordings::recording(connection, from.recording_id)?.name;
+            let summary = format!(
+                "{:?} of {recording} as {:?} with {count} annotations",
+                from.name, row.name
+            );
+            Ok((rows::tier(connection, id)?, summary))
+        })
+    }
+
+    /// Puts the tiers of a recording in an order, given by their rows; those that are not named stay behind
+    /// the others as they are.
+    ///
+    /// # Errors
+    /// Where the recording is not there, or one of the rows is no tier of it.
+    pub fn order_tiers(&mut self, recording: &Name, order: &[i64]) -> Result<()> {
+        self.store.operation("order tiers", |connection| {
+            let recording = address::recording(connection, recording)?;
+            put_in_order(connection, recording.id, order)?;
+            Ok(((), recording.name))
+        })
+    }
+}
+
+/// Returns an annotation as it goes along to a copy of its tier.
+fn copy(row: AnnotationRow, tier: &TierRow, copied: &Copied) -> Option<AnnotationRow> {
+    let stereotype = tier
+        .stereotype
+        .as_deref()
+        .and_then(Stereotype::from_elan_name);
+    let without_gaps = matches!(
+        stereotype,
+        Some(Stereotype::TimeSubdivision | Stereotype::SymbolicSubdivision)
+    );
+    let blank = match copied {
+        Copied::All => false,
+        Copied::Times => true,
+        Copied::Nothing => return None,
+        Copied::Holding(text) => {
+            let holds = row.state == "value" && fold(&row.value).contains(&fold(text.trim()));
+            if !holds && !without_gaps {
+                return None;
+            }
+            !holds
+        }
+    };
+    let row = AnnotationRow {
+        id: 0,
+        origin: "human".to_owned(),
+        external_id: None,
+        file_start_ms: None,
+        file_end_ms: None,
+        source: None,
+        ..row
+    };
+    Some(if blank {
+        AnnotationRow {
+            state: "unset".to_owned(),
+            value: String::new(),
+            confidence: None,
+            ..row
+        }
+    } else {
+        row
+    })
+}
+
+fn put_in_order(connection: &Connection, recording: i64, order: &[i64]) -> Result<()> {
+    let mut left = rows::tiers(connection, recording)?;
+    let mut sorted = Vec::with_capacity(left.len());
+    for id in order {
+        let Some(at) = left.iter().position(|row| row.id == *id) else {
+            return Err(Error::wrong(format!(
+                "the recording has no tier {id}, or it is named twice"
+            ))
+            .advise("name each tier of the recording once"));
+        };
+        sorted.push(left.remove(at));
+    }
+    for (position, row) in (0..).zip(sorted.into_iter().chain(left)) {
+        if row.position != position {
+            rows::update_tier(connection, &TierRow { position, ..row })?;
+        }
+    }
+    Ok(())
+}
