@@ -184,11 +184,15 @@ actions! {
     AddTier "tier.add" TIER_ADD Tier Corpus;
     UsualTiers "tier.usual" TIER_USUAL Tier Corpus;
     ChangeTier "tier.change" TIER_CHANGE Tier Corpus;
+    CopyTier "tier.copy" TIER_COPY Tier Corpus;
     RemoveTier "tier.remove" TIER_REMOVE Tier Corpus;
     TierUp "tier.up" TIER_UP Tier Corpus repeats;
     TierDown "tier.down" TIER_DOWN Tier Corpus repeats;
+    TiersByName "tier.by-name" TIERS_BY_NAME Tier Corpus;
+    TiersByKind "tier.by-kind" TIERS_BY_KIND Tier Corpus;
     FoldTier "tier.fold" TIER_FOLD Tier Corpus;
     HideTier "tier.hide" TIER_HIDE Tier Corpus;
+    HideEmptyTiers "tier.hide-empty" TIERS_HIDE_EMPTY Tier Corpus;
     ShowTiers "tier.show-all" TIER_SHOW_ALL Tier Corpus;
     Play "play.toggle" PLAY Play Corpus;
     PlaySelection "play.selection" PLAY_SELECTION Play Corpus;
@@ -243,10 +247,12 @@ actions! {
     ZoomAll "view.zoom-all" ZOOM_ALL View Corpus;
     PageBack "view.page-back" PAGE_BACK View Corpus repeats;
     PageForward "view.page-forward" PAGE_FORWARD View Corpus repeats;
+    Overview "view.overview" OVERVIEW View Corpus;
     LaneSpeed "view.lane-speed" LANE_SPEED View Corpus;
     LaneAperture "view.lane-aperture" LANE_APERTURE View Corpus;
     LanePalm "view.lane-palm" LANE_PALM View Corpus;
     LaneDistance "view.lane-distance" LANE_DISTANCE View Corpus;
+    LaneFace "view.lane-face" LANE_FACE View Corpus;
     Larger "view.larger" LARGER View Everywhere repeats;
     Smaller "view.smaller" SMALLER View Everywhere repeats;
     Theme "view.theme" THEME View Everywhere;

@@ -55,6 +55,8 @@ pub struct Studio {
     pub(crate) overlays: Overlays,
     pub(crate) out: Outbox,
     pub(crate) drafts: Drafts,
+    /// Under which name it is remembered how the open corpus is looked at.
+    pub(crate) view: Option<String>,
     pub(crate) wake: Wake,
     ctx: Arc<OnceLock<Context>>,
     /// When the last frame was, in seconds of the window's clock.
@@ -110,6 +112,7 @@ impl Studio {
             overlays: Overlays::default(),
             out,
             drafts: Drafts::default(),
+            view: None,
             wake,
             ctx,
             clock: None,
@@ -391,6 +394,7 @@ impl Studio {
         if self.desk.is_some() && self.settings.layout.as_ref() != Some(&self.tree) {
             self.settings.layout = Some(self.tree.clone());
         }
+        self.keep_view(false);
         let settled = !ctx.input(|input| input.pointer.any_down());
         if self.settings == self.saved || !settled {
             return;
@@ -417,6 +421,18 @@ impl Studio {
                 moving,
             }) => self.reel.put(recording, piece, moving),
             Ok(outcome) => self.overlays.notices.of(&outcome, language),
+        }
+    }
+}
+
+impl Drop for Studio {
+    /// What was zoomed to is written when the window closes.
+    fn drop(&mut self) {
+        self.keep_view(true);
+        if self.settings != self.saved
+            && let Some(file) = self.folders.settings_file()
+        {
+            drop(self.settings.write(&file));
         }
     }
 }

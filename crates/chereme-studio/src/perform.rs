@@ -20,7 +20,7 @@ use crate::model::made::Made;
 use crate::model::reel::Reel;
 use crate::panes::{Carried, PaneKind, recombine};
 use crate::player::Player;
-use crate::settings::ThemeChoice;
+use crate::settings::{ThemeChoice, View, view_of};
 use crate::theme;
 use crate::words::{shell as words, timeline};
 use crate::work::Work;
@@ -403,6 +403,12 @@ impl Studio {
         let absolute = std::path::absolute(path);
         let path = absolute.as_deref().unwrap_or(path);
         self.settings.opened(path);
+        let view = view_of(path);
+        let known = self.settings.views.get(&view).cloned().unwrap_or_default();
+        self.panes.timeline.remember(&known.windows);
+        self.settings.timeline.folded = known.folded;
+        self.settings.timeline.hidden = known.hidden;
+        self.view = Some(view);
         self.drafts = Drafts::of(&self.folders, path);
         if let Some(draft) = self.drafts.read() {
             self.panes.timeline.restore(draft);
@@ -411,7 +417,28 @@ impl Studio {
         }
     }
 
+    /// Remembers how the corpus is looked at; what of recordings is seen only with `windows`, as that
+    /// changes all the time.
+    pub(crate) fn keep_view(&mut self, windows: bool) {
+        let Some(view) = &self.view else { return };
+        if !self.settings.views.contains_key(view) {
+            self.settings.views.insert(view.clone(), View::default());
+        }
+        let ways = &self.settings.timeline;
+        let Some(view) = self.settings.views.get_mut(view) else {
+            return;
+        };
+        if (&view.folded, &view.hidden) != (&ways.folded, &ways.hidden) {
+            (view.folded, view.hidden) = (ways.folded.clone(), ways.hidden.clone());
+        }
+        if windows {
+            view.windows = self.panes.timeline.windows();
+        }
+    }
+
     fn close(&mut self) {
+        self.keep_view(true);
+        self.view = None;
         self.desk = None;
         self.drafts = Drafts::default();
         self.snapshot = None;

@@ -1,5 +1,6 @@
 //! What the window remembers between sittings: a JSON file in the platform's folder for settings.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -11,6 +12,7 @@ use crate::keys::{Keymap, Rebound};
 use crate::panes::PaneKind;
 use crate::panes::stage::StageWays;
 use crate::panes::timeline::Ways;
+use crate::panes::timeline::data::Window;
 use crate::words::Language;
 
 /// How many corpora are remembered.
@@ -49,6 +51,20 @@ pub(crate) struct Settings {
     pub(crate) timeline: Ways,
     /// How the stage is looked at.
     pub(crate) stage: StageWays,
+    /// How corpora are looked at, by their paths; of those opened before.
+    pub(crate) views: BTreeMap<String, View>,
+}
+
+/// How one corpus is looked at.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct View {
+    /// Names of tiers whose children are folded away.
+    pub(crate) folded: BTreeSet<String>,
+    /// Names of tiers that are not shown.
+    pub(crate) hidden: BTreeSet<String>,
+    /// What of each recording is seen, by its row.
+    pub(crate) windows: BTreeMap<i64, Window>,
 }
 
 /// How many queries are remembered.
@@ -99,6 +115,7 @@ impl Default for Settings {
             layout: None,
             timeline: Ways::default(),
             stage: StageWays::default(),
+            views: BTreeMap::new(),
         }
     }
 }
@@ -126,6 +143,8 @@ impl Settings {
         self.recent.retain(|known| known != path);
         self.recent.insert(0, path.to_owned());
         self.recent.truncate(RECENT);
+        let known: BTreeSet<String> = self.recent.iter().map(|it| view_of(it)).collect();
+        self.views.retain(|path, _| known.contains(path));
     }
 
     fn checked(mut self) -> Self {
@@ -136,6 +155,11 @@ impl Settings {
         };
         self
     }
+}
+
+/// Returns the name under which the view of a corpus is remembered.
+pub(crate) fn view_of(path: &Path) -> String {
+    path.to_string_lossy().into_owned()
 }
 
 /// Writes a JSON file, whole or not at all.

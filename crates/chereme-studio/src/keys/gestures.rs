@@ -71,6 +71,7 @@ gestures! {
     Timing [Shift] Click EMPTY EXTEND;
     Timing Drag EDGE RESIZE;
     Tier Click TIER_NAME CHOOSE_TIER;
+    Tier Drag TIER_NAME ORDER_TIERS;
     Tier RightClick TIER_NAME MENU_OF_TIER;
     Play Click LANE PLAYHEAD;
     Play Drag RULER SCRUB;
@@ -84,6 +85,7 @@ gestures! {
     View [Shift] Wheel TIMELINE SCROLL_TIME;
     View Wheel TIMELINE SCROLL_TIERS;
     View [Alt] Drag RULER SCROLL_TIME;
+    View Drag STRIP MOVE_VIEW;
 }
 
 impl Gesture {

@@ -34,9 +34,12 @@ texts! {
     RESIZE: "Moves the edge", "Déplace le bord";
     TIER_NAME: "name of a tier", "nom d’un acteur";
     CHOOSE_TIER: "Selects the tier", "Sélectionne l’acteur";
+    ORDER_TIERS: "Brings the tier to another place among its siblings", "Amène l’acteur à une autre place parmi ses pareils";
     MENU_OF_TIER: "What can be done with the tier", "Ce qu’on peut faire de l’acteur";
     PLAYHEAD: "Moves the playhead", "Déplace le curseur";
     RULER: "ruler", "règle";
+    STRIP: "overview", "vue d’ensemble";
+    MOVE_VIEW: "Moves what is seen; at an edge of the box, zooms", "Déplace ce qu’on voit ; au bord du cadre, agrandit ou réduit";
     SCRUB: "Moves the playhead along", "Promène le curseur";
     FIGURE: "signer", "personne qui signe";
     ORBIT: "Turns the view", "Tourne la vue";

@@ -11,6 +11,7 @@ texts! {
     NOT_APPLICABLE: "n/a", "sans objet";
     UNCLEAR: "unclear", "incertain";
     SELECTED: "Selected: {start} to {end}", "Sélection : {start} à {end}";
+    OVERVIEW: "Overview: {start} to {end} is seen", "Vue d’ensemble : on voit de {start} à {end}";
     LANE: "Lane of {name}", "Piste de {name}";
     FOLD: "Fold {name}", "Replier {name}";
     UNFOLD: "Unfold {name}", "Déplier {name}";
@@ -26,6 +27,8 @@ texts! {
     LANE_APERTURE: "Aperture", "Ouverture";
     LANE_PALM: "Palm", "Paume";
     LANE_DISTANCE: "Hand distance", "Distance des mains";
+    LANE_FACE: "Face and trunk", "Visage et tronc";
+    NO_FACE: "No curves of the face are stored here; signs made from notation have them.", "Pas de courbes du visage ici ; les signes faits d’une notation en ont.";
     TIERS: "Tiers", "Acteurs";
     TIERS_HIDDEN: "Tiers, {n} hidden", "Acteurs, {n} masqués";
     SELECTED_COUNT: "{n} selected", "{n} sélectionnées";
@@ -64,6 +67,17 @@ texts! {
     ADD_TITLE: "Add a tier", "Ajouter un acteur";
     TIERS_LIKE: "Tiers as in…", "Acteurs comme dans…";
     USUAL_ARE: "Gloss, translation, handshape, placement, movement and orientation of either hand, mouth, brows, head", "Glose, traduction, configuration, emplacement, mouvement et orientation de chaque main, bouche, sourcils, tête";
+    COPY_TIER_TITLE: "Copy the tier", "Copier l’acteur";
+    COPY_TIER_NAME: "{name} copy", "{name} copie";
+    COPIED_WHAT: "With", "Avec";
+    COPIED_ALL: "all annotations", "toutes les annotations";
+    COPIED_TIMES: "annotations without values", "les annotations sans valeurs";
+    COPIED_NOTHING: "no annotations", "aucune annotation";
+    COPIED_HOLDING: "annotations that hold:", "les annotations qui contiennent :";
+    COPIED_TEXT: "Text they hold", "Texte contenu";
+    COPY: "Copy", "Copier";
+    SORTED_ALREADY: "The tiers stand in that order already.", "Les acteurs sont déjà dans cet ordre.";
+    NONE_EMPTY: "Every tier that is shown has annotations.", "Tous les acteurs affichés ont des annotations.";
     CHANGE_TITLE: "Change the tier", "Modifier l’acteur";
     REMOVE_TITLE: "Remove the tier?", "Supprimer l’acteur ?";
     REMOVE_ABOUT: "{name} goes, with tiers below it: {tiers}, and annotations: {n}. Undo brings them back.", "{name} disparaît, avec des acteurs dépendants : {tiers}, et des annotations : {n}. Annuler les ramène.";

@@ -28,6 +28,12 @@ pub(super) fn carry(
         Work::ChangeTier(tier, change) => corpus
             .change_tier(&tier, &change)
             .map(|_| Outcome::Changed)?,
+        Work::CopyTier(tier, name, copied) => corpus
+            .copy_tier(&tier, &name, &copied)
+            .map(|_| Outcome::Changed)?,
+        Work::OrderTiers(recording, order) => corpus
+            .order_tiers(&recording, &order)
+            .map(|()| Outcome::Changed)?,
         Work::RemoveTier(tier) => corpus.remove_tier(&tier).map(|_| Outcome::Changed)?,
         Work::Recombine { recipe, gloss } => {
             Outcome::Recombined(Box::new(corpus.recombine(&recipe, &gloss)?))

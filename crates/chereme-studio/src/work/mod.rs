@@ -12,10 +12,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use chereme_corpus::{
-    Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, Curves, Details,
-    Error, ExportOptions, ExportReport, ExportWhat, ImportOptions, ImportReport, KeptSearch,
-    MadePart, Moving, Name, NewTier, OperationRow, Recombination, RecordingChange, Scheme,
-    SearchOptions, SignChange, SignerChange, Suggestions, TierChange, TierName, Unit,
+    Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, Copied, Curves,
+    Details, Error, ExportOptions, ExportReport, ExportWhat, ImportOptions, ImportReport,
+    KeptSearch, MadePart, Moving, Name, NewTier, OperationRow, Recombination, RecordingChange,
+    Scheme, SearchOptions, SignChange, SignerChange, Suggestions, TierChange, TierName, Unit,
 };
 use chereme_motion::Span;
 
@@ -38,6 +38,10 @@ pub(crate) enum Work {
     AddTiers(Name, Scheme),
     /// Changes a tier.
     ChangeTier(TierName, TierChange),
+    /// Copies a tier under another name.
+    CopyTier(TierName, String, Copied),
+    /// Puts the tiers of a recording in an order.
+    OrderTiers(Name, Vec<i64>),
     /// Removes a tier.
     RemoveTier(TierName),
     /// Makes a sign by a recipe and stores it.
@@ -223,6 +227,8 @@ impl Work {
             | Self::AddTiers(..)
             | Self::ChangeTier(..)
             | Self::RemoveTier(_)
+            | Self::CopyTier(..)
+            | Self::OrderTiers(..)
             | Self::Recombine { .. }
             | Self::RecombineAgain { .. }
             | Self::Import(..)

@@ -1,10 +1,12 @@
 //! The tools above the ruler: modes, what times settle on, lanes, tiers.
 
+use std::collections::BTreeSet;
+
 use chereme_corpus::{Name, Scheme};
 use eframe::egui::{Button, ScrollArea, Ui};
 
 use super::edit::Scene;
-use super::rows::hidden_count;
+use super::rows::{hidden_count, rows};
 use super::ways::Ways;
 use crate::action::Action;
 use crate::command::Command;
@@ -58,7 +60,8 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
             );
             menu(ui, seen, seen.say(words::SNAP), &SNAPS, out);
         }
-        let lanes = super::lanes::Lane::ALL.map(|(_, action, text)| (action, text));
+        let mut lanes = vec![(Action::Overview, words::LANES)];
+        lanes.extend(super::lanes::Lane::ALL.map(|(_, action, text)| (action, text)));
         menu(ui, seen, seen.say(words::LANES), &lanes, out);
         tiers(ui, scene, out);
         ui.spacing_mut().item_spacing.x = 8.0;
@@ -103,8 +106,33 @@ fn tiers(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
     ui.menu_button(title, |ui| {
         actions(ui, seen, &[Action::AddTier, Action::UsualTiers], out);
         like(ui, scene, out);
+        actions(ui, seen, &[Action::TiersByName, Action::TiersByKind], out);
+        ui.separator();
+        actions(ui, seen, &[Action::HideEmptyTiers], out);
         if hidden > 0 {
             actions(ui, seen, &[Action::ShowTiers], out);
+        }
+        shown(ui, scene, out);
+    });
+}
+
+/// Shows every tier with whether it is shown.
+fn shown(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
+    let ways = &scene.seen.settings.timeline;
+    let none = BTreeSet::new();
+    let all = rows(&scene.contents.tiers, &none, &none);
+    ScrollArea::vertical().max_height(LIKE).show(ui, |ui| {
+        for row in all {
+            let name = &scene.contents.tiers[row.tier].row.name;
+            let mut is_shown = !ways.hidden.contains(name);
+            ui.horizontal(|ui| {
+                ui.add_space(12.0 * row.depth as f32);
+                if ui.checkbox(&mut is_shown, name).changed() {
+                    let mut ways = ways.clone();
+                    super::ways::toggle(&mut ways.hidden, name.clone());
+                    super::ways::change(scene.seen, out, ways);
+                }
+            });
         }
     });
 }

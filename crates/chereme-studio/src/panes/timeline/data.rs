@@ -2,12 +2,13 @@
 
 use chereme_corpus::{AnnotationColumns, TierContents, ValueState};
 use chereme_motion::{Instant, Span};
+use serde::{Deserialize, Serialize};
 
 /// How much wider than a recording the widest window is.
 const MARGIN: f64 = 1.02;
 
 /// The part of a recording that is to be seen.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Window {
     /// The time at the left edge, in microseconds.
     pub(crate) start: f64,
@@ -23,6 +24,14 @@ impl Window {
             start: whole.start().micros() as f64,
             scale: micros / f64::from(width.max(1.0)),
         }
+    }
+
+    /// Returns the window that shows the time from `start` to `end` of a recording.
+    pub(crate) fn showing(start: f64, end: f64, whole: Span, width: f32) -> Self {
+        let widest = Self::whole(whole, width).scale;
+        let scale =
+            ((end - start) / f64::from(width.max(1.0))).clamp(100.0_f64.min(widest), widest);
+        Self { start, scale }.within(whole, width)
     }
 
     /// Returns where a time is, in points from the left edge.
@@ -340,6 +349,12 @@ mod tests {
         assert_eq!(near.panned(-1e9, whole, 1000.0).start, 0.0);
         let end = near.panned(1e9, whole, 1000.0);
         assert!(end.x(10_000_000.0) < 1000.0 && end.x(10_000_000.0) > 900.0);
+        let part = Window::showing(2_000_000.0, 4_000_000.0, whole, 1000.0);
+        assert_eq!((part.start, part.scale), (2_000_000.0, 2000.0));
+        assert_eq!(
+            Window::showing(-9e9, 9e9, whole, 1000.0).scale,
+            window.scale
+        );
         let followed = near.following(9_000_000.0, whole, 1000.0);
         assert!((0.0..1000.0).contains(&followed.x(9_000_000.0)));
         assert_eq!(near.following(5_000_000.0, whole, 1000.0), near);

@@ -1,7 +1,7 @@
 //! Movement as lanes under the ruler: measured piece by piece beside the window, kept, and thinned to the
 //! columns of the screen.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_corpus::Kinematics;
 use chereme_motion::{Instant, Rate, Span};
@@ -16,6 +16,8 @@ use crate::work::{Ended, Outcome, Work, WorkId};
 /// Frames of a piece, and of a summary within one.
 const PIECE: usize = 1200;
 const ROUGH: usize = 16;
+/// How much of a stored curve is as good as nothing.
+const LITTLE: f64 = 1e-3;
 
 /// A lane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -25,15 +27,18 @@ pub(crate) enum Lane {
     Aperture,
     Palm,
     Distance,
+    /// The curves that are stored beside the movement, each in a lane of its own.
+    Face,
 }
 
 impl Lane {
     /// Every lane with the action that shows it and its name.
-    pub(crate) const ALL: [(Self, Action, Text); 4] = [
+    pub(crate) const ALL: [(Self, Action, Text); 5] = [
         (Self::Speed, Action::LaneSpeed, words::LANE_SPEED),
         (Self::Aperture, Action::LaneAperture, words::LANE_APERTURE),
         (Self::Palm, Action::LanePalm, words::LANE_PALM),
         (Self::Distance, Action::LaneDistance, words::LANE_DISTANCE),
+        (Self::Face, Action::LaneFace, words::LANE_FACE),
     ];
 
     /// Returns what its lower and upper edge stand for, given the largest number there is.
@@ -43,12 +48,17 @@ impl Lane {
             Self::Aperture => (0.3, 1.05),
             Self::Palm => (-1.05, 1.05),
             Self::Distance => (0.0, largest.max(0.3)),
+            Self::Face => (0.0, 1.0),
         }
     }
 
     /// Returns how many curves it has: one for each hand, or one of both.
     pub(crate) fn curves(self) -> usize {
-        if self == Self::Distance { 1 } else { 2 }
+        match self {
+            Self::Distance => 1,
+            Self::Face => 0,
+            _ => 2,
+        }
     }
 }
 
@@ -104,6 +114,8 @@ fn ends(values: &[f32]) -> (f32, f32) {
 struct Piece {
     /// By lane and hand.
     series: BTreeMap<(Lane, usize), Series>,
+    /// By the names of stored curves; those that are nothing throughout are left out.
+    stored: BTreeMap<String, Series>,
     palms: [Vec<[f32; 3]>; 2],
     /// Times of the minima of speed.
     minima: Vec<i64>,
@@ -167,8 +179,13 @@ impl Curves {
             Ok(Outcome::Measured { piece, curves, .. }) => {
                 let time = |frame: usize| curves.rate.instant(frame).micros() + curves.offset_us;
                 let minima = curves.minima.iter().map(|frame| time(*frame)).collect();
-                self.pieces
-                    .insert(*piece, Piece::new(&curves.kinematics, minima));
+                let mut measured = Piece::new(&curves.kinematics, minima);
+                let stored = curves.stored.iter();
+                let some = stored.filter(|it| it.values.iter().any(|value| *value > LITTLE));
+                measured.stored = some
+                    .map(|it| (it.name.clone(), Series::new(it.values.iter().copied())))
+                    .collect();
+                self.pieces.insert(*piece, measured);
             }
             _ => self.failed = true,
         }
@@ -193,7 +210,50 @@ impl Curves {
     /// not measured.
     pub(super) fn columns(
         &self,
-        (lane, hand): (Lane, usize),
+        of: (Lane, usize),
+        window: &Window,
+        width: usize,
+    ) -> Vec<Option<(f32, f32)>> {
+        self.ends(|piece| piece.series.get(&of), window, width)
+    }
+
+    /// Returns the names of the stored curves that are something as far as they are known.
+    pub(super) fn stored(&self) -> Vec<&str> {
+        let all = self.pieces.values().flat_map(|piece| piece.stored.keys());
+        let all: BTreeSet<&str> = all.map(String::as_str).collect();
+        all.into_iter().collect()
+    }
+
+    /// Returns the same as [`columns`](Self::columns) of a stored curve, and its number at a time.
+    pub(super) fn stored_columns(
+        &self,
+        name: &str,
+        window: &Window,
+        width: usize,
+    ) -> Vec<Option<(f32, f32)>> {
+        self.ends(|piece| piece.stored.get(name), window, width)
+    }
+
+    /// Returns the number of a stored curve at a time; nothing where that is not known yet.
+    pub(super) fn stored_at(&self, name: &str, micros: i64) -> Option<f32> {
+        let frame = self.source?.frame(micros);
+        let piece = self.pieces.get(&(frame / PIECE))?;
+        let series = piece.stored.get(name);
+        Some(
+            series
+                .and_then(|it| it.values.get(frame % PIECE).copied())
+                .unwrap_or(0.0),
+        )
+    }
+
+    /// Returns whether nothing was measured yet.
+    pub(super) fn is_bare(&self) -> bool {
+        self.pieces.is_empty()
+    }
+
+    fn ends<'a>(
+        &'a self,
+        series: impl Fn(&'a Piece) -> Option<&'a Series>,
         window: &Window,
         width: usize,
     ) -> Vec<Option<(f32, f32)>> {
@@ -211,8 +271,7 @@ impl Curves {
             pieces
                 .filter_map(|(number, piece)| {
                     let first = number * PIECE;
-                    let series = piece.series.get(&(lane, hand))?;
-                    series.ends(from.saturating_sub(first), to.saturating_sub(first))
+                    series(piece)?.ends(from.saturating_sub(first), to.saturating_sub(first))
                 })
                 .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
         };
@@ -287,6 +346,7 @@ impl Piece {
         });
         Self {
             series,
+            stored: BTreeMap::new(),
             palms,
             minima,
         }
@@ -370,6 +430,26 @@ mod tests {
         curves.pieces.insert(2, Piece::default());
         assert_eq!(curves.next(all, (0, 40_000_000), 30_000_000), Some(1));
         assert_eq!(curves.next(all, (30_000_000, 30_000_000), 0), None);
+    }
+
+    #[test]
+    fn stored_curves_are_shown_where_they_are_something() {
+        let mut curves = measured(3_000, |_| 1.0);
+        let piece = curves.pieces.get_mut(&1).expect("a piece");
+        let brows = Series::new((0..PIECE).map(|frame| if frame < 600 { 0.0 } else { 0.5 }));
+        piece.stored.insert("brows.RB".into(), brows);
+        assert_eq!(curves.stored(), ["brows.RB"]);
+        let at = |micros| curves.stored_at("brows.RB", micros);
+        assert_eq!(at(0), Some(0.0));
+        assert_eq!(at(23_000_000), Some(0.5));
+        let window = Window {
+            start: 0.0,
+            scale: 30e6 / 30.0,
+        };
+        let columns = curves.stored_columns("brows.RB", &window, 30);
+        assert_eq!(columns[5], None);
+        assert_eq!(columns[13], Some((0.0, 0.0)));
+        assert_eq!(columns[20], Some((0.5, 0.5)));
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! The lanes of movement: their names with what they say at the playhead, and their curves.
 
 use eframe::egui::{
-    Align2, Color32, FontId, Mesh, Painter, Rect, Role, Sense, Shape, Stroke, TextStyle, Ui,
-    WidgetInfo, pos2, vec2,
+    Align2, Color32, FontId, Mesh, Painter, Rect, Role, ScrollArea, Sense, Shape, Stroke,
+    TextStyle, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::edit::Scene;
@@ -13,6 +13,23 @@ use crate::context::Seen;
 use crate::words::timeline as words;
 
 const HEIGHT: f32 = 36.0;
+
+/// How high the lane of a stored curve is, and the share of the pane that they take at most.
+const FACE: f32 = 20.0;
+const FACE_SHARE: f32 = 0.4;
+
+/// Returns what a stored curve such as `brows.RB` is called: as the inventory of its feature says.
+fn face_name(seen: &Seen<'_>, name: &str) -> String {
+    let Some((part, code)) = name.split_once('.') else {
+        return name.to_owned();
+    };
+    let all = seen.snapshot.overview.inventories.iter();
+    let mut of = all.filter(|it| it.inventory.feature.as_deref() == Some(part));
+    let value = of.find_map(|it| it.inventory.find(code));
+    value.map_or(name.to_owned(), |it| {
+        it.name(seen.language.code()).to_owned()
+    })
+}
 
 /// Returns the colours of the right hand and of the left.
 fn hands(seen: &Seen<'_>) -> [Color32; 2] {
@@ -41,8 +58,93 @@ impl Drawing<'_, '_> {
             .into_iter()
             .filter(|(lane, ..)| shown.contains(lane))
         {
-            self.one_lane(ui, scene, lane, self.seen.say(name));
+            if lane == Lane::Face {
+                self.face(ui, scene);
+            } else {
+                self.one_lane(ui, scene, lane, self.seen.say(name));
+            }
         }
+    }
+
+    /// Shows the stored curves, one below the other.
+    fn face(&mut self, ui: &mut Ui, scene: &Scene<'_>) {
+        let names: Vec<String> = {
+            let all = self.timeline.curves.stored();
+            all.into_iter().map(str::to_owned).collect()
+        };
+        if names.is_empty() {
+            let text = match scene.frames() {
+                Some(_) if self.timeline.curves.is_bare() => words::MEASURING,
+                _ => words::NO_FACE,
+            };
+            ui.weak(self.seen.say(text));
+            return;
+        }
+        let most = (ui.available_height() * FACE_SHARE).max(FACE);
+        ScrollArea::vertical()
+            .id_salt("face")
+            .max_height(most)
+            .show(ui, |ui| {
+                for name in &names {
+                    self.one_of_face(ui, scene, name);
+                }
+            });
+    }
+
+    fn one_of_face(&mut self, ui: &mut Ui, scene: &Scene<'_>, name: &str) {
+        let size = vec2(ui.available_width(), FACE);
+        let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+        let area = rect.with_min_x(rect.left() + self.names);
+        let id = ui.unique_id().with(("stored", name));
+        let response = ui.interact(area, id, Sense::click_and_drag());
+        let curves = &self.timeline.curves;
+        let now = curves.stored_at(name, scene.playhead()).unwrap_or(0.0);
+        let called = face_name(self.seen, name);
+        let says = format!("{called} {:.0} %", now * 100.0);
+        response.widget_info(|| WidgetInfo::labeled(Role::Slider, true, &says));
+        let (painter, colours) = (ui.painter_at(area), self.seen.colours());
+        if let Some(span) = self.seen.shown.span {
+            paint::selection(&painter, area, &self.window, span, self.seen);
+        }
+        let width = area.width().ceil().max(1.0) as usize;
+        let columns = curves.stored_columns(name, &self.window, width);
+        let y = |value: f32| area.bottom() - 1.0 - value.clamp(0.0, 1.0) * (area.height() - 4.0);
+        let mut mesh = Mesh::default();
+        for (x, column) in columns.iter().enumerate() {
+            if let Some((_, high)) = column.filter(|it| it.1 > 0.0) {
+                let left = area.left() + x as f32;
+                let ends = (pos2(left, y(high)), pos2(left + 1.0, area.bottom() - 1.0));
+                mesh.add_colored_rect(Rect::from_min_max(ends.0, ends.1), colours.good);
+            }
+        }
+        painter.add(Shape::mesh(mesh));
+        painter.hline(
+            area.x_range(),
+            area.bottom(),
+            Stroke::new(1.0, colours.rule),
+        );
+        let x = area.left() + self.window.x(scene.playhead() as f64);
+        painter.vline(x, area.y_range(), Stroke::new(1.5, colours.playhead));
+        let strong = now > 0.0;
+        let colour = if strong {
+            ui.visuals().strong_text_color()
+        } else {
+            ui.visuals().text_color()
+        };
+        let place = rect.with_max_x(area.left() - 4.0);
+        ui.painter_at(place).text(
+            pos2(place.left() + 8.0, place.center().y),
+            Align2::LEFT_CENTER,
+            &called,
+            TextStyle::Small.resolve(ui.style()),
+            colour,
+        );
+        if let Some(at) = response.interact_pointer_pos()
+            && (response.dragged() || response.clicked())
+        {
+            self.out.seek(self.instant(at.x - area.left()));
+        }
+        response.on_hover_text(says);
     }
 
     fn one_lane(&mut self, ui: &mut Ui, scene: &Scene<'_>, lane: Lane, name: &str) {
@@ -118,7 +220,7 @@ impl Drawing<'_, '_> {
                 Lane::Palm => self.seen.say(curves.palm(hand, at)?).to_owned(),
                 Lane::Speed => format!("{value:.2} m/s"),
                 Lane::Aperture => format!("{:.0} %", value * 100.0),
-                Lane::Distance => return Some(format!("{value:.2} m")),
+                Lane::Distance | Lane::Face => return Some(format!("{value:.2} m")),
             };
             Some(format!("{} {text}", self.seen.say(short[hand])))
         };

@@ -8,6 +8,7 @@
 //! | `changes` | what is asked of the corpus |
 //! | `values` | what can be said on a tier, and the digits |
 //! | `lanes`, `lanes_ui` | movement as lanes |
+//! | `overview` | the whole recording in a strip |
 //! | `ways` | modes and switches that are remembered |
 //! | `edit`, `select`, `tiers`, `beside` | what actions do |
 //! | `clip`, `paste`, `paste_box` | the clipboard: its text, where that goes, what of it has no place |
@@ -33,6 +34,7 @@ pub(crate) mod lanes;
 mod lanes_ui;
 mod menu;
 mod names;
+mod overview;
 mod paint;
 mod paste;
 mod paste_box;
@@ -113,7 +115,10 @@ pub(crate) struct Timeline {
     tier_asked: Option<(WorkId, tier_box::TierBox)>,
     /// The name of a tier to be selected as soon as it is there.
     tier_named: Option<String>,
+    /// The tier that is held by its name, to be put elsewhere.
+    tier_held: Option<i64>,
     curves: lanes::Curves,
+    overview: overview::Overview,
     layout: ui::Layout,
 }
 
@@ -272,6 +277,25 @@ impl Timeline {
     /// Takes the text that is to be pasted.
     pub(crate) fn hold_clip(&mut self, text: String) {
         self.clip = Some(text);
+    }
+
+    /// Returns what of each recording is seen, where that is not the whole.
+    pub(crate) fn windows(&self) -> BTreeMap<i64, Window> {
+        let now = self.of.map(|of| (of, self.window));
+        let all = self
+            .windows
+            .iter()
+            .map(|(of, window)| (*of, *window))
+            .chain(now);
+        all.filter_map(|(of, window)| Some((of, window?))).collect()
+    }
+
+    /// Takes what of each recording was seen before.
+    pub(crate) fn remember(&mut self, windows: &BTreeMap<i64, Window>) {
+        let sane = windows
+            .iter()
+            .filter(|(_, it)| it.start.is_finite() && it.scale >= 1.0);
+        self.windows = sane.map(|(of, window)| (*of, Some(*window))).collect();
     }
 
     /// A frame begins, in which the pane may or may not be in sight.

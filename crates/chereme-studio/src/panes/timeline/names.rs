@@ -2,14 +2,14 @@
 
 use chereme_corpus::Contents;
 use eframe::egui::{
-    Align2, Id, Rect, Response, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo, pos2,
-    vec2,
+    Align2, CursorIcon, Id, Key, Modifiers, PointerButton, Rect, Response, Role, Sense, Stroke,
+    StrokeKind, TextStyle, Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::edit::Scene;
 use super::rows::Row;
 use super::ui::{Drawing, INDENT};
-use super::{bar, paint};
+use super::{bar, paint, tiers};
 use crate::action::Action;
 use crate::command::Command;
 use crate::words::{fill, timeline as words};
@@ -24,10 +24,18 @@ impl Drawing<'_, '_> {
         };
         let chosen = scene.tier().is_some_and(|it| it.row.id == tier.row.id);
         let label = fill(self.seen.say(words::TIER), &[("name", &tier.row.name)]);
-        let response = ui.interact(name, Id::unique(("tier", tier.row.id)), Sense::click());
+        let response = ui.interact(
+            name,
+            Id::unique(("tier", tier.row.id)),
+            Sense::click_and_drag(),
+        );
         response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &label));
         if response.clicked() {
             self.out.send(Command::Tier(Some(tier.row.id)));
+        }
+        if response.drag_started_by(PointerButton::Primary) {
+            self.out.send(Command::Tier(Some(tier.row.id)));
+            self.timeline.tier_held = Some(tier.row.id);
         }
         self.header_menu(&response, tier.row.id);
         let colours = self.seen.colours();
@@ -86,10 +94,17 @@ impl Drawing<'_, '_> {
     }
 
     fn header_menu(&mut self, response: &Response, tier: i64) {
-        const EDIT: [Action; 3] = [Action::AddTier, Action::ChangeTier, Action::RemoveTier];
-        const SHOW: [Action; 4] = [
+        const EDIT: [Action; 4] = [
+            Action::AddTier,
+            Action::ChangeTier,
+            Action::CopyTier,
+            Action::RemoveTier,
+        ];
+        const SHOW: [Action; 6] = [
             Action::TierUp,
             Action::TierDown,
+            Action::TiersByName,
+            Action::TiersByKind,
             Action::HideTier,
             Action::SelectOnTier,
         ];
@@ -101,5 +116,58 @@ impl Drawing<'_, '_> {
             ui.separator();
             bar::actions(ui, self.seen, &SHOW, self.out);
         });
+    }
+
+    /// Shows where the tier goes that is held by its name, and lets it go there.
+    pub(super) fn held_tier(&mut self, ui: &Ui, contents: &Contents, area: Rect) {
+        let Some(id) = self.timeline.tier_held else {
+            return;
+        };
+        let (pointer, released, escape) = ui.input_mut(|input| {
+            let escape = input.consume_key(Modifiers::NONE, Key::Escape);
+            let pointer = &input.pointer;
+            (pointer.latest_pos(), !pointer.any_down(), escape)
+        });
+        let Some(pointer) = pointer.filter(|_| !escape) else {
+            self.timeline.tier_held = None;
+            return;
+        };
+        let all: Vec<_> = contents
+            .tiers
+            .iter()
+            .map(|it| (it.row.id, it.row.parent_id))
+            .collect();
+        let parent = all.iter().find(|it| it.0 == id).and_then(|it| it.1);
+        let rows = &self.timeline.layout.rows;
+        let mut siblings = rows.iter().filter(|(at, _)| all[*at].1 == parent);
+        let next = siblings.clone().find(|(_, y)| pointer.y < y.center());
+        let last = siblings.next_back().map(|(at, _)| all[*at].0);
+        let mut family = rows
+            .iter()
+            .filter(|(at, _)| last.is_some_and(|last| tiers::is_within(&all, all[*at].0, last)));
+        let end = family.next_back().map_or(area.top(), |(_, y)| y.max);
+        let y = next.map_or(end, |(_, y)| y.min);
+        let before = next.map(|(at, _)| all[*at].0);
+        if released {
+            self.timeline.tier_held = None;
+            let order = tiers::moved(&all, id, before).filter(|_| before != Some(id));
+            if let Some(order) = order {
+                let scene = Scene {
+                    contents,
+                    seen: self.seen,
+                };
+                tiers::order(&scene, order, self.out);
+            }
+            return;
+        }
+        ui.set_cursor_icon(CursorIcon::Grabbing);
+        let colour = self.seen.colours().accent;
+        let names = area.with_max_x(area.left() + self.names);
+        let painter = ui.painter_at(area);
+        painter.hline(
+            names.x_range(),
+            y.min(area.bottom() - 1.0),
+            Stroke::new(2.5, colour),
+        );
     }
 }

@@ -123,7 +123,12 @@ fn paste(
     }
     // One that was copied here and has no room needs no list of lines.
     if plan.adds.is_empty() && plan.odd.len() == 1 && plan.odd[0].why == words::ODD_TAKEN {
-        return Acted::Cannot(words::PASTE_TAKEN);
+        let why = if here.is_some() {
+            words::NO_ROOM
+        } else {
+            words::PASTE_TAKEN
+        };
+        return Acted::Cannot(why);
     }
     timeline.paste_box = Some(paste_box::PasteBox { plan });
     Acted::Yes

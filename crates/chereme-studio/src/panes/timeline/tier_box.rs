@@ -1,7 +1,8 @@
 //! The box in which a tier is described, added, changed, or removed.
 
 use chereme_corpus::{
-    Contents, Hands, Name, NewTier, Stereotype, TierChange, TierContents, TierName, TierRole,
+    Contents, Copied, Hands, Name, NewTier, Stereotype, TierChange, TierContents, TierName,
+    TierRole,
 };
 use eframe::egui::{
     Align2, ComboBox, Grid, Id, Key, Modifiers, Role, TextEdit, Ui, WidgetInfo, Window, vec2,
@@ -19,6 +20,7 @@ pub(super) enum What {
     Add,
     Change(i64),
     Remove(i64),
+    Copy(i64),
 }
 
 /// A tier as it is described in the box.
@@ -32,6 +34,8 @@ pub(super) struct TierBox {
     /// The tier above, and how this one hangs below it.
     parent: Option<(String, Stereotype)>,
     fresh: bool,
+    /// What goes along when it is copied.
+    copied: Copied,
 }
 
 /// What was pressed in the box.
@@ -55,6 +59,7 @@ impl TierBox {
             hand: None,
             parent: None,
             fresh: true,
+            copied: Copied::All,
         };
         match like {
             Some(like) => Self {
@@ -91,16 +96,35 @@ impl TierBox {
             hand: row.hand.as_deref().and_then(Hands::of),
             parent: above.map(|it| it.row.name.clone()).zip(how),
             fresh: true,
+            copied: Copied::All,
+        }
+    }
+
+    /// Returns one that copies a tier under another name.
+    pub(super) fn copy(scene: &Scene<'_>, tier: &TierContents) -> Self {
+        let name = scene.seen.say(words::COPY_TIER_NAME);
+        Self {
+            name: fill(name, &[("name", &tier.row.name)]),
+            ..Self::of(scene.contents, tier, What::Copy(tier.row.id))
         }
     }
 
     /// Returns the name of the tier that it adds.
     pub(super) fn added(self) -> Option<String> {
-        (self.what == What::Add).then(|| self.name.trim().to_owned())
+        let adds = matches!(self.what, What::Add | What::Copy(_));
+        adds.then(|| self.name.trim().to_owned())
     }
 
     /// Returns what is to be done; nothing where the role is none.
     fn work(&self, recording: i64, before: Option<&Self>) -> Option<Work> {
+        if let What::Copy(id) = self.what {
+            let name = self.name.trim().to_owned();
+            return Some(Work::CopyTier(
+                TierName::Number(id),
+                name,
+                self.copied.clone(),
+            ));
+        }
         let role: TierRole = self.role.parse().ok()?;
         Some(match &self.what {
             What::Add => {
@@ -121,7 +145,7 @@ impl TierBox {
                 };
                 Work::ChangeTier(TierName::Number(*id), change)
             }
-            What::Remove(id) => Work::RemoveTier(TierName::Number(*id)),
+            What::Remove(id) | What::Copy(id) => Work::RemoveTier(TierName::Number(*id)),
         })
     }
 }
@@ -180,6 +204,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
         What::Add => words::ADD_TITLE,
         What::Change(_) => words::CHANGE_TITLE,
         What::Remove(_) => words::REMOVE_TITLE,
+        What::Copy(_) => words::COPY_TIER_TITLE,
     };
     let mut done = Pressed::Nothing;
     Window::new(say(title))
@@ -190,6 +215,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
         .show(ui.ctx(), |ui| {
             match tier.what {
                 What::Remove(id) => about(ui, scene, id, &tier.name),
+                What::Copy(_) => copy_form(ui, scene.seen, &mut tier),
                 _ => form(ui, scene, &mut tier),
             }
             ui.add_space(8.0);
@@ -245,19 +271,7 @@ fn form(ui: &mut Ui, scene: &Scene<'_>, tier: &mut TierBox) {
         .num_columns(2)
         .spacing([12.0, 8.0])
         .show(ui, |ui| {
-            ui.label(seen.say(words::TIER_NAME));
-            let field = TextEdit::singleline(&mut tier.name).desired_width(220.0);
-            let response = ui.add(field.id(Id::unique("timeline tier name")));
-            response.widget_info(|| {
-                let mut info =
-                    WidgetInfo::labeled(Role::TextInput, true, seen.say(words::TIER_NAME));
-                info.current_text_value = Some(tier.name.clone());
-                info
-            });
-            if std::mem::take(&mut tier.fresh) {
-                response.request_focus();
-            }
-            ui.end_row();
+            name_field(ui, seen, tier);
             let roles = roles(seen);
             let now = roles.iter().find(|(id, _)| *id == tier.role);
             let now = now.map_or(tier.role.clone(), |(_, name)| name.clone());
@@ -296,6 +310,52 @@ fn form(ui: &mut Ui, scene: &Scene<'_>, tier: &mut TierBox) {
         });
 }
 
+fn name_field(ui: &mut Ui, seen: &Seen<'_>, tier: &mut TierBox) {
+    ui.label(seen.say(words::TIER_NAME));
+    let field = TextEdit::singleline(&mut tier.name).desired_width(220.0);
+    let response = ui.add(field.id(Id::unique("timeline tier name")));
+    response.widget_info(|| {
+        let mut info = WidgetInfo::labeled(Role::TextInput, true, seen.say(words::TIER_NAME));
+        info.current_text_value = Some(tier.name.clone());
+        info
+    });
+    if std::mem::take(&mut tier.fresh) {
+        response.request_focus();
+    }
+    ui.end_row();
+}
+
+fn copy_form(ui: &mut Ui, seen: &Seen<'_>, tier: &mut TierBox) {
+    let text = match &tier.copied {
+        Copied::Holding(text) => text.clone(),
+        _ => String::new(),
+    };
+    let all = [
+        (Copied::All, words::COPIED_ALL),
+        (Copied::Times, words::COPIED_TIMES),
+        (Copied::Nothing, words::COPIED_NOTHING),
+        (Copied::Holding(text), words::COPIED_HOLDING),
+    ];
+    let all = all.map(|(it, text)| (it, seen.say(text).to_owned()));
+    let now = all.iter().find(|(it, _)| *it == tier.copied);
+    let now = now.map_or(String::new(), |(_, text)| text.clone());
+    Grid::new("tier copy form")
+        .num_columns(2)
+        .spacing([12.0, 8.0])
+        .show(ui, |ui| {
+            name_field(ui, seen, tier);
+            choice(ui, seen.say(words::COPIED_WHAT), &now, &all, |it| {
+                tier.copied = it.clone();
+            });
+            if let Copied::Holding(text) = &mut tier.copied {
+                let label = ui.label(seen.say(words::COPIED_TEXT));
+                let field = TextEdit::singleline(text).desired_width(220.0);
+                ui.add(field).labelled_by(label.id);
+                ui.end_row();
+            }
+        });
+}
+
 const HANDS: [(&str, Text); 5] = [
     ("right", words::HAND_RIGHT),
     ("left", words::HAND_LEFT),
@@ -326,6 +386,7 @@ fn buttons(ui: &mut Ui, seen: &Seen<'_>, tier: &TierBox) -> Pressed {
         What::Add => words::ADD,
         What::Change(_) => words::CHANGE,
         What::Remove(_) => words::REMOVE,
+        What::Copy(_) => words::COPY,
     };
     let mut pressed = Pressed::Nothing;
     ui.horizontal(|ui| {

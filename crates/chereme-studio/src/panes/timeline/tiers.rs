@@ -1,6 +1,9 @@
 //! What actions do to tiers.
 
-use chereme_corpus::{Name, Scheme, TierChange, TierName};
+use std::collections::BTreeSet;
+
+use chereme_corpus::{Name, Scheme, TierChange, TierContents, TierName, TierRow};
+use chereme_sign::text::fold;
 
 use super::edit::Scene;
 use super::tier_box::{TierBox, What};
@@ -18,8 +21,16 @@ pub(super) fn act(
     scene: &Scene<'_>,
     out: &mut Outbox,
 ) -> Acted {
-    const MINE: [Action; 8] = [
+    match action {
+        Action::TiersByName | Action::TiersByKind => {
+            return sort(scene, action == Action::TiersByName, out);
+        }
+        Action::HideEmptyTiers => return hide_empty(scene, out),
+        _ => {}
+    }
+    const MINE: [Action; 9] = [
         Action::AddTier,
+        Action::CopyTier,
         Action::UsualTiers,
         Action::ChangeTier,
         Action::RemoveTier,
@@ -46,6 +57,10 @@ pub(super) fn act(
     let mut ways = scene.seen.settings.timeline.clone();
     let (id, name) = (tier.row.id, tier.row.name.clone());
     match action {
+        Action::CopyTier => {
+            timeline.tier_box = Some(TierBox::copy(scene, tier));
+            return Acted::Yes;
+        }
         Action::ChangeTier | Action::RemoveTier => {
             let change = action == Action::ChangeTier;
             let what = if change {
@@ -78,6 +93,126 @@ pub(super) fn act(
     Acted::Yes
 }
 
+/// Asks for an order of the tiers, where it is another than theirs.
+pub(super) fn order(scene: &Scene<'_>, order: Vec<i64>, out: &mut Outbox) -> Acted {
+    let tiers = &scene.contents.tiers;
+    if tiers.iter().map(|it| it.row.id).eq(order.iter().copied()) {
+        return Acted::Cannot(words::SORTED_ALREADY);
+    }
+    let recording = Name::Number(scene.contents.recording.id);
+    out.work(Work::OrderTiers(recording, order));
+    Acted::Yes
+}
+
+fn sort(scene: &Scene<'_>, by_name: bool, out: &mut Outbox) -> Acted {
+    let mut tiers: Vec<&TierContents> = scene.contents.tiers.iter().collect();
+    if by_name {
+        tiers.sort_by_cached_key(|it| natural(&it.row.name));
+    } else {
+        tiers.sort_by_key(|it| rank(&it.row));
+    }
+    order(scene, tiers.iter().map(|it| it.row.id).collect(), out)
+}
+
+/// Returns what a name is sorted by: its words, and its numbers as numbers.
+fn natural(name: &str) -> Vec<(String, u64)> {
+    let mut parts = vec![(String::new(), 0_u64)];
+    let mut counting = false;
+    for letter in fold(name).chars() {
+        let digit = letter.to_digit(10);
+        if counting && digit.is_none() {
+            parts.push((String::new(), 0));
+        }
+        counting = digit.is_some();
+        if let Some((word, number)) = parts.last_mut() {
+            match digit {
+                Some(digit) => *number = number.saturating_mul(10).saturating_add(digit.into()),
+                None => word.push(letter),
+            }
+        }
+    }
+    parts
+}
+
+/// Returns where a tier stands by what it says: glosses, translations, components hand by hand, the rest.
+fn rank(row: &TierRow) -> (usize, usize, usize) {
+    const ROLES: [&str; 4] = ["gloss", "translation", "component", "comment"];
+    const COMPONENTS: [&str; 5] = [
+        "configuration",
+        "placement",
+        "movement",
+        "orientation",
+        "nonmanual",
+    ];
+    const HANDS: [&str; 5] = ["both", "right", "dominant", "left", "weak"];
+    let place = |all: &[&str], it: &str| all.iter().position(|known| *known == it);
+    let component = row
+        .component
+        .as_deref()
+        .and_then(|it| place(&COMPONENTS, it));
+    let hand = row.hand.as_deref().and_then(|it| place(&HANDS, it));
+    (
+        place(&ROLES, &row.role).unwrap_or(ROLES.len()),
+        hand.unwrap_or(if row.hand.is_none() { HANDS.len() } else { 0 }),
+        component.unwrap_or(COMPONENTS.len()),
+    )
+}
+
+/// Hides every tier that says nothing and has nothing below it that does.
+fn hide_empty(scene: &Scene<'_>, out: &mut Outbox) -> Acted {
+    let mut ways = scene.seen.settings.timeline.clone();
+    let before = ways.hidden.len();
+    let tiers = &scene.contents.tiers;
+    let mut full: BTreeSet<i64> = BTreeSet::new();
+    for tier in tiers.iter().filter(|it| !it.annotations.is_empty()) {
+        let mut at = Some(tier.row.id);
+        while let Some(id) = at.filter(|id| full.insert(*id)) {
+            let found = scene.tier_of(id);
+            at = found.and_then(|it| it.row.parent_id);
+        }
+    }
+    let empty = tiers.iter().filter(|it| !full.contains(&it.row.id));
+    ways.hidden.extend(empty.map(|it| it.row.name.clone()));
+    if ways.hidden.len() == before {
+        return Acted::Cannot(words::NONE_EMPTY);
+    }
+    ways::change(scene.seen, out, ways);
+    Acted::Yes
+}
+
+/// Returns whether a tier is `above` or hangs below it.
+pub(super) fn is_within(tiers: &[(i64, Option<i64>)], id: i64, above: i64) -> bool {
+    let mut at = Some(id);
+    for _ in 0..tiers.len() {
+        if at == Some(above) {
+            return true;
+        }
+        at = tiers.iter().find(|it| Some(it.0) == at).and_then(|it| it.1);
+    }
+    false
+}
+
+/// Returns the order in which a tier stands before its sibling `before`, or behind all of them; tiers are
+/// `(id, parent)` in their order.
+pub(super) fn moved(
+    tiers: &[(i64, Option<i64>)],
+    id: i64,
+    before: Option<i64>,
+) -> Option<Vec<i64>> {
+    let own = tiers.iter().find(|it| it.0 == id)?;
+    let mut order: Vec<i64> = tiers.iter().map(|it| it.0).filter(|it| *it != id).collect();
+    let place = match before {
+        Some(before) => order.iter().position(|it| *it == before)?,
+        None => {
+            let sibling = |it: &&(i64, Option<i64>)| it.1 == own.1 && it.0 != id;
+            let last = tiers.iter().rev().find(sibling)?.0;
+            order.iter().position(|it| *it == last)? + 1
+        }
+    };
+    order.insert(place, id);
+    Some(order)
+}
+
 /// Returns the place that brings a tier beyond its next or previous sibling, from tiers as
 /// `(id, parent)` in their order.
 fn beside(tiers: &[(i64, Option<i64>)], id: i64, down: bool) -> Option<u32> {
@@ -103,5 +238,35 @@ mod tests {
         assert_eq!(beside(&all, 3, false), Some(1));
         assert_eq!(beside(&all, 3, true), None);
         assert_eq!(beside(&all, 9, true), None);
+        assert_eq!(moved(&all, 4, Some(1)), Some(vec![4, 1, 2, 3]));
+        assert_eq!(moved(&all, 1, None), Some(vec![2, 3, 4, 1]));
+        assert_eq!(moved(&all, 2, None), Some(vec![1, 3, 2, 4]));
+        assert_eq!(moved(&all, 9, None), None);
+        assert!(is_within(&all, 3, 1) && is_within(&all, 4, 4) && !is_within(&all, 4, 1));
+    }
+
+    #[test]
+    fn names_are_sorted_as_people_count_and_kinds_as_signs_are_told() {
+        let mut names = ["Mo10", "école", "Mo2", "Eau", "Mo"];
+        names.sort_by_key(|it| natural(it));
+        assert_eq!(names, ["Eau", "école", "Mo", "Mo2", "Mo10"]);
+        let row = |role: &str, component: Option<&str>, hand: Option<&str>| TierRow {
+            role: role.into(),
+            component: component.map(str::to_owned),
+            hand: hand.map(str::to_owned),
+            ..TierRow::default()
+        };
+        let sorted = [
+            row("gloss", None, Some("right")),
+            row("gloss", None, Some("left")),
+            row("translation", None, None),
+            row("component", Some("configuration"), Some("right")),
+            row("component", Some("placement"), Some("right")),
+            row("component", Some("configuration"), Some("left")),
+            row("component", Some("nonmanual"), None),
+            row("comment", None, None),
+            row("free", None, None),
+        ];
+        assert!(sorted.is_sorted_by_key(rank));
     }
 }

@@ -108,6 +108,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
         seen,
         out,
     };
+    frame.overview(ui, &scene);
     frame.ruler(ui);
     frame.lanes(ui, &scene);
     if scene.contents.tiers.is_empty() {
@@ -259,6 +260,7 @@ impl Drawing<'_, '_> {
         self.timeline.layout.top = shown.state.clamped_offset().y;
         self.timeline.layout.all = all;
         self.timeline.ghosts = ghosts;
+        self.held_tier(ui, contents, area);
         let sight = self.gesture(ui, contents, area);
         let lane = area.with_min_x(area.left() + self.names);
         let painter = ui.painter_at(lane);

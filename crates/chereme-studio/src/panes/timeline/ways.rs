@@ -12,7 +12,7 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 
 /// How the timeline works and what it shows.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Ways {
     /// What becomes of the neighbours.
@@ -21,10 +21,25 @@ pub(crate) struct Ways {
     pub(crate) snaps: Snaps,
     /// Which lanes of movement are shown.
     pub(crate) lanes: BTreeSet<Lane>,
+    /// Whether the whole recording is shown in a strip while only a part is to be seen.
+    pub(crate) overview: bool,
     /// Names of tiers whose children are folded away.
     pub(crate) folded: BTreeSet<String>,
     /// Names of tiers that are not shown.
     pub(crate) hidden: BTreeSet<String>,
+}
+
+impl Default for Ways {
+    fn default() -> Self {
+        Self {
+            mode: Mode::default(),
+            snaps: Snaps::default(),
+            lanes: BTreeSet::new(),
+            overview: true,
+            folded: BTreeSet::new(),
+            hidden: BTreeSet::new(),
+        }
+    }
 }
 
 impl Ways {
@@ -38,6 +53,7 @@ impl Ways {
             Action::SnapFrames => ways.snaps.frames = !ways.snaps.frames,
             Action::SnapBoundaries => ways.snaps.boundaries = !ways.snaps.boundaries,
             Action::SnapMinima => ways.snaps.minima = !ways.snaps.minima,
+            Action::Overview => ways.overview = !ways.overview,
             Action::ShowTiers => ways.hidden.clear(),
             _ => {
                 let (lane, ..) = Lane::ALL.into_iter().find(|(_, of, _)| *of == action)?;
@@ -56,6 +72,7 @@ impl Ways {
             Action::SnapFrames => self.snaps.frames,
             Action::SnapBoundaries => self.snaps.boundaries,
             Action::SnapMinima => self.snaps.minima,
+            Action::Overview => self.overview,
             _ => Lane::ALL
                 .iter()
                 .any(|(lane, of, _)| *of == action && self.lanes.contains(lane)),

@@ -1,0 +1,200 @@
+//! Tiers put in another order, copied, hidden and shown: and how a corpus was looked at is remembered.
+
+mod common;
+
+use chereme_studio::Options;
+use common::tiers::*;
+use common::{Window, click, has, idle, until};
+use eframe::egui::{Key, Modifiers, Role, pos2, vec2};
+use egui_kittest::kittest::{NodeT, Queryable};
+
+const SHIFT: Modifiers = Modifiers::SHIFT;
+
+/// Returns the names of the tiers in the order in which they are stored.
+fn order(window: &Window<'_>) -> Vec<String> {
+    let path = window.state().corpus().expect("open").clone();
+    let corpus = chereme_corpus::Corpus::open(&path, "reader").expect("opened");
+    let contents = corpus.contents(1).expect("read");
+    contents.tiers.into_iter().map(|it| it.row.name).collect()
+}
+
+#[test]
+fn tiers_are_dragged_by_their_names_and_sorted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path());
+    let old = order(&window);
+    let before = operations(&window);
+    let from = rect(&window, "Tier Movement RH").center();
+    let to = rect(&window, "Tier Translation FR").center();
+    drag(&mut window, from, to - vec2(0.0, 6.0), NONE);
+    stored(&mut window, before);
+    let new = order(&window);
+    let at = |all: &[String], name: &str| all.iter().position(|it| it == name);
+    assert!(at(&new, "Movement RH") < at(&new, "Translation FR"));
+    let top = |window: &Window<'_>, label: &str| rect(window, label).top();
+    until(&mut window, "the place", |it| {
+        top(it, "Tier Movement RH") < top(it, "Tier Translation FR")
+    });
+    press(&mut window, SHIFT | ALT, Key::K);
+    stored(&mut window, before + 1);
+    let kinds = order(&window);
+    assert!(at(&kinds, "Translation FR") < at(&kinds, "Movement RH"));
+    press(&mut window, SHIFT | ALT, Key::O);
+    stored(&mut window, before + 2);
+    let names = order(&window);
+    assert!(names.is_sorted_by_key(|it| it.to_lowercase()));
+    for done in 0..3 {
+        press(&mut window, CTRL, Key::Z);
+        stored(&mut window, before + 3 + done);
+    }
+    assert_eq!(order(&window), old);
+}
+
+#[test]
+fn a_tier_is_copied_with_what_it_is_to_hold() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = three(folder.path());
+    let before = operations(&window);
+    click(&mut window, "Tier Gloss");
+    press(&mut window, CTRL | SHIFT | ALT, Key::T);
+    assert!(has(&window, "Copy the tier"));
+    press(&mut window, NONE, Key::Enter);
+    stored(&mut window, before);
+    until(&mut window, "the copy", |it| has(it, "Gloss copy: a"));
+    assert_eq!(values(&window, "Gloss copy"), ["a", "b", "c"]);
+    for _ in 0..20 {
+        press(&mut window, CTRL, Key::ArrowUp);
+    }
+    press(&mut window, CTRL | SHIFT | ALT, Key::T);
+    window
+        .get_by_role_and_label(Role::TextInput, "Name of the tier")
+        .type_text(" 2");
+    window.get_by_role_and_label(Role::ComboBox, "With").click();
+    window.run_steps(3);
+    click(&mut window, "annotations that hold:");
+    let field = window.get_by_role_and_label(Role::TextInput, "Text they hold");
+    field.focus();
+    window.run_steps(2);
+    let field = window.get_by_role_and_label(Role::TextInput, "Text they hold");
+    field.type_text("B");
+    window.step();
+    click(&mut window, "Copy");
+    stored(&mut window, before + 1);
+    assert_eq!(values(&window, "Gloss copy 2"), ["b"]);
+    press(&mut window, CTRL, Key::Z);
+    until(&mut window, "the undo", |it| !has(it, "Tier Gloss copy 2"));
+}
+
+#[test]
+fn hidden_tiers_and_what_was_zoomed_to_are_those_of_the_corpus() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path());
+    let path = window.state().corpus().expect("open").clone();
+    window.get_by_role_and_label(Role::Button, "Tiers").click();
+    window.run_steps(3);
+    window
+        .get_by_role_and_label(Role::CheckBox, "Translation FR")
+        .click();
+    window.run_steps(2);
+    assert!(!has(&window, "Tier Translation FR"));
+    press(&mut window, NONE, Key::Escape);
+    press(&mut window, CTRL | ALT, Key::E);
+    let hidden = |window: &Window<'_>| {
+        let found = window.query_by_label_contains("hidden");
+        found.is_some_and(|it| it.rect().width() > 0.0)
+    };
+    assert!(hidden(&window));
+    click(&mut window, "Gloss: ESCARGOT");
+    for _ in 0..3 {
+        press(&mut window, CTRL, Key::Plus);
+    }
+    let wide = rect(&window, "Gloss: ESCARGOT").width();
+    drop(window);
+    let again = |path: &std::path::Path| {
+        let mut window = common::window(Options {
+            corpus: Some(path.to_owned()),
+            ..common::options(folder.path())
+        });
+        until(&mut window, "the tiers", |it| has(it, "Tier Gloss"));
+        idle(&mut window);
+        window
+    };
+    let window = again(&path);
+    assert!(!has(&window, "Tier Translation FR"));
+    assert!((rect(&window, "Gloss: ESCARGOT").width() - wide).abs() < 2.0);
+    drop(window);
+    let other = folder.path().join("other.chereme");
+    std::fs::copy(&path, &other).expect("copied");
+    let window = again(&other);
+    assert!(has(&window, "Tier Translation FR"));
+}
+
+#[test]
+fn the_box_of_the_overview_is_dragged_and_shows_another_part() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path());
+    let strip = |window: &Window<'_>| {
+        let found = window.query_by_label_contains("Overview: ");
+        found.map(|it| (it.rect(), it.accesskit_node().label().unwrap_or_default()))
+    };
+    assert_eq!(strip(&window), None);
+    for _ in 0..4 {
+        press(&mut window, CTRL, Key::Plus);
+    }
+    let (area, says) = strip(&window).expect("a strip");
+    assert!(says.starts_with("Overview: 0:00.000 to 0:00."), "{says}");
+    let from = pos2(area.left() + 20.0, area.center().y);
+    drag(&mut window, from, from + vec2(200.0, 0.0), NONE);
+    let moved = strip(&window).expect("a strip").1;
+    assert_ne!(moved, says);
+    // A click brings the middle there; the end of the recording stays the end.
+    let end = pos2(area.right() - 2.0, area.center().y);
+    pointer(&mut window, end, Some(true), NONE);
+    pointer(&mut window, end, Some(false), NONE);
+    window.run_steps(2);
+    let last = strip(&window).expect("a strip").1;
+    assert_ne!(last, moved);
+    press(&mut window, CTRL, Key::F9);
+    assert_eq!(strip(&window), None);
+}
+
+#[test]
+fn the_curves_of_the_face_have_lanes_where_they_are_stored() {
+    const SIGML: &str = "<sigml><hamgestural_sign gloss=\"VRAAG\"><sign_nonmanual>\
+        <facialexpr_tier><eye_brows movement=\"RB\"/></facialexpr_tier></sign_nonmanual>\
+        <sign_manual><handconfig handshape=\"flat\" extfidir=\"uo\" palmor=\"l\"/>\
+        <directedmotion direction=\"o\"/></sign_manual></hamgestural_sign></sigml>";
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("vraag.sigml");
+    std::fs::write(&file, SIGML).expect("written");
+    let path = folder.path().join("made.chereme");
+    let mut corpus = chereme_corpus::Corpus::create(&path, "A").expect("made");
+    let recipe = format!("sigml {:?}", file.display().to_string());
+    corpus.recombine(&recipe, "VRAAG").expect("stored");
+    drop(corpus);
+    let mut window = common::window(Options {
+        corpus: Some(path),
+        ..common::options(folder.path())
+    });
+    until(&mut window, "the tiers", |it| has(it, "Tier Gloss"));
+    idle(&mut window);
+    press(&mut window, CTRL, Key::F10);
+    until(&mut window, "the brows", |it| {
+        it.query_by_label_contains("both brows raised ").is_some()
+    });
+    let lane = window.get_by_label_contains("both brows raised ").rect();
+    let middle = pos2(lane.left() + lane.width() * 0.5, lane.center().y);
+    pointer(&mut window, middle, Some(true), NONE);
+    pointer(&mut window, middle, Some(false), NONE);
+    window.run_steps(2);
+    assert!(window.state().playhead().micros() > 0);
+    let says = window.get_by_label_contains("both brows raised ");
+    let says = says.accesskit_node().label().unwrap_or_default();
+    assert!(!says.ends_with(" 0 %"), "{says}");
+    press(&mut window, CTRL, Key::F10);
+    assert!(
+        window
+            .query_by_label_contains("both brows raised ")
+            .is_none()
+    );
+}
