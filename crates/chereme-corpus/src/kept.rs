@@ -5,7 +5,7 @@
 use std::borrow::Cow;
 
 use chereme_sign::query::Query;
-use chereme_sign::text::{did_you_mean, fold, nearest};
+use chereme_sign::text::{did_you_mean, edit_distance, fold, nearest};
 use rusqlite::Connection;
 use serde::Serialize;
 
@@ -130,12 +130,47 @@ fn there(connection: &Connection, name: &str) -> Result<(i64, KeptSearch)> {
         return Ok(found);
     }
     let all = searches(connection)?;
-    let meant = did_you_mean(nearest(name, all.iter().map(|it| it.name.as_str())));
+    let meant = did_you_mean(kept_like(name, &all).map(|it| it.name.as_str()));
+    let names: Vec<String> = all.iter().map(|it| format!("@{}", it.name)).collect();
+    let remedy = match names.len() {
+        0 => "none is kept yet: `chereme search CORPUS --keep NAME QUERY` keeps one".to_owned(),
+        count if count <= TOLD => format!("there are: {}", names.join(", ")),
+        count => format!("`chereme list CORPUS searches` lists all {count}"),
+    };
     Err(
         Error::wrong(format!("no search is kept as {name:?}{meant}"))
             .at(format!("@{name}"))
-            .advise("`chereme list CORPUS searches` lists them"),
+            .advise(remedy),
     )
+}
+
+/// How many kept searches are named where one is asked for that is not there.
+const TOLD: usize = 8;
+
+/// Returns the kept search that a person who wrote `name` most likely meant: one that is a slip or two away,
+/// has the name in its own, or half of its letters.
+#[must_use]
+pub fn kept_like<'a>(name: &str, searches: &'a [KeptSearch]) -> Option<&'a KeptSearch> {
+    let name = name.trim().trim_start_matches('@');
+    let wanted = fold(name);
+    let near = nearest(name, searches.iter().map(|it| it.name.as_str()));
+    if let Some(near) = near {
+        return searches.iter().find(|it| it.name == near);
+    }
+    let length = wanted.chars().count();
+    if length < 2 {
+        return None;
+    }
+    let holds = |it: &&KeptSearch| {
+        let other = fold(&it.name);
+        other.contains(&wanted) || (other.chars().count() > 1 && wanted.contains(&other))
+    };
+    let far = |it: &KeptSearch| edit_distance(&wanted, &fold(&it.name), length / 2);
+    let held = searches.iter().find(holds);
+    held.or_else(|| {
+        let all = searches.iter().filter_map(|it| Some((far(it)?, it)));
+        all.min_by_key(|(far, _)| *far).map(|(_, it)| it)
+    })
 }
 
 #[cfg(test)]
@@ -177,6 +212,22 @@ mod tests {
             (log[2].name.as_str(), log[2].summary.as_str()),
             ("forget search", "MENTON")
         );
+    }
+
+    #[test]
+    fn the_one_that_was_meant_is_found_among_few() {
+        let all = [kept("mine", ""), kept("à la tête", ""), kept("courts", "")];
+        for (name, want) in [
+            ("@mein", Some("mine")),
+            ("tete", Some("à la tête")),
+            ("courts gestes", Some("courts")),
+            ("coutrs", Some("courts")),
+            ("zzzz", None),
+            ("m", None),
+        ] {
+            let found = kept_like(name, &all).map(|it| it.name.as_str());
+            assert_eq!(found, want, "{name}");
+        }
     }
 
     #[test]

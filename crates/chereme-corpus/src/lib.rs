@@ -75,7 +75,7 @@ pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile};
 pub use import::{FileReport, FileStatus, ImportOptions, ImportReport, ReportFinding};
 pub use info::{Info, InventoryInfo, SignerInfo};
 pub use inventories::StoredInventory;
-pub use kept::KeptSearch;
+pub use kept::{KeptSearch, kept_like};
 pub use kinematics::Curves;
 pub use list::{ListFilter, ListKind, Listing, cell_text, components_text};
 pub use movement::ChannelGroup;

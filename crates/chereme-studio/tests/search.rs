@@ -213,3 +213,70 @@ fn what_is_like_the_selected_sign_is_found_and_weighed_and_shown_as_a_table() {
     idle(&mut window);
     assert_eq!(hits(&window), 1);
 }
+
+#[test]
+fn a_facet_and_a_value_of_a_picker_are_told_of_in_the_inspector() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = searching(folder.path());
+    type_query(&mut window, "gloss=ESCARGOT");
+    enter(&mut window);
+    let facet = |window: &Window<'_>| {
+        let found = window.get_all_by_role(Role::Button).find_map(|node| {
+            let label = node.accesskit_node().label()?;
+            (label.starts_with("configuration=") || label.contains(".configuration="))
+                .then_some((node.rect().center(), label))
+        });
+        found.expect("a facet of handshapes")
+    };
+    let (at, label) = facet(&window);
+    let value = label.split(['=', ' ']).nth(1).expect("a value").to_owned();
+    for pressed in [true, false] {
+        let event = eframe::egui::Event::PointerButton {
+            pos: at,
+            button: eframe::egui::PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::COMMAND,
+        };
+        window.event_modifiers(event, Modifiers::COMMAND);
+        window.step();
+    }
+    // It is told of, and the query stays.
+    until(&mut window, "the value", |window| {
+        has(window, "← What is selected")
+    });
+    assert_eq!(query(&window), "gloss=ESCARGOT");
+    assert!(window.query_all_by_label_contains(&value).count() > 1);
+}
+
+#[test]
+fn the_kept_search_that_was_meant_is_offered() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = small_corpus(folder.path());
+    let mut corpus = chereme_corpus::Corpus::open(&path, "A").expect("opened");
+    let mine = chereme_corpus::KeptSearch {
+        name: "mine".into(),
+        query: "gloss=ESCARGOT".into(),
+    };
+    corpus.keep_searches(&[mine]).expect("kept");
+    drop(corpus);
+    let mut window = common::window(chereme_studio::Options {
+        corpus: Some(path),
+        ..options(folder.path())
+    });
+    until(&mut window, "the corpus", |window| has(window, "escargot"));
+    idle(&mut window);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F2);
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    window.run_steps(3);
+    type_query(&mut window, "@mein");
+    assert!(has(&window, "No search is kept as mein."));
+    click(&mut window, "Write @mine");
+    assert_eq!(query(&window), "@mine");
+    assert!(!has(&window, "No search is kept as mine."));
+    enter(&mut window);
+    assert_eq!(
+        (query(&window).as_str(), hits(&window)),
+        ("gloss=ESCARGOT", 1)
+    );
+}

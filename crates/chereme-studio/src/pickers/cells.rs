@@ -82,7 +82,10 @@ impl Cells<'_> {
                     at = Some(number);
                 }
             }
-            if response.clicked() {
+            let ctrl = ui.input(|input| input.modifiers.command);
+            if response.secondary_clicked() || (response.clicked() && ctrl) {
+                picker.asked = Some((self.inventory.id.clone(), id_of(cell).to_owned()));
+            } else if response.clicked() {
                 picked = Some(number);
             }
             let state = State {

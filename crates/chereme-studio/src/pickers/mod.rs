@@ -26,7 +26,9 @@ use eframe::egui::{
     TextEdit, TextStyle, Ui, WidgetInfo, WidgetText, pos2, vec2,
 };
 
-use crate::context::Seen;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::panes::inspector::Thing;
 use crate::words::{fill, pickers as words};
 use cells::{Cell, Cells};
 use data::Kind;
@@ -42,6 +44,8 @@ pub(crate) struct Picker {
     focus: Option<Id>,
     /// It was just opened: what is typed shall go to it.
     fresh: bool,
+    /// The inventory and the value of which all that is known is asked for.
+    asked: Option<(String, String)>,
     /// Of places: those in space rather than those on the body, from the side, and how far off.
     space: bool,
     turned: bool,
@@ -49,6 +53,17 @@ pub(crate) struct Picker {
 }
 
 impl Picker {
+    /// Shows the value in the inspector that was asked about with Ctrl and a click, or the other button.
+    pub(crate) fn inspect(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
+        let Some((inventory, value)) = self.asked.take() else {
+            return;
+        };
+        let mut all = seen.snapshot.overview.inventories.iter();
+        if let Some(stored) = all.find(|it| it.inventory.id == inventory) {
+            out.send(Command::Inspect(Thing::Value(stored.id, value)));
+        }
+    }
+
     /// Returns one that takes the keyboard when it is drawn first.
     pub(crate) fn fresh() -> Self {
         Self {

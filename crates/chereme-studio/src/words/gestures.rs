@@ -13,6 +13,8 @@ texts! {
     TO_CARD: "To a card of the recipe; held over a tab, its pane opens", "Vers une carte de la recette ; tenu sur un onglet, son panneau s’ouvre";
     MENU_OF_SIGN: "What can be done with it", "Ce qu’on peut en faire";
     CARD_HANDLE: "handle of a card", "poignée d’une carte";
+    VALUE: "value or facet of the search", "valeur ou facette de la recherche";
+    TELL: "Tells all that is known of it", "Dit tout ce qu’on en sait";
     MOVE_CARD: "Moves the card", "Déplace la carte";
     ANNOTATION: "annotation", "annotation";
     SELECT: "Selects it and its time", "La sélectionne avec son temps";

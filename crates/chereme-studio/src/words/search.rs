@@ -7,6 +7,7 @@ texts! {
     OFFERS: "What could be written", "Ce qui peut s’écrire";
     OFFER: "Write {text}", "Écrire {text}";
     OFFER_KEYS: "Tab or arrow keys and Enter", "Tab ou flèches et Entrée";
+    NOT_KEPT: "No search is kept as {name}.", "Aucune recherche n’est gardée sous {name}.";
     MEND: "Write {text}", "Écrire {text}";
     ROWS: "Conditions", "Conditions";
     NO_ROWS: "The rows come back when the query can be read.", "Les lignes reviennent quand la requête se lit.";
@@ -96,7 +97,7 @@ texts! {
     LEXICON: "lexicon entry", "entrée de lexique";
     UNCODED: "Nothing is coded", "Rien n’est codé";
     FACETS: "Values", "Valeurs";
-    FACET_TIP: "Only those with {value}", "Seulement ceux avec {value}";
+    FACET_TIP: "Only those with {value}\nCtrl and a click: all that is known of it", "Seulement ceux avec {value}\nCtrl et un clic : tout ce qu’on en sait";
     BEFORE: "Before", "Avant";
     GLOSS: "gloss", "glose";
     AFTER: "After", "Après";

@@ -4,15 +4,17 @@ use std::collections::BTreeMap;
 
 use chereme_sign::{Component, Field};
 use eframe::egui::{
-    Align2, Rect, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo,
-    pos2, vec2,
+    Align2, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
 use super::builder::with_value;
 use super::rows::component_text;
-use crate::context::Seen;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::panes::inspector::Thing;
 use crate::pickers;
-use crate::words::{Text, fill, search as words};
+use crate::words::{Text, fill, library, search as words};
 
 /// The words of fields for hands and phases.
 const PARTS: [(&str, Text); 6] = [
@@ -31,6 +33,7 @@ pub(super) fn show(
     facets: &BTreeMap<String, Vec<(String, usize)>>,
     query: &str,
     height: f32,
+    out: &mut Outbox,
 ) -> Option<String> {
     let mut chosen = None;
     ScrollArea::vertical()
@@ -44,8 +47,19 @@ pub(super) fn show(
                 ui.label(RichText::new(name).small().weak());
                 let most = values.iter().map(|(_, count)| *count).max().unwrap_or(1);
                 for (value, count) in values {
-                    if facet(ui, seen, field, value, *count as f32 / most as f32, *count) {
-                        chosen = Some(with_value(query, field, value));
+                    let share = *count as f32 / most as f32;
+                    let (response, of) = facet(ui, seen, field, value, share, *count);
+                    let thing = of.map(|of| Thing::Value(of, value.clone()));
+                    let asks = ui.input(|input| input.modifiers.command);
+                    match thing {
+                        Some(thing) if response.clicked() && asks => {
+                            out.send(Command::Inspect(thing));
+                        }
+                        _ if response.clicked() => {
+                            chosen = Some(with_value(query, field, value));
+                        }
+                        Some(thing) => menu(seen, &response, thing, out),
+                        None => {}
                     }
                 }
                 ui.add_space(4.0);
@@ -86,14 +100,35 @@ fn facet_name(field: &str, seen: &Seen<'_>) -> String {
     name
 }
 
-/// Draws one value with its picture, its count, and a bar that is as long as it is frequent.
-fn facet(ui: &mut Ui, seen: &Seen<'_>, field: &str, value: &str, share: f32, count: usize) -> bool {
-    let parsed = field.parse::<Field>().ok();
-    let inventory = parsed.as_ref().and_then(|field| {
-        let all = seen.snapshot.overview.inventories.iter();
-        all.map(|it| &it.inventory)
-            .find(|it| it.component == field.component && it.feature == field.feature)
+/// Offers behind the other button what is known of a value.
+fn menu(seen: &Seen<'_>, response: &Response, thing: Thing, out: &mut Outbox) {
+    response.context_menu(|ui| {
+        if ui.button(seen.say(library::INSPECT)).clicked() {
+            out.send(Command::Inspect(thing));
+            ui.close();
+        }
     });
+}
+
+/// Draws one value with its picture, its count, and a bar that is as long as it is frequent; returns the row
+/// of its inventory too, where it has one.
+fn facet(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    field: &str,
+    value: &str,
+    share: f32,
+    count: usize,
+) -> (Response, Option<i64>) {
+    let parsed = field.parse::<Field>().ok();
+    let stored = parsed.as_ref().and_then(|field| {
+        let mut all = seen.snapshot.overview.inventories.iter();
+        all.find(|it| {
+            let inventory = &it.inventory;
+            inventory.component == field.component && inventory.feature == field.feature
+        })
+    });
+    let inventory = stored.map(|it| &it.inventory);
     let size = vec2(ui.available_width() - 4.0, 26.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let name = format!("{field}={value} ({count})");
@@ -124,7 +159,8 @@ fn facet(ui: &mut Ui, seen: &Seen<'_>, field: &str, value: &str, share: f32, cou
         }
     }
     let tip = fill(seen.say(words::FACET_TIP), &[("value", &value)]);
-    response.on_hover_text(tip).clicked()
+    let known = stored.filter(|it| it.inventory.get(value).is_some());
+    (response.on_hover_text(tip), known.map(|it| it.id))
 }
 
 #[cfg(test)]

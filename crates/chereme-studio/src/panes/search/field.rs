@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use chereme_corpus::kept_like;
 use chereme_sign::query::{Query, QueryError};
 use eframe::egui::text::{CCursor, CCursorRange, CharIndex, LayoutJob, TextFormat};
 use eframe::egui::{
@@ -63,7 +64,10 @@ impl Field {
         if here {
             typed = self.keys(ui, &offers);
         }
-        let error = Query::parse(&self.text).err();
+        let error = match suggest::kept_name(&self.text) {
+            Some(_) => None,
+            None => Query::parse(&self.text).err(),
+        };
         let mark = mark(&self.text, error.as_ref(), wrong);
         let trouble = seen.colours().trouble;
         let mut layouter = |ui: &Ui, text: &dyn TextBuffer, _wrap: f32| {
@@ -207,6 +211,9 @@ impl Field {
         error: Option<&QueryError>,
         typed: &mut Typed,
     ) {
+        if let Some(name) = suggest::kept_name(&self.text) {
+            return self.unkept(ui, seen, name.trim().to_owned(), typed);
+        }
         let Some(error) = error else { return };
         ui.horizontal_wrapped(|ui| {
             let end = self.text.trim_end().chars().count();
@@ -231,6 +238,29 @@ impl Field {
                     self.take_focus();
                     typed.changed = true;
                 }
+            }
+        });
+    }
+}
+
+impl Field {
+    /// Says that no search is kept under a name, and offers the one that was meant.
+    fn unkept(&mut self, ui: &mut Ui, seen: &Seen<'_>, name: String, typed: &mut Typed) {
+        if name.is_empty() || suggest::kept_query(&self.text, seen.snapshot).is_some() {
+            return;
+        }
+        ui.horizontal_wrapped(|ui| {
+            let text = fill(seen.say(words::NOT_KEPT), &[("name", &name)]);
+            ui.label(RichText::new(text).small().color(seen.colours().trouble));
+            let Some(meant) = kept_like(&name, &seen.snapshot.overview.searches) else {
+                return;
+            };
+            let meant = format!("@{}", meant.name);
+            let mend = fill(seen.say(words::MEND), &[("text", &meant)]);
+            if ui.small_button(mend).clicked() {
+                self.text = meant;
+                self.take_focus();
+                typed.changed = true;
             }
         });
     }

@@ -77,6 +77,9 @@ impl Search {
         if self.built && rows::show(ui, &mut self.rows, seen, &mut self.field.text) {
             self.ask(out);
         }
+        for picker in self.rows.pickers.values_mut() {
+            picker.inspect(seen, out);
+        }
         let settled = self.changed.is_some_and(|when| now - when >= PAUSE);
         if settled && !typed.unfinished && Query::parse(&self.field.text).is_ok() {
             self.ask(out);
@@ -161,12 +164,12 @@ impl Search {
                     ui.set_width(room.x - side - 10.0);
                     ui.vertical(|ui| results::show(self, ui, seen, out));
                 });
-                ui.vertical(|ui| wanted = facets::show(ui, seen, &facets, &query, room.y));
+                ui.vertical(|ui| wanted = facets::show(ui, seen, &facets, &query, room.y, out));
             });
         } else {
             let high = (ui.available_height() * 0.35).min(150.0);
             ui.allocate_ui(vec2(ui.available_width(), high), |ui| {
-                wanted = facets::show(ui, seen, &facets, &query, high);
+                wanted = facets::show(ui, seen, &facets, &query, high, out);
             });
             results::show(self, ui, seen, out);
         }

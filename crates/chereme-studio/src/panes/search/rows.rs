@@ -17,7 +17,7 @@ use crate::words::{Text, fill, search as words};
 #[derive(Debug, Default)]
 pub(crate) struct Rows {
     /// What each value is picked with, by row and place.
-    pickers: BTreeMap<(usize, usize), Picker>,
+    pub(super) pickers: BTreeMap<(usize, usize), Picker>,
     /// A row that says nothing yet.
     draft: Option<Condition>,
     /// Texts that are being typed, by row.

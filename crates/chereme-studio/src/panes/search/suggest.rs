@@ -74,7 +74,7 @@ pub(crate) fn offers(
 }
 
 /// Returns the name of a kept search, where a query is nothing but one: `@NAME`.
-fn kept_name(query: &str) -> Option<&str> {
+pub(super) fn kept_name(query: &str) -> Option<&str> {
     query.trim().strip_prefix('@')
 }
 

@@ -177,6 +177,7 @@ pub(super) fn show(
             (&mut editing, stored),
             (&choices, below),
         );
+        timeline.picker.inspect(scene.seen, out);
         return done(timeline, (editing, tier), said, out);
     }
     let said = field(ui, scene, (&mut editing, tier), (&choices, &digits), below);
