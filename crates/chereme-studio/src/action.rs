@@ -262,6 +262,8 @@ actions! {
     ShowRecombine "pane.recombine" SHOW_RECOMBINE Panes Corpus;
     ShowInspector "pane.inspector" SHOW_INSPECTOR Panes Corpus;
     ShowHistory "pane.history" SHOW_HISTORY Panes Corpus;
+    OnlyPane "pane.only" ONLY_PANE Panes Corpus;
+    OnlyAnnotating "pane.only-annotating" ONLY_ANNOTATING Panes Corpus;
     LayoutAnnotate "pane.reset" LAYOUT_ANNOTATE Panes Corpus;
     LayoutSearch "layout.search" LAYOUT_SEARCH Panes Corpus;
     LayoutRecombine "layout.recombine" LAYOUT_RECOMBINE Panes Corpus;

@@ -93,10 +93,31 @@ pub(crate) fn shows(tree: &Tree<PaneKind>, kind: PaneKind) -> bool {
     tile.is_some_and(|tile| tree.active_tiles().contains(&tile))
 }
 
-/// Brings a pane to the front of its tabs.
+/// Puts all panes away but these, or brings all of them back where any is away.
+pub(crate) fn enlarge(tree: &mut Tree<PaneKind>, kinds: &[PaneKind]) {
+    let tiles = PaneKind::ALL.map(|kind| (kind, tree.tiles.find_pane(&kind)));
+    let away = |tile: &Option<TileId>| tile.is_some_and(|tile| !tree.tiles.is_visible(tile));
+    let all = tiles.iter().any(|(_, tile)| away(tile));
+    for (kind, tile) in tiles {
+        if let Some(tile) = tile {
+            tree.set_visible(tile, all || kinds.contains(&kind));
+        }
+    }
+    for kind in kinds {
+        bring(tree, *kind);
+    }
+}
+
+/// Brings a pane to the front of its tabs; one that was put away comes back with all others.
 pub(crate) fn bring(tree: &mut Tree<PaneKind>, kind: PaneKind) {
     if let Some(tile) = tree.tiles.find_pane(&kind) {
-        tree.set_visible(tile, true);
+        if !tree.tiles.is_visible(tile) {
+            for other in PaneKind::ALL {
+                if let Some(other) = tree.tiles.find_pane(&other) {
+                    tree.set_visible(other, true);
+                }
+            }
+        }
         tree.make_active(|id, _| id == tile);
     }
 }
@@ -118,6 +139,24 @@ mod tests {
             let tree = of(busy);
             assert_eq!(remembered(Some(&tree)), tree);
         }
+    }
+
+    #[test]
+    fn panes_are_put_away_and_come_back() {
+        let mut tree = usual();
+        enlarge(&mut tree, &[PaneKind::Timeline, PaneKind::Stage]);
+        let shown = |tree: &Tree<PaneKind>| -> Vec<PaneKind> {
+            let all = PaneKind::ALL.into_iter();
+            all.filter(|kind| shows(tree, *kind)).collect()
+        };
+        assert_eq!(shown(&tree), [PaneKind::Stage, PaneKind::Timeline]);
+        enlarge(&mut tree, &[PaneKind::Timeline]);
+        assert_eq!(shown(&tree).len(), 4);
+        enlarge(&mut tree, &[PaneKind::Timeline]);
+        assert_eq!(shown(&tree), [PaneKind::Timeline]);
+        assert_eq!(remembered(Some(&tree)), tree);
+        bring(&mut tree, PaneKind::Inspector);
+        assert_eq!(shown(&tree).len(), 4);
     }
 
     #[test]

@@ -247,6 +247,13 @@ impl Studio {
             Action::LayoutAnnotate => self.lay_out(Busy::Annotating),
             Action::LayoutSearch => self.lay_out(Busy::Searching),
             Action::LayoutRecombine => self.lay_out(Busy::Recombining),
+            Action::OnlyPane => {
+                let pane = self.pane.unwrap_or(PaneKind::Timeline);
+                layout::enlarge(&mut self.tree, &[pane]);
+            }
+            Action::OnlyAnnotating => {
+                layout::enlarge(&mut self.tree, &[PaneKind::Stage, PaneKind::Timeline]);
+            }
             Action::Import => self.bring(PaneKind::Import),
             Action::Export => self.overlays.export.toggle(),
             Action::Search => self.bring(PaneKind::Search),

@@ -26,7 +26,8 @@ impl Chord {
         Self {
             ctrl: modifiers.command || modifiers.ctrl,
             alt: modifiers.alt,
-            shift: modifiers.shift,
+            // Most keyboards have the plus behind Shift, others have a key of its own for it.
+            shift: modifiers.shift && key != Key::Plus,
             key,
         }
     }

@@ -180,6 +180,8 @@ pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
     (Action::CardRemove, ["Alt+Delete", "=", "="]),
     (Action::ShowInspector, ["Shift+F4", "=", "="]),
     (Action::ShowHistory, ["Ctrl+H", "=", "="]),
+    (Action::OnlyPane, ["F11", "=", "="]),
+    (Action::OnlyAnnotating, ["Shift+F11", "=", "="]),
     (Action::LayoutAnnotate, ["Ctrl+F1", "=", "="]),
     (Action::LayoutSearch, ["Ctrl+F2", "=", "="]),
     (Action::LayoutRecombine, ["Ctrl+F3", "=", "="]),

@@ -150,6 +150,8 @@ texts! {
     LARGER: "Larger interface", "Interface plus grande";
     SMALLER: "Smaller interface", "Interface plus petite";
     THEME: "Light or dark", "Clair ou sombre";
+    ONLY_PANE: "Only this pane, or all again", "Seulement ce panneau, ou tous à nouveau";
+    ONLY_ANNOTATING: "Only stage and timeline, or all again", "Seulement scène et ligne de temps, ou tous à nouveau";
     LAYOUT_ANNOTATE: "Panes for annotating (the usual layout)", "Panneaux pour annoter (la disposition habituelle)";
     LAYOUT_SEARCH: "Panes for searching", "Panneaux pour rechercher";
     LAYOUT_RECOMBINE: "Panes for recombining", "Panneaux pour recombiner";

@@ -3,13 +3,16 @@
 use std::collections::BTreeSet;
 
 use chereme_corpus::Contents;
-use eframe::egui::{Rect, Response};
+use eframe::egui::{Rect, Response, ScrollArea, Ui};
 
 use super::ui::Drawing;
 use super::{bar, data};
 use crate::action::Action;
 use crate::command::Command;
 use crate::words::timeline as words;
+
+/// What the menu leaves free of the window's height.
+const MARGIN: f32 = 30.0;
 
 const VALUE: [Action; 2] = [Action::EditValue, Action::PictureValue];
 const CLIP: [Action; 6] = [
@@ -67,17 +70,25 @@ impl Drawing<'_, '_> {
             }
         }
         response.context_menu(|ui| {
-            bar::actions(ui, self.seen, &VALUE, self.out);
-            ui.separator();
-            bar::actions(ui, self.seen, &CLIP, self.out);
-            ui.separator();
-            for (title, part) in [(words::MENU_NEW, &NEW[..]), (words::MENU_BESIDE, &SHAPE)] {
-                ui.menu_button(self.seen.say(title), |ui| {
-                    bar::actions(ui, self.seen, part, self.out);
-                });
-            }
-            ui.separator();
-            bar::actions(ui, self.seen, &AWAY, self.out);
+            let room = ui.ctx().content_rect().height() - MARGIN;
+            ScrollArea::vertical()
+                .max_height(room)
+                .min_scrolled_height(room)
+                .show(ui, |ui| self.entries(ui));
         });
+    }
+
+    fn entries(&mut self, ui: &mut Ui) {
+        bar::actions(ui, self.seen, &VALUE, self.out);
+        ui.separator();
+        bar::actions(ui, self.seen, &CLIP, self.out);
+        ui.separator();
+        for (title, part) in [(words::MENU_NEW, &NEW[..]), (words::MENU_BESIDE, &SHAPE)] {
+            ui.menu_button(self.seen.say(title), |ui| {
+                bar::actions(ui, self.seen, part, self.out);
+            });
+        }
+        ui.separator();
+        bar::actions(ui, self.seen, &AWAY, self.out);
     }
 }
