@@ -31,6 +31,7 @@ const KEPT: f64 = 0.005;
 const ALIKE: f64 = 0.02;
 
 /// The contacts of a movement.
+#[derive(Debug, Clone)]
 pub(crate) struct Contacts {
     anchors: Anchors,
     found: Vec<Contact>,

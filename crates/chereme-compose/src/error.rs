@@ -127,6 +127,9 @@ pub struct MakeError {
 /// Why a step cannot be done.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Cause {
+    /// It is not wanted any more.
+    #[error("making it was stopped; make it again")]
+    Stopped,
     /// The corpus has no answer.
     #[error(transparent)]
     Source(#[from] SourceError),

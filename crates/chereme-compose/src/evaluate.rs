@@ -5,8 +5,9 @@ use std::sync::Arc;
 
 use chereme_sign::Handedness;
 
-use crate::contact::{self, Carry, Keep};
+use crate::contact::{self, Carry, Contacts, Keep};
 use crate::course::{self, Courses};
+use crate::draft::{Kept, Part};
 use crate::error::{Cause, MakeError};
 use crate::language::Language;
 use crate::made::{ChannelReport, HandReport, Made, Report, StepReport};
@@ -30,7 +31,20 @@ pub const ENGINE: u32 = 3;
 /// # Errors
 /// [`MakeError`] naming the step that cannot be done, why, and what would work.
 pub fn evaluate(resolved: &Resolved) -> Result<Made, MakeError> {
+    with(resolved, None, &|| true)
+}
+
+/// As [`evaluate`], but takes the movement after parts of the recipe from what is kept, and keeps it;
+/// stops between two steps where `goes_on` says so.
+pub(crate) fn with(
+    resolved: &Resolved,
+    kept: Option<&mut Kept>,
+    goes_on: &dyn Fn() -> bool,
+) -> Result<Made, MakeError> {
     let mut evaluator = Evaluator {
+        resolved,
+        kept,
+        goes_on,
         inputs: &resolved.inputs.0,
         materials: &resolved.materials,
         report: Report::default(),
@@ -66,6 +80,9 @@ pub fn evaluate(resolved: &Resolved) -> Result<Made, MakeError> {
 }
 
 struct Evaluator<'a> {
+    resolved: &'a Resolved,
+    kept: Option<&'a mut Kept>,
+    goes_on: &'a dyn Fn() -> bool,
     inputs: &'a BTreeMap<String, Input>,
     materials: &'a BTreeMap<String, Arc<Material>>,
     report: Report,
@@ -119,79 +136,188 @@ impl From<(Vec<String>, f64)> for Done {
     }
 }
 
+/// How much had been told at a moment.
+#[derive(Clone, Copy)]
+struct Mark {
+    steps: usize,
+    joins: usize,
+    contacts: usize,
+    warnings: usize,
+}
+
 impl Evaluator<'_> {
     fn node(&mut self, node: &Node, path: String) -> Result<Work, MakeError> {
         match node {
-            Node::Pipe(pipe) => {
-                let mut work = self.node(&pipe.of, format!("{path}/pipe/of"))?;
-                let plan = simplify::plan(&pipe.steps);
-                for Planned { index, step } in &plan {
-                    let path = format!("{path}/pipe/steps/{index}");
-                    let text = step.to_string();
-                    let carry = carry(step, work.handedness);
-                    let mut touched = carry.map(|carry| (contact::touches(&work), carry));
-                    match self.step(&mut work, step, &path, &text) {
-                        Ok(mut done) => {
-                            if let Some((before, carry)) = &mut touched {
-                                let handedness = work.handedness;
-                                let keep = Keep::of(step, |hands| hands.sides(handedness));
-                                let kept = contact::mend(&mut work, before, keep, &text);
-                                done.did.extend(kept);
-                                self.lost(&text, contact::lost(before, &work, *carry));
-                            }
-                            self.done(path, text, done);
-                        }
-                        Err(cause) => {
-                            return Err(MakeError {
-                                path,
-                                step: text,
-                                cause,
-                            });
-                        }
-                    }
-                }
-                if plan.len() < pipe.steps.len() {
-                    let less = pipe.steps.len() - plan.len();
-                    let did =
-                        format!("{less} operators that cancel out or become one were left out");
-                    self.report.warnings.push(did);
-                }
+            Node::Pipe(pipe) => self.pipe(pipe, &path),
+            Node::Then(then) => self.chain(then, &path),
+            leaf => self.source(leaf, path),
+        }
+    }
+
+    fn source(&mut self, leaf: &Node, path: String) -> Result<Work, MakeError> {
+        let part = Part {
+            of: leaf.clone(),
+            steps: Vec::new(),
+        };
+        if let Some(work) = self.kept(&path, &part) {
+            return Ok(work);
+        }
+        let text = leaf.to_string();
+        let mark = self.mark();
+        match self.wanted().and_then(|()| self.leaf(leaf, &path)) {
+            Ok((work, done)) => {
+                self.done(path.clone(), text, done);
+                self.keep(&path, part, &work, mark);
                 Ok(work)
             }
-            Node::Then(then) => {
-                let mut work = self.node(&then.first, format!("{path}/then/first"))?;
-                for (n, joined) in then.next.iter().enumerate() {
-                    let at = format!("{path}/then/next/{n}");
-                    let next = self.node(&joined.node, format!("{at}/node"))?;
-                    let text = format!("then{} {}", joined.via, joined.node);
-                    match self.then(&mut work, next, joined, &at, &text) {
-                        Ok(done) => self.done(at, text, done),
-                        Err(cause) => {
-                            return Err(MakeError {
-                                path: at,
-                                step: text,
-                                cause,
-                            });
-                        }
-                    }
-                }
-                Ok(work)
-            }
-            leaf => {
-                let text = leaf.to_string();
-                match self.leaf(leaf, &path) {
-                    Ok((work, done)) => {
-                        self.done(path, text, done);
-                        Ok(work)
-                    }
-                    Err(cause) => Err(MakeError {
-                        path,
-                        step: text,
-                        cause,
-                    }),
+            Err(cause) => Err(MakeError {
+                path,
+                step: text,
+                cause,
+            }),
+        }
+    }
+
+    fn pipe(&mut self, pipe: &Pipe, path: &str) -> Result<Work, MakeError> {
+        let mark = self.mark();
+        let plan = simplify::plan(&pipe.steps);
+        let part = |count: usize| Part {
+            of: (*pipe.of).clone(),
+            steps: plan[..count].to_vec(),
+        };
+        let known = (1..=plan.len()).rev();
+        let known = known.map(|count| (part(count), count));
+        let mut found = None;
+        if self.kept.is_some() {
+            for (part, count) in known {
+                found = self.kept(path, &part).map(|work| (work, count));
+                if found.is_some() {
+                    break;
                 }
             }
         }
+        let (mut work, taken) = match found {
+            Some(found) => found,
+            None => (self.node(&pipe.of, format!("{path}/pipe/of"))?, 0),
+        };
+        for (count, Planned { index, step }) in plan.iter().enumerate().skip(taken) {
+            let at = format!("{path}/pipe/steps/{index}");
+            let text = step.to_string();
+            let carry = carry(step, work.handedness);
+            let mut touched = carry.map(|carry| (self.touches(&work), carry));
+            match self
+                .wanted()
+                .and_then(|()| self.step(&mut work, step, &at, &text))
+            {
+                Ok(mut done) => {
+                    if let Some((before, carry)) = &mut touched {
+                        let handedness = work.handedness;
+                        let keep = Keep::of(step, |hands| hands.sides(handedness));
+                        let kept = contact::mend(&mut work, before, keep, &text);
+                        done.did.extend(kept);
+                        self.lost(&text, contact::lost(before, &work, *carry));
+                    }
+                    self.done(at, text, done);
+                    self.keep(path, part(count + 1), &work, mark);
+                }
+                Err(cause) => {
+                    return Err(MakeError {
+                        path: at,
+                        step: text,
+                        cause,
+                    });
+                }
+            }
+        }
+        if plan.len() < pipe.steps.len() {
+            let less = pipe.steps.len() - plan.len();
+            let did = format!("{less} operators that cancel out or become one were left out");
+            self.report.warnings.push(did);
+        }
+        Ok(work)
+    }
+
+    fn chain(&mut self, then: &Then, path: &str) -> Result<Work, MakeError> {
+        let mark = self.mark();
+        let mut found = None;
+        if self.kept.is_some() {
+            for count in (1..=then.next.len()).rev() {
+                let work = self.kept(path, &Part::pieces(then, count));
+                found = work.map(|work| (work, count));
+                if found.is_some() {
+                    break;
+                }
+            }
+        }
+        let (mut work, taken) = match found {
+            Some(found) => found,
+            None => (self.node(&then.first, format!("{path}/then/first"))?, 0),
+        };
+        for (n, joined) in then.next.iter().enumerate().skip(taken) {
+            let at = format!("{path}/then/next/{n}");
+            let next = self.node(&joined.node, format!("{at}/node"))?;
+            let text = format!("then{} {}", joined.via, joined.node);
+            let then_joined = self.wanted();
+            match then_joined.and_then(|()| self.then(&mut work, next, joined, &at, &text)) {
+                Ok(done) => {
+                    self.done(at, text, done);
+                    self.keep(path, Part::pieces(then, n + 1), &work, mark);
+                }
+                Err(cause) => {
+                    return Err(MakeError {
+                        path: at,
+                        step: text,
+                        cause,
+                    });
+                }
+            }
+        }
+        Ok(work)
+    }
+
+    fn wanted(&self) -> Result<(), Cause> {
+        (self.goes_on)().then_some(()).ok_or(Cause::Stopped)
+    }
+
+    fn mark(&self) -> Mark {
+        Mark {
+            steps: self.report.steps.len(),
+            joins: self.report.joins.len(),
+            contacts: self.report.contacts.len(),
+            warnings: self.report.warnings.len(),
+        }
+    }
+
+    /// Returns the movement after a part where it is kept, and tells what making it told.
+    fn kept(&mut self, path: &str, part: &Part) -> Option<Work> {
+        let stage = self.kept.as_mut()?.find(self.resolved, path, part)?;
+        let told = stage.told(path);
+        self.report.steps.extend(told.steps);
+        self.report.joins.extend(told.joins);
+        self.report.contacts.extend(told.contacts);
+        self.report.warnings.extend(told.warnings);
+        Some(stage.work.clone())
+    }
+
+    fn keep(&mut self, path: &str, part: Part, work: &Work, mark: Mark) {
+        let Some(kept) = &mut self.kept else { return };
+        let report = Report {
+            steps: self.report.steps[mark.steps..].to_vec(),
+            channels: Vec::new(),
+            joins: self.report.joins[mark.joins..].to_vec(),
+            contacts: self.report.contacts[mark.contacts..].to_vec(),
+            warnings: self.report.warnings[mark.warnings..].to_vec(),
+        };
+        kept.keep((self.resolved, path), part, work, report);
+    }
+
+    /// Returns what touches in the movement after the last step, looked for once.
+    fn touches(&mut self, work: &Work) -> Contacts {
+        let Some(stage) = self.kept.as_mut().and_then(|kept| kept.last()) else {
+            return contact::touches(work);
+        };
+        let found = stage.contacts.get_or_insert_with(|| contact::touches(work));
+        found.clone()
     }
 
     fn lost(&mut self, step: &str, contacts: Vec<String>) {

@@ -36,6 +36,7 @@ mod body;
 mod check;
 mod contact;
 mod course;
+mod draft;
 mod error;
 mod evaluate;
 mod explain;
@@ -60,6 +61,7 @@ pub mod units;
 mod work;
 
 pub use check::{DEEPEST, MOST_PARTS, MOST_REPETITIONS};
+pub use draft::Draft;
 pub use error::{Cause, MakeError, Problem, RecipeError, TextError};
 pub use evaluate::{ENGINE, evaluate};
 pub use json::VERSION;

@@ -9,6 +9,7 @@ use chereme_sign::{Component, Handedness};
 use serde::{Deserialize, Serialize};
 
 use crate::body;
+use crate::draft::Former;
 use crate::error::{Cause, MakeError};
 use crate::language::Language;
 use crate::poses::{self, HandPose};
@@ -36,6 +37,19 @@ impl Resolved {
     #[must_use]
     pub fn inputs(&self) -> &Inputs {
         &self.inputs
+    }
+
+    /// Returns what was chosen below a path of the recipe.
+    pub(crate) fn below(&self, base: &str) -> impl Iterator<Item = (&String, &Input)> {
+        let from = self.inputs.0.range(base.to_owned()..);
+        let base = base.to_owned();
+        let rest = move |path: &str| {
+            path.strip_prefix(base.as_str())
+                .map(|it| it.starts_with('/'))
+        };
+        let held = rest.clone();
+        from.take_while(move |(path, _)| held(path).is_some())
+            .filter(move |(path, _)| rest(path) == Some(true))
     }
 }
 
@@ -112,12 +126,23 @@ pub struct LetterInput {
 /// # Errors
 /// [`MakeError`] naming the step for which there is nothing, with what would work.
 pub fn resolve(recipe: &Recipe, sources: &dyn Sources) -> Result<Resolved, MakeError> {
+    after(recipe, sources, None)
+}
+
+/// As [`resolve`], but takes what `before` has for parts of the recipe that stayed as they were.
+pub(crate) fn after(
+    recipe: &Recipe,
+    sources: &dyn Sources,
+    before: Option<&Resolved>,
+) -> Result<Resolved, MakeError> {
     let mut resolver = Resolver {
         sources,
+        before,
         inputs: Inputs::default(),
         materials: BTreeMap::new(),
     };
-    resolver.node(&recipe.root, String::new())?;
+    let former = before.map(|before| Former::of(&before.recipe));
+    resolver.node(&recipe.root, String::new(), former)?;
     Ok(Resolved {
         recipe: recipe.clone(),
         inputs: resolver.inputs,
@@ -168,6 +193,7 @@ pub fn restore(
 
 struct Resolver<'a> {
     sources: &'a dyn Sources,
+    before: Option<&'a Resolved>,
     inputs: Inputs,
     materials: BTreeMap<String, Arc<Material>>,
 }
@@ -179,8 +205,58 @@ pub(crate) struct Setting {
     pub(crate) handedness: Handedness,
 }
 
+impl Setting {
+    fn of(material: &Material) -> Self {
+        Self {
+            signer: material.signer.clone(),
+            handedness: material.handedness,
+        }
+    }
+}
+
+/// The ends of the paths at which sources keep their movement.
+const MATERIALS: [&str; 5] = ["sign", "spell", "point", "hamnosys", "sigml"];
+
 impl Resolver<'_> {
-    fn node(&mut self, node: &Node, path: String) -> Result<Setting, MakeError> {
+    /// Takes over what was found for a part at `from`, now at `to`.
+    fn again(&mut self, from: &str, to: &str) {
+        let Some(before) = self.before else { return };
+        for (path, input) in before.below(from) {
+            let now = format!("{to}{}", &path[from.len()..]);
+            if let Some(material) = before.materials.get(path) {
+                self.materials.insert(now.clone(), Arc::clone(material));
+            }
+            self.inputs.0.insert(now, input.clone());
+        }
+    }
+
+    /// Takes over what was found for a source where it was the same before.
+    fn source_again(
+        &mut self,
+        leaf: &Node,
+        path: &str,
+        former: Option<Former<'_>>,
+    ) -> Option<Setting> {
+        let former = former?.source();
+        if !former.is(leaf) {
+            return None;
+        }
+        self.again(&former.path, path);
+        let mut ends = MATERIALS.iter().map(|end| format!("{path}/{end}"));
+        ends.find_map(|end| self.materials.get(&end))
+            .map(|it| Setting::of(it))
+    }
+
+    fn node(
+        &mut self,
+        node: &Node,
+        path: String,
+        former: Option<Former<'_>>,
+    ) -> Result<Setting, MakeError> {
+        let leaf = !matches!(node, Node::Pipe(_) | Node::Then(_));
+        if leaf && let Some(setting) = self.source_again(node, &path, former.clone()) {
+            return Ok(setting);
+        }
         let fault = |cause| MakeError {
             path: path.clone(),
             step: node.to_string(),
@@ -248,9 +324,16 @@ impl Resolver<'_> {
                 self.notation(at, found, notation).map_err(fault)
             }
             Node::Pipe(pipe) => {
-                let setting = self.node(&pipe.of, format!("{path}/pipe/of"))?;
+                let of = former.as_ref().map(Former::operated);
+                let same = of.as_ref().is_some_and(|of| of.is(&pipe.of));
+                let setting = self.node(&pipe.of, format!("{path}/pipe/of"), of)?;
                 for (n, step) in pipe.steps.iter().enumerate() {
                     let path = format!("{path}/pipe/steps/{n}");
+                    let known = former.as_ref().filter(|_| same);
+                    if let Some(known) = known.and_then(|former| former.step(step)) {
+                        self.again(&known, &path);
+                        continue;
+                    }
                     self.step(step, &path, &setting)
                         .map_err(|cause| MakeError {
                             path,
@@ -261,9 +344,11 @@ impl Resolver<'_> {
                 Ok(setting)
             }
             Node::Then(then) => {
-                let setting = self.node(&then.first, format!("{path}/then/first"))?;
+                let first = former.as_ref().map(Former::first);
+                let setting = self.node(&then.first, format!("{path}/then/first"), first)?;
                 for (n, joined) in then.next.iter().enumerate() {
-                    self.node(&joined.node, format!("{path}/then/next/{n}/node"))?;
+                    let piece = former.as_ref().and_then(|former| former.piece(joined, n));
+                    self.node(&joined.node, format!("{path}/then/next/{n}/node"), piece)?;
                     self.course(&joined.via, format!("{path}/then/next/{n}/via"))
                         .map_err(fault)?;
                 }
@@ -337,10 +422,7 @@ impl Resolver<'_> {
         if material.clip.frames() == 0 {
             return Err(Cause::Empty(material.address));
         }
-        let setting = Setting {
-            signer: material.signer.clone(),
-            handedness: material.handedness,
-        };
+        let setting = Setting::of(&material);
         let input = MaterialInput {
             address: material.address.clone(),
             hash: material.hash.clone(),

@@ -48,7 +48,7 @@ const SAMPLES: usize = 16;
 const SPREAD: f64 = 0.35;
 
 /// What carries a point.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 struct Anchor {
     joint: usize,
     /// Where the point is in the joint's space; nothing where it moves in it.
@@ -56,6 +56,7 @@ struct Anchor {
 }
 
 /// What carries the points and places of a body.
+#[derive(Debug, Clone)]
 pub(super) struct Anchors {
     hands: [[Option<Anchor>; POINTS.len()]; 2],
     body: [Option<Anchor>; PLACES.len()],

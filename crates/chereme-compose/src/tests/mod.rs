@@ -2,6 +2,7 @@
 
 mod choices;
 mod curves;
+mod draft;
 mod laws;
 mod operators;
 mod robust;

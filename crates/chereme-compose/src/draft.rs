@@ -1,0 +1,304 @@
+//! A recipe that is being worked on: what a change leaves as it was is neither looked up nor made again.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::contact::Contacts;
+use crate::error::MakeError;
+use crate::evaluate;
+use crate::made::{Made, Report};
+use crate::recipe::{Joined, Node, Recipe, Step, Then};
+use crate::resolve::{self, Input, Resolved};
+use crate::simplify::Planned;
+use crate::sources::{Material, Sources};
+use crate::work::Work;
+
+/// A recipe that is made again and again while it changes.
+///
+/// Movement is kept after every source, operator and join, so that only what follows a change is
+/// made anew; what comes of it equals what [`resolve`](crate::resolve()) and
+/// [`evaluate`](crate::evaluate()) give, bit by bit. What was found for a part of the recipe is taken
+/// again as long as that part stays as it is: [`forget`](Self::forget) it when the corpus changed.
+#[derive(Debug, Default)]
+pub struct Draft {
+    resolved: Option<Resolved>,
+    kept: Kept,
+}
+
+impl Draft {
+    /// Makes the movement of a recipe; between two steps `goes_on` is asked whether it is still wanted.
+    ///
+    /// # Errors
+    /// As [`resolve`](crate::resolve()) and [`evaluate`](crate::evaluate()), and
+    /// [`Cause::Stopped`](crate::Cause::Stopped) where it is not wanted any more; the steps that were
+    /// taken by then need not be taken again.
+    pub fn make(
+        &mut self,
+        recipe: &Recipe,
+        sources: &dyn Sources,
+        goes_on: &dyn Fn() -> bool,
+    ) -> Result<Made, MakeError> {
+        let resolved = resolve::after(recipe, sources, self.resolved.as_ref())?;
+        self.kept.round += 1;
+        let made = evaluate::with(&resolved, Some(&mut self.kept), goes_on);
+        if made.is_ok() {
+            self.kept.drop_unused();
+        }
+        self.resolved = Some(resolved);
+        made
+    }
+
+    /// Forgets everything, so that what is made next is looked up and made anew.
+    pub fn forget(&mut self) {
+        *self = Self::default();
+    }
+}
+
+/// The most that is kept, in numbers of eight bytes.
+const MOST: usize = 12 << 20;
+
+/// What was made of parts of a recipe.
+#[derive(Debug, Default)]
+pub(crate) struct Kept {
+    stages: Vec<Stage>,
+    /// Counted up from evaluation to evaluation.
+    round: u64,
+    /// The stage that was kept or taken last.
+    last: Option<usize>,
+}
+
+/// A part of a recipe: a source, pieces joined so far, or movement with operators applied to it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Part {
+    pub(crate) of: Node,
+    pub(crate) steps: Vec<Planned>,
+}
+
+/// What was found for the inside of a part, by paths from that part on.
+type Given = BTreeMap<String, (Option<Input>, Option<Arc<Material>>)>;
+
+/// The movement after a part, with what was told by then.
+#[derive(Debug)]
+pub(crate) struct Stage {
+    part: Part,
+    given: Given,
+    /// Where the part stood in the recipe.
+    base: String,
+    pub(crate) work: Work,
+    pub(crate) contacts: Option<Contacts>,
+    report: Report,
+    round: u64,
+}
+
+impl Part {
+    /// Returns whether what stands at `path`, counted from the part's own, is of it.
+    fn covers(&self, path: &str) -> bool {
+        let below = |start: &str| {
+            let rest = path.strip_prefix(start);
+            rest.is_some_and(|rest| rest.starts_with('/'))
+        };
+        match &self.of {
+            _ if !self.steps.is_empty() => {
+                let mut steps = self.steps.iter();
+                below("/pipe/of") || steps.any(|it| below(&format!("/pipe/steps/{}", it.index)))
+            }
+            Node::Then(then) => {
+                let mut next = 0..then.next.len();
+                below("/then/first") || next.any(|n| below(&format!("/then/next/{n}")))
+            }
+            _ => path.starts_with('/'),
+        }
+    }
+
+    /// Returns the first pieces of an utterance, so many after the first one.
+    pub(crate) fn pieces(then: &Then, count: usize) -> Self {
+        Self {
+            of: Node::Then(Then {
+                first: then.first.clone(),
+                next: then.next[..count].to_vec(),
+            }),
+            steps: Vec::new(),
+        }
+    }
+}
+
+/// Returns what `resolved` holds below `base` for a part.
+fn given(resolved: &Resolved, base: &str, part: &Part) -> Given {
+    let mut given = Given::new();
+    for (path, input) in resolved.below(base) {
+        if part.covers(&path[base.len()..]) {
+            let material = resolved.materials.get(path).cloned();
+            let found = (Some(input.clone()), material);
+            given.insert(path[base.len()..].to_owned(), found);
+        }
+    }
+    given
+}
+
+impl Stage {
+    fn holds(&self, resolved: &Resolved, base: &str) -> bool {
+        let mut now = resolved
+            .below(base)
+            .filter(|(path, _)| self.part.covers(&path[base.len()..]));
+        let same = self.given.iter().all(|(at, (input, material))| {
+            now.next().is_some_and(|(path, found)| {
+                let loaded = resolved.materials.get(path);
+                path[base.len()..] == **at
+                    && Some(found) == input.as_ref()
+                    && match (loaded, material) {
+                        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
+                        (None, None) => true,
+                        _ => false,
+                    }
+            })
+        });
+        same && now.next().is_none()
+    }
+
+    /// Returns what was told, at `base` instead of where the part stood.
+    pub(crate) fn told(&self, base: &str) -> Report {
+        let mut report = self.report.clone();
+        for step in &mut report.steps {
+            step.path = format!("{base}{}", &step.path[self.base.len()..]);
+        }
+        report
+    }
+
+    fn size(&self) -> usize {
+        size(&self.work)
+    }
+}
+
+fn size(work: &Work) -> usize {
+    let numbers = work.channels.iter().map(|channel| {
+        let moved = channel.translations.as_ref().map_or(0, Vec::len);
+        channel.rotations.len() * 4 + moved * 3
+    });
+    numbers.sum()
+}
+
+impl Kept {
+    /// Returns the movement after a part, where it was made before.
+    pub(crate) fn find(&mut self, resolved: &Resolved, base: &str, part: &Part) -> Option<&Stage> {
+        let at = self
+            .stages
+            .iter()
+            .position(|stage| stage.part == *part && stage.holds(resolved, base))?;
+        self.last = Some(at);
+        self.stages[at].round = self.round;
+        Some(&self.stages[at])
+    }
+
+    /// Keeps the movement after a part, with what making that part told.
+    pub(crate) fn keep(
+        &mut self,
+        (resolved, base): (&Resolved, &str),
+        part: Part,
+        work: &Work,
+        report: Report,
+    ) {
+        self.last = None;
+        let held: usize = self.stages.iter().map(Stage::size).sum();
+        if held + size(work) > MOST {
+            let round = self.round;
+            self.stages.retain(|stage| stage.round == round);
+            if self.stages.iter().map(Stage::size).sum::<usize>() + size(work) > MOST {
+                return;
+            }
+        }
+        self.stages.push(Stage {
+            given: given(resolved, base, &part),
+            part,
+            base: base.to_owned(),
+            work: work.clone(),
+            contacts: None,
+            report,
+            round: self.round,
+        });
+        self.last = Some(self.stages.len() - 1);
+    }
+
+    /// Returns the stage that was kept or found last, where there is one.
+    pub(crate) fn last(&mut self) -> Option<&mut Stage> {
+        self.stages.get_mut(self.last?)
+    }
+
+    fn drop_unused(&mut self) {
+        let round = self.round;
+        self.stages.retain(|stage| stage.round == round);
+        self.last = None;
+    }
+}
+
+/// A part of the recipe as it was before, with its path in it.
+#[derive(Debug, Clone)]
+pub(crate) struct Former<'a> {
+    node: &'a Node,
+    pub(crate) path: String,
+}
+
+impl<'a> Former<'a> {
+    pub(crate) fn of(recipe: &'a Recipe) -> Self {
+        Self {
+            node: &recipe.root,
+            path: String::new(),
+        }
+    }
+
+    pub(crate) fn is(&self, node: &Node) -> bool {
+        self.node == node
+    }
+
+    /// Returns what operators are applied to, or the whole where there are none.
+    pub(crate) fn operated(&self) -> Self {
+        match self.node {
+            Node::Pipe(pipe) => Self {
+                node: &pipe.of,
+                path: format!("{}/pipe/of", self.path),
+            },
+            _ => self.clone(),
+        }
+    }
+
+    /// Returns the first of several pieces, or the only one, with its operators.
+    pub(crate) fn first(&self) -> Self {
+        match self.node {
+            Node::Then(then) => Self {
+                node: &then.first,
+                path: format!("{}/then/first", self.path),
+            },
+            _ => self.clone(),
+        }
+    }
+
+    /// Returns the source that it all begins with.
+    pub(crate) fn source(&self) -> Self {
+        match self.node {
+            Node::Pipe(_) => self.operated().source(),
+            Node::Then(_) => self.first().source(),
+            _ => self.clone(),
+        }
+    }
+
+    /// Returns the path of an equal operator.
+    pub(crate) fn step(&self, step: &Step) -> Option<String> {
+        let Node::Pipe(pipe) = self.node else {
+            return None;
+        };
+        let at = pipe.steps.iter().position(|old| old == step)?;
+        Some(format!("{}/pipe/steps/{at}", self.path))
+    }
+
+    /// Returns the piece that was equal, or else stood there, among those after the first.
+    pub(crate) fn piece(&self, joined: &Joined, nth: usize) -> Option<Self> {
+        let Node::Then(then) = self.node else {
+            return None;
+        };
+        let same = then.next.iter().position(|old| old.node == joined.node);
+        let at = same.unwrap_or(nth);
+        Some(Self {
+            node: &then.next.get(at)?.node,
+            path: format!("{}/then/next/{at}/node", self.path),
+        })
+    }
+}

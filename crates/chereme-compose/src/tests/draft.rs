@@ -1,0 +1,189 @@
+//! A recipe that is worked on gives what it gives from scratch, and makes only what changed.
+
+use std::cell::RefCell;
+
+use super::*;
+use crate::sources::{
+    Example, LearnedProfile, Letter, Material, SourceError, Sources, SpellingTimes, Value,
+};
+use crate::{Draft, Language, Recipe};
+
+/// Sources that tell what they were asked for.
+struct Asked {
+    shelf: Shelf,
+    materials: RefCell<Vec<String>>,
+}
+
+impl Asked {
+    fn new() -> Self {
+        Self {
+            shelf: Shelf::new(),
+            materials: RefCell::default(),
+        }
+    }
+
+    fn take(&self) -> usize {
+        self.materials.take().len()
+    }
+}
+
+impl Sources for Asked {
+    fn material(&self, address: &str) -> Result<Material, SourceError> {
+        self.materials.borrow_mut().push(address.to_owned());
+        self.shelf.material(address)
+    }
+
+    fn stage(&self, signer: Option<&str>) -> Result<Material, SourceError> {
+        self.shelf.stage(signer)
+    }
+
+    fn value(&self, component: Component, text: &str) -> Result<Value, SourceError> {
+        self.shelf.value(component, text)
+    }
+
+    fn values(&self, component: Component) -> Vec<Value> {
+        self.shelf.values(component)
+    }
+
+    fn holding(&self, component: Component, value: &str) -> Result<Vec<Example>, SourceError> {
+        self.shelf.holding(component, value)
+    }
+
+    fn best(&self, query: &str, signer: Option<&str>) -> Result<Vec<Example>, SourceError> {
+        self.shelf.best(query, signer)
+    }
+
+    fn letters(&self, alphabet: Option<&str>, word: &str) -> Result<Vec<Letter>, SourceError> {
+        self.shelf.letters(alphabet, word)
+    }
+
+    fn learned_profile(&self) -> Result<Option<LearnedProfile>, SourceError> {
+        self.shelf.learned_profile()
+    }
+
+    fn notation(&self, name: &str) -> Result<Vec<chereme_sign::hamnosys::Notated>, SourceError> {
+        self.shelf.notation(name)
+    }
+
+    fn body_language(
+        &self,
+        named: Option<&str>,
+        signer: Option<&str>,
+    ) -> Result<Language, SourceError> {
+        self.shelf.body_language(named, signer)
+    }
+
+    fn spelling_times(&self) -> Result<SpellingTimes, SourceError> {
+        self.shelf.spelling_times()
+    }
+}
+
+fn recipe(text: &str) -> Recipe {
+    text.parse()
+        .unwrap_or_else(|error| panic!("{text}: {error}"))
+}
+
+/// Recipes as they follow each other while somebody works: what changes is a setting, an operator's
+/// place, the source, a piece.
+const SOURCES: [&str; 4] = [
+    "ESCARGOT",
+    "BOL",
+    "point right at 30cm,140cm,50cm hold 0.2s",
+    "(ESCARGOT | place right by up 2cm then BOL then CHAT)",
+];
+const STEPS: [&str; 9] = [
+    "configure right U",
+    "configure right _",
+    "place both by left 5cm up 2cm",
+    "place both by right 5cm",
+    "place right at chin",
+    "swap",
+    "reverse",
+    "repeat 2 gap 0.1s",
+    "amplify both 1.2",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn a_draft_gives_what_is_made_from_scratch(
+        all in prop::collection::vec(
+            (0..SOURCES.len(), prop::collection::vec(0..STEPS.len(), 0..4)),
+            2..6,
+        )
+    ) {
+        let shelf = Shelf::new();
+        let mut draft = Draft::default();
+        for (source, steps) in all {
+            let mut text = SOURCES[source].to_owned();
+            for step in steps {
+                text = format!("{text} | {}", STEPS[step]);
+            }
+            let recipe = recipe(&text);
+            let whole = resolve(&recipe, &shelf).and_then(|resolved| evaluate(&resolved));
+            let made = draft.make(&recipe, &shelf, &|| true);
+            match (made, whole) {
+                (Ok(made), Ok(whole)) => prop_assert_eq!(made, whole),
+                (Err(a), Err(b)) => prop_assert_eq!(a.to_string(), b.to_string()),
+                (a, b) => prop_assert!(false, "{text}: {a:?} and {b:?}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn what_stays_is_not_looked_up_again() {
+    let sources = Asked::new();
+    let mut draft = Draft::default();
+    let mut asked = |text: &str| {
+        draft
+            .make(&recipe(text), &sources, &|| true)
+            .unwrap_or_else(|error| panic!("{text}: {error}"));
+        sources.take()
+    };
+    assert!(asked("ESCARGOT") > 0);
+    assert_eq!(asked("ESCARGOT | swap"), 0, "the source is the same");
+    assert!(asked("ESCARGOT | configure right U | swap") > 0);
+    for text in [
+        "ESCARGOT | configure right U | place both by up 2cm",
+        "ESCARGOT | configure right U | place both by up 3cm",
+        "ESCARGOT | place both by up 3cm | configure right U",
+        "ESCARGOT | configure right U | place both by up 3cm",
+    ] {
+        assert_eq!(asked(text), 0, "{text}");
+    }
+    assert_eq!(asked("ESCARGOT | configure right U then ESCARGOT"), 1);
+    assert_eq!(
+        asked("ESCARGOT | configure right U then ESCARGOT | swap"),
+        0
+    );
+    draft.forget();
+    let made = draft.make(&recipe("ESCARGOT"), &sources, &|| true);
+    assert!(made.is_ok() && sources.take() > 0);
+}
+
+#[test]
+fn what_is_not_wanted_any_more_is_stopped_and_what_was_made_by_then_is_kept() {
+    let shelf = Shelf::new();
+    let mut draft = Draft::default();
+    let text = recipe("ESCARGOT | swap | reverse | amplify both 1.2");
+    let left = std::cell::Cell::new(3);
+    let goes_on = || {
+        left.set(left.get() - 1);
+        left.get() >= 0
+    };
+    let stopped = draft.make(&text, &shelf, &goes_on);
+    assert!(matches!(
+        stopped,
+        Err(MakeError {
+            cause: Cause::Stopped,
+            ..
+        })
+    ));
+    left.set(1);
+    let made = draft.make(&text, &shelf, &goes_on);
+    let made = made.expect("only one step is left to take");
+    let whole = resolve(&text, &shelf).and_then(|resolved| evaluate(&resolved));
+    assert_eq!(made, whole.expect("a recipe that can be made"));
+}
