@@ -95,6 +95,8 @@ pub struct Corpus {
     learned: RefCell<sources::Learned>,
     /// The inventories as they were at that generation.
     inventories: RefCell<Option<(i64, Arc<Vec<StoredInventory>>)>>,
+    /// The recipe that is worked on.
+    drafted: recombine::Drafted,
 }
 
 impl Corpus {
@@ -107,6 +109,7 @@ impl Corpus {
             store: Store::create(path, author, inventories::store_builtin)?,
             learned: RefCell::default(),
             inventories: RefCell::default(),
+            drafted: recombine::Drafted::default(),
         })
     }
 
@@ -119,6 +122,7 @@ impl Corpus {
             store: Store::open(path, author)?,
             learned: RefCell::default(),
             inventories: RefCell::default(),
+            drafted: recombine::Drafted::default(),
         })
     }
 

@@ -1,6 +1,7 @@
 //! New signs from stored ones: a recipe evaluated, and stored with its movement, tiers and origin.
 
 mod again;
+mod draft;
 mod parts;
 
 use std::collections::BTreeMap;
@@ -32,6 +33,7 @@ use crate::movement::{self, BLOCK_FRAMES, Track};
 use crate::sources::CorpusSources;
 use crate::tokens;
 
+pub(crate) use draft::Drafted;
 pub use parts::MadePart;
 
 /// Decimals of the numbers of made movement: a millionth of a degree, or of the file's unit.
