@@ -41,7 +41,6 @@ mod pickers;
 mod player;
 mod settings;
 mod start;
-mod symbols;
 mod theme;
 mod words;
 mod work;

@@ -10,6 +10,7 @@
 //! by a number. Every cell is labelled as [`data::label`] says.
 
 pub(crate) mod data;
+pub(crate) mod hamnosys;
 
 mod body;
 mod cells;

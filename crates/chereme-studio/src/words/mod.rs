@@ -19,6 +19,7 @@ macro_rules! texts {
 pub(crate) mod actions;
 pub(crate) mod export;
 pub(crate) mod gestures;
+pub(crate) mod hamnosys;
 pub(crate) mod history;
 pub(crate) mod import;
 pub(crate) mod inspector;
@@ -97,9 +98,10 @@ pub(crate) fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 14] = [
+    const TABLES: [&[(&str, Text)]; 15] = [
         actions::ALL,
         export::ALL,
+        hamnosys::ALL,
         history::ALL,
         import::ALL,
         inspector::ALL,

@@ -10,7 +10,7 @@ use super::{Inspector, Thing, data, notation};
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::library::origin_text;
-use crate::symbols;
+use crate::pickers::hamnosys;
 use crate::words::inspector as words;
 use crate::work::Work;
 
@@ -109,7 +109,7 @@ pub(super) fn hamnosys(ui: &mut Ui, seen: &Seen<'_>, text: &str) {
                     let names = notation::names(drawn);
                     ui.weak(seen.say(*part));
                     ui.vertical(|ui| {
-                        symbols::strip(ui, drawn, &names);
+                        hamnosys::strip(ui, seen, drawn, hamnosys::EM);
                         ui.add(Label::new(RichText::new(&names).small().weak()).wrap());
                     });
                     ui.end_row();

@@ -7,6 +7,7 @@ use super::fields::{self, caption, choose};
 use super::stack::What;
 use super::{operators, path};
 use crate::context::Seen;
+use crate::pickers::hamnosys;
 use crate::words::recombine as words;
 
 /// Where settings are shown.
@@ -56,6 +57,7 @@ fn source(ui: &mut Ui, seen: &Seen<'_>, at: At, node: &mut Node) -> bool {
         }
         Node::Hamnosys(it) => {
             let mut changed = line(ui, seen.say(words::HAMNOSYS_SYMBOLS), "", &mut it.of);
+            hamnosys::of_text(ui, seen, &it.of, hamnosys::EM);
             ui.horizontal_wrapped(|ui| changed |= fields::signer(ui, seen, &mut it.on));
             changed
         }
