@@ -1,8 +1,8 @@
-//! Measures drawing: `cargo run --release --example frame_time`.
+//! Measures drawing: `cargo run --release --example frame_time -- [FRAMES]`.
 //!
 //! Prints the time of one picture of 400 by 500 pixels of a whole signer with full hands, posing
 //! the body included, of the body alone, of the window's stage with two signers by one thread and
-//! by two, and of a little figure. Of threads, the first one's time is told: the others work beside it.
+//! by two, and of a little figure; of each so many frames, at most 64. Of threads, the first one's time is told: the others work beside it.
 
 use std::error::Error;
 use std::hint::black_box;
@@ -31,10 +31,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let body = Body::new(clip.skeleton(), &anatomy);
     let framing = Framing::of(&clip, &anatomy).ok_or("an empty clip")?;
     let (mut mesh, mut raster) = (Mesh::default(), Raster::default());
+    let frames = std::env::args().nth(1).map(|text| text.parse());
+    let frames = frames
+        .transpose()?
+        .unwrap_or(clip.frames())
+        .min(clip.frames());
     let begun = Instant::now();
     let mut times = [Vec::new(), Vec::new()];
-    for round in 0..10 * clip.frames() {
-        let pose = clip.model_pose(round % clip.frames());
+    for round in 0..10 * frames {
+        let pose = clip.model_pose(round % frames);
         let start = now(begun);
         body.shape(&pose, &mut mesh);
         times[0].push(now(begun) - start);
@@ -48,7 +53,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     );
     let mut measure = |size: [usize; 2], count: usize, style: &Style| {
         let mut times = Vec::new();
-        for frame in 0..clip.frames() {
+        for frame in 0..frames {
             let pose = clip.model_pose(frame);
             let start = now(begun);
             let aspect = size[0] as f32 / size[1] as f32;

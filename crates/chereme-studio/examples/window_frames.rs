@@ -1,4 +1,4 @@
-//! Measures frames of a real window: `cargo run --release --example window_frames -- [CORPUS|two|grid] [SECONDS]`.
+//! Measures frames of a real window: `cargo run --release --example window_frames -- [CORPUS|two|grid|change] [SECONDS]`.
 //!
 //! The window opens without waiting for the screen and plays its first recording in a loop, scrolls and zooms
 //! the timeline while it plays, drags an annotation among its neighbours, and closes. Without a corpus one is
@@ -7,6 +7,10 @@
 //! corpus, and shows all its signs as at least 24 looping little figures. Prints for each scene how long
 //! a frame took to compute on the window's thread, how far apart frames were, and how long pictures of the stage
 //! took on the thread that draws them.
+//!
+//! `change` imports the starter corpus and changes a placement of recipes again and again, each time when what the
+//! last change made has been drawn. Prints how long the recipe took to be made without a window, how long after the
+//! change its picture was on the stage, and in which frame: 1 is the one after that in which the change was typed.
 
 use std::collections::VecDeque;
 use std::error::Error;
@@ -27,9 +31,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let first = arguments.next();
     let two = first.as_deref() == Some("two");
     let grid = first.as_deref() == Some("grid");
+    let change = first.as_deref() == Some("change");
     let corpus = match first {
         Some(_) if two => pair(folder.path())?,
         Some(_) if grid => starter(folder.path())?,
+        Some(_) if change => {
+            let path = starter(folder.path())?;
+            without_window(&path)?;
+            path
+        }
         Some(path) => PathBuf::from(path),
         None => made(folder.path())?,
     };
@@ -54,8 +64,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     };
     let meter = Meter {
         studio: Studio::new(options),
+        change: Change::default(),
         scenes: if two {
             VecDeque::from([Scene::Two])
+        } else if change {
+            (0..RECIPES.len()).map(Scene::Change).collect()
         } else if grid {
             VecDeque::from([Scene::Grid])
         } else {
@@ -107,6 +120,51 @@ fn starter(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     let options = ImportOptions::default();
     corpus.import(&[files], &options, &mut Progress::new(&mut hear))?;
     Ok(path)
+}
+
+/// Recipes whose last number is changed: what they were, and what of them stands after that number.
+const RECIPES: [&str; 3] = [
+    "ESCARGOT | place both by left 10cm",
+    "ESCARGOT | configure right U | orient left palm up | place both by left 10cm",
+    "(ESCARGOT then CHAT then BOL) | configure right U | place both by left 10cm",
+];
+
+/// Returns the recipe after so many changes, written as the corpus writes it.
+fn changed(recipe: &str, times: u64) -> String {
+    recipe.replace("10cm", &format!("1{}cm", times % 10))
+}
+
+/// How often a recipe is changed.
+const CHANGES: u64 = 60;
+
+/// Tells how long recipes take that change, where nothing else is done.
+#[expect(clippy::print_stdout, reason = "it tells what it measured")]
+fn without_window(path: &Path) -> Result<(), Box<dyn Error>> {
+    let mut corpus = Corpus::open(path, "A")?;
+    for recipe in RECIPES {
+        let mut times = Vec::new();
+        let mut frames = 0;
+        for times_changed in 0..CHANGES {
+            let begun = Instant::now();
+            let made = corpus.preview(&changed(recipe, times_changed))?;
+            times.push(begun.elapsed());
+            frames = made.clip.frames();
+        }
+        println!("{recipe}: {frames} frames; first {:?}", times[0]);
+        println!("  made: {}", summary(&mut times[1..]));
+    }
+    Ok(())
+}
+
+/// Returns the middle, the slow and the slowest of some times.
+fn summary<T: Ord + Copy + std::fmt::Debug>(times: &mut [T]) -> String {
+    times.sort_unstable();
+    let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
+    let (median, slow, worst) = (at(0.5), at(0.95), at(1.0));
+    format!(
+        "{} times, median {median:?}, p95 {slow:?}, worst {worst:?}",
+        times.len()
+    )
 }
 
 /// ESCARGOT, and LIMACE made from it.
@@ -169,6 +227,18 @@ enum Scene {
     Drag,
     /// Looking at hits as looping little figures.
     Grid,
+    /// Changing a recipe.
+    Change(usize),
+}
+
+/// How far changing a recipe is.
+#[derive(Default)]
+struct Change {
+    times: u64,
+    /// When the last change was typed, and how many frames have been since.
+    typed: Option<(Instant, u64)>,
+    took: Vec<Duration>,
+    frames: Vec<u64>,
 }
 
 /// Where the timeline is in the window.
@@ -179,6 +249,7 @@ impl Scene {
     fn sets(self) -> u64 {
         match self {
             Self::Grid => 900,
+            Self::Change(_) => 60,
             _ => 20,
         }
     }
@@ -205,7 +276,15 @@ impl Scene {
             (Self::Grid, 0) => vec![key(Key::F2, Modifiers::COMMAND)],
             (Self::Grid, 4) => vec![key(Key::F, Modifiers::COMMAND)],
             (Self::Grid, 10) => vec![key(Key::Enter, Modifiers::NONE)],
-            (Self::Play | Self::Two | Self::Grid, _) => Vec::new(),
+            (Self::Change(_), 0) => vec![
+                key(Key::F3, Modifiers::COMMAND),
+                key(Key::R, Modifiers::COMMAND),
+            ],
+            (Self::Change(_), 4) => vec![key(Key::A, Modifiers::COMMAND)],
+            (Self::Change(nth), 5) => vec![Event::Text(RECIPES[nth].into())],
+            (Self::Change(_), 6) => vec![key(Key::ArrowLeft, Modifiers::NONE); 2],
+            (Self::Change(_), 40) => vec![key(Key::Space, Modifiers::COMMAND)],
+            (Self::Play | Self::Two | Self::Grid | Self::Change(_), _) => Vec::new(),
             (Self::Scroll, frame) => {
                 let zooms = frame % 240 >= 180;
                 let up = frame % 120 >= 60;
@@ -253,6 +332,7 @@ struct Meter {
     computed: Vec<Duration>,
     apart: Vec<Duration>,
     drawn: Vec<Duration>,
+    change: Change,
 }
 
 impl eframe::App for Meter {
@@ -268,6 +348,9 @@ impl eframe::App for Meter {
         {
             return;
         }
+        if let Some(Scene::Change(nth)) = self.scenes.front().copied() {
+            self.follow(RECIPES[nth]);
+        }
         let begun = *self.begun.get_or_insert(now);
         if let Some(last) = self.last.replace(now) {
             self.apart.push(now - last);
@@ -277,7 +360,11 @@ impl eframe::App for Meter {
                 self.drawn.push(took);
             }
         }
-        if now - begun > self.lasts && !self.apart.is_empty() {
+        let over = match self.scenes.front() {
+            Some(Scene::Change(_)) => self.change.times >= CHANGES,
+            _ => now - begun > self.lasts,
+        };
+        if over && !self.apart.is_empty() {
             self.tell();
             (self.begun, self.last, self.frame) = (None, None, 0);
             self.scenes.pop_front();
@@ -294,11 +381,39 @@ impl eframe::App for Meter {
         if let Some(scene) = self.scenes.front() {
             input.events.extend(scene.events(self.frame));
             self.frame += 1;
+            let waits = self.change.typed.is_some() || self.frame < scene.sets();
+            if matches!(scene, Scene::Change(_)) && !waits {
+                self.change.times += 1;
+                self.change.typed = Some((Instant::now(), 0));
+                let back = Event::Key {
+                    key: Key::Backspace,
+                    physical_key: None,
+                    pressed: true,
+                    repeat: false,
+                    modifiers: Modifiers::NONE,
+                };
+                let digit = (self.change.times % 10).to_string();
+                input.events.extend([back, Event::Text(digit)]);
+            }
         }
     }
 }
 
 impl Meter {
+    /// Notes when the picture of what was changed last is there.
+    fn follow(&mut self, recipe: &str) {
+        let Some((begun, frames)) = &mut self.change.typed else {
+            return;
+        };
+        if self.studio.drawn() == Some(&changed(recipe, self.change.times)) {
+            self.change.took.push(begun.elapsed());
+            self.change.frames.push(*frames);
+            self.change.typed = None;
+        } else {
+            *frames += 1;
+        }
+    }
+
     #[expect(clippy::print_stdout, reason = "it tells what it measured")]
     fn tell(&mut self) {
         let scene = self.scenes.front();
@@ -306,16 +421,18 @@ impl Meter {
             ("computed", &mut self.computed),
             ("apart", &mut self.apart),
             ("drawn", &mut self.drawn),
+            ("change to picture", &mut self.change.took),
         ];
         for (name, times) in all {
-            times.sort_unstable();
-            let at = |share: f64| times[((times.len() - 1) as f64 * share) as usize];
-            let (median, slow, worst) = (at(0.5), at(0.95), at(1.0));
-            println!(
-                "{scene:?} {name}: {} frames, median {median:?}, p95 {slow:?}, worst {worst:?}",
-                times.len()
-            );
-            times.clear();
+            if !times.is_empty() {
+                println!("{scene:?} {name}: {}", summary(times));
+                times.clear();
+            }
         }
+        if !self.change.frames.is_empty() {
+            let frames = summary(&mut self.change.frames);
+            println!("{scene:?} seen in frame: {frames}");
+        }
+        self.change = Change::default();
     }
 }

@@ -127,6 +127,11 @@ impl Studio {
         }
         theme::apply(&ctx, &self.settings);
         self.listen();
+        if self.panes.recombine.has_news() {
+            // What was made is in the pictures that are asked for in this frame.
+            self.keep_up(&ctx);
+            self.carry_out(&ctx);
+        }
         self.hear_chooser(&ctx);
         self.tick(&ctx);
         if let Some((action, text)) = self.clipboard.came(&ctx) {
@@ -167,6 +172,15 @@ impl Studio {
     #[must_use]
     pub fn is_drawn(&self) -> bool {
         self.panes.stage.is_drawn()
+    }
+
+    /// Returns what the movement is called that the stage shows, where that was made of a recipe and its
+    /// newest picture is there: the recipe, or a gloss.
+    #[must_use]
+    pub fn drawn(&self) -> Option<&str> {
+        let showing = self.shown.made.as_ref()?;
+        let there = self.panes.stage.shows(&showing.made);
+        there.then_some(showing.made.name.as_str())
     }
 
     /// Returns the open corpus's file.

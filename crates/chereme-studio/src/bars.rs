@@ -103,7 +103,7 @@ impl Studio {
             for (id, running) in &desk.running {
                 if matches!(
                     running.lane,
-                    Lane::Movement | Lane::Little | Lane::Make | Lane::Measure
+                    Lane::Movement | Lane::Little | Lane::Make | Lane::Draft | Lane::Measure
                 ) {
                     continue;
                 }

@@ -98,7 +98,10 @@ impl Studio {
             Command::Speed(speed) => self.shown.on_stage_mut().speed = speed,
             Command::Made(made) => self.show_made(made),
             Command::Handle(handle) => self.shown.handle = handle,
-            Command::Placed(card, goal) => self.panes.recombine.place(card, goal),
+            Command::Placed(card, goal) => {
+                self.panes.recombine.place(card, goal);
+                self.keep_up(ctx);
+            }
             Command::Import(paths) => {
                 self.panes.import.propose(&paths);
                 self.bring(PaneKind::Import);
@@ -170,6 +173,20 @@ impl Studio {
             }
             other => self.act_in_panes(other, ctx),
         }
+    }
+
+    /// Has made at once what the recipe became, and gives the stage what was made of it.
+    pub(crate) fn keep_up(&mut self, ctx: &Context) {
+        if !layout::shows(&self.tree, PaneKind::Recombine) {
+            return;
+        }
+        let mut panes = std::mem::take(&mut self.panes);
+        let mut out = std::mem::take(&mut self.out);
+        if let Some(seen) = self.seen(ctx) {
+            let now = ctx.input(|input| input.time);
+            panes.recombine.keep_up(&seen, now, &mut out);
+        }
+        (self.panes, self.out) = (panes, out);
     }
 
     /// Takes one step back or forward: of the recipe where that was changed last and is in sight,

@@ -337,6 +337,42 @@ fn a_placed_hand_is_moved_on_the_stage_by_keys_and_by_dragging() {
     assert_eq!(recipe_of(&window), once);
 }
 
+#[test]
+fn a_press_near_a_moving_handle_holds_the_hand_and_takes_its_handle() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open(folder.path());
+    key(&mut window, Modifiers::COMMAND, Key::R);
+    type_into(&mut window, "Recipe", "ESCARGOT | place right by up 10cm");
+    idle(&mut window);
+    press(&mut window, "Card: Place");
+    idle(&mut window);
+    until(&mut window, "the handle", |window| {
+        has(window, "Move: right hand")
+    });
+    assert!(has(&window, "Pause"), "what was made plays");
+    let at = window.get_by_label("Move: right hand").rect().center();
+    let beside = at + eframe::egui::vec2(-18.0, 14.0);
+    window.drag_at(beside);
+    window.run_steps(2);
+    assert!(has(&window, "Play"), "it stands still while it is held");
+    window.hover_at(beside + eframe::egui::vec2(-25.0, 25.0));
+    window.run_steps(2);
+    let dragged = recipe_of(&window);
+    assert_ne!(dragged, "ESCARGOT | place right by up 10cm");
+    window.drop_at(beside + eframe::egui::vec2(-25.0, 25.0));
+    window.run_steps(3);
+    assert!(has(&window, "Pause"), "it plays on");
+    // A press without a drag only holds it.
+    let at = window.get_by_label("Move: right hand").rect().center();
+    window.drag_at(at);
+    window.run_steps(2);
+    assert!(has(&window, "Play"));
+    window.drop_at(at);
+    window.run_steps(3);
+    assert!(has(&window, "Pause"));
+    assert_eq!(recipe_of(&window), dragged);
+}
+
 fn recipe_of_stored(window: &Window<'_>) -> String {
     let field = window.get_by_label("The recipe of LIMACE");
     field.value().unwrap_or_default()

@@ -69,6 +69,9 @@ pub(super) fn carry(
         }
         Work::Around(tokens, most) => Outcome::Around(corpus.around(&tokens, most)?),
         Work::Preview(recipe) => Outcome::Previewed(Arc::new(corpus.preview(&recipe)?)),
+        Work::Draft { recipe, anew } => {
+            Outcome::Previewed(Arc::new(corpus.draft(&recipe, anew, progress)?))
+        }
         Work::Suggest(address) => Outcome::Suggested(corpus.suggest(&address)?),
         Work::Paths(typed) => {
             let paths = chereme_corpus::paths_like(&typed);

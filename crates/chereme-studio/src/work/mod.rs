@@ -93,6 +93,13 @@ pub(crate) enum Work {
     Around(Vec<i64>, usize),
     /// Makes the movement of a recipe and stores nothing.
     Preview(String),
+    /// Makes the movement of the recipe that is worked on, of what changed in it.
+    Draft {
+        /// The recipe.
+        recipe: String,
+        /// Whether everything is looked up anew.
+        anew: bool,
+    },
     /// Says what could be made from a token.
     Suggest(Address),
     /// Says what a typed path may become.
@@ -195,8 +202,10 @@ pub(crate) enum Lane {
     Edit,
     /// Questions that people wait for.
     Ask,
-    /// Movement made of recipes; it never waits for a search.
+    /// Movement made of notation, one sign after the other; it never waits for a search.
     Make,
+    /// The recipe that is worked on; nothing else is in its way.
+    Draft,
     /// Movement to look at.
     Movement,
     /// Movement of little figures, which the stage does not wait for.
@@ -208,10 +217,11 @@ pub(crate) enum Lane {
 }
 
 impl Lane {
-    pub(crate) const ALL: [Self; 7] = [
+    pub(crate) const ALL: [Self; 8] = [
         Self::Edit,
         Self::Ask,
         Self::Make,
+        Self::Draft,
         Self::Movement,
         Self::Little,
         Self::Measure,
@@ -248,6 +258,7 @@ impl Work {
             | Self::Look(_)
             | Self::Paths(_) => Lane::Ask,
             Self::Preview(_) => Lane::Make,
+            Self::Draft { .. } => Lane::Draft,
             Self::Movement { .. } => Lane::Movement,
             Self::Stretch(..) | Self::Originals(_) | Self::OriginalsOf(_) => Lane::Little,
             Self::Measure { .. } => Lane::Measure,
@@ -265,9 +276,10 @@ impl Work {
             | Self::Suggest(_)
             | Self::Look(_)
             | Self::Paths(_) => shell::TASK_SEARCH,
-            Self::Recombine { .. } | Self::RecombineAgain { .. } | Self::Preview(_) => {
-                shell::TASK_RECOMBINE
-            }
+            Self::Recombine { .. }
+            | Self::RecombineAgain { .. }
+            | Self::Preview(_)
+            | Self::Draft { .. } => shell::TASK_RECOMBINE,
             Self::Export(..) | Self::ExportFound(..) => shell::TASK_EXPORT,
             Self::Movement { .. }
             | Self::Stretch(..)
@@ -283,6 +295,7 @@ impl Work {
         matches!(
             self,
             Self::Preview(_)
+                | Self::Draft { .. }
                 | Self::Suggest(_)
                 | Self::Look(_)
                 | Self::Paths(_)

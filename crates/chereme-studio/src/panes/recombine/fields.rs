@@ -7,6 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use chereme_corpus::recipe::{
     Direction, Factor, Hands, Length, Profile, Seconds, Spot, Transition,
 };
+use chereme_corpus::{MadePart, TokenRow};
 use chereme_sign::{Component, Inventory, InventoryValue};
 use eframe::egui::{
     Button, ComboBox, DragValue, Id, Response, Role, Slider, SliderClamping, Ui, WidgetInfo,
@@ -439,7 +440,10 @@ pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut 
             }
         }
         if let Some(gloss) = gloss_of(seen, text) {
-            ui.weak(gloss);
+            ui.strong(gloss);
+            if let Some(when) = time_of(seen, text) {
+                ui.weak(when);
+            }
         }
         changed
     });
@@ -457,12 +461,34 @@ pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut 
     inner.inner
 }
 
-/// Returns the gloss of a `token:…` of the open recording.
+/// Returns the gloss of a `token:…` of the open recording, or of what the stage shows that was made of it.
 pub(super) fn gloss_of(seen: &Seen<'_>, text: &str) -> Option<String> {
+    token_of(seen, text)
+        .map(|token| token.gloss.clone())
+        .or_else(|| Some(part_of(seen, text)?.gloss.clone()))
+        .filter(|gloss| !gloss.is_empty())
+}
+
+fn token_of<'a>(seen: &Seen<'a>, text: &str) -> Option<&'a TokenRow> {
     let id: i64 = text.strip_prefix("token:")?.parse().ok()?;
     let contents = seen.snapshot.contents(seen.shown.recording?)?;
-    let token = contents.tokens.iter().find(|token| token.id == id)?;
-    Some(token.gloss.clone())
+    contents.tokens.iter().find(|token| token.id == id)
+}
+
+fn part_of<'a>(seen: &Seen<'a>, text: &str) -> Option<&'a MadePart> {
+    text.strip_prefix("token:")?;
+    let made = &seen.shown.made.as_ref()?.made;
+    made.parts.iter().find(|part| part.from == text)
+}
+
+/// Returns when a token of the open recording is, or how long that of another one lasts.
+fn time_of(seen: &Seen<'_>, text: &str) -> Option<String> {
+    let seconds = |micros: i64| format!("{:.2}", micros as f64 / 1e6);
+    if let Some((start, end)) = token_of(seen, text).and_then(|it| it.start_us.zip(it.end_us)) {
+        return Some(format!("{}–{} s", seconds(start), seconds(end)));
+    }
+    let span = part_of(seen, text)?.span;
+    Some(format!("{} s", seconds(span.micros())))
 }
 
 /// Shows whose body signs, where somebody is named.

@@ -1,4 +1,5 @@
-//! The preview: whatever the recipe is now is being made, one at a time, the newest next.
+//! The preview: whatever the recipe is now is being made, one at a time, the newest next. What takes
+//! long and is not wanted any more is stopped, but never twice in a row: while one drags, something is seen.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -7,6 +8,7 @@ use chereme_corpus::recipe::Report;
 use chereme_corpus::{Error, Recombination};
 
 use super::stack::Stack;
+use crate::command::Command;
 use crate::context::Outbox;
 use crate::work::{Ended, Outcome, Work, WorkId};
 
@@ -37,9 +39,16 @@ pub(super) struct Trouble {
     pub(super) card: Option<u64>,
 }
 
+/// How long what is not wanted any more may still take, in seconds.
+const PATIENCE: f64 = 0.15;
+
 /// The preview.
 #[derive(Default)]
 pub(super) struct Live {
+    /// Whether everything is to be looked up anew.
+    anew: bool,
+    /// Whether the one that is being made was stopped, and whether the one before it was.
+    stopped: [bool; 2],
     /// What is being made, with the card of each path of its report.
     running: Option<(WorkId, Wish, Stack)>,
     /// When it was asked for, in seconds of the window's clock.
@@ -78,12 +87,33 @@ impl Live {
             self.notes.clear();
             return;
         }
-        if self.running.is_some() || self.of.as_ref() == Some(&wish) {
+        if let Some((id, running, _)) = &self.running {
+            let overtaken = *running != wish && now - self.since > PATIENCE;
+            if overtaken && self.stopped == [false; 2] {
+                out.send(Command::Stop(*id));
+                self.stopped[0] = true;
+            }
             return;
         }
-        let id = out.work(Work::Preview(wish.text.clone()));
+        if self.of.as_ref() == Some(&wish) && !self.anew {
+            return;
+        }
+        let id = out.work(Work::Draft {
+            recipe: wish.text.clone(),
+            anew: std::mem::take(&mut self.anew),
+        });
         self.running = Some((id, wish, stack.clone()));
         self.since = now;
+    }
+
+    /// Has everything looked up anew, also where the recipe is the same.
+    pub(super) fn reload(&mut self) {
+        self.anew = true;
+    }
+
+    /// Returns whether something ended that was not followed up yet.
+    pub(super) fn has_news(&self) -> bool {
+        self.fresh
     }
 
     /// Returns whether something newer is being made.
@@ -96,8 +126,12 @@ impl Live {
         let Some((_, wish, stack)) = self.running.take_if(|(running, ..)| *running == id) else {
             return false;
         };
-        self.of = Some(wish);
         self.fresh = true;
+        self.stopped = [false, self.stopped[0]];
+        if matches!(ended, Err(Error::Stopped)) {
+            return true;
+        }
+        self.of = Some(wish);
         match ended {
             Ok(Outcome::Previewed(made)) => {
                 self.notes = notes(&made.report, &stack);
@@ -183,6 +217,37 @@ mod tests {
         assert_eq!(of(1).did, ["swapped"]);
         assert_eq!(of(2).did, ["read too", "joined"]);
         assert_eq!((of(1).residual, of(2).residual), (Some(0.002), Some(0.001)));
+    }
+
+    #[test]
+    fn what_is_overtaken_is_stopped_once_and_an_equal_recipe_can_be_looked_up_anew() {
+        let (mut live, mut out) = (Live::default(), Outbox::default());
+        let stack = stack("A");
+        let stops = |out: &mut Outbox| {
+            let all = out.take().into_iter();
+            all.filter(|it| matches!(it, Command::Stop(_))).count()
+        };
+        live.follow(&stack, "A", (1, 0.0), &mut out);
+        live.follow(&stack, "A | swap", (1, 0.1), &mut out);
+        assert_eq!(stops(&mut out), 0, "it may be ready soon");
+        live.follow(&stack, "A | swap", (1, 0.2), &mut out);
+        live.follow(&stack, "A | swap", (1, 0.3), &mut out);
+        assert_eq!(stops(&mut out), 1);
+        assert!(live.hear(WorkId(1), &Err(Error::Stopped)));
+        assert!(live.trouble.is_none());
+        live.follow(&stack, "A | swap", (1, 0.3), &mut out);
+        live.follow(&stack, "A | reverse", (1, 0.9), &mut out);
+        assert_eq!(stops(&mut out), 0, "not twice in a row");
+        assert!(live.hear(WorkId(2), &Err(Error::wrong("no A"))));
+        live.follow(&stack, "A | swap", (1, 1.0), &mut out);
+        assert!(out.take().is_empty(), "it is known already");
+        live.reload();
+        live.follow(&stack, "A | swap", (1, 1.0), &mut out);
+        let anew = out.take();
+        let anew = anew
+            .iter()
+            .any(|it| matches!(it, Command::Work(_, Work::Draft { anew: true, .. })));
+        assert!(anew);
     }
 
     #[test]

@@ -105,6 +105,7 @@ impl Recombine {
     pub(crate) fn open(&mut self, recipe: &str, opened: Option<String>, gloss: Option<String>) {
         self.stack = Stack::default();
         self.type_in(recipe.to_owned());
+        self.live.reload();
         self.opened = opened;
         self.gloss = gloss.unwrap_or_default();
         self.stored = None;
@@ -227,6 +228,26 @@ impl Recombine {
             }
             None if self.stack.is_empty() => self.open(&name, None, None),
             None => self.add(What::source(Node::Sign(name))),
+        }
+    }
+
+    /// Returns whether what was made last has not been given to the stage yet.
+    pub(crate) fn has_news(&self) -> bool {
+        self.live.has_news()
+    }
+
+    /// Has made what the recipe is now, and gives the stage what was made and the handle for it; `now` is
+    /// the time on the window's clock.
+    pub(crate) fn keep_up(&mut self, seen: &Seen<'_>, now: f64, out: &mut Outbox) {
+        let generation = seen.snapshot.overview.generation;
+        if self.wrong.is_none() {
+            let text = self.stack.text();
+            self.live.follow(&self.stack, &text, (generation, now), out);
+        }
+        self.show_on_stage(seen, out);
+        let handle = self.handle();
+        if seen.shown.handle != handle {
+            out.send(Command::Handle(handle));
         }
     }
 
@@ -458,17 +479,7 @@ impl Pane for Recombine {
             self.take_in(&carried);
         }
         self.naming = false;
-        let generation = seen.snapshot.overview.generation;
-        if self.wrong.is_none() {
-            let text = self.stack.text();
-            let now = ui.input(|input| input.time);
-            self.live.follow(&self.stack, &text, (generation, now), out);
-        }
-        self.show_on_stage(seen, out);
-        let handle = self.handle();
-        if seen.shown.handle != handle {
-            out.send(Command::Handle(handle));
-        }
+        self.keep_up(seen, ui.input(|input| input.time), out);
         self.count(&seen.snapshot.overview.operations);
         self.settle_in_time(ui);
     }

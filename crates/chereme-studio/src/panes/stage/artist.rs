@@ -65,6 +65,7 @@ struct Shared {
     wish: Mutex<Wished>,
     wished: Condvar,
     drawn: Mutex<Option<Drawn>>,
+    ready: Condvar,
 }
 
 #[derive(Default)]
@@ -83,6 +84,7 @@ impl Artist {
             while let Some(wish) = own.next() {
                 let drawn = hand.draw(&wish);
                 *held(&own.drawn) = Some(drawn);
+                own.ready.notify_all();
                 wake();
             }
         });
@@ -96,6 +98,15 @@ impl Artist {
     pub(super) fn wish(&self, wish: Wish) {
         held(&self.shared.wish).next = Some(wish);
         self.shared.wished.notify_one();
+    }
+
+    /// Waits until the pictures of that wish are there, at most so long.
+    pub(super) fn await_newest(&self, number: u64, most: Duration) {
+        let waiting =
+            |drawn: &mut Option<Drawn>| drawn.as_ref().is_none_or(|it| it.number < number);
+        let drawn = held(&self.shared.drawn);
+        // Where it takes longer, it is shown in a later frame.
+        let _ = self.shared.ready.wait_timeout_while(drawn, most, waiting);
     }
 
     /// Returns the newest pictures that were not taken yet.

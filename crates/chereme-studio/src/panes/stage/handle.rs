@@ -17,9 +17,12 @@ use crate::context::{Outbox, Seen};
 use crate::model::handle::Handle;
 use crate::words::{fill, recombine, stage as words};
 
-/// How near the pointer has to be to the middle and to the ends.
+/// How large the middle and the ends are for the pointer.
 const MIDDLE: f32 = 22.0;
 const END: f32 = 24.0;
+/// How near to the handle a press takes the part of it that is nearest: who presses there means it, and not
+/// the eye's place. It is far enough for a hand that moves while it is reached for.
+const NEAR: f32 = 34.0;
 /// How far an arrow key goes, and with Shift, in metres; and what a drag with Ctrl snaps to.
 const STEP: f64 = 0.01;
 const FAR_STEP: f64 = 0.05;
@@ -33,6 +36,8 @@ pub(super) struct Holding {
     middles: Vec<Id>,
     /// The card, and what it was before it was last dragged or moved by keys.
     before: Option<(u64, chereme_corpus::recipe::Goal)>,
+    /// How far what is seen was dragged along, by another button than that for the handle.
+    pub(super) panned: Vec2,
 }
 
 impl Holding {
@@ -69,6 +74,8 @@ struct Held<'a> {
     side: Side,
     /// Whether it has axes too, and not only its middle.
     whole: bool,
+    /// The widget that keys are for.
+    id: Id,
 }
 
 /// Shows the handle over a picture of the made movement.
@@ -110,6 +117,7 @@ pub(super) fn show(
             projection,
             side,
             whole: Some(side) == first,
+            id: id(ui, pane.rect, side),
         };
         one(
             &mut stage.holding,
@@ -120,6 +128,11 @@ pub(super) fn show(
             (&made.anatomy, pose),
         );
     }
+}
+
+fn id(ui: &Ui, pane: Rect, side: Side) -> Id {
+    let (x, y) = (pane.min.x as i64, pane.min.y as i64);
+    ui.scope_id().with(("handle", x, y, side.name()))
 }
 
 /// Shows the handle of one hand, and takes what is done with it.
@@ -147,9 +160,12 @@ fn one(
     if !held.pane.contains(middle) {
         return;
     }
-    let id = ui
-        .scope_id()
-        .with(("handle", base.x as i64, base.y as i64, held.side.name()));
+    let id = held.id;
+    let near = near(held, &laid);
+    let zone = ui.interact(near, id.with("near"), Sense::drag());
+    if zone.dragged() && !zone.dragged_by(PointerButton::Primary) {
+        holding.panned = zone.drag_delta();
+    }
     let mut ends = [None, None, None];
     if held.whole {
         for (nth, end) in laid.ends.iter().enumerate() {
@@ -175,11 +191,15 @@ fn one(
     if response.clicked() {
         response.request_focus();
     }
+    let pointer = ui.input(|input| input.pointer.interact_pos());
+    let nearest = pointer.map_or(Part::Middle, |at| nearest(held, &laid, at));
+    // What was taken stays taken, wherever the pointer goes.
+    let taken = own_part(holding, held).unwrap_or(nearest);
     let parts = ends
         .iter()
         .enumerate()
         .filter_map(|(nth, it)| Some((Part::Axis(nth), it.as_ref()?)))
-        .chain([(Part::Middle, &response)]);
+        .chain([(Part::Middle, &response), (taken, &zone)]);
     let mut lit = None;
     for (part, response) in parts {
         if response.hovered() || response.dragged() {
@@ -198,6 +218,45 @@ fn one(
         ui::chip(ui, keep_in(held.pane, below), Align2::LEFT_TOP, &text);
     }
     response.on_hover_text(seen.say(words::HANDLE_HINT));
+}
+
+fn own_part(holding: &Holding, held: &Held<'_>) -> Option<Part> {
+    let grab = holding.grab.as_ref().filter(|it| it.side == held.side)?;
+    Some(grab.begun.part)
+}
+
+/// Returns the parts of a handle in the picture, each as a line from the middle.
+fn lines(held: &Held<'_>, laid: &Laid) -> impl Iterator<Item = (Part, [Pos2; 2])> {
+    let spot = |[x, y]: [f32; 2]| held.pane.min + vec2(x, y);
+    let middle = spot(laid.middle);
+    let ends = laid.ends.map(|end| end.filter(|_| held.whole).map(spot));
+    let axes = ends.into_iter().enumerate();
+    let axes = axes.filter_map(move |(nth, end)| Some((Part::Axis(nth), [middle, end?])));
+    axes.chain([(Part::Middle, [middle, middle])])
+}
+
+/// Returns all that is near to a handle.
+fn near(held: &Held<'_>, laid: &Laid) -> Rect {
+    let all = lines(held, laid).flat_map(|(_, line)| line);
+    let all: Vec<Pos2> = all.collect();
+    Rect::from_points(&all).expand(NEAR).intersect(held.pane)
+}
+
+/// Returns the part of a handle that is nearest to a place; of an axis only its outer half counts.
+fn nearest(held: &Held<'_>, laid: &Laid, at: Pos2) -> Part {
+    let away = |[from, to]: [Pos2; 2]| {
+        let along = to - from;
+        let share = (at - from).dot(along) / along.length_sq().max(1e-6);
+        let share = if from == to {
+            0.0
+        } else {
+            share.clamp(0.5, 1.0)
+        };
+        (from + along * share).distance(at)
+    };
+    let parts = lines(held, laid).map(|(part, line)| (part, away(line)));
+    let nearest = parts.min_by(|a, b| a.1.total_cmp(&b.1));
+    nearest.map_or(Part::Middle, |it| it.0)
 }
 
 /// Lets assistive technology go along an axis, by whole steps.
@@ -277,10 +336,13 @@ fn drag(
         let place = place - held.pane.min;
         Ray::through(&held.projection, [place.x, place.y])
     };
-    if response.drag_started_by(PointerButton::Primary)
+    // A hand that moves stands still as soon as its handle is pressed, and not only when that is dragged.
+    let pressed = ui.input(|input| input.pointer.button_pressed(PointerButton::Primary));
+    if pressed
+        && response.is_pointer_button_down_on()
         && let Some(press) = ui.input(|input| input.pointer.press_origin())
     {
-        response.request_focus();
+        ui.memory_mut(|memory| memory.request_focus(held.id));
         let was_playing = seen.shown.on_stage().is_playing();
         if was_playing {
             out.send(Command::Do(Action::ShuttleStop));
@@ -312,7 +374,7 @@ fn drag(
         grab.over = true;
         back(&mut holding.before, held, out);
     } else if !grab.over
-        && response.dragged()
+        && (response.dragged() || response.is_pointer_button_down_on())
         && let Some(place) = response.interact_pointer_pos()
     {
         let step = ui.input(|input| input.modifiers.command.then_some(STEP));

@@ -36,6 +36,7 @@ use eframe::egui::{Context, TextureHandle, Ui};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
+use crate::model::made::Made;
 use crate::panes::{Acted, Pane};
 use crate::work::{Ended, WorkId};
 use artist::Artist;
@@ -82,6 +83,10 @@ pub(crate) struct Stage {
     holding: handle::Holding,
     /// Whether the signer is that of made movement.
     made: bool,
+    /// When made movement was last replaced by newer of it, in seconds of the window's clock, and whether
+    /// its picture shall be seen in this very frame.
+    replaced: Option<f64>,
+    at_once: bool,
     /// Whether it is looked at as it was remembered.
     remembered: bool,
 }
@@ -112,6 +117,8 @@ impl Default for Stage {
             took: Duration::ZERO,
             holding: handle::Holding::default(),
             made: false,
+            replaced: None,
+            at_once: false,
             remembered: false,
         }
     }
@@ -122,8 +129,8 @@ impl Default for Stage {
 struct Of(usize);
 
 impl Stage {
-    /// Makes the figures of what is shown, where it is something else.
-    fn follow(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
+    /// Makes the figures of what is shown, where it is something else; `time` is that of the window's clock.
+    fn follow(&mut self, seen: &Seen<'_>, time: f64, out: &mut Outbox) {
         let made = seen.shown.made.as_ref().map(|showing| &showing.made);
         let sample = seen.reel.sample();
         let now = match (made, sample) {
@@ -137,15 +144,15 @@ impl Stage {
         };
         if self.signer.as_ref().map(|it| it.0) != now.map(|it| it.0) {
             // While a hand is placed, the eye stays where it is.
-            let steady = self.made && made.is_some() && seen.shown.handle.is_some();
+            let newer = self.made && made.is_some();
+            let steady = newer && seen.shown.handle.is_some();
+            self.replaced = newer.then_some(time);
+            self.at_once = newer && !seen.shown.on_stage().is_playing();
             self.made = made.is_some();
             self.signer = now.and_then(|(of, clip, anatomy)| {
                 // The same body goes on where only its movement is another.
                 let before = self.signer.take().map(|it| it.1);
-                let kept = before.as_ref().map(|it| it.framing).filter(|_| steady);
-                let mut subject = Subject::after(before, clip, anatomy)?;
-                subject.framing = kept.unwrap_or(subject.framing);
-                Some((of, subject))
+                Some((of, Subject::after(before, clip, anatomy, steady)?))
             });
             self.asked = None;
         }
@@ -162,6 +169,12 @@ impl Stage {
     /// Returns whether the pictures are those that were asked for last.
     pub(crate) fn is_drawn(&self) -> bool {
         self.asked.is_some() && self.wished == self.shown
+    }
+
+    /// Returns whether the newest pictures are of that movement.
+    pub(crate) fn shows(&self, made: &Arc<Made>) -> bool {
+        let of = Of(Arc::as_ptr(made) as usize);
+        self.is_drawn() && self.signer.as_ref().is_some_and(|it| it.0 == of)
     }
 
     /// Returns how the original is shown, where there is one.

@@ -70,7 +70,7 @@ impl Original {
                 .iter()
                 .map(|(part, moving)| {
                     let shown = moving.as_ref().and_then(|moving| {
-                        let subject = Subject::after(None, &moving.clip, &moving.anatomy)?;
+                        let subject = Subject::after(None, &moving.clip, &moving.anatomy, false)?;
                         Some((moving.clone(), subject))
                     });
                     Piece {

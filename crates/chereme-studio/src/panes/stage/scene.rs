@@ -60,15 +60,24 @@ impl Movement<'_> {
 }
 
 impl Subject {
-    /// Returns the subject of a movement; a body is taken over from another of the same skeleton.
-    pub(super) fn after(before: Option<Self>, clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
+    /// Returns the subject of a movement; a body is taken over from another of the same skeleton, and what
+    /// is framed where it is to stay `steady`.
+    pub(super) fn after(
+        before: Option<Self>,
+        clip: &Clip,
+        anatomy: &Anatomy,
+        steady: bool,
+    ) -> Option<Self> {
         let same = |it: &Self| {
             it.anatomy == *anatomy
                 && (Arc::ptr_eq(&it.skeleton, clip.skeleton()) || it.skeleton == *clip.skeleton())
         };
         match before.filter(same) {
             Some(before) => Some(Self {
-                framing: Framing::of_signing(clip, anatomy)?,
+                framing: match steady {
+                    true => before.framing,
+                    false => Framing::of_signing(clip, anatomy)?,
+                },
                 points: BTreeMap::new(),
                 ..before
             }),

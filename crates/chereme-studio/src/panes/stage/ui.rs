@@ -21,9 +21,15 @@ use crate::words::{Text, fill, stage as words};
 
 /// The most pixels that are drawn; larger stages show theirs scaled.
 const MOST_PIXELS: f32 = 1_600_000.0;
+/// How long a frame waits for the picture of what a recipe has just become: it is seen in the frame in which
+/// it is known, and there is time left for the rest of the window.
+const AT_ONCE: std::time::Duration = std::time::Duration::from_millis(12);
+/// How long after a recipe changed pictures are drawn as fast as while something moves, in seconds.
+const SETTLES: f64 = 0.25;
 
 pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
-    stage.follow(seen, out);
+    let time = ui.input(|input| input.time);
+    stage.follow(seen, time, out);
     let frame = egui::Frame::new();
     egui::Panel::top("stage tools")
         .frame(frame)
@@ -162,32 +168,24 @@ fn pictures(
     parts: &[Part],
     dragged: bool,
 ) -> Option<ModelPose> {
-    let artist = stage.artist.get_or_insert_with(|| {
+    stage.artist.get_or_insert_with(|| {
         let ctx = ui.ctx().clone();
         Artist::new(move || ctx.request_repaint())
     });
-    if let Some(drawn) = artist.take() {
-        stage.took = drawn.took;
-        (stage.drawn, stage.shown) = (drawn.posture, drawn.number);
-        let options = TextureOptions::LINEAR;
-        stage.textures.truncate(drawn.images.len());
-        for (index, image) in drawn.images.into_iter().enumerate() {
-            match stage.textures.get_mut(index) {
-                Some(texture) => texture.set(image, options),
-                None => {
-                    let texture = ui.ctx().load_texture("stage", image, options);
-                    stage.textures.push(texture);
-                }
-            }
-        }
-    }
     let scale = ui.ctx().pixels_per_point();
     let area: f32 = parts.iter().map(|it| it.rect.area()).sum::<f32>() * scale * scale;
     let shrink = (MOST_PIXELS / area.max(1.0)).sqrt().min(1.0);
     let pixels = |side: f32| ((side * scale * shrink).round() as usize).max(1);
     let player = seen.shown.on_stage();
     let at = player.playhead();
-    let moving = player.is_playing() || dragged;
+    let now = ui.input(|input| input.time);
+    let changing = stage.replaced.map(|since| SETTLES - (now - since));
+    let changing = changing.filter(|rest| *rest > 0.0);
+    if let Some(rest) = changing {
+        ui.ctx()
+            .request_repaint_after(std::time::Duration::from_secs_f64(rest));
+    }
+    let moving = player.is_playing() || dragged || changing.is_some();
     let look = Look {
         at,
         eyes: stage.eyes.clone(),
@@ -209,7 +207,13 @@ fn pictures(
         && stage.asked.as_ref() != Some(&look)
     {
         wish(stage, seen, look, pose);
+        if std::mem::take(&mut stage.at_once)
+            && let Some(artist) = &stage.artist
+        {
+            artist.await_newest(stage.wished, AT_ONCE);
+        }
     }
+    take_drawn(stage, ui);
     let joints = signer_joints(stage);
     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     for (part, texture) in parts.iter().zip(&stage.textures) {
@@ -219,6 +223,26 @@ fn pictures(
     let drawn = stage.drawn.as_ref();
     let same = drawn.filter(|it| Some(it.positions().len()) == joints);
     same.cloned().or(pose)
+}
+
+/// Shows the newest pictures that are ready.
+fn take_drawn(stage: &mut Stage, ui: &Ui) {
+    let Some(drawn) = stage.artist.as_ref().and_then(Artist::take) else {
+        return;
+    };
+    stage.took = drawn.took;
+    (stage.drawn, stage.shown) = (drawn.posture, drawn.number);
+    let options = TextureOptions::LINEAR;
+    stage.textures.truncate(drawn.images.len());
+    for (index, image) in drawn.images.into_iter().enumerate() {
+        match stage.textures.get_mut(index) {
+            Some(texture) => texture.set(image, options),
+            None => {
+                let texture = ui.ctx().load_texture("stage", image, options);
+                stage.textures.push(texture);
+            }
+        }
+    }
 }
 
 fn signer_joints(stage: &Stage) -> Option<usize> {
@@ -453,6 +477,8 @@ fn handled(
     let before = stage.holding.grab.is_some();
     if let Some(projection) = projection(stage, part, pose) {
         handle::show(stage, ui, seen, out, (part, projection, pose));
+        let panned = std::mem::take(&mut stage.holding.panned) / part.rect.height().max(1.0);
+        stage.eyes[part.eye].pan([panned.x, panned.y]);
     }
     if before != stage.holding.grab.is_some() {
         stage.asked = None;
