@@ -39,6 +39,7 @@ struct Ink {
     near: [isize; 8],
     far: [isize; 8],
     step: f32,
+    /// How far a line reaches, in samples.
     beside: usize,
     samples: usize,
     opacity: f32,
@@ -46,6 +47,10 @@ struct Ink {
 
 /// The side of the squares that are looked at together, in pixels.
 const SQUARE: usize = 8;
+/// How many samples are worked on at once.
+const LANES: usize = 8;
+/// As many for each part of their colours.
+const PARTS: usize = 3 * LANES;
 
 /// Draws lines and shades, and averages the samples of each pixel over what is in `image`.
 pub(crate) fn finish(
@@ -92,14 +97,21 @@ pub(crate) fn finish(
     });
 }
 
-/// What a pixel and the samples within a line's reach of it show.
+/// What the samples of a square and all around it show that could shade it.
+#[derive(Clone, Copy, PartialEq)]
 enum Around {
     Paper,
-    /// One part without a step: no line can be there.
+    /// One part without a step: no line can be there, and no shade.
     Plain,
     /// One part without a step, but with what may shade it.
     Shaded,
     Mixed,
+}
+
+/// How the colours of some samples become those of the picture: times a factor, and something added.
+struct Mix {
+    factor: [f32; LANES],
+    added: [f32; PARTS],
 }
 
 impl Ink {
@@ -109,22 +121,89 @@ impl Ink {
         let width = buffers.size[0] / self.samples;
         let columns = left..(left + SQUARE).min(width);
         let place = |x: usize, y: usize| buffers.index(x * self.samples, (top + y) * self.samples);
-        let all = self.alike(buffers, place(left, 0), [columns.len(), rows.len() / width]);
-        if matches!(all, Around::Paper) {
+        let size = [columns.len(), rows.len() / width];
+        let all = self.alike(buffers, place(left, 0), size);
+        if all == Around::Paper {
             return;
         }
         for (y, row) in rows.chunks_mut(width).enumerate() {
-            for x in columns.clone() {
-                let corner = place(x, y);
-                row[x] = match all {
-                    Around::Plain => self.plain(buffers, corner, row[x], 1.0),
-                    Around::Shaded => {
-                        let shade = self.shade(buffers, corner);
-                        self.plain(buffers, corner, row[x], shade)
+            let row = &mut row[columns.clone()];
+            let mut sums = [0.0f32; 3 * SQUARE];
+            for j in 0..self.samples {
+                let start = place(left, y) + j * buffers.stride;
+                let end = start + row.len() * self.samples;
+                for (nth, at) in (start..end).step_by(LANES).enumerate() {
+                    let mut parts = [0.0f32; PARTS];
+                    let colours = &buffers.colour[at..end.min(at + LANES)];
+                    for (part, from) in parts.iter_mut().zip(colours.as_flattened()) {
+                        *part = *from;
                     }
-                    _ => self.pixel(buffers, corner, row[x]),
-                };
+                    match all {
+                        Around::Shaded => {
+                            let shade = self.shade(buffers, at);
+                            for k in 0..PARTS {
+                                parts[k] *= shade[k / 3];
+                            }
+                        }
+                        Around::Mixed if self.is_within_one(buffers, at, colours.len()) => {
+                            let shade = self.shade(buffers, at);
+                            for k in 0..PARTS {
+                                parts[k] *= shade[k / 3];
+                            }
+                        }
+                        Around::Mixed => {
+                            let below = |k: usize| row[(nth * LANES + k) / self.samples].0;
+                            let mix = self.mix(buffers, at, colours.len(), below);
+                            for k in 0..PARTS {
+                                parts[k] = parts[k] * mix.factor[k / 3] + mix.added[k];
+                            }
+                        }
+                        Around::Plain | Around::Paper => {}
+                    }
+                    self.sum(&mut sums, nth, &parts);
+                }
             }
+            self.put(row, &sums);
+        }
+    }
+
+    /// Adds the colours of samples to those of the pixels that they are in.
+    #[inline]
+    fn sum(&self, sums: &mut [f32; 3 * SQUARE], nth: usize, parts: &[f32; PARTS]) {
+        if self.samples == 1 {
+            *sums = *parts;
+            return;
+        }
+        for (k, colour) in parts.chunks_exact(3).enumerate() {
+            let pixel = (nth * LANES + k) / self.samples;
+            if let Some(sum) = sums.get_mut(3 * pixel..3 * pixel + 3) {
+                for (sum, part) in sum.iter_mut().zip(colour) {
+                    *sum += part;
+                }
+            }
+        }
+    }
+
+    /// Writes the means of pixels over what is there.
+    #[inline]
+    fn put(&self, row: &mut [Colour], sums: &[f32; 3 * SQUARE]) {
+        /// What is added to a number makes its whole part the lowest bits: 2²³.
+        const WHOLE: f32 = 8_388_608.0;
+        let share = self.opacity / (self.samples * self.samples) as f32;
+        let rest = 1.0 - self.opacity;
+        let mut below = [0.0f32; 3 * SQUARE];
+        if rest > 0.0 {
+            for (below, pixel) in below.chunks_exact_mut(3).zip(row.iter()) {
+                below.copy_from_slice(&pixel.0.map(f32::from));
+            }
+        }
+        let mut bytes = [0u8; 3 * SQUARE];
+        for k in 0..3 * SQUARE {
+            let part = sums[k] * share + below[k] * rest;
+            bytes[k] = (part.max(0.0).min(255.0) + WHOLE).to_bits() as u8;
+        }
+        for (pixel, bytes) in row.iter_mut().zip(bytes.chunks_exact(3)) {
+            pixel.0.copy_from_slice(bytes);
         }
     }
 
@@ -133,143 +212,151 @@ impl Ink {
         let beyond = buffers.margin;
         let group = buffers.group[corner];
         let wide = width * self.samples + 2 * beyond;
+        let first = corner - beyond * (buffers.stride + 1);
+        let rows = height * self.samples + 2 * beyond;
+        let row = |j: usize| first + j * buffers.stride..first + j * buffers.stride + wide;
+        let same = |j: usize| {
+            let row = &buffers.group[row(j)];
+            row.iter().fold(0, |all, other| all | (other ^ group)) == 0
+        };
+        if !(0..rows).all(same) {
+            return Around::Mixed;
+        }
+        if group == 0 {
+            return Around::Paper;
+        }
+        if group >= FLAT {
+            return Around::Plain;
+        }
         let (mut low, mut high) = (f32::INFINITY, 0.0f32);
-        for j in 0..height * self.samples + 2 * beyond {
-            let start = corner + j * buffers.stride - beyond * (buffers.stride + 1);
-            let row = &buffers.group[start..start + wide];
-            if row.iter().fold(0, |all, other| all | (other ^ group)) != 0 {
-                return Around::Mixed;
-            }
-            if group != 0 {
-                extremes(&buffers.depth[start..start + wide], &mut low, &mut high);
-            }
+        (0..rows).for_each(|j| extremes(&buffers.depth[row(j)], &mut low, &mut high));
+        if high - low <= self.step.min(SHADE_STEPS[0]) {
+            return Around::Plain;
         }
-        match group {
-            0 => Around::Paper,
-            FLAT.. => Around::Plain,
-            _ if high - low <= self.step.min(SHADE_STEPS[0]) => Around::Plain,
-            _ if high - low <= self.step => Around::Shaded,
-            _ => Around::Mixed,
+        if high - low <= self.step {
+            return Around::Shaded;
         }
+        Around::Mixed
     }
 
-    /// Returns the colour of the pixel whose first sample is `corner` over `below`.
+    /// Returns whether samples in a row lie within one part of the body, and no line is near.
     #[inline]
-    fn pixel(&self, buffers: &Buffers, corner: usize, below: Colour) -> Colour {
-        match self.around(buffers, corner, self.samples) {
-            Around::Paper => below,
-            Around::Plain | Around::Shaded => {
-                let shade = match buffers.group[corner] {
-                    FLAT.. => 1.0,
-                    _ => self.shade(buffers, corner),
-                };
-                self.plain(buffers, corner, below, shade)
-            }
-            Around::Mixed => {
-                let paper = below.0.map(f32::from);
-                let each = |index| self.sample(buffers, index, paper);
-                self.mean(corner, buffers.stride, below, each)
-            }
+    fn is_within_one(&self, buffers: &Buffers, at: usize, count: usize) -> bool {
+        let group = buffers.group[at];
+        if group == 0 || group >= FLAT {
+            return false;
         }
-    }
-
-    /// Returns the mean of a pixel's samples, none of them paper, in that light, over `below`.
-    #[inline]
-    fn plain(&self, buffers: &Buffers, corner: usize, below: Colour, light: f32) -> Colour {
-        let each = |index: usize| buffers.colour[index].map(|part| part * light);
-        self.mean(corner, buffers.stride, below, each)
-    }
-
-    #[inline]
-    fn mean(
-        &self,
-        corner: usize,
-        stride: usize,
-        below: Colour,
-        each: impl Fn(usize) -> [f32; 3],
-    ) -> Colour {
-        let mut sum = [0.0; 3];
-        for j in 0..self.samples {
-            let start = corner + j * stride;
-            for index in start..start + self.samples {
-                for (total, part) in sum.iter_mut().zip(each(index)) {
-                    *total += part;
+        let beside = self.beside as isize;
+        let (mut low, mut high) = ([f32::INFINITY; LANES], [0.0f32; LANES]);
+        let mut other = [0u8; LANES];
+        for row in -beside..=beside {
+            for column in -beside..=beside {
+                let step = row * buffers.stride as isize + column;
+                let place = at.wrapping_add_signed(step);
+                let (depth, part) = (lanes(&buffers.depth, place), lanes(&buffers.group, place));
+                for k in 0..LANES {
+                    low[k] = if depth[k] < low[k] { depth[k] } else { low[k] };
+                    high[k] = if depth[k] > high[k] {
+                        depth[k]
+                    } else {
+                        high[k]
+                    };
+                    other[k] |= part[k] ^ group;
                 }
             }
         }
-        let share = self.opacity / (self.samples * self.samples) as f32;
-        Colour(std::array::from_fn(|i| {
-            let part = sum[i] * share + f32::from(below.0[i]) * (1.0 - self.opacity);
-            (part + 0.5).clamp(0.0, 255.0) as u8
-        }))
+        let mut far = [false; LANES];
+        for k in 0..LANES {
+            far[k] = other[k] != 0 || high[k] - low[k] > self.step;
+        }
+        !far[..count].contains(&true)
     }
 
-    fn around(&self, buffers: &Buffers, corner: usize, samples: usize) -> Around {
-        let group = buffers.group[corner];
-        let (mut same, mut low, mut high) = (true, f32::INFINITY, 0.0f32);
-        let side = samples + 2 * self.beside;
-        for j in 0..side {
-            let start = corner + j * buffers.stride - self.beside * (buffers.stride + 1);
-            same &= buffers.group[start..start + side]
-                .iter()
-                .all(|&other| other == group);
-            for &depth in &buffers.depth[start..start + side] {
-                low = if depth < low { depth } else { low };
-                high = if depth > high { depth } else { high };
+    /// Returns how much light is left where nearer parts lie around, of samples in a row.
+    #[inline]
+    fn shade(&self, buffers: &Buffers, at: usize) -> [f32; LANES] {
+        let own = lanes(&buffers.depth, at);
+        let mut behind = [0.0f32; LANES];
+        for step in self.far {
+            let other = lanes(&buffers.depth, at.wrapping_add_signed(step));
+            for k in 0..LANES {
+                let before = (own[k] - SHADE_STEPS[0] - other[k]) * (1.0 / SHADE_STEPS[1]);
+                let before = if before > 0.0 { before } else { 0.0 };
+                behind[k] += if before < 1.0 { before } else { 1.0 };
             }
         }
-        match (same, group) {
-            (true, 0) => Around::Paper,
-            (true, _) if high - low <= self.step => Around::Plain,
-            _ => Around::Mixed,
-        }
+        behind.map(|behind| 1.0 - behind * (SHADE_STRENGTH / 8.0))
     }
 
-    /// Returns how much light is left where nearer parts lie around.
+    /// Returns what becomes of the colours of samples in a row, with lines and shades.
     #[inline]
-    fn shade(&self, buffers: &Buffers, index: usize) -> f32 {
-        let depth = buffers.depth[index] - SHADE_STEPS[0];
-        let behind = self.far.map(|step| {
-            let before = depth - buffers.depth[index.wrapping_add_signed(step)];
-            (before * (1.0 / SHADE_STEPS[1])).clamp(0.0, 1.0)
-        });
-        1.0 - behind.iter().sum::<f32>() / 8.0 * SHADE_STRENGTH
-    }
-
-    /// Returns the colour of one sample with its line and its shade.
-    #[inline]
-    fn sample(&self, buffers: &Buffers, index: usize, paper: [f32; 3]) -> [f32; 3] {
-        let (depth, group) = (buffers.depth[index], buffers.group[index]);
-        let at = |step: isize| index.wrapping_add_signed(step);
-        if group == 0 {
-            let drawn = |&step: &isize| (1..FLAT).contains(&buffers.group[at(step)]);
-            let beside = self.near.iter().any(drawn);
-            return if beside { self.outline } else { paper };
-        }
-        if group >= FLAT {
-            return buffers.colour[index];
-        }
-        let mut line = 0.0f32;
-        for &step in &self.near {
-            let before = depth - buffers.depth[at(step)];
-            if before > 0.0 && buffers.group[at(step)] < FLAT {
-                line = line.max(self.line(group == buffers.group[at(step)], before));
+    fn mix(
+        &self,
+        buffers: &Buffers,
+        at: usize,
+        count: usize,
+        below: impl Fn(usize) -> [u8; 3],
+    ) -> Mix {
+        let depth = lanes(&buffers.depth, at);
+        let group = lanes(&buffers.group, at);
+        let mut line = [0.0f32; LANES];
+        let mut drawn = [0u8; LANES];
+        for step in self.near {
+            let beside = at.wrapping_add_signed(step);
+            let other = lanes(&buffers.depth, beside);
+            let part = lanes(&buffers.group, beside);
+            for k in 0..LANES {
+                let before = depth[k] - other[k];
+                let within = if before > self.step {
+                    STRENGTHS[0]
+                } else {
+                    0.0
+                };
+                let between = if before > CLEAR_STEP {
+                    STRENGTHS[2]
+                } else {
+                    STRENGTHS[1]
+                };
+                let strong = if part[k] == group[k] { within } else { between };
+                let strong = if before > 0.0 && part[k] < FLAT {
+                    strong
+                } else {
+                    0.0
+                };
+                line[k] = if strong > line[k] { strong } else { line[k] };
+                drawn[k] |= u8::from(part[k].wrapping_sub(1) < FLAT - 1);
             }
         }
-        let shade = self.shade(buffers, index);
-        let colour = buffers.colour[index];
-        std::array::from_fn(|i| colour[i] * shade * (1.0 - line) + INNER_LINE[i] * line)
-    }
-
-    /// Returns how strong the line is on what lies `before` metres behind its neighbour.
-    fn line(&self, same_part: bool, before: f32) -> f32 {
-        match same_part {
-            true if before > self.step => STRENGTHS[0],
-            true => 0.0,
-            false if before > CLEAR_STEP => STRENGTHS[2],
-            false => STRENGTHS[1],
+        let shade = self.shade(buffers, at);
+        let mut mix = Mix {
+            factor: [0.0; LANES],
+            added: [0.0; PARTS],
+        };
+        for k in 0..count {
+            let (factor, added) = match group[k] {
+                0 if drawn[k] != 0 => (0.0, self.outline),
+                0 => (0.0, below(k).map(f32::from)),
+                FLAT.. => (1.0, [0.0; 3]),
+                _ => (
+                    shade[k] * (1.0 - line[k]),
+                    INNER_LINE.map(|it| it * line[k]),
+                ),
+            };
+            mix.factor[k] = factor;
+            mix.added[3 * k..3 * k + 3].copy_from_slice(&added);
         }
+        mix
     }
+}
+
+/// Returns values in a row, from that place on; the margin of the buffers is wider than what is missing.
+#[inline]
+fn lanes<T: Copy + Default>(all: &[T], at: usize) -> [T; LANES] {
+    let mut some = [T::default(); LANES];
+    if let Some(row) = all.get(at..at + LANES) {
+        some.copy_from_slice(row);
+    }
+    some
 }
 
 /// Widens `low` and `high` to hold all of `depths`, none of which is NaN; in lanes, so that the

@@ -118,7 +118,7 @@ fn lines_are_drawn_where_parts_meet_and_not_within_one() {
     let darkest = |image: &Image| (96..104).map(|x| image.pixel(x, 100).0[0]).min();
     let (one, two) = (darkest(&draw(1)), darkest(&draw(2)));
     assert!(
-        two.zip(one).is_some_and(|(two, one)| two + 15 < one),
+        two.zip(one).is_some_and(|(two, one)| two + 10 < one),
         "{two:?}, {one:?}"
     );
 }
