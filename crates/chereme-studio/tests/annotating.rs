@@ -27,9 +27,9 @@ fn annotations_are_copied_cut_and_pasted_through_the_clipboard() {
     // At their own times there are annotations already.
     press(&mut window, CTRL, Key::V);
     settled(&mut window);
-    assert!(has(&window, "Some of it does not fit"));
-    press(&mut window, NONE, Key::Escape);
-    assert!(!has(&window, "Some of it does not fit"));
+    let said = "There is an annotation already at that time. Paste at the playhead instead.";
+    assert!(has(&window, said));
+    assert_eq!(spans(&window), old);
     // At the playhead they keep their distance, on the tier that is selected.
     let before = operations(&window);
     press(&mut window, CTRL, Key::T);
@@ -199,4 +199,40 @@ fn the_other_button_offers_what_can_be_done() {
     window.run_steps(2);
     stored(&mut window, before);
     assert_eq!(values(&window, "Gloss"), ["a", "b", "b", "c"]);
+}
+
+#[test]
+fn short_pieces_are_played_again_and_again_until_they_are_stopped() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = three(folder.path());
+    let old = spans(&window);
+    click(&mut window, "Gloss: b");
+    press(&mut window, CTRL | ALT, Key::Space);
+    let (mut least, mut most, mut returns, mut before) = (i64::MAX, 0, 0, 0);
+    for _ in 0..60 {
+        window.step();
+        let at = window.state().playhead().micros() / 1000;
+        returns += usize::from(at < before);
+        (least, most, before) = (least.min(at), most.max(at), at);
+    }
+    assert!(returns > 0 && least >= old["b"].0 - 20 && most <= old["b"].1 + 20);
+    press(&mut window, CTRL | ALT, Key::Space);
+    let at = window.state().playhead();
+    window.run_steps(5);
+    assert_eq!(window.state().playhead(), at);
+}
+
+#[test]
+fn a_key_is_found_in_the_help_by_what_it_does() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path());
+    press(&mut window, NONE, Key::F1);
+    let field = window.get_by_role_and_label(Role::TextInput, "Find an action or a key");
+    field.focus();
+    window.run_steps(2);
+    let field = window.get_by_role_and_label(Role::TextInput, "Find an action or a key");
+    field.type_text("duplicate annotation");
+    window.run_steps(3);
+    assert!(has(&window, "Change the key of: Duplicate the annotation"));
+    assert!(!has(&window, "Change the key of: Undo"));
 }

@@ -2,8 +2,8 @@
 
 use anyhow::Result;
 use chereme_corpus::{
-    Address, Corpus, Hands, Name, NewTier, RecordingChange, Scheme, SignChange, SignerChange,
-    Stereotype, TierChange, TierName, TierRole, Values,
+    Address, Copied, Corpus, Hands, Name, NewTier, RecordingChange, Scheme, SignChange,
+    SignerChange, Stereotype, TierChange, TierName, TierRole, Values,
 };
 use chereme_motion::Side;
 use clap::{Subcommand, ValueEnum};
@@ -61,6 +61,22 @@ pub(super) enum Action {
         /// The inventory its values come from
         #[arg(long)]
         inventory: Option<String>,
+    },
+    /// Copy a tier beside itself under another name
+    CopyTier {
+        /// The tier
+        tier: String,
+        /// The name of the copy
+        name: String,
+        /// Leave the values of its annotations out
+        #[arg(long, conflicts_with_all = ["bare", "holding"])]
+        blank: bool,
+        /// Leave its annotations out
+        #[arg(long, conflicts_with = "holding")]
+        bare: bool,
+        /// Take only annotations whose value holds this text, whatever its case and accents
+        #[arg(long, value_name = "TEXT")]
+        holding: Option<String>,
     },
     /// Remove a tier, the tiers below it, and all their annotations
     RemoveTier {
@@ -220,6 +236,23 @@ pub(super) fn run(
             };
             let row = corpus.change_tier(&TierName::read(tier, recording)?, &change)?;
             output.line(format!("changed tier:{}, {:?}", row.id, row.name))?;
+            output.document(row)
+        }
+        Action::CopyTier {
+            tier,
+            name,
+            blank,
+            bare,
+            holding,
+        } => {
+            let copied = match (blank, bare, holding) {
+                (_, _, Some(text)) => Copied::Holding(text.clone()),
+                (true, ..) => Copied::Times,
+                (_, true, _) => Copied::Nothing,
+                _ => Copied::All,
+            };
+            let row = corpus.copy_tier(&TierName::read(tier, recording)?, name, &copied)?;
+            output.line(format!("added tier:{}, {:?}", row.id, row.name))?;
             output.document(row)
         }
         Action::RemoveTier { tier } => {

@@ -1,11 +1,12 @@
 //! The keys: which keymap, every action with its keys, and changing them.
 
+use chereme_sign::text::fold;
 use eframe::egui::{
-    Align2, Button, ComboBox, Context, Event, Grid, Id, Key, Label, Role, ScrollArea, Ui,
+    Align2, Button, ComboBox, Context, Event, Grid, Id, Key, Label, Role, ScrollArea, TextEdit, Ui,
     WidgetInfo, Window,
 };
 
-use crate::action::{ACTIONS, Action, Menu};
+use crate::action::{ACTIONS, Action, ActionRow, Menu};
 use crate::command::Command;
 use crate::context::Outbox;
 use crate::keys::chord::Chord;
@@ -18,6 +19,8 @@ use crate::words::{Language, fill, gestures, shell as words};
 #[derive(Debug, Default)]
 pub(crate) struct KeysHelp {
     open: bool,
+    /// What is looked for.
+    text: String,
     /// The action that waits for its new key.
     listening: Option<Action>,
 }
@@ -47,26 +50,62 @@ impl KeysHelp {
             .default_size([560.0, 480.0])
             .show(ctx, |ui| {
                 keymaps(ui, settings, out);
+                self.filter(ui, language);
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     for (menu, title) in Menu::ALL {
+                        let fits = |row: &&ActionRow| self.fits(row, keys, language);
+                        let rows: Vec<&ActionRow> = rows_of(menu).filter(fits).collect();
+                        let all = self.text.trim().is_empty();
+                        if rows.is_empty() && !all {
+                            continue;
+                        }
                         ui.add_space(6.0);
                         ui.strong(title.of(language));
-                        self.table(ui, menu, keys, settings);
-                        mouse(ui, menu, language);
+                        self.table(ui, (menu, &rows), keys, settings);
+                        if all {
+                            mouse(ui, menu, language);
+                        }
                     }
                 });
             });
         self.open &= open && (self.is_listening() || !super::escaped(ctx));
     }
 
-    fn table(&mut self, ui: &mut Ui, menu: Menu, keys: &Keys, settings: &Settings) {
+    fn filter(&mut self, ui: &mut Ui, language: Language) {
+        let label = words::KEY_FIND.of(language);
+        let field = TextEdit::singleline(&mut self.text)
+            .hint_text(label)
+            .desired_width(f32::INFINITY);
+        let response = ui.add(field);
+        response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, label));
+    }
+
+    /// Returns whether an action has every word that is looked for in its name, or in its keys.
+    fn fits(&self, row: &ActionRow, keys: &Keys, language: Language) -> bool {
+        let said = fold(&format!(
+            "{} {}",
+            row.name.of(language),
+            keys.text(row.action)
+        ));
+        fold(&self.text)
+            .split_whitespace()
+            .all(|word| said.contains(word))
+    }
+
+    fn table(
+        &mut self,
+        ui: &mut Ui,
+        (menu, rows): (Menu, &[&ActionRow]),
+        keys: &Keys,
+        settings: &Settings,
+    ) {
         let language = settings.language;
         Grid::new(("keys", menu))
             .num_columns(2)
             .striped(true)
             .min_col_width(240.0)
             .show(ui, |ui| {
-                for row in ACTIONS.iter().filter(|row| row.menu == menu) {
+                for row in rows {
                     let name = row.name.of(language);
                     ui.label(name);
                     let text = match keys.text(row.action) {
@@ -111,6 +150,10 @@ impl KeysHelp {
         settings.keys.insert(action.row().id.to_owned(), chords);
         out.send(Command::Settings(Box::new(settings)));
     }
+}
+
+fn rows_of(menu: Menu) -> impl Iterator<Item = &'static ActionRow> {
+    ACTIONS.iter().filter(move |row| row.menu == menu)
 }
 
 /// Shows what the mouse does, below the keys of a menu.

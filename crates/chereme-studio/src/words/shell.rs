@@ -63,6 +63,7 @@ texts! {
     KEYMAP_EDITOR: "Video editor (JKL)", "Montage vidéo (JKL)";
     KEY_NONE: "no key", "sans touche";
     KEY_PRESS: "Press the new key…", "Appuyez sur la nouvelle touche…";
+    KEY_FIND: "Find an action or a key", "Trouver une action ou une touche";
     KEY_CHANGE: "Change the key of: {action}", "Changer la touche de : {action}";
     KEY_RESET: "Reset the keys", "Touches d’origine";
     SETTINGS_TITLE: "Settings", "Réglages";

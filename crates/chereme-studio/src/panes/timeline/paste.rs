@@ -121,8 +121,9 @@ fn paste(
     if plan.odd.is_empty() {
         return put(timeline, &plan.adds, out);
     }
-    // One that was copied here and has no room needs no list of lines.
-    if plan.adds.is_empty() && plan.odd.len() == 1 && plan.odd[0].why == words::ODD_TAKEN {
+    // What was copied here and has no room needs no list of lines.
+    let taken = plan.odd.iter().all(|it| it.why == words::ODD_TAKEN);
+    if plan.adds.is_empty() && taken {
         let why = if here.is_some() {
             words::NO_ROOM
         } else {
