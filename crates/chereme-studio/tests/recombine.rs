@@ -475,3 +475,31 @@ fn what_cannot_be_made_is_told_on_its_card_and_nowhere_else() {
         recipe_of(&window)
     );
 }
+
+#[test]
+fn a_notation_is_written_from_the_board_of_symbols() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open(folder.path());
+    key(&mut window, Modifiers::COMMAND, Key::R);
+    click(&mut window, "Begin with…");
+    click(&mut window, "HamNoSys");
+    click(&mut window, "Symbols");
+    type_into(&mut window, "Type to find a symbol", "fist");
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    type_into(&mut window, "Type to find a symbol", "up");
+    press(&mut window, "extfingeru: the fingers point up");
+    window.get_by_label("Type to find a symbol").click();
+    key(&mut window, Modifiers::COMMAND, Key::A);
+    type_into(&mut window, "Type to find a symbol", "palml");
+    key(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(
+        recipe_of(&window),
+        "hamnosys \"hamfist hamextfingeru hampalml\""
+    );
+    click(&mut window, "Take back");
+    assert_eq!(recipe_of(&window), "hamnosys \"hamfist hamextfingeru\"");
+    press(&mut window, "palml: the palm faces left");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    idle(&mut window);
+    assert!(shows(&window, "made in"), "it was made");
+}

@@ -16,7 +16,7 @@ use crate::words::{fill, hamnosys as words};
 pub(crate) const EM: f32 = 28.0;
 
 /// Every symbol as it is drawn.
-fn drawings() -> &'static BTreeMap<Symbol, Drawing> {
+pub(super) fn drawings() -> &'static BTreeMap<Symbol, Drawing> {
     static DRAWINGS: OnceLock<BTreeMap<Symbol, Drawing>> = OnceLock::new();
     DRAWINGS.get_or_init(|| Symbol::all().map(|it| (it, drawing(it))).collect())
 }
@@ -115,7 +115,7 @@ pub(crate) fn strip(ui: &mut Ui, seen: &Seen<'_>, symbols: &[Symbol], em: f32) -
 }
 
 /// Tells a symbol: large, by its name, and what it means.
-fn told(ui: &mut Ui, seen: &Seen<'_>, symbol: Symbol) {
+pub(super) fn told(ui: &mut Ui, seen: &Seen<'_>, symbol: Symbol) {
     const LARGE: f32 = 48.0;
     ui.horizontal(|ui| {
         let wide = drawings().get(&symbol).map_or(0.0, |it| it.width * LARGE);
@@ -128,13 +128,13 @@ fn told(ui: &mut Ui, seen: &Seen<'_>, symbol: Symbol) {
     });
 }
 
-fn short(symbol: Symbol) -> &'static str {
+pub(super) fn short(symbol: Symbol) -> &'static str {
     let name = symbol.name();
     name.strip_prefix("ham").unwrap_or(name)
 }
 
 /// Paints a symbol of `em` points whose upper left corner is `at`.
-fn paint(ui: &Ui, at: Pos2, em: f32, symbol: Symbol) {
+pub(super) fn paint(ui: &Ui, at: Pos2, em: f32, symbol: Symbol) {
     let Some(drawing) = drawings().get(&symbol) else {
         return;
     };

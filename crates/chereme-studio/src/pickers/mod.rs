@@ -12,12 +12,14 @@
 pub(crate) mod data;
 pub(crate) mod hamnosys;
 
+pub(crate) mod board;
 mod body;
 mod cells;
 mod gallery;
 mod glyph;
 mod keys;
 mod paint;
+
 mod places;
 mod rose;
 

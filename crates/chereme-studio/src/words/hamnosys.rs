@@ -1,5 +1,7 @@
 //! What symbols of HamNoSys mean.
 
+use chereme_sign::hamnosys::Class;
+
 use super::{Language, Text, fill};
 
 texts! {
@@ -11,7 +13,47 @@ texts! {
     COPY_SYMBOLS: "Copy as HamNoSys", "Copier en HamNoSys";
     COPY_NAMES: "Copy the names", "Copier les noms";
     STRIP: "HamNoSys: {names}", "HamNoSys : {names}";
+    BOARD: "Symbols", "Symboles";
+    FIND: "Type to find a symbol", "Taper pour trouver un symbole";
+    TAKE_BACK: "Take back", "Retirer";
+    NO_SYMBOL: "No symbol fits.", "Aucun symbole ne correspond.";
+    HANDSHAPES: "Handshapes", "Configurations";
+    THUMB_AND_BENDS: "Thumb and bends", "Pouce et flexions";
+    FINGERS_POINT: "Where the fingers point", "Direction des doigts";
+    PALM_FACES: "Where the palm faces", "Direction de la paume";
+    PLACES: "Places", "Emplacements";
+    ABOUT_PLACES: "About places", "Autour des emplacements";
+    HAND_PARTS: "Parts of the hand", "Parties de la main";
+    DIGITS: "Digits", "Doigts";
+    FINGER_PARTS: "Parts of a finger", "Parties du doigt";
+    CONTACTS: "Contacts", "Contacts";
+    MOVEMENTS: "Movements", "Mouvements";
+    ABOUT_MOVEMENTS: "About movements", "Autour des mouvements";
+    MANNER: "Manner", "Manière";
+    REPETITION: "Repetition", "Répétition";
+    HANDS_AND_LINKS: "Hands, and between symbols", "Mains, et entre symboles";
+    BRACKETS: "Brackets", "Crochets";
 }
+
+/// The classes of symbols in the order in which a sign is written, with their titles.
+pub(crate) const CLASSES: [(Class, Text); 16] = [
+    (Class::Operator, HANDS_AND_LINKS),
+    (Class::Handshape, HANDSHAPES),
+    (Class::HandshapeMark, THUMB_AND_BENDS),
+    (Class::ExtendedFinger, FINGERS_POINT),
+    (Class::Palm, PALM_FACES),
+    (Class::Location, PLACES),
+    (Class::LocationMark, ABOUT_PLACES),
+    (Class::HandPart, HAND_PARTS),
+    (Class::Digit, DIGITS),
+    (Class::FingerPart, FINGER_PARTS),
+    (Class::Contact, CONTACTS),
+    (Class::Movement, MOVEMENTS),
+    (Class::MovementMark, ABOUT_MOVEMENTS),
+    (Class::Manner, MANNER),
+    (Class::Repetition, REPETITION),
+    (Class::Bracket, BRACKETS),
+];
 
 /// Ways by their letters.
 const WAYS: [(char, Text); 6] = [

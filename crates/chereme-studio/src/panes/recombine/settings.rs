@@ -7,7 +7,7 @@ use super::fields::{self, caption, choose};
 use super::stack::What;
 use super::{operators, path};
 use crate::context::Seen;
-use crate::pickers::hamnosys;
+use crate::pickers::{board, hamnosys};
 use crate::words::recombine as words;
 
 /// Where settings are shown.
@@ -56,7 +56,11 @@ fn source(ui: &mut Ui, seen: &Seen<'_>, at: At, node: &mut Node) -> bool {
             changed
         }
         Node::Hamnosys(it) => {
-            let mut changed = line(ui, seen.say(words::HAMNOSYS_SYMBOLS), "", &mut it.of);
+            let mut changed = false;
+            ui.horizontal(|ui| {
+                changed |= line(ui, seen.say(words::HAMNOSYS_SYMBOLS), "", &mut it.of);
+                changed |= board::button(ui, seen, &mut it.of);
+            });
             hamnosys::of_text(ui, seen, &it.of, hamnosys::EM);
             ui.horizontal_wrapped(|ui| changed |= fields::signer(ui, seen, &mut it.on));
             changed
