@@ -119,10 +119,14 @@ impl Corpus {
         let frames = track.frames_in(stretch.span);
         let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
         let anatomy = track.anatomy(connection)?;
+        let usual = match stretch.recording.origin.as_str() {
+            "made" => Options::made(),
+            _ => Options::default(),
+        };
         let options = Options {
             dominant: self.dominant(&stretch)?,
             longest: LONGEST + 1.0,
-            ..Options::default()
+            ..usual
         };
         let written = transcribe(&clip, &anatomy, &options)
             .map_err(|error| Error::wrong(error.to_string()).at(address.to_string()))?;

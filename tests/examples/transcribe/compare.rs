@@ -43,7 +43,7 @@ pub(crate) fn compare(written: &Manual, again: &Again) -> Vec<Verdict> {
     let symmetric = matches!(written.hands, HandsUsed::Both(_));
     let off = |a: &BodyPlace, b: Option<&BodyPlace>| -> Option<(f64, f64)> {
         let feature = again.found.features.first()?;
-        let options = Options::default();
+        let options = Options::made();
         let places = (a, b);
         off_place(
             &again.clip,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use chereme_analysis::score::{ScoreOptions, score_as};
 use chereme_analysis::transcribe::{Options, transcribe};
 use chereme_compose::notation::{Settings, animate};
-use chereme_motion::Clip;
+use chereme_motion::{Anatomy, Channel, Clip, Side};
 use chereme_sign::hamnosys::{Notated, Sign, parse, print, to_names};
 
 use crate::Result;
@@ -17,7 +17,8 @@ const ANOTHER: &str =
     "hamflathand hamextfingeru hampalml hamchest hamclose hammover hamrepeatfromstart";
 
 /// Prints the notation of captured movement, and how far movement made from it is: the distance of the
-/// alignment for each step, beside that of a hand that keeps its first posture and that of another sign.
+/// alignment for each step, beside that of a hand that keeps its first posture and that of another sign. A left
+/// hand that does not sign is left as it was captured.
 pub(crate) fn table(files: &[&str]) -> Result<()> {
     println!(
         "| recording | seconds | symbols | distance | held still | another sign | components |"
@@ -42,7 +43,14 @@ pub(crate) fn table(files: &[&str]) -> Result<()> {
         };
         let another = made(&another, &captured)?;
         let options = ScoreOptions::default();
-        let score = |clip: &Clip| score_as((&sign, &anatomy), (clip, &anatomy), &options);
+        let alone = found.features.iter().all(|it| it.hand != Some(Side::Left));
+        let score = |clip: &Clip| {
+            let clip = match alone {
+                true => with_left_of(clip, &sign, &anatomy)?,
+                false => clip.clone(),
+            };
+            crate::Result::Ok(score_as((&sign, &anatomy), (&clip, &anatomy), &options)?)
+        };
         let (own, held, another) = (score(&again)?, score(&held)?, score(&another)?);
         let parts: Vec<String> = own
             .components
@@ -62,6 +70,20 @@ pub(crate) fn table(files: &[&str]) -> Result<()> {
         println!("\n{}\n", names.join(" "));
     }
     Ok(())
+}
+
+/// Returns movement with the left arm and hand of another one's first frame.
+fn with_left_of(clip: &Clip, other: &Clip, anatomy: &Anatomy) -> Result<Clip> {
+    let (skeleton, rate) = (Arc::clone(clip.skeleton()), clip.rate());
+    let frames = clip.frames();
+    let mut channels = clip.channels().to_vec();
+    for joint in [anatomy.arm_joints(Side::Left), anatomy.fingers(Side::Left)].concat() {
+        channels[joint] = Channel {
+            rotations: vec![other.channel(joint).rotations[0]; frames],
+            translations: channels[joint].translations.take(),
+        };
+    }
+    Ok(Clip::new(skeleton, rate, channels)?)
 }
 
 /// Returns a sign that keeps its first posture.

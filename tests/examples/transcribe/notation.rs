@@ -45,7 +45,7 @@ impl Counts {
 /// Prints how often each feature is found again.
 pub(crate) fn table(folder: &Path, body: &Path, more: More<'_>) -> Result<()> {
     let stage = bodies::stage(body)?;
-    let (settings, options) = (Settings::default(), Options::default());
+    let (settings, options) = (Settings::default(), Options::made());
     let mut counts: BTreeMap<&'static str, Counts> = BTreeMap::new();
     let mut confusions: BTreeMap<(String, String), usize> = BTreeMap::new();
     let (mut parts, mut whole, mut failed, mut slow) = (0, 0, 0, 0.0_f64);

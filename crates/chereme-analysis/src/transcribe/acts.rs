@@ -42,6 +42,8 @@ pub(super) const LAP: f64 = -0.65;
 const RISE: f64 = 0.4;
 /// A hand that goes to and fro turns about a point at most so far off, in metres.
 const LEVER: f64 = 0.1;
+/// However wide it sways, its point goes no farther about that than this, in metres.
+const SWAYS: f64 = 0.06;
 /// The least time in which a hand may do something else than go a way, in seconds.
 const GAP: f64 = 0.1;
 
@@ -296,7 +298,7 @@ fn sways(mover: &Mover<'_>, first: usize, last: usize) -> bool {
         far.fold(0.0, f64::max)
     };
     let least = mover.points.iter().map(extent).fold(f64::MAX, f64::min);
-    cycles >= 1.4 && least < LEVER * angle
+    cycles >= 1.4 && least < (LEVER * angle).min(SWAYS)
 }
 
 /// Returns the stretches in which the hand goes somewhere, between minima of its speed, and the speeds.

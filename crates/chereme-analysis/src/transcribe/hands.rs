@@ -6,9 +6,9 @@ use chereme_sign::hamnosys::Symmetry;
 use glam::DVec3;
 
 use super::acts::LAP;
-use super::scene::{Scene, Track, length};
+use super::scene::{Scene, Track};
 
-/// A hand whose way is shorter than this, in arm lengths, stays where it is.
+/// A hand that goes no farther from where it begins than this, in arm lengths, stays where it is.
 const STAYS: f64 = 0.05;
 /// Ways are alike where what differs is less than this share of what they have.
 const ALIKE: f64 = 0.3;
@@ -117,7 +117,10 @@ pub(super) fn relation(scene: &Scene<'_>, frames: &RangeInclusive<usize>) -> Rel
     };
     let (first, last) = (*frames.start(), *frames.end());
     let middle = first + (last - first) / 2;
-    let still = |track: &Track| length(&track.palm[first..=last]) < STAYS * scene.arm;
+    let still = |track: &Track| {
+        let mut way = track.palm[first..=last].iter();
+        way.all(|at| at.distance(track.palm[first]) < STAYS * scene.arm)
+    };
     let lies = still(other) && other.palm[middle].y < LAP * scene.arm;
     let resting = [first, middle, last]
         .iter()

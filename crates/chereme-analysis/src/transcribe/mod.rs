@@ -46,16 +46,32 @@ pub struct Options {
     pub between: bool,
     /// The longest token in seconds.
     pub longest: f64,
+    /// How near a hand comes to a place that is meant, in metres: the body's places, some of them an average
+    /// person's, and the signer's care. Notation that takes more to say must be nearer by a share of this.
+    pub slack: f64,
 }
 
 impl Default for Options {
-    /// A right-handed signer, the program's own body language, half-way directions, 60 seconds.
+    /// A captured signer: right-handed, the program's own body language, half-way directions, 60 seconds, and
+    /// 2 cm about places.
     fn default() -> Self {
         Self {
             dominant: Side::Right,
             language: BodyLanguage::usual().clone(),
             between: true,
             longest: 60.0,
+            slack: 0.02,
+        }
+    }
+}
+
+impl Options {
+    /// Returns those for made movement, whose hands are at their places to 4 mm.
+    #[must_use]
+    pub fn made() -> Self {
+        Self {
+            slack: 0.004,
+            ..Self::default()
         }
     }
 }

@@ -62,21 +62,19 @@ const DEPTH: f64 = 0.6;
 /// it; reaching far; being close to the head without touching it; another part of the hand than the
 /// one that comes first, for small places and before the trunk; a side; the more, the farther two places
 /// are from each other; two of neck and head.
-const BETWEEN: [f64; 2] = [0.25, 0.5];
-const RARE: f64 = 0.4;
-const TOP: f64 = 0.15;
-const FAR: f64 = 0.5;
-const NEAR: f64 = 0.2;
-const SAID: [f64; 2] = [0.25, 0.8];
-const SIDE: f64 = 0.05;
-const WIDE: f64 = 0.1;
-const ACROSS: f64 = 0.3;
+const BETWEEN: [f64; 2] = [0.5, 1.0];
+const RARE: f64 = 0.8;
+const TOP: f64 = 0.3;
+const FAR: f64 = 1.0;
+const NEAR: f64 = 0.4;
+const SAID: [f64; 2] = [0.5, 1.6];
+const SIDE: f64 = 0.1;
+const WIDE: f64 = 0.2;
+const ACROSS: f64 = 0.6;
 /// Half-way between places that another one lies between costs this besides: that one would be said.
-const SKIPS: f64 = 0.4;
+const SKIPS: f64 = 0.8;
 /// What lies nearer to the middle of two places than this share of the way to either lies between.
 const BETWEEN_THEM: f64 = 0.6;
-/// A distance is taken for so much more, in metres, before what is said counts against it.
-const FLOOR: f64 = 0.004;
 /// Half-way between two places may be meant that are nearer to each other than this, in metres.
 const APART: f64 = 0.2;
 /// As above, where one is at the neck and the other at the head.
@@ -254,6 +252,10 @@ impl<'a> Body<'a> {
         let scene = self.scene;
         let acting = [scene.dominant, scene.dominant.other()][n];
         let found = body_site(site, acting, scene.dominant == Half::Left);
+        // A hand is always by its own arm.
+        if found.region == Region::Arm(acting) {
+            return None;
+        }
         let flip = DVec3::new(-scene.dominant.sign(), 1.0, 1.0);
         let root = scene
             .anatomy
@@ -359,7 +361,7 @@ impl<'a> Body<'a> {
                     contact,
                     said,
                     residual,
-                    score: (residual + FLOOR) * (1.0 + cost),
+                    score: (residual + scene.slack) * (1.0 + cost),
                     distance,
                     small: said.is_some() || small,
                     by: at,

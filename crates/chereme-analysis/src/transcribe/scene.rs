@@ -17,6 +17,8 @@ pub(super) struct Scene<'a> {
     pub(super) anatomy: &'a Anatomy,
     pub(super) language: &'a BodyLanguage,
     pub(super) dominant: Side,
+    /// How near hands come to what is meant, in metres.
+    pub(super) slack: f64,
     /// The arm's length, the shoulders' width and the hand's length in metres.
     pub(super) arm: f64,
     pub(super) shoulders: f64,
@@ -122,6 +124,7 @@ impl<'a> Scene<'a> {
             anatomy,
             language: &options.language,
             dominant: options.dominant,
+            slack: options.slack.max(1e-4),
             arm: measures.arm,
             shoulders: measures.shoulder_width,
             hand: measures.hand,
@@ -180,8 +183,18 @@ impl<'a> Scene<'a> {
         let along = anatomy.hand_direction(side, model);
         let along = along.unwrap_or(DVec3::NEG_Y);
         let normal = anatomy.palm_normal(side, model).unwrap_or_else(|| {
-            let any = model.rotation(arm.hand) * DVec3::Z;
-            any.reject_from_normalized(along)
+            // Without fingers: the same axis of the joint in every frame, one that lies across the hand.
+            let turned = model.rotation(arm.hand);
+            let own = (turned.inverse() * along).abs();
+            let across = if own.min_element() == own.x {
+                DVec3::X
+            } else if own.min_element() == own.y {
+                DVec3::Y
+            } else {
+                DVec3::Z
+            };
+            (turned * across)
+                .reject_from_normalized(along)
                 .normalize_or(along.any_orthonormal_vector())
         });
         let shoulder = model.position(arm.upper);

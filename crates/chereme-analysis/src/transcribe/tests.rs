@@ -143,7 +143,7 @@ fn clip(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> (Clip, Anatomy) 
 
 fn read(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> Manual {
     let (clip, anatomy) = clip(seconds, at);
-    let written = transcribe(&clip, &anatomy, &Options::default()).expect("a sign");
+    let written = transcribe(&clip, &anatomy, &Options::made()).expect("a sign");
     written.sign.parts.into_iter().next().expect("one part")
 }
 
@@ -281,7 +281,7 @@ fn the_left_handed_sign_is_written_as_the_right_handed_one() {
     let (clip, anatomy) = clip(0.3, |time| [None, Some(course(time).mirrored())]);
     let options = Options {
         dominant: Side::Left,
-        ..Options::default()
+        ..Options::made()
     };
     let left = transcribe(&clip, &anatomy, &options).expect("a sign");
     assert_eq!(left.sign.parts, vec![right]);
@@ -371,7 +371,7 @@ fn every_feature_and_stage_is_in_symbols_with_its_frames() {
             None,
         ]
     });
-    let written = transcribe(&clip, &anatomy, &Options::default()).expect("a sign");
+    let written = transcribe(&clip, &anatomy, &Options::made()).expect("a sign");
     let names = |text: &str| to_names(text).expect("symbols").join(" ");
     let told = |kind: FeatureKind| {
         let feature = written.features.iter().find(|it| it.kind == kind);
@@ -435,10 +435,37 @@ fn ways_from_and_to_rest_are_left_out() {
     ]
     .concat();
     let long = Clip::from_poses(Arc::clone(sign.skeleton()), sign.rate(), &poses).expect("a clip");
-    let short = transcribe(&sign, &anatomy, &Options::default()).expect("a sign");
-    let long = transcribe(&long, &anatomy, &Options::default()).expect("a sign");
+    let short = transcribe(&sign, &anatomy, &Options::made()).expect("a sign");
+    let long = transcribe(&long, &anatomy, &Options::made()).expect("a sign");
     assert_eq!(long.sign.parts[0].actions, short.sign.parts[0].actions);
     assert!(long.frames.0 > 20, "{:?}", long.frames);
+}
+
+#[test]
+fn hands_that_only_rest_are_said_to() {
+    let (clip, anatomy) = clip(0.4, |_| [None, None]);
+    for clip in [clip.slice(0..1), clip] {
+        let found = transcribe(&clip, &anatomy, &Options::default()).expect("a posture");
+        assert!(found.findings.iter().any(|it| it.contains("rest")));
+        assert!(found.sign.parts[0].actions.is_empty());
+        // A hand is not told to be by its own arm.
+        let Some(Place::Body(place)) = &found.sign.parts[0].posture.place else {
+            panic!("{:?}", found.sign);
+        };
+        assert_ne!(place.site.map(|it| it.at), Some(BodyLocation::LowerArm));
+    }
+}
+
+#[test]
+fn a_hand_that_trembles_in_the_lap_does_not_sign() {
+    let lap = Held::new([0.05, -0.42, 0.2], "r", "d", HandClass::Flat);
+    let found = read(1.0, |time| {
+        let tremble = DVec3::X * 0.002 * (TAU * 14.0 * time).sin();
+        let right = before_chest(HandClass::Flat).moved(DVec3::X * 0.15 * ease(time));
+        [Some(right), Some(lap.moved(tremble))]
+    });
+    assert!(matches!(found.hands, HandsUsed::Dominant));
+    assert!(found.posture.shape.other().is_none(), "{:?}", found.posture);
 }
 
 #[test]
@@ -446,13 +473,10 @@ fn what_is_no_token_is_refused_and_what_is_missing_is_said() {
     let (whole, anatomy) = clip(0.3, |_| [Some(before_chest(HandClass::Flat)), None]);
     let empty = whole.slice(0..0);
     let told = |clip: &Clip, options: &Options| transcribe(clip, &anatomy, options).map(|_| ());
-    assert_eq!(
-        told(&empty, &Options::default()),
-        Err(TranscribeError::Empty)
-    );
+    assert_eq!(told(&empty, &Options::made()), Err(TranscribeError::Empty));
     let short = Options {
         longest: 0.2,
-        ..Options::default()
+        ..Options::made()
     };
     assert!(matches!(
         told(&whole, &short),
@@ -462,7 +486,7 @@ fn what_is_no_token_is_refused_and_what_is_missing_is_said() {
     let bone = Skeleton::new(vec![Joint::new("bone", None, DVec3::ZERO)]).expect("a tree");
     let nothing = Anatomy::detect(&bone);
     let clip = Clip::still(Arc::new(bone), whole.rate(), 9);
-    let error = transcribe(&clip, &nothing, &Options::default());
+    let error = transcribe(&clip, &nothing, &Options::made());
     assert_eq!(error.map(|_| ()), Err(TranscribeError::NoBody));
 
     // Fingers without their outer joints: all but those are told, and the lack is said.
@@ -481,7 +505,7 @@ fn what_is_no_token_is_refused_and_what_is_missing_is_said() {
     let skeleton = Arc::new(Skeleton::new(fewer).expect("a tree"));
     let anatomy = Anatomy::detect(&skeleton);
     let clip = Clip::new(skeleton, whole.rate(), channels).expect("a clip");
-    let written = transcribe(&clip, &anatomy, &Options::default()).expect("a sign");
+    let written = transcribe(&clip, &anatomy, &Options::made()).expect("a sign");
     let part = &written.sign.parts[0];
     let shape = part.posture.shape.dominant().expect("a shape");
     assert_eq!(shape.form.class, HandClass::Flat);
@@ -526,7 +550,7 @@ fn manners_are_told_by_time_and_course() {
 fn the_hand_is_no_nearer_to_the_place_told_than_its_residual_says() {
     let own = before_chest(HandClass::Flat);
     let (clip, anatomy) = clip(0.5, |_| [Some(own.clone()), None]);
-    let options = Options::default();
+    let options = Options::made();
     let found = transcribe(&clip, &anatomy, &options).expect("transcribed");
     let Some(Place::Body(place)) = &found.sign.parts[0].posture.place else {
         panic!("{:?}", found.sign);

@@ -25,6 +25,9 @@ use super::way::Way;
 use super::words;
 use super::{Feature, FeatureKind, Found, Options, RunnerUp, Stage, Transcription, Unit};
 
+/// More actions than this are hardly one sign.
+const MOST: usize = 12;
+
 /// What is told of one hand in one frame.
 #[derive(Debug, Clone)]
 pub(super) struct Seen {
@@ -95,6 +98,7 @@ impl<'a> Writer<'a> {
             return self.done(Manual::default(), 0, scene.clip.frames());
         };
         self.lacks();
+        self.rests();
         let frames = signing(scene, track);
         let (first, last) = (*frames.start(), *frames.end());
         let (all, left) = self.acts(lead, track, &frames);
@@ -114,8 +118,12 @@ impl<'a> Writer<'a> {
         self.ends(None, words::begun(hands, posture.clone()));
         let mut actions: Vec<Motion> = Vec::new();
         let other = scene.hands[1].as_ref().filter(|_| lead == 0);
-        if let (RelationKind::Unlike { moves: true }, Some(other)) = (relation.kind, other) {
+        let unlike = relation.kind == RelationKind::Unlike { moves: true };
+        let others = other.filter(|_| unlike).map(|other| {
             let (others, _) = self.acts(1, other, &frames);
+            (other, others)
+        });
+        if let Some((other, others)) = others.filter(|(_, others)| !others.is_empty()) {
             actions.extend(self.split(first, (track, &all), (other, &others)));
         } else {
             let mut before = first;
@@ -127,6 +135,12 @@ impl<'a> Writer<'a> {
                 actions.push(motion);
                 before = act.until;
             }
+        }
+        let done = self.stages.len() - 1;
+        if done > MOST {
+            self.findings.push(format!(
+                "{done} actions are many for one sign: give the span of a single token"
+            ));
         }
         let manual = Manual {
             hands,
@@ -213,6 +227,18 @@ impl<'a> Writer<'a> {
                 self.findings
                     .push(format!("the skeleton has no arm of the {which} side"));
             }
+        }
+    }
+
+    /// Says where nothing is signed: hands that hang, or arms that stick out, all the time.
+    fn rests(&mut self) {
+        let mut hands = self.scene.hands.iter().flatten();
+        if hands.all(|track| track.rests.iter().all(|rests| *rests)) {
+            self.findings.push(
+                "the hands rest or the arms stick out in every frame: what is told is that posture; \
+                 give a span in which something is signed"
+                    .to_owned(),
+            );
         }
     }
 

@@ -46,7 +46,7 @@ impl Hand {
             palm: track.palm[frame],
             axes: [along, normal, radial],
             shape: shape.cloned().unwrap_or_default(),
-            named: nameable(&points),
+            named: nameable(&points, scene.slack),
             points,
         })
     }
@@ -115,18 +115,19 @@ impl Hand {
     }
 }
 
-/// A part of the hand counts as so much farther, in metres, for each step that it is less likely meant.
-pub(super) const RANK: f64 = 0.002;
+/// A part of the hand counts as so much farther, as a share of how near hands come to what is meant, for each
+/// step that it is less likely meant.
+pub(super) const RANK: f64 = 0.5;
 /// Two digits together are so many steps less likely.
 const TWO: f64 = 1.0;
 /// They are meant together where they are nearer to each other than this, in metres.
 const PINCHED: f64 = 0.10;
 
 /// Returns the parts of a hand that are named, also tips and pads of the thumb and a finger together.
-fn nameable(points: &[Spotted]) -> Vec<(DVec3, Vec<HandPoint>, f64)> {
+fn nameable(points: &[Spotted], slack: f64) -> Vec<(DVec3, Vec<HandPoint>, f64)> {
     let mut all: Vec<_> = points
         .iter()
-        .map(|it| (it.at, vec![it.point], RANK * rank(it.point)))
+        .map(|it| (it.at, vec![it.point], RANK * slack * rank(it.point)))
         .collect();
     let at = |point: HandPoint| Some(points.iter().find(|it| it.point == point)?.at);
     for face in [Face::Middle, Face::Palmar] {
@@ -135,7 +136,7 @@ fn nameable(points: &[Spotted]) -> Vec<(DVec3, Vec<HandPoint>, f64)> {
             if let [Some(a), Some(b)] = both.map(at)
                 && a.distance(b) < PINCHED
             {
-                all.push((a.midpoint(b), both.to_vec(), RANK * TWO));
+                all.push((a.midpoint(b), both.to_vec(), RANK * slack * TWO));
             }
         }
     }

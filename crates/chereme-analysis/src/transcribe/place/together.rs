@@ -5,7 +5,7 @@ use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Site};
 use glam::DVec3;
 
 use super::hand::{Hand, RANK, Spotted, rank};
-use super::{Body, DEPTH, FLOOR, Placed, SAID, TOUCH};
+use super::{Body, DEPTH, Placed, TOUCH};
 
 /// Hands are by each other where parts of them are nearer than this, in arm lengths.
 const TOGETHER: f64 = 0.125;
@@ -14,6 +14,8 @@ const PAIRS: usize = 8;
 /// The two hands by each other are told rather than each at its place where that is not so much nearer:
 /// where they touch, and where they are close.
 const RATHER: [f64; 2] = [1.8, 1.2];
+/// To say which parts of the hands are meant costs so much, as a share of their distance.
+const PARTS: f64 = 0.25;
 /// Where hands are of which no place is said.
 const NEUTRAL: Site<BodyLocation> = Site {
     at: BodyLocation::NeutralSpace,
@@ -54,7 +56,7 @@ impl Body<'_> {
             for other in &other.points {
                 if own.at.distance(other.at) < reach {
                     // Whole faces of the hand are sooner meant than what lies within them.
-                    let rank = RANK * (rank(own.point) + rank(other.point));
+                    let rank = RANK * self.scene.slack * (rank(own.point) + rank(other.point));
                     let together = self.by_each_other([own, other]);
                     all.push((together.distance + rank, together));
                 }
@@ -120,8 +122,8 @@ impl Body<'_> {
             .into_iter()
             .filter_map(|together| {
                 let mut placed = self.shared(together.at[0].midpoint(together.at[1]))?;
-                let said = if together.said { SAID[0] } else { 0.0 };
-                let off = together.off * (1.0 + said) + FLOOR * said;
+                let said = if together.said { PARTS } else { 0.0 };
+                let off = together.off * (1.0 + said) + self.scene.slack * said;
                 placed.residual = placed.residual.max(together.off);
                 Some((placed.score + off, together, placed))
             })
@@ -136,7 +138,7 @@ impl Body<'_> {
         placed.place.by = None;
         let neutral = self.spot(0, &NEUTRAL)?;
         let off = (at - self.goal(&neutral, None, 0, false)) * DVec3::new(1.0, 1.0, DEPTH);
-        let score = off.length() + FLOOR;
+        let score = off.length() + self.scene.slack;
         if score > placed.score {
             return Some(placed);
         }
