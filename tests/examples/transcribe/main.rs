@@ -4,8 +4,8 @@
 //! `.sigml` file of a folder on a body, transcribes what came of it, and prints how often each feature
 //! is what was written, also of the half of the signs on which thresholds are tuned and of the other half;
 //! `... -- why FEATURE FOLDER BODY.bvh` prints where it is not, `... -- confusions FEATURE ...` counts what
-//! is taken for what, both in the half that is tuned on. `... -- movement
-//! FILE.bvh...` transcribes captured movement, animates what was written, and prints their distance.
+//! is taken for what, both in the half that is tuned on. In place of the folder a text file with a sign a line in
+//! HamNoSys characters will do. `... -- movement FILE.bvh...` transcribes captured movement, animates what was written, and prints their distance.
 
 #![allow(clippy::print_stdout)]
 

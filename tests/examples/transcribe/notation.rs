@@ -9,7 +9,7 @@ use chereme_analysis::transcribe::{Options, Transcription, transcribe};
 use chereme_compose::Material;
 use chereme_compose::notation::{Settings, animate};
 use chereme_motion::{Anatomy, Clip, Span};
-use chereme_sign::hamnosys::{Manual, Notated, Sign};
+use chereme_sign::hamnosys::{Manual, Notated, Sign, parse};
 
 use crate::Result;
 use crate::bodies;
@@ -50,7 +50,10 @@ pub(crate) fn table(folder: &Path, body: &Path, more: More<'_>) -> Result<()> {
     let mut confusions: BTreeMap<(String, String), usize> = BTreeMap::new();
     let (mut parts, mut whole, mut failed, mut slow) = (0, 0, 0, 0.0_f64);
     let mut spent = 0.0;
-    let signs = bodies::signs(folder)?;
+    let signs = match folder.is_dir() {
+        true => bodies::signs(folder)?,
+        false => lines(folder)?,
+    };
     let todo: Vec<(&str, &Notated, &Manual)> = signs
         .iter()
         .filter(|(name, _)| more == More::Nothing || is_tuned_on(name))
@@ -126,6 +129,28 @@ pub(crate) fn table(folder: &Path, body: &Path, more: More<'_>) -> Result<()> {
         println!("| {feature} | {agree} | {of} | {} |", shares.join(" | "));
     }
     Ok(())
+}
+
+/// Reads the signs of a text file, a line each in HamNoSys characters; what else a line has is left out.
+fn lines(file: &Path) -> Result<Vec<(String, Notated)>> {
+    let text = std::fs::read_to_string(file)?;
+    let mut all = Vec::new();
+    for line in text.lines() {
+        let of_hamnosys = |symbol: &char| ('\u{e000}'..='\u{f0ff}').contains(symbol);
+        let symbols: String = line.chars().filter(of_hamnosys).collect();
+        let known = all.iter().any(|(name, _)| *name == symbols);
+        if let Ok(parsed) = parse(&symbols)
+            && !symbols.is_empty()
+            && !known
+        {
+            let sign = Notated {
+                sign: parsed.sign,
+                ..Notated::default()
+            };
+            all.push((symbols, sign));
+        }
+    }
+    Ok(all)
 }
 
 /// Tells whether a sign is of the half that thresholds may be tuned on: by its name's bytes (FNV-1a).
