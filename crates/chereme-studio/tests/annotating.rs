@@ -228,9 +228,6 @@ fn a_key_is_found_in_the_help_by_what_it_does() {
     let mut window = opened(folder.path());
     press(&mut window, NONE, Key::F1);
     let field = window.get_by_role_and_label(Role::TextInput, "Find an action or a key");
-    field.focus();
-    window.run_steps(2);
-    let field = window.get_by_role_and_label(Role::TextInput, "Find an action or a key");
     field.type_text("duplicate annotation");
     window.run_steps(3);
     assert!(has(&window, "Change the key of: Duplicate the annotation"));

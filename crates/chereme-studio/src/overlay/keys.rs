@@ -19,8 +19,9 @@ use crate::words::{Language, fill, gestures, shell as words};
 #[derive(Debug, Default)]
 pub(crate) struct KeysHelp {
     open: bool,
-    /// What is looked for.
+    /// What is looked for, and whether the field for it is to have the keyboard.
     text: String,
+    fresh: bool,
     /// The action that waits for its new key.
     listening: Option<Action>,
 }
@@ -29,6 +30,7 @@ impl KeysHelp {
     pub(crate) fn toggle(&mut self) {
         self.open = !self.open;
         self.listening = None;
+        (self.fresh, self.text) = (true, String::new());
     }
 
     pub(crate) fn is_listening(&self) -> bool {
@@ -78,6 +80,9 @@ impl KeysHelp {
             .desired_width(f32::INFINITY);
         let response = ui.add(field);
         response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, label));
+        if std::mem::take(&mut self.fresh) {
+            response.request_focus();
+        }
     }
 
     /// Returns whether an action has every word that is looked for in its name, or in its keys.

@@ -29,7 +29,7 @@ texts! {
     GO_TO_TIME: "Go to a time…", "Aller à un temps…";
     ANNOTATION_NEW: "New annotation on the selection", "Nouvelle annotation sur la sélection";
     ANNOTATION_BEGIN_END: "Begin or end an annotation at the playhead", "Commencer ou finir une annotation au curseur";
-    ANNOTATION_SPLIT: "Split the annotation at the playhead", "Couper l’annotation au curseur";
+    ANNOTATION_SPLIT: "Split the annotation at the playhead", "Scinder l’annotation au curseur";
     ANNOTATION_MERGE: "Merge with the next annotation", "Fusionner avec l’annotation suivante";
     ANNOTATION_DELETE: "Delete the annotation", "Supprimer l’annotation";
     ANNOTATION_COPY: "Copy to another tier…", "Copier vers un autre acteur…";

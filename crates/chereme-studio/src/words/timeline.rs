@@ -126,7 +126,7 @@ texts! {
     NO_NEIGHBOUR: "There is no free time up to a neighbour.", "Il n’y a pas de temps libre jusqu’à un voisin.";
     LAST_OF_TIER: "No further annotation on this tier. With Loop on it begins again.", "Pas d’autre annotation sur cet acteur. Avec la boucle, on recommence.";
     MENU_NEW: "New", "Nouvelle";
-    MENU_BESIDE: "Split, merge, extend", "Couper, fusionner, étendre";
+    MENU_BESIDE: "Split, merge, extend", "Scinder, fusionner, étendre";
     GO_TITLE: "Go to a time", "Aller à un temps";
     GO_FIELD: "Time, or f and a frame", "Temps, ou f et une image";
     GO_THERE: "{time}, frame {frame}", "{time}, image {frame}";

@@ -52,6 +52,10 @@ impl Drawing<'_, '_> {
         at: usize,
         lane: Rect,
     ) {
+        // There are hundreds of annotations, and one menu.
+        if !response.secondary_clicked() && !response.context_menu_opened() {
+            return;
+        }
         let tier = &contents.tiers[at];
         if response.secondary_clicked()
             && let Some(pointer) = response.interact_pointer_pos()
