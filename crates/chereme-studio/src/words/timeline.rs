@@ -116,7 +116,7 @@ texts! {
     ODD_TIER: "no tier {text} here", "pas d’acteur {text} ici";
     ODD_TAKEN: "there is an annotation already at {text}", "il y a déjà une annotation à {text}";
     ODD_VALUE: "“{text}” is no value of its tier", "« {text} » n’est pas une valeur de son acteur";
-    ODD_OUTSIDE: "{text} lies outside the recording", "{text} est hors de l’enregistrement";
+    ODD_OUTSIDE: "what begins at {text} does not lie within the recording", "ce qui commence à {text} ne tient pas dans l’enregistrement";
     ODD_PARENT: "no annotation of the tier above holds {text}", "aucune annotation de l’acteur du dessus ne contient {text}";
     ODD_LEFT: "no annotation is left for “{text}”", "il ne reste pas d’annotation pour « {text} »";
     NO_ROOM_BESIDE: "There is no room: another annotation, or the end, follows at once.", "Il n’y a pas de place : une autre annotation, ou la fin, suit aussitôt.";
