@@ -82,10 +82,21 @@ pub(crate) fn finish(
         .collect();
     let last = bands.pop();
     let ink = &ink;
+    // Squares that begin elsewhere are paper, with all that lines could be drawn around.
+    let touched = &buffers.used.clone().map(|used| {
+        let first = (used.start / samples).saturating_sub(SQUARE + buffers.margin);
+        first..used.end.div_ceil(samples) + buffers.margin
+    });
     let paint = |(band, pixels): (usize, &mut [Colour])| {
         for (row, pixels) in pixels.chunks_mut(SQUARE * width).enumerate() {
+            let top = band * each + row * SQUARE;
+            if !touched[1].contains(&top) {
+                continue;
+            }
             for left in (0..width).step_by(SQUARE) {
-                ink.square(buffers, pixels, [left, band * each + row * SQUARE]);
+                if touched[0].contains(&left) {
+                    ink.square(buffers, pixels, [left, top]);
+                }
             }
         }
     };

@@ -4,6 +4,8 @@
 //! sixteenth of such a pixel and edges tested in integers, so that neighbouring triangles leave no
 //! gap and the same mesh gives the same bytes.
 
+use std::ops::Range;
+
 use glam::Vec3;
 
 use crate::body::group::FLAT;
@@ -88,6 +90,8 @@ pub(crate) struct Buffers {
     pub(crate) group: Vec<u8>,
     /// The lit colour; meaningless where there is paper.
     pub(crate) colour: Vec<[f32; 3]>,
+    /// Columns and rows of samples outside of which all is paper.
+    pub(crate) used: [Range<usize>; 2],
 }
 
 /// A vertex in the picture: snapped place, depth, lit colour.
@@ -180,6 +184,15 @@ impl Raster {
         });
         self.corners.clear();
         self.corners.extend(corners);
+        self.buffers.used = [0, 1].map(|axis| {
+            let seen = self.corners.iter().filter(|corner| corner.seen);
+            let places = seen.map(|corner| corner.at[axis].div_euclid(SUBPIXELS as i64));
+            let (low, high) = places.fold((i64::MAX, -1), |(low, high), at| {
+                (low.min(at), high.max(at))
+            });
+            let inside = |at: i64| at.clamp(0, self.buffers.size[axis] as i64) as usize;
+            inside(low)..inside(high + 1)
+        });
     }
 }
 
