@@ -152,21 +152,21 @@ impl Ink {
                     match all {
                         Around::Shaded => {
                             let shade = self.shade(buffers, at);
-                            for k in 0..PARTS {
-                                parts[k] *= shade[k / 3];
+                            for (k, part) in parts.iter_mut().enumerate() {
+                                *part *= shade[k / 3];
                             }
                         }
                         Around::Mixed if self.is_within_one(buffers, at, colours.len()) => {
                             let shade = self.shade(buffers, at);
-                            for k in 0..PARTS {
-                                parts[k] *= shade[k / 3];
+                            for (k, part) in parts.iter_mut().enumerate() {
+                                *part *= shade[k / 3];
                             }
                         }
                         Around::Mixed => {
                             let below = |k: usize| row[(nth * LANES + k) / self.samples].0;
                             let mix = self.mix(buffers, at, colours.len(), below);
-                            for k in 0..PARTS {
-                                parts[k] = parts[k] * mix.factor[k / 3] + mix.added[k];
+                            for (k, part) in parts.iter_mut().enumerate() {
+                                *part = *part * mix.factor[k / 3] + mix.added[k];
                             }
                         }
                         Around::Plain | Around::Paper => {}
@@ -211,7 +211,7 @@ impl Ink {
         let mut bytes = [0u8; 3 * SQUARE];
         for k in 0..3 * SQUARE {
             let part = sums[k] * share + below[k] * rest;
-            bytes[k] = (part.max(0.0).min(255.0) + WHOLE).to_bits() as u8;
+            bytes[k] = (part.clamp(0.0, 255.0) + WHOLE).to_bits() as u8;
         }
         for (pixel, bytes) in row.iter_mut().zip(bytes.chunks_exact(3)) {
             pixel.0.copy_from_slice(bytes);
