@@ -142,16 +142,21 @@ const CHANGES: u64 = 60;
 fn without_window(path: &Path) -> Result<(), Box<dyn Error>> {
     let mut corpus = Corpus::open(path, "A")?;
     for recipe in RECIPES {
-        let mut times = Vec::new();
+        let mut times = [Vec::new(), Vec::new()];
         let mut frames = 0;
-        for times_changed in 0..CHANGES {
+        let mut hear = unheard;
+        for nth in 0..CHANGES {
+            let text = changed(recipe, nth);
             let begun = Instant::now();
-            let made = corpus.preview(&changed(recipe, times_changed))?;
-            times.push(begun.elapsed());
-            frames = made.clip.frames();
+            frames = corpus.preview(&text)?.clip.frames();
+            times[0].push(begun.elapsed());
+            let begun = Instant::now();
+            corpus.draft(&text, false, &mut Progress::new(&mut hear))?;
+            times[1].push(begun.elapsed());
         }
-        println!("{recipe}: {frames} frames; first {:?}", times[0]);
-        println!("  made: {}", summary(&mut times[1..]));
+        println!("{recipe}: {frames} frames");
+        println!("  from scratch: {}", summary(&mut times[0][1..]));
+        println!("  of a draft: {}", summary(&mut times[1][1..]));
     }
     Ok(())
 }

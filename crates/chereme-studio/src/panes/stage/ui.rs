@@ -24,6 +24,8 @@ const MOST_PIXELS: f32 = 1_600_000.0;
 /// How long a frame waits for the picture of what a recipe has just become: it is seen in the frame in which
 /// it is known, and there is time left for the rest of the window.
 const AT_ONCE: std::time::Duration = std::time::Duration::from_millis(12);
+/// How much larger a stage counts while a recipe changes than while it plays.
+const HASTE: f32 = 3.0;
 /// How long after a recipe changed pictures are drawn as fast as while something moves, in seconds.
 const SETTLES: f64 = 0.25;
 
@@ -198,7 +200,11 @@ fn pictures(
             .collect(),
         shows: stage.shows,
         dark: seen.dark,
-        samples: data::samples(moving, [(area * shrink * shrink) as usize, 1]),
+        samples: {
+            // What a change made has to be there at once.
+            let weight = if changing.is_some() { HASTE } else { 1.0 };
+            data::samples(moving, [(area * shrink * shrink * weight) as usize, 1])
+        },
     };
     let (_, signer) = stage.signer.as_ref()?;
     let pose = movement(seen).pose(&signer.skeleton, at);
