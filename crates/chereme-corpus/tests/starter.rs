@@ -162,6 +162,7 @@ fn the_lexicon_reads_and_uses_the_inventories() {
 
 #[test]
 fn the_animator_makes_what_is_written_and_nothing_jumps() {
+    let mut pulled = Vec::new();
     for (take, made) in MADE.iter() {
         let clip = &made.clip;
         // Wrists go no farther than wrists go; some letters point where that is not far enough.
@@ -171,12 +172,12 @@ fn the_animator_makes_what_is_written_and_nothing_jumps() {
         for (joint, channel) in clip.skeleton().joints().iter().zip(clip.channels()) {
             for (frame, pair) in channel.rotations.windows(2).enumerate() {
                 let speed = pair[0].angle_between(pair[1]).to_degrees() * clip.rate().per_second();
-                assert!(
-                    speed < 1100.0,
-                    "{} {} frame {frame}: {speed} degrees a second",
-                    take.stem,
-                    joint.name
-                );
+                if speed >= 1100.0 {
+                    pulled.push(format!(
+                        "{} {} frame {frame}: {speed:.0} degrees a second",
+                        take.stem, joint.name
+                    ));
+                }
             }
         }
         for side in Side::BOTH {
@@ -186,17 +187,22 @@ fn the_animator_makes_what_is_written_and_nothing_jumps() {
                 let pull = path
                     .windows(3)
                     .map(|p| (p[2] - p[1] * 2.0 + p[0]).length() * 3600.0);
-                let most = pull.fold(0.0, f64::max);
-                // Hands that hit something stop at once.
-                assert!(
-                    most < 250.0,
-                    "{} {} {name}: {most} m/s2",
-                    take.stem,
-                    side.name()
-                );
+                let (frame, most) =
+                    pull.enumerate().fold(
+                        (0, 0.0),
+                        |most, now| if now.1 > most.1 { now } else { most },
+                    );
+                if most >= 100.0 {
+                    pulled.push(format!(
+                        "{} {} {name} frame {frame}: {most:.0} m/s2",
+                        take.stem,
+                        side.name()
+                    ));
+                }
             }
         }
     }
+    assert!(pulled.is_empty(), "{pulled:?}");
 }
 
 #[test]
@@ -291,7 +297,7 @@ fn hands_touch_what_they_are_said_to_touch() {
     let chest = places("aimer", [0.0, 0.3], ["right-palm", "chest"]);
     for [palm, chest] in chest {
         let apart = palm.z - chest.z;
-        assert!(apart.abs() < 0.03, "the palm is {apart} m off the chest");
+        assert!(apart.abs() < 0.04, "the palm is {apart} m off the chest");
     }
 }
 

@@ -54,6 +54,8 @@ pub(crate) struct Limits {
     own: f64,
     across: f64,
     help: (f64, f64),
+    /// How far a collar bone turns to suit the hand, and the share of it downwards.
+    shrug: (f64, f64),
     /// How far a hand may be turned from what is written before it is turned otherwise.
     pub(crate) tolerance: f64,
 }
@@ -75,9 +77,20 @@ impl Limits {
             own: angle(language.elbow_own_side),
             across: angle(language.elbow_across),
             help: (language.clavicle_from, angle(language.clavicle_most)),
+            shrug: (angle(language.shrug), language.shrug_down),
             tolerance: angle(language.tolerance).max(1e-3),
         }
     }
+}
+
+/// What of an arm is free while its wrist is somewhere.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Bearing {
+    /// The arm's plane against the rule's, in radians.
+    pub(crate) plane: f64,
+    /// How far the collar bone carries the shoulder along the upper arm: from -1, away from the elbow, to
+    /// 1, as far as it turns.
+    pub(crate) shrug: f64,
 }
 
 /// How a hand hangs on its forearm, in radians.
@@ -101,7 +114,17 @@ impl WristAngles {
     /// Returns the angles nearest to these within the ranges of wrist and forearm; a forearm that
     /// should turn past both ends stops at the `high` one, palm up, or at the other.
     pub(crate) fn allowed(&self, limits: &Limits, high: bool) -> Self {
-        let bend = self.bend(limits).max(1.0);
+        let [flexion, deviation] = match self.bend(limits) > 1.0 {
+            true => {
+                let ends = [
+                    (self.flexion, limits.flexion),
+                    (self.deviation, limits.deviation),
+                ];
+                let ends = ends.map(|(angle, range)| range[usize::from(angle > 0.0)]);
+                nearest_on_ellipse([self.flexion, self.deviation], ends)
+            }
+            false => [self.flexion, self.deviation],
+        };
         let [less, more] = limits.pronation;
         let turn = match (-less..=more).contains(&self.turn) {
             true => self.turn,
@@ -109,8 +132,8 @@ impl WristAngles {
             false => -less,
         };
         Self {
-            flexion: self.flexion / bend,
-            deviation: self.deviation / bend,
+            flexion,
+            deviation,
             turn,
         }
     }
@@ -236,9 +259,26 @@ impl Rig {
         self.lengths[0] + self.lengths[1]
     }
 
-    /// Brings the wrist to a place, the arm's plane turned by `turn` against the rule's.
-    pub(crate) fn reach(&self, wrist: DVec3, turn: f64, limits: &Limits) -> Posed {
+    /// Brings the wrist to a place.
+    pub(crate) fn reach(&self, wrist: DVec3, bearing: Bearing, limits: &Limits) -> Posed {
         let (shoulder, help) = self.shoulder_for(wrist, limits);
+        let posed = self.bent(wrist, shoulder, help, bearing.plane, limits);
+        if bearing.shrug == 0.0 {
+            return posed;
+        }
+        let (shrugged, help) = self.shrugged(&posed, bearing.shrug, limits);
+        self.bent(wrist, shrugged, help, bearing.plane, limits)
+    }
+
+    /// Brings the wrist to a place from a shoulder, the arm's plane turned by `turn` against the rule's.
+    fn bent(
+        &self,
+        wrist: DVec3,
+        shoulder: DVec3,
+        help: DQuat,
+        turn: f64,
+        limits: &Limits,
+    ) -> Posed {
         let way = self.not_too_near(wrist - shoulder, limits);
         let length = self.length();
         let line = way.normalize_or(self.forward);
@@ -261,6 +301,24 @@ impl Rig {
             across: line.cross(pole).normalize_or(self.outside),
             help,
         }
+    }
+
+    /// Returns where a collar bone carries the shoulder along the upper arm, and its turn: less far down
+    /// than elsewhere, and not past what it turns at most.
+    fn shrugged(&self, posed: &Posed, shrug: f64, limits: &Limits) -> (DVec3, DQuat) {
+        let Some(clavicle) = &self.clavicle else {
+            return (posed.shoulder, posed.help);
+        };
+        let bone = posed.shoulder - clavicle.at;
+        let Some(along) = bone.try_normalize() else {
+            return (posed.shoulder, posed.help);
+        };
+        let upper = (posed.elbow - posed.shoulder).normalize_or(self.forward);
+        let (most, down) = limits.shrug;
+        let mut by = upper.reject_from_normalized(along) * (shrug * most);
+        by.y *= if by.y < 0.0 { down } else { 1.0 };
+        let turn = DQuat::from_scaled_axis(along.cross(by));
+        (clavicle.at + turn * bone, turn * posed.help)
     }
 
     /// Returns the way from shoulder to wrist, moved out and forward where the elbow cannot bend as
@@ -385,6 +443,29 @@ impl Rig {
             ((forearm * self.between[1]).inverse() * hand).normalize(),
         ]
     }
+}
+
+/// Returns the point of an ellipse about nothing with half axes `ends` that is nearest to a point
+/// outside of it.
+///
+/// Where the normal there leads to the point: `x = e²p / (t + e²)` in either axis, with the `t` for which that
+/// lies on the ellipse, found by Newton's method from below (Eberly, *Distance from a point to an ellipse*).
+fn nearest_on_ellipse(point: [f64; 2], ends: [f64; 2]) -> [f64; 2] {
+    let [a, b] = ends.map(|end| end.max(1e-6));
+    let [x, y] = point;
+    // From here on the sum is convex and falling, and is at least 1.
+    let mut t = (a * x.abs() - a * a).max(b * y.abs() - b * b).max(0.0);
+    for _ in 0..8 {
+        let (u, v) = (a * x / (t + a * a), b * y / (t + b * b));
+        let over = u * u + v * v - 1.0;
+        if over < 1e-7 {
+            break;
+        }
+        t += over / (2.0 * (u * u / (t + a * a) + v * v / (t + b * b)));
+    }
+    let (u, v) = (a * x / (t + a * a), b * y / (t + b * b));
+    let size = u.hypot(v).max(1.0);
+    [a * u / size, b * v / size]
 }
 
 /// Returns the rotation of a right-handed frame of two unit vectors at right angles.

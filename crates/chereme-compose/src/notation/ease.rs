@@ -2,7 +2,8 @@
 //! can be turned as written.
 //!
 //! A hand that touches nothing is shifted by a few centimetres, with all of the movement that begins
-//! there, to where the arm need not turn the hand off what is written, nor lead it into the trunk.
+//! there, to where the arm need not turn the hand off what is written, nor lead it into the trunk. How
+//! far is in the body language (`room`): to where another place would be read.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Motion, Place};
@@ -11,17 +12,10 @@ use super::motion::Env;
 use super::plan::{Planner, Who, acting};
 use super::solve::Arm;
 
-/// How far from the point that is meant a hand is still at no other place, in arm lengths: to either
-/// side, up or down, forward or back. Half-way between two levels of the body is a place of its own.
-const ROOM: DVec3 = DVec3::new(0.045, 0.015, 0.05);
-/// How much of this room there is in space before the trunk, close to it or before the face, close
-/// to the face.
-const SHARES: [f64; 3] = [1.0, 0.8, 0.5];
 /// What it costs to be at the end of its room; a hand turned by half its bin costs six.
 const SHIFTED: f64 = 3.0;
-/// The strain from which on a hand looks for a better place: that of 22.5° off what is written, where
-/// another direction would be read.
-const STRAINED: f64 = 25.0;
+/// The strain from which on a hand looks for a better place: that of some 10° off what is written.
+const STRAINED: f64 = 10.0;
 /// How many postures are weighed at most: those that strain the arm most.
 const WEIGHED: usize = 6;
 /// How near to the trunk the point of a hand comes that does not touch it, in metres.
@@ -92,7 +86,7 @@ impl Planner<'_> {
         match place {
             Place::Body(body) => {
                 let axes = named.map(|frame| frame.map(|frame| frame.axes));
-                self.shift(room(body), axes, named, follows);
+                self.shift(self.room(body), axes, named, follows);
             }
             Place::Split(a, b) => {
                 for (n, place) in [a, b].into_iter().enumerate() {
@@ -104,7 +98,7 @@ impl Planner<'_> {
                 }
             }
             Place::Hands(hands) => {
-                let free = hands.at.as_ref().map_or(SHARES[0], room);
+                let free = hands.at.as_ref().map_or(1.0, |at| self.room(at));
                 // What is relative to each other goes together.
                 let one = Some(DVec3::ONE);
                 self.shift(free, [one; 2], named, follows);
@@ -123,7 +117,12 @@ impl Planner<'_> {
         if room <= 0.0 {
             return;
         }
-        let room = ROOM * (room * self.stage.arm);
+        let l = self.language;
+        let room = [
+            DVec3::new(l.room_side, l.room_down, l.room_back),
+            DVec3::new(l.room_side, l.room_up, l.room_forward),
+        ]
+        .map(|ends| ends.max(DVec3::splat(1e-4)) * (room * self.stage.arm));
         let mut trail = Trail::default();
         for (n, _) in acting(named) {
             trail.note(n, self.stance(n));
@@ -158,8 +157,7 @@ impl Planner<'_> {
                 .iter()
                 .map(|(_, (n, stance))| self.strain(*n, stance, by(local, *n)))
                 .sum();
-            let share = (local / room).length();
-            sum + SHIFTED * share * share
+            sum + SHIFTED * share(local, room).powi(2)
         };
         let best = lowest(cost, room);
         let shifts = [0, 1].map(|n| by(best, n));
@@ -182,7 +180,24 @@ impl Planner<'_> {
         let deep = self.stage.torso.way_out(point, NEAR).length() / self.stage.arm;
         let wrist = point - stance.rotation * stance.offset;
         let arm = Arm::of(self.stage, hand, &self.limits);
-        arm.strain(wrist, stance.rotation) + 4e3 * deep * deep
+        arm.strain(wrist, stance.rotation) + 1.2e4 * deep * deep
+    }
+}
+
+impl Planner<'_> {
+    /// Returns how much room a hand has at a place: none where it touches.
+    fn room(&self, place: &BodyPlace) -> f64 {
+        let l = self.language;
+        let trunk = place.site.is_none_or(|site| before_trunk(site.at));
+        match (place.contact, trunk) {
+            _ if place.behind => 0.0,
+            (None | Some(Contact::ArmExtended), true) => 1.0,
+            (None | Some(Contact::ArmExtended), false) | (Some(Contact::Close), true) => {
+                l.room_close
+            }
+            (Some(Contact::Close), false) => l.room_face,
+            _ => 0.0,
+        }
     }
 }
 
@@ -199,41 +214,38 @@ impl Trail {
     }
 }
 
-/// Returns how much room a hand has at a place: none where it touches.
-fn room(place: &BodyPlace) -> f64 {
-    let trunk = |at: BodyLocation| {
-        use BodyLocation as B;
-        matches!(
-            at,
-            B::NeutralSpace
-                | B::Shoulders
-                | B::ShoulderTop
-                | B::Chest
-                | B::Stomach
-                | B::BelowStomach
-                | B::Neck
-        )
-    };
-    let trunk = place.site.is_none_or(|site| trunk(site.at));
-    match (place.contact, trunk) {
-        _ if place.behind => 0.0,
-        (None | Some(Contact::ArmExtended), true) => SHARES[0],
-        (None | Some(Contact::ArmExtended), false) | (Some(Contact::Close), true) => SHARES[1],
-        (Some(Contact::Close), false) => SHARES[2],
-        _ => 0.0,
-    }
+/// Tells whether a place lies before the trunk.
+fn before_trunk(at: BodyLocation) -> bool {
+    use BodyLocation as B;
+    matches!(
+        at,
+        B::NeutralSpace
+            | B::Shoulders
+            | B::ShoulderTop
+            | B::Chest
+            | B::Stomach
+            | B::BelowStomach
+            | B::Neck
+    )
+}
+
+/// Returns how far out in a room a place is, 1 at its end; the room goes so far back and so far on.
+fn share(at: DVec3, [less, more]: [DVec3; 2]) -> f64 {
+    let end = |at: f64, less: f64, more: f64| if at < 0.0 { at / less } else { at / more };
+    let [x, y, z] = [0, 1, 2].map(|n| end(at[n], less[n], more[n]));
+    DVec3::new(x, y, z).length()
 }
 
 /// Returns where about nothing a function is low, by a search along the axes.
-fn lowest(cost: impl Fn(DVec3) -> f64, room: DVec3) -> DVec3 {
+fn lowest(cost: impl Fn(DVec3) -> f64, room: [DVec3; 2]) -> DVec3 {
     let (mut best, mut least, mut step) = (DVec3::ZERO, cost(DVec3::ZERO), 0.7);
     for _ in 0..7 {
         let ways = [DVec3::X, DVec3::Y, DVec3::Z];
         let near = ways
             .into_iter()
-            .flat_map(|way| [best + way * room * step, best - way * room * step]);
+            .flat_map(|way| [best - way * room[0] * step, best + way * room[1] * step]);
         let next = near
-            .filter(|at| (*at / room).length() <= 1.0)
+            .filter(|at| share(*at, room) <= 1.0)
             .map(|at| (at, cost(at)))
             .min_by(|a, b| a.1.total_cmp(&b.1));
         match next {
@@ -251,12 +263,12 @@ mod tests {
 
     #[test]
     fn hands_go_to_what_is_lowest_in_their_room_and_not_beyond() {
-        let room = DVec3::new(0.03, 0.01, 0.03);
+        let room = [DVec3::new(0.03, 0.01, 0.03); 2];
         let at = DVec3::new(0.012, 0.0, -0.006);
         let near = lowest(|by| by.distance_squared(at) * 1e4, room);
         assert!(near.distance(at) < 6e-3, "{near}");
         let far = lowest(|by| 10.0 * by.distance(DVec3::new(0.5, 0.0, 0.0)), room);
-        assert!(far.x > 0.02 && (far / room).length() <= 1.0, "{far}");
+        assert!(far.x > 0.02 && share(far, room) <= 1.0, "{far}");
         assert_eq!(lowest(|by| by.length_squared(), room), DVec3::ZERO);
     }
 }

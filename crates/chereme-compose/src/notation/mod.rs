@@ -16,12 +16,14 @@
 //! | `arm` | elbow, collar bone, wrist |
 //! | `track` | from events to what hands should do in each frame |
 //! | `part` | two hands that would go through each other |
+//! | `choose` | over time: the arm's plane and its shoulder |
 //! | `solve` | from that to postures of an arm, without jumps |
 //! | `warp` | time stretched where an arm would go too fast |
 //! | `nonmanual` | head, trunk, shoulders; the curves of all non-manuals |
 //! | `notes` | what is said about the movement |
 
 mod arm;
+mod choose;
 mod ease;
 mod motion;
 mod nonmanual;

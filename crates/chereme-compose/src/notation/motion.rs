@@ -20,6 +20,9 @@ use super::plan::{
     Act, Event, Frame, HandState, PhaseKind, Planner, Who, about, acting, mean, shortest,
 };
 
+/// How long it takes until a hand turns about its palm that turned about what touched, in seconds.
+const LET_GO: f64 = 0.15;
+
 /// What holds for a motion from outside of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Env {
@@ -459,7 +462,7 @@ impl Planner<'_> {
             }
             goal.point = goal.wrist() + goal.rotation * palm;
             goal.offset = palm;
-            self.go(n, &goal, time, time, Pace::Linear);
+            self.go(n, &goal, time, time + LET_GO, Pace::Linear);
         }
     }
 

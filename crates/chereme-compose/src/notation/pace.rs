@@ -49,14 +49,19 @@ impl Paces {
             if gain == 0.0 {
                 linear(2.0 * l.linear_ramp)
             } else {
-                controlled(gain, power, ratio)
+                controlled(gain, power, ratio, 0.0)
             }
         };
         Self {
             tables: [
                 grown(l.targetted_gain, l.targetted_power, l.targetted_ratio),
                 grown(l.lax_gain, l.lax_power, l.lax_ratio),
-                grown(l.contact_gain, l.contact_power, l.contact_ratio),
+                controlled(
+                    l.contact_gain,
+                    l.contact_power,
+                    l.contact_ratio,
+                    l.contact_brake,
+                ),
                 grown(l.halt_gain, l.halt_power, l.halt_ratio),
                 grown(l.tense_gain, l.tense_power, l.tense_ratio),
                 ramp,
@@ -74,8 +79,9 @@ impl Paces {
 }
 
 /// Runs the controller: `x'' = k'(k(1 - x) - x')` with `k = 1 + gain·x^power` and `k' = ratio·k`, until
-/// it has arrived (or to within 1 %), time and way then scaled to 1.
-fn controlled(gain: f64, power: f64, ratio: f64) -> Vec<f64> {
+/// it has arrived (or to within 1 %), time and way then scaled to 1. What still goes fast then comes to a stop
+/// within the share `brake` of the time.
+fn controlled(gain: f64, power: f64, ratio: f64, brake: f64) -> Vec<f64> {
     const STEP: f64 = 1e-3;
     let arrival = if ratio < 4.0 { 1.0 } else { 0.99 };
     let (mut x, mut v) = (0.0_f64, 0.0_f64);
@@ -88,6 +94,11 @@ fn controlled(gain: f64, power: f64, ratio: f64) -> Vec<f64> {
         let half = (x + v * STEP / 2.0, v + push(x, v) * STEP / 2.0);
         x += half.1 * STEP;
         v += push(half.0, half.1) * STEP;
+        way.push(x);
+    }
+    let steps = (way.len() as f64 * brake.clamp(0.0, 0.5)) as usize;
+    for n in 0..steps {
+        x += v * STEP * (1.0 - (n as f64 + 0.5) / steps as f64);
         way.push(x);
     }
     sampled(|time| {

@@ -259,8 +259,9 @@ impl Planner<'_> {
         let hand = self.stage.hand(side)?;
         let n = usize::from(self.sides[1] == side);
         let state = &self.state[n];
-        let turn = Arm::of(self.stage, hand, &self.limits).plane(state.wrist(), state.rotation);
-        let posed = hand.rig.reach(state.wrist(), turn, &self.limits);
+        let arm = Arm::of(self.stage, hand, &self.limits);
+        let bearing = arm.bearing(state.wrist(), state.rotation);
+        let posed = hand.rig.reach(state.wrist(), bearing, &self.limits);
         Some(match landmark.rsplit_once('-')?.1 {
             "elbow" => posed.elbow,
             "forearm" => posed.elbow.lerp(posed.wrist, 0.5),

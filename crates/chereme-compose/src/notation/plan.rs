@@ -232,6 +232,8 @@ impl<'a> Planner<'a> {
     /// Plans signs one after the other, from rest and back to it.
     pub(crate) fn signs(mut self, signs: &[&Notated]) -> Plan {
         let mut time = STILL;
+        let parts = signs.iter().flat_map(|notated| &notated.sign.parts);
+        let mut next = parts.skip(1);
         for notated in signs {
             let mut from = None;
             self.named.clear();
@@ -240,7 +242,7 @@ impl<'a> Planner<'a> {
             self.speed = speed(notated);
             for part in &notated.sign.parts {
                 let began;
-                (began, time) = self.part(part, time);
+                (began, time) = self.part(part, next.next(), time);
                 from = from.or(Some(began));
             }
             self.plan.signs.push(SignSpan {
@@ -259,9 +261,9 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// Plans one part: the way to its first posture, its actions, the end; returns when the posture
-    /// is reached and when the part is over.
-    fn part(&mut self, part: &Manual, time: f64) -> (f64, f64) {
+    /// Plans one part, with what comes after it in sight: the way to its first posture, its actions, the
+    /// end; returns when the posture is reached and when the part is over.
+    fn part(&mut self, part: &Manual, next: Option<&Manual>, time: f64) -> (f64, f64) {
         let who = self.who(part.hands);
         self.symmetric = who[0].is_some() && who[1].is_some();
         let moves = !part.actions.is_empty();
@@ -282,11 +284,10 @@ impl<'a> Planner<'a> {
         if let Some(place) = &posture.place {
             self.ease(place, named, Some((part.actions.as_slice(), who)));
         }
-        let (goal, dropped) = (
-            self.state.clone(),
-            [0, 1]
-                .map(|n| named[n].is_none() && before[n].used && !part.holdover && self.lone(part)),
-        );
+        let goal = self.state.clone();
+        let drops = !part.holdover && self.lone(part);
+        let dropped =
+            [0, 1].map(|n| drops && named[n].is_none() && before[n].used && !self.waits(n, next));
         let length = (0..2)
             .map(|n| self.length_between(&before[n], &goal[n], n))
             .fold(0.0, f64::max);
@@ -331,6 +332,16 @@ impl<'a> Planner<'a> {
             }
         }
         (reached, now + hold)
+    }
+
+    /// Tells whether a hand that has nothing to do stays where it is: the part that follows uses it, and it
+    /// is not held up.
+    fn waits(&self, n: usize, next: Option<&Manual>) -> bool {
+        let below = self.state[n].point.y < self.stage.middle().y;
+        below
+            && next.is_some_and(|next| {
+                self.addressed(&next.posture, self.who(next.hands))[n].is_some()
+            })
     }
 
     /// Tells whether a part leaves the other hand out altogether.

@@ -1,27 +1,23 @@
 //! One arm over time: from where its hand should be to postures, without jumps.
 //!
-//! Thirty times a second the arm's plane is chosen among many, with the end of its range at which a
-//! forearm stops that should turn farther: by how well each suits the wrist, the hand's orientation
-//! and the trunk, and by how far it is from the one before (the cheapest course of all, by dynamic
-//! programming). Between, each frame's hand gives way to the wrist's range and to the trunk. What
-//! still changes at once is spread over the time around it, in angles of the wrist, so that nothing
-//! leaves its range; and last the wrist is put where the hand's point is in its place.
+//! Thirty times a second it is chosen how the arm is held (`choose`). Between, each frame's hand gives
+//! way to the wrist's range and to the trunk. What still changes at once is spread over the time around
+//! it, in angles of the wrist, so that nothing leaves its range; and last the wrist is put where the hand's
+//! point is in its place.
 
 use std::ops::Range;
 
 use chereme_motion::glam::{DQuat, DVec3};
 
-use super::arm::{Held, Limits, Posed, Rig, WristAngles};
+use super::arm::{Bearing, Held, Limits, Posed, Rig, WristAngles};
+use super::choose::Choice;
 use super::stage::{Hand, Stage};
 use super::track::Wanted;
 
 /// How often the arm's plane is chosen, in seconds; between, it goes smoothly.
 const CHOSEN: f64 = 1.0 / 30.0;
-/// Planes that are weighed against the rule's: the first, the last and the step, in degrees.
-const PLANES: (f64, f64, f64) = (-70.0, 120.0, 10.0);
-/// How fast a wrist bends and a forearm turns at most, and the arm's plane, in radians a second.
-const BENDING: f64 = 28.0;
-const SWIVEL: f64 = 7.0;
+/// How fast a wrist bends and a forearm turns at most, in radians a second.
+pub(crate) const BENDING: f64 = 28.0;
 /// How fast a hand is pushed out of the trunk at most, in arm lengths a second.
 const PUSHING: f64 = 5.0;
 /// The time before and after what changes at once over which it is spread, in seconds.
@@ -30,8 +26,6 @@ const AROUND: f64 = 0.09;
 const MARGIN: f64 = 0.006;
 /// How far a hand turns about its point to leave the trunk or come within reach, in radians.
 const MOST_TURNED: f64 = 0.7;
-/// What a hand costs that is turned from what is written by all that is still as written.
-const TURNED: f64 = 25.0;
 /// The same where it touches nothing.
 const NEAR_TURNED: f64 = 0.22;
 /// How often a hand that gives way is brought to its place again.
@@ -45,7 +39,7 @@ pub(crate) struct Row {
     pub(crate) offset: DVec3,
     /// How the hand should be turned.
     pub(crate) turned: DQuat,
-    plane: f64,
+    bearing: Bearing,
     angles: WristAngles,
     push: DVec3,
     /// The hand gives way to nothing.
@@ -96,32 +90,23 @@ impl Hindrance {
 
 /// A hand that should be somewhere.
 #[derive(Clone, Copy, PartialEq)]
-struct Want<'a> {
-    point: DVec3,
-    offset: DVec3,
-    turned: DQuat,
-    outlines: [&'a [DVec3]; 2],
+pub(crate) struct Want<'a> {
+    pub(crate) point: DVec3,
+    pub(crate) offset: DVec3,
+    pub(crate) turned: DQuat,
+    pub(crate) outlines: [&'a [DVec3]; 2],
     /// How much it touches: then it turns about its point to leave the trunk, and is not moved.
-    touch: f64,
+    pub(crate) touch: f64,
 }
 
 /// A hand that gave way.
 #[derive(Clone, Copy)]
-struct Hung {
-    angles: WristAngles,
-    rotation: DQuat,
-    posed: Posed,
+pub(crate) struct Hung {
+    pub(crate) angles: WristAngles,
+    pub(crate) rotation: DQuat,
+    pub(crate) posed: Posed,
     push: DVec3,
-    residual: f64,
-}
-
-/// A plane that an arm could have.
-#[derive(Clone, Copy)]
-struct Choice {
-    plane: f64,
-    angles: WristAngles,
-    high: bool,
-    cost: f64,
+    pub(crate) residual: f64,
 }
 
 impl<'a> Arm<'a> {
@@ -134,7 +119,7 @@ impl<'a> Arm<'a> {
         }
     }
 
-    fn rig(&self) -> &Rig {
+    pub(crate) fn rig(&self) -> &Rig {
         &self.hand.rig
     }
 
@@ -147,29 +132,31 @@ impl<'a> Arm<'a> {
         let keys = (0..total.div_ceil(step) + 1).map(|n| (n * step).min(total - 1));
         let keys = keys.map(|frame| (want(frame), free[frame]));
         let keys = self.choose(keys, step as f64 / rate);
-        let planes = spline(&keys, step, total);
+        let planes = spline(&keys, step, total, |bearing| bearing.plane);
+        let shrugs = spline(&keys, step, total, |bearing| bearing.shrug);
         let mut rows: Vec<Row> = Vec::with_capacity(total);
-        let mut before: Option<(Want<'_>, f64, bool)> = None;
-        for (frame, &plane) in planes.iter().enumerate() {
+        let mut before: Option<(Want<'_>, Bearing, bool)> = None;
+        for (frame, (plane, shrug)) in planes.into_iter().zip(shrugs).enumerate() {
             let (want, high) = (want(frame), keys[(frame + step / 2) / step].high);
-            let same = before.replace((want, plane, high)) == before;
+            let bearing = Bearing { plane, shrug };
+            let same = before.replace((want, bearing, high)) == before;
             if let (true, Some(&row)) = (same && before.is_some(), rows.last()) {
                 rows.push(row);
                 continue;
             }
-            let hung = self.hang(&want, plane, high, TRIES);
+            let hung = self.hang(&want, bearing, high, TRIES);
             rows.push(Row {
                 point: want.point,
                 offset: want.offset,
                 turned: want.turned,
-                plane,
+                bearing,
                 angles: hung.angles,
                 push: hung.push,
                 kept: hung.rotation == want.turned && hung.push == DVec3::ZERO,
             });
         }
         self.lead(&mut rows, wanted);
-        calm(&mut rows, rate);
+        calm(&mut rows, &free, rate);
         self.spread(&mut rows, &wanted.touch, rate);
         rows
     }
@@ -211,165 +198,9 @@ impl<'a> Arm<'a> {
         }
     }
 
-    /// Returns the best plane for a hand that stays where it is, in radians against the rule's.
-    pub(crate) fn plane(&self, wrist: DVec3, turned: DQuat) -> f64 {
-        let want = Want {
-            point: wrist,
-            offset: DVec3::ZERO,
-            turned,
-            outlines: [&[], &[]],
-            touch: 0.0,
-        };
-        let choices = self.choices(&want, false);
-        refined(&choices, best(&choices))
-    }
-
-    /// Returns what the best plane costs for a hand that is somewhere, alone.
-    pub(crate) fn strain(&self, wrist: DVec3, turned: DQuat) -> f64 {
-        let rig = self.rig();
-        let (first, last, step) = PLANES;
-        let count = ((last - first) / step).round() as usize + 1;
-        let mut least = f64::INFINITY;
-        for n in 0..count {
-            let degrees = first + step * n as f64;
-            let posed = rig.reach(wrist, degrees.to_radians(), self.limits);
-            let asked = rig.wrist(&posed, turned, &self.held);
-            let off = |high: bool| {
-                let angles = asked.allowed(self.limits, high);
-                if angles == asked {
-                    return 0.0;
-                }
-                rig.hung(&posed, &angles, &self.held).angle_between(turned)
-            };
-            let over = asked.turned(self.limits) > 1.0;
-            let apart = if over {
-                off(false).min(off(true))
-            } else {
-                off(false)
-            };
-            let missed = posed.wrist.distance(wrist) / rig.length();
-            let cost = 0.3 * off_rule(degrees)
-                + self.off(apart)
-                + self.within(&posed)
-                + 4e3 * missed * missed;
-            least = least.min(cost);
-        }
-        least
-    }
-
-    /// Returns what a hand costs that is turned off what is written.
-    fn off(&self, apart: f64) -> f64 {
-        let apart = apart / self.limits.tolerance;
-        let over = (apart - 1.0).max(0.0);
-        TURNED * apart.min(1.0).powi(2) + 12.0 * over + 25.0 * over * over
-    }
-
-    /// Returns what it costs that an upper arm is in the trunk.
-    fn within(&self, posed: &Posed) -> f64 {
-        [0.6, 1.0]
-            .map(|share| {
-                let at = posed.shoulder.lerp(posed.elbow, share);
-                let deep = self.stage.torso.way_out(at, 0.035).length() / self.rig().length();
-                3e4 * deep * deep
-            })
-            .iter()
-            .sum()
-    }
-
-    /// Returns the planes over time that cost least together, each with the end at which a forearm
-    /// stops.
-    fn choose<'w>(&self, wants: impl Iterator<Item = (Want<'w>, bool)>, dt: f64) -> Vec<Choice> {
-        let mut all: Vec<(Vec<Choice>, Vec<usize>)> = Vec::new();
-        let mut sums: Vec<f64> = Vec::new();
-        let mut before: Option<(Want<'w>, bool)> = None;
-        for want in wants {
-            let choices = match all.last() {
-                Some((same, _)) if before == Some(want) => same.clone(),
-                _ => self.choices(&want.0, want.1),
-            };
-            before = Some(want);
-            let mut next = Vec::with_capacity(choices.len());
-            let mut from = Vec::with_capacity(choices.len());
-            for choice in &choices {
-                let ways = all.last().map_or(&[][..], |(choices, _)| choices);
-                let least = ways
-                    .iter()
-                    .zip(&sums)
-                    .map(|(last, sum)| sum + change(last, choice, dt))
-                    .enumerate()
-                    .min_by(|a, b| a.1.total_cmp(&b.1));
-                let (n, sum) = least.unwrap_or((0, 0.0));
-                next.push(sum + choice.cost);
-                from.push(n);
-            }
-            sums = next;
-            all.push((choices, from));
-        }
-        let mut n = sums
-            .iter()
-            .enumerate()
-            .min_by(|a, b| a.1.total_cmp(b.1))
-            .map_or(0, |(n, _)| n);
-        let mut chosen: Vec<Choice> = Vec::with_capacity(all.len());
-        for (choices, from) in all.iter().rev() {
-            let mut choice = choices[n];
-            choice.plane = refined(choices, n);
-            chosen.push(choice);
-            n = from[n];
-        }
-        chosen.reverse();
-        chosen
-    }
-
-    /// Returns every plane with what it costs: how far it is from the rule's, how near wrist and
-    /// forearm are to their ends, how much the hand's orientation gives way, how much of the upper
-    /// arm is in the trunk, and what is missing to the place. On its `free` way between orientations a
-    /// hand may be turned as it likes.
-    fn choices(&self, want: &Want<'_>, free: bool) -> Vec<Choice> {
-        let (first, last, step) = PLANES;
-        let count = ((last - first) / step).round() as usize + 1;
-        let mut choices: Vec<Choice> = Vec::with_capacity(2 * count);
-        let given = if free { 0.02 } else { 1.0 };
-        // Only what touches is weighed with all of the hand.
-        let (tries, outlines) = if want.touch > 0.0 {
-            (6, want.outlines)
-        } else {
-            (3, [&[][..]; 2])
-        };
-        let coarse = Want { outlines, ..*want };
-        for high in [false, true] {
-            for n in 0..count {
-                let degrees = first + step * n as f64;
-                let plane = degrees.to_radians();
-                if high && choices[n].angles.turned(self.limits) < 0.999 {
-                    let same = choices[n];
-                    choices.push(Choice { high, ..same });
-                    continue;
-                }
-                let hung = self.hang(&coarse, plane, high, tries);
-                let bend = (hung.angles.bend(self.limits) - 0.6).max(0.0);
-                let twist = (hung.angles.turned(self.limits) - 0.75).max(0.0);
-                let apart = hung.rotation.angle_between(want.turned);
-                let missed = hung.residual / self.rig().length();
-                let cost = off_rule(degrees)
-                    + 3.0 * (bend * bend + twist * twist)
-                    + given * self.off(apart)
-                    + self.within(&hung.posed)
-                    + 4e3 * missed * missed;
-                choices.push(Choice {
-                    plane,
-                    angles: hung.angles,
-                    high,
-                    cost,
-                });
-            }
-        }
-        choices
-    }
-
     /// Brings the hand to its place: its orientation gives way to the wrist's range, and what would
     /// enter the trunk is turned about the point or moved out of it.
-    fn hang(&self, want: &Want<'_>, plane: f64, high: bool, tries: usize) -> Hung {
+    pub(crate) fn hang(&self, want: &Want<'_>, bearing: Bearing, high: bool, tries: usize) -> Hung {
         let rig = self.rig();
         // A hand that is placed by a fingertip turns about it; one placed by its palm is moved.
         let pivot = smooth((want.offset.length() / self.hand.length() - 0.55) / 0.25);
@@ -380,7 +211,7 @@ impl<'a> Arm<'a> {
         let mut wrist = want.point - turned * want.offset;
         let mut round = 0;
         loop {
-            let posed = rig.reach(wrist, plane, self.limits);
+            let posed = rig.reach(wrist, bearing, self.limits);
             let asked = rig.wrist(&posed, turned, &self.held);
             let angles = asked.allowed(self.limits, high);
             let rotation = if angles == asked {
@@ -435,13 +266,13 @@ impl<'a> Arm<'a> {
     pub(crate) fn settle(&self, row: &Row, outlines: [&[DVec3]; 2], before: Option<&Got>) -> Got {
         let rig = self.rig();
         let at = |wrist: DVec3| {
-            let posed = rig.reach(wrist, row.plane, self.limits);
+            let posed = rig.reach(wrist, row.bearing, self.limits);
             let rotation = rig.hung(&posed, &row.angles, &self.held);
             (posed, rotation)
         };
         if row.kept {
             let wrist = row.point - row.turned * row.offset;
-            let posed = rig.reach(wrist, row.plane, self.limits);
+            let posed = rig.reach(wrist, row.bearing, self.limits);
             let asked = rig.wrist(&posed, row.turned, &self.held);
             let within = asked.bend(self.limits) < 1.0 + 1e-6;
             if posed.wrist.distance(wrist) < 1e-4 && within {
@@ -498,7 +329,7 @@ impl<'a> Arm<'a> {
     /// Returns what keeps a hand from being turned as it should be.
     pub(crate) fn hindrance(&self, row: &Row, got: &Got) -> Hindrance {
         let wrist = row.point + row.push - row.turned * row.offset;
-        let posed = self.rig().reach(wrist, row.plane, self.limits);
+        let posed = self.rig().reach(wrist, row.bearing, self.limits);
         let asked = self.rig().wrist(&posed, row.turned, &self.held);
         if asked.turned(self.limits) > 1.01 {
             Hindrance::Forearm
@@ -590,8 +421,9 @@ fn eased(rows: &[Row], around: Range<usize>, near: usize) -> Vec<DVec3> {
         .collect()
 }
 
-/// Spreads what the wrist does faster than it can over the time before and after.
-fn calm(rows: &mut [Row], rate: f64) {
+/// Spreads what the wrist does faster than it can over the time before and after; where there is enough of
+/// it, over that in which the hand is `free` to be turned as it likes.
+fn calm(rows: &mut [Row], free: &[bool], rate: f64) {
     let most = BENDING / rate;
     let near = ((AROUND * rate).ceil() as usize).max(1);
     for _ in 0..4 {
@@ -601,8 +433,18 @@ fn calm(rows: &mut [Row], rate: f64) {
             break;
         }
         for run in found.chunk_by(|a, b| b - a <= near) {
-            let first = run[0].saturating_sub(near);
-            let last = (run[run.len() - 1] + near).min(rows.len() - 1);
+            let (begins, ends) = (run[0], run[run.len() - 1]);
+            let before = free[..begins].iter().rev().take_while(|free| **free);
+            let before = before.take(2 * near).count();
+            let after = free[ends..].iter().take_while(|free| **free);
+            let after = after.take(2 * near).count();
+            let (before, after) = if before + after >= near {
+                (before + 1, after)
+            } else {
+                (near, near)
+            };
+            let first = begins.saturating_sub(before);
+            let last = (ends + after).min(rows.len() - 1);
             let (from, to) = (rows[first].angles, rows[last].angles);
             for (n, row) in rows[first + 1..last].iter_mut().enumerate() {
                 let share = smooth((n + 1) as f64 / (last - first) as f64);
@@ -613,46 +455,9 @@ fn calm(rows: &mut [Row], rate: f64) {
     }
 }
 
-/// Returns what a plane costs, in degrees against the rule's: past 60° no steeper.
-fn off_rule(degrees: f64) -> f64 {
-    let near = degrees.abs().min(60.0);
-    0.7 * (near / 36.0).powi(2) + 0.05 * (degrees.abs() - near)
-}
-
-/// Returns what it costs to go from one choice to another within `dt` seconds.
-fn change(from: &Choice, to: &Choice, dt: f64) -> f64 {
-    let swivel = (to.plane - from.plane).abs() / (SWIVEL * dt);
-    let bend = to.angles.apart(&from.angles) / (0.6 * BENDING * dt);
-    let over = |speed: f64| (speed - 1.0).max(0.0).powi(2);
-    0.6 * swivel * swivel + 20.0 * over(swivel) + 6.0 * over(bend)
-}
-
-fn best(choices: &[Choice]) -> usize {
-    let least = choices
-        .iter()
-        .enumerate()
-        .min_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
-    least.map_or(0, |(n, _)| n)
-}
-
-/// Returns the plane at which the parabola through a choice and its neighbours is lowest.
-fn refined(choices: &[Choice], n: usize) -> f64 {
-    let here = choices[n];
-    let neighbour = |n: Option<usize>| choices.get(n?).filter(|other| other.high == here.high);
-    let (Some(less), Some(more)) = (neighbour(n.checked_sub(1)), neighbour(Some(n + 1))) else {
-        return here.plane;
-    };
-    let bent = less.cost - 2.0 * here.cost + more.cost;
-    if bent <= 1e-9 {
-        return here.plane;
-    }
-    let by = (0.5 * (less.cost - more.cost) / bent).clamp(-0.5, 0.5);
-    here.plane + by * (more.plane - here.plane)
-}
-
-/// Returns the planes of all frames: a uniform cubic B-spline, smoother than its keys.
-fn spline(keys: &[Choice], step: usize, total: usize) -> Vec<f64> {
-    let key = |n: isize| keys[n.clamp(0, keys.len() as isize - 1) as usize].plane;
+/// Returns something of how the arm is held in all frames: a uniform cubic B-spline, smoother than its keys.
+fn spline(keys: &[Choice], step: usize, total: usize, of: impl Fn(&Bearing) -> f64) -> Vec<f64> {
+    let key = |n: isize| of(&keys[n.clamp(0, keys.len() as isize - 1) as usize].bearing);
     (0..total)
         .map(|frame| {
             let n = (frame / step) as isize;

@@ -144,6 +144,7 @@ impl<'a> Made<'a> {
         let each = self.got.iter().enumerate();
         each.map(|(n, got)| Moved {
             wrist: got.posed.wrist,
+            elbow: got.posed.elbow,
             turned: rig.turned(&got.posed, got.rotation),
             local: [0, 1, 2, 3].map(|joint| self.arm[joint][n]),
         })

@@ -2,6 +2,10 @@
 
 use chereme_motion::glam::{DQuat, DVec3};
 
+/// How hard a wrist or an elbow starts, turns or stops at most, in metres per second squared: what a person
+/// could do.
+const HARDEST: f64 = 75.0;
+
 /// How fast arms may go.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fastest {
@@ -11,10 +15,11 @@ pub(crate) struct Fastest {
     pub(crate) wrist: f64,
 }
 
-/// What of an arm has a speed: the wrist's place, and rotations in model space.
+/// What of an arm has a speed: the places of wrist and elbow, and rotations in model space.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Moved {
     pub(crate) wrist: DVec3,
+    pub(crate) elbow: DVec3,
     pub(crate) turned: [DQuat; 3],
     /// Its joints' own rotations.
     pub(crate) local: [DQuat; 4],
@@ -48,10 +53,13 @@ impl Warp {
                     // Joints go each its own way between the two frames.
                     let each = a.local.iter().zip(b.local);
                     let sum: f64 = each.map(|(a, b)| a.angle_between(b)).sum();
-                    last = (1.2 * last).max(sum * rate / fastest.joint);
+                    last = (1.2 * turn).max(1.6 * way).max(sum * rate / fastest.joint);
                 }
                 lasts[n] = lasts[n].max(last);
             }
+        }
+        for arm in arms {
+            slow(arm, rate, &mut lasts);
         }
         let around = ((0.025 * rate).ceil() as usize).max(1);
         let eased: Vec<f64> = (0..lasts.len())
@@ -112,6 +120,25 @@ impl Warp {
     }
 }
 
+/// Lets steps last longer in which a wrist or an elbow would start, turn or stop too hard, seen over a
+/// sixtieth of a second to either side.
+fn slow(arm: &[Moved], rate: f64, lasts: &mut [f64]) {
+    let step = ((rate / 60.0).round() as usize).max(1);
+    let seconds = step as f64 / rate;
+    for n in step..arm.len().saturating_sub(step) {
+        let pull = |at: fn(&Moved) -> DVec3| {
+            let [a, b, c] = [n - step, n, n + step].map(|n| at(&arm[n]));
+            (a - b * 2.0 + c).length() / (seconds * seconds)
+        };
+        let hard = pull(|moved| moved.wrist).max(pull(|moved| moved.elbow)) / HARDEST;
+        if hard > 1.0 {
+            for last in &mut lasts[n - step..n + step] {
+                *last = last.max(hard.min(2.5));
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -124,6 +151,7 @@ mod tests {
     fn along(places: &[f64]) -> Vec<Moved> {
         let at = |x: &f64| Moved {
             wrist: DVec3::X * *x,
+            elbow: DVec3::ZERO,
             turned: [DQuat::IDENTITY; 3],
             local: [DQuat::IDENTITY; 4],
         };
@@ -144,8 +172,8 @@ mod tests {
         places.extend(vec![0.5; 20]);
         let warp = Warp::of(&[along(&places)], 100.0, &FASTEST);
         assert!(
-            (warp.at(0.2) - warp.at(0.19) - 0.12).abs() < 1e-12,
-            "0.5 m at 5 m/s, and a fifth more"
+            (warp.at(0.2) - warp.at(0.19) - 0.16).abs() < 1e-12,
+            "0.5 m at 5 m/s, and the bow about the joints"
         );
         let frames = warp.frames();
         let at = |(n, share): (usize, f64)| {

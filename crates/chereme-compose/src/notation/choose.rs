@@ -1,0 +1,335 @@
+//! How an arm is held: its plane, its shoulder, and the end of its range at which a forearm stops that
+//! should turn farther.
+//!
+//! Each is weighed by how well it suits the wrist, the hand's orientation and the trunk, and by how far
+//! it is from the one before: the cheapest course of all, by dynamic programming. Only about where a hand
+//! would give way the collar bone carries the shoulder along the upper arm, or back.
+
+use chereme_motion::glam::{DQuat, DVec3};
+
+use super::arm::{Bearing, Posed, WristAngles};
+use super::solve::{Arm, BENDING, Want};
+
+/// Planes that are weighed against the rule's: the first, the last and the step, in degrees.
+const PLANES: (f64, f64, f64) = (-50.0, 120.0, 10.0);
+/// What planes cost in which the elbow goes inwards, against the others.
+const INWARDS: f64 = 4.0;
+/// How fast the arm's plane turns at most, in radians a second.
+const SWIVEL: f64 = 7.0;
+/// How fast an elbow goes without cost, in arm lengths a second: 2.5 m/s at 55 cm.
+const ELBOW: f64 = 4.5;
+/// What a hand costs that is turned from what is written by all that is still as written.
+const TURNED: f64 = 75.0;
+/// What it costs to be an arm's length off the place, and in the trunk; both grow with the square.
+const MISSED: f64 = 1.2e4;
+const WITHIN: f64 = 9e4;
+/// Shrugs that are weighed where a hand gives way, what the farthest costs, and how fast one comes, in parts
+/// of the farthest a second.
+const SHRUGS: [f64; 4] = [-1.0, -0.5, 0.5, 1.0];
+const SHRUGGED: f64 = 2.5;
+const SHRUGGING: f64 = 8.0;
+/// What a hand costs that gives way so far that a shrug is weighed, and how long around that, in seconds.
+const GIVES_WAY: f64 = 1.0;
+const AROUND: f64 = 0.2;
+
+/// A way that an arm could be held.
+#[derive(Clone, Copy)]
+pub(crate) struct Choice {
+    pub(crate) bearing: Bearing,
+    angles: WristAngles,
+    pub(crate) high: bool,
+    /// Where the elbow is, in arm lengths.
+    elbow: DVec3,
+    cost: f64,
+    /// What of this costs that the hand is turned or placed otherwise than it should be, or the arm in the
+    /// trunk.
+    amiss: f64,
+}
+
+impl Arm<'_> {
+    /// Returns how an arm is best held for a hand that stays where it is.
+    pub(crate) fn bearing(&self, wrist: DVec3, turned: DQuat) -> Bearing {
+        let want = Want {
+            point: wrist,
+            offset: DVec3::ZERO,
+            turned,
+            outlines: [&[], &[]],
+            touch: 0.0,
+        };
+        let mut choices = self.choices(&want, false);
+        if choices[best(&choices)].amiss > GIVES_WAY {
+            self.shrug(&mut choices, &want, false);
+        }
+        refined(&choices, best(&choices))
+    }
+
+    /// Returns what it costs for a hand to be somewhere, the arm held as is best.
+    pub(crate) fn strain(&self, wrist: DVec3, turned: DQuat) -> f64 {
+        let least = |shrug: f64| {
+            let each = planes().map(|plane| self.strained(wrist, turned, Bearing { plane, shrug }));
+            each.fold(f64::INFINITY, f64::min) + SHRUGGED * shrug * shrug
+        };
+        let still = least(0.0);
+        if still < GIVES_WAY {
+            return still;
+        }
+        SHRUGS.into_iter().map(least).fold(still, f64::min)
+    }
+
+    fn strained(&self, wrist: DVec3, turned: DQuat, bearing: Bearing) -> f64 {
+        let rig = self.rig();
+        let posed = rig.reach(wrist, bearing, self.limits);
+        let asked = rig.wrist(&posed, turned, &self.held);
+        let off = |high: bool| {
+            let angles = asked.allowed(self.limits, high);
+            if angles == asked {
+                return 0.0;
+            }
+            rig.hung(&posed, &angles, &self.held).angle_between(turned)
+        };
+        let over = asked.turned(self.limits) > 1.0;
+        let apart = if over {
+            off(false).min(off(true))
+        } else {
+            off(false)
+        };
+        let missed = posed.wrist.distance(wrist) / rig.length();
+        0.3 * off_rule(bearing.plane.to_degrees())
+            + self.off(apart)
+            + self.within(&posed)
+            + MISSED * missed * missed
+    }
+
+    /// Returns what a hand costs that is turned off what is written.
+    fn off(&self, apart: f64) -> f64 {
+        let apart = apart / self.limits.tolerance;
+        let over = (apart - 1.0).max(0.0);
+        TURNED * apart.min(1.0).powi(2) + 36.0 * over + 75.0 * over * over
+    }
+
+    /// Returns what it costs that an upper arm is in the trunk.
+    fn within(&self, posed: &Posed) -> f64 {
+        [0.6, 1.0]
+            .map(|share| {
+                let at = posed.shoulder.lerp(posed.elbow, share);
+                let deep = self.stage.torso.way_out(at, 0.035).length() / self.rig().length();
+                WITHIN * deep * deep
+            })
+            .iter()
+            .sum()
+    }
+
+    /// Returns how the arm is held over time that costs least together, each with the end at which a
+    /// forearm stops; shoulders are shrugged only about where a hand gives way without.
+    pub(crate) fn choose<'w>(
+        &self,
+        wants: impl Iterator<Item = (Want<'w>, bool)>,
+        dt: f64,
+    ) -> Vec<Choice> {
+        let mut lists: Vec<((Want<'w>, bool), Vec<Choice>)> = Vec::new();
+        let mut of: Vec<usize> = Vec::new();
+        for want in wants {
+            if lists.last().is_none_or(|(known, _)| *known != want) {
+                lists.push((want, self.choices(&want.0, want.1)));
+            }
+            of.push(lists.len() - 1);
+        }
+        let chosen = cheapest(&lists, &of, dt);
+        let near = (AROUND / dt) as usize;
+        let mut shrugs = vec![false; lists.len()];
+        for (n, choice) in chosen.iter().enumerate() {
+            if choice.amiss > GIVES_WAY {
+                let around = n.saturating_sub(near)..(n + near + 1).min(of.len());
+                of[around].iter().for_each(|&list| shrugs[list] = true);
+            }
+        }
+        if !shrugs.contains(&true) {
+            return chosen;
+        }
+        for (((want, free), list), _) in lists.iter_mut().zip(shrugs).filter(|(_, shrugs)| *shrugs)
+        {
+            self.shrug(list, want, *free);
+        }
+        cheapest(&lists, &of, dt)
+    }
+
+    /// Returns every plane with what it costs.
+    fn choices(&self, want: &Want<'_>, free: bool) -> Vec<Choice> {
+        let mut choices: Vec<Choice> = Vec::with_capacity(2 * planes().count());
+        for high in [false, true] {
+            for (n, plane) in planes().enumerate() {
+                if high && choices[n].angles.turned(self.limits) < 0.999 {
+                    let same = choices[n];
+                    choices.push(Choice { high, ..same });
+                    continue;
+                }
+                let bearing = Bearing { plane, shrug: 0.0 };
+                choices.push(self.choice(want, bearing, high, free));
+            }
+        }
+        choices
+    }
+
+    /// Adds what shrugged shoulders would do to the planes in which the hand gives way.
+    fn shrug(&self, choices: &mut Vec<Choice>, want: &Want<'_>, free: bool) {
+        let still = choices.clone();
+        for shrug in SHRUGS {
+            for choice in still.iter().filter(|choice| choice.amiss > 0.2 * GIVES_WAY) {
+                if choice.high && choice.angles.turned(self.limits) < 0.999 {
+                    continue;
+                }
+                let plane = choice.bearing.plane;
+                choices.push(self.choice(want, Bearing { plane, shrug }, choice.high, free));
+            }
+        }
+    }
+
+    /// Returns a way to hold the arm with what it costs: how far it is from the rule's plane, how near wrist
+    /// and forearm are to their ends, how much the hand's orientation gives way, how much of the upper
+    /// arm is in the trunk, and what is missing to the place. On its `free` way between orientations a
+    /// hand may be turned as it likes.
+    fn choice(&self, want: &Want<'_>, bearing: Bearing, high: bool, free: bool) -> Choice {
+        let given = if free { 0.02 } else { 1.0 };
+        // Only what touches is weighed with all of the hand.
+        let (tries, outlines) = if want.touch > 0.0 {
+            (6, want.outlines)
+        } else {
+            (3, [&[][..]; 2])
+        };
+        let coarse = Want { outlines, ..*want };
+        let hung = self.hang(&coarse, bearing, high, tries);
+        let bend = (hung.angles.bend(self.limits) - 0.6).max(0.0);
+        let twist = (hung.angles.turned(self.limits) - 0.75).max(0.0);
+        let apart = hung.rotation.angle_between(want.turned);
+        let missed = hung.residual / self.rig().length();
+        let amiss = given * self.off(apart) + self.within(&hung.posed) + MISSED * missed * missed;
+        let cost = off_rule(bearing.plane.to_degrees())
+            + SHRUGGED * bearing.shrug * bearing.shrug
+            + 3.0 * (bend * bend + twist * twist)
+            + amiss;
+        Choice {
+            bearing,
+            angles: hung.angles,
+            high,
+            elbow: hung.posed.elbow / self.rig().length(),
+            cost,
+            amiss,
+        }
+    }
+}
+
+/// Returns the planes that are weighed, in radians against the rule's.
+fn planes() -> impl Iterator<Item = f64> {
+    let (first, last, step) = PLANES;
+    let count = ((last - first) / step).round() as usize + 1;
+    (0..count).map(move |n| (first + step * n as f64).to_radians())
+}
+
+/// Returns the course through the choices of each moment that costs least together.
+fn cheapest<K>(lists: &[(K, Vec<Choice>)], of: &[usize], dt: f64) -> Vec<Choice> {
+    let mut sums: Vec<f64> = Vec::new();
+    let mut came: Vec<Vec<usize>> = Vec::with_capacity(of.len());
+    let mut last: &[Choice] = &[];
+    for &list in of {
+        let choices = lists[list].1.as_slice();
+        let mut next = Vec::with_capacity(choices.len());
+        let mut from = Vec::with_capacity(choices.len());
+        for choice in choices {
+            let ways = last.iter().zip(&sums).enumerate();
+            let least = ways.fold((0, f64::INFINITY), |least, (n, (last, sum))| {
+                let sum = if *sum < least.1 {
+                    sum + change(last, choice, dt)
+                } else {
+                    f64::INFINITY
+                };
+                if sum < least.1 { (n, sum) } else { least }
+            });
+            let (n, sum) = if last.is_empty() { (0, 0.0) } else { least };
+            next.push(sum + choice.cost);
+            from.push(n);
+        }
+        sums = next;
+        came.push(from);
+        last = choices;
+    }
+    let ends = sums.iter().enumerate();
+    let mut n = ends.min_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(n, _)| n);
+    let mut chosen: Vec<Choice> = Vec::with_capacity(of.len());
+    for (&list, from) in of.iter().zip(&came).rev() {
+        let choices = &lists[list].1;
+        chosen.push(Choice {
+            bearing: refined(choices, n),
+            ..choices[n]
+        });
+        n = from[n];
+    }
+    chosen.reverse();
+    chosen
+}
+
+/// Returns what a plane costs, in degrees against the rule's: past 60° no steeper, and more where the elbow
+/// goes inwards, before the trunk.
+fn off_rule(degrees: f64) -> f64 {
+    let near = degrees.abs().min(60.0);
+    let outwards = 0.7 * (near / 36.0).powi(2) + 0.05 * (degrees.abs() - near);
+    if degrees < 0.0 {
+        INWARDS * outwards
+    } else {
+        outwards
+    }
+}
+
+/// Returns what it costs to go from one choice to another within `dt` seconds.
+fn change(from: &Choice, to: &Choice, dt: f64) -> f64 {
+    let swivel = (to.bearing.plane - from.bearing.plane).abs() / (SWIVEL * dt);
+    let shrug = (to.bearing.shrug - from.bearing.shrug).abs() / (SHRUGGING * dt);
+    let bend = to.angles.apart(&from.angles) / (0.6 * BENDING * dt);
+    let elbow = to.elbow.distance(from.elbow) / (ELBOW * dt);
+    let over = |speed: f64| (speed - 1.0).max(0.0).powi(2);
+    0.6 * (swivel * swivel + shrug * shrug)
+        + 60.0 * over(swivel)
+        + 150.0 * over(elbow)
+        + 20.0 * over(shrug)
+        + 6.0 * over(bend)
+}
+
+fn best(choices: &[Choice]) -> usize {
+    let least = choices
+        .iter()
+        .enumerate()
+        .min_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
+    least.map_or(0, |(n, _)| n)
+}
+
+/// Returns a choice's bearing, led to where parabolas through it and its neighbours are lowest.
+fn refined(choices: &[Choice], n: usize) -> Bearing {
+    let here = choices[n];
+    let step = PLANES.2.to_radians();
+    let neighbour = |plane: f64, shrug: f64| {
+        choices.iter().find(|other| {
+            other.high == here.high
+                && (other.bearing.plane - here.bearing.plane - plane).abs() < 1e-6
+                && (other.bearing.shrug - here.bearing.shrug - shrug).abs() < 1e-6
+        })
+    };
+    let by = |less: Option<&Choice>, more: Option<&Choice>| {
+        let (Some(less), Some(more)) = (less, more) else {
+            return 0.0;
+        };
+        let bent = less.cost - 2.0 * here.cost + more.cost;
+        if bent <= 1e-9 {
+            return 0.0;
+        }
+        (0.5 * (less.cost - more.cost) / bent).clamp(-0.5, 0.5)
+    };
+    let plane = by(neighbour(-step, 0.0), neighbour(step, 0.0));
+    let shrug = if here.bearing.shrug == 0.0 {
+        0.0
+    } else {
+        by(neighbour(0.0, -0.5), neighbour(0.0, 0.5))
+    };
+    Bearing {
+        plane: here.bearing.plane + plane * step,
+        shrug: here.bearing.shrug + shrug * 0.5,
+    }
+}
