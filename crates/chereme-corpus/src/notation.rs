@@ -100,7 +100,7 @@ pub(crate) fn find(connection: &Connection, address: &Address) -> Result<Notatio
     }
     Err(Error::wrong(format!("{address} has no notation"))
         .at(address.to_string())
-        .advise("import a SiGML file or a HamNoSys lexicon that holds the sign"))
+        .advise("import a SiGML file or a HamNoSys lexicon that holds the sign, or `chereme transcribe CORPUS SIGN --store`"))
 }
 
 /// Returns the notation of a token, where it has one.
