@@ -74,6 +74,9 @@ pub struct Picture {
     /// The body on which notation was animated, where the sign has no movement of its own.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub animated_on: Option<String>,
+    /// Whether the notation that is drawn was told from the movement, none being stored.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub transcribed: bool,
 }
 
 /// A piece of movement with what is needed to look at it.
@@ -133,7 +136,8 @@ impl Corpus {
 
     /// Draws movement to a file: a contact sheet where it ends in `.png`, an animation where it ends
     /// in `.gif`. A sign that is there as notation only is animated, on the body that the corpus chooses.
-    /// Where the file ends in `.svg`, the notation itself is drawn, symbol by symbol.
+    /// Where the file ends in `.svg`, the notation itself is drawn, symbol by symbol; of a sign without one, what
+    /// its movement is transcribed as.
     ///
     /// # Errors
     /// Where there is nothing to draw, the ending is another, or the file is there already.
@@ -146,7 +150,7 @@ impl Corpus {
     ) -> Result<Picture> {
         let connection = self.store.read();
         if extension(to) == "svg" {
-            return draw_symbols(&notation::find(connection, address)?, to, options.force);
+            return self.draw_symbols(address, to, options.force);
         }
         let stretch = match address::stretch(connection, address) {
             Ok(stretch) => stretch,
@@ -162,6 +166,27 @@ impl Corpus {
         let moving = self.movement_in(address, Some(span), &ChannelGroup::ALL)?;
         let title = title(&moving.stretch);
         draw_clip(&moving.clip, &moving.anatomy, &title, to, options, progress)
+    }
+
+    /// Draws the symbols of a notation to an SVG: what is stored, or else what the movement is transcribed as.
+    fn draw_symbols(&self, address: &Address, to: &Path, force: bool) -> Result<Picture> {
+        let (title, text, transcribed) = match notation::find(self.store.read(), address) {
+            Ok(Notation { text, document, .. }) => {
+                let text = text.unwrap_or_else(|| document.hamnosys().text);
+                (document.gloss, text, false)
+            }
+            Err(error) => match self.transcribe(address) {
+                Ok(written) => (written.gloss, written.hamnosys, true),
+                Err(_) => return Err(error),
+            },
+        };
+        let unknown = || Error::wrong("the notation holds what is no symbol").at(&title);
+        let symbols = drawing::drawn(&text).ok_or_else(unknown)?.len();
+        let picture = drawing::svg(&text, SYMBOL).ok_or_else(unknown)?;
+        Ok(Picture {
+            transcribed,
+            ..written(&picture, &title, symbols, to, force)?
+        })
     }
 
     fn draw_notated(
@@ -271,21 +296,9 @@ impl Corpus {
             bytes,
             frames,
             animated_on: None,
+            transcribed: false,
         })
     }
-}
-
-/// Draws the symbols of a notation to an SVG.
-fn draw_symbols(notated: &Notation, to: &Path, force: bool) -> Result<Picture> {
-    let text = match &notated.text {
-        Some(text) => text.clone(),
-        None => notated.document.hamnosys().text,
-    };
-    let unknown =
-        || Error::wrong("the notation holds what is no symbol").at(&notated.document.gloss);
-    let symbols = drawing::drawn(&text).ok_or_else(unknown)?.len();
-    let picture = drawing::svg(&text, SYMBOL).ok_or_else(unknown)?;
-    written(&picture, &notated.document.gloss, symbols, to, force)
 }
 
 /// Writes a picture in SVG.
@@ -300,6 +313,7 @@ fn written(picture: &str, title: &str, symbols: usize, to: &Path, force: bool) -
         bytes,
         frames: symbols,
         animated_on: None,
+        transcribed: false,
     })
 }
 
@@ -372,6 +386,7 @@ pub fn draw_clip(
         bytes,
         frames,
         animated_on: None,
+        transcribed: false,
     })
 }
 

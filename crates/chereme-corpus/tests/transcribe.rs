@@ -1,6 +1,8 @@
 //! A token's movement in HamNoSys: told, kept as its notation, and taken back.
 
-use chereme_corpus::{Address, Corpus, ImportOptions, Progress, starter_files, unheard};
+use chereme_corpus::{
+    Address, Corpus, ImportOptions, PictureOptions, Progress, starter_files, unheard,
+};
 use chereme_sign::hamnosys::parse;
 
 #[test]
@@ -40,6 +42,10 @@ fn what_is_transcribed_can_be_kept_and_taken_back() {
     assert_eq!(read.sign, told.sign, "{:?}", told.findings);
 
     assert!(corpus.notation(&sign).is_err());
+    let picture = folder.path().join("bol.svg");
+    let drawn = corpus.draw(&sign, &picture, &PictureOptions::default(), &mut progress);
+    let drawn = drawn.expect("drawn");
+    assert!(drawn.transcribed && drawn.frames == told.symbols.len());
     corpus.store_transcription(&sign, false).expect("kept");
     let kept = corpus.notation(&sign).expect("a notation");
     assert_eq!(kept.text.as_ref(), Some(&told.hamnosys));

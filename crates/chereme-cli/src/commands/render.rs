@@ -96,6 +96,12 @@ fn say(picture: &Picture, output: &mut Output) -> Result<()> {
             picture.title
         ))?;
     }
+    if picture.transcribed {
+        output.line(format!(
+            "{} has no notation: it was transcribed from its movement, and not stored",
+            picture.title
+        ))?;
+    }
     let symbols = picture.path.extension().is_some_and(|it| it == "svg");
     output.line(format!(
         "drew {} to {}: {} {}, {} KB",
