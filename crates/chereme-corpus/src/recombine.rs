@@ -7,7 +7,7 @@ mod parts;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use chereme_compose::{About, Input, Made, Note, Recipe, Report, Resolved};
+use chereme_compose::{About, ENGINE, Input, Made, Note, Recipe, Report, Resolved};
 use chereme_formats::bvh::convert;
 use chereme_formats::bvh::raw::{Column, Hierarchy};
 use chereme_motion::anatomy::Anatomy;
@@ -576,7 +576,7 @@ fn recipe_row(
         text: recipe.to_string(),
         document: document.to_string(),
         report: serde_json::to_string(&made.report).map_err(fault)?,
-        engine: env!("CARGO_PKG_VERSION").to_owned(),
+        engine: format!("{}+{ENGINE}", env!("CARGO_PKG_VERSION")),
     })
 }
 
