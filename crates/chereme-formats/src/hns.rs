@@ -67,13 +67,16 @@ pub fn read(bytes: &[u8]) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
     Ok((entries, findings.finish()))
 }
 
-/// Returns whether the beginning of a file holds HamNoSys.
+/// Returns whether a file that begins with these bytes holds HamNoSys; of a long one its first whole lines are
+/// looked at.
 #[must_use]
 pub fn holds_some(bytes: &[u8]) -> bool {
-    let text = decode(
-        &bytes[..bytes.len().min(LOOKED_AT)],
-        &mut Findings::default(),
-    );
+    let mut seen = &bytes[..bytes.len().min(LOOKED_AT)];
+    if seen.len() == LOOKED_AT {
+        // A character that is cut through would make the rest look like Latin-1.
+        seen = &seen[..memchr::memrchr(b'\n', seen).unwrap_or(0)];
+    }
+    let text = decode(seen, &mut Findings::default());
     text.is_ok_and(|text| text.lines().any(|line| begin(line).is_some()))
 }
 
@@ -205,6 +208,13 @@ mod tests {
         assert_eq!(read(b"nothing of the kind\n"), Err(Error::Nothing));
         assert_eq!(read(b""), Err(Error::Nothing));
         assert_eq!(read(b"A\n\0"), Err(Error::NotText { line: 2 }));
+        let many = "\u{e000}\u{e020}\u{e03c}é\n".repeat(9_000);
+        for skipped in 0..12 {
+            assert!(holds_some(&many.as_bytes()[12 * skipped..]), "{skipped}");
+            assert!(holds_some(
+                format!("{}{many}", "a".repeat(skipped)).as_bytes()
+            ));
+        }
         assert!(holds_some(b"x\ny hamfist") && !holds_some(b"a hamster") && !holds_some(b"\0"));
     }
 
