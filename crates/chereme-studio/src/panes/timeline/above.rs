@@ -85,8 +85,9 @@ impl Drawing<'_, '_> {
             .iter()
             .find(|(at, _)| contents.tiers.get(*at).map(|tier| tier.row.id) == tier);
         let y = row.map_or(Rangef::point(lane.bottom()), |(_, y)| *y);
-        let x =
-            (lane.left() + self.window.x(span.0 as f64)).clamp(lane.left(), lane.right() - 40.0);
+        // A lane may be narrower than the box's least width.
+        let x = lane.left() + self.window.x(span.0 as f64);
+        let x = x.min(lane.right() - 40.0).max(lane.left());
         let below = Rect::from_x_y_ranges(x..=x + 1.0, y);
         editor::show(self.timeline, ui, &scene, below, self.out);
     }

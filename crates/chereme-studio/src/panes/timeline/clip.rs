@@ -189,7 +189,7 @@ impl Columns {
         };
         let (from, mut to) = (time(start)?, time(end)?);
         if cell(self.end).is_none() {
-            to += from;
+            to = to.saturating_add(from);
         }
         if to <= from {
             return Err(odd(words::ODD_ENDS, end));

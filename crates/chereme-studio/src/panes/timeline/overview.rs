@@ -135,7 +135,8 @@ impl Drawing<'_, '_> {
         );
         let (left, right) = (left.max(strip.left()), right.min(strip.right()));
         let more = ((LEAST - (right - left)) / 2.0).max(0.0);
-        let left = (left - more).clamp(strip.left(), strip.right() - LEAST);
+        // A strip may be narrower than the box.
+        let left = (left - more).min(strip.right() - LEAST).max(strip.left());
         Rect::from_x_y_ranges(left..=(right + more).max(left + LEAST), strip.y_range())
     }
 
