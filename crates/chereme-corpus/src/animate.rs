@@ -11,10 +11,10 @@ use serde_json::json;
 use crate::Corpus;
 use crate::address::{self, Address};
 use crate::error::{Error, Result};
+use crate::notation;
 use crate::recombine::{NotationFinding, Recombination};
 use crate::sources::CorpusSources;
 use crate::sources::notation::{NEXT, OWN_BODY};
-use crate::{inventories, notation};
 
 /// Who signs what is notated, and how.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -78,14 +78,8 @@ impl Corpus {
 
     /// Returns the address of the body that the corpus chooses where none is named.
     pub(crate) fn chosen_body(&mut self) -> Result<String> {
-        let (connection, index) = self.store.searchable()?;
-        let inventories = inventories::load(connection)?;
-        let sources = CorpusSources {
-            connection,
-            index,
-            inventories: &inventories,
-            learned: &self.learned,
-        };
+        let inventories = self.inventories_now()?;
+        let sources = CorpusSources::open(&mut self.store, &inventories, &self.learned)?;
         let stage = sources.stage(None);
         let stage = stage.map_err(|error| Error::wrong(error.to_string()))?;
         Ok(stage.address)

@@ -161,7 +161,7 @@ impl Corpus {
     }
 
     /// Returns the inventories, read again only where the corpus changed: previews follow each other fast.
-    fn inventories_now(&self) -> Result<Arc<Vec<StoredInventory>>> {
+    pub(crate) fn inventories_now(&self) -> Result<Arc<Vec<StoredInventory>>> {
         let now = self.generation()?;
         let mut kept = self.inventories.borrow_mut();
         if let Some((generation, inventories)) = &*kept
@@ -177,13 +177,7 @@ impl Corpus {
     pub(crate) fn make(&mut self, recipe: &str) -> Result<(Resolved, Made, Recipe)> {
         let recipe = read(recipe)?;
         let inventories = self.inventories_now()?;
-        let (connection, index) = self.store.searchable()?;
-        let sources = CorpusSources {
-            connection,
-            index,
-            inventories: &inventories,
-            learned: &self.learned,
-        };
+        let sources = CorpusSources::open(&mut self.store, &inventories, &self.learned)?;
         let resolved = chereme_compose::resolve(&recipe, &sources).map_err(cannot)?;
         let made = chereme_compose::evaluate(&resolved).map_err(cannot)?;
         Ok((resolved, made, recipe))

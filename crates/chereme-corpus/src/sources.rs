@@ -17,6 +17,7 @@ use sha2::{Digest, Sha256};
 
 use crate::address::{self, Address, Name, Stretch};
 use crate::curves;
+use crate::db::Store;
 use crate::db::history;
 use crate::db::motion;
 use crate::db::recordings::{self, RecordingRow};
@@ -52,7 +53,22 @@ pub(crate) struct Learned {
     samples: Option<(Option<i64>, Samples)>,
 }
 
-impl CorpusSources<'_> {
+impl<'a> CorpusSources<'a> {
+    /// Opens what recipes see of a corpus, its search index brought up to date.
+    pub(crate) fn open(
+        store: &'a mut Store,
+        inventories: &'a [StoredInventory],
+        learned: &'a RefCell<Learned>,
+    ) -> Result<Self> {
+        let (connection, index) = store.searchable()?;
+        Ok(Self {
+            connection,
+            index,
+            inventories,
+            learned,
+        })
+    }
+
     fn stretch(&self, text: &str) -> Result<Stretch> {
         address::stretch(self.connection, &text.parse()?)
     }

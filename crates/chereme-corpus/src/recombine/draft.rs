@@ -40,13 +40,7 @@ impl Corpus {
             self.drafted.draft.forget();
             self.drafted.generation = generation;
         }
-        let (connection, index) = self.store.searchable()?;
-        let sources = CorpusSources {
-            connection,
-            index,
-            inventories: &inventories,
-            learned: &self.learned,
-        };
+        let sources = CorpusSources::open(&mut self.store, &inventories, &self.learned)?;
         let progress = RefCell::new(progress);
         let goes_on = || {
             let step = Step {
