@@ -4,6 +4,7 @@ mod arrange;
 mod copies;
 mod laws;
 mod scheme;
+mod tiers;
 
 use chereme_formats::table::annotations::Moment;
 use chereme_motion::Instant;
@@ -633,125 +634,6 @@ fn times_snap_to_frames() {
         .annotate(&changes, &options, &mut Progress::new(&mut hear))
         .expect("added");
     assert_eq!(shown(&corpus), "G 1 10-110 BOL");
-}
-
-#[test]
-fn tiers_are_added_changed_and_removed() {
-    let (_folder, mut corpus) = corpus();
-    annotate(
-        &mut corpus,
-        "add G 0-100 BOL; add I 0-50 x; add C 0-100 U; add L 0-100 chin; add H 200-300 CHAT",
-    )
-    .expect("added");
-    let tier = |name: &str| TierName::read(name, Some(&Name::Number(1))).expect("a name");
-    let before = rows(corpus.store.read());
-    let change = |change: &str| {
-        let component = |component| TierRole::Component {
-            component,
-            feature: None,
-        };
-        let values = |id: &str| Some(Values::Inventory(id.to_owned()));
-        match change {
-            "left" => TierChange {
-                hand: Some(Some(chereme_formats::roles::Hands::One(
-                    "left".parse().expect("a hand"),
-                ))),
-                ..Default::default()
-            },
-            "movement" => TierChange {
-                role: Some(component(Component::Movement)),
-                ..Default::default()
-            },
-            "free" => TierChange {
-                values: Some(Values::Free),
-                ..Default::default()
-            },
-            "rename" => TierChange {
-                name: Some("New".into()),
-                ..Default::default()
-            },
-            "taken" => TierChange {
-                name: Some("G".into()),
-                ..Default::default()
-            },
-            "comment" => TierChange {
-                role: Some(TierRole::Comment),
-                ..Default::default()
-            },
-            id => TierChange {
-                values: values(id),
-                ..Default::default()
-            },
-        }
-    };
-    for (name, what, want) in [
-        ("C", "left", "BOL 0-100: right.placement=chin; CHAT 200-300"),
-        (
-            "C",
-            "movement",
-            "BOL 0-100: right.placement=chin right.movement=U; CHAT 200-300",
-        ),
-        (
-            "C",
-            "free",
-            "BOL 0-100: right.configuration=U right.placement=chin; CHAT 200-300",
-        ),
-        (
-            "C",
-            "rename",
-            "BOL 0-100: right.configuration=U right.placement=chin; CHAT 200-300",
-        ),
-        ("C", "taken", "already"),
-        ("C", "placements", "is for placement"),
-        ("C", "configuratons", "did you mean \"configurations\""),
-        (
-            "L",
-            "placements",
-            "BOL 0-100: right.configuration=U right.placement=chin; CHAT 200-300",
-        ),
-        ("G", "comment", "CHAT 200-300"),
-        ("G", "left", "BOL 0-100: left.placement=chin; CHAT 200-300"),
-    ] {
-        match corpus.change_tier(&tier(name), &change(what)) {
-            Ok(_) => {
-                assert_eq!(tokens_shown(&corpus), want, "{name} {what}");
-                corpus.undo().expect("undone");
-            }
-            Err(error) => {
-                let told = format!("{error} {}", error.remedy().unwrap_or_default());
-                assert!(told.contains(want), "{name} {what}: {told}");
-            }
-        }
-        assert_eq!(rows(corpus.store.read()), before, "{name} {what}");
-    }
-    annotate(&mut corpus, "add L 200-300 nowhere").expect("added");
-    let error = corpus
-        .change_tier(&tier("L"), &change("placements"))
-        .expect_err("a value is missing");
-    assert!(
-        error.to_string().contains("\"nowhere\" (1 times"),
-        "{error}"
-    );
-    corpus.undo().expect("undone");
-    let removed = corpus.remove_tier(&tier("G")).expect("removed");
-    assert_eq!(
-        (removed.tiers.join(" "), removed.annotations),
-        ("G T I S A".to_owned(), 2)
-    );
-    assert_eq!(tokens_shown(&corpus), "CHAT 200-300");
-    corpus.undo().expect("undone");
-    assert_eq!(rows(corpus.store.read()), before);
-    let wrong = NewTier {
-        parent: Some(("S".into(), Stereotype::IncludedIn)),
-        ..NewTier::new(Name::Number(1), "N", TierRole::Free)
-    };
-    assert!(
-        corpus
-            .add_tier(&wrong)
-            .is_err_and(|error| error.to_string().contains("symbolic tier"))
-    );
-    let double = NewTier::new(Name::Number(1), "G", TierRole::Free);
-    assert!(corpus.add_tier(&double).is_err());
 }
 
 #[test]
