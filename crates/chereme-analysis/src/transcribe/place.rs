@@ -1,6 +1,7 @@
 //! Where hands are: the nearest place on the body or in space, what touches, the two by each other.
 
 mod hand;
+mod spread;
 mod together;
 
 use std::cell::OnceCell;
@@ -13,6 +14,7 @@ use glam::DVec3;
 use super::Found;
 use super::scene::{Axes, Scene};
 use hand::{Hand, named_all};
+use spread::Spread;
 
 pub(super) use hand::named;
 pub(super) use together::Together;
@@ -54,29 +56,40 @@ const SIDES: [Option<Side>; 5] = [
 
 /// A hand touches the head or an arm where it is nearer than the first, the trunk where nearer than
 /// the second, the other hand where nearer than the third; in arm lengths.
-const TOUCH: [f64; 3] = [0.05, 0.07, 0.045];
-/// How much a metre forward counts against one aside or up: depth varies most between signers.
-const DEPTH: f64 = 0.6;
-/// What is said costs so much, as a share of the distance: half-way between places of the trunk (or
-/// touched ones) or before the head; a place that is rarely meant; the shoulder's top without touching
-/// it; reaching far; being close to the head without touching it; another part of the hand than the
-/// one that comes first, for small places and before the trunk; a side; the more, the farther two places
-/// are from each other; two of neck and head.
-const BETWEEN: [f64; 2] = [0.5, 1.0];
-const RARE: f64 = 0.8;
-const TOP: f64 = 0.3;
-const FAR: f64 = 1.0;
-const NEAR: f64 = 0.4;
-const SAID: [f64; 2] = [0.5, 1.6];
-const SIDE: f64 = 0.1;
-const WIDE: f64 = 0.2;
-const ACROSS: f64 = 0.6;
+const TOUCH: [f64; 3] = [0.05, 0.11, 0.045];
+/// How much less likely it is, in nepers, that half-way between two places is meant than one of them, and that
+/// they differ in height and side; a place that is rarely meant; half-way to the shoulder's top, and below
+/// the chin, without touching them; the
+/// other side, and beside the body; the more, the farther two places are from each other; one at the trunk and
+/// one at the head.
+const BETWEEN: f64 = 1.2;
+const OBLIQUE: f64 = 1.0;
+const RARE: f64 = 2.0;
+const TOP: f64 = 1.0;
+const UNDER: f64 = 2.5;
+const ACROSS: f64 = 1.0;
+const BESIDE: f64 = 1.5;
+const WIDE: f64 = 0.6;
+const REGIONS: f64 = 2.0;
 /// Half-way between places that another one lies between costs this besides: that one would be said.
-const SKIPS: f64 = 0.8;
+const SKIPS: f64 = 2.0;
+/// How much less likely hands are so near to a place, before the trunk and before the head: close, in the
+/// middle, far, touching.
+const NEARNESS: [[f64; 4]; 2] = [[0.0, 0.4, 2.5, 1.5], [0.5, 1.5, 3.5, 1.5]];
+/// How much less likely it is that a part of the hand is named, close to the trunk, close to the head, and where
+/// it touches; and for each step that it is less likely meant than others.
+const SAID: [f64; 3] = [6.5, 3.5, 1.0];
+const STEP: f64 = 1.5;
+/// What touches is hardly left unsaid.
+const UNSAID: f64 = 1.5;
+/// How much less likely a side is said where two hands are meant, each at its own.
+const OWN_SIDES: f64 = 1.0;
 /// What lies nearer to the middle of two places than this share of the way to either lies between.
 const BETWEEN_THEM: f64 = 0.6;
 /// Half-way between two places may be meant that are nearer to each other than this, in metres.
 const APART: f64 = 0.2;
+/// As above, of one place and beside it.
+const ASIDE: f64 = 0.35;
 /// As above, where one is at the neck and the other at the head.
 const ABOVE: f64 = 0.3;
 
@@ -87,8 +100,10 @@ pub(super) struct Placed {
     /// From what a hand would be that is there, in metres.
     pub(super) residual: f64,
     pub(super) runner_up: Option<(BodyPlace, f64)>,
-    /// The residual with what is said counted against it.
+    /// How much less likely it is than what is plain and exact, in nepers.
     pub(super) score: f64,
+    /// The part of it that comes of where the hand is.
+    pub(super) unlikely: f64,
     /// From the hand to the body there, in metres.
     pub(super) distance: f64,
     /// Whether a part of the hand is meant, and not the whole.
@@ -104,6 +119,7 @@ pub(super) struct Body<'a> {
     model: ModelPose,
     /// The dominant hand and the other.
     hands: [Option<Hand>; 2],
+    spread: Spread,
     choices: [OnceCell<Vec<Choice>>; 2],
 }
 
@@ -125,9 +141,10 @@ struct Spot {
 struct Choice {
     spot: Spot,
     second: Option<Site<BodyLocation>>,
-    /// What it costs to say it, but for being half-way.
+    /// How much less likely it is to be meant than another one, in nepers.
     cost: f64,
     top: bool,
+    under: bool,
 }
 
 /// A place that a hand may be at, and how far it is from there.
@@ -137,8 +154,10 @@ struct Candidate<'c> {
     /// The parts of the hand, where they must be said.
     said: Option<&'c [HandPoint]>,
     residual: f64,
-    /// The residual with what is said counted against it.
+    /// How much less likely it is than what is plain and exact, in nepers.
     score: f64,
+    /// The part of it that comes of where the hand is.
+    unlikely: f64,
     distance: f64,
     /// Whether a part of the hand is meant, and not the whole.
     small: bool,
@@ -178,6 +197,7 @@ impl<'a> Body<'a> {
             axes,
             model,
             hands,
+            spread: Spread::of(scene),
             choices: Default::default(),
         })
     }
@@ -201,7 +221,8 @@ impl<'a> Body<'a> {
             for (k, first) in spots.iter().enumerate() {
                 all.push(choice(first, None));
                 for second in spots[k + 1..].iter().filter(|it| neighbours(first, it)) {
-                    let more = if skips(first, second, &plain) {
+                    let more = if !(is_top(first) && is_top(second)) && skips(first, second, &plain)
+                    {
                         SKIPS
                     } else {
                         0.0
@@ -308,6 +329,7 @@ impl<'a> Body<'a> {
             place: best.place(),
             residual: best.residual,
             score: best.score,
+            unlikely: best.unlikely,
             distance: best.distance,
             small: best.small,
             by: Some(best.by),
@@ -335,44 +357,56 @@ impl<'a> Body<'a> {
             if touching && !within {
                 continue;
             }
-            let between = choice
-                .second
-                .map_or(0.0, |_| BETWEEN[usize::from(!trunk && !touching)]);
-            let more = match contact {
-                Some(Contact::ArmExtended) => FAR,
-                Some(Contact::Close) if !trunk => NEAR,
-                None | Some(Contact::Close) if choice.top => TOP,
-                _ => 0.0,
-            };
-            let cost = between + choice.cost + more;
+            let nearness = NEARNESS[usize::from(!trunk)];
+            let cost = choice.cost
+                + match contact {
+                    Some(Contact::Close) => nearness[0],
+                    Some(Contact::ArmExtended) => nearness[2],
+                    Some(_) => nearness[3],
+                    None => nearness[1],
+                }
+                + if choice.top && !touching { TOP } else { 0.0 }
+                + if choice.under && !touching {
+                    UNDER
+                } else {
+                    0.0
+                }
+                + if symmetric && !spot.beside && spot.lateral != 0.0 {
+                    OWN_SIDES
+                } else {
+                    0.0
+                };
             let small = touching || (near && !trunk);
             let mut add = |at: DVec3, said: Option<&'c [HandPoint]>, cost: f64| {
                 let distance = at.distance(spot.at);
                 if touching && distance > TOUCH[usize::from(trunk)] * scene.arm {
                     return;
                 }
-                let residual = if touching {
-                    distance
+                let off = at - goal;
+                let unlikely = if touching {
+                    self.spread.touching(off, spot.out, trunk)
                 } else {
-                    ((at - goal) * DVec3::new(1.0, 1.0, DEPTH)).length()
+                    self.spread.free(off, contact == Some(Contact::ArmExtended))
                 };
                 all.push(Candidate {
                     choice,
                     contact,
                     said,
-                    residual,
-                    score: (residual + scene.slack) * (1.0 + cost),
+                    residual: if touching { distance } else { off.length() },
+                    score: unlikely + cost,
+                    unlikely,
                     distance,
                     small: said.is_some() || small,
                     by: at,
                 });
             };
             let own = if small { meant } else { hand.middle() };
-            add(own.at, None, cost);
+            add(own.at, None, cost + if touching { UNSAID } else { 0.0 });
             if (small || near) && within {
-                let cost = cost + SAID[usize::from(!small)];
-                if let Some((at, parts)) = hand.nearest(goal) {
-                    add(at, Some(parts), cost);
+                let pushed = (touching && trunk).then_some(spot.out);
+                let said = SAID[if touching { 2 } else { usize::from(!trunk) }];
+                if let Some((at, parts, steps)) = hand.nearest(goal, pushed) {
+                    add(at, Some(parts), cost + said + STEP * steps);
                 }
             }
         }
@@ -489,6 +523,7 @@ fn neighbours(a: &Spot, b: &Spot) -> bool {
             || matches!(spot.site.at, BodyLocation::Neck | BodyLocation::ShoulderTop)
     };
     let most = match a.region == b.region {
+        true if a.site.at == b.site.at => ASIDE,
         true => APART,
         false if high(a) && high(b) => ABOVE,
         false => 0.0,
@@ -527,18 +562,34 @@ fn is_rare(spot: &Spot) -> bool {
 /// Takes a place, or half-way to a second one.
 fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
     let both = || [Some(first), second].into_iter().flatten();
-    let sum = |cost: fn(&Spot) -> f64| both().map(cost).sum::<f64>();
+    let sum = |cost: fn(&Spot) -> f64| both().map(cost).fold(0.0, f64::max);
     let wide = second.map_or(0.0, |second| first.at.distance(second.at) / APART);
     let across = second.is_some_and(|second| second.region != first.region);
     Choice {
         spot: second.map_or(*first, |second| middle(first, second)),
         second: second.map(|second| second.site),
-        cost: sum(|spot| if is_rare(spot) { RARE } else { 0.0 })
-            + sum(|spot| spot.site.side.map_or(0.0, |_| SIDE))
+        cost: sum(said)
+            + second.map_or(0.0, |second| {
+                let level = second.site.at != first.site.at;
+                let side = second.site.side != first.site.side;
+                BETWEEN + if level && side { OBLIQUE } else { 0.0 }
+            })
             + WIDE * wide
-            + if across { ACROSS } else { 0.0 },
-        top: both().any(is_top),
+            + if across { REGIONS } else { 0.0 },
+        top: both().any(is_top) && !both().all(is_top),
+        under: both().any(|spot| spot.site.at == BodyLocation::UnderChin),
     }
+}
+
+/// Returns how much less likely a place is meant than the plainest.
+fn said(spot: &Spot) -> f64 {
+    let side = match spot.site.side {
+        Some(Side::LeftAt) => ACROSS,
+        Some(Side::RightBeside) => BESIDE,
+        Some(Side::LeftBeside) => ACROSS + BESIDE,
+        _ => 0.0,
+    };
+    side + if is_rare(spot) { RARE } else { 0.0 }
 }
 
 /// How near a hand may be to a place.
@@ -551,6 +602,8 @@ fn contacts(spot: &Spot) -> &'static [Option<Contact>] {
     ];
     match spot.region {
         Region::Arm(_) => &[Some(Contact::Close), Some(Contact::Touch)],
+        // Small places of the head are not meant from afar.
+        _ if is_rare(spot) => &[Some(Contact::Close), Some(Contact::Touch)],
         _ if spot.beside => &ALL[..3],
         _ => &ALL,
     }

@@ -25,6 +25,9 @@ use super::way::Way;
 use super::words;
 use super::{Feature, FeatureKind, Found, Options, RunnerUp, Stage, Transcription, Unit};
 
+/// However far a hand is from every place, that counts no more against telling one for each, in nepers.
+const MOST_APART: f64 = 12.0;
+
 /// More actions than this are hardly one sign.
 const MOST: usize = 12;
 
@@ -337,8 +340,10 @@ impl<'a> Writer<'a> {
             return Some(Place::Body(placed.place));
         }
         if let RelationKind::Alike(_) = relation.kind {
-            let placed = body.place(0, true);
-            let apart = placed.as_ref().map_or(f64::INFINITY, |placed| placed.score);
+            let [placed, other] = [0, 1].map(|n| body.place(n, true));
+            // What is said of the one is said of the other.
+            let own = placed.as_ref().map_or(f64::INFINITY, |it| it.score);
+            let apart = own + other.map_or(0.0, |it| it.unlikely);
             if let Some((together, at)) = body.constellation(apart) {
                 return Some(Place::Hands(self.constellation(frame, at, &together)));
             }
@@ -347,7 +352,11 @@ impl<'a> Writer<'a> {
             return Some(Place::Body(placed.place));
         }
         let placed = [0, 1].map(|n| body.place(n, false));
-        let apart = placed.iter().flatten().map(|placed| placed.score).sum();
+        let apart = placed
+            .iter()
+            .flatten()
+            .map(|placed| placed.score.min(MOST_APART))
+            .sum();
         if let Some((together, at)) = body.constellation(apart) {
             return Some(Place::Hands(self.constellation(frame, at, &together)));
         }

@@ -24,8 +24,9 @@ pub(super) struct Hand {
     axes: [DVec3; 3],
     shape: Handshape,
     pub(super) points: Vec<Spotted>,
-    /// The parts that may be named, one or two digits together, and how far away each counts more.
+    /// The parts that may be named, one or two digits together, and how many steps each is less likely meant.
     named: Vec<(DVec3, Vec<HandPoint>, f64)>,
+    slack: f64,
 }
 
 impl Hand {
@@ -46,8 +47,9 @@ impl Hand {
             palm: track.palm[frame],
             axes: [along, normal, radial],
             shape: shape.cloned().unwrap_or_default(),
-            named: nameable(&points, scene.slack),
+            named: nameable(&points),
             points,
+            slack: scene.slack,
         })
     }
 
@@ -70,6 +72,7 @@ impl Hand {
             shape: Handshape::default(),
             points: Vec::new(),
             named: Vec::new(),
+            slack: 0.0,
         }
     }
 
@@ -93,11 +96,20 @@ impl Hand {
         at.copied().unwrap_or_else(|| self.middle())
     }
 
-    /// Returns where the parts are that are nearest to a place, and which.
-    pub(super) fn nearest(&self, to: DVec3) -> Option<(DVec3, &[HandPoint])> {
-        let off = |(at, _, more): &&(DVec3, Vec<HandPoint>, f64)| at.distance(to) + more;
+    /// Returns where the parts are that are nearest to a place, which they are, and how many steps less likely
+    /// they are meant than others. What is before the place, the way `pushed`, counts less.
+    pub(super) fn nearest(
+        &self,
+        to: DVec3,
+        pushed: Option<DVec3>,
+    ) -> Option<(DVec3, &[HandPoint], f64)> {
+        let off = |(at, _, steps): &&(DVec3, Vec<HandPoint>, f64)| {
+            let off = *at - to;
+            let before = pushed.map_or(DVec3::ZERO, |way| way * off.dot(way).max(0.0));
+            (off - before * BEFORE).length() + RANK * self.slack * steps
+        };
         let nearest = self.named.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
-        nearest.map(|(at, parts, _)| (*at, parts.as_slice()))
+        nearest.map(|(at, parts, steps)| (*at, parts.as_slice(), *steps))
     }
 
     /// Returns where several points are, taken together.
@@ -118,16 +130,18 @@ impl Hand {
 /// A part of the hand counts as so much farther, as a share of how near hands come to what is meant, for each
 /// step that it is less likely meant.
 pub(super) const RANK: f64 = 0.5;
+/// What a part of the hand is before the trunk from which it was pushed counts less by this share.
+const BEFORE: f64 = 0.7;
 /// Two digits together are so many steps less likely.
 const TWO: f64 = 1.0;
 /// They are meant together where they are nearer to each other than this, in metres.
 const PINCHED: f64 = 0.10;
 
 /// Returns the parts of a hand that are named, also tips and pads of the thumb and a finger together.
-fn nameable(points: &[Spotted], slack: f64) -> Vec<(DVec3, Vec<HandPoint>, f64)> {
+fn nameable(points: &[Spotted]) -> Vec<(DVec3, Vec<HandPoint>, f64)> {
     let mut all: Vec<_> = points
         .iter()
-        .map(|it| (it.at, vec![it.point], RANK * slack * rank(it.point)))
+        .map(|it| (it.at, vec![it.point], rank(it.point)))
         .collect();
     let at = |point: HandPoint| Some(points.iter().find(|it| it.point == point)?.at);
     for face in [Face::Middle, Face::Palmar] {
@@ -136,7 +150,7 @@ fn nameable(points: &[Spotted], slack: f64) -> Vec<(DVec3, Vec<HandPoint>, f64)>
             if let [Some(a), Some(b)] = both.map(at)
                 && a.distance(b) < PINCHED
             {
-                all.push((a.midpoint(b), both.to_vec(), RANK * slack * TWO));
+                all.push((a.midpoint(b), both.to_vec(), TWO));
             }
         }
     }
@@ -246,9 +260,12 @@ pub(super) fn rank(point: HandPoint) -> f64 {
         HandPoint::Palm | HandPoint::Radial => 0.0,
         HandPoint::Tip(of, Face::Middle) => digit(of),
         HandPoint::Back | HandPoint::Ulnar => 0.5,
-        HandPoint::Tip(of, _) => 0.5 + digit(of),
-        HandPoint::Wrist(_) | HandPoint::ThumbBall => 1.0,
-        HandPoint::Middle(of, _) => 1.0 + digit(of),
+        HandPoint::Tip(of, Face::Palmar | Face::Dorsal) => 0.5 + digit(of),
+        HandPoint::Tip(of, _) => 1.0 + digit(of),
+        HandPoint::Wrist(_) | HandPoint::ThumbBall => 2.5,
+        HandPoint::Middle(Digit::Index | Digit::Middle, Face::Middle) => 0.7,
+        HandPoint::Middle(of, _) => 1.2 + digit(of),
+        HandPoint::Base(Digit::Thumb, _) => 2.5,
         HandPoint::Base(of, _) => 1.5 + digit(of),
         _ => 3.0,
     }

@@ -5,17 +5,23 @@ use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Site};
 use glam::DVec3;
 
 use super::hand::{Hand, RANK, Spotted, rank};
-use super::{Body, DEPTH, Placed, TOUCH};
+use super::{Body, Placed, TOUCH};
 
 /// Hands are by each other where parts of them are nearer than this, in arm lengths.
 const TOGETHER: f64 = 0.125;
 /// So many pairs of parts of the hands are tried.
 const PAIRS: usize = 8;
-/// The two hands by each other are told rather than each at its place where that is not so much nearer:
-/// where they touch, and where they are close.
-const RATHER: [f64; 2] = [1.8, 1.2];
-/// To say which parts of the hands are meant costs so much, as a share of their distance.
-const PARTS: f64 = 0.25;
+/// The two hands by each other are told rather than each at its place where that is not so much likelier, in
+/// nepers: where they touch, and where they are close.
+const RATHER: [f64; 2] = [2.0, 1.0];
+/// How much less likely it is that parts of the hands are named, and for each step that they are less likely
+/// meant than others.
+const PARTS: f64 = 1.5;
+const STEP: f64 = 0.7;
+/// Hands of which parts are nearer to each other than this, in arm lengths, touch: it is so much less likely, in
+/// nepers, that they are meant to be close.
+const CONTACT: f64 = 0.025;
+const TOUCHES: f64 = 3.0;
 /// Where hands are of which no place is said.
 const NEUTRAL: Site<BodyLocation> = Site {
     at: BodyLocation::NeutralSpace,
@@ -32,8 +38,10 @@ pub(in crate::transcribe) struct Together {
     /// Where they are.
     pub(in crate::transcribe) at: [DVec3; 2],
     pub(in crate::transcribe) contact: Contact,
-    /// How far they are from where they would be by that contact, in metres.
+    /// How far they are from where they would be by that contact, in metres, and how much less likely that is
+    /// than exactly there.
     off: f64,
+    unlikely: f64,
     /// Whether the parts must be said.
     said: bool,
 }
@@ -42,11 +50,14 @@ impl Body<'_> {
     /// Returns how the two hands are by each other: the parts nearest to each other, their contact and
     /// their distance in metres; nothing where they are apart.
     pub(in crate::transcribe) fn together(&self) -> Option<Together> {
-        self.pairs(1).into_iter().next()
+        // Whole faces of the hand are sooner meant than what lies within them.
+        let near = |it: &Together| it.distance + RANK * self.scene.slack * ranks(it);
+        self.pairs(1, near).into_iter().next()
     }
 
-    /// Returns the pairs of parts of the two hands that are nearest to each other, the nearest first.
-    fn pairs(&self, most: usize) -> Vec<Together> {
+    /// Returns the pairs of parts of the two hands that are near to each other, those first that are `better`
+    /// than others.
+    fn pairs(&self, most: usize, better: impl Fn(&Together) -> f64) -> Vec<Together> {
         let [Some(dominant), Some(other)] = &self.hands else {
             return Vec::new();
         };
@@ -55,10 +66,8 @@ impl Body<'_> {
         for own in &dominant.points {
             for other in &other.points {
                 if own.at.distance(other.at) < reach {
-                    // Whole faces of the hand are sooner meant than what lies within them.
-                    let rank = RANK * self.scene.slack * (rank(own.point) + rank(other.point));
                     let together = self.by_each_other([own, other]);
-                    all.push((together.distance + rank, together));
+                    all.push((better(&together), together));
                 }
             }
         }
@@ -68,10 +77,21 @@ impl Body<'_> {
     }
 
     fn by_each_other(&self, [own, other]: [&Spotted; 2]) -> Together {
-        let distance = own.at.distance(other.at);
+        let apart = own.at - other.at;
+        let distance = apart.length();
         let arm = self.scene.arm;
-        let touching = distance < TOUCH[2] * arm;
         let near = self.scene.language.hands_near * arm;
+        // Beside each other where they mirror one another, else out of what is touched.
+        let facing = (other.out - own.out).normalize_or(DVec3::NEG_X);
+        let ways = [DVec3::NEG_X, facing].map(|way| apart - way * near);
+        let [aside, out] = ways.map(|off| self.spread.together(off));
+        let (close, off) = if aside < out {
+            (aside, ways[0].length())
+        } else {
+            (out, ways[1].length())
+        };
+        let touch = self.spread.together(apart);
+        let touching = distance < TOUCH[2] * arm && touch < close;
         Together {
             parts: [own.point, other.point],
             at: [own.at, other.at],
@@ -81,11 +101,8 @@ impl Body<'_> {
             } else {
                 Contact::Close
             },
-            off: if touching {
-                distance
-            } else {
-                (distance - near).abs()
-            },
+            off: if touching { distance } else { off },
+            unlikely: if touching { touch } else { close },
             said: true,
         }
     }
@@ -114,22 +131,34 @@ impl Body<'_> {
     }
 
     /// Returns how the two hands are by each other, and the place that they share, where that tells more
-    /// than the place of each, which is so far off as `apart` says.
+    /// than the place of each, which are so much less likely as `apart` says.
     pub(in crate::transcribe) fn constellation(&self, apart: f64) -> Option<(Together, Placed)> {
         let mut all = self.meant_pairs();
-        all.extend(self.pairs(PAIRS));
+        all.extend(self.pairs(PAIRS, |it| it.unlikely + STEP * ranks(it)));
+        let nearest = self.together();
+        let touch = nearest.is_some_and(|it| it.distance < CONTACT * self.scene.arm);
         let (score, together, placed) = all
             .into_iter()
             .filter_map(|together| {
                 let mut placed = self.shared(together.at[0].midpoint(together.at[1]))?;
-                let said = if together.said { PARTS } else { 0.0 };
-                let off = together.off * (1.0 + said) + self.scene.slack * said;
+                let said = match together.said {
+                    true => PARTS + STEP * ranks(&together),
+                    false => 0.0,
+                };
+                let apart = match together.contact {
+                    Contact::Close if touch => TOUCHES,
+                    _ => 0.0,
+                };
                 placed.residual = placed.residual.max(together.off);
-                Some((placed.score + off, together, placed))
+                Some((
+                    placed.score + together.unlikely + said + apart,
+                    together,
+                    placed,
+                ))
             })
             .min_by(|a, b| a.0.total_cmp(&b.0))?;
         let rather = RATHER[usize::from(together.contact != Contact::Touch)];
-        (score < rather * apart).then_some((together, placed))
+        (score < rather + apart).then_some((together, placed))
     }
 
     /// Returns the place nearest to a point that both hands share; no place where that is neutral space.
@@ -137,8 +166,8 @@ impl Body<'_> {
         let mut placed = self.placed(0, &Hand::only(at), false)?;
         placed.place.by = None;
         let neutral = self.spot(0, &NEUTRAL)?;
-        let off = (at - self.goal(&neutral, None, 0, false)) * DVec3::new(1.0, 1.0, DEPTH);
-        let score = off.length() + self.scene.slack;
+        let off = at - self.goal(&neutral, None, 0, false);
+        let score = self.spread.free(off, false);
         if score > placed.score {
             return Some(placed);
         }
@@ -150,4 +179,10 @@ impl Body<'_> {
             ..placed
         })
     }
+}
+
+/// Returns how many steps less likely two parts are meant than others.
+fn ranks(together: &Together) -> f64 {
+    let [own, other] = together.parts;
+    rank(own) + rank(other)
 }

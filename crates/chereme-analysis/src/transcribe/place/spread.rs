@@ -1,0 +1,154 @@
+//! How far hands are from where they are meant to be.
+
+use glam::DVec3;
+
+use super::super::scene::Scene;
+
+/// The shares of hands that are where they are meant to be, that are shifted within the room of their place or
+/// pushed out of the trunk, and of which anything may be expected.
+const SHARES: [f64; 3] = [0.75, 0.2, 0.05];
+/// The same of hands that touch the trunk.
+const OF_TRUNK: [f64; 3] = [0.35, 0.55, 0.1];
+/// How much more room an arm takes that should reach far.
+const SHORT: f64 = 1.7;
+/// Most of the first are nearer still where places are known so well: against as many metres of slack.
+const EXACT: f64 = 0.016;
+/// How far the last are off, in arm lengths: before a place, and touching one.
+const ANYWHERE: [f64; 2] = [0.12, 0.06];
+/// How far a hand is pushed out of the trunk, on average, in arm lengths; and how far aside against that.
+const PUSHED: f64 = 0.04;
+const SLIDES: f64 = 0.5;
+/// How far hands are from each other that should be at each other, besides those that are there, in arm lengths.
+const MISSED: f64 = 0.02;
+
+/// How far hands are from where they are meant to be, as mixtures of normal distributions.
+pub(super) struct Spread {
+    /// About the place, in metres.
+    about: f64,
+    /// Aside, up and forward; and aside, down and back.
+    room: [DVec3; 2],
+    arm: f64,
+}
+
+impl Spread {
+    pub(super) fn of(scene: &Scene<'_>) -> Self {
+        let l = scene.language;
+        let wide = |by: DVec3| {
+            let own = DVec3::splat(scene.slack);
+            (by * by * scene.arm * scene.arm + own * own).map(f64::sqrt)
+        };
+        Self {
+            about: scene.slack,
+            room: [
+                wide(DVec3::new(l.room_side, l.room_up, l.room_forward)),
+                wide(DVec3::new(l.room_side, l.room_down, l.room_back)),
+            ],
+            arm: scene.arm,
+        }
+    }
+
+    /// Returns how much less likely it is that a hand before a place is so far off it (left, up, forward) than
+    /// exactly there, in nepers; arms that should reach `far` may fall short.
+    pub(super) fn free(&self, off: DVec3, far: bool) -> f64 {
+        let room = DVec3::new(
+            self.room[0].x,
+            self.room[usize::from(off.y < 0.0)].y,
+            self.room[usize::from(off.z < 0.0)].z,
+        );
+        let room = if far { room * SHORT } else { room };
+        let anywhere = DVec3::splat(ANYWHERE[0] * self.arm);
+        self.unlikely(SHARES, [normal(off, room), normal(off, anywhere)], off)
+    }
+
+    /// As [`free`](Self::free), of a hand that touches a place with the way `out` of it. Hands that would be in
+    /// the trunk are pushed out of it.
+    pub(super) fn touching(&self, off: DVec3, out: DVec3, trunk: bool) -> f64 {
+        let anywhere = DVec3::splat(ANYWHERE[1] * self.arm);
+        let missed = MISSED * self.arm + self.about;
+        if !trunk {
+            let missed = normal(off, DVec3::splat(missed));
+            return self.unlikely(SHARES, [missed, normal(off, anywhere)], off);
+        }
+        let far = off.dot(out);
+        let aside = off - out * far;
+        let mean = PUSHED * self.arm;
+        let slides = missed.hypot(SLIDES * far.max(0.0));
+        let flat = (-0.5 * aside.length_squared() / (slides * slides)).exp()
+            / (std::f64::consts::TAU * slides * slides);
+        let ahead = if far > 0.0 {
+            -far / mean
+        } else {
+            -0.5 * (far / missed).powi(2)
+        };
+        let pushed = flat * ahead.exp() / mean;
+        self.unlikely(OF_TRUNK, [pushed, normal(off, anywhere)], off)
+    }
+
+    /// As [`free`](Self::free), of a hand that is to be at a place by the other one.
+    pub(super) fn together(&self, off: DVec3) -> f64 {
+        let missed = DVec3::splat(MISSED * self.arm + self.about);
+        let anywhere = DVec3::splat(ANYWHERE[1] * self.arm);
+        self.unlikely(SHARES, [normal(off, missed), normal(off, anywhere)], off)
+    }
+
+    fn unlikely(&self, shares: [f64; 3], [some, any]: [f64; 2], off: DVec3) -> f64 {
+        let about = DVec3::splat(self.about);
+        let exact = DVec3::splat(self.about * (self.about / EXACT).min(1.0));
+        let core = |off: DVec3| 0.8 * normal(off, exact) + 0.2 * normal(off, about);
+        let at = shares[0] * core(off) + shares[1] * some + shares[2] * any;
+        (SHARES[0] * core(DVec3::ZERO) / at.max(f64::MIN_POSITIVE)).ln()
+    }
+}
+
+/// The density of a normal distribution with these spreads along the axes, a cubic metre.
+fn normal(off: DVec3, wide: DVec3) -> f64 {
+    let root = std::f64::consts::TAU.sqrt();
+    (-0.5 * (off / wide).length_squared()).exp() / (root.powi(3) * wide.x * wide.y * wide.z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spread(about: f64) -> Spread {
+        Spread {
+            about,
+            room: [DVec3::new(0.02, 0.01, 0.03).map(|by| by.hypot(about)); 2],
+            arm: 0.55,
+        }
+    }
+
+    #[test]
+    fn the_farther_off_the_less_likely_and_never_less_so_without_end() {
+        for about in [0.004, 0.02] {
+            let spread = spread(about);
+            for way in [DVec3::X, DVec3::Y, DVec3::NEG_Z] {
+                let at = |n: i32| way * (0.01 * f64::from(n));
+                let all: Vec<[f64; 3]> = (0..12)
+                    .map(|n| {
+                        let off = at(n);
+                        let touch = spread.touching(off, DVec3::Z, false);
+                        [spread.free(off, false), touch, spread.together(off)]
+                    })
+                    .collect();
+                for (n, pair) in all.windows(2).enumerate() {
+                    let farther = pair[0].iter().zip(pair[1]).all(|(a, b)| *a < b);
+                    assert!(farther, "{about} {way} {n}: {pair:?}");
+                }
+                assert!(all[0].iter().all(|it| it.abs() < 0.3));
+                assert!(spread.free(way * 0.15, false) < 20.0);
+            }
+        }
+    }
+
+    #[test]
+    fn hands_are_rather_pushed_out_of_the_trunk_than_aside_and_rather_shifted_forward_than_up() {
+        let spread = spread(0.004);
+        let touch = |off: DVec3| spread.touching(off, DVec3::Z, true);
+        assert!(touch(DVec3::Z * 0.06) + 1.0 < touch(DVec3::X * 0.06));
+        assert!(touch(DVec3::Z * 0.06) + 1.0 < touch(DVec3::NEG_Z * 0.06));
+        let free = |off: DVec3| spread.free(off, false);
+        assert!(free(DVec3::Z * 0.03) + 2.0 < free(DVec3::Y * 0.03));
+        assert!(spread.free(DVec3::Y * 0.04, true) < free(DVec3::Y * 0.04));
+    }
+}
