@@ -4,6 +4,7 @@ use chereme_formats::roles::Hands;
 use chereme_sign::{HandRef, Stereotype, TierRole};
 use rusqlite::Connection;
 
+use super::names::{self, TierName};
 use super::tiers::{NewTier, family, new_row};
 use crate::Corpus;
 use crate::address::{self, Name};
@@ -20,6 +21,11 @@ pub enum Scheme {
     Usual,
     /// Those of another recording.
     Like(Name),
+    /// What components say of the hand of a gloss tier, of both where it has none: handshape, placement,
+    /// movement with its direction, palm and finger direction below that tier.
+    ///
+    /// Where a name is taken, that of the gloss tier stands behind it.
+    Below(TierName),
 }
 
 const BY_HAND: [(&str, &str); 6] = [
@@ -55,8 +61,10 @@ impl Corpus {
                     &address::recording(connection, other)?,
                     &recording,
                 )?,
+                Scheme::Below(tier) => below(connection, &names::tier(connection, tier)?)?,
             };
-            let added = add(connection, &recording, wanted)?;
+            let below = matches!(scheme, Scheme::Below(_));
+            let added = add(connection, &recording, wanted, below)?;
             let summary = format!("{} to {}", added.len(), recording.name);
             Ok((added, summary))
         })
@@ -70,6 +78,7 @@ fn add(
     connection: &Connection,
     recording: &RecordingRow,
     wanted: Vec<Wanted>,
+    below: bool,
 ) -> Result<Vec<TierRow>> {
     let mut added = Vec::new();
     let before = rows::tiers(connection, recording.id)?;
@@ -80,7 +89,10 @@ fn add(
             continue;
         }
         let mut row = new_row(connection, recording.id, &tier)?;
-        if like.is_none() && there.iter().any(|it| says(it) == says(&row)) {
+        // Below one gloss tier stands what stands below another too.
+        let same =
+            |it: &TierRow| says(it) == says(&row) && (!below || it.parent_id == row.parent_id);
+        if like.is_none() && there.iter().any(same) {
             continue;
         }
         if let Some(like) = like {
@@ -142,7 +154,8 @@ fn usual(connection: &Connection, recording: &RecordingRow) -> Result<Vec<Wanted
         whole,
     ));
     let within = Some(Stereotype::IncludedIn);
-    for (hand, letters) in [(HandRef::Right, "RH"), (HandRef::Left, "LH")] {
+    for hand in [HandRef::Right, HandRef::Left] {
+        let letters = letters(hand);
         for (name, field) in BY_HAND {
             let hand = Some(Hands::One(hand));
             all.push(make(
@@ -158,6 +171,51 @@ fn usual(connection: &Connection, recording: &RecordingRow) -> Result<Vec<Wanted
     }
     all.push(make("Comment".to_owned(), TierRole::Comment, None, None));
     Ok(all)
+}
+
+fn below(connection: &Connection, gloss: &TierRow) -> Result<Vec<Wanted>> {
+    if gloss.role != "gloss" {
+        let wrong = format!("the tier {:?} holds no glosses", gloss.name);
+        return Err(Error::wrong(wrong).advise("name a gloss tier"));
+    }
+    let there = rows::tiers(connection, gloss.recording_id)?;
+    let side = gloss.hand.as_deref().and_then(Hands::of);
+    let hands = match side {
+        Some(Hands::One(hand)) => vec![hand],
+        _ => vec![HandRef::Right, HandRef::Left],
+    };
+    let mut all = Vec::new();
+    for hand in hands {
+        for (name, field) in BY_HAND {
+            let role: TierRole = field
+                .parse()
+                .map_err(|error| Error::wrong(format!("{error}")))?;
+            let mut name = format!("{name} {}", letters(hand));
+            // Its own child of that name is there already, and is not made again.
+            let taken = |it: &TierRow| it.name == name && it.parent_id != Some(gloss.id);
+            if there.iter().any(taken) {
+                name = format!("{name} ({})", gloss.name);
+            }
+            let tier = NewTier {
+                hand: Some(Hands::One(hand)),
+                parent: Some((gloss.name.clone(), Stereotype::IncludedIn)),
+                participant: gloss.participant.clone(),
+                ..NewTier::new(Name::Number(gloss.recording_id), name, role)
+            };
+            all.push((tier, None));
+        }
+    }
+    Ok(all)
+}
+
+/// Returns what the names of a hand's tiers end with.
+fn letters(hand: HandRef) -> &'static str {
+    match hand {
+        HandRef::Right => "RH",
+        HandRef::Left => "LH",
+        HandRef::Dominant => "DH",
+        HandRef::Weak => "WH",
+    }
 }
 
 fn like(

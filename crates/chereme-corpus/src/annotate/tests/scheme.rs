@@ -77,3 +77,25 @@ fn a_recording_gets_the_usual_tiers_or_those_of_another_at_once() {
         assert!(!names.iter().any(|it| it == there), "{there} has its tier");
     }
 }
+
+#[test]
+fn each_gloss_tier_gets_the_components_of_its_hand() {
+    let (_folder, mut corpus) = corpus();
+    let recording = Name::Number(1);
+    let mut gloss = NewTier::new(recording.clone(), "RH-IDgloss", TierRole::Gloss);
+    gloss.hand = chereme_formats::roles::Hands::of("right");
+    let gloss = corpus.add_tier(&gloss).expect("added");
+    let below = Scheme::Below(TierName::Number(gloss.id));
+    let added = corpus.add_tiers(&recording, &below).expect("added");
+    assert_eq!(added.len(), 6);
+    for row in &added {
+        assert_eq!(row.parent_id, Some(gloss.id));
+        assert_eq!(row.hand.as_deref(), Some("right"), "{}", row.name);
+    }
+    assert_eq!(added[0].name, "Configuration RH (RH-IDgloss)");
+    let again = corpus.add_tiers(&recording, &below);
+    assert!(again.is_err_and(|it| it.to_string().contains("already")));
+    let wrong = Scheme::Below(TierName::Number(added[0].id));
+    let error = corpus.add_tiers(&recording, &wrong);
+    assert!(error.is_err_and(|it| it.to_string().contains("no glosses")));
+}

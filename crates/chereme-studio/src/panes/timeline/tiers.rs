@@ -48,7 +48,14 @@ pub(super) fn act(
     }
     if action == Action::UsualTiers {
         let recording = Name::Number(scene.contents.recording.id);
-        out.work(Work::AddTiers(recording, Scheme::Usual));
+        // Where hands have glosses of their own, each has its components.
+        let glosses = scene.contents.tiers.iter();
+        let several = glosses.filter(|it| it.row.role == "gloss").count() > 1;
+        let chosen = scene.tier().filter(|it| it.row.role == "gloss" && several);
+        let scheme = chosen.map_or(Scheme::Usual, |it| {
+            Scheme::Below(TierName::Number(it.row.id))
+        });
+        out.work(Work::AddTiers(recording, scheme));
         return Acted::Yes;
     }
     let Some(tier) = scene.tier() else {
