@@ -5,6 +5,7 @@
 
 pub(crate) mod bare;
 pub(crate) mod carry;
+pub(crate) mod combo;
 pub(crate) mod complete;
 pub(crate) mod history;
 pub(crate) mod import;

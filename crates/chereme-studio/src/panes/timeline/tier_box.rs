@@ -5,14 +5,18 @@ use chereme_corpus::{
     TierRole,
 };
 use eframe::egui::{
-    Align2, ComboBox, Grid, Id, Key, Modifiers, Role, TextEdit, Ui, WidgetInfo, Window, vec2,
+    Align2, ComboBox, Grid, Id, Key, Modifiers, Popup, Role, TextEdit, Ui, WidgetInfo, Window, vec2,
 };
 
 use super::Timeline;
 use super::edit::Scene;
 use crate::context::{Outbox, Seen};
+use crate::panes::combo;
 use crate::words::{Text, fill, shell, timeline as words};
 use crate::work::Work;
+
+/// The field for the name.
+const NAME_FIELD: &str = "timeline tier name";
 
 /// What is to become of a tier.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,6 +38,8 @@ pub(super) struct TierBox {
     /// The tier above, and how this one hangs below it.
     parent: Option<(String, Stereotype)>,
     fresh: bool,
+    /// The name that was proposed for it.
+    proposed: String,
     /// What goes along when it is copied.
     copied: Copied,
 }
@@ -59,6 +65,7 @@ impl TierBox {
             hand: None,
             parent: None,
             fresh: true,
+            proposed: String::new(),
             copied: Copied::All,
         };
         match like {
@@ -96,8 +103,37 @@ impl TierBox {
             hand: row.hand.as_deref().and_then(Hands::of),
             parent: above.map(|it| it.row.name.clone()).zip(how),
             fresh: true,
+            proposed: String::new(),
             copied: Copied::All,
         }
+    }
+
+    /// Proposes what follows from the role: a component stands below the chosen glosses and is of their hand.
+    fn fit(&mut self, scene: &Scene<'_>) {
+        let gloss = scene.tier().filter(|it| it.row.role == "gloss");
+        let component = !PLAIN.iter().any(|(role, _)| *role == self.role);
+        if let Some(gloss) = gloss.filter(|_| component) {
+            let below = (gloss.row.name.clone(), Stereotype::IncludedIn);
+            self.parent.get_or_insert(below);
+            self.hand = self.hand.or(gloss.row.hand.as_deref().and_then(Hands::of));
+        }
+        if !self.name.trim().is_empty() && self.name != self.proposed {
+            return;
+        }
+        let names = roles(scene.seen);
+        let role = names.iter().find(|(id, _)| *id == self.role);
+        let role = role.map_or(self.role.as_str(), |(_, name)| name);
+        let hand = HANDS.iter().find(|(id, _)| Hands::of(id) == self.hand);
+        let hand = hand.filter(|_| component && self.hand.is_some());
+        let name = match hand {
+            Some((_, hand)) => format!("{role} · {}", scene.seen.say(*hand)),
+            None => role.to_owned(),
+        };
+        let taken = |name: &str| scene.contents.tiers.iter().any(|it| it.row.name == name);
+        let free = (2..100).map(|n| format!("{name} {n}"));
+        let mut all = std::iter::once(name.clone()).chain(free);
+        self.proposed = all.find(|it| !taken(it)).unwrap_or(name.clone());
+        self.name.clone_from(&self.proposed);
     }
 
     /// Returns one that copies a tier under another name.
@@ -150,14 +186,16 @@ impl TierBox {
     }
 }
 
+/// The roles without components.
+const PLAIN: [(&str, Text); 4] = [
+    ("gloss", words::ROLE_GLOSS),
+    ("translation", words::ROLE_TRANSLATION),
+    ("comment", words::ROLE_COMMENT),
+    ("free", words::ROLE_FREE),
+];
+
 /// Returns the roles that a tier can have: the four without components, then what inventories are for.
 fn roles(seen: &Seen<'_>) -> Vec<(String, String)> {
-    const PLAIN: [(&str, Text); 4] = [
-        ("gloss", words::ROLE_GLOSS),
-        ("translation", words::ROLE_TRANSLATION),
-        ("comment", words::ROLE_COMMENT),
-        ("free", words::ROLE_FREE),
-    ];
     let mut all: Vec<(String, String)> = PLAIN
         .iter()
         .map(|(id, text)| ((*id).to_owned(), seen.say(*text).to_owned()))
@@ -198,7 +236,12 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
         return;
     };
     let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
-    let (enter, escape) = (pressed(Key::Enter), pressed(Key::Escape));
+    // An open list has these keys first, and Enter is that of the list or button which has the focus.
+    let open = Popup::is_any_open(ui.ctx());
+    let focused = ui.memory(|memory| memory.focused());
+    let own = focused.is_none_or(|it| it == Id::unique(NAME_FIELD));
+    let enter = !open && own && pressed(Key::Enter);
+    let escape = !open && pressed(Key::Escape);
     let say = |text| scene.seen.say(text);
     let title = match tier.what {
         What::Add => words::ADD_TITLE,
@@ -275,9 +318,14 @@ fn form(ui: &mut Ui, scene: &Scene<'_>, tier: &mut TierBox) {
             let roles = roles(seen);
             let now = roles.iter().find(|(id, _)| *id == tier.role);
             let now = now.map_or(tier.role.clone(), |(_, name)| name.clone());
+            let mut chosen = false;
             choice(ui, seen.say(words::TIER_ROLE), &now, &roles, |role| {
-                tier.role.clone_from(role)
+                tier.role.clone_from(role);
+                chosen = true;
             });
+            if chosen && tier.what == What::Add {
+                tier.fit(scene);
+            }
             let mut hands = vec![(None, seen.say(words::HAND_NONE).to_owned())];
             for (hand, text) in HANDS {
                 hands.push((Hands::of(hand), seen.say(text).to_owned()));
@@ -313,7 +361,7 @@ fn form(ui: &mut Ui, scene: &Scene<'_>, tier: &mut TierBox) {
 fn name_field(ui: &mut Ui, seen: &Seen<'_>, tier: &mut TierBox) {
     ui.label(seen.say(words::TIER_NAME));
     let field = TextEdit::singleline(&mut tier.name).desired_width(220.0);
-    let response = ui.add(field.id(Id::unique("timeline tier name")));
+    let response = ui.add(field.id(Id::unique(NAME_FIELD)));
     response.widget_info(|| {
         let mut info = WidgetInfo::labeled(Role::TextInput, true, seen.say(words::TIER_NAME));
         info.current_text_value = Some(tier.name.clone());
@@ -377,6 +425,11 @@ fn choice<T>(ui: &mut Ui, name: &str, now: &str, all: &[(T, String)], mut choose
                 }
             }
         });
+    let names: Vec<&str> = all.iter().map(|(_, name)| name.as_str()).collect();
+    let at = names.iter().position(|name| *name == now);
+    if let Some((it, _)) = combo::step(ui, &combo, &names, at).and_then(|at| all.get(at)) {
+        choose(it);
+    }
     combo.response.labelled_by(label.id);
     ui.end_row();
 }

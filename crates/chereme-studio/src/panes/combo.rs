@@ -1,0 +1,78 @@
+//! Lists to choose from, by keys as elsewhere: without opening one, arrows go through it and a letter goes to
+//! the next that begins with it.
+
+use eframe::egui::{Event, EventFilter, InnerResponse, Key, Modifiers, Ui};
+
+/// Returns the place in `names` that keys chose while the list has the focus and is not open.
+pub(crate) fn step<R>(
+    ui: &Ui,
+    list: &InnerResponse<Option<R>>,
+    names: &[&str],
+    now: Option<usize>,
+) -> Option<usize> {
+    let id = list.response.id;
+    if list.inner.is_some() || !list.response.has_focus() || names.is_empty() {
+        return None;
+    }
+    ui.memory_mut(|memory| {
+        let filter = EventFilter {
+            vertical_arrows: true,
+            ..EventFilter::default()
+        };
+        memory.set_focus_lock_filter(id, filter);
+    });
+    let (by, typed) = ui.input_mut(|input| {
+        let mut key = |key, by| {
+            if input.consume_key(Modifiers::NONE, key) {
+                by
+            } else {
+                0
+            }
+        };
+        let by: isize = key(Key::ArrowDown, 1) + key(Key::ArrowUp, -1);
+        let letter = input.events.iter().find_map(|event| match event {
+            Event::Text(text) => text.chars().find(|it| it.is_alphanumeric()),
+            _ => None,
+        });
+        (by, letter)
+    });
+    let at = match typed {
+        Some(letter) => next_with(names, now, letter)?,
+        None if by == 0 => return None,
+        None => match now {
+            Some(now) => now.saturating_add_signed(by).min(names.len() - 1),
+            None => 0,
+        },
+    };
+    (Some(at) != now).then_some(at)
+}
+
+/// Returns the next after `now`, going round, whose name begins with a letter.
+fn next_with(names: &[&str], now: Option<usize>, letter: char) -> Option<usize> {
+    let first = |name: &str| {
+        name.chars()
+            .next()
+            .into_iter()
+            .flat_map(char::to_lowercase)
+            .next()
+    };
+    let wanted = letter.to_lowercase().next();
+    let from = now.map_or(0, |now| now + 1);
+    let places = (0..names.len()).map(|by| (from + by) % names.len());
+    places.into_iter().find(|at| first(names[*at]) == wanted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_letter_goes_to_the_next_that_begins_with_it() {
+        let names = ["anything", "Éventail", "eyes", "Ears"];
+        assert_eq!(next_with(&names, None, 'e'), Some(2));
+        assert_eq!(next_with(&names, Some(2), 'E'), Some(3));
+        assert_eq!(next_with(&names, Some(3), 'e'), Some(2));
+        assert_eq!(next_with(&names, Some(0), 'é'), Some(1));
+        assert_eq!(next_with(&names, None, 'z'), None);
+    }
+}
