@@ -15,6 +15,7 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen, Shown};
 use crate::draft::Drafts;
 use crate::keys::{Keys, Place};
+use crate::layout::Busy;
 use crate::little::Figures;
 use crate::model::Snapshot;
 use crate::model::reel::Reel;
@@ -45,6 +46,10 @@ pub struct Studio {
     pub(crate) reel: Reel,
     pub(crate) little: Figures,
     pub(crate) tree: Tree<PaneKind>,
+    /// What the panes were laid out for last.
+    pub(crate) busy: Busy,
+    /// Whether the layout is that of a small window.
+    pub(crate) small: bool,
     pub(crate) panes: Panes,
     /// The pane that was used last.
     pub(crate) pane: Option<PaneKind>,
@@ -94,7 +99,9 @@ impl Studio {
             author,
             folders,
             keys: Keys::new(settings.keymap, &settings.keys),
-            tree: layout::remembered(settings.layout.as_ref()),
+            tree: layout::remembered(settings.layout.as_ref(), (Busy::Annotating, false)),
+            busy: Busy::Annotating,
+            small: false,
             saved: settings.clone(),
             settings,
             desk: None,
@@ -126,6 +133,7 @@ impl Studio {
             theme::install(&ctx);
         }
         theme::apply(&ctx, &self.settings);
+        self.fit(ctx.content_rect().size());
         self.listen();
         if self.panes.recombine.has_news() {
             // What was made is in the pictures that are asked for in this frame.
@@ -405,8 +413,8 @@ impl Studio {
                 .notices
                 .unsaved(&error, self.settings.language);
         }
-        if self.desk.is_some() && self.settings.layout.as_ref() != Some(&self.tree) {
-            self.settings.layout = Some(self.tree.clone());
+        if self.desk.is_some() && !self.is_remembered() {
+            *self.laid_out() = Some(self.tree.clone());
         }
         self.keep_view(false);
         let settled = !ctx.input(|input| input.pointer.any_down());
@@ -422,6 +430,39 @@ impl Studio {
             self.overlays
                 .notices
                 .unsaved(&error, self.settings.language);
+        }
+    }
+
+    fn is_remembered(&self) -> bool {
+        let layout = if self.small {
+            &self.settings.small_layout
+        } else {
+            &self.settings.layout
+        };
+        layout.as_ref() == Some(&self.tree)
+    }
+
+    /// Returns where the layout is remembered that the window has now.
+    fn laid_out(&mut self) -> &mut Option<Tree<PaneKind>> {
+        if self.small {
+            &mut self.settings.small_layout
+        } else {
+            &mut self.settings.layout
+        }
+    }
+
+    /// Turns to the layout of small windows or back, where the window has become so; what one was at stays in
+    /// sight.
+    fn fit(&mut self, size: egui::Vec2) {
+        let small = layout::is_small(size);
+        if small == self.small {
+            return;
+        }
+        self.small = small;
+        let before = (self.busy, small);
+        self.tree = layout::remembered(self.laid_out().as_ref(), before);
+        if let Some(pane) = self.pane {
+            layout::bring(&mut self.tree, pane);
         }
     }
 

@@ -87,6 +87,7 @@ impl Studio {
         ui.horizontal(|ui| {
             let (Some(desk), Some(snapshot)) = (&self.desk, &self.snapshot) else {
                 ui.weak(words::NOTHING_OPEN.of(language));
+                self.overlays.notices.line(ui);
                 return;
             };
             let name = desk.path.file_name().unwrap_or_default().to_string_lossy();
@@ -117,6 +118,7 @@ impl Studio {
                     self.out.send(Command::Stop(*id));
                 }
             }
+            self.overlays.notices.line(ui);
         });
     }
 }

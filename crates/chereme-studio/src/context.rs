@@ -28,6 +28,8 @@ pub(crate) struct Shown {
     pub(crate) tier: Option<i64>,
     /// The annotations that edits are about.
     pub(crate) annotations: BTreeSet<i64>,
+    /// Those that were selected and are gone, to be selected again where they come back.
+    pub(crate) lost: BTreeSet<i64>,
     /// The selected time, which is not the playhead.
     pub(crate) span: Option<Span>,
     /// The playhead and how it moves.
@@ -59,6 +61,22 @@ impl Shown {
         match &mut self.made {
             Some(showing) => &mut showing.player,
             None => &mut self.player,
+        }
+    }
+
+    /// Lets go of annotations that are gone, and selects again those that came back, as by undoing.
+    pub(crate) fn follow(&mut self, snapshot: &Snapshot) {
+        let there = |id: &i64| snapshot.annotation(*id).is_some();
+        let before = std::mem::take(&mut self.annotations);
+        let (kept, gone): (BTreeSet<i64>, BTreeSet<i64>) = before.into_iter().partition(there);
+        self.annotations = kept;
+        if !gone.is_empty() {
+            self.lost = gone;
+        } else if self.annotations.is_empty()
+            && !self.lost.is_empty()
+            && self.lost.iter().all(there)
+        {
+            self.annotations = std::mem::take(&mut self.lost);
         }
     }
 

@@ -1,6 +1,6 @@
 //! Where the panes are.
 
-use eframe::egui::Id;
+use eframe::egui::{Id, Vec2, vec2};
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tiles, Tree};
 
 use crate::panes::PaneKind;
@@ -18,48 +18,70 @@ pub(crate) enum Busy {
     Recombining,
 }
 
-/// Returns the usual layout.
-pub(crate) fn usual() -> Tree<PaneKind> {
-    of(Busy::Annotating)
+/// A window narrower or lower than this, in points, has no room for panes on either side of the stage.
+const ROOMY: Vec2 = vec2(1000.0, 640.0);
+
+/// Returns whether a window of that size has the layouts of small windows, which show fewer panes at once.
+pub(crate) fn is_small(size: Vec2) -> bool {
+    size.x < ROOMY.x || size.y < ROOMY.y
 }
 
-/// Returns the layout for that work.
-pub(crate) fn of(busy: Busy) -> Tree<PaneKind> {
+/// Returns the layout for that work; in a small window the stage and what one is busy with have all of it,
+/// and the other panes are behind them.
+pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
     use LinearDir::{Horizontal, Vertical};
     use PaneKind::{History, Import, Inspector, Library, Recombine, Search, Stage, Timeline};
     let mut tiles = Tiles::default();
-    let [left, stage, timeline, right] = [
-        &[Library, Search, Recombine, Import][..],
-        &[Stage],
-        &[Timeline],
-        &[Inspector, History],
-    ]
-    .map(|kinds| {
+    let mut tabs = |kinds: &[PaneKind]| {
         let children: Vec<TileId> = kinds.iter().map(|kind| tiles.insert_pane(*kind)).collect();
         tiles.insert_tab_tile(children)
-    });
-    let tiles_of = &mut tiles;
-    let root = match busy {
-        Busy::Annotating => {
-            let top = [(left, 0.26), (stage, 0.52), (right, 0.22)];
-            let top = shares(tiles_of, Horizontal, &top);
-            shares(tiles_of, Vertical, &[(top, 0.58), (timeline, 0.42)])
+    };
+    let root = if small {
+        match busy {
+            Busy::Annotating => {
+                let above = [
+                    Stage, Library, Search, Recombine, Import, Inspector, History,
+                ];
+                let parts = [(tabs(&above), 0.6), (tabs(&[Timeline]), 0.4)];
+                shares(&mut tiles, Vertical, &parts)
+            }
+            Busy::Searching | Busy::Recombining => {
+                let left = tabs(&[Library, Search, Recombine, Import]);
+                let side = [
+                    (tabs(&[Stage]), 0.64),
+                    (tabs(&[Timeline, Inspector, History]), 0.36),
+                ];
+                let side = shares(&mut tiles, Vertical, &side);
+                shares(&mut tiles, Horizontal, &[(left, 0.46), (side, 0.54)])
+            }
         }
-        Busy::Searching => {
-            let side = [(stage, 0.52), (timeline, 0.26), (right, 0.22)];
-            let side = shares(tiles_of, Vertical, &side);
-            shares(tiles_of, Horizontal, &[(left, 0.52), (side, 0.48)])
-        }
-        Busy::Recombining => {
-            let side = [(stage, 0.64), (timeline, 0.2), (right, 0.16)];
-            let side = shares(tiles_of, Vertical, &side);
-            shares(tiles_of, Horizontal, &[(left, 0.38), (side, 0.62)])
+    } else {
+        let left = tabs(&[Library, Search, Recombine, Import]);
+        let (stage, timeline) = (tabs(&[Stage]), tabs(&[Timeline]));
+        let right = tabs(&[Inspector, History]);
+        match busy {
+            Busy::Annotating => {
+                let top = [(left, 0.26), (stage, 0.52), (right, 0.22)];
+                let top = shares(&mut tiles, Horizontal, &top);
+                shares(&mut tiles, Vertical, &[(top, 0.58), (timeline, 0.42)])
+            }
+            Busy::Searching => {
+                let side = [(stage, 0.52), (timeline, 0.26), (right, 0.22)];
+                let side = shares(&mut tiles, Vertical, &side);
+                shares(&mut tiles, Horizontal, &[(left, 0.52), (side, 0.48)])
+            }
+            Busy::Recombining => {
+                let side = [(stage, 0.64), (timeline, 0.2), (right, 0.16)];
+                let side = shares(&mut tiles, Vertical, &side);
+                shares(&mut tiles, Horizontal, &[(left, 0.38), (side, 0.62)])
+            }
         }
     };
     let mut tree = Tree::new(Id::unique(ID), root, tiles);
     bring(
         &mut tree,
         match busy {
+            Busy::Annotating if small => Stage,
             Busy::Annotating => Library,
             Busy::Searching => Search,
             Busy::Recombining => Recombine,
@@ -76,15 +98,20 @@ fn shares(tiles: &mut Tiles<PaneKind>, dir: LinearDir, parts: &[(TileId, f32)]) 
     tiles.insert_container(Container::Linear(linear))
 }
 
-/// Returns a remembered layout where every pane is in it once, else the usual one.
-pub(crate) fn remembered(tree: Option<&Tree<PaneKind>>) -> Tree<PaneKind> {
+/// Returns a remembered layout where every pane is in it once, else that for `busy`.
+pub(crate) fn remembered(
+    tree: Option<&Tree<PaneKind>>,
+    (busy, small): (Busy, bool),
+) -> Tree<PaneKind> {
     let whole = |tree: &&Tree<PaneKind>| {
         PaneKind::ALL.iter().all(|kind| {
             let is = |tile: &&Tile<PaneKind>| matches!(tile, Tile::Pane(pane) if pane == kind);
             tree.tiles.tiles().filter(is).count() == 1
         })
     };
-    tree.filter(whole).cloned().unwrap_or_else(usual)
+    tree.filter(whole)
+        .cloned()
+        .unwrap_or_else(|| of(busy, small))
 }
 
 /// Returns whether a pane is in sight, and not behind another.
@@ -126,24 +153,30 @@ pub(crate) fn bring(tree: &mut Tree<PaneKind>, kind: PaneKind) {
 mod tests {
     use super::*;
 
+    fn as_usual(tree: Option<&Tree<PaneKind>>) -> Tree<PaneKind> {
+        remembered(tree, (Busy::Annotating, false))
+    }
+
     #[test]
     fn a_layout_that_lacks_a_pane_is_not_taken() {
-        let tree = usual();
-        assert_eq!(remembered(Some(&tree)), tree);
-        let mut lacking = usual();
+        let tree = of(Busy::Annotating, false);
+        assert_eq!(as_usual(Some(&tree)), tree);
+        let mut lacking = of(Busy::Annotating, false);
         let stage = lacking.tiles.find_pane(&PaneKind::Stage).expect("a stage");
         lacking.remove_recursively(stage);
-        assert_eq!(remembered(Some(&lacking)), tree);
-        assert_eq!(remembered(None), tree);
-        for busy in [Busy::Searching, Busy::Recombining] {
-            let tree = of(busy);
-            assert_eq!(remembered(Some(&tree)), tree);
+        assert_eq!(as_usual(Some(&lacking)), tree);
+        assert_eq!(as_usual(None), tree);
+        for busy in [Busy::Annotating, Busy::Searching, Busy::Recombining] {
+            for small in [false, true] {
+                let tree = of(busy, small);
+                assert_eq!(as_usual(Some(&tree)), tree);
+            }
         }
     }
 
     #[test]
     fn panes_are_put_away_and_come_back() {
-        let mut tree = usual();
+        let mut tree = of(Busy::Annotating, false);
         enlarge(&mut tree, &[PaneKind::Timeline, PaneKind::Stage]);
         let shown = |tree: &Tree<PaneKind>| -> Vec<PaneKind> {
             let all = PaneKind::ALL.into_iter();
@@ -154,17 +187,31 @@ mod tests {
         assert_eq!(shown(&tree).len(), 4);
         enlarge(&mut tree, &[PaneKind::Timeline]);
         assert_eq!(shown(&tree), [PaneKind::Timeline]);
-        assert_eq!(remembered(Some(&tree)), tree);
+        assert_eq!(as_usual(Some(&tree)), tree);
         bring(&mut tree, PaneKind::Inspector);
         assert_eq!(shown(&tree).len(), 4);
     }
 
     #[test]
     fn a_pane_behind_others_is_brought_to_the_front() {
-        let mut tree = usual();
+        let mut tree = of(Busy::Annotating, false);
         let history = tree.tiles.find_pane(&PaneKind::History).expect("a history");
         assert!(!shows(&tree, PaneKind::History));
         bring(&mut tree, PaneKind::History);
         assert!(tree.active_tiles().contains(&history) && shows(&tree, PaneKind::History));
+    }
+
+    #[test]
+    fn in_a_small_window_stage_and_work_are_in_sight_together() {
+        for (busy, kind) in [
+            (Busy::Annotating, PaneKind::Timeline),
+            (Busy::Searching, PaneKind::Search),
+            (Busy::Recombining, PaneKind::Recombine),
+        ] {
+            let tree = of(busy, true);
+            assert!(shows(&tree, PaneKind::Stage) && shows(&tree, kind));
+        }
+        assert!(is_small(vec2(800.0, 600.0)) && is_small(vec2(1280.0, 800.0) / 1.5));
+        assert!(!is_small(vec2(1280.0, 720.0)));
     }
 }

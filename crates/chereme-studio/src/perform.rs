@@ -116,7 +116,9 @@ impl Studio {
                 self.bring(PaneKind::Recombine);
             }
             Command::Use(carried) => {
-                self.panes.recombine.take_in(&carried);
+                if let Some(snapshot) = &self.snapshot {
+                    self.panes.recombine.take_in(&carried, &snapshot.overview);
+                }
                 self.bring(PaneKind::Recombine);
             }
             Command::Find(query) => {
@@ -233,7 +235,8 @@ impl Studio {
         if let Some(seen) = self.seen(ctx) {
             let said = panes.act(action, &seen, &mut out);
             if let Some(text) = said {
-                self.overlays.notices.hint(text.of(self.settings.language));
+                let text = self.keys.named(text.of(self.settings.language));
+                self.overlays.notices.hint(text);
             }
         }
         (self.panes, self.out) = (panes, out);
@@ -291,6 +294,7 @@ impl Studio {
             .or_else(|| self.reel.rate())
             .or_else(|| Rate::new(NO_FRAMES, 1).ok());
         let part = self.shown.span.filter(|_| made.is_none());
+        let stepping = self.settings.stepping;
         let player = self.shown.on_stage_mut();
         let (at, whole) = (player.playhead(), player.whole);
         match action {
@@ -302,7 +306,7 @@ impl Studio {
                 let end = span.end().shifted(AROUND).min(whole.end());
                 player.play_part(Span::between(start, end));
             }
-            Action::StepAndRepeat => player.step_and_repeat(part),
+            Action::StepAndRepeat => player.step_and_repeat(part, stepping),
             Action::OtherEnd | Action::ToCentre => {
                 let Some(span) = part else { return true };
                 let middle = span.start().shifted(span.micros() / 2);
@@ -339,7 +343,8 @@ impl Studio {
     }
 
     fn lay_out(&mut self, busy: Busy) {
-        self.tree = layout::of(busy);
+        self.busy = busy;
+        self.tree = layout::of(busy, self.small);
     }
 
     fn bring(&mut self, pane: PaneKind) {
@@ -487,7 +492,13 @@ impl Studio {
         let glance = self.shown.recording.and_then(|id| snapshot.recording(id));
         self.reel.load(glance);
         match glance {
-            None => self.shown = Shown::default(),
+            None => {
+                let made = self.shown.made.take();
+                self.shown = Shown {
+                    made,
+                    ..Shown::default()
+                };
+            }
             Some(glance) => {
                 let end = Instant::from_micros(glance.row.duration_us);
                 self.shown.player.fit(Span::between(Instant::ZERO, end));
@@ -499,9 +510,7 @@ impl Studio {
                 .shown
                 .tier
                 .filter(|id| tiers.iter().any(|it| it.row.id == *id));
-            self.shown
-                .annotations
-                .retain(|id| snapshot.annotation(*id).is_some());
+            self.shown.follow(&snapshot);
         }
         let wanted = self.panes.timeline.wants();
         let wanted = wanted.filter(|id| snapshot.recording(*id).is_some());
@@ -514,7 +523,10 @@ impl Studio {
         }
         self.snapshot = Some(snapshot);
         if let (None, Some(first)) = (self.shown.recording, first) {
+            // What is being made stays on the stage while its sign is stored.
+            let made = self.shown.made.take();
             self.turn_to(first);
+            self.shown.made = made;
         }
     }
 }

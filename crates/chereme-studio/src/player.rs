@@ -1,6 +1,7 @@
 //! The transport: where the playhead is, and how it moves with the clock.
 
 use chereme_motion::{Instant, Rate, Span};
+use serde::{Deserialize, Serialize};
 
 /// Speeds that slower and faster step through.
 pub(crate) const SPEEDS: [f64; 11] = [0.1, 0.2, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0];
@@ -24,12 +25,54 @@ pub(crate) struct Player {
     steps: Option<Steps>,
 }
 
-/// How long a piece of step and repeat is, how far the next lies on, how often each is played, and the rest
-/// between, in seconds.
-const PIECE: i64 = 2_000_000;
-const STEP: i64 = 1_000_000;
-const TIMES: u32 = 2;
-const REST: f64 = 0.4;
+/// How step and repeat goes through something, in seconds.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub(crate) struct Stepping {
+    /// How long a piece is, from 0.2 to 60.
+    pub(crate) piece: f64,
+    /// How far the next lies on, from 0.1 to 60.
+    pub(crate) step: f64,
+    /// How often each is played, from 1 to 20.
+    pub(crate) times: u32,
+    /// The rest between, from 0 to 10.
+    pub(crate) rest: f64,
+}
+
+impl Default for Stepping {
+    fn default() -> Self {
+        Self {
+            piece: 2.0,
+            step: 1.0,
+            times: 2,
+            rest: 0.4,
+        }
+    }
+}
+
+impl Stepping {
+    /// Returns it with what is out of range as near as can be.
+    pub(crate) fn checked(self) -> Self {
+        let within = |value: f64, least: f64, most: f64| {
+            if value.is_finite() {
+                value.clamp(least, most)
+            } else {
+                least
+            }
+        };
+        Self {
+            piece: within(self.piece, 0.2, 60.0),
+            step: within(self.step, 0.1, 60.0),
+            times: self.times.clamp(1, 20),
+            rest: within(self.rest, 0.0, 10.0),
+        }
+    }
+}
+
+/// Returns seconds in microseconds.
+fn micros(seconds: f64) -> i64 {
+    (seconds * 1e6) as i64
+}
 
 /// Short pieces played one after the other, each several times.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +85,7 @@ struct Steps {
     played: u32,
     /// How long it still rests, in seconds.
     rest: f64,
+    how: Stepping,
 }
 
 impl Default for Player {
@@ -117,9 +161,9 @@ impl Player {
         }
     }
 
-    /// Plays short pieces of `part`, or of all from the playhead on, each twice and overlapping the one
+    /// Plays short pieces of `part`, or of all from the playhead on, each again and overlapping the one
     /// before; stops where it does so already.
-    pub(crate) fn step_and_repeat(&mut self, part: Option<Span>) {
+    pub(crate) fn step_and_repeat(&mut self, part: Option<Span>, how: Stepping) {
         if self.is_playing() && self.steps.is_some() {
             self.stop();
             return;
@@ -128,14 +172,16 @@ impl Player {
         let Some(of) = part.unwrap_or(rest).intersection(self.whole) else {
             return;
         };
-        let piece = PIECE.min(of.micros());
+        let how = how.checked();
+        let piece = micros(how.piece).min(of.micros());
         let end = of.start().shifted(piece);
         self.play_part(Span::between(of.start(), end));
         self.steps = Some(Steps {
             of,
-            by: STEP.min(piece / 2).max(1),
+            by: micros(how.step).min(piece).max(1),
             played: 0,
             rest: 0.0,
+            how,
         });
     }
 
@@ -144,8 +190,8 @@ impl Player {
         let (Some(steps), Some(part)) = (&mut self.steps, self.part) else {
             return;
         };
-        (steps.played, steps.rest) = (steps.played + 1, REST);
-        if steps.played >= TIMES {
+        (steps.played, steps.rest) = (steps.played + 1, steps.how.rest);
+        if steps.played >= steps.how.times {
             steps.played = 0;
             let end = part.end().shifted(steps.by).min(steps.of.end());
             let next = if part.end() < steps.of.end() {
@@ -286,7 +332,7 @@ mod tests {
     fn short_pieces_are_repeated_and_stepped_through() {
         let mut player = Player::default();
         player.load(span(0, 10_000_000));
-        player.step_and_repeat(Some(span(1_000_000, 4_500_000)));
+        player.step_and_repeat(Some(span(1_000_000, 4_500_000)), Stepping::default());
         let mut starts = Vec::new();
         while player.is_playing() {
             starts.push(player.part.map(|it| it.start().micros() / 100_000));
@@ -296,8 +342,8 @@ mod tests {
         let want = [10, 10, 20, 20, 25, 25].map(Some);
         assert_eq!(starts, want);
         assert_eq!(player.playhead().micros(), 4_500_000);
-        player.step_and_repeat(None);
-        player.step_and_repeat(None);
+        player.step_and_repeat(None, Stepping::default());
+        player.step_and_repeat(None, Stepping::default());
         assert!(!player.is_playing());
     }
 

@@ -13,6 +13,7 @@ use crate::panes::PaneKind;
 use crate::panes::stage::StageWays;
 use crate::panes::timeline::Ways;
 use crate::panes::timeline::data::Window;
+use crate::player::Stepping;
 use crate::words::Language;
 
 /// How many corpora are remembered.
@@ -47,8 +48,12 @@ pub(crate) struct Settings {
     pub(crate) searches: Searches,
     /// Where the panes are; the usual layout where nothing is said.
     pub(crate) layout: Option<Tree<PaneKind>>,
+    /// The same of a small window.
+    pub(crate) small_layout: Option<Tree<PaneKind>>,
     /// How the timeline works and what it shows.
     pub(crate) timeline: Ways,
+    /// How pieces are played again and again.
+    pub(crate) stepping: Stepping,
     /// How the stage is looked at.
     pub(crate) stage: StageWays,
     /// How corpora are looked at, by their paths; of those opened before.
@@ -113,7 +118,9 @@ impl Default for Settings {
             export_folder: None,
             searches: Searches::default(),
             layout: None,
+            small_layout: None,
             timeline: Ways::default(),
+            stepping: Stepping::default(),
             stage: StageWays::default(),
             views: BTreeMap::new(),
         }
@@ -153,6 +160,7 @@ impl Settings {
         } else {
             1.0
         };
+        self.stepping = self.stepping.checked();
         self
     }
 }
@@ -262,7 +270,7 @@ mod tests {
         settings.opened(Path::new("a.chereme"));
         settings.opened(Path::new("b.chereme"));
         settings.opened(Path::new("a.chereme"));
-        settings.layout = Some(crate::layout::usual());
+        settings.layout = Some(crate::layout::of(crate::layout::Busy::Annotating, false));
         settings.write(&path).expect("written");
         assert_eq!(Settings::read(&path), Some(settings));
         let text =

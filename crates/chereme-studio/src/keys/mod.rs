@@ -102,6 +102,20 @@ impl Keys {
         all.join(", ")
     }
 
+    /// Returns a text with the first keys of the actions whose ids stand in it between braces; the name of
+    /// one that has none.
+    pub(crate) fn named(&self, text: &str) -> String {
+        let mut told = text.to_owned();
+        for row in ACTIONS {
+            let place = format!("{{{}}}", row.id);
+            if told.contains(&place) {
+                let keys = self.of(row.action).first().map(Chord::to_string);
+                told = told.replace(&place, &keys.unwrap_or_else(|| row.id.to_owned()));
+            }
+        }
+        told
+    }
+
     /// Returns the action that `chord` means at `place`: the pane's own before the others.
     pub(crate) fn action(&self, chord: Chord, place: Place) -> Option<Action> {
         let taken = (place.typing && chord.is_for_text())

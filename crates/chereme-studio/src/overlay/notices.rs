@@ -5,7 +5,8 @@ use std::fmt::Display;
 use chereme_corpus::Error;
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{
-    Align2, Area, Context, Frame, Id, Order, RichText, ScrollArea, Style, TextStyle, vec2,
+    Align, Align2, Area, Context, Frame, Id, Label, Layout, Order, RichText, Role, ScrollArea,
+    Style, TextStyle, Ui, WidgetInfo, vec2,
 };
 
 use super::trouble;
@@ -38,6 +39,8 @@ pub(crate) struct Notice {
 /// The notices that are shown.
 #[derive(Debug, Default)]
 pub(crate) struct Notices {
+    /// The one that stands in the status line, where it covers nothing.
+    in_line: Option<u64>,
     pub(crate) all: Vec<Notice>,
     next: u64,
 }
@@ -111,7 +114,10 @@ impl Notices {
     }
 
     fn add(&mut self, text: String, remedy: Option<String>, stays: bool) {
-        self.all.retain(|notice| notice.text != text);
+        self.all.retain(|notice| {
+            // One hint follows another; what is to be put away stays.
+            notice.text != text && (stays || notice.stays || notice.since.is_none())
+        });
         self.next += 1;
         self.all.push(Notice {
             id: self.next,
@@ -124,6 +130,35 @@ impl Notices {
         while self.all.len() > MOST {
             self.all.remove(0);
         }
+    }
+
+    /// Shows the newest hint at the end of the status line, where there is room for it.
+    pub(crate) fn line(&mut self, ui: &mut Ui) {
+        self.in_line = None;
+        let Some(notice) = self.all.iter().rev().find(|it| !it.stays) else {
+            return;
+        };
+        let colours = Colours::of(theme::is_dark(ui.ctx()));
+        let mut job = LayoutJob::default();
+        let font = TextStyle::Body.resolve(ui.style());
+        let dot = TextFormat::simple(font.clone(), colours.good);
+        job.append("●", 0.0, dot);
+        let strong = ui.visuals().strong_text_color();
+        job.append(
+            &notice.text.replace('`', ""),
+            8.0,
+            TextFormat::simple(font, strong),
+        );
+        let galley = ui.painter().layout_job(job);
+        if galley.rows.len() > 1 || galley.size().x + 16.0 > ui.available_width() {
+            return;
+        }
+        self.in_line = Some(notice.id);
+        let label = notice.text.clone();
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let said = ui.add(Label::new(galley));
+            said.widget_info(|| WidgetInfo::labeled(Role::Label, true, &label));
+        });
     }
 
     pub(crate) fn ui(&mut self, ctx: &Context, language: Language, out: &mut Outbox) {
@@ -139,13 +174,18 @@ impl Notices {
             return;
         }
         ctx.request_repaint_after(std::time::Duration::from_millis(500));
+        let in_line = self.in_line;
+        let elsewhere = |notice: &&Notice| Some(notice.id) != in_line;
+        if !self.all.iter().any(|it| elsewhere(&it)) {
+            return;
+        }
         let area = Area::new(Id::unique("notices"))
             .order(Order::Foreground)
             .anchor(Align2::RIGHT_BOTTOM, vec2(-16.0, -44.0));
         area.show(ctx, |ui| {
             ui.set_max_width(420.0);
             let colours = Colours::of(theme::is_dark(ctx));
-            for notice in &self.all {
+            for notice in self.all.iter().filter(elsewhere) {
                 Frame::popup(ui.style()).show(ui, |ui| {
                     let edge = if notice.stays {
                         colours.trouble

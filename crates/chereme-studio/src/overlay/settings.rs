@@ -1,9 +1,11 @@
 //! The settings: language, theme, scale.
 
-use eframe::egui::{Align2, Context, Grid, Id, Slider, Window};
+use eframe::egui::{Align2, Context, DragValue, Grid, Id, Slider, Ui, Window};
 
+use crate::action::Action;
 use crate::command::Command;
 use crate::context::Outbox;
+use crate::player::Stepping;
 use crate::settings::{Settings, ThemeChoice};
 use crate::words::{Language, shell as words};
 
@@ -65,6 +67,9 @@ impl SettingsWindow {
                         changed.scale = scale;
                     }
                     ui.end_row();
+                    ui.label(Action::StepAndRepeat.row().name.of(language));
+                    stepping(ui, language, &mut changed.stepping);
+                    ui.end_row();
                 });
         });
         if changed != *settings {
@@ -72,4 +77,25 @@ impl SettingsWindow {
         }
         self.open = open && !super::escaped(ctx);
     }
+}
+
+/// Shows how pieces are played again and again.
+fn stepping(ui: &mut Ui, language: Language, how: &mut Stepping) {
+    let values = [
+        (words::STEP_PIECE, &mut how.piece, 0.2..=60.0),
+        (words::STEP_BY, &mut how.step, 0.1..=60.0),
+        (words::STEP_REST, &mut how.rest, 0.0..=10.0),
+    ];
+    Grid::new("stepping").num_columns(2).show(ui, |ui| {
+        for (name, value, range) in values {
+            let label = ui.label(name.of(language));
+            let field = DragValue::new(value).range(range).speed(0.05).suffix(" s");
+            ui.add(field.max_decimals(2)).labelled_by(label.id);
+            ui.end_row();
+        }
+        let label = ui.label(words::STEP_TIMES.of(language));
+        let field = DragValue::new(&mut how.times).range(1..=20).suffix(" ×");
+        ui.add(field.speed(0.05)).labelled_by(label.id);
+        ui.end_row();
+    });
 }

@@ -4,6 +4,7 @@ use eframe::egui::{Frame, Margin, Panel, RichText, Ui};
 
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
+use crate::panes::recombine::recipe_of;
 use crate::words::{fill, library as words};
 
 /// Why there is nothing to see of a sign.
@@ -44,7 +45,10 @@ pub(crate) fn show(
         ui.horizontal_wrapped(|ui| {
             let (name, recipe) = match bare {
                 Bare::Making => return,
-                Bare::Animated => (words::TO_RECIPE, format!("token:{token}")),
+                Bare::Animated => {
+                    let recipe = recipe_of(&seen.snapshot.overview, token, gloss);
+                    (words::TO_RECIPE, recipe)
+                }
                 Bare::Coded | Bare::Failed(_) => (words::MAKE, String::new()),
             };
             if ui.button(seen.say(name)).clicked() {

@@ -47,6 +47,8 @@ pub(crate) struct Picker {
     focus: Option<Id>,
     /// It was just opened: what is typed shall go to it.
     fresh: bool,
+    /// Its button opens it as soon as it is drawn.
+    opens: bool,
     /// The inventory and the value of which all that is known is asked for.
     asked: Option<(String, String)>,
     /// Of places: those in space rather than those on the body, from the side, and how far off.
@@ -58,12 +60,24 @@ pub(crate) struct Picker {
 impl Picker {
     /// Shows the value in the inspector that was asked about with Ctrl and a click, or the other button.
     pub(crate) fn inspect(&mut self, seen: &Seen<'_>, out: &mut Outbox) {
-        let Some((inventory, value)) = self.asked.take() else {
-            return;
-        };
+        if let Some(thing) = self.asked(seen) {
+            out.send(Command::Inspect(thing));
+        }
+    }
+
+    /// Returns that value, once.
+    pub(crate) fn asked(&mut self, seen: &Seen<'_>) -> Option<Thing> {
+        let (inventory, value) = self.asked.take()?;
         let mut all = seen.snapshot.overview.inventories.iter();
-        if let Some(stored) = all.find(|it| it.inventory.id == inventory) {
-            out.send(Command::Inspect(Thing::Value(stored.id, value)));
+        let stored = all.find(|it| it.inventory.id == inventory)?;
+        Some(Thing::Value(stored.id, value))
+    }
+
+    /// Returns one that its button opens as soon as it is drawn.
+    pub(crate) fn opening() -> Self {
+        Self {
+            opens: true,
+            ..Self::fresh()
         }
     }
 
@@ -139,6 +153,9 @@ pub(crate) fn button(
         .accessible_name(name);
     let width = data::width(data::kind(inventory)).min(screen.x - 48.0);
     let id = popup.get_id();
+    if std::mem::take(&mut picker.opens) {
+        Popup::open_id(ui.ctx(), id);
+    }
     let picked = popup.show(|ui| {
         ui.set_width(width);
         ui.set_max_height((screen.y - 120.0).min(440.0));

@@ -51,7 +51,11 @@ texts! {
     NOTICE_UNDONE: "Undone: {what}", "Annulé : {what}";
     NOTICE_REDONE: "Done again: {what}", "Rétabli : {what}";
     NOTICE_CHANGED_ELSEWHERE: "Another program changed the corpus; it was read again.", "Un autre programme a modifié le corpus ; il a été relu.";
-    NEEDS_SELECTION: "Select a span on a tier first: drag on the timeline.", "Sélectionnez d’abord un intervalle : glissez sur la ligne de temps.";
+    STEP_PIECE: "each piece", "chaque morceau";
+    STEP_BY: "the next begins after", "le suivant commence après";
+    STEP_REST: "rest between", "pause entre deux";
+    STEP_TIMES: "each played", "chacun joué";
+    NEEDS_SELECTION: "Select a span first: drag on the timeline, or {timing.extend-frame-forward}; or {annotation.begin-end} at its begin and end.", "Sélectionnez d’abord un intervalle : glissez sur la ligne de temps, ou {timing.extend-frame-forward} ; ou {annotation.begin-end} au début et à la fin.";
     NEEDS_SIGN: "Choose a sign first: a hit, a sign of the library, or its gloss.", "Choisissez d’abord un signe : un résultat, un signe du fonds ou sa glose.";
     NEEDS_ANNOTATION: "Select an annotation first.", "Sélectionnez d’abord une annotation.";
     PALETTE_HINT: "Type what you want to do", "Écrivez ce que vous voulez faire";

@@ -37,6 +37,7 @@ texts! {
     LITTLE_NOTHING: "no movement", "sans mouvement";
     SPEED: "Speed", "Vitesse";
     VIEW: "View", "Vue";
+    MORE_TOOLS: "Show…", "Afficher…";
     TIME: "Time", "Temps";
     LOOP: "Loop", "Boucle";
     HANDLE: "Move: {hand}", "Déplacer : {hand}";

@@ -10,6 +10,7 @@ use super::{Inspector, Thing, data, notation};
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::library::origin_text;
+use crate::panes::recombine::recipe_of;
 use crate::pickers::hamnosys;
 use crate::words::inspector as words;
 use crate::work::Work;
@@ -77,7 +78,9 @@ pub(super) fn show(
             out.send(Command::Recipe(recipe.clone(), opened));
         }
         if row.recording_id.is_some() && ui.button(seen.say(words::RECOMBINE)).clicked() {
-            out.send(Command::Recipe(format!("token:{}", row.id), None));
+            let overview = &seen.snapshot.overview;
+            let recipe = recipe_of(overview, row.id, &row.gloss);
+            out.send(Command::Recipe(recipe, None));
         }
         if let (Some(recording), Some((start, end))) =
             (row.recording_id, row.start_us.zip(row.end_us))

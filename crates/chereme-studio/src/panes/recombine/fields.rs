@@ -5,9 +5,9 @@
 use std::sync::{Arc, Mutex, PoisonError};
 
 use chereme_corpus::recipe::{
-    Direction, Factor, Hands, Length, Profile, Seconds, Spot, Transition,
+    Direction, Factor, Hands, Length, Node, Profile, Recipe, Seconds, Spot, Transition,
 };
-use chereme_corpus::{MadePart, TokenRow};
+use chereme_corpus::{MadePart, Overview, SignGlance, TokenRow};
 use chereme_sign::{Component, Inventory, InventoryValue};
 use eframe::egui::{
     Button, ComboBox, DragValue, Id, Response, Role, Slider, SliderClamping, Ui, WidgetInfo,
@@ -16,8 +16,12 @@ use eframe::egui::{
 use crate::context::Seen;
 use crate::panes::Carried;
 use crate::panes::complete::{Line, complete, fitting};
+use crate::panes::inspector::Thing;
 use crate::pickers::{self, Picker};
 use crate::words::{Text, recombine as words};
+
+/// Where a picker leaves what it asks about.
+const ASKED: &str = "asked of a card";
 
 /// Shows a name before what follows it.
 pub(super) fn caption(ui: &mut Ui, seen: &Seen<'_>, text: Text) -> Response {
@@ -360,6 +364,9 @@ pub(super) fn of_inventory(
     let chosen = Some(text.as_str()).filter(|text| inventory.find(text).is_some());
     let name = format!("{}…", seen.say(name));
     let picked = pickers::button(ui, &mut picker, seen, inventory, chosen, &name);
+    if let Some(thing) = picker.asked(seen) {
+        ui.data_mut(|data| data.insert_temp(Id::unique(ASKED), thing));
+    }
     if let Some(value) = chosen.and_then(|id| inventory.find(id))
         && let Some(name) = called(value, seen)
         && name != *text
@@ -371,6 +378,16 @@ pub(super) fn of_inventory(
         *text = picked;
     }
     typed.changed | changed
+}
+
+/// Returns the value of which all that is known was asked for in a picker of a card.
+pub(super) fn asked(ui: &Ui) -> Option<Thing> {
+    let id = Id::unique(ASKED);
+    ui.data_mut(|data| {
+        let thing = data.get_temp(id);
+        data.remove::<Thing>(id);
+        thing
+    })
 }
 
 /// Returns the address of the selected token, where one is selected.
@@ -416,7 +433,32 @@ pub(super) fn selected_recipe(seen: &Seen<'_>) -> Option<(String, String)> {
         return Some((recipe, gloss));
     }
     let (token, gloss) = selected_token(seen)?;
-    Some((format!("token:{token}"), gloss))
+    Some((recipe_of(&seen.snapshot.overview, token, &gloss), gloss))
+}
+
+/// Returns the recipe that is a token as it is.
+pub(crate) fn recipe_of(overview: &Overview, token: i64, gloss: &str) -> String {
+    quoted(&address(overview, token, gloss))
+}
+
+/// Returns how a recipe names a token: by its gloss where that means it, as people say it, else by its number.
+pub(super) fn address(overview: &Overview, token: i64, gloss: &str) -> String {
+    let mut named = overview.signs.iter().filter(|it| it.gloss == gloss);
+    let means = named.next().is_some_and(|it| it.citation == Some(token));
+    let text = quoted(gloss);
+    let reads = text
+        .parse::<Recipe>()
+        .is_ok_and(|it| it.to_string() == text);
+    if means && reads {
+        gloss.to_owned()
+    } else {
+        format!("token:{token}")
+    }
+}
+
+/// Returns a sign as a recipe writes it.
+fn quoted(name: &str) -> String {
+    Node::Sign(name.to_owned()).to_string()
 }
 
 /// Shows a sign by its gloss: typed with completion, the selected token, or a hit dropped on it.
@@ -435,7 +477,7 @@ pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut 
             let button = ui.button(seen.say(words::TAKE_SELECTED));
             let tip = crate::words::fill(seen.say(words::TAKE_SELECTED_TIP), &[("gloss", &gloss)]);
             if button.on_hover_text(tip).clicked() {
-                *text = format!("token:{token}");
+                *text = address(&seen.snapshot.overview, token, &gloss);
                 changed = true;
             }
         }
@@ -455,7 +497,7 @@ pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut 
             .rect_stroke(inner.response.rect, 5.0, stroke, kind);
     }
     if let Some(carried) = dropped {
-        *text = format!("token:{}", carried.token);
+        *text = address(&seen.snapshot.overview, carried.token, &carried.gloss);
         return true;
     }
     inner.inner
@@ -466,6 +508,7 @@ pub(super) fn gloss_of(seen: &Seen<'_>, text: &str) -> Option<String> {
     token_of(seen, text)
         .map(|token| token.gloss.clone())
         .or_else(|| Some(part_of(seen, text)?.gloss.clone()))
+        .or_else(|| Some(sign_of(seen, text)?.gloss.clone()))
         .filter(|gloss| !gloss.is_empty())
 }
 
@@ -473,6 +516,13 @@ fn token_of<'a>(seen: &Seen<'a>, text: &str) -> Option<&'a TokenRow> {
     let id: i64 = text.strip_prefix("token:")?.parse().ok()?;
     let contents = seen.snapshot.contents(seen.shown.recording?)?;
     contents.tokens.iter().find(|token| token.id == id)
+}
+
+/// Returns the sign whose citation form a token is.
+fn sign_of<'a>(seen: &Seen<'a>, text: &str) -> Option<&'a SignGlance> {
+    let id: i64 = text.strip_prefix("token:")?.parse().ok()?;
+    let mut signs = seen.snapshot.overview.signs.iter();
+    signs.find(|it| it.citation == Some(id))
 }
 
 fn part_of<'a>(seen: &Seen<'a>, text: &str) -> Option<&'a MadePart> {

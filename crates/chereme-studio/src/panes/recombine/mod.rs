@@ -16,7 +16,7 @@ mod suggest;
 use std::sync::Arc;
 
 use chereme_corpus::recipe::{Goal, Node, Recipe, RecipeError, Step};
-use chereme_corpus::{OperationRow, Recombination};
+use chereme_corpus::{OperationRow, Overview, Recombination};
 use eframe::egui::{
     Button, CollapsingHeader, Frame, Id, Panel, RichText, ScrollArea, TextEdit, Ui,
 };
@@ -29,7 +29,7 @@ use crate::model::handle::Handle;
 use crate::model::made::Made;
 use crate::words::{fill, recombine as words};
 use crate::work::{Ended, Outcome, WorkId};
-pub(crate) use fields::selected_token;
+pub(crate) use fields::{recipe_of, selected_token};
 use live::Live;
 pub(crate) use path::offset_legs;
 use stack::{Card, Stack, What};
@@ -209,8 +209,8 @@ impl Recombine {
     }
 
     /// Takes a sign in: where the chosen card, or any, waits for one, else as a source of its own.
-    pub(crate) fn take_in(&mut self, carried: &Carried) {
-        let name = format!("token:{}", carried.token);
+    pub(crate) fn take_in(&mut self, carried: &Carried, overview: &Overview) {
+        let name = fields::address(overview, carried.token, &carried.gloss);
         let waiting = |card: &stack::Card| matches!(&card.what, What::Source { node: Node::Sign(name), .. } if name.trim().is_empty());
         let cards = self.stack.cards();
         let chosen = cards.iter().find(|it| Some(it.id) == self.chosen);
@@ -226,7 +226,7 @@ impl Recombine {
                 (self.chosen, self.focus) = (Some(id), Some(id));
                 self.follow_cards();
             }
-            None if self.stack.is_empty() => self.open(&name, None, None),
+            None if self.stack.is_empty() => self.open(&Node::Sign(name).to_string(), None, None),
             None => self.add(What::source(Node::Sign(name))),
         }
     }
@@ -376,6 +376,10 @@ impl Recombine {
             response.request_focus();
         }
         if response.changed() {
+            // The same text pasted again asks for what it means by now.
+            if text == self.text {
+                self.live.reload();
+            }
             self.type_in(text);
         }
         if let Some(wrong) = &self.wrong {
@@ -476,9 +480,12 @@ impl Pane for Recombine {
             }
         });
         if let Some(carried) = carry::let_go(ui, seen, whole) {
-            self.take_in(&carried);
+            self.take_in(&carried, &seen.snapshot.overview);
         }
         self.naming = false;
+        if let Some(thing) = fields::asked(ui) {
+            out.send(Command::Inspect(thing));
+        }
         self.keep_up(seen, ui.input(|input| input.time), out);
         self.count(&seen.snapshot.overview.operations);
         self.settle_in_time(ui);

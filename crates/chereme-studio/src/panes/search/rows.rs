@@ -24,6 +24,8 @@ pub(crate) struct Rows {
     typing: BTreeMap<usize, String>,
     /// The row that gets another value.
     more: Option<usize>,
+    /// The row that was just added, whose text is typed next.
+    begun: Option<usize>,
 }
 
 /// Draws the rows of `text` and changes it; returns whether it changed.
@@ -41,6 +43,9 @@ pub(crate) fn show(ui: &mut Ui, rows: &mut Rows, seen: &Seen<'_>, text: &mut Str
     for (at, condition) in all.iter_mut().enumerate() {
         ui.push_id(at, |ui| {
             ui.horizontal_wrapped(|ui| {
+                if has_pictures(seen, condition) {
+                    ui.set_row_height(36.0);
+                }
                 row(ui, rows, seen, at, condition);
                 let name = fill(seen.say(words::REMOVE), &[("row", &(at + 1))]);
                 let remove = ui.small_button("×").on_hover_text(&name);
@@ -60,6 +65,19 @@ pub(crate) fn show(ui: &mut Ui, rows: &mut Rows, seen: &Seen<'_>, text: &mut Str
     }
     if rows.draft.is_none() && removed != Some(stated) {
         rows.draft = add(ui, seen);
+        if let Some(row) = &rows.draft {
+            // What it is that is looked for comes next.
+            let pictures = match row {
+                Condition::Values(Subject::Component(field), ..) => {
+                    inventory(seen, field).is_some()
+                }
+                _ => false,
+            };
+            if pictures {
+                rows.pickers.insert((all.len(), 0), Picker::opening());
+            }
+            rows.begun = Some(all.len());
+        }
     }
     if all == before {
         return false;
@@ -67,6 +85,17 @@ pub(crate) fn show(ui: &mut Ui, rows: &mut Rows, seen: &Seen<'_>, text: &mut Str
     rows.more = None;
     *text = builder::text(&all);
     true
+}
+
+/// Returns whether a row shows a picture, and so is higher than others.
+fn has_pictures(seen: &Seen<'_>, row: &Condition) -> bool {
+    match row {
+        Condition::Values(Subject::Component(field), how, values) => {
+            let shown = !matches!(how, How::Has | How::Missing(_)) && !values.is_empty();
+            shown && inventory(seen, field).is_some()
+        }
+        _ => false,
+    }
 }
 
 /// Returns whether a row says something.
@@ -368,6 +397,9 @@ fn text_ui(ui: &mut Ui, rows: &mut Rows, at: usize, values: &mut Vec<Pattern>, n
     let text = rows.typing.entry(at).or_insert_with(|| now.clone());
     let before = text.clone();
     let response = ui.add(TextEdit::singleline(text).desired_width(150.0));
+    if rows.begun.take_if(|it| *it == at).is_some() {
+        response.request_focus();
+    }
     let shown = text.clone();
     response.widget_info(|| WidgetInfo {
         label: Some(name.to_owned()),

@@ -31,7 +31,7 @@ use std::time::Duration;
 use chereme_corpus::Overview;
 use chereme_figure::View;
 use chereme_motion::{ModelPose, Side};
-use eframe::egui::{Context, TextureHandle, Ui};
+use eframe::egui::{Context, Id, Rect, TextureHandle, Ui};
 
 use crate::action::Action;
 use crate::command::Command;
@@ -284,6 +284,21 @@ impl Pane for Stage {
             self.asked = None;
         }
     }
+}
+
+/// Where the pictures are, and in which frame they were there.
+const PLACE: &str = "place of the stage";
+
+/// Keeps in mind where the pictures are.
+fn note_place(ui: &Ui, rect: Rect) {
+    let frame = ui.ctx().cumulative_frame_nr();
+    ui.data_mut(|data| data.insert_temp(Id::unique(PLACE), (frame, rect)));
+}
+
+/// Returns where the stage has its pictures, where it is in sight.
+pub(crate) fn place(ctx: &Context) -> Option<Rect> {
+    let (frame, rect): (u64, Rect) = ctx.data(|data| data.get_temp(Id::unique(PLACE)))?;
+    (frame + 1 >= ctx.cumulative_frame_nr()).then_some(rect)
 }
 
 /// Returns where the signer's postures come from.

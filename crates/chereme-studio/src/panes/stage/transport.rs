@@ -2,8 +2,8 @@
 
 use chereme_motion::{Instant, Rate, Span};
 use eframe::egui::{
-    self, Color32, ComboBox, CornerRadius, Key, Painter, Rect, Response, RichText, Role, Sense,
-    Shape, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
+    self, Button, Color32, ComboBox, CornerRadius, Key, Painter, Rect, Response, RichText, Role,
+    Sense, Shape, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use crate::action::Action;
@@ -16,9 +16,16 @@ use crate::words::{Text, fill, stage as words};
 const BAR: f32 = 26.0;
 const BUTTON: Vec2 = vec2(30.0, 26.0);
 
-pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
-    ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
-    ui.add_space(4.0);
+/// Shows the bar and the buttons; `low` where the stage has little height, and `more` after the buttons.
+pub(super) fn show(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    low: bool,
+    more: impl FnOnce(&mut Ui, &mut Outbox),
+) {
+    ui.spacing_mut().item_spacing = vec2(4.0, if low { 2.0 } else { 4.0 });
+    ui.add_space(if low { 2.0 } else { 4.0 });
     bar(ui, seen, out);
     ui.horizontal_wrapped(|ui| {
         let player = seen.shown.on_stage();
@@ -38,9 +45,9 @@ pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         speeds(ui, seen, out);
         let rate = rate(seen);
         let (now, all) = (time_text(player.playhead()), time_text(player.whole.end()));
-        ui.label(RichText::new(now).monospace().strong());
+        go_to(ui, seen, out, &now);
         ui.label(RichText::new(format!("/ {all}")).monospace().weak());
-        if let Some(rate) = rate {
+        if let Some(rate) = rate.filter(|_| !low) {
             let (frame, frames) = frames(player.playhead(), player.whole, rate);
             let text = fill(
                 seen.say(words::FRAME_OF),
@@ -48,7 +55,23 @@ pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
             );
             ui.label(RichText::new(text).small().weak());
         }
+        more(ui, out);
     });
+}
+
+/// Shows the time of the playhead; pressed, another can be typed.
+fn go_to(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, now: &str) {
+    let time = RichText::new(now).monospace().strong();
+    let button = ui.add(Button::new(time).frame_when_inactive(false));
+    let name = seen.say(Action::GoToTime.row().name);
+    button.widget_info(|| WidgetInfo {
+        current_text_value: Some(now.to_owned()),
+        ..WidgetInfo::labeled(Role::Button, true, name)
+    });
+    let keys = seen.keys.text(Action::GoToTime);
+    if button.on_hover_text(format!("{name} ({keys})")).clicked() {
+        out.send(Command::Do(Action::GoToTime));
+    }
 }
 
 fn rate(seen: &Seen<'_>) -> Option<Rate> {

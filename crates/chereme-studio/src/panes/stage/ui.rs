@@ -21,6 +21,8 @@ use crate::words::{Text, fill, stage as words};
 
 /// The most pixels that are drawn; larger stages show theirs scaled.
 const MOST_PIXELS: f32 = 1_600_000.0;
+/// Lower stages have their tools behind a button.
+const LOW: f32 = 300.0;
 /// How long a frame waits for the picture of what a recipe has just become: it is seen in the frame in which
 /// it is known, and there is time left for the rest of the window.
 const AT_ONCE: std::time::Duration = std::time::Duration::from_millis(12);
@@ -33,15 +35,29 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
     let time = ui.input(|input| input.time);
     stage.follow(seen, time, out);
     let frame = egui::Frame::new();
-    egui::Panel::top("stage tools")
-        .frame(frame)
-        .show_separator_line(false)
-        .show(ui, |ui| tools::show(stage, ui, seen, out));
+    // Where there is little height the signer has it.
+    let low = ui.available_height() < LOW;
+    if !low {
+        egui::Panel::top("stage tools")
+            .frame(frame)
+            .show_separator_line(false)
+            .show(ui, |ui| tools::show(stage, ui, seen, out));
+    }
     egui::Panel::bottom("transport")
         .frame(frame)
         .show_separator_line(false)
-        .show(ui, |ui| transport::show(ui, seen, out));
+        .show(ui, |ui| {
+            transport::show(ui, seen, out, low, |ui, out| {
+                if low {
+                    ui.menu_button(seen.say(words::MORE_TOOLS), |ui| {
+                        ui.set_min_width(260.0);
+                        tools::show(stage, ui, seen, out);
+                    });
+                }
+            });
+        });
     let (whole, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+    super::note_place(ui, whole);
     match why_nothing(stage, seen) {
         Some(text) => {
             little::empty(ui, whole, seen.say(text));

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use chereme_corpus::{StoredInventory, TierContents};
 use eframe::egui::{
-    Align2, Area, Id, Key, Modifiers, Order, Rect, Response, Role, TextEdit, Ui, WidgetInfo,
+    Align2, Area, Id, Key, Modifiers, Order, Rect, Response, Role, TextEdit, Ui, WidgetInfo, pos2,
     text::CCursor, text::CCursorRange, vec2,
 };
 use serde::{Deserialize, Serialize};
@@ -15,6 +15,7 @@ use super::{Timeline, changes, select, value_list};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::Outbox;
+use crate::panes::stage;
 use crate::pickers::{self, Picker};
 use crate::words::{Text, fill, timeline as words};
 
@@ -245,7 +246,7 @@ fn field(
     let mut said = Said::Nothing;
     let mut turn = false;
     let opened = editing.begun;
-    let shown = area(ui, below).show(ui.ctx(), |ui| {
+    let shown = area(ui, below, WIDTH).show(ui.ctx(), |ui| {
         eframe::egui::Frame::popup(ui.style()).show(ui, |ui| {
             ui.set_width(WIDTH);
             let before = editing.text.clone();
@@ -313,7 +314,7 @@ fn pictures(
     let width = width.min(screen.width() - 48.0);
     let mut said = Said::Nothing;
     let mut back = false;
-    let shown = area(ui, below).show(ui.ctx(), |ui| {
+    let shown = area(ui, below, width).show(ui.ctx(), |ui| {
         eframe::egui::Frame::popup(ui.style()).show(ui, |ui| {
             ui.set_width(width);
             ui.set_max_height((screen.height() - 80.0).min(460.0));
@@ -338,11 +339,16 @@ fn pictures(
 }
 
 /// Returns where the field lies: below the annotation, or above where there is more room.
-fn area(ui: &Ui, below: Rect) -> Area {
+///
+/// What opens upwards stands beside the middle of the stage, so that the signer stays in sight.
+fn area(ui: &Ui, below: Rect, width: f32) -> Area {
     let screen = ui.ctx().content_rect();
     let (under, over) = (screen.bottom() - below.bottom(), below.top() - screen.top());
     let (corner, at) = if under < ROOM && over > under {
-        (Align2::LEFT_BOTTOM, below.left_top() - vec2(0.0, 2.0))
+        let at = below.left_top() - vec2(0.0, 2.0);
+        let stage = stage::place(ui.ctx()).filter(|it| it.top() < at.y);
+        let left = stage.map_or(at.x, |it| beside(at.x, width, it, screen));
+        (Align2::LEFT_BOTTOM, pos2(left, at.y))
     } else {
         (Align2::LEFT_TOP, below.left_bottom() + vec2(0.0, 2.0))
     };
@@ -351,6 +357,25 @@ fn area(ui: &Ui, below: Rect) -> Area {
         .pivot(corner)
         .fixed_pos(at)
         .constrain_to(screen)
+}
+
+/// Returns where something begins that is `width` wide and shall begin at `left`, so that it lies beside the
+/// middle of the stage, where the signer is; `left` where there is no room for that.
+fn beside(left: f32, width: f32, stage: Rect, screen: Rect) -> f32 {
+    let half = (stage.width() * 0.5).min(stage.height() * 0.55).min(150.0);
+    let width = width + 16.0;
+    let signer = stage.center().x - half..=stage.center().x + half;
+    if left + width <= *signer.start() || left >= *signer.end() {
+        return left;
+    }
+    let (before, after) = (signer.start() - width, *signer.end());
+    let fits = |at: f32| at >= screen.left() && at + width <= screen.right();
+    match (fits(before), fits(after)) {
+        (true, true) if (after - left).abs() < (left - before).abs() => after,
+        (true, _) => before,
+        (false, true) => after,
+        _ => left,
+    }
 }
 
 /// Returns whether the mouse was pressed outside. The tap that opened the field may begin and end within the

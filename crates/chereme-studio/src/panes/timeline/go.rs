@@ -10,6 +10,7 @@ use super::Timeline;
 use super::data::time_text;
 use super::edit::Scene;
 use super::snap::Frames;
+use crate::command::Command;
 use crate::context::Outbox;
 use crate::words::{fill, shell, timeline as words};
 
@@ -64,7 +65,16 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
     let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
     let (mut go, mut drop) = (pressed(Key::Enter), pressed(Key::Escape));
     let (say, frames) = (|text| scene.seen.say(text), scene.frames());
-    let whole = scene.seen.shown.player.whole;
+    let player = scene.seen.shown.on_stage();
+    let (whole, now) = (player.whole, player.playhead().micros());
+    let made = scene.seen.shown.made.as_ref();
+    let frames = match made {
+        Some(showing) => Some(Frames {
+            rate: showing.made.clip.rate(),
+            offset: 0,
+        }),
+        None => frames,
+    };
     let mut to = None;
     Window::new(say(words::GO_TITLE))
         .id(Id::unique("timeline go"))
@@ -81,7 +91,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
             let label = say(words::GO_FIELD);
             response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, label));
             response.request_focus();
-            to = target(&shown.text, scene.playhead(), whole, frames);
+            to = target(&shown.text, now, whole, frames);
             let inside =
                 to.is_none_or(|at| at >= whole.start().micros() && at <= whole.end().micros());
             match to {
@@ -108,7 +118,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
             });
         });
     match to.filter(|_| go) {
-        Some(at) => out.seek(Instant::from_micros(at)),
+        Some(at) => out.send(Command::Cue(Instant::from_micros(at))),
         None if !drop => timeline.go_box = Some(shown),
         None => {}
     }

@@ -362,6 +362,10 @@ impl Pane for Timeline {
                 };
                 if other == Action::GoToTime {
                     self.go_box = Some(go::GoBox::default());
+                    if !self.drawn {
+                        out.send(Command::Do(Action::ShowTimeline));
+                    }
+                    return Acted::Yes;
                 }
                 let acted = [select::act, edit::act, tiers::act, paste::act, beside::act]
                     .into_iter()

@@ -77,6 +77,22 @@ impl Drawing<'_, '_> {
         }
     }
 
+    /// Goes on through the rows while something is held above or below them.
+    pub(super) fn scroll_held(&mut self, ui: &Ui, y: f32, area: Rect) {
+        const EDGE: f32 = 14.0;
+        let beyond = if y < area.top() + EDGE {
+            y - (area.top() + EDGE)
+        } else {
+            (y - (area.bottom() - EDGE)).max(0.0)
+        };
+        if beyond != 0.0 {
+            let step = (beyond * 0.35).clamp(-14.0, 14.0);
+            let top = self.timeline.layout.top + step;
+            self.timeline.layout.scroll_to = Some(top.max(0.0));
+            ui.ctx().request_repaint();
+        }
+    }
+
     fn fold(&mut self, ui: &mut Ui, row: &Row, (id, name): (i64, &str), rect: Rect) {
         let words = if row.folded {
             words::UNFOLD
@@ -160,6 +176,7 @@ impl Drawing<'_, '_> {
             }
             return;
         }
+        self.scroll_held(ui, pointer.y, area);
         ui.set_cursor_icon(CursorIcon::Grabbing);
         let colour = self.seen.colours().accent;
         let names = area.with_max_x(area.left() + self.names);

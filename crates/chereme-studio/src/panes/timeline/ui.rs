@@ -38,7 +38,9 @@ pub(super) struct Layout {
     of: Option<(usize, BTreeSet<String>, BTreeSet<String>)>,
     names: f32,
     /// How far the rows are scrolled.
-    top: f32,
+    pub(super) top: f32,
+    /// How far they are to be scrolled next.
+    pub(super) scroll_to: Option<f32>,
 }
 
 impl Layout {
@@ -48,8 +50,9 @@ impl Layout {
         found.map(|(tier, _)| *tier)
     }
 
-    /// Finds rows and the width of names anew where the snapshot, the ways or the pane changed.
-    fn update(&mut self, ui: &Ui, contents: &Contents, seen: &Seen<'_>) {
+    /// Finds rows and the width of names anew where the snapshot, the ways or the pane changed; returns
+    /// whether there are other rows now.
+    fn update(&mut self, ui: &Ui, contents: &Contents, seen: &Seen<'_>) -> bool {
         let ways = &seen.settings.timeline;
         let open = seen.snapshot.open.as_ref();
         let now = open.map_or(0, |open| Arc::as_ptr(open) as usize);
@@ -57,9 +60,9 @@ impl Layout {
             *of == now && *folded == ways.folded && *hidden == ways.hidden
         });
         if same {
-            return;
+            return false;
         }
-        self.all = select::shown_rows(contents, seen);
+        let before = std::mem::replace(&mut self.all, select::shown_rows(contents, seen));
         self.of = Some((now, ways.folded.clone(), ways.hidden.clone()));
         let font = TextStyle::Body.resolve(ui.style());
         let widths = self.all.iter().map(|row| {
@@ -70,6 +73,7 @@ impl Layout {
             text.size().x + 34.0 + INDENT * row.depth as f32
         });
         self.names = widths.fold(NAMES, f32::max);
+        before != self.all
     }
 }
 
@@ -89,7 +93,9 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
     follow_up(timeline, &scene, out);
     ui.spacing_mut().item_spacing.y = 2.0;
     bar::show(ui, &scene, out);
-    timeline.layout.update(ui, scene.contents, seen);
+    if timeline.layout.update(ui, scene.contents, seen) {
+        timeline.reveal = true;
+    }
     let most = (ui.available_width() * NAMES_SHARE).max(NAMES);
     let names = timeline.layout.names.min(most);
     let width = (ui.available_width() - names).max(40.0);
@@ -143,6 +149,11 @@ fn follow_up(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) {
         let all = std::mem::take(&mut timeline.to_select);
         if std::mem::take(&mut timeline.to_edit) {
             timeline.edit(scene, all.clone());
+        }
+        let one = all.first().filter(|_| all.len() == 1);
+        if let Some(it) = one.and_then(|id| scene.seen.snapshot.annotation(*id)) {
+            let span = it.tier.annotations.span(it.at);
+            out.send(Command::Span(Some(span)));
         }
         out.send(Command::Annotations(all));
     }
@@ -224,8 +235,9 @@ impl Drawing<'_, '_> {
             );
             response.clone().on_hover_text(text);
         }
-        paint::ruler(&painter, lane, &self.window, self.seen, &font);
+        // Times are read over what marks places.
         paint::playhead(&painter, lane, &self.window, self.seen);
+        paint::ruler(&painter, lane, &self.window, self.seen, &font);
         if response.dragged() && ui.input(|input| input.modifiers.alt) {
             ui.set_cursor_icon(CursorIcon::Grabbing);
             let whole = self.seen.shown.player.whole;
@@ -249,7 +261,8 @@ impl Drawing<'_, '_> {
             moving.extend(gesture.moving());
         }
         let mut scroll = ScrollArea::vertical().auto_shrink(false);
-        if let Some(offset) = self.reveal(&all, contents, area.height()) {
+        let held = self.timeline.layout.scroll_to.take();
+        if let Some(offset) = self.reveal(&all, contents, area.height()).or(held) {
             scroll = scroll.vertical_scroll_offset(offset);
         }
         let shown = scroll.show_rows(ui, ROW, all.len(), |ui, range| {
