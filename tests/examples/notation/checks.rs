@@ -18,6 +18,8 @@ pub(crate) struct Worst {
     /// The deepest that a joint of a hand, and of an elbow, lies in the trunk, in metres.
     pub(crate) hand_depth: f64,
     pub(crate) elbow_depth: f64,
+    /// When that of either is, in seconds.
+    pub(crate) deepest: f64,
     /// The fastest wrist in metres per second, and elbow.
     pub(crate) speed: f64,
     pub(crate) elbow_speed: f64,
@@ -46,6 +48,7 @@ pub(crate) fn worst(made: &Made) -> Worst {
         }
         let trunk = Trunk::of(anatomy, skeleton, &model);
         let depth = |at: DVec3| trunk.as_ref().map_or(0.0, |trunk| trunk.depth(at));
+        let known = worst.hand_depth.max(worst.elbow_depth);
         for side in Side::BOTH {
             let Some(arm) = anatomy.arm(side) else {
                 continue;
@@ -70,6 +73,9 @@ pub(crate) fn worst(made: &Made) -> Worst {
                     worst.turning = worst.turning.max(turn * per_second);
                 }
             }
+        }
+        if worst.hand_depth.max(worst.elbow_depth) > known {
+            worst.deepest = frame as f64 / per_second;
         }
         before = Some(model);
     }

@@ -22,6 +22,7 @@ impl Worst {
             turn: self.turn.max(other.turn),
             hand_depth: self.hand_depth.max(other.hand_depth),
             elbow_depth: self.elbow_depth.max(other.elbow_depth),
+            deepest: 0.0,
             speed: self.speed.max(other.speed),
             elbow_speed: self.elbow_speed.max(other.elbow_speed),
             turning: self.turning.max(other.turning),
@@ -36,14 +37,15 @@ pub(crate) fn list(folder: &Path, path: &str) -> Result<()> {
         rate: Rate::new(120, 1)?,
         ..Settings::default()
     };
-    println!("sign\thand depth\telbow depth\tspeed\tturning\tsaid");
+    println!("sign\thand depth\telbow depth\tdeepest\tspeed\tturning\tsaid");
     for (name, notated) in &bodies::signs(folder)? {
         let made = animate(&[notated], &stage, &settings)?;
         let own = worst(&made);
         println!(
-            "{name}\t{:.4}\t{:.4}\t{:.2}\t{:.1}\t{}",
+            "{name}\t{:.4}\t{:.4}\t{:.2}\t{:.2}\t{:.1}\t{}",
             own.hand_depth,
             own.elbow_depth,
+            own.deepest,
             own.speed,
             own.turning,
             made.report.warnings.join("; ")

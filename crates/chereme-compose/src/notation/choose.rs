@@ -5,6 +5,8 @@
 //! it is from the one before: the cheapest course of all, by dynamic programming. Only about where a hand
 //! would give way the collar bone carries the shoulder along the upper arm, or back.
 
+use std::sync::LazyLock;
+
 use chereme_motion::glam::{DQuat, DVec3};
 
 use super::arm::{Bearing, Posed, WristAngles};
@@ -65,15 +67,24 @@ impl Arm<'_> {
 
     /// Returns what it costs for a hand to be somewhere, the arm held as is best.
     pub(crate) fn strain(&self, wrist: DVec3, turned: DQuat) -> f64 {
-        let least = |shrug: f64| {
-            let each = planes().map(|plane| self.strained(wrist, turned, Bearing { plane, shrug }));
-            each.fold(f64::INFINITY, f64::min) + SHRUGGED * shrug * shrug
+        // The rule's plane first: others need no look where their plane alone costs more than is found.
+        let least = |shrug: f64, known: f64| {
+            let shrugged = SHRUGGED * shrug * shrug;
+            EASIEST.iter().fold(known, |least, &(plane, off)| {
+                if 0.3 * off + shrugged >= least {
+                    return least;
+                }
+                let bearing = Bearing { plane, shrug };
+                least.min(self.strained(wrist, turned, bearing) + shrugged)
+            })
         };
-        let still = least(0.0);
+        let still = least(0.0, f64::INFINITY);
         if still < GIVES_WAY {
             return still;
         }
-        SHRUGS.into_iter().map(least).fold(still, f64::min)
+        SHRUGS
+            .into_iter()
+            .fold(still, |known, shrug| least(shrug, known))
     }
 
     fn strained(&self, wrist: DVec3, turned: DQuat, bearing: Bearing) -> f64 {
@@ -218,6 +229,15 @@ impl Arm<'_> {
     }
 }
 
+/// The planes that are weighed, in radians against the rule's, each with what it costs: the cheapest first.
+static EASIEST: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
+    let mut all: Vec<(f64, f64)> = planes()
+        .map(|plane| (plane, off_rule(plane.to_degrees())))
+        .collect();
+    all.sort_by(|a, b| a.1.total_cmp(&b.1));
+    all
+});
+
 /// Returns the planes that are weighed, in radians against the rule's.
 fn planes() -> impl Iterator<Item = f64> {
     let (first, last, step) = PLANES;
@@ -230,20 +250,29 @@ fn cheapest<K>(lists: &[(K, Vec<Choice>)], of: &[usize], dt: f64) -> Vec<Choice>
     let mut sums: Vec<f64> = Vec::new();
     let mut came: Vec<Vec<usize>> = Vec::with_capacity(of.len());
     let mut last: &[Choice] = &[];
+    let mut order: Vec<usize> = Vec::new();
     for &list in of {
         let choices = lists[list].1.as_slice();
         let mut next = Vec::with_capacity(choices.len());
         let mut from = Vec::with_capacity(choices.len());
+        // Cheapest first: what comes after one that costs more than the least way needs no look.
+        order.clear();
+        order.extend(0..sums.len());
+        order.sort_unstable_by(|&a, &b| sums[a].total_cmp(&sums[b]).then(a.cmp(&b)));
         for choice in choices {
-            let ways = last.iter().zip(&sums).enumerate();
-            let least = ways.fold((0, f64::INFINITY), |least, (n, (last, sum))| {
-                let sum = if *sum < least.1 {
-                    sum + change(last, choice, dt)
-                } else {
-                    f64::INFINITY
+            let mut least = (0, f64::INFINITY);
+            for &n in &order {
+                if sums[n] > least.1 {
+                    break;
+                }
+                let Some(change) = change(&last[n], choice, dt, least.1 - sums[n]) else {
+                    continue;
                 };
-                if sum < least.1 { (n, sum) } else { least }
-            });
+                let sum = sums[n] + change;
+                if sum < least.1 || (sum == least.1 && n < least.0) {
+                    least = (n, sum);
+                }
+            }
             let (n, sum) = if last.is_empty() { (0, 0.0) } else { least };
             next.push(sum + choice.cost);
             from.push(n);
@@ -279,18 +308,19 @@ fn off_rule(degrees: f64) -> f64 {
     }
 }
 
-/// Returns what it costs to go from one choice to another within `dt` seconds.
-fn change(from: &Choice, to: &Choice, dt: f64) -> f64 {
+/// Returns what it costs to go from one choice to another within `dt` seconds; nothing where it is surely
+/// more than `most`.
+fn change(from: &Choice, to: &Choice, dt: f64, most: f64) -> Option<f64> {
+    let over = |speed: f64| (speed - 1.0).max(0.0).powi(2);
     let swivel = (to.bearing.plane - from.bearing.plane).abs() / (SWIVEL * dt);
     let shrug = (to.bearing.shrug - from.bearing.shrug).abs() / (SHRUGGING * dt);
+    let own = 0.6 * (swivel * swivel + shrug * shrug) + 60.0 * over(swivel);
+    if own > most * (1.0 + 1e-9) + 1e-9 {
+        return None;
+    }
     let bend = to.angles.apart(&from.angles) / (0.6 * BENDING * dt);
     let elbow = to.elbow.distance(from.elbow) / (ELBOW * dt);
-    let over = |speed: f64| (speed - 1.0).max(0.0).powi(2);
-    0.6 * (swivel * swivel + shrug * shrug)
-        + 60.0 * over(swivel)
-        + 150.0 * over(elbow)
-        + 20.0 * over(shrug)
-        + 6.0 * over(bend)
+    Some(own + 150.0 * over(elbow) + 20.0 * over(shrug) + 6.0 * over(bend))
 }
 
 fn best(choices: &[Choice]) -> usize {

@@ -78,7 +78,7 @@ impl Planner<'_> {
     }
 
     /// Shifts hands within their place to where their arms are at ease, now and while they do what
-    /// `follows`.
+    /// `follows`; where a part begins that names no place, to wherever before the trunk they are at ease.
     pub(crate) fn ease(&mut self, place: &Place, named: Who, follows: Option<(&[Motion], Who)>) {
         if self.trail.is_some() {
             return;
@@ -86,7 +86,11 @@ impl Planner<'_> {
         match place {
             Place::Body(body) => {
                 let axes = named.map(|frame| frame.map(|frame| frame.axes));
-                self.shift(self.room(body), axes, named, follows);
+                let room = match (body.site, body.contact, follows) {
+                    (None, None, Some(_)) => Some(self.anywhere()),
+                    _ => self.within(self.room(body)),
+                };
+                self.shift(room, axes, named, follows);
             }
             Place::Split(a, b) => {
                 for (n, place) in [a, b].into_iter().enumerate() {
@@ -98,31 +102,56 @@ impl Planner<'_> {
                 }
             }
             Place::Hands(hands) => {
-                let free = hands.at.as_ref().map_or(1.0, |at| self.room(at));
+                let room = match (&hands.at, follows) {
+                    (None, Some(_)) => Some(self.anywhere()),
+                    (at, _) => self.within(at.as_ref().map_or(1.0, |at| self.room(at))),
+                };
                 // What is relative to each other goes together.
                 let one = Some(DVec3::ONE);
-                self.shift(free, [one; 2], named, follows);
+                self.shift(room, [one; 2], named, follows);
+            }
+            Place::Hand(_) if follows.is_some() => {
+                let [Some(a), Some(b)] = named else { return };
+                if a.mirrors(&b) {
+                    let one = Some(DVec3::ONE);
+                    self.shift(Some(self.anywhere()), [one; 2], named, follows);
+                }
             }
             Place::Hand(_) | Place::Named(_) => {}
         }
     }
 
+    /// Returns the ends of a share of the room at a place, less and more to the left, up and forward.
+    fn within(&self, share: f64) -> Option<[DVec3; 2]> {
+        let l = self.language;
+        let ends = [
+            DVec3::new(l.room_side, l.room_down, l.room_back),
+            DVec3::new(l.room_side, l.room_up, l.room_forward),
+        ];
+        (share > 0.0).then(|| ends.map(|ends| ends.max(DVec3::splat(1e-4)) * share))
+    }
+
+    /// Returns the ends of the room where no place is written.
+    fn anywhere(&self) -> [DVec3; 2] {
+        let l = self.language;
+        [
+            DVec3::new(l.room_free_out, l.room_free_down, l.room_free_back),
+            DVec3::new(l.room_free_in, l.room_free_up, l.room_free_forward),
+        ]
+        .map(|ends| ends.max(DVec3::splat(1e-4)))
+    }
+
+    /// Shifts hands within a room in arm lengths.
     fn shift(
         &mut self,
-        room: f64,
+        room: Option<[DVec3; 2]>,
         axes: [Option<DVec3>; 2],
         named: Who,
         follows: Option<(&[Motion], Who)>,
     ) {
-        if room <= 0.0 {
+        let Some(room) = room.map(|ends| ends.map(|ends| ends * self.stage.arm)) else {
             return;
-        }
-        let l = self.language;
-        let room = [
-            DVec3::new(l.room_side, l.room_down, l.room_back),
-            DVec3::new(l.room_side, l.room_up, l.room_forward),
-        ]
-        .map(|ends| ends.max(DVec3::splat(1e-4)) * (room * self.stage.arm));
+        };
         let mut trail = Trail::default();
         for (n, _) in acting(named) {
             trail.note(n, self.stance(n));
@@ -152,12 +181,17 @@ impl Planner<'_> {
             let axes = axes[n].unwrap_or(DVec3::ONE);
             self.stage.direction(local * axes)
         };
-        let cost = |local: DVec3| {
-            let sum: f64 = strained
-                .iter()
-                .map(|(_, (n, stance))| self.strain(*n, stance, by(local, *n)))
-                .sum();
-            sum + SHIFTED * share(local, room).powi(2)
+        // What costs more than `most` is not added up to its end.
+        let cost = |local: DVec3, most: f64| {
+            let shifted = SHIFTED * share(local, room).powi(2);
+            let mut sum = 0.0;
+            for (_, (n, stance)) in &strained {
+                sum += self.strain(*n, stance, by(local, *n));
+                if sum + shifted > most {
+                    return f64::INFINITY;
+                }
+            }
+            sum + shifted
         };
         let best = lowest(cost, room);
         let shifts = [0, 1].map(|n| by(best, n));
@@ -236,20 +270,25 @@ fn share(at: DVec3, [less, more]: [DVec3; 2]) -> f64 {
     DVec3::new(x, y, z).length()
 }
 
-/// Returns where about nothing a function is low, by a search along the axes.
-fn lowest(cost: impl Fn(DVec3) -> f64, room: [DVec3; 2]) -> DVec3 {
-    let (mut best, mut least, mut step) = (DVec3::ZERO, cost(DVec3::ZERO), 0.7);
+/// Returns where about nothing a function is low, by a search along the axes; the function need not say more
+/// than that it is above a limit.
+fn lowest(cost: impl Fn(DVec3, f64) -> f64, room: [DVec3; 2]) -> DVec3 {
+    let (mut best, mut step) = (DVec3::ZERO, 0.7);
+    let mut least = cost(best, f64::INFINITY);
     for _ in 0..7 {
         let ways = [DVec3::X, DVec3::Y, DVec3::Z];
         let near = ways
             .into_iter()
             .flat_map(|way| [best - way * room[0] * step, best + way * room[1] * step]);
-        let next = near
-            .filter(|at| share(*at, room) <= 1.0)
-            .map(|at| (at, cost(at)))
-            .min_by(|a, b| a.1.total_cmp(&b.1));
+        let mut next = (best, least - 1e-3);
+        for at in near.filter(|at| share(*at, room) <= 1.0) {
+            let cost = cost(at, next.1);
+            if cost < next.1 {
+                next = (at, cost);
+            }
+        }
         match next {
-            Some((at, lower)) if lower < least - 1e-3 => (best, least) = (at, lower),
+            (at, lower) if at != best => (best, least) = (at, lower),
             _ if step < 0.2 => break,
             _ => step *= 0.5,
         }
@@ -265,10 +304,10 @@ mod tests {
     fn hands_go_to_what_is_lowest_in_their_room_and_not_beyond() {
         let room = [DVec3::new(0.03, 0.01, 0.03); 2];
         let at = DVec3::new(0.012, 0.0, -0.006);
-        let near = lowest(|by| by.distance_squared(at) * 1e4, room);
+        let near = lowest(|by, _| by.distance_squared(at) * 1e4, room);
         assert!(near.distance(at) < 6e-3, "{near}");
-        let far = lowest(|by| 10.0 * by.distance(DVec3::new(0.5, 0.0, 0.0)), room);
+        let far = lowest(|by, _| 10.0 * by.distance(DVec3::new(0.5, 0.0, 0.0)), room);
         assert!(far.x > 0.02 && share(far, room) <= 1.0, "{far}");
-        assert_eq!(lowest(|by| by.length_squared(), room), DVec3::ZERO);
+        assert_eq!(lowest(|by, _| by.length_squared(), room), DVec3::ZERO);
     }
 }

@@ -170,7 +170,7 @@ pub fn animate(
     let report = report(signs, &plan, sides, fits);
     Ok(Made {
         curves: nonmanual::curves(signs, &plan.signs, language, rate, total),
-        notes: notes::notes(signs, &plan, sides, &clip),
+        notes: notes::notes(signs, &plan, sides, &clip, &warp),
         clip,
         anatomy: Arc::clone(&body.anatomy),
         handedness: stage.handedness,

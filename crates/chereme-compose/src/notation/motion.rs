@@ -2,6 +2,7 @@
 
 mod repeat;
 mod size;
+mod target;
 
 use std::f64::consts::TAU;
 
@@ -239,7 +240,8 @@ impl Planner<'_> {
             [l.circle_small, l.circle_normal, l.circle_big],
         );
         let turns = turns(circular) + env.rounds;
-        let (start, quarter) = self.rim(circular, radius * env.size);
+        let skin = acting(who).find_map(|(n, frame)| self.skin(n, frame));
+        let (start, quarter) = self.rim(circular, radius * env.size, skin);
         let path = Path::Circle {
             start,
             quarter: if env.back { -quarter } else { quarter },
@@ -254,15 +256,18 @@ impl Planner<'_> {
         end
     }
 
-    /// Returns the ways from a circle's centre to where it begins and to a quarter on.
-    fn rim(&self, circular: &Circular, radius: f64) -> (DVec3, DVec3) {
+    /// Returns the ways from a circle's centre to where it begins and to a quarter on. Where nothing is said it
+    /// begins above; a hand that touches the body begins at the body, which is out of it along `skin`.
+    fn rim(&self, circular: &Circular, radius: f64, skin: Option<DVec3>) -> (DVec3, DVec3) {
         let l = self.language;
         let axis = mean(circular.axis, circular.second);
-        let start = circular
-            .clock
-            .start
-            .map_or(std::f64::consts::PI, |at| at.angle());
         let turned = shortest(axis);
+        let upright = skin.filter(|out| out.dot(axis).abs() < 0.8);
+        let usual = upright.map_or(std::f64::consts::PI, |out| {
+            let inwards = turned.inverse() * -out;
+            (-inwards.x).atan2(-inwards.y)
+        });
+        let start = circular.clock.start.map_or(usual, |at| at.angle());
         let mut spokes = [start, start + std::f64::consts::FRAC_PI_2].map(about);
         // A quarter on is where the right-hand rule goes about forward.
         spokes[1] = DVec3::Z.cross(spokes[0]);
@@ -293,6 +298,7 @@ impl Planner<'_> {
         let Some(frame) = who[1].filter(|frame| frame.behind) else {
             return;
         };
+        let skin = acting(who).find_map(|(n, frame)| self.skin(n, frame));
         fn circle(motion: &Motion) -> Option<&Circular> {
             match &motion.kind {
                 MotionKind::Circular(circular) => Some(circular),
@@ -312,7 +318,7 @@ impl Planner<'_> {
             &circular.size,
             [l.circle_small, l.circle_normal, l.circle_big],
         );
-        let (start, _) = self.rim(circular, radius);
+        let (start, _) = self.rim(circular, radius, skin);
         let by = self.stage.direction(start * frame.axes * -2.0);
         self.state[1].point += by;
     }
@@ -506,6 +512,7 @@ impl Planner<'_> {
         let phases = self.plan.phases.len();
         let (named, together) = (self.named.clone(), self.together.clone());
         let contacts = [0, 1].map(|n| self.plan.contacts[n].len());
+        let arrivals = [0, 1].map(|n| self.plan.arrivals[n].len());
         let at_body = self.at_body.clone();
         let end = plan(self);
         self.state = state;
@@ -515,132 +522,10 @@ impl Planner<'_> {
         for n in 0..2 {
             self.plan.events[n].truncate(events[n]);
             self.plan.contacts[n].truncate(contacts[n]);
+            self.plan.arrivals[n].truncate(arrivals[n]);
         }
         self.plan.phases.truncate(phases);
         end
-    }
-
-    fn target(
-        &mut self,
-        motion: Option<&Motion>,
-        posture: &Posture,
-        manner: &Manner,
-        who: Who,
-        time: f64,
-        env: &Env,
-    ) -> f64 {
-        let named = self.addressed(posture, who);
-        for (n, _) in acting(named) {
-            if !self.state[n].used {
-                self.raise(n);
-            }
-        }
-        let before = self.state.clone();
-        let planned = motion.map(|motion| self.motion(motion, who, time, env));
-        let now = self.state.clone();
-        self.fixed = staying(motion, who);
-        self.assume(posture, named);
-        if let Some(place) = &posture.place {
-            self.placed();
-            if self.fixed.is_none() {
-                self.ease(place, named, None);
-            }
-        }
-        self.fixed = None;
-        let goal = self.state.clone();
-        let contact = posture.place.as_ref().is_some_and(meets);
-        let usual = if posture.place.is_some() {
-            let far = (0..2).map(|n| before[n].wrist().distance(goal[n].wrist()));
-            let far = far.fold(0.0, f64::max);
-            self.timed(self.language.time_straight, far, env)
-        } else {
-            self.language.time_replace * env.slower
-        };
-        let end = planned.unwrap_or(time + usual).max(time + 1e-3);
-        let end = match planned {
-            Some(_) => end,
-            None => end.max(time + 0.6 * self.longest(&before, &goal)),
-        };
-        let pace = Pace::of(
-            manner,
-            if contact {
-                Pace::Contact
-            } else {
-                Pace::Targetted
-            },
-        );
-        if contact {
-            self.hasten(time, pace, who);
-        }
-        if posture.place.is_some() {
-            self.straighten(time, end, pace, who);
-        }
-        self.state = now;
-        for (n, _) in acting(named) {
-            self.go(n, &goal[n], time, end, pace);
-            if motion.is_none() {
-                self.phase(n, PhaseKind::Stroke, time, end, "to a posture");
-            }
-            if contact {
-                let dwell = end + self.language.time_contact;
-                self.plan.contacts[n].push((end, dwell));
-            }
-        }
-        if contact {
-            end + self.language.time_contact
-        } else {
-            end
-        }
-    }
-
-    fn longest(&self, a: &[HandState; 2], b: &[HandState; 2]) -> f64 {
-        (0..2)
-            .map(|n| self.length_between(&a[n], &b[n], n))
-            .fold(0.0, f64::max)
-    }
-
-    /// Lets straight ways that began at `time` last until `end`: with what is missing to the place they
-    /// lead to they make one straight way, which runs into nothing before its end.
-    fn straighten(&mut self, time: f64, end: f64, pace: Pace, who: Who) {
-        for (n, _) in acting(who) {
-            for event in self.plan.events[n].iter_mut().rev() {
-                if event.from < time - 1e-9 {
-                    break;
-                }
-                let straight = matches!(event.act, Act::Move(Path::Line(_)));
-                if straight && event.from <= time + 1e-9 {
-                    (event.to, event.pace) = (end, pace);
-                }
-            }
-        }
-    }
-
-    /// Gives the ways that began at `time` the course of what they lead to.
-    fn hasten(&mut self, time: f64, pace: Pace, who: Who) {
-        for (n, _) in acting(who) {
-            for event in self.plan.events[n].iter_mut().rev() {
-                if event.from < time - 1e-9 {
-                    break;
-                }
-                if event.pace == Pace::Targetted {
-                    event.pace = pace;
-                }
-            }
-        }
-    }
-}
-
-/// Returns the hand that stays where it is in a motion that leads both to each other.
-fn staying(motion: Option<&Motion>, who: Who) -> Option<usize> {
-    let still = |half: &Option<Box<Motion>>| match half {
-        Some(half) => matches!(half.kind, MotionKind::Still),
-        None => true,
-    };
-    match motion.map(|motion| &motion.kind) {
-        Some(MotionKind::Split(own, other)) if still(own) != still(other) => {
-            Some(usize::from(still(other)))
-        }
-        _ => (0..2).find(|&n| who[n].is_none()),
     }
 }
 
@@ -653,15 +538,4 @@ fn alternated(manner: &Manner, mut who: Who) -> Who {
         });
     }
     who
-}
-
-fn meets(place: &Place) -> bool {
-    use chereme_sign::hamnosys::Contact::{Cross, Interlock, Touch};
-    match place {
-        Place::Body(body) => body.contact == Some(Touch),
-        Place::Hand(site) => matches!(site.contact, Some(Touch | Cross | Interlock) | None),
-        Place::Hands(hands) => matches!(hands.contact, Some(Touch | Cross | Interlock)),
-        Place::Split(a, b) => [a, b].into_iter().flatten().any(|place| meets(place)),
-        Place::Named(_) => false,
-    }
 }

@@ -8,11 +8,22 @@ use chereme_sign::hamnosys::Notated;
 use chereme_sign::hamnosys::components::{MappedValue, Mapper};
 use chereme_sign::{Component, Reading, inventory};
 
-use super::plan::{PhaseKind, Plan};
+use super::plan::{Act, PhaseKind, Plan, SignSpan};
+use super::warp::Warp;
 use crate::made::{About, Note};
 
-/// Returns the glosses, the component values, the strokes and holds of either hand, and the transitions.
-pub(crate) fn notes(signs: &[&Notated], plan: &Plan, sides: [Side; 2], clip: &Clip) -> Vec<Note> {
+/// How long a value is said at least that the hand has for a moment only, in seconds.
+const SHORTEST: f64 = 0.04;
+
+/// Returns the glosses, the component values, the strokes and holds of either hand, and the transitions; time
+/// in `plan` is stretched already, but for that of its events, which is so by `warp`.
+pub(crate) fn notes(
+    signs: &[&Notated],
+    plan: &Plan,
+    sides: [Side; 2],
+    clip: &Clip,
+    warp: &Warp,
+) -> Vec<Note> {
     let span = |from: f64, to: f64| {
         let span = Span::between(Instant::from_seconds(from), Instant::from_seconds(to));
         span.intersection(clip.span()).unwrap_or(span)
@@ -29,8 +40,7 @@ pub(crate) fn notes(signs: &[&Notated], plan: &Plan, sides: [Side; 2], clip: &Cl
         })
         .collect();
     for (sign, own) in signs.iter().zip(&plan.signs) {
-        for (value, share) in components(sign) {
-            let at = |part: f64| own.from + (own.to - own.from) * part;
+        for (value, (from, to)) in components(sign, plan, own, warp) {
             notes.push(Note {
                 hand: value.field.hand.map(|hand| match hand {
                     HandRef::Right => Side::Right,
@@ -40,7 +50,7 @@ pub(crate) fn notes(signs: &[&Notated], plan: &Plan, sides: [Side; 2], clip: &Cl
                 }),
                 about: About::Component(value.field.component, value.field.feature),
                 value: Reading::Value(value.value),
-                span: span(at(share.0), at(share.1)),
+                span: span(from, to),
                 origin: format!("notation of {}", name(sign)),
             });
         }
@@ -87,30 +97,144 @@ fn name(sign: &Notated) -> &str {
     }
 }
 
-/// Returns what a sign has in each component, each with the share of the sign's time that it holds:
-/// successive values share it evenly.
-fn components(sign: &Notated) -> Vec<(MappedValue, (f64, f64))> {
+/// Returns what a sign has in each component, each with the time at which it holds: until the hand begins to
+/// change it, and from when the change is over. Where that is not known successive values share the sign
+/// evenly.
+fn components(
+    sign: &Notated,
+    plan: &Plan,
+    own: &SignSpan,
+    warp: &Warp,
+) -> Vec<(MappedValue, (f64, f64))> {
     static MAPPER: LazyLock<Mapper<'static>> = LazyLock::new(|| Mapper::new(inventory::builtin()));
     let values = MAPPER.map(sign).values;
-    let last = |of: &MappedValue| {
-        let same = values.iter().filter(|it| {
-            let (a, b) = (&it.field, &of.field);
-            (a.hand, a.component, &a.feature) == (b.hand, b.component, &b.feature)
-        });
-        same.filter(|it| it.field.phase.is_some()).count()
+    let field = |of: &MappedValue| {
+        let field = &of.field;
+        (field.hand, field.component, field.feature.clone())
     };
-    let shares: Vec<(f64, f64)> = values
-        .iter()
-        .map(|value| {
-            let steps = last(value).max(1);
-            let at = match value.field.phase {
-                None => return (0.0, 1.0),
-                Some(Phase::Initial) => 0,
-                Some(Phase::Middle(n)) => usize::from(n).min(steps - 1),
-                Some(Phase::Final) => steps - 1,
-            };
-            (at as f64 / steps as f64, (at + 1) as f64 / steps as f64)
+    let step = |of: &MappedValue, last: usize| match of.field.phase {
+        None | Some(Phase::Initial) => 0,
+        Some(Phase::Middle(n)) => usize::from(n).min(last),
+        Some(Phase::Final) => last,
+    };
+    let mut all = Vec::new();
+    for value in &values {
+        let middles = values.iter().filter(|other| field(other) == field(value));
+        let last = middles
+            .filter_map(|other| match other.field.phase {
+                Some(Phase::Middle(n)) => Some(usize::from(n) + 1),
+                Some(Phase::Final) => Some(1),
+                _ => None,
+            })
+            .max()
+            .unwrap_or(0);
+        let at = step(value, last);
+        if last == 0 {
+            all.push((value.clone(), (own.from, own.to)));
+            continue;
+        }
+        let held = match value.field.hand {
+            Some(HandRef::Dominant) => held(plan, 0, value.field.component, own, warp),
+            Some(HandRef::Weak) => held(plan, 1, value.field.component, own, warp),
+            _ => Vec::new(),
+        };
+        match matched(&held, last + 1) {
+            Some(steps) => {
+                let own = held.iter().zip(steps).filter(|(_, step)| *step == at);
+                all.extend(own.map(|(held, _)| (value.clone(), held.span)));
+            }
+            None => {
+                let part = |n: usize| own.from + (own.to - own.from) * n as f64 / (last + 1) as f64;
+                all.push((value.clone(), (part(at), part(at + 1))));
+            }
+        }
+    }
+    all
+}
+
+/// A stretch of time in which a hand has one value of a component, and a number for what it has.
+struct Held {
+    span: (f64, f64),
+    what: usize,
+}
+
+/// Returns which of so many successive values a hand has in each stretch: one after the other, or again and
+/// again; nothing where the two do not go together.
+fn matched(held: &[Held], count: usize) -> Option<Vec<usize>> {
+    if held.len() == count {
+        return Some((0..count).collect());
+    }
+    let mut known: Vec<usize> = Vec::new();
+    let steps = held.iter().map(|held| {
+        let at = known.iter().position(|what| *what == held.what);
+        at.unwrap_or_else(|| {
+            known.push(held.what);
+            known.len() - 1
         })
-        .collect();
-    values.into_iter().zip(shares).collect()
+    });
+    let steps: Vec<usize> = steps.collect();
+    (known.len() == count).then_some(steps)
+}
+
+/// Returns when a hand has one value of a component after the other in a sign.
+fn held(plan: &Plan, n: usize, component: Component, own: &SignSpan, warp: &Warp) -> Vec<Held> {
+    let within = |from: f64| (own.from - 1e-6..own.to - 1e-6).contains(&from);
+    if component == Component::Movement {
+        let strokes = plan.phases.iter().filter(|phase| {
+            phase.hand == n && phase.kind == PhaseKind::Stroke && within(phase.from)
+        });
+        let each = strokes.enumerate().map(|(what, phase)| Held {
+            span: (phase.from, phase.to),
+            what,
+        });
+        return each.collect();
+    }
+    let mut changes: Vec<((f64, f64), usize)> = Vec::new();
+    let mut first = usize::MAX;
+    let mut turns = Vec::new();
+    let mut add = |(from, to): (f64, f64), what: usize| {
+        let span = (warp.at(from), warp.at(to));
+        if within(span.0) {
+            changes.push((span, what));
+        } else if span.0 < own.from {
+            first = what;
+        }
+    };
+    if component == Component::Placement {
+        for (number, &span) in plan.arrivals[n].iter().enumerate() {
+            add(span, number);
+        }
+    } else {
+        for event in &plan.events[n] {
+            let what = match (&event.act, component) {
+                (Act::Shape(shape), Component::Configuration) => *shape,
+                (Act::Turn(to), Component::Orientation) => {
+                    let same = |known: &chereme_motion::glam::DQuat| known.angle_between(*to) < 0.2;
+                    turns.iter().position(same).unwrap_or_else(|| {
+                        turns.push(*to);
+                        turns.len() - 1
+                    })
+                }
+                _ => continue,
+            };
+            add((event.from, event.to), what);
+        }
+    }
+    changes.sort_by(|a, b| a.0.0.total_cmp(&b.0.0));
+    let mut all = vec![Held {
+        span: (own.from, own.to),
+        what: first,
+    }];
+    for ((from, to), what) in changes {
+        let third = (to - from).max(0.0) / 3.0;
+        if let Some(last) = all.last_mut() {
+            last.span.1 = from.max(last.span.0 + SHORTEST.min(third));
+        }
+        let begins = to.min(own.to - SHORTEST.min(third));
+        all.push(Held {
+            span: (begins.max(from), own.to),
+            what,
+        });
+    }
+    all
 }

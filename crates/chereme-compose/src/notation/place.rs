@@ -39,7 +39,13 @@ impl Planner<'_> {
                     self.at_body[n] = Some(body.clone());
                 }
             }
-            Place::Hand(site) => self.on_hand(site, named),
+            Place::Hand(site) => match named {
+                [Some(a), Some(b)] if a.mirrors(&b) => {
+                    let hands = met(site);
+                    self.by_each_other(&hands, named);
+                }
+                _ => self.on_hand(site, named),
+            },
             Place::Hands(hands) if self.is_lone(hands, named) => self.alone(hands, named),
             Place::Hands(constellation) => self.by_each_other(constellation, named),
             Place::Split(a, b) => {
@@ -103,16 +109,7 @@ impl Planner<'_> {
     /// Returns where a hand is for a place on the body or in space.
     fn on_body(&mut self, n: usize, place: &BodyPlace, frame: Frame, apart: bool) -> Goal {
         let side = self.sides[n];
-        let neutral = Site {
-            at: BodyLocation::NeutralSpace,
-            side: None,
-            approx: false,
-        };
-        let first = place.site.unwrap_or(neutral);
-        let mut site = self.site(n, &first, frame);
-        if let Some(second) = &place.second {
-            site = middle(&site, &self.site(n, second, frame));
-        }
+        let site = self.sites(n, place, frame);
         let contact = place.contact;
         let touching = matches!(
             contact,
@@ -141,6 +138,38 @@ impl Planner<'_> {
             points,
             flat: touching,
         }
+    }
+
+    /// Returns a place on the body, or half-way between two.
+    fn sites(&self, n: usize, place: &BodyPlace, frame: Frame) -> Placed {
+        let neutral = Site {
+            at: BodyLocation::NeutralSpace,
+            side: None,
+            approx: false,
+        };
+        let site = self.site(n, &place.site.unwrap_or(neutral), frame);
+        match &place.second {
+            Some(second) => middle(&site, &self.site(n, second, frame)),
+            None => site,
+        }
+    }
+
+    /// Returns the unit vector out of the body where a hand touches it now: to the left, up and forward in the
+    /// hand's frame.
+    pub(crate) fn skin(&self, n: usize, frame: Frame) -> Option<DVec3> {
+        let touching = |place: &&BodyPlace| place.contact == Some(Contact::Touch) && !place.behind;
+        let place = self.at_body[n].as_ref().filter(touching)?;
+        let placed = self.sites(n, place, frame);
+        if placed.site.beside || placed.at.distance(self.state[n].point) > 2e-3 {
+            return None;
+        }
+        let stage = self.stage;
+        let out = match placed.site.region {
+            Region::Trunk => stage.torso.normal(placed.at).unwrap_or(placed.out),
+            _ => placed.out,
+        };
+        let local = DVec3::new(out.dot(stage.left), out.y, out.dot(stage.forward));
+        Some(local * frame.axes)
     }
 
     /// Turns a hand that touches the trunk with a face of it so that it lies on the skin, as far as it
@@ -360,9 +389,7 @@ impl Planner<'_> {
         let frames = named.map(|frame| frame.unwrap_or_else(|| self.own_frame()));
         let centre = self.centre(hands, frames[0]);
         let across = self.stage.left * self.sides[0].sign();
-        let mirrored = frames[1].axes.x * frames[0].axes.x < 0.0
-            && frames[1].axes.y > 0.0
-            && frames[1].axes.z > 0.0;
+        let mirrored = frames[0].mirrors(&frames[1]);
         let far = self.language.hands_near * self.stage.arm;
         let apart = match hands.contact {
             Some(Contact::Touch | Contact::Interlock | Contact::Cross) => 0.0,
@@ -460,6 +487,24 @@ impl Planner<'_> {
             return (self.state[0].point + self.state[1].point) / 2.0;
         }
         self.on_body(0, &BodyPlace::default(), frame, false).at
+    }
+}
+
+/// Returns how hands that mirror each other meet at a site that both have.
+fn met(site: &HandSite) -> Constellation {
+    let plain = HandSite {
+        by: None,
+        contact: None,
+        define: None,
+        ..site.clone()
+    };
+    let own = site.by.as_deref().cloned();
+    Constellation {
+        dominant: own.or_else(|| Some(plain.clone())),
+        other: Some(plain),
+        contact: site.contact.or(Some(Contact::Touch)),
+        define: site.define,
+        ..Constellation::default()
     }
 }
 

@@ -22,6 +22,8 @@ use super::warp::Warp;
 
 /// How long hands rest before the first sign and after the last, in seconds.
 const STILL: f64 = 0.1;
+/// How near to its shoulder a wrist goes by that is on its way, in arm lengths.
+const ROUND: f64 = 0.42;
 
 /// Something a hand does over a stretch of time, in seconds.
 #[derive(Debug, Clone, PartialEq)]
@@ -118,6 +120,8 @@ pub(crate) struct Plan {
     pub(crate) signs: Vec<SignSpan>,
     /// When either hand touches something: from when and until, in seconds as planned.
     pub(crate) contacts: [Vec<(f64, f64)>; 2],
+    /// When either hand goes to a place that is named, likewise.
+    pub(crate) arrivals: [Vec<(f64, f64)>; 2],
     pub(crate) end: f64,
     /// What was approximated or left out, each once.
     pub(crate) remarks: Vec<String>,
@@ -148,6 +152,13 @@ pub(crate) struct Frame {
     pub(crate) mirrored: bool,
     /// Half a period behind.
     pub(crate) behind: bool,
+}
+
+impl Frame {
+    /// Tells whether the other hand does the same on the other side.
+    pub(crate) fn mirrors(&self, other: &Self) -> bool {
+        other.axes.x * self.axes.x < 0.0 && other.axes.y > 0.0 && other.axes.z > 0.0
+    }
 }
 
 /// Who acts: the dominant hand and the other, each in its frame.
@@ -223,6 +234,7 @@ impl<'a> Planner<'a> {
                 phases: Vec::new(),
                 signs: Vec::new(),
                 contacts: [Vec::new(), Vec::new()],
+                arrivals: [Vec::new(), Vec::new()],
                 end: 0.0,
                 remarks: Vec::new(),
             },
@@ -300,8 +312,12 @@ impl<'a> Planner<'a> {
             (false, false) => Pace::Targetted,
         };
         for (n, _) in acting(named) {
+            self.swing(n, &goal[n], time, reached, pace);
             self.go(n, &goal[n], time, reached, pace);
             self.phase(n, PhaseKind::Transition, time, reached, "");
+            if part.posture.place.is_some() {
+                self.plan.arrivals[n].push((time, reached));
+            }
             if touching {
                 let most = if moves { 0.0 } else { self.language.time_hold };
                 self.plan.contacts[n].push((reached, reached + most));
@@ -547,6 +563,39 @@ impl<'a> Planner<'a> {
         self.state[n] = goal.clone();
     }
 
+    /// Leads a way without meaning round the own shoulder, where a forearm would have to fold up.
+    fn swing(&mut self, n: usize, goal: &HandState, from: f64, to: f64, pace: Pace) {
+        let Some(hand) = self.stage.hand(self.sides[n]) else {
+            return;
+        };
+        let (start, end) = (self.state[n].wrist(), goal.wrist());
+        let shoulder = hand.rig.shoulder;
+        let Some(along) = (end - start).try_normalize() else {
+            return;
+        };
+        let share = (shoulder - start).dot(along) / end.distance(start);
+        let nearest = start.lerp(end, share.clamp(0.0, 1.0));
+        let far = nearest.distance(shoulder);
+        let ends = start.distance(shoulder).min(end.distance(shoulder));
+        let missing = (ROUND * self.stage.arm).min(ends) - far;
+        if missing <= 0.0 || !(0.0..1.0).contains(&share) {
+            return;
+        }
+        let outside = self.stage.left * self.sides[n].sign();
+        let out = (nearest - shoulder) / self.stage.arm + self.stage.forward * 0.3 + outside * 0.1;
+        let Some(out) = out.reject_from_normalized(along).try_normalize() else {
+            return;
+        };
+        // Half-way a spring is farthest out.
+        let there = (std::f64::consts::PI * share).sin().max(0.3);
+        self.plan.events[n].push(Event {
+            from,
+            to,
+            pace,
+            act: Act::Move(Path::Spring(out * (missing / there))),
+        });
+    }
+
     /// Returns how long a way between two states takes as a transition.
     pub(crate) fn length_between(&self, a: &HandState, b: &HandState, _n: usize) -> f64 {
         if a == b {
@@ -568,6 +617,7 @@ impl<'a> Planner<'a> {
             let rest = self.rest[n].clone();
             let length = 1.25 * self.length_between(&self.state[n], &rest, n);
             let to = to.map_or(from + length, |to| to.max(from + length));
+            self.swing(n, &rest, from, to, Pace::Lax);
             self.go(n, &rest, from, to, Pace::Lax);
             self.phase(n, PhaseKind::Transition, from, to, "");
             end = end.max(to);

@@ -30,6 +30,8 @@ const MOST_TURNED: f64 = 0.7;
 const NEAR_TURNED: f64 = 0.22;
 /// How often a hand that gives way is brought to its place again.
 const TRIES: usize = 14;
+/// How far off its place a hand is at the end that was nearer before, in metres.
+const LOST: f64 = 0.02;
 
 /// How an arm is held in one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -129,7 +131,15 @@ impl<'a> Arm<'a> {
         let step = ((CHOSEN * rate).round() as usize).max(1);
         let want = |frame: usize| self.want(wanted, frame);
         let free = wanted.free();
-        let keys = (0..total.div_ceil(step) + 1).map(|n| (n * step).min(total - 1));
+        // A moment at which the hand is turned as written counts, also where it lies between two keys.
+        let near = |frame: usize| {
+            let around = frame.saturating_sub(step / 2)..(frame + step.div_ceil(2)).min(total);
+            let given = around.filter(|&near| !free[near]);
+            given
+                .min_by_key(|near| near.abs_diff(frame))
+                .unwrap_or(frame)
+        };
+        let keys = (0..total.div_ceil(step) + 1).map(|n| near((n * step).min(total - 1)));
         let keys = keys.map(|frame| (want(frame), free[frame]));
         let keys = self.choose(keys, step as f64 / rate);
         let planes = spline(&keys, step, total, |bearing| bearing.plane);
@@ -210,6 +220,8 @@ impl<'a> Arm<'a> {
         let mut push = DVec3::ZERO;
         let mut wrist = want.point - turned * want.offset;
         let mut round = 0;
+        // Where the forearm folds up, a small step of the wrist turns the hand far, and it may not end.
+        let mut best: Option<(f64, Hung)> = None;
         loop {
             let posed = rig.reach(wrist, bearing, self.limits);
             let asked = rig.wrist(&posed, turned, &self.held);
@@ -247,15 +259,25 @@ impl<'a> Arm<'a> {
             let step = goal - about * want.offset - wrist;
             round += 1;
             let done = step.length() < 3e-4 && out.length() < 1e-4 && amiss.length() < 3e-4;
-            if done || round == tries {
-                let residual = (posed.wrist + rotation * want.offset).distance(want.point);
-                return Hung {
-                    angles,
-                    rotation,
-                    posed,
-                    push,
-                    residual,
-                };
+            let at = posed.wrist + rotation * want.offset;
+            let hung = Hung {
+                angles,
+                rotation,
+                posed,
+                push,
+                residual: at.distance(want.point),
+            };
+            if done {
+                return hung;
+            }
+            let missed = at.distance(goal) + 2.0 * out.length();
+            let best = match best.filter(|(least, _)| *least < missed) {
+                Some(known) => best.insert(known),
+                None => best.insert((missed, hung)),
+            };
+            if round == tries {
+                let lost = missed > 3.0 * best.0 + LOST;
+                return if lost { best.1 } else { hung };
             }
             wrist += pushed + (step - pushed) * 0.8;
         }
@@ -289,9 +311,14 @@ impl<'a> Arm<'a> {
         let mut wrist = goal - start * row.offset;
         let mut last: Option<(DVec3, DVec3)> = None;
         let (mut posed, mut rotation) = at(wrist);
+        let mut best = (f64::INFINITY, posed, rotation);
         for _ in 0..12 {
             let asked = goal - rotation * row.offset;
             let miss = asked - wrist;
+            let off = (posed.wrist + rotation * row.offset).distance(goal);
+            if off < best.0 {
+                best = (off, posed, rotation);
+            }
             if miss.length() < 5e-5 {
                 break;
             }
@@ -308,6 +335,9 @@ impl<'a> Arm<'a> {
             last = Some((asked, miss));
             wrist = next;
             (posed, rotation) = at(wrist);
+        }
+        if (posed.wrist + rotation * row.offset).distance(goal) > best.0 {
+            (_, posed, rotation) = best;
         }
         let mut pushed = row.push.length();
         for _ in 0..4 {

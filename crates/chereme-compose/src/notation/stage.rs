@@ -373,8 +373,8 @@ pub(crate) struct Torso {
 const OUTLINE: [(f64, f64, f64); 11] = [
     // Above and below the surface draws back behind the body, so that depth fades there.
     (0.34, -0.15, 0.12),
-    (0.22, 0.10, 0.16),
-    (0.12, 0.16, 0.24),
+    (0.22, 0.13, 0.20),
+    (0.12, 0.19, 0.30),
     (0.02, 0.22, 0.38),
     (-0.08, 0.27, 0.45),
     (-0.28, 0.325, 0.46),

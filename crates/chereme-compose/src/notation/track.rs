@@ -56,11 +56,13 @@ pub(crate) struct Wanted<'a> {
 }
 
 impl Wanted<'_> {
-    /// Tells of each frame whether the hand is on its way between orientations.
+    /// Tells of each frame whether the hand is on its way between orientations: where it sets out it is still
+    /// turned as written.
     pub(crate) fn free(&self) -> Vec<bool> {
         let mut free = vec![false; self.points.len()];
         for (span, _) in &self.ways {
-            free[span.clone()].fill(true);
+            let first = (span.start + 1).min(span.end);
+            free[first..span.end].fill(true);
         }
         free
     }

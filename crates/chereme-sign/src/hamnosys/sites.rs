@@ -121,7 +121,15 @@ pub fn body_site(site: &Site<BodyLocation>, acting: Half, mirrored: bool) -> Bod
             None => face("eyebrows".into(), [0.0; 3], front),
         },
         BodyLocation::HeadTop => face("head-top".into(), shifted(0.16), [0.25 * sign, 1.0, 0.0]),
-        BodyLocation::Forehead => face("forehead".into(), shifted(0.14), front),
+        BodyLocation::Forehead => match half {
+            // Where the skull bends to the temple.
+            Some(_) => face(
+                "forehead".into(),
+                [sign * 0.16, 0.0, -0.10],
+                [0.8 * sign, 0.0, 0.6],
+            ),
+            None => face("forehead".into(), [0.0; 3], front),
+        },
         BodyLocation::Eyebrows => face(or("eyebrows", "eyebrow"), [0.0; 3], front),
         BodyLocation::Eyes => face(or("eyes", "eye"), [0.0; 3], front),
         BodyLocation::UpperEyelid => face(or("eyes", "eye"), [0.0, 0.02, 0.01], front),

@@ -1,0 +1,182 @@
+//! Postures that motions lead to: on the way, at its end, or gone by.
+
+use super::*;
+
+impl Planner<'_> {
+    pub(super) fn target(
+        &mut self,
+        motion: Option<&Motion>,
+        posture: &Posture,
+        manner: &Manner,
+        who: Who,
+        time: f64,
+        env: &Env,
+    ) -> f64 {
+        let named = self.addressed(posture, who);
+        for (n, _) in acting(named) {
+            if !self.state[n].used {
+                self.raise(n);
+            }
+        }
+        let before = self.state.clone();
+        let planned = motion.map(|motion| self.motion(motion, who, time, env));
+        let now = self.state.clone();
+        self.fixed = staying(motion, who);
+        self.assume(posture, named);
+        if let Some(place) = &posture.place {
+            self.placed();
+            if self.fixed.is_none() {
+                self.ease(place, named, None);
+            }
+        }
+        self.fixed = None;
+        let goal = self.state.clone();
+        let contact = posture.place.as_ref().is_some_and(meets);
+        let usual = if posture.place.is_some() {
+            let far = (0..2).map(|n| before[n].wrist().distance(goal[n].wrist()));
+            let far = far.fold(0.0, f64::max);
+            self.timed(self.language.time_straight, far, env)
+        } else {
+            self.language.time_replace * env.slower
+        };
+        let end = planned.unwrap_or(time + usual).max(time + 1e-3);
+        let end = match planned {
+            Some(_) => end,
+            None => end.max(time + 0.6 * self.longest(&before, &goal)),
+        };
+        let pace = Pace::of(
+            manner,
+            if contact {
+                Pace::Contact
+            } else {
+                Pace::Targetted
+            },
+        );
+        if contact {
+            self.hasten(time, pace, who);
+        }
+        if posture.place.is_some() {
+            self.straighten(time, end, pace, who);
+        }
+        self.state = now;
+        if posture.place.as_ref().is_some_and(brushes) {
+            for (n, _) in acting(named) {
+                self.brush(n, &before[n], &goal[n], [time, end]);
+            }
+            return end;
+        }
+        for (n, _) in acting(named) {
+            self.go(n, &goal[n], time, end, pace);
+            if posture.place.is_some() {
+                self.plan.arrivals[n].push((time, end));
+            }
+            if motion.is_none() {
+                self.phase(n, PhaseKind::Stroke, time, end, "to a posture");
+            }
+            if contact {
+                let dwell = end + self.language.time_contact;
+                self.plan.contacts[n].push((end, dwell));
+            }
+        }
+        if contact {
+            end + self.language.time_contact
+        } else {
+            end
+        }
+    }
+
+    /// Lets a hand go by a place that it touches in the middle of its way, which is planned already or goes on
+    /// as it came.
+    fn brush(&mut self, n: usize, before: &HandState, met: &HandState, [time, end]: [f64; 2]) {
+        let planned = self.state[n].point - before.point;
+        let come = met.point - before.point;
+        let mut over = met.clone();
+        let touched = if planned.length() > 1e-3 {
+            let middle = (time + end) / 2.0;
+            over.point = met.point + planned / 2.0;
+            self.go(n, &over, time, middle, Pace::Lax);
+            middle
+        } else {
+            let most = self.language.move_small * self.stage.arm;
+            let onward = come.clamp_length_max(most);
+            over.point = met.point + onward;
+            self.go(n, &over, time, end, Pace::Linear);
+            let share = come.length() / (come.length() + onward.length()).max(1e-9);
+            time + (end - time) * share
+        };
+        self.phase(n, PhaseKind::Stroke, time, end, "brushing");
+        self.plan.arrivals[n].push((time, touched));
+        self.plan.contacts[n].push((touched, touched));
+    }
+
+    fn longest(&self, a: &[HandState; 2], b: &[HandState; 2]) -> f64 {
+        (0..2)
+            .map(|n| self.length_between(&a[n], &b[n], n))
+            .fold(0.0, f64::max)
+    }
+
+    /// Lets straight ways that began at `time` last until `end`: with what is missing to the place they
+    /// lead to they make one straight way, which runs into nothing before its end.
+    fn straighten(&mut self, time: f64, end: f64, pace: Pace, who: Who) {
+        for (n, _) in acting(who) {
+            for event in self.plan.events[n].iter_mut().rev() {
+                if event.from < time - 1e-9 {
+                    break;
+                }
+                let straight = matches!(event.act, Act::Move(Path::Line(_)));
+                if straight && event.from <= time + 1e-9 {
+                    (event.to, event.pace) = (end, pace);
+                }
+            }
+        }
+    }
+
+    /// Gives the ways that began at `time` the course of what they lead to.
+    fn hasten(&mut self, time: f64, pace: Pace, who: Who) {
+        for (n, _) in acting(who) {
+            for event in self.plan.events[n].iter_mut().rev() {
+                if event.from < time - 1e-9 {
+                    break;
+                }
+                if event.pace == Pace::Targetted {
+                    event.pace = pace;
+                }
+            }
+        }
+    }
+}
+
+/// Returns the hand that stays where it is in a motion that leads both to each other.
+fn staying(motion: Option<&Motion>, who: Who) -> Option<usize> {
+    let still = |half: &Option<Box<Motion>>| match half {
+        Some(half) => matches!(half.kind, MotionKind::Still),
+        None => true,
+    };
+    match motion.map(|motion| &motion.kind) {
+        Some(MotionKind::Split(own, other)) if still(own) != still(other) => {
+            Some(usize::from(still(other)))
+        }
+        _ => (0..2).find(|&n| who[n].is_none()),
+    }
+}
+
+fn brushes(place: &Place) -> bool {
+    use chereme_sign::hamnosys::Contact::Brushing;
+    match place {
+        Place::Body(body) => body.contact == Some(Brushing),
+        Place::Hand(site) => site.contact == Some(Brushing),
+        Place::Hands(hands) => hands.contact == Some(Brushing),
+        Place::Split(..) | Place::Named(_) => false,
+    }
+}
+
+fn meets(place: &Place) -> bool {
+    use chereme_sign::hamnosys::Contact::{Cross, Interlock, Touch};
+    match place {
+        Place::Body(body) => body.contact == Some(Touch),
+        Place::Hand(site) => matches!(site.contact, Some(Touch | Cross | Interlock) | None),
+        Place::Hands(hands) => matches!(hands.contact, Some(Touch | Cross | Interlock)),
+        Place::Split(a, b) => [a, b].into_iter().flatten().any(|place| meets(place)),
+        Place::Named(_) => false,
+    }
+}
