@@ -7,6 +7,7 @@
 //! | module | holds |
 //! |---|---|
 //! | `plan` | from the tree to events: postures, transitions, who acts in which frame |
+//! | `transit` | the ways of hands from one state to another |
 //! | `place` | where hands are: on the body, in space, by each other |
 //! | `ease` | where in its place a hand is, so that its arm is at ease |
 //! | `motion` | motions, repetitions, sequences |
@@ -40,6 +41,7 @@ mod stage;
 mod tests;
 mod thumb;
 mod track;
+mod transit;
 mod warp;
 
 use std::sync::Arc;
