@@ -342,10 +342,10 @@ impl<'a> Parts<'a> {
     fn decimal(&self) -> Option<Decimal> {
         let mut mantissa = 0i64;
         for &digit in self.whole.iter().chain(self.fraction) {
-            mantissa = mantissa * 10 + i64::from(digit - b'0');
-            if mantissa >= MANTISSA_LIMIT {
-                return None;
-            }
+            mantissa = mantissa
+                .checked_mul(10)?
+                .checked_add(i64::from(digit - b'0'))
+                .filter(|&longer| longer < MANTISSA_LIMIT)?;
         }
         let mut scale = (self.fraction.len() as i64).saturating_sub(self.exponent);
         if scale < 0 && mantissa != 0 {
@@ -411,6 +411,7 @@ mod tests {
             ("+5", "5"),
             ("0e-400", "0"),
             ("12345678901234567890.5", "12345678901234567890.50"),
+            ("0.99999999999999988898", "0.999999999999999888980"),
             ("1e18", "1000000000000000000.0"),
             ("0.1490116119384765625", "1490116119384765625e-19"),
             ("1e-300", "0.1e-299"),
@@ -425,6 +426,24 @@ mod tests {
             ("1e-300", "0"),
         ] {
             assert_ne!(number(a), number(b), "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn numbers_of_twenty_digits_are_what_they_say() {
+        for text in [
+            "0.99999999999999988898",
+            "-0.92233720368547758079",
+            "999999999999999999",
+            "9999999999999999999",
+            "922337203685477580.7",
+            "0.0000000000000000000099999999999999999999",
+        ] {
+            assert_eq!(
+                number(text).to_f64(),
+                text.parse::<f64>().expect(text),
+                "{text}"
+            );
         }
     }
 
