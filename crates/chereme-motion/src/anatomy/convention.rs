@@ -35,6 +35,9 @@ const UNITS: [(&str, f64); 5] = [
 /// The statures, in metres, of a body that a unit must give; children are signers too.
 const STATURE: std::ops::Range<f64> = 1.2..2.3;
 
+/// The stature, in metres, that a body is given whose unit is none of those that files are written in.
+const PERSON: f64 = 1.7;
+
 /// Guesses the unit and axes of a skeleton as a file wrote it.
 ///
 /// The unit follows from the stature, the axes from the way from hips to shoulders (up) and from
@@ -157,10 +160,10 @@ fn unit(
     let stature = measures.stature * metres;
     let half = (STATURE.end / middle).ln();
     if off(metres) > half * 1.7 {
-        let (metres, kept) = fallback_scale(skeleton, rest);
+        let metres = PERSON / measures.stature;
         reasons.push(format!(
             "a body {:.4} units tall is no person in metres, centimetres, millimetres, inches or \
-             Acclaim's unit: {kept}; say the unit if that is wrong",
+             Acclaim's unit: it is taken for {PERSON} m tall; say the unit if that is wrong",
             measures.stature
         ));
         return ("unknown", metres, 0.0);

@@ -323,6 +323,16 @@ fn units_and_axes_are_found_whichever_way_the_body_is_written() {
             }
         }
     }
+    for metres in [0.3048, 0.0027] {
+        let (skeleton, anatomy) = worn(Wear {
+            unit: 1.0 / metres,
+            ..PLAIN
+        });
+        let guess = anatomy.convention(&skeleton, None);
+        assert_eq!(guess.unit_name, "unknown");
+        let off = guess.convention.metres_per_unit / metres;
+        assert!((0.9..1.1).contains(&off), "{guess:?}");
+    }
     let chain = Skeleton::new(vec![
         Joint::new("base", None, DVec3::ZERO),
         Joint::new("child", Some(0), DVec3::Y * 8.0),
