@@ -1,12 +1,13 @@
 //! HamNoSys as lines of text (`.hns`, `.txt`): a sign a line, its gloss before it.
 //!
-//! A line holds a gloss, a tab and HamNoSys, as characters or as names of symbols. What stands before the
-//! first symbol of a line is its gloss, whatever parts the two; a line may have none.
+//! A line holds a gloss, a tab and HamNoSys, as characters, as names of symbols or as numbers of characters
+//! (`U+E001`). What stands before the first symbol of a line is its gloss, whatever parts the two; a line may
+//! have none.
 
 use crate::finding::Finding;
 use crate::table::{TableError, decode};
 use crate::tally::Findings;
-use chereme_sign::hamnosys::{Notated, parse_lenient, symbol::Symbol};
+use chereme_sign::hamnosys::{Notated, in_plain_symbols, parse_lenient, symbol::Symbol};
 
 /// How many bytes at most are looked at to tell whether a file holds HamNoSys.
 const LOOKED_AT: usize = 1 << 16;
@@ -52,6 +53,7 @@ pub fn read(bytes: &[u8]) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
     })?;
     let mut entries = Vec::new();
     for (line, text) in (1..).zip(text.lines()) {
+        let text = &*in_plain_symbols(text);
         match begin(text) {
             Some(at) => entries.push(entry(line, text.split_at(at), &mut findings)),
             None if text.trim().is_empty() => {}
@@ -77,7 +79,12 @@ pub fn holds_some(bytes: &[u8]) -> bool {
         seen = &seen[..memchr::memrchr(b'\n', seen).unwrap_or(0)];
     }
     let text = decode(seen, &mut Findings::default());
-    text.is_ok_and(|text| text.lines().any(|line| begin(line).is_some()))
+    text.is_ok_and(|text| text.lines().any(holds_symbols))
+}
+
+/// Tells whether a line or a cell holds a symbol, however it is written.
+pub(crate) fn holds_symbols(text: &str) -> bool {
+    begin(&in_plain_symbols(text)).is_some()
 }
 
 /// Writes signs as lines, and returns for each what HamNoSys does not say.
@@ -109,7 +116,8 @@ fn begin(line: &str) -> Option<usize> {
         let end = rest.find(|c: char| !c.is_ascii_alphanumeric());
         Symbol::from_name(&rest[..end.unwrap_or(rest.len())]).is_some()
     };
-    let named = (line.match_indices("ham").map(|(at, _)| at))
+    let lower = line.to_ascii_lowercase();
+    let named = (lower.match_indices("ham").map(|(at, _)| at))
         .find(|&at| !line[..at].ends_with(|c: char| c.is_alphanumeric()) && word(&line[at..]));
     [line.find(character), named].into_iter().flatten().min()
 }
@@ -146,6 +154,7 @@ fn entry(line: u64, (gloss, text): (&str, &str), findings: &mut Findings) -> Ent
 #[cfg(test)]
 mod tests {
     use super::*;
+    use chereme_sign::hamnosys::to_names;
     use proptest::prelude::*;
 
     fn glosses(text: &str) -> Vec<(u64, String, String)> {
@@ -169,6 +178,7 @@ mod tests {
             (format!("1 0 117 58 bac {flat} "), "1 0 117 58 bac"),
             (format!("\"hamster\",\"{flat}\""), "hamster"),
             (format!("\u{feff}  {flat}"), ""),
+            (format!("HAMBURG\t{flat}"), "HAMBURG"),
         ] {
             assert_eq!(
                 glosses(&line),
@@ -177,6 +187,24 @@ mod tests {
             );
         }
         let characters = "\u{e001}\u{e020}\u{e03c}";
+        for written in [
+            "A\tU+E001 U+E020 U+E03C",
+            "A\tE001 E020 E03C",
+            "A;HAMFLATHAND HAMEXTFINGERU HAMPALMD",
+            "A \\hamflathand\\hamextfingeru\\hampalmd",
+        ] {
+            let (entries, findings) = read(written.as_bytes()).expect(written);
+            assert_eq!((entries.len(), findings), (1, vec![]), "{written}");
+            let sign = &entries[0].sign;
+            let names = to_names(sign.text.as_deref().unwrap_or_default()).expect(written);
+            let names: Vec<_> = names.into_iter().filter(|it| *it != "hamspace").collect();
+            let expected = ["hamflathand", "hamextfingeru", "hampalmd"];
+            assert_eq!(
+                (&*sign.gloss, &names[..]),
+                ("A", &expected[..]),
+                "{written}"
+            );
+        }
         assert_eq!(
             glosses(&format!("\nÀ\t{characters}\r\n\r\nB {flat}\n")),
             [

@@ -236,6 +236,71 @@ fn odd_tables() {
 }
 
 #[test]
+fn tables_of_other_projects_are_understood() {
+    let notated = |bytes: &[u8]| -> Vec<(u64, String, Option<String>)> {
+        let (lexicon, _) = lexicon::read(bytes, &Mapping::default()).expect("a table");
+        let all = lexicon.entries.into_iter();
+        all.map(|it| (it.line, it.gloss, it.notation)).collect()
+    };
+    let flat = "hamflathand hamextfingeru hampalml";
+    let entry = |line, gloss: &str| (line, gloss.to_owned(), Some(flat.to_owned()));
+    for table in [
+        format!("Gloss|Symbols|Video\nA|{flat}|a.mp4\nB|{flat}|b.mp4\n"),
+        format!("id,word,ham\n7,A,{flat}\n8,B,{flat}\n"),
+        format!("Symbols;Bezeichnung\n{flat};A\n{flat};B\n"),
+        format!("[{{\"gloss\": \"A\", \"hamnosys\": \"{flat}\"}}]\n"),
+        format!(
+            "{{\n\"A\": {{\"symbols\": \"{flat}\", \"n\": 1, \"more\": [1]}},\n\"B\": \"{flat}\"}}"
+        ),
+    ] {
+        let read = notated(table.as_bytes());
+        assert_eq!(
+            (&*read[0].1, read[0].2.as_deref()),
+            ("A", Some(flat)),
+            "{table}"
+        );
+    }
+    assert_eq!(
+        notated(format!("{{\n \"A\": \"{flat}\",\n \"B\": \"{flat}\"}}").as_bytes()),
+        [entry(2, "A"), entry(3, "B")]
+    );
+    let headless = format!("A,{flat}\nB,{flat}\n");
+    assert_eq!(notated(headless.as_bytes()), [entry(1, "A"), entry(2, "B")]);
+    let (_, findings) = read(&headless);
+    assert_eq!(
+        findings,
+        [
+            "the first row holds HamNoSys: it was taken for a sign, not for titles",
+            "no column is called a gloss; \"column 1\" was taken for it",
+        ]
+    );
+    assert!(lexicon::read(b"{\"id\": 1}", &Mapping::default()).is_err());
+    let (windows, _) = lexicon::read(
+        b"gloss;Location\nC\x8cUR \x93\xe9\x94;chin\n",
+        &Mapping::default(),
+    )
+    .expect("a table");
+    assert_eq!(windows.entries[0].gloss, "CŒUR “é”");
+}
+
+#[test]
+fn a_short_row_below_a_wide_one_costs_little() {
+    let wide: String = (0..4096).map(|n| format!("c{n},")).collect();
+    let text = format!("gloss,{wide}\n{}", "x\n".repeat(2000));
+    let refused = lexicon::read(text[..].as_bytes(), &Mapping::default());
+    assert!(
+        matches!(refused, Err(TableError::Columns { .. })),
+        "{refused:?}"
+    );
+    let text = text.replacen("c0,c1,", "", 1);
+    let refused = lexicon::read(text.as_bytes(), &Mapping::default());
+    assert!(
+        matches!(refused, Err(TableError::Ragged { line: 1026, .. })),
+        "{refused:?}"
+    );
+}
+
+#[test]
 fn inventories_count_values_of_both_hands_and_all_phases() {
     let (lexicon, _) = read(
         "gloss\tHandshape strong\tHandshape weak\tLocation\nA\tB\t\tchin > nose\nC\tB\t5\tchin\nD\tB > 5\t-\t?\n",

@@ -93,6 +93,22 @@ fn deviations_are_read_and_told_with_their_line() {
             r#"4: extfidir="lu" was read as "ul""#,
         ),
         (
+            r#"<handconfig extfidir="UL"/>"#,
+            r#"4: extfidir="UL" was read as "ul""#,
+        ),
+        (
+            r#"<handconfig handshape="FINGER2"/>"#,
+            r#"4: <handconfig handshape="FINGER2"> was read as "finger2""#,
+        ),
+        (
+            r#"<handconfig handshape="hamflathand"/>"#,
+            r#"4: <handconfig handshape="hamflathand"> was read as "flat""#,
+        ),
+        (
+            r#"<handconfig handshape="fist" thumbpos="hamthumbmod"/>"#,
+            r#"4: <handconfig thumbpos="hamthumbmod">: the value means nothing; it was left out"#,
+        ),
+        (
             r#"<handconfig extfidir="oi"/>"#,
             r#"4: <handconfig extfidir="oi">: the value means nothing; it was left out"#,
         ),
@@ -229,7 +245,7 @@ fn a_place_in_a_motion_is_brushed_along() {
 fn symbols_are_read_and_written() {
     let text = br#"<sigml>
 <hns_sign gloss="HERE">
-<hamnosys_nonmanual><hnm_head tag="NO"/><hnm_mouthpicture picture="hi:r"/><hnm_nose tag="XX"/></hamnosys_nonmanual>
+<hamnosys_nonmanual><hnm_head tag="NO"/><hnm_mouthpicture picture="hi:r"/><hnm_nose tag="XX"/><hnm_body tag=""/></hamnosys_nonmanual>
 <hamnosys_manual>
 <hamsymmlr/><hamfinger2/><hamthumbacrossmod/>
 <hamextfingero/><hampalmd/><hamtab/>
@@ -247,6 +263,7 @@ fn symbols_are_read_and_written() {
                 Some(3),
                 "<hnm_nose>: SiGML 1.2 lists no \"XX\"; it was kept as it is"
             ),
+            (Some(3), "<hnm_body tag=\"\"> says nothing; it was left out"),
             (Some(6), "<hamtab> is layout; it was left out"),
             (
                 Some(7),
@@ -317,6 +334,20 @@ fn what_is_no_sigml_is_refused() {
         sigml::read(b"<sigml a='\xff'/>"),
         Err(Error::Encoding { line: 1, .. })
     ));
+}
+
+#[test]
+fn other_encodings_are_read_where_the_document_says_so() {
+    let sign = "<SiGML>\n<hns_sign gloss=\"ÉTÉ\"><hamnosys_manual><hamfist/></hamnosys_manual></hns_sign></SiGML>";
+    let western = format!("<?xml version='1.0'\nencoding='ISO-8859-1'?>{sign}");
+    let western: Vec<u8> = western.chars().map(|c| u32::from(c) as u8).collect();
+    let wide = format!("\u{feff}<?xml version=\"1.0\" encoding=\"utf-16\"?>\n{sign}");
+    let wide: Vec<u8> = wide.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    for bytes in [western, wide] {
+        let (signs, findings) = sigml::read(&bytes).expect("it is SiGML");
+        assert_eq!((&*signs[0].sign.gloss, signs[0].line.0), ("ÉTÉ", 3));
+        assert_eq!(findings.len(), 2, "{findings:?}");
+    }
 }
 
 #[test]

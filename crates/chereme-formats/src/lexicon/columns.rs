@@ -1,6 +1,7 @@
 //! What the columns of a lexicon table are, by their titles.
 
 use crate::finding::Finding;
+use crate::hns::holds_symbols;
 use crate::roles::{Hands, Mapping, Target, normal};
 use crate::table::Row;
 use crate::tally::Findings;
@@ -98,23 +99,42 @@ const NOTATION: [&str; 8] = [
     "transcription",
 ];
 
+/// Titles of columns that name the sign where no column is called a gloss, as folded words.
+const NAMES: [&str; 16] = [
+    "word",
+    "words",
+    "headword",
+    "sign name",
+    "name",
+    "label",
+    "entry",
+    "term",
+    "title",
+    "mot",
+    "signe",
+    "nom",
+    "wort",
+    "gebarde",
+    "woord",
+    "gebaar",
+];
+
 /// Returns what each column is taken for. The first gloss column names the sign; further ones are
-/// translations. Of columns that no title tells, those with HamNoSys's own characters are notation.
+/// translations. Of columns that no title tells, those with HamNoSys's symbols are notation; where none
+/// is called a gloss, one that is called a name or a word is, else the first one beside the notation.
 pub(super) fn meanings(
     header: &[String],
     rows: &[Row],
     mapping: &Mapping,
     findings: &mut Findings,
 ) -> Vec<Column> {
+    let mut columns: Vec<Column> = header.iter().map(|title| column(title, mapping)).collect();
     let mut gloss = false;
-    let mut seen = BTreeSet::new();
-    let mut columns = Vec::with_capacity(header.len());
-    for (at, title) in header.iter().enumerate() {
-        let mut column = column(title, mapping);
-        if column.why.is_empty() && holds_symbols(rows, at) {
+    for (at, column) in columns.iter_mut().enumerate() {
+        if column.why.is_empty() && holds_notation(rows, at) {
             column.meaning = Meaning::Notation;
             column.confidence = 0.9;
-            "its cells hold HamNoSys's characters".clone_into(&mut column.why);
+            "its cells hold HamNoSys's symbols".clone_into(&mut column.why);
         }
         if let Meaning::Gloss { language } = &column.meaning {
             if gloss {
@@ -124,6 +144,23 @@ pub(super) fn meanings(
             }
             gloss = true;
         }
+    }
+    if !gloss && let Some(at) = likely_gloss(&columns) {
+        let column = &mut columns[at];
+        column.meaning = Meaning::Gloss { language: None };
+        column.confidence = 0.4;
+        "no column is called a gloss".clone_into(&mut column.why);
+        findings.add("glosses by another title", || {
+            let title = &column.title;
+            let message = format!("no column is called a gloss; {title:?} was taken for it");
+            Finding::warning(1, message).with_remedy(format!(
+                "call the column \"gloss\", or say so in a mapping: {{\"columns\": {{{title:?}: \"gloss\"}}}}"
+            ))
+        });
+    }
+    let mut seen = BTreeSet::new();
+    for column in &mut columns {
+        let title = &column.title;
         if column.why.is_empty() {
             findings.add("unknown columns", || {
                 Finding::note(
@@ -134,16 +171,29 @@ pub(super) fn meanings(
                     "say what it is in a mapping: {{\"columns\": {{{title:?}: \"placement\"}}}}"
                 ))
             });
-            column.why = "no word of its title is known".to_owned();
+            "no word of its title is known".clone_into(&mut column.why);
         }
-        if !seen.insert(title) {
+        if !seen.insert(title.clone()) {
             findings.add("columns given twice", || {
                 Finding::warning(1, format!("the column {title:?} is there twice"))
             });
         }
-        columns.push(column);
     }
     columns
+}
+
+/// Returns the column that names the sign where none is called a gloss.
+fn likely_gloss(columns: &[Column]) -> Option<usize> {
+    let unknown = |column: &Column| column.why.is_empty();
+    let called = columns
+        .iter()
+        .position(|column| unknown(column) && NAMES.contains(&&*normal(&column.title)));
+    let notated = |column: &Column| column.meaning == Meaning::Notation;
+    let first = || {
+        let any = columns.iter().any(notated);
+        columns.iter().position(unknown).filter(|_| any)
+    };
+    called.or_else(first)
 }
 
 fn column(title: &str, mapping: &Mapping) -> Column {
@@ -199,9 +249,8 @@ fn column(title: &str, mapping: &Mapping) -> Column {
     }
 }
 
-/// Tells whether most cells of a column that hold something hold characters of HamNoSys.
-fn holds_symbols(rows: &[Row], column: usize) -> bool {
-    let symbols = |cell: &str| cell.contains(|c| ('\u{e000}'..='\u{e0f1}').contains(&c));
+/// Tells whether most cells of a column that hold something hold symbols of HamNoSys.
+fn holds_notation(rows: &[Row], column: usize) -> bool {
     let cells = rows
         .iter()
         .filter_map(|row| row.cells.get(column))
@@ -209,7 +258,7 @@ fn holds_symbols(rows: &[Row], column: usize) -> bool {
     let (mut all, mut notated) = (0usize, 0usize);
     for cell in cells {
         all += 1;
-        notated += usize::from(symbols(cell));
+        notated += usize::from(holds_symbols(cell));
     }
     notated * 2 > all
 }

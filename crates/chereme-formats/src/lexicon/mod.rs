@@ -3,7 +3,8 @@
 //! What a column codes is guessed from its title (`schema/column_words.json`) or said by a
 //! [`Mapping`]. Compound cells are kept apart: `neutral space > head` is two successive values,
 //! `S + W` two at once, `>S` a final value alone; `-` and `N/A` are not applicable, `?` is unclear.
-//! A column of HamNoSys, told by its title or by the characters in it, is the sign's notation.
+//! A column of HamNoSys, told by its title or by the symbols in it, is the sign's notation. A table may
+//! also come as JSON: an array of objects, or an object whose keys are the glosses.
 //! The cells stay as they are beside what they mean, so that [`write()`] gives the same table back.
 //!
 //! ```
@@ -18,14 +19,17 @@
 //! ```
 
 mod columns;
+mod json;
 mod values;
 
 pub use columns::{Column, Meaning};
 
 use crate::finding::Finding;
+use crate::hns::holds_symbols;
 use crate::roles::{Hands, Mapping};
 use crate::table::{Cells, Row, TableError};
 use crate::tally::Findings;
+use chereme_sign::hamnosys::in_plain_symbols;
 use chereme_sign::text::{edit_distance, fold};
 use chereme_sign::{Component, Field, Phase, Reading};
 use serde::Serialize;
@@ -39,7 +43,7 @@ pub struct Lexicon {
     pub columns: Vec<Column>,
     /// The signs in the order of the table.
     pub entries: Vec<Entry>,
-    /// The character between cells: a tab, comma or semicolon.
+    /// The character between cells: a tab, comma, semicolon or bar.
     pub delimiter: u8,
 }
 
@@ -114,8 +118,8 @@ pub struct Inventory {
 
 /// Reads a table of lexicon codings.
 ///
-/// The delimiter (tab, comma, semicolon) is found from the first row; quotes, byte-order marks,
-/// line ends of Windows and UTF-16 are understood, and what is not UTF-8 is read as Latin-1.
+/// The delimiter (tab, comma, semicolon, bar) is found from the first row; quotes, byte-order marks,
+/// line ends of Windows and UTF-16 are understood, and what is not UTF-8 is read as Windows-1252.
 /// Rows without a gloss are left out; rows of another width, glosses given twice, columns that
 /// are not understood and values that look like slips are told.
 ///
@@ -123,7 +127,11 @@ pub struct Inventory {
 /// [`TableError`] where the bytes are no table or no column is a gloss.
 pub fn read(bytes: &[u8], mapping: &Mapping) -> Result<(Lexicon, Vec<Finding>), TableError> {
     let mut findings = Findings::default();
-    let table = Cells::read(bytes, &mut findings)?;
+    let mut table = match json::read(bytes) {
+        Some(table) => table,
+        None => Cells::read(bytes, &mut findings)?,
+    };
+    without_titles(&mut table, &mut findings);
     let columns = columns::meanings(&table.header, &table.rows, mapping, &mut findings);
     let gloss = columns
         .iter()
@@ -165,6 +173,23 @@ pub fn read(bytes: &[u8], mapping: &Mapping) -> Result<(Lexicon, Vec<Finding>), 
     };
     slips(&lexicon, &mut findings);
     Ok((lexicon, findings.finish()))
+}
+
+/// Takes a first row that holds HamNoSys for a sign, as in a table without titles.
+fn without_titles(table: &mut Cells, findings: &mut Findings) {
+    if !table.header.iter().any(|cell| holds_symbols(cell)) {
+        return;
+    }
+    let titles = (1..=table.header.len()).map(|n| format!("column {n}"));
+    let cells = std::mem::replace(&mut table.header, titles.collect());
+    table.rows.insert(0, Row { line: 1, cells });
+    findings.add("no titles", || {
+        Finding::warning(
+            1,
+            "the first row holds HamNoSys: it was taken for a sign, not for titles",
+        )
+        .with_remedy("write titles above the columns: gloss, hamnosys")
+    });
 }
 
 /// Writes the cells of a lexicon as the table that they were read from.
@@ -222,7 +247,7 @@ fn entry(row: Row, gloss: usize, columns: &[Column]) -> Entry {
                 entry.translations.push((language, cell.trim().to_owned()));
             }
             Meaning::Notation if !cell.trim().is_empty() && entry.notation.is_none() => {
-                entry.notation = Some(cell.trim().to_owned());
+                entry.notation = Some(in_plain_symbols(cell.trim()).into_owned());
             }
             Meaning::Coding {
                 hand,

@@ -29,7 +29,13 @@ pub struct Entry {
 pub fn from_raw(root: &Element<'_>) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
     let mut findings = Findings::default();
     let mut entries = Vec::new();
-    if root.name == "sigml" {
+    if root.name.eq_ignore_ascii_case("sigml") {
+        if root.name != "sigml" {
+            findings.add("roots in another case", || {
+                let message = format!("<{}> was read as <sigml>", shown(&root.name));
+                Finding::note(root.line.0, message)
+            });
+        }
         let mut node = Node::new(root, &mut findings);
         node.text("base_uri");
         node.finish();

@@ -28,18 +28,72 @@ pub mod raw;
 pub use convert::{Entry, from_raw, to_gestural, to_symbols};
 pub use error::Error;
 
-use crate::finding::Finding;
+use crate::finding::{Finding, Severity};
+use crate::table::decode;
+use crate::tally::Findings;
 use chereme_sign::hamnosys::Notated;
 
-/// Reads a SiGML document for what it means: [`raw::read`], then [`from_raw`].
+/// Reads a SiGML document for what it means: [`raw::read`], then [`from_raw`]. UTF-16 with its mark, and
+/// Latin-1 or Windows-1252 where the document says so, are read too.
 ///
 /// # Errors
 /// Those of the two.
 pub fn read(bytes: &[u8]) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
-    let (root, mut findings) = raw::read(bytes)?;
+    let decoded = in_utf8(bytes);
+    let (root, mut findings) = match &decoded {
+        Some((text, _)) => raw::read(text.as_bytes())?,
+        None => raw::read(bytes)?,
+    };
     let (signs, more) = from_raw(&root)?;
     findings.extend(more);
+    if let Some((_, told)) = decoded {
+        findings.splice(0..0, told);
+    }
     Ok((signs, findings))
+}
+
+/// Returns the text of a document in another encoding that it declares, and what there is to tell of it.
+fn in_utf8(bytes: &[u8]) -> Option<(String, Vec<Finding>)> {
+    const WESTERN: [&str; 5] = [
+        "iso-8859-1",
+        "iso-8859-15",
+        "latin1",
+        "windows-1252",
+        "cp1252",
+    ];
+    if bytes.len() > raw::BYTES {
+        return None;
+    }
+    let wide = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
+    let declared = || {
+        let head = String::from_utf8_lossy(&bytes[..bytes.len().min(200)]).to_ascii_lowercase();
+        let declaration = head.split("?>").next().unwrap_or_default();
+        let said = declaration.starts_with("<?xml")
+            && WESTERN.iter().any(|name| {
+                [format!("\"{name}\""), format!("'{name}'")]
+                    .iter()
+                    .any(|quoted| declaration.contains(&**quoted))
+            });
+        said && !bytes.is_ascii() && str::from_utf8(bytes).is_err()
+    };
+    if !wide && !declared() {
+        return None;
+    }
+    let mut findings = Findings::default();
+    let text = decode(bytes, &mut findings).ok()?;
+    // What the declaration says of the encoding holds no longer.
+    let end = text.find("?>").filter(|_| text.starts_with("<?xml"));
+    let (declaration, rest) = text.split_at(end.map_or(0, |end| end + 2));
+    let lines = "\n".repeat(declaration.matches('\n').count());
+    let told = findings.finish().into_iter().map(|finding| Finding {
+        message: finding
+            .message
+            .replace(", so accents may be wrong", ", as it says"),
+        remedy: None,
+        severity: Severity::Note,
+        ..finding
+    });
+    Some((format!("{lines}{rest}"), told.collect()))
 }
 
 /// Writes signs as gestural SiGML, so that they read back equal.

@@ -75,11 +75,15 @@ impl<'e, 'f> Node<'e, 'f> {
             words.join(", ")
         };
         let text = self.text(name)?;
-        let value = T::of(text.trim());
-        if value.is_none() {
-            return self.parsed(name, &format!("one of {}", right()), |_| None);
+        if let Some(value) = T::of(text.trim()) {
+            return Some(value);
         }
-        value
+        let value = self.parsed(name, &format!("one of {}", right()), loose::<T>)?;
+        self.note("words spelled oddly", |tag| {
+            let (text, word) = (shown(text), value.word());
+            format!("<{tag} {name}={text:?}> was read as {word:?}")
+        });
+        Some(value)
     }
 
     /// Tells whether a flag is set.
@@ -87,9 +91,9 @@ impl<'e, 'f> Node<'e, 'f> {
         if self.element.attributes.is_empty() {
             return false;
         }
-        let read = |text: &str| match text {
-            "true" => Some(true),
-            "false" => Some(false),
+        let read = |text: &str| match &*text.to_ascii_lowercase() {
+            "true" | "1" | "yes" => Some(true),
+            "false" | "0" | "no" => Some(false),
             _ => None,
         };
         self.parsed(name, "true or false", read).unwrap_or(false)
@@ -114,12 +118,13 @@ impl<'e, 'f> Node<'e, 'f> {
     pub(super) fn direction(&mut self, name: &str) -> Option<Direction> {
         const RIGHT: &str = "one to three of u or d, o or i, l or r, such as u, ol or dir";
         let text = self.text(name)?;
-        let once: String = text
+        let lower = text.trim().to_ascii_lowercase();
+        let once: String = lower
             .char_indices()
-            .filter(|(at, letter)| !text[..*at].contains(*letter))
+            .filter(|(at, letter)| !lower[..*at].contains(*letter))
             .map(|(_, letter)| letter)
             .collect();
-        let direction = self.parsed(name, RIGHT, |_| once.trim().parse::<Direction>().ok())?;
+        let direction = self.parsed(name, RIGHT, |_| once.parse::<Direction>().ok())?;
         let canonical = direction.to_string();
         if canonical != text {
             self.findings.add("directions spelled oddly", || {
@@ -136,7 +141,7 @@ impl<'e, 'f> Node<'e, 'f> {
     pub(super) fn compass(&mut self, name: &str) -> Option<Compass> {
         const RIGHT: &str = "one of u, ur, r, dr, d, dl, l, ul";
         let text = self.text(name)?;
-        let kept: String = text.trim().replace(['o', 'i'], "");
+        let kept = text.trim().to_ascii_lowercase().replace(['o', 'i'], "");
         let of_parts = |text: &str| {
             let canonical = text.parse::<Direction>().ok()?.to_string();
             canonical.parse::<Compass>().ok()
@@ -236,6 +241,14 @@ impl<'e, 'f> Node<'e, 'f> {
             }
         }
     }
+}
+
+/// Returns the value of a word in another case, or in the name that HamNoSys's symbol of it has.
+fn loose<T: Word>(text: &str) -> Option<T> {
+    let lower = text.to_ascii_lowercase();
+    let plain = lower.strip_prefix("ham").unwrap_or(&lower);
+    let plain = plain.strip_suffix("mod").unwrap_or(plain);
+    T::of(plain).or_else(|| T::of(plain.strip_suffix("hand")?))
 }
 
 fn digit_of(letter: char) -> Option<Digit> {

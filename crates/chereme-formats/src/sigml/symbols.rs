@@ -5,6 +5,7 @@ use super::raw::{Element, shown};
 use crate::finding::Finding;
 use crate::tally::Findings;
 use chereme_sign::hamnosys::{Act, Nonmanual, NonmanualPart, Notated, Sign, Symbol, parse_lenient};
+use chereme_sign::text::nearest;
 
 /// The elements of what face and body do.
 const PARTS: [(&str, NonmanualPart); 10] = [
@@ -94,7 +95,12 @@ fn read_symbols(element: &Element<'_>, findings: &mut Findings) -> Vec<(Symbol, 
                     "<{}> is none of HamNoSys's symbols; it was left out",
                     shown(&child.name)
                 );
-                Finding::warning(child.line.0, message)
+                let near = nearest(&child.name, Symbol::all().map(Symbol::name));
+                let remedy = near.map_or_else(
+                    || "write one of its 209 symbols".to_owned(),
+                    |near| format!("write one of its 209 symbols, perhaps <{near}>"),
+                );
+                Finding::warning(child.line.0, message).with_remedy(remedy)
             }),
         }
     }
@@ -115,6 +121,15 @@ fn read_nonmanual(element: &Element<'_>, findings: &mut Findings, said: &mut Non
             });
             continue;
         };
+        if tag.trim().is_empty() {
+            node.note("acts with an empty tag", |name| {
+                format!(
+                    "<{name} {}=\"\"> says nothing; it was left out",
+                    tag_name(*part)
+                )
+            });
+            continue;
+        }
         let act = Act::new(*part, tag);
         if !act.is_listed() {
             node.note("tags that are not listed", |name| {

@@ -5,7 +5,9 @@ use crate::tally::Findings;
 use std::borrow::Cow;
 
 /// The most columns that are read.
-const COLUMNS: usize = 4096;
+pub(crate) const COLUMNS: usize = 4096;
+/// How many cells at most short rows are filled up with, all together.
+pub(crate) const PADDED: usize = 1 << 22;
 /// The most lines that one cell may have before a quote is suspected to be missing.
 const LINES: usize = 40;
 
@@ -28,6 +30,19 @@ pub enum TableError {
         found: usize,
         /// The most that are read.
         limit: usize,
+    },
+    /// Rows are so much shorter than the first one that it cannot be theirs.
+    #[error(
+        "line {line}: the rows up to here lack {lacking} cells of the first row's {width} columns; \
+         write one row of titles that fits the others"
+    )]
+    Ragged {
+        /// The line, counted from 1.
+        line: u64,
+        /// How many cells are lacking so far.
+        lacking: usize,
+        /// How many columns the first row has.
+        width: usize,
     },
     /// A column that has to be there is not.
     #[error("no column of the first row ({found}) is {needed}; {remedy}")]
@@ -73,7 +88,7 @@ impl Cells {
             .from_reader(text.as_bytes());
         let mut header: Option<Vec<String>> = None;
         let mut rows = Vec::new();
-        let (mut counted, mut line) = (0, 1);
+        let (mut counted, mut line, mut lacking) = (0, 1, 0usize);
         for record in reader.records().flatten() {
             let at = start(text.as_bytes(), record.position());
             line += memchr::memchr_iter(b'\n', &text.as_bytes()[counted..at]).count() as u64;
@@ -90,7 +105,18 @@ impl Cells {
                     });
                 }
                 None => header = Some(cells),
-                Some(header) => rows.push(fit(Row { line, cells }, header.len(), findings)),
+                Some(header) => {
+                    let width = header.len();
+                    lacking += width.saturating_sub(cells.len());
+                    if lacking > PADDED {
+                        return Err(TableError::Ragged {
+                            line,
+                            lacking,
+                            width,
+                        });
+                    }
+                    rows.push(fit(Row { line, cells }, width, findings));
+                }
             }
         }
         let header = header.ok_or(TableError::Empty)?;
@@ -149,7 +175,13 @@ fn fit(mut row: Row, width: usize, findings: &mut Findings) -> Row {
     row
 }
 
-/// Returns the text of bytes in UTF-8, UTF-16 or Latin-1.
+/// The characters of the bytes 0x80 to 0x9F in Windows-1252; elsewhere it is Latin-1.
+const WINDOWS: [char; 32] = [
+    '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}',
+    '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
+];
+
+/// Returns the text of bytes in UTF-8, UTF-16 or Windows-1252.
 pub(crate) fn decode<'b>(
     bytes: &'b [u8],
     findings: &mut Findings,
@@ -176,17 +208,15 @@ pub(crate) fn decode<'b>(
         Ok(text) => printable(text.into()),
         Err(error) => {
             let line = line_of(bytes, error.valid_up_to());
-            let text = printable(
-                bytes
-                    .iter()
-                    .map(|b| char::from(*b))
-                    .collect::<String>()
-                    .into(),
-            )?;
+            let character = |byte: &u8| match byte {
+                0x80..=0x9f => WINDOWS[usize::from(byte - 0x80)],
+                _ => char::from(*byte),
+            };
+            let text = printable(bytes.iter().map(character).collect::<String>().into())?;
             findings.add("another encoding", || {
                 Finding::warning(
                     line,
-                    "the text is not UTF-8; it was read as Latin-1, so accents may be wrong",
+                    "the text is not UTF-8; it was read as Windows-1252, so accents may be wrong",
                 )
                 .with_remedy("save it as UTF-8")
             });
@@ -211,7 +241,7 @@ fn line_of(bytes: &[u8], at: usize) -> u64 {
 
 /// Returns the delimiter that the first row has most of, outside quotes.
 fn sniff(line: &str) -> u8 {
-    let mut counts = [(b'\t', 0usize), (b',', 0), (b';', 0)];
+    let mut counts = [(b'\t', 0usize), (b',', 0), (b';', 0), (b'|', 0)];
     let mut quoted = false;
     for b in line.bytes() {
         quoted ^= b == b'"';

@@ -8,4 +8,4 @@ pub mod annotations;
 mod cells;
 
 pub use cells::TableError;
-pub(crate) use cells::{Cells, Row, decode};
+pub(crate) use cells::{COLUMNS, Cells, PADDED, Row, decode};

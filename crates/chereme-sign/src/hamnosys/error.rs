@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::symbol::Symbol;
+use crate::text::{did_you_mean, nearest};
 
 /// Why a text is no transcription. Indexes count symbols from 0.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -12,7 +13,8 @@ pub enum HamnosysError {
     Empty,
     /// A character or a name is no symbol.
     #[error(
-        "symbol {index} is {written:?}, which HamNoSys 4 does not have; write one of its 209 symbols or their names"
+        "symbol {index} is {written:?}, which HamNoSys 4 does not have{}; write one of its 209 symbols or their names",
+        meant(written)
     )]
     Unknown {
         /// Which.
@@ -66,6 +68,12 @@ pub enum HamnosysError {
         /// How many are allowed.
         limit: usize,
     },
+}
+
+/// Returns the end of a message about a word that is no symbol's name: the name that was meant, if one is near.
+pub(super) fn meant(written: &str) -> String {
+    let near = nearest(written, Symbol::all().map(Symbol::name));
+    did_you_mean(near.filter(|_| written.is_ascii()))
 }
 
 impl HamnosysError {

@@ -40,7 +40,8 @@ pub(super) struct Lexed<'a> {
 
 /// Reads symbols; what is unknown is an error, or a finding where `lenient`.
 pub(super) fn lex(text: &str, lenient: bool) -> Result<Lexed<'_>, HamnosysError> {
-    let text = in_characters(text, lenient)?;
+    let (text, words) = in_characters(text, lenient)?;
+    let mut words = words.into_iter();
     let mut lexed = Lexed {
         tokens: Vec::with_capacity(text.len() / 3 + 1),
         text,
@@ -63,7 +64,10 @@ pub(super) fn lex(text: &str, lenient: bool) -> Result<Lexed<'_>, HamnosysError>
             if character.is_whitespace() {
                 continue;
             }
-            lexed.findings.push(unknown(index, character));
+            let word = (character == char::REPLACEMENT_CHARACTER).then(|| words.next());
+            lexed
+                .findings
+                .push(unknown(index, character, word.flatten()));
             continue;
         };
         let kind = symbol.kind();
@@ -126,10 +130,108 @@ enum Choice {
     Other,
 }
 
+/// A text in characters, and the words of it that are no symbol's name, each a replacement character there.
+type InCharacters<'a> = (Cow<'a, str>, Vec<String>);
+
 /// Returns the text with names turned into characters.
 ///
 /// Names are words of ASCII letters and digits; blanks and commas beside a name only part words.
-fn in_characters(text: &str, lenient: bool) -> Result<Cow<'_, str>, HamnosysError> {
+fn in_characters(text: &str, lenient: bool) -> Result<InCharacters<'_>, HamnosysError> {
+    match in_plain_symbols(text) {
+        Cow::Borrowed(text) => named_in_characters(text, lenient),
+        Cow::Owned(text) => {
+            let (text, words) = named_in_characters(&text, lenient)?;
+            Ok((Cow::Owned(text.into_owned()), words))
+        }
+    }
+}
+
+/// Returns the text with symbols that are given by the numbers of their characters as characters, as
+/// programs write what they cannot show: `U+E001`, `\uE001`, `&#xE001;`, `0xE001`, or two and more
+/// numbers side by side, `E001 E020`; the backslash of TeX before a name is left out.
+#[must_use]
+pub fn in_plain_symbols(text: &str) -> Cow<'_, str> {
+    const ESCAPES: [&str; 6] = ["u+", "\\u{", "\\u", "\\x{", "&#x", "0x"];
+    let some = |c: char| matches!(c, '\\' | '&' | '+' | 'x' | 'X') || c.is_ascii_digit();
+    if !text.contains(some) {
+        return Cow::Borrowed(text);
+    }
+    let (mut out, mut changed) = (String::with_capacity(text.len()), false);
+    let (mut rest, mut before) = (text, ' ');
+    while let Some(first) = rest.chars().next() {
+        let escape = ESCAPES.iter().find_map(|escape| {
+            let head = rest.get(..escape.len())?;
+            let found = head.eq_ignore_ascii_case(escape) && !before.is_ascii_alphanumeric();
+            let (symbol, length) = number(&rest[escape.len()..]).filter(|_| found)?;
+            Some((symbol, escape.len() + length))
+        });
+        let taken = match escape {
+            Some((symbol, mut taken)) => {
+                out.push(symbol);
+                if rest[taken..].starts_with(['}', ';']) {
+                    taken += 1;
+                }
+                taken
+            }
+            None if !before.is_ascii_alphanumeric() => row_of_numbers(rest, &mut out),
+            None => 0,
+        };
+        if taken > 0 {
+            changed = true;
+            before = ';';
+            rest = &rest[taken..];
+            continue;
+        }
+        let name = |rest: &str| {
+            rest.get(..3)
+                .is_some_and(|it| it.eq_ignore_ascii_case("ham"))
+        };
+        if first == '\\' && name(&rest[1..]) {
+            changed = true;
+            out.push(' ');
+        } else {
+            out.push(first);
+        }
+        before = first;
+        rest = &rest[first.len_utf8()..];
+    }
+    if changed {
+        Cow::Owned(out)
+    } else {
+        Cow::Borrowed(text)
+    }
+}
+
+/// Returns the symbol whose number begins a text, in four hexadecimal digits, and their length.
+fn number(text: &str) -> Option<(char, usize)> {
+    let zeros = text.len() - text.trim_start_matches('0').len();
+    let digits = text.get(zeros..zeros + 4)?;
+    let after = text[zeros + 4..].chars().next();
+    if after.is_some_and(|c| c.is_ascii_alphanumeric()) || zeros > 4 {
+        return None;
+    }
+    let symbol = char::from_u32(u32::from_str_radix(digits, 16).ok()?)?;
+    let own = ('\u{e000}'..='\u{e0ff}').contains(&symbol);
+    (own && Symbol::from_char(symbol).is_some()).then_some((symbol, zeros + 4))
+}
+
+/// Adds the symbols of two or more bare numbers that begin a text, and returns the length of what they were.
+fn row_of_numbers(text: &str, out: &mut String) -> usize {
+    let (mut symbols, mut taken) = (String::new(), 0);
+    while let Some((symbol, length)) = number(&text[taken..]) {
+        symbols.push(symbol);
+        let end = taken + length;
+        let gap = text[end..].find(|c: char| !matches!(c, ' ' | ',' | '-'));
+        taken = end + gap.unwrap_or(text.len() - end);
+    }
+    if symbols.chars().count() < 2 {
+        return 0;
+    }
+    out.push_str(&symbols);
+    taken
+}
+
+fn named_in_characters(text: &str, lenient: bool) -> Result<InCharacters<'_>, HamnosysError> {
     let odd = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '<' || c == '+';
     if !text.contains(odd) && !text.contains(['\u{e0ee}', '\u{e0ef}']) {
         return match text
@@ -141,11 +243,11 @@ fn in_characters(text: &str, lenient: bool) -> Result<Cow<'_, str>, HamnosysErro
                 index,
                 written: c.to_string(),
             }),
-            _ => Ok(Cow::Borrowed(text)),
+            _ => Ok((Cow::Borrowed(text), Vec::new())),
         };
     }
     let mut out = String::with_capacity(text.len());
-    let mut count = 0;
+    let (mut count, mut words) = (0, Vec::new());
     let mut rest = text;
     while let Some(first) = rest.chars().next() {
         let word_end = rest
@@ -154,12 +256,16 @@ fn in_characters(text: &str, lenient: bool) -> Result<Cow<'_, str>, HamnosysErro
         if word_end > 0 {
             match Symbol::from_name(&rest[..word_end]) {
                 Some(symbol) => out.push(symbol.char()),
-                None if lenient => out.push(char::REPLACEMENT_CHARACTER),
                 None => {
-                    return Err(HamnosysError::Unknown {
-                        index: count,
-                        written: rest[..word_end].chars().take(32).collect(),
-                    });
+                    let written: String = rest[..word_end].chars().take(32).collect();
+                    if !lenient {
+                        return Err(HamnosysError::Unknown {
+                            index: count,
+                            written,
+                        });
+                    }
+                    words.push(written);
+                    out.push(char::REPLACEMENT_CHARACTER);
                 }
             }
             count += 1;
@@ -190,7 +296,7 @@ fn in_characters(text: &str, lenient: bool) -> Result<Cow<'_, str>, HamnosysErro
         count += 1;
         rest = &rest[first.len_utf8()..];
     }
-    Ok(Cow::Owned(out))
+    Ok((Cow::Owned(out), words))
 }
 
 /// Returns the names of a text's symbols, as H-SiGML writes its elements.
@@ -198,7 +304,7 @@ fn in_characters(text: &str, lenient: bool) -> Result<Cow<'_, str>, HamnosysErro
 /// # Errors
 /// A character or a name that is no symbol.
 pub fn to_names(text: &str) -> Result<Vec<&'static str>, HamnosysError> {
-    let text = in_characters(text, false)?;
+    let (text, _) = in_characters(text, false)?;
     Ok(text
         .chars()
         .map(|c| Symbol::from_char(c).map_or("hamspace", Symbol::name))
@@ -224,11 +330,13 @@ pub fn from_names<'a>(names: impl IntoIterator<Item = &'a str>) -> Result<String
         .collect()
 }
 
-fn unknown(index: usize, character: char) -> Finding {
-    let what = if character == char::REPLACEMENT_CHARACTER {
-        "a word that is no symbol's name".to_owned()
-    } else {
-        format!("{character:?}, which HamNoSys 4 does not have")
+fn unknown(index: usize, character: char, word: Option<String>) -> Finding {
+    let what = match word {
+        Some(word) => format!(
+            "{word:?}, which is no symbol's name{}",
+            super::error::meant(&word)
+        ),
+        None => format!("{character:?}, which HamNoSys 4 does not have"),
     };
     Finding {
         index,
@@ -253,5 +361,49 @@ fn alternative(index: usize) -> Finding {
         message: "only the first of the alternatives is in the tree".into(),
         remedy: "write another sign for each other alternative",
         dropped: true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_characters_and_names_of_tex_are_symbols() {
+        let flat_up = "\u{e001}\u{e020}";
+        for written in [
+            "U+E001 U+E020",
+            "u+e001,u+e020",
+            "\\uE001\\uE020",
+            "\\u{E001}\\u{e020}",
+            "&#xE001;&#xE020;",
+            "0xE001 0x0000e020",
+            "E001 E020",
+            "E001, E020",
+            "E001-E020",
+            "\\hamflathand\\hamextfingeru",
+        ] {
+            let plain = in_plain_symbols(written);
+            let names = to_names(&plain).expect(written);
+            let symbols: Vec<_> = names.iter().filter(|name| **name != "hamspace").collect();
+            let symbols: Vec<_> = symbols
+                .iter()
+                .filter(|name| ***name != "hamcomma")
+                .collect();
+            assert_eq!(symbols, [&&"hamflathand", &&"hamextfingeru"], "{written}");
+        }
+        for same in [
+            flat_up,
+            "hamflathand",
+            "E001",
+            "GATE001 E020",
+            "x+1",
+            "0x41 &#x41;",
+            "E1FF E1FE",
+            "\\é",
+            "E00",
+        ] {
+            assert_eq!(in_plain_symbols(same), same);
+        }
     }
 }

@@ -91,6 +91,15 @@ fn read_act(
     };
     let mut node = Node::new(element, findings);
     let tag = tag(&mut node, part)?;
+    if tag.trim().is_empty() && part != NonmanualPart::Neutral {
+        node.note("acts with an empty tag", |name| {
+            format!(
+                "<{name} {}=\"\"> says nothing; it was left out",
+                tag_name(part)
+            )
+        });
+        return None;
+    }
     let act = Act {
         part,
         tag: tag.to_owned(),
