@@ -196,14 +196,20 @@ fn plain_text(notation: &str) -> Result<Option<String>> {
         let one = if signs.len() == 1 { signs.pop() } else { None };
         return Ok(one.and_then(|sign| sign.text));
     }
-    let symbols = notation
+    let plain = hamnosys::in_plain_symbols(notation);
+    let symbols = plain
         .chars()
         .any(|c| ('\u{e000}'..='\u{f8ff}').contains(&c));
-    let named = notation
-        .split_whitespace()
-        .next()
+    let words: Vec<&str> = plain
+        .split(|c: char| c.is_whitespace() || c == ',')
+        .filter(|word| !word.is_empty())
+        .collect();
+    let named = words
+        .first()
         .is_some_and(|word| hamnosys::symbol::Symbol::from_name(word).is_some());
-    Ok((symbols || named).then(|| notation.to_owned()))
+    // Words that all look like names of symbols are meant as such, even where none is one.
+    let meant = words.len() > 1 && words.iter().all(|word| word.starts_with("ham"));
+    Ok((symbols || named || meant).then(|| notation.to_owned()))
 }
 
 #[cfg(test)]

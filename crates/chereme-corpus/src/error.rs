@@ -83,7 +83,7 @@ impl Error {
         Some(match error.sqlite_error_code()? {
             ErrorCode::DatabaseBusy | ErrorCode::DatabaseLocked => Cause::Busy,
             ErrorCode::DiskFull => Cause::Full,
-            ErrorCode::ReadOnly => Cause::ReadOnly,
+            ErrorCode::ReadOnly | ErrorCode::CannotOpen => Cause::ReadOnly,
             ErrorCode::DatabaseCorrupt | ErrorCode::NotADatabase => Cause::Damaged,
             _ => return None,
         })
@@ -159,6 +159,9 @@ impl Error {
                 }
                 std::io::ErrorKind::AlreadyExists => {
                     Some("choose another name, or move the existing one away".into())
+                }
+                std::io::ErrorKind::StorageFull | std::io::ErrorKind::QuotaExceeded => {
+                    Some(remedy_of(Cause::Full).into())
                 }
                 _ => None,
             },

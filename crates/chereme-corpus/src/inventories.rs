@@ -1,5 +1,8 @@
 //! The inventories of a corpus: the built-in ones, and those that came with its files.
 
+use std::collections::BTreeMap;
+
+use chereme_sign::text::fold;
 use chereme_sign::{Inventory, inventory};
 use rusqlite::Connection;
 use serde_json::Value;
@@ -48,6 +51,44 @@ pub(crate) fn store(connection: &Connection, inventory: &Inventory) -> Result<i6
         rows::store_value(connection, id, position, &value.id, &document.to_string())?;
     }
     Ok(id)
+}
+
+/// Returns an inventory that a file brings with the values that the corpus has of it already.
+///
+/// A value that is there in another spelling stays as it is; a name that means another value is left out.
+pub(crate) fn joined(before: Option<&Inventory>, new: Inventory) -> Inventory {
+    let mut all = before.map_or_else(Vec::new, |before| before.values.clone());
+    let mut meant: BTreeMap<String, String> = BTreeMap::new();
+    for value in &all {
+        let own = |text: &str| (fold(text.trim()), value.id.clone());
+        meant.extend(value.spellings().map(own));
+    }
+    let mut places: BTreeMap<String, usize> = BTreeMap::new();
+    places.extend(all.iter().enumerate().map(|(at, it)| (it.id.clone(), at)));
+    for mut value in new.values {
+        let free = |text: &str| {
+            let other = meant.get(&fold(text.trim()));
+            other.is_none_or(|other| *other == value.id)
+        };
+        if !free(&value.id) {
+            continue;
+        }
+        let names = std::mem::take(&mut value.names);
+        let aliases = std::mem::take(&mut value.aliases);
+        let names = names.into_iter().filter(|(_, name)| free(name)).collect();
+        let aliases = aliases.into_iter().filter(|alias| free(alias)).collect();
+        (value.names, value.aliases) = (names, aliases);
+        let own = |text: &str| (fold(text.trim()), value.id.clone());
+        meant.extend(value.spellings().map(own));
+        match places.get(&value.id) {
+            Some(&at) => all[at] = value,
+            None => {
+                places.insert(value.id.clone(), all.len());
+                all.push(value);
+            }
+        }
+    }
+    Inventory { values: all, ..new }
 }
 
 /// Returns every inventory of the corpus, oldest first.

@@ -129,7 +129,10 @@ fn understand(
     describe_anatomy(report, skeleton, &anatomy);
     if guess.unit_name == "unknown" && options.metres_per_unit.is_none() {
         report.findings.push(ReportFinding::warning(
-            "the file's unit of length cannot be told from its skeleton; metres are assumed",
+            format!(
+                "the file's unit of length cannot be told from its skeleton; one unit is taken for {:.4} m",
+                convention.metres_per_unit
+            ),
             "say the unit with --unit, such as --unit cm",
         ));
     }

@@ -390,10 +390,10 @@ fn tier_inventory(
                     vocabulary.id
                 )));
             }
-            let new = !job
-                .inventories
-                .iter()
-                .any(|it| it.inventory.id == inventory.id);
+            let mut stored = job.inventories.iter().map(|it| &it.inventory);
+            let before = stored.find(|it| it.id == inventory.id);
+            let new = before.is_none();
+            let inventory = inventories::joined(before, inventory);
             let id = inventories::store(job.connection, &inventory)?;
             job.count("inventories", usize::from(new));
             job.inventories = inventories::load(job.connection)?.into();

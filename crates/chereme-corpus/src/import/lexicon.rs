@@ -1,6 +1,6 @@
 //! Tables of lexicon codings: each row a sign whose citation form is a token without movement.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use chereme_formats::lexicon::{self, Coding, Entry, Lexicon, Meaning};
 use chereme_sign::text::fold;
@@ -102,12 +102,12 @@ fn store_inventories(job: &mut Job<'_>, table: &Lexicon) -> Result<BTreeMap<Part
                 (stored.id, pairs.collect())
             }
             None => {
-                let inventory = own_inventory(&job.stem, &used);
-                let values = inventory
-                    .values
-                    .iter()
-                    .map(|it| (fold(&it.id), it.id.clone()))
-                    .collect();
+                let own = own_inventory(&job.stem, &used);
+                let mut stored = job.inventories.iter().map(|it| &it.inventory);
+                let before = stored.find(|it| it.id == own.id);
+                let inventory = inventories::joined(before, own);
+                let ids = inventory.values.iter();
+                let values = ids.map(|it| (fold(&it.id), it.id.clone())).collect();
                 let row = inventories::store(job.connection, &inventory)?;
                 job.count("inventories", 1);
                 (row, values)
@@ -123,8 +123,6 @@ fn own_inventory(stem: &str, used: &lexicon::Inventory) -> Inventory {
         .feature
         .as_ref()
         .map_or(String::new(), |feature| format!(".{feature}"));
-    let mut seen = BTreeSet::new();
-    let values = used.values.keys().filter(|value| seen.insert(fold(value)));
     Inventory {
         id: format!("{stem}/{}{feature}", used.component),
         component: used.component,
@@ -136,7 +134,9 @@ fn own_inventory(stem: &str, used: &lexicon::Inventory) -> Inventory {
             format!("{}{feature} of {stem}", used.component),
         )]),
         description: format!("The values that the table {stem} uses."),
-        values: values
+        values: used
+            .values
+            .keys()
             .map(|value| InventoryValue {
                 id: value.trim().to_owned(),
                 ..InventoryValue::default()

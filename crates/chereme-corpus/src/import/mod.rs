@@ -259,7 +259,7 @@ fn import_file(
         Kind::Eaf => eaf::import(&mut job),
         Kind::Lexicon => lexicon::import(&mut job, progress),
         Kind::Notation(form) => notated::import(&mut job, form),
-        Kind::Inventory => inventory::import(&mut job),
+        Kind::Inventory => inventory::import(&mut job, progress),
     }
 }
 
@@ -300,13 +300,7 @@ fn gather(paths: &[PathBuf]) -> Result<Vec<(PathBuf, Option<Kind>)>> {
         } else {
             match kind(path) {
                 Some(kind) => files.push((path.clone(), Some(kind))),
-                None => {
-                    return Err(Error::wrong("this kind of file is not known")
-                        .at(path.display().to_string())
-                        .advise(
-                            "files end in .bvh, .eaf, .csv, .tsv (lexicons), .sigml, .hns (notation) or .json (inventories)",
-                        ));
-                }
+                None => return Err(unknown_kind(path)),
             }
         }
     }
@@ -314,6 +308,31 @@ fn gather(paths: &[PathBuf]) -> Result<Vec<(PathBuf, Option<Kind>)>> {
     files.dedup();
     files.sort_by_key(|(_, kind)| *kind);
     Ok(files)
+}
+
+/// Returns the refusal of a file that was named, with what can be done with one of its kind.
+fn unknown_kind(path: &Path) -> Error {
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    let remedy = match extension.to_lowercase().as_str() {
+        "txt" => {
+            "a .txt holds HamNoSys, a sign a line: the gloss, a tab, and symbols or their names"
+        }
+        "xml" => "an .xml holds SiGML: its root is <sigml>",
+        "textgrid" => "open it in ELAN (File, Import, Praat TextGrid) and save it as .eaf",
+        "etf" => {
+            "a template holds no annotations; save it in ELAN as .eaf, then: annotate add-tiers --like"
+        }
+        "pfsx" | "ecv" => "import the .eaf beside it; this file goes with it",
+        "fbx" | "c3d" | "trc" | "glb" | "gltf" | "vrm" => {
+            "movement is read from .bvh, which Blender, MotionBuilder and most capture software export"
+        }
+        _ => {
+            "files end in .bvh (movement), .eaf (annotations), .csv, .tsv, .json (lexicons, inventories), .sigml, .hns or .txt (notation)"
+        }
+    };
+    Error::wrong("this kind of file is not known")
+        .at(path.display().to_string())
+        .advise(remedy)
 }
 
 fn walk(folder: &Path, depth: usize, files: &mut Vec<(PathBuf, Option<Kind>)>) -> Result<()> {

@@ -63,6 +63,13 @@ fn import(corpus: &mut Corpus, file: &Path, mapping: &str) -> FileReport {
     report.expect("imported").files.remove(0)
 }
 
+fn assert_whole(corpus: &mut Corpus) {
+    let mut hear = unheard;
+    let report = corpus.check(false, &mut Progress::new(&mut hear));
+    let faults = report.expect("checked").faults;
+    assert!(faults.is_empty(), "{faults:?}");
+}
+
 /// Role and hand of each tier, by recording and position.
 fn roles(corpus: &Corpus) -> Vec<String> {
     let recordings = recordings_of(corpus);
@@ -324,4 +331,61 @@ fn what_the_corpus_added_is_kept_and_the_file_of_another_take_is_refused() {
     let other = first.replace("\"a0\"", "\"z9\"");
     let report = import(&mut corpus, &desk.file("one.eaf", &other), "{}");
     assert_eq!(report.status, FileStatus::Refused);
+}
+
+#[test]
+fn a_table_imported_again_keeps_the_spellings_of_its_values() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let first = desk.file("lex.tsv", "gloss\tHandshape\nA\tB-spread\nC\tnew one\n");
+    import(&mut corpus, &first, "{}");
+    let second = desk.file(
+        "lex.tsv",
+        "gloss\tHandshape\nA\tb-SPREAD\nC\tnew one\nD\tNew One\nE\tfifth\n",
+    );
+    import(&mut corpus, &second, "{}");
+    assert_whole(&mut corpus);
+    let options = SearchOptions::default();
+    let mut found = |query: &str| corpus.search(query, &options).expect(query).total;
+    assert_eq!(found("configuration=b-spread"), 1);
+    assert_eq!(found("configuration=\"new one\""), 2);
+    assert_eq!(found("configuration=*"), 4);
+}
+
+#[test]
+fn an_inventory_that_contradicts_the_corpus_is_refused() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let inventory = |id: &str| {
+        format!(
+            r#"{{"id": "mine", "component": "placement", "version": 1, "names": {{"en": "mine"}},
+               "values": [{{"id": "{id}", "names": {{"en": "the cap"}}}}]}}"#
+        )
+    };
+    import(&mut corpus, &desk.file("one.json", &inventory("cap")), "{}");
+    let again = desk.file("two.json", &inventory("hat"));
+    let report = import(&mut corpus, &again, "{}");
+    assert_eq!(report.status, FileStatus::Refused);
+    let told = &report.findings[0].message;
+    assert!(
+        told.contains("the cap") && told.contains("\"cap\""),
+        "{told}"
+    );
+    assert_whole(&mut corpus);
+}
+
+#[test]
+fn signs_in_json_are_a_lexicon() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let json = desk.file(
+        "signs.json",
+        r#"{"PET": {"hamnosys": "hamflathand hamextfingeru hampalml hamhead hamtouch"}}"#,
+    );
+    let report = import(&mut corpus, &json, "{}");
+    assert_eq!(report.status, FileStatus::Imported);
+    let hits = corpus
+        .search("placement=head", &SearchOptions::default())
+        .expect("a query");
+    assert_eq!(hits.total, 1);
 }
