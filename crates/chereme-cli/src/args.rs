@@ -24,20 +24,21 @@ pub(crate) struct Cli {
     /// Print one JSON document on standard output instead of tables
     #[arg(long, global = true)]
     pub(crate) json: bool,
-    /// Who does the work, for the history
-    #[arg(long, global = true, env = "CHEREME_AUTHOR", value_name = "NAME")]
+    /// Who does the work, for the history; else CHEREME_AUTHOR of the environment, or the user
+    #[arg(long, global = true, value_name = "NAME")]
     pub(crate) author: Option<String>,
     #[command(subcommand)]
     pub(crate) command: Command,
 }
 
 impl Cli {
-    /// Returns who does the work: as given, else the user of the machine.
+    /// Returns who does the work: as given, else as the environment says, else the user of the machine.
     pub(crate) fn author(&self) -> String {
         let user = || {
-            ["USER", "USERNAME", "LOGNAME"]
+            ["CHEREME_AUTHOR", "USER", "USERNAME", "LOGNAME"]
                 .iter()
-                .find_map(|name| std::env::var(name).ok())
+                .filter_map(|name| std::env::var(name).ok())
+                .find(|name| !name.trim().is_empty())
         };
         self.author
             .clone()

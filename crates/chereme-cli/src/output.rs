@@ -115,7 +115,7 @@ impl Output {
             let _ = self.finish();
         } else {
             let _ = self.text.flush();
-            tell(&format!("error: {message}"));
+            tell(&format!("error: {}", drawn_below(&message)));
             if let Some(place) = place.filter(|place| !message.contains(place.as_str())) {
                 tell(&format!("  where: {place}"));
             }
@@ -124,6 +124,18 @@ impl Output {
             }
         }
         ExitCode::FAILURE
+    }
+}
+
+/// Returns a message whose drawing of the place comes first (words, carets below them, what is wrong) with
+/// the drawing at its end, so that what stands before the message moves no caret.
+fn drawn_below(message: &str) -> String {
+    let lines: Vec<&str> = message.splitn(3, '\n').collect();
+    match lines[..] {
+        [words, carets, told] if carets.trim_start().starts_with('^') => {
+            format!("{told}\n{words}\n{carets}")
+        }
+        _ => message.to_owned(),
     }
 }
 

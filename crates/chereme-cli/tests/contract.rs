@@ -114,6 +114,7 @@ const CASES: &[Case] = &[
         ],
     ),
     ("undo @c --times 2", 1, ERROR),
+    ("undo @c --times 0", 2, ERROR),
     ("undo @d/none.chereme", 1, ERROR),
     ("undo @in/notes.txt", 1, ERROR),
     ("redo @c", 1, ERROR),
@@ -359,6 +360,29 @@ fn each_command_keeps_to_its_exit_code_and_its_json() {
         }
     }
     assert!(faults.is_empty(), "\n{}", faults.join("\n"));
+}
+
+#[test]
+fn an_import_that_takes_nothing_leaves_no_corpus() {
+    let desk = Desk::new();
+    for file in ["@more/broken.sigml", "@in/none.bvh", "@in/notes.txt"] {
+        let done = desk.run(&desk.words(&format!("import @d/new.chereme {file}")));
+        assert_eq!(done.status.code(), Some(1), "{file}");
+        let left = fs::read_dir(desk.folder.path().join("empty")).expect("a folder");
+        assert_eq!(left.count(), 0, "{file}");
+    }
+}
+
+#[test]
+fn carets_stand_below_what_is_wrong() {
+    let desk = Desk::new();
+    let done = desk.run(&desk.words("search @c placement=chinn"));
+    let told = text(&done.stderr);
+    let lines: Vec<&str> = told.lines().collect();
+    let at = lines.iter().position(|line| *line == "placement=chinn");
+    let carets = at.and_then(|at| lines.get(at + 1));
+    assert_eq!(carets, Some(&"          ^^^^^"), "{told}");
+    assert!(lines[0].starts_with("error: the value \"chinn\""), "{told}");
 }
 
 #[test]

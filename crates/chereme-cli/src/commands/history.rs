@@ -15,7 +15,7 @@ pub(crate) struct UndoArgs {
     /// The corpus
     corpus: PathBuf,
     /// How many operations to take back
-    #[arg(long, default_value_t = 1, value_name = "N")]
+    #[arg(long, default_value_t = 1, value_name = "N", value_parser = at_least_one)]
     times: usize,
 }
 
@@ -25,7 +25,7 @@ pub(crate) struct RedoArgs {
     /// The corpus
     corpus: PathBuf,
     /// How many operations to do again
-    #[arg(long, default_value_t = 1, value_name = "N")]
+    #[arg(long, default_value_t = 1, value_name = "N", value_parser = at_least_one)]
     times: usize,
 }
 
@@ -37,6 +37,11 @@ pub(crate) struct LogArgs {
     /// How many operations to list at most
     #[arg(long, default_value_t = 50, value_name = "N")]
     limit: usize,
+}
+
+fn at_least_one(text: &str) -> Result<usize, String> {
+    let times = text.parse().ok().filter(|times| *times > 0);
+    times.ok_or_else(|| "write how many operations, 1 or more".to_owned())
 }
 
 pub(super) fn undo(cli: &Cli, args: &UndoArgs, output: &mut Output) -> Result<()> {

@@ -17,7 +17,7 @@ use crate::output::{Bar, Output};
 /// Take recordings, annotations, lexicons and inventories into a corpus
 ///
 /// Files: .bvh (movement), .eaf (ELAN annotations), .csv or .tsv (a lexicon of codings, of HamNoSys, or
-/// both), .sigml or .hsigml (signs as notation; .xml where it is SiGML), .hns (HamNoSys, a sign a line: the
+/// both; .json where it holds signs), .sigml or .hsigml (signs as notation; .xml where it is SiGML), .hns (HamNoSys, a sign a line: the
 /// gloss, a tab, the text; .txt where it has such lines), .json (an inventory), or folders of them. A
 /// movement and an annotation file with the same name become one
 /// recording. What each file was understood as is shown, and can be overridden. The corpus is made
@@ -44,7 +44,7 @@ pub(crate) struct Args {
     /// The signer's dominant hand
     #[arg(long, value_enum)]
     handedness: Option<HandWord>,
-    /// The unit of length of the movement files: m, cm, mm, inch, acclaim, or metres per unit
+    /// The unit of length of the movement files: m, cm, mm, inch, ft, acclaim, or metres per unit
     #[arg(long, value_parser = unit)]
     unit: Option<f64>,
     /// The axes of the movement files: the directions up and to the signer's left, such as +Z,+X
@@ -86,10 +86,13 @@ fn unit(text: &str) -> Result<f64, String> {
         "cm" => Ok(0.01),
         "mm" => Ok(0.001),
         "inch" | "in" => Ok(0.0254),
+        "ft" | "feet" => Ok(0.3048),
         "acclaim" => Ok(0.0254 / 0.45),
         other => match other.parse::<f64>() {
             Ok(metres) if metres.is_finite() && metres > 0.0 => Ok(metres),
-            _ => Err("write m, cm, mm, inch, acclaim, or how many metres one unit is".to_owned()),
+            _ => {
+                Err("write m, cm, mm, inch, ft, acclaim, or how many metres one unit is".to_owned())
+            }
         },
     }
 }
@@ -108,10 +111,19 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
     let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
     let report = corpus.import(&args.files, &options, &mut Progress::new(&mut hear));
     drop(bar);
-    let report = report?;
+    let empty = |report: &ImportReport| {
+        report.has_refusals() && report.created.values().all(|count| *count == 0)
+    };
     if fresh && scratch.is_none() {
-        output.line(format!("made {}", path.display()))?;
+        if report.as_ref().map_or(true, empty) {
+            // What was made for nothing is not left behind.
+            drop(corpus);
+            let _ = std::fs::remove_file(path);
+        } else {
+            output.line(format!("made {}", path.display()))?;
+        }
     }
+    let report = report?;
     print(&report, output)?;
     let refused = report.has_refusals();
     output.document(report)?;
@@ -285,7 +297,8 @@ fn role_text(value: &Value) -> String {
             let known = map.iter().filter(|(_, value)| !value.is_null());
             known
                 .map(|(key, value)| match value {
-                    Value::Object(_) => role_text(value),
+                    Value::Object(_) if key == "component" || key == "coding" => role_text(value),
+                    Value::Object(_) => format!("{key} {}", role_text(value)).trim_end().to_owned(),
                     _ if key == "component" || key == "feature" => plain(value),
                     _ => format!("{key} {}", plain(value)),
                 })

@@ -19,9 +19,11 @@ mod suggest;
 mod tiers;
 mod transcribe;
 
+use std::io::ErrorKind;
 use std::process::ExitCode;
 
 use anyhow::Result;
+use chereme_corpus::Error;
 use clap::Subcommand;
 
 use crate::args::Cli;
@@ -59,17 +61,17 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Info(args) => list::info(cli, args, output),
         Command::List(args) => list::list(cli, args, output),
         Command::Annotate(args) => annotate::run(cli, args, output),
-        Command::Export(args) => export::run(cli, args, output),
+        Command::Export(args) => export::run(cli, args, output).map_err(offer_force),
         Command::New(args) => new::run(cli, args, output),
         Command::Import(args) => return import::run(cli, args, output),
         Command::Check(args) => return check::run(cli, args, output),
-        Command::Score(args) => score::run(cli, args, output),
+        Command::Score(args) => score::run(cli, args, output).map_err(offer_force),
         Command::Suggest(args) => suggest::run(cli, args, output),
         Command::Transcribe(args) => transcribe::run(cli, args, output),
         Command::Search(args) => search::run(cli, args, output),
         Command::Recombine(args) => recombine::run(cli, args, output),
         Command::Animate(args) => animate::run(cli, args, output),
-        Command::Render(args) => render::run(cli, args, output),
+        Command::Render(args) => render::run(cli, args, output).map_err(offer_force),
         Command::Undo(args) => history::undo(cli, args, output),
         Command::Redo(args) => history::redo(cli, args, output),
         Command::Log(args) => history::log(cli, args, output),
@@ -77,4 +79,20 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Studio(args) => studio::run(cli, args),
     }?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Adds to the failure that a file is there already how to write over it, for commands that can.
+fn offer_force(error: anyhow::Error) -> anyhow::Error {
+    match error.downcast_ref::<Error>() {
+        Some(Error::File { path, source }) if source.kind() == ErrorKind::AlreadyExists => {
+            Error::wrong(format!(
+                "{}: something of this name is there already",
+                path.display()
+            ))
+            .at(path.display().to_string())
+            .advise("choose another name, or write over it with --force")
+            .into()
+        }
+        _ => error,
+    }
 }

@@ -43,7 +43,19 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         (None, Some(gloss)) => corpus.recombine(&args.recipe, gloss)?,
         (None, None) => corpus.preview(&args.recipe)?,
     };
-    tell(&done, args.explain, args.draw.as_deref(), output)
+    tell(&done, args.explain, args.draw.as_deref(), output)?;
+    if args.gloss.is_some() && one_more(&done) {
+        let gloss = &done.gloss;
+        output.line(format!(
+            "note: {gloss} was there already and stays; --replace {gloss} instead of --as puts a sign in its place"
+        ))?;
+    }
+    Ok(())
+}
+
+/// Tells whether the recording had to be named otherwise than its sign, as another has that name.
+fn one_more(done: &Recombination) -> bool {
+    done.name.as_ref().is_some_and(|name| *name != done.gloss)
 }
 
 /// Tells what was made, and draws it where asked.

@@ -189,7 +189,9 @@ fn unknown_field(cursor: &Cursor<'_>, part: &str, at: At, whole: At) -> QueryErr
     }
     let single = at.range() == whole.range();
     let simple = words::simple_names().filter(|_| single);
-    let meant = nearest(&words::part(part), words::part_names().chain(simple));
+    let others = Component::ALL.into_iter().flat_map(Component::names);
+    let names = words::part_names().chain(simple).chain(others.copied());
+    let meant = nearest(&words::part(part), names);
     let error = QueryError::new(at, format!("there is no field {part:?}"), "");
     let mut ahead = cursor.clone();
     ahead.skip_blanks();
