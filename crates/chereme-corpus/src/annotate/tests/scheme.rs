@@ -92,7 +92,13 @@ fn each_gloss_tier_gets_the_components_of_its_hand() {
         assert_eq!(row.parent_id, Some(gloss.id));
         assert_eq!(row.hand.as_deref(), Some("right"), "{}", row.name);
     }
-    assert_eq!(added[0].name, "Configuration RH (RH-IDgloss)");
+    assert_eq!(added[0].name, "Configuration RH");
+    let other = TierName::Of {
+        recording: recording.clone(),
+        tier: "G".to_owned(),
+    };
+    let others = corpus.add_tiers(&recording, &Scheme::Below(other));
+    assert_eq!(others.expect("added")[0].name, "Configuration RH (G)");
     let again = corpus.add_tiers(&recording, &below);
     assert!(again.is_err_and(|it| it.to_string().contains("already")));
     let wrong = Scheme::Below(TierName::Number(added[0].id));
