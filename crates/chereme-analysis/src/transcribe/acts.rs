@@ -44,6 +44,8 @@ const RISE: f64 = 0.4;
 const LEVER: f64 = 0.1;
 /// However wide it sways, its point goes no farther about that than this, in metres.
 const SWAYS: f64 = 0.06;
+/// The time in which a part of the hand that was at something lets go of it, in seconds.
+pub(super) const LETS_GO: f64 = 0.15;
 /// The least time in which a hand may do something else than go a way, in seconds.
 const GAP: f64 = 0.1;
 
@@ -95,10 +97,12 @@ pub(super) struct Mover<'a> {
     points: Vec<Vec<DVec3>>,
     /// How many of them may be meant.
     meant: usize,
-    /// Returns where the parts are that are at the body or the other hand in a frame.
-    parts: &'a dyn Fn(usize) -> Vec<DVec3>,
+    /// Returns where the parts are, in the second frame, that are at the body or the other hand in the first.
+    parts: &'a dyn Fn(usize, usize) -> Vec<DVec3>,
     /// What was asked of it, in the hand's own space.
-    known: RefCell<BTreeMap<usize, Vec<DVec3>>>,
+    known: RefCell<BTreeMap<(usize, usize), Vec<DVec3>>>,
+    /// In how many frames a part of the hand lets go of what it was at.
+    lets_go: usize,
 }
 
 impl<'a> Mover<'a> {
@@ -107,16 +111,17 @@ impl<'a> Mover<'a> {
     pub(super) fn new(
         track: &'a Track,
         ends: [usize; 2],
-        parts: &'a dyn Fn(usize) -> Vec<DVec3>,
+        parts: &'a dyn Fn(usize, usize) -> Vec<DVec3>,
         pivots: &[(DVec3, usize)],
+        lets_go: usize,
     ) -> Self {
         let carried = |&(at, frame): &(DVec3, usize)| track.carried(at, frame);
         let mut known = BTreeMap::new();
         let mut points = Vec::new();
         for frame in ends {
-            let at = parts(frame);
+            let at = parts(frame, frame);
             points.extend(at.iter().map(|&at| track.carried(at, frame)));
-            known.insert(frame, own(track, &at, frame));
+            known.insert((frame, frame), own(track, &at, frame));
         }
         points.push(track.palm.clone());
         let meant = points.len();
@@ -128,6 +133,7 @@ impl<'a> Mover<'a> {
             meant,
             parts,
             known: RefCell::new(known),
+            lets_go,
         }
     }
 
@@ -140,43 +146,60 @@ impl<'a> Mover<'a> {
             .unwrap_or_else(|| fit(&self.track.palm[first..=last]))
     }
 
-    /// As [`fit`](Self::fit); where the hand turns on the way, another part of it may be meant at the end
-    /// than at the beginning, and what goes is first the one and more and more the other.
+    /// As [`fit`](Self::fit); where the hand turns or takes another shape on the way, another part of it may be
+    /// meant at the end than at the beginning, and what goes is first the one and more and more the other, or
+    /// soon the other.
     fn fit_passing(&self, first: usize, last: usize) -> Fitted {
         let plain = self.fit(first, last);
         let track = self.track;
-        let whole = track.turn(first, last).length();
-        if whole < TURNED || matches!(plain.way, Way::Straight { .. }) {
+        let turns = track.turn(first, last).length();
+        let changes = track.reshaped(first, last);
+        if matches!(plain.way, Way::Straight { .. }) || (turns < TURNED && changes < RESHAPED) {
             return plain;
         }
-        let done: Vec<f64> = (first..=last)
-            .map(|n| (track.turn(first, n).length() / whole).min(1.0))
-            .collect();
+        let done = |n: usize| {
+            let share = if turns < TURNED {
+                track.reshaped(first, n) / changes
+            } else {
+                track.turn(first, n).length() / turns
+            };
+            share.min(1.0)
+        };
+        let by_turn: Vec<f64> = (first..=last).map(done).collect();
+        let soon = |n: usize| ((n - first) as f64 / self.lets_go as f64).min(1.0);
+        let by_time: Vec<f64> = (first..=last).map(soon).collect();
         let mut best = plain;
-        let (from, to) = (self.own_parts(first), self.own_parts(last));
+        let from = self.own_parts(first, first);
+        let mut to = self.own_parts(last, last);
+        if changes > RESHAPED {
+            to.extend(self.own_parts(first, last));
+        }
         for a in &from {
             for b in to.iter().filter(|b| a.distance(**b) > 1e-3) {
-                let way: Vec<DVec3> = (first..=last)
-                    .zip(&done)
-                    .map(|(n, &share)| track.wrist[n] + track.turned[n] * a.lerp(*b, share))
-                    .collect();
-                let found = fit(&way);
-                if score(&found) < score(&best) {
-                    best = found;
+                for done in [&by_turn, &by_time] {
+                    let way: Vec<DVec3> = (first..=last)
+                        .zip(done)
+                        .map(|(n, &share)| track.wrist[n] + track.turned[n] * a.lerp(*b, share))
+                        .collect();
+                    let found = fit(&way);
+                    if score(&found) < score(&best) {
+                        best = found;
+                    }
                 }
             }
         }
         best
     }
 
-    /// Returns the parts that may be meant in a frame, the palm first, in the hand's own space.
-    fn own_parts(&self, frame: usize) -> Vec<DVec3> {
+    /// Returns where the parts are in one frame that may be meant in another, the palm first, in the hand's own
+    /// space.
+    fn own_parts(&self, meant: usize, frame: usize) -> Vec<DVec3> {
         let track = self.track;
         let mut all = own(track, &[track.palm[frame]], frame);
         let mut known = self.known.borrow_mut();
         let parts = known
-            .entry(frame)
-            .or_insert_with(|| own(track, &(self.parts)(frame), frame));
+            .entry((meant, frame))
+            .or_insert_with(|| own(track, &(self.parts)(meant, frame), frame));
         all.extend(parts.iter());
         all
     }
@@ -219,7 +242,7 @@ pub(super) fn signing(scene: &Scene<'_>, track: &Track) -> RangeInclusive<usize>
     let last = track.palm.len() - 1;
     let (ways, _) = ways(
         scene,
-        &Mover::new(track, [0, last], &|_| Vec::new(), &[]),
+        &Mover::new(track, [0, last], &|_, _| Vec::new(), &[], 1),
         0,
         last,
     );

@@ -15,6 +15,8 @@ const ALIKE: f64 = 0.3;
 /// Postures are alike where hands point within this angle, in radians, and fingers within that.
 const POINTS: f64 = 0.6;
 const SHAPED: f64 = 0.4;
+/// Hands that are as much parallel as mirrored are told to be mirrored: parallel ones must fit better by this.
+const PARALLEL: f64 = 0.02;
 /// Places mirror each other where they differ by less than this, in arm lengths.
 const PLACED: f64 = 0.22;
 
@@ -173,7 +175,7 @@ fn held_alike(
     let off = posture_off([a, b], frame, symmetry)?;
     let place = a.palm[frame] * DVec3::new(-1.0, 1.0, 1.0);
     let apart = place.distance(b.palm[frame]) / (PLACED * scene.arm);
-    (apart < 1.0).then_some(off.max(0.25 * apart))
+    (apart < 1.0).then_some(off.max(0.25 * apart) + parallel(symmetry))
 }
 
 /// Returns how much two postures differ from a symmetry; nothing where they are unlike.
@@ -201,5 +203,10 @@ fn moved_alike([a, b]: [&Track; 2], first: usize, last: usize, symmetry: &Symmet
     // Of symmetries that fit the ways alike, the plainer and the one that postures have.
     let marks = [symmetry.up_down, symmetry.out_in, symmetry.out_of_phase];
     let marks = marks.iter().filter(|mark| **mark).count() as f64;
-    Some(off + 0.1 * posture + 0.01 * marks)
+    Some(off + 0.1 * posture + 0.01 * marks + parallel(symmetry))
+}
+
+/// What it costs that hands do not mirror each other: where both fit, they are meant to.
+fn parallel(symmetry: &Symmetry) -> f64 {
+    if symmetry.left_right { 0.0 } else { PARALLEL }
 }

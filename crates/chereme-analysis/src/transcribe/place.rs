@@ -108,8 +108,8 @@ pub(super) struct Placed {
     pub(super) distance: f64,
     /// Whether a part of the hand is meant, and not the whole.
     pub(super) small: bool,
-    /// Where the part of the hand is that touches it, or comes nearest to it.
-    pub(super) by: Option<DVec3>,
+    /// The parts of the hand that touch it, or come nearest to it.
+    parts: Vec<HandPoint>,
 }
 
 /// The body in one posture with both hands.
@@ -161,7 +161,8 @@ struct Candidate<'c> {
     distance: f64,
     /// Whether a part of the hand is meant, and not the whole.
     small: bool,
-    by: DVec3,
+    /// The part of the hand that is meant where none is said.
+    meant: HandPoint,
 }
 
 impl Candidate<'_> {
@@ -311,10 +312,7 @@ impl<'a> Body<'a> {
     }
 
     fn placed(&self, n: usize, hand: &Hand, symmetric: bool) -> Option<Placed> {
-        let mut all: Vec<Candidate<'_>> = Vec::new();
-        for choice in self.choices(n) {
-            self.weigh(n, hand, choice, symmetric, &mut all);
-        }
+        let all = self.candidates(n, hand, symmetric);
         let lower = |a: &&Candidate<'_>, b: &&Candidate<'_>| a.score.total_cmp(&b.score);
         let best = all.iter().min_by(lower)?;
         let of = best.sites();
@@ -332,8 +330,19 @@ impl<'a> Body<'a> {
             unlikely: best.unlikely,
             distance: best.distance,
             small: best.small,
-            by: Some(best.by),
+            parts: match best.said {
+                Some(parts) => parts.to_vec(),
+                None => vec![best.meant],
+            },
         })
+    }
+
+    fn candidates<'c>(&'c self, n: usize, hand: &'c Hand, symmetric: bool) -> Vec<Candidate<'c>> {
+        let mut all = Vec::new();
+        for choice in self.choices(n) {
+            self.weigh(n, hand, choice, symmetric, &mut all);
+        }
+        all
     }
 
     /// Weighs a place for a hand: touched, close, or before it.
@@ -377,6 +386,7 @@ impl<'a> Body<'a> {
                     0.0
                 };
             let small = touching || (near && !trunk);
+            let own = if small { meant } else { hand.middle() };
             let mut add = |at: DVec3, said: Option<&'c [HandPoint]>, cost: f64| {
                 let distance = at.distance(spot.at);
                 if touching && distance > TOUCH[usize::from(trunk)] * scene.arm {
@@ -397,10 +407,9 @@ impl<'a> Body<'a> {
                     unlikely,
                     distance,
                     small: said.is_some() || small,
-                    by: at,
+                    meant: own.point,
                 });
             };
-            let own = if small { meant } else { hand.middle() };
             add(own.at, None, cost + if touching { UNSAID } else { 0.0 });
             if (small || near) && within {
                 let pushed = (touching && trunk).then_some(spot.out);
@@ -492,13 +501,20 @@ impl<'a> Body<'a> {
         spot.at + spot.out * far + DVec3::X * (aside + apart)
     }
 
-    /// Returns where the parts of a hand are that are at the body or at the other hand.
-    pub(super) fn meant_at(&self, n: usize) -> Vec<DVec3> {
-        let mut found = Vec::new();
-        found.extend(self.together().map(|together| together.at[n]));
-        let placed = self.place(n, false);
-        found.extend(placed.filter(|placed| placed.small).and_then(|it| it.by));
+    /// Returns the parts of a hand that are at the other hand and at the body.
+    pub(super) fn meant_parts(&self, n: usize) -> Vec<Vec<HandPoint>> {
+        let mut found: Vec<Vec<HandPoint>> = Vec::new();
+        found.extend(self.together().map(|together| vec![together.parts[n]]));
+        let placed = self.place(n, false).filter(|placed| placed.small);
+        found.extend(placed.map(|placed| placed.parts));
         found
+    }
+
+    /// Returns where parts of a hand are.
+    pub(super) fn where_are(&self, n: usize, parts: &[Vec<HandPoint>]) -> Vec<DVec3> {
+        let hand = self.hands[n].iter();
+        hand.flat_map(|hand| parts.iter().map(|points| hand.mean(points)))
+            .collect()
     }
 
     /// Returns where the tips of a hand are that it may turn about.

@@ -15,7 +15,7 @@ use chereme_sign::hamnosys::{
 };
 use glam::DVec3;
 
-use super::acts::{Act, Kind, Mover, Sway, acts, signing};
+use super::acts::{Act, Kind, LETS_GO, Mover, Sway, acts, signing};
 use super::aim;
 use super::hands::{Relation, RelationKind, relation, signs};
 use super::place::{Body, Placed, Together, named};
@@ -174,16 +174,24 @@ impl<'a> Writer<'a> {
         frames: &RangeInclusive<usize>,
     ) -> (Vec<Act>, Option<usize>) {
         let ends = [*frames.start(), *frames.end()];
-        let parts = |frame: usize| {
-            let body = self.body(frame);
-            body.map_or_else(Vec::new, |body| body.meant_at(hand))
+        let parts = |meant: usize, frame: usize| {
+            let Some(body) = self.body(meant) else {
+                return Vec::new();
+            };
+            let parts = body.meant_parts(hand);
+            if meant == frame {
+                return body.where_are(hand, &parts);
+            }
+            let at = self.body(frame);
+            at.map_or_else(Vec::new, |at| at.where_are(hand, &parts))
         };
         let mut pivots = Vec::new();
         for frame in ends {
             let tips = self.body(frame).map(|body| body.tips(hand));
             pivots.extend(tips.into_iter().flatten().map(|at| (at, frame)));
         }
-        let mover = Mover::new(track, ends, &parts, &pivots);
+        let lets_go = self.scene.frames(LETS_GO);
+        let mover = Mover::new(track, ends, &parts, &pivots, lets_go);
         acts(self.scene, &mover, frames)
     }
 
