@@ -58,15 +58,14 @@ const SIDES: [Option<Side>; 5] = [
 /// the second, the other hand where nearer than the third; in arm lengths.
 const TOUCH: [f64; 3] = [0.05, 0.11, 0.045];
 /// How much less likely it is, in nepers, that half-way between two places is meant than one of them, and that
-/// they differ in height and side; a place that is rarely meant; half-way to the shoulder's top, and below
-/// the chin, without touching them; the
+/// they differ in height and side; a place that is rarely meant; half-way to the shoulder's top without
+/// touching it; the
 /// other side, and beside the body; the more, the farther two places are from each other; one at the trunk and
 /// one at the head.
 const BETWEEN: f64 = 1.2;
 const OBLIQUE: f64 = 1.0;
 const RARE: f64 = 2.0;
 const TOP: f64 = 1.0;
-const UNDER: f64 = 2.5;
 const ACROSS: f64 = 1.0;
 const BESIDE: f64 = 1.5;
 const WIDE: f64 = 0.6;
@@ -144,7 +143,8 @@ struct Choice {
     /// How much less likely it is to be meant than another one, in nepers.
     cost: f64,
     top: bool,
-    under: bool,
+    /// Whether it is meant from near only.
+    near: bool,
 }
 
 /// A place that a hand may be at, and how far it is from there.
@@ -358,7 +358,7 @@ impl<'a> Body<'a> {
         let spot = &choice.spot;
         let trunk = spot.region == Region::Trunk;
         let meant = hand.meant(spot.out, spot.region);
-        for &contact in contacts(spot) {
+        for &contact in contacts(choice) {
             let touching = contact == Some(Contact::Touch);
             let near = contact == Some(Contact::Close);
             let goal = self.goal(spot, contact, n, symmetric);
@@ -375,11 +375,6 @@ impl<'a> Body<'a> {
                     None => nearness[1],
                 }
                 + if choice.top && !touching { TOP } else { 0.0 }
-                + if choice.under && !touching {
-                    UNDER
-                } else {
-                    0.0
-                }
                 + if symmetric && !spot.beside && spot.lateral != 0.0 {
                     OWN_SIDES
                 } else {
@@ -593,7 +588,7 @@ fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
             + WIDE * wide
             + if across { REGIONS } else { 0.0 },
         top: both().any(is_top) && !both().all(is_top),
-        under: both().any(|spot| spot.site.at == BodyLocation::UnderChin),
+        near: both().any(|spot| is_rare(spot) || spot.site.at == BodyLocation::UnderChin),
     }
 }
 
@@ -609,18 +604,19 @@ fn said(spot: &Spot) -> f64 {
 }
 
 /// How near a hand may be to a place.
-fn contacts(spot: &Spot) -> &'static [Option<Contact>] {
+fn contacts(choice: &Choice) -> &'static [Option<Contact>] {
     const ALL: [Option<Contact>; 4] = [
         Some(Contact::Close),
         None,
         Some(Contact::ArmExtended),
         Some(Contact::Touch),
     ];
-    match spot.region {
+    match choice.spot.region {
         Region::Arm(_) => &[Some(Contact::Close), Some(Contact::Touch)],
-        // Small places of the head are not meant from afar.
-        _ if is_rare(spot) => &[Some(Contact::Close), Some(Contact::Touch)],
-        _ if spot.beside => &ALL[..3],
+        // Small places of the head are not meant from afar, and below the chin is the chest.
+        _ if choice.near && choice.spot.beside => &ALL[..1],
+        _ if choice.near => &[Some(Contact::Close), Some(Contact::Touch)],
+        _ if choice.spot.beside => &ALL[..3],
         _ => &ALL,
     }
 }

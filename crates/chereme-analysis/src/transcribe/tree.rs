@@ -11,7 +11,7 @@ use std::ops::RangeInclusive;
 use chereme_sign::hamnosys::{
     Aim, Amount, BodyPlace, Circular, Clock, Compass, Constellation, Contact, Curve, Directed,
     Direction, Each, Ellipse, Growth, HandsUsed, Handshape, Manual, Motion, MotionKind, Place,
-    Posture, Repetition, Sign, Size, WristMotion, Zigzag,
+    Posture, Repetition, Sign, Size, WristMotion, Zigzag, orientation,
 };
 use glam::DVec3;
 
@@ -27,6 +27,9 @@ use super::{Feature, FeatureKind, Found, Options, RunnerUp, Stage, Transcription
 
 /// However far a hand is from every place, that counts no more against telling one for each, in nepers.
 const MOST_APART: f64 = 12.0;
+
+/// What is told of a hand is sure where it is no farther from it than this, in degrees.
+const SURE: f64 = 4.0;
 
 /// More actions than this are hardly one sign.
 const MOST: usize = 12;
@@ -330,11 +333,14 @@ impl<'a> Writer<'a> {
         let signs = signs(&symmetry);
         let angle = |x: &[DVec3], y: &[DVec3]| (x[frame] * signs).angle_between(y[frame]);
         let turned = angle(&a.along, &b.along) < 0.45 && angle(&a.normal, &b.normal) < 0.6;
-        let same = match (&one.shape, &other.shape) {
-            (Some(x), Some(y)) => x.best == y.best,
+        let turned = turned && !otherwise(one, other, signs);
+        let shaped = match (&one.shape, &other.shape) {
+            (Some(x), Some(y)) if x.best != y.best => {
+                let sure = x.residual.max(y.residual) < SURE;
+                !sure && a.known.apart(&a.angles[frame], &b.angles[frame]) < 0.22
+            }
             _ => true,
         };
-        let shaped = same || a.known.apart(&a.angles[frame], &b.angles[frame]) < 0.22;
         [shaped, turned, turned]
     }
 
@@ -540,6 +546,24 @@ fn behind(relation: &Relation, first: Option<&Act>) -> Option<DVec3> {
         }
         _ => None,
     }
+}
+
+/// Tells whether it is sure that a hand is turned otherwise than the mirror image of the other.
+fn otherwise(one: &Seen, other: &Seen, signs: DVec3) -> bool {
+    let told = |seen: &Seen| {
+        let along = aim::vector(&seen.extended.best);
+        let palm = seen.palm.as_ref()?;
+        let sure = seen.extended.residual.max(palm.residual) < SURE;
+        let angle = aim::palm_angle(&palm.best);
+        let normal = orientation::palm(along.to_array(), angle);
+        sure.then_some([along, normal.into()])
+    };
+    let (Some(one), Some(other)) = (told(one), told(other)) else {
+        return false;
+    };
+    one.iter()
+        .zip(other)
+        .any(|(own, other): (&DVec3, DVec3)| (*own * signs).angle_between(other) > 0.1)
 }
 
 fn each<T: Clone + PartialEq>(

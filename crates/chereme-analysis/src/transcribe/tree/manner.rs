@@ -11,6 +11,8 @@ const RESTS: f64 = 0.8;
 /// A course that differs counts so much: how late half of the way is done, and how evenly it runs.
 const LATE: f64 = 2.0;
 const EVEN: f64 = 0.6;
+/// What it costs that something runs into contact as without one.
+const UNEXPECTED: f64 = 0.05;
 
 /// A manner that may be told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -149,25 +151,31 @@ fn tempo(scene: &Scene<'_>, track: &Track, act: &Act, into_contact: bool) -> Opt
         Tempo::Halt,
     ];
     let tempi = &all[..if into_contact || round { 4 } else { 5 }];
-    let own = match (round, into_contact) {
-        (true, _) => ROUND,
-        (false, true) => CONTACT,
-        (false, false) => TARGETTED,
+    // A hand may come to rest at what it is not meant to meet.
+    let own: &[(Course, f64)] = match (round, into_contact) {
+        (true, _) => &[(ROUND, 0.0)],
+        (false, true) => &[(CONTACT, 0.0), (TARGETTED, UNEXPECTED)],
+        (false, false) => &[(TARGETTED, 0.0)],
     };
     Some(nearest(tempi, l, |tempo, factor| {
-        let course = match tempo {
-            Tempo::Tense => TENSE,
-            Tempo::Halt => STOP,
+        let courses = match tempo {
+            Tempo::Tense => &[(TENSE, 0.0)],
+            Tempo::Halt => &[(STOP, 0.0)],
             _ => own,
         };
-        let times = usual.iter().map(|&(usual, least)| {
-            let whole = (usual * factor).max(least);
-            (ran.seconds / (whole * course.span)).ln().abs()
+        let scored = courses.iter().map(|(course, cost)| {
+            let times = usual.iter().map(|&(usual, least)| {
+                let whole = (usual * factor).max(least);
+                (ran.seconds / (whole * course.span)).ln().abs()
+            });
+            let off = times.fold(f64::MAX, f64::min);
+            let late = (ran.course.late - course.late).abs();
+            let even = (ran.course.even - course.even).abs();
+            (off, off + LATE * late + EVEN * even + cost)
         });
-        let off = times.fold(f64::MAX, f64::min);
-        let late = (ran.course.late - course.late).abs();
-        let even = (ran.course.even - course.even).abs();
-        (off, off + LATE * late + EVEN * even)
+        scored.fold((f64::MAX, f64::MAX), |best, tried| {
+            if tried.1 < best.1 { tried } else { best }
+        })
     }))
 }
 
