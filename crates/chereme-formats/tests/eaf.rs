@@ -292,6 +292,26 @@ fn odd_times() {
 }
 
 #[test]
+fn a_subdivision_with_a_gap_is_told() {
+    let above = tier("top root", "a1:ts1-ts4=x");
+    for (divided, told) in [
+        ("a2:ts1-ts2=p a3:ts2-ts4=q", false),
+        ("a2:ts1-ts2=p a3:ts3-ts4=q", true),
+        ("a2:ts2-ts4=p", true),
+        ("a2:ts1-ts3=p", true),
+    ] {
+        let text = eaf(
+            "ts1=0 ts2=100 ts3=200 ts4=300",
+            &(above.clone() + &tier("below time top", divided)),
+        );
+        let (document, _) = raw::read(text.as_bytes()).expect("a document");
+        let (_, findings) = from_raw(&document);
+        let gap = |it: &chereme_formats::Finding| it.message.contains("part of annotation \"a1\"");
+        assert_eq!(findings.iter().any(gap), told, "{divided}: {findings:?}");
+    }
+}
+
+#[test]
 fn frames_become_milliseconds() {
     let pal = eaf("ts1=1 ts2=25", &tier("p root", "a1:ts1-ts2=x"))
         .replace("\"milliseconds\"", "\"PAL-frames\"");

@@ -11,7 +11,7 @@ use crate::finding::Finding;
 use crate::tally::Findings;
 use chereme_motion::{Instant, Span};
 use chereme_sign::Stereotype;
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Returns what `document` means.
 ///
@@ -357,6 +357,41 @@ impl<'d> Tiers<'d> {
             .is_none_or(Stereotype::is_alignable)
         {
             self.overlaps(at, findings);
+        }
+        if self.tiers[at].stereotype == Some(Stereotype::TimeSubdivision) {
+            self.gaps(at, findings);
+        }
+    }
+
+    /// Tells of annotations above of which a subdivision leaves part uncovered.
+    fn gaps(&self, at: usize, findings: &mut Findings) {
+        let mut divided: BTreeMap<(usize, usize), Vec<Span>> = BTreeMap::new();
+        for annotation in &self.tiers[at].annotations {
+            if let Some(above) = annotation.parent {
+                let spans = divided.entry((above.tier, above.index)).or_default();
+                spans.push(annotation.span);
+            }
+        }
+        for ((tier, index), mut spans) in divided {
+            let whole = &self.tiers[tier].annotations[index];
+            spans.sort();
+            let mut covered = whole.span.start();
+            let mut gap = false;
+            for span in spans {
+                gap |= span.start() > covered;
+                covered = covered.max(span.end());
+            }
+            if gap || covered < whole.span.end() {
+                findings.add("subdivisions with gaps", || {
+                    let message = format!(
+                        "the Time_Subdivision {:?} leaves part of annotation {:?} uncovered",
+                        self.tiers[at].name, whole.id
+                    );
+                    Finding::warning(None, message).with_remedy(
+                        "ELAN allows no gaps there; move a boundary, or make the tier Included_In",
+                    )
+                });
+            }
         }
     }
 
