@@ -13,7 +13,7 @@ pub enum HamnosysError {
     Empty,
     /// A character or a name is no symbol.
     #[error(
-        "symbol {index} is {written:?}, which HamNoSys 4 does not have{}; write one of its 209 symbols or their names",
+        "symbol {index} is {written:?}, which HamNoSys 4 does not have; write one of its 209 symbols or their names{}",
         meant(written)
     )]
     Unknown {

@@ -69,7 +69,16 @@ impl From<&HamnosysError> for Finding {
     fn from(error: &HamnosysError) -> Self {
         Self {
             index: error.index().unwrap_or_default(),
-            message: error.to_string(),
+            // The index stands before the message of a finding.
+            message: match error {
+                HamnosysError::Unexpected {
+                    symbol, expected, ..
+                } => format!("{symbol} stands where only {expected} can be"),
+                HamnosysError::Ended { expected, .. } => {
+                    format!("the text ends, but expected {expected}")
+                }
+                other => other.to_string(),
+            },
             remedy: "mend or remove it",
             dropped: true,
         }
