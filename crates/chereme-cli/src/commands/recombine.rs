@@ -9,13 +9,41 @@ use serde_json::json;
 use crate::args::Cli;
 use crate::output::{Bar, Output};
 
+const RECIPES: &str = "\
+What a recipe begins with
+  ESCARGOT  token:41  sign:LIMACE         a sign of the corpus, with movement or as notation
+  spell LSF left hold 0.2s                a word in a manual alphabet
+  point right at 30cm,140cm,50cm          reaching for a point: to the left, up from the floor, forward
+  hamnosys \"...\"  sigml HUIS.sigml        notation
+
+What is done to it, step by step, each after |
+  configure right U   both from LION      another handshape; that of another sign
+  place both by left 25cm up 5cm          another place: moved
+  place right at chin with index          at a placement, or a point such as 0cm,120cm,40cm
+  place both near BOL by up 5cm           where another sign is
+  orient right palm up fingers forward    the hand turned; or: by 30deg about up
+  reverse   swap   mirror right           backwards; the arms exchanged; one arm like the other
+  repeat 3 scale 0.8 tempo 1.2 gap 0.1s   again, each smaller and faster
+  amplify both 1.5                        larger ways
+  travel right down 20cm then up 20cm     along a path
+  from me to left                         a directional verb between other places
+  retime 150%   retime to 2s              slower, faster
+  nonmanual from BOL                      head and face of another sign
+
+One after the other, with transitions
+  BOL then ESCARGOT then via sigmoid 0.3s CHAT
+
+Examples:
+  chereme recombine mine.chereme 'ESCARGOT | configure right U' --as LIMACE
+  chereme recombine mine.chereme 'AIMER | reverse | repeat 2' --explain
+  chereme recombine mine.chereme 'spell LSF | travel right down 20cm then up 20cm' --draw lsf.gif";
+
 /// Make a new sign from stored ones, and store it
 ///
-/// A recipe is a sign and what is done to it: ESCARGOT | configure right U, BOL | place both by left
-/// 25cm, CLAIR | reverse, AIMER | reverse | repeat 2, spell LSF | travel right down 20cm then up 20cm,
-/// BOL then ESCARGOT. The new sign gets its own tiers and is found by search like a captured one; its
-/// recipe is stored with it. Quote the recipe for your shell.
+/// A recipe is a sign and what is done to it: ESCARGOT | configure right U. The new sign gets its own tiers
+/// and is found by search like a captured one; its recipe is stored with it. Quote the recipe for your shell.
 #[derive(Debug, clap::Args)]
+#[command(after_help = RECIPES)]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,

@@ -253,7 +253,7 @@ impl Parser<'_> {
         let hand = self.hand().unwrap_or(Hands::Both);
         let to = if self.accept("by") {
             Goal::By(self.legs(false)?)
-        } else if self.accept("near") {
+        } else if self.accept("near") || self.accept("from") {
             let of = self.name("a sign")?;
             let by = if self.accept("by") {
                 self.legs(false)?

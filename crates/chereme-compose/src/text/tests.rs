@@ -67,6 +67,7 @@ fn what_people_write_is_read_and_printed() {
         ("BOL then (A then B)", ""),
         ("(BOL then A) then B", "BOL then A then B"),
         ("CHAT | configure both from LION", ""),
+        ("CHAT | place both from LION", "CHAT | place both near LION"),
         ("CHAT | configure right U, _, from LION via 0.1s", ""),
         (
             "CHAT | configure right best(configuration=U (gloss=\"A)\" or signer=same))",
