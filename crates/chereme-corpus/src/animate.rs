@@ -5,6 +5,8 @@ use std::path::Path;
 use chereme_compose::recipe::{Node, Notation};
 use chereme_compose::{Sources, VERSION};
 use chereme_formats::Finding;
+use chereme_motion::Side;
+use chereme_motion::anatomy::Anatomy;
 use chereme_sign::hamnosys::{self, Sign};
 use serde_json::json;
 
@@ -46,12 +48,13 @@ impl Corpus {
         if let Some(signer) = staging.signer {
             self.check_body(signer)?;
         }
-        let (node, findings) = leaf(notation, staging)?;
+        let (node, mut findings) = leaf(notation, staging)?;
         let recipe = json!({"version": VERSION, "make": node}).to_string();
         let mut done = match gloss {
             Some(gloss) => self.recombine(&recipe, gloss),
             None => self.preview(&recipe),
         }?;
+        findings.extend(without_fingers(&done.anatomy));
         for finding in &findings {
             done.explanation += &format!("\nwarning: {finding}");
         }
@@ -84,6 +87,27 @@ impl Corpus {
         let stage = stage.map_err(|error| Error::wrong(error.to_string()))?;
         Ok(stage.address)
     }
+}
+
+/// Tells that handshapes cannot be seen on a body whose skeleton has no fingers.
+fn without_fingers(anatomy: &Anatomy) -> Option<NotationFinding> {
+    let without: Vec<&str> = Side::BOTH
+        .into_iter()
+        .filter(|&side| !anatomy.has_fingers(side))
+        .map(Side::name)
+        .collect();
+    let hands = match without[..] {
+        [] => return None,
+        [one] => format!("{one} hand lacks"),
+        _ => "hands lack".to_owned(),
+    };
+    Some(NotationFinding {
+        file: None,
+        line: None,
+        symbol: None,
+        message: format!("the body's {hands} joints of fingers: no handshape can be seen"),
+        remedy: Some("name another body with --signer, or the joints in a roles file".to_owned()),
+    })
 }
 
 /// Returns the recipe's leaf, and what is odd about the notation.

@@ -129,3 +129,42 @@ pub(crate) fn read(row: rows::InventoryRow) -> Result<StoredInventory> {
         inventory,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_sign::InventoryValue;
+
+    fn inventory(values: &[(&str, &str)]) -> Inventory {
+        let value = |(id, name): &(&str, &str)| InventoryValue {
+            id: (*id).to_owned(),
+            names: BTreeMap::from([("en".to_owned(), (*name).to_owned())]),
+            ..InventoryValue::default()
+        };
+        Inventory {
+            values: values.iter().map(value).collect(),
+            ..inventory::builtin()[0].clone()
+        }
+    }
+
+    #[test]
+    fn what_is_joined_has_one_meaning_for_each_spelling() {
+        let before = inventory(&[("B-spread", "open hand"), ("cap", "the cap")]);
+        let new = inventory(&[("b-SPREAD", "five"), ("hat", "The Cap"), ("cap", "a cap")]);
+        let joined = joined(Some(&before), new);
+        let told: Vec<_> = joined
+            .values
+            .iter()
+            .map(|it| (&*it.id, it.names.values().next().map(String::as_str)))
+            .collect();
+        assert_eq!(
+            told,
+            [
+                ("B-spread", Some("open hand")),
+                ("cap", Some("a cap")),
+                ("hat", None)
+            ]
+        );
+        assert!(Inventory::from_json(&joined.to_json()).is_ok());
+    }
+}
