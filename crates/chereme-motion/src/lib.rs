@@ -28,6 +28,7 @@
 //! | [`interpolation`] | the ways from one posture to another |
 //! | [`anatomy`] | which joint is what, whatever the skeleton calls it; landmarks, measures, finger angles |
 //! | [`hand`] | the posture of a hand as joint angles |
+//! | [`face`] | the posture of a face as a few numbers |
 //! | [`ik`] | where the elbow goes when the wrist is moved |
 
 pub use glam;
@@ -36,6 +37,7 @@ pub mod anatomy;
 pub mod axes;
 pub mod clip;
 pub mod euler;
+pub mod face;
 pub mod hand;
 pub mod ik;
 pub mod interpolation;
@@ -47,6 +49,7 @@ pub use anatomy::{Anatomy, ArmChain, Evidence, Part, Roles, RolesError};
 pub use axes::{Axes, Axis, Convention, Direction};
 pub use clip::{Channel, Clip, ClipError};
 pub use euler::RotationOrder;
+pub use face::Face;
 pub use hand::{Finger, FingerAngles, HandAngles, Side, ThumbAngles};
 pub use interpolation::Interpolation;
 pub use pose::{ModelPose, Pose};
