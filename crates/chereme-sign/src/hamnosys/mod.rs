@@ -63,6 +63,7 @@ pub mod components;
 pub mod direction;
 pub mod drawing;
 mod error;
+pub mod face;
 pub mod language;
 mod lex;
 pub mod nonmanual;

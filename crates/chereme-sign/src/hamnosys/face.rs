@@ -1,0 +1,204 @@
+//! What faces do for the non-manuals of SiGML: brows, lids, gaze, nose and mouth.
+//!
+//! `schema/notation/face.json` holds what each code of a tier means, and the mouths of the sounds of SAMPA
+//! that mouth pictures are written in.
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use chereme_motion::Face;
+use serde::Deserialize;
+
+/// What a face does for one non-manual: postures one after another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Expression {
+    steps: Vec<Face>,
+}
+
+impl Expression {
+    /// Returns what `code` means on a part of the face: `brows`, `lids`, `gaze`, `nose`, `mouth`, or `mouthing`,
+    /// whose code is SAMPA. Nothing where it is no face's, or where nobody listed it.
+    ///
+    /// ```
+    /// use chereme_sign::hamnosys::face::Expression;
+    /// let raised = Expression::of("brows", "RB").expect("both brows are raised");
+    /// assert_eq!(raised.at(0.5).brows, [1.0, 1.0]);
+    /// ```
+    #[must_use]
+    pub fn of(part: &str, code: &str) -> Option<Self> {
+        let table = Table::usual();
+        let steps = if part == "mouthing" {
+            table.mouths(code)
+        } else {
+            table.steps(table.acts.get(&format!("{part}.{code}"))?)
+        };
+        (!steps.is_empty()).then_some(Self { steps })
+    }
+
+    /// Returns every listed code, such as `brows.RB`, with what it means.
+    pub fn listed() -> impl Iterator<Item = (&'static str, &'static str)> {
+        let acts = Table::usual().acts.iter();
+        acts.map(|(code, act)| (code.as_str(), act.means.as_str()))
+    }
+
+    /// Returns the posture in it that is farthest from rest.
+    #[must_use]
+    pub fn fullest(&self) -> Face {
+        let far = |face: &Face| face.numbers().iter().map(|it| it.abs()).sum::<f64>();
+        let fullest = self.steps.iter().max_by(|a, b| far(a).total_cmp(&far(b)));
+        fullest.copied().unwrap_or_default()
+    }
+
+    /// Returns the face when `share` of its time is over, from 0 to 1.
+    #[must_use]
+    pub fn at(&self, share: f64) -> Face {
+        let last = self.steps.len() - 1;
+        let along = (share * self.steps.len() as f64 - 0.5).clamp(0.0, last as f64);
+        let before = (along.floor() as usize).min(last);
+        let part = along - before as f64;
+        let part = part * part * (3.0 - 2.0 * part);
+        self.steps[before].towards(&self.steps[(before + 1).min(last)], part)
+    }
+}
+
+/// What the file holds.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Table {
+    #[serde(rename = "version")]
+    _version: u32,
+    #[serde(rename = "description")]
+    _description: String,
+    phones: BTreeMap<String, Face>,
+    acts: BTreeMap<String, Act>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Act {
+    means: String,
+    #[serde(default)]
+    word: String,
+    #[serde(default)]
+    steps: Vec<Face>,
+    #[serde(default = "once")]
+    times: usize,
+}
+
+fn once() -> usize {
+    1
+}
+
+impl Table {
+    fn usual() -> &'static Self {
+        static USUAL: OnceLock<Table> = OnceLock::new();
+        USUAL.get_or_init(|| {
+            let text = include_str!("../../../../schema/notation/face.json");
+            serde_json::from_str(text).expect("the program's own faces are whole")
+        })
+    }
+
+    fn steps(&self, act: &Act) -> Vec<Face> {
+        let one = if act.steps.is_empty() {
+            self.mouths(&act.word)
+        } else {
+            act.steps.clone()
+        };
+        one.repeat(act.times)
+    }
+
+    /// Returns the mouths of SAMPA; a length mark holds the mouth before it, what is no sound is passed over.
+    fn mouths(&self, sampa: &str) -> Vec<Face> {
+        let mut mouths: Vec<Face> = Vec::new();
+        let mut sign = [0; 4];
+        for symbol in sampa.chars().take(LONGEST) {
+            if symbol == ':' {
+                mouths.extend(mouths.last().copied());
+            } else if let Some(mouth) = self.phones.get(&*symbol.encode_utf8(&mut sign)) {
+                mouths.push(*mouth);
+            }
+        }
+        mouths
+    }
+}
+
+/// More signs of SAMPA than this are not mouthed.
+const LONGEST: usize = 400;
+
+#[cfg(test)]
+mod tests {
+    use super::{Expression, Table};
+    use crate::hamnosys::NonmanualPart;
+
+    #[test]
+    fn every_code_of_the_lists_is_a_face() {
+        let two = |letter: char, count: u32| (1..=count).map(move |n| format!("{letter}{n:02}"));
+        let mouth: Vec<String> = [('D', 9), ('J', 4), ('L', 35), ('C', 13), ('T', 17)]
+            .into_iter()
+            .flat_map(|(letter, count)| two(letter, count))
+            .collect();
+        let words = |text: &str| text.split(' ').map(str::to_owned).collect();
+        let lists: [(&str, NonmanualPart, Vec<String>); 5] = [
+            ("brows", NonmanualPart::Brows, words("RB RR RL FU")),
+            (
+                "lids",
+                NonmanualPart::Lids,
+                words("WB WR WL SB SR SL CB CR CL TB TR TL BB"),
+            ),
+            (
+                "gaze",
+                NonmanualPart::Gaze,
+                words("AD FR HD HI HC UP DN LE RI NO RO LU LD RU RD"),
+            ),
+            ("nose", NonmanualPart::Nose, words("WR TW WI")),
+            ("mouth", NonmanualPart::MouthGesture, mouth),
+        ];
+        for (name, part, codes) in lists {
+            for code in codes {
+                assert!(part.is_listed(&code), "{name}.{code}");
+                let face = Expression::of(name, &code).unwrap_or_else(|| panic!("{name}.{code}"));
+                let moves = (0..=20).any(|n| !face.at(f64::from(n) / 20.0).is_at_rest());
+                assert_eq!(moves, code != "AD", "{name}.{code}");
+            }
+        }
+        assert!(Expression::of("brows", "XX").is_none());
+        assert!(Expression::of("head", "SH").is_none());
+    }
+
+    #[test]
+    fn numbers_stay_within_their_ends() {
+        let table = Table::usual();
+        let acts = table.acts.values().flat_map(|act| &act.steps);
+        for face in table.phones.values().chain(acts) {
+            let [.., pressed, pout, teeth, tongue, _, _, _] = face.numbers();
+            assert!(face.numbers().iter().all(|n| (-1.0..=1.0).contains(n)));
+            let only_up = [
+                face.frown,
+                face.nose,
+                face.jaw,
+                face.parted,
+                pressed,
+                pout,
+                teeth,
+                tongue,
+            ];
+            assert!(only_up.iter().all(|n| *n >= 0.0), "{face:?}");
+        }
+        let both = table
+            .acts
+            .iter()
+            .filter(|(_, act)| act.word.is_empty() == act.steps.is_empty());
+        assert_eq!(both.count(), 0, "either a word or steps");
+    }
+
+    #[test]
+    fn a_word_goes_from_mouth_to_mouth() {
+        let word = Expression::of("mouthing", "ma:p").expect("a word");
+        let open = |share| word.at(share).jaw;
+        assert_eq!((open(0.0), open(1.0)), (0.0, 0.0), "closed at both ends");
+        assert!(open(0.5) > 0.7, "open in the long vowel");
+        assert!(word.at(1.0).pressed > word.at(0.0).pressed);
+        assert_eq!(Expression::of("mouthing", "?!"), None);
+        assert_eq!(Expression::of("mouthing", ":"), None);
+    }
+}
