@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use std::io::Write;
 use std::ops::ControlFlow;
 
-use chereme_motion::{Anatomy, Clip, Instant, ModelPose};
+use chereme_motion::{Anatomy, Clip, Face, Instant, ModelPose};
 
 use crate::body::Body;
 use crate::error::{FigureError, checked_size, checked_view};
@@ -24,6 +24,8 @@ use crate::view::{Framing, View};
 pub struct AnimationOptions {
     /// What is seen, side by side from the left.
     pub views: Vec<View>,
+    /// The face of each frame of the clip; frames beyond them have it at rest.
+    pub faces: Vec<Face>,
     /// The height in pixels.
     pub height: usize,
     /// How long each picture stands, in hundredths of a second, 1 to 100; 4 gives 25 a second.
@@ -40,6 +42,7 @@ impl Default for AnimationOptions {
     fn default() -> Self {
         Self {
             views: vec![View::Addressee, View::Right],
+            faces: Vec::new(),
             height: 360,
             centiseconds: 4,
             speed: 1.0,
@@ -128,7 +131,8 @@ impl<'a> Animation<'a> {
     /// Draws picture `frame`.
     #[must_use]
     pub fn draw(&mut self, frame: usize) -> Image {
-        let local = self.clip.sample(self.instant(frame));
+        let instant = self.instant(frame);
+        let local = self.clip.sample(instant);
         let skeleton = self.clip.skeleton();
         match &mut self.pose {
             Some(pose) => pose.set(skeleton, &local),
@@ -140,6 +144,9 @@ impl<'a> Animation<'a> {
             return image;
         };
         self.body.shape(pose, &mut self.mesh);
+        if let Some(face) = Face::at(&self.options.faces, self.clip.rate(), instant) {
+            self.body.express(pose, &face, &mut self.mesh);
+        }
         let room = self.size[1] - BAR;
         let mut x = 0;
         for (&view, &width) in self.options.views.iter().zip(&self.columns) {

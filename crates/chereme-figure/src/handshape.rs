@@ -10,7 +10,7 @@ use crate::camera::Camera;
 use crate::error::{FigureError, checked_size, checked_view};
 use crate::font;
 use crate::image::Image;
-use crate::palette::Palette;
+use crate::palette::{Palette, Theme};
 use crate::raster::{Raster, Style};
 
 /// Where a hand alone is looked at from; the fingers point up.
@@ -86,23 +86,32 @@ pub fn handshape_sheet(
     if shapes.is_empty() || columns == 0 {
         return Err(FigureError::Nothing { what: "handshape" });
     }
-    let cell = checked_view(options.size, options.size)?;
-    let columns = columns.min(shapes.len());
+    let mut artist = Artist::new(options);
+    let layout = (columns, options.size, options.style.theme);
+    table(shapes, layout, |angles, cell| artist.draw(angles, cell))
+}
+
+/// Draws named things as a table of square cells, so many columns of that size on that paper.
+pub(crate) fn table<T>(
+    things: &[(String, T)],
+    (columns, size, theme): (usize, usize, Theme),
+    mut draw: impl FnMut(&T, [usize; 2]) -> Image,
+) -> Result<Image, FigureError> {
+    let cell = checked_view(size, size)?;
+    let columns = columns.clamp(1, things.len().max(1));
     let step = [cell[0] + GAP, cell[1] + font::HEIGHT + GAP];
-    let rows = shapes.len().div_ceil(columns);
+    let rows = things.len().div_ceil(columns);
     let size = checked_size(
         columns.saturating_mul(step[0]) + GAP,
         rows.saturating_mul(step[1]) + GAP,
     )?;
-    let theme = options.style.theme;
     let mut sheet = Image::new(size[0], size[1], theme.background());
-    let mut artist = Artist::new(options);
-    for (index, (name, angles)) in shapes.iter().enumerate() {
+    for (index, (name, thing)) in things.iter().enumerate() {
         let at = [
             GAP + index % columns * step[0],
             GAP + index / columns * step[1],
         ];
-        sheet.paste(&artist.draw(angles, cell), at);
+        sheet.paste(&draw(thing, cell), at);
         let label = font::fitted(name, cell[0]);
         let inset = cell[0].saturating_sub(font::width(&label)) / 2;
         let below = [(at[0] + inset) as i64, (at[1] + cell[1]) as i64];

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use chereme_motion::{Anatomy, Clip, Side};
+use chereme_motion::{Anatomy, Clip, Face, Side};
 
 use crate::body::Body;
 use crate::error::{FigureError, checked_size, checked_view};
@@ -31,6 +31,8 @@ pub struct SheetOptions {
     pub frames: Frames,
     /// The rows.
     pub views: Vec<View>,
+    /// The face of each frame of the clip; frames beyond them have it at rest.
+    pub faces: Vec<Face>,
     /// The height of a cell in pixels, its label not counted.
     pub cell_height: usize,
     /// The colours of the body.
@@ -45,6 +47,7 @@ impl Default for SheetOptions {
             title: String::new(),
             frames: Frames::Spaced(8),
             views: vec![View::Addressee, View::Right],
+            faces: Vec::new(),
             cell_height: 260,
             palette: Palette::default(),
             style: Style::default(),
@@ -57,6 +60,16 @@ impl SheetOptions {
     #[must_use]
     pub fn with_hands(mut self) -> Self {
         self.views.extend(Side::BOTH.map(View::Hand));
+        self
+    }
+
+    /// Returns the options with what the face does, and a row for the face from near where it does anything.
+    #[must_use]
+    pub fn with_faces(mut self, faces: Vec<Face>) -> Self {
+        if faces.iter().any(|face| !face.is_at_rest()) {
+            self.views.push(View::Face);
+        }
+        self.faces = faces;
         self
     }
 }
@@ -113,6 +126,9 @@ pub fn contact_sheet(
     for (column, &frame) in frames.iter().enumerate() {
         let pose = clip.model_pose(frame);
         body.shape(&pose, &mut mesh);
+        if let Some(face) = options.faces.get(frame) {
+            body.express(&pose, face, &mut mesh);
+        }
         let x = GAP + column * (cell[0] + GAP);
         for (row, &view) in options.views.iter().enumerate() {
             let done = column * options.views.len() + row;

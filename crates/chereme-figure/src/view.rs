@@ -20,11 +20,13 @@ pub enum View {
     Top,
     /// A hand from the front and near, followed as it moves; what hides it is left out.
     Hand(Side),
+    /// The face from the front and near, followed as it moves, with the hands before it.
+    Face,
 }
 
 impl View {
     /// Every view.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Addressee,
         Self::Signer,
         Self::Left,
@@ -32,6 +34,7 @@ impl View {
         Self::Top,
         Self::Hand(Side::Right),
         Self::Hand(Side::Left),
+        Self::Face,
     ];
 
     /// Returns the name that labels and commands use.
@@ -45,13 +48,14 @@ impl View {
             Self::Top => "top",
             Self::Hand(Side::Right) => "right hand",
             Self::Hand(Side::Left) => "left hand",
+            Self::Face => "face",
         }
     }
 
     /// Returns the direction towards the eye and the picture's up, as left, up and forwards.
     const fn axes(self) -> [Vec3; 2] {
         match self {
-            Self::Addressee | Self::Hand(_) => [Vec3::Z, Vec3::Y],
+            Self::Addressee | Self::Hand(_) | Self::Face => [Vec3::Z, Vec3::Y],
             Self::Signer => [Vec3::new(0.0, 0.62, -0.78), Vec3::Y],
             Self::Left => [Vec3::X, Vec3::Y],
             Self::Right => [Vec3::NEG_X, Vec3::Y],
@@ -207,7 +211,7 @@ impl Framing {
     }
 
     /// Returns the camera of a view for a picture whose width is `aspect` times its height; the
-    /// hand views look where `pose` has that hand.
+    /// hand views look where `pose` has that hand, the face's where it has the head.
     #[must_use]
     pub fn camera(&self, view: View, aspect: f32, pose: &ModelPose, anatomy: &Anatomy) -> Camera {
         let [towards, up] = view.axes();
@@ -220,6 +224,12 @@ impl Framing {
                 near: half_height * DISTANCE - self.hand * 1.2,
                 ..camera
             };
+        }
+        if view == View::Face
+            && let Some((target, height)) = head_middle(pose, anatomy)
+        {
+            let half_height = height * 0.62 / aspect.clamp(1e-3, 1.0);
+            return self.place(target, [towards, up], half_height);
         }
         let half = (self.high - self.low) * 0.5;
         let middle = self.axes * ((self.high + self.low) * 0.5);
@@ -251,7 +261,7 @@ impl Framing {
     #[must_use]
     pub fn aspect(&self, view: View) -> f32 {
         let [towards, up] = view.axes();
-        if matches!(view, View::Hand(_)) {
+        if matches!(view, View::Hand(_) | View::Face) {
             return 1.0;
         }
         let half = (self.high - self.low) * 0.5;
@@ -281,6 +291,16 @@ fn hand_middle(pose: &ModelPose, anatomy: &Anatomy, side: Side) -> Option<Vec3> 
         .map(|&joint| pose.position(joint).as_vec3())
         .sum();
     Some(wrist.lerp(sum / fingers.len() as f32, 0.85))
+}
+
+/// Returns the middle of the head and its height, where both are known.
+fn head_middle(pose: &ModelPose, anatomy: &Anatomy) -> Option<(Vec3, f32)> {
+    let joint = anatomy.joint(Part::Head)?;
+    let measures = anatomy.measures()?;
+    let [_, up, _] = anatomy.head_axes(pose)?;
+    let middle = up * (measures.head_top - measures.head * 0.5);
+    let target = pose.position(joint) + middle;
+    Some((target.as_vec3(), measures.head as f32))
 }
 
 fn arm_length(pose: &ModelPose, arm: chereme_motion::ArmChain) -> f32 {

@@ -9,7 +9,7 @@ use chereme_figure::{
     Theme, View, contact_sheet, thumbnail, write_gif, write_png,
 };
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Anatomy, Clip, Joint, ModelPose, Pose, Rate, Skeleton};
+use chereme_motion::{Anatomy, Clip, Face, Joint, ModelPose, Pose, Rate, Skeleton};
 
 #[path = "../examples/common/signer.rs"]
 mod signer;
@@ -250,7 +250,7 @@ fn every_view_shows_the_signer_and_the_figure_does_not_jump() {
             "{} shows {share}",
             view.name()
         );
-        if !matches!(view, View::Hand(_)) {
+        if !matches!(view, View::Hand(_) | View::Face) {
             let later = framing.camera(view, 1.0, &clip.model_pose(60), &anatomy);
             assert_eq!(camera, later);
         }
@@ -289,6 +289,58 @@ fn a_mesh_is_closed_and_follows_its_joints_rigidly() {
         assert!(off < 1e-5, "a vertex of part {} is {off} m off", a.group);
         assert!((b.normal.length() - 1.0).abs() < 1e-4);
     }
+}
+
+#[test]
+fn a_face_moves_only_what_it_should_and_comes_to_rest() {
+    let (clip, anatomy) = clip();
+    let body = Body::new(clip.skeleton(), &anatomy);
+    let pose = clip.model_pose(8);
+    let rest = body.mesh(&pose);
+    let moved = |face: &Face| {
+        let mut mesh = rest.clone();
+        body.express(&pose, face, &mut mesh);
+        mesh
+    };
+    let apart = |mesh: &Mesh| -> Vec<(f32, f32)> {
+        let pairs = rest.vertices.iter().zip(&mesh.vertices);
+        pairs
+            .map(|(a, b)| (a.position.y, a.position.distance(b.position)))
+            .collect()
+    };
+    assert!(apart(&moved(&Face::default())).iter().all(|it| it.1 < 1e-6));
+    let eyes = anatomy
+        .landmark(clip.skeleton(), &pose, "nose")
+        .expect("a nose")
+        .y as f32;
+    let open = Face {
+        jaw: 1.0,
+        ..Face::default()
+    };
+    let lids = Face {
+        lids: [1.0, 1.0],
+        ..Face::default()
+    };
+    for (face, above) in [(open, false), (lids, true)] {
+        let mesh = moved(&face);
+        let moving = apart(&mesh).into_iter().filter(|it| it.1 > 1e-4);
+        let moving: Vec<(f32, f32)> = moving.collect();
+        assert!(!moving.is_empty());
+        for (y, off) in moving {
+            assert_eq!(y > eyes, above, "what lies at {y} m moved by {off} m");
+            assert!(off < 0.05, "{off}");
+        }
+    }
+    let wild = Face {
+        jaw: f64::NAN,
+        wide: 1e30,
+        ..Face::default()
+    };
+    let finite = |mesh: &Mesh| mesh.vertices.iter().all(|it| it.position.is_finite());
+    assert!(finite(&moved(&wild)));
+    let mut again = moved(&open);
+    body.shape(&pose, &mut again);
+    assert_eq!(again, rest, "the next posture has it at rest");
 }
 
 /// Skeletons that are less than a signer with full hands.

@@ -1,10 +1,13 @@
 //! The signer's body as a surface: what hangs on which joint, put together once per skeleton.
 
+mod features;
 mod hand;
 mod head;
 pub(crate) mod shape;
 
-use chereme_motion::{Anatomy, ModelPose, Side, Skeleton, anatomy::Part};
+use std::ops::Range;
+
+use chereme_motion::{Anatomy, Face, ModelPose, Side, Skeleton, anatomy::Part};
 use glam::{Mat3, Vec3};
 
 use crate::mesh::Mesh;
@@ -21,6 +24,16 @@ use shape::{Assembly, Element, Loft, Paint, Point, Rod, Section, place, rotation
 pub struct Body {
     template: Mesh,
     elements: Vec<Element>,
+    face: Option<Expressive>,
+}
+
+/// A head whose face can be other than at rest.
+#[derive(Debug, Clone, PartialEq)]
+struct Expressive {
+    joint: usize,
+    head: Head,
+    palette: Palette,
+    vertices: Range<usize>,
 }
 
 /// Numbers of the parts between which lines are drawn; 0 is the paper.
@@ -83,6 +96,7 @@ impl Body {
             palette,
             rest: &rest,
             size: body_size(anatomy),
+            face: None,
             out: Assembly::default(),
         };
         if Side::BOTH.iter().any(|&side| anatomy.arm(side).is_some()) {
@@ -90,7 +104,10 @@ impl Body {
         } else {
             builder.bones();
         }
-        builder.out.into_body(&rest)
+        Body {
+            face: builder.face,
+            ..builder.out.into_body(&rest)
+        }
     }
 
     /// Returns only both hands, arms left out; empty where there are no wrists.
@@ -143,6 +160,22 @@ impl Body {
             element.pose(pose, mesh);
         }
     }
+
+    /// Gives `mesh`, which [`shape`](Self::shape) moved to `pose`, what the face does; a body without a head
+    /// stays as it is. The next `shape` puts the face at rest again.
+    ///
+    /// # Panics
+    /// As [`shape`](Self::shape).
+    pub fn express(&self, pose: &ModelPose, face: &Face, mesh: &mut Mesh) {
+        let Some(known) = &self.face else { return };
+        let local = known.head.mesh(&known.palette, face);
+        let (at, turn) = (place(pose, known.joint), rotation(pose, known.joint));
+        let out = &mut mesh.vertices[known.vertices.clone()];
+        for (vertex, own) in out.iter_mut().zip(local.vertices) {
+            vertex.position = at + turn * own.position;
+            vertex.normal = turn * own.normal;
+        }
+    }
 }
 
 impl Assembly {
@@ -153,6 +186,7 @@ impl Assembly {
         Body {
             template: self.mesh,
             elements: self.elements,
+            face: None,
         }
     }
 }
@@ -178,6 +212,7 @@ struct Builder<'a> {
     palette: &'a Palette,
     rest: &'a ModelPose,
     size: f32,
+    face: Option<Expressive>,
     out: Assembly,
 }
 
@@ -353,7 +388,15 @@ impl Builder<'_> {
             height,
             axes: Mat3::from_quat(turn) * axes,
         };
-        self.out.rigid(joint, &head.mesh(self.palette));
+        let start = self.out.mesh.vertices.len();
+        self.out
+            .rigid(joint, &head.mesh(self.palette, &Face::default()));
+        self.face = Some(Expressive {
+            joint,
+            head,
+            palette: *self.palette,
+            vertices: start..self.out.mesh.vertices.len(),
+        });
     }
 
     /// Adds every bone of a skeleton that is not known as a body.
