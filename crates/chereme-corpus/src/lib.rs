@@ -81,7 +81,7 @@ pub use list::{ListFilter, ListKind, Listing, cell_text, components_text};
 pub use movement::ChannelGroup;
 pub use notation::{Notation, read_notation};
 pub use paths::paths_like;
-pub use picture::{Moving, Picture, PictureOptions, built_in_body, draw_clip};
+pub use picture::{Moving, Performance, Picture, PictureOptions, built_in_body, draw_clip};
 pub use progress::{Progress, Step, Unit, unheard};
 pub use recombine::{MadePart, NotationFinding, Recombination, TimedNote};
 pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions};

@@ -8,21 +8,24 @@ use std::sync::Arc;
 
 use chereme_figure::{
     Animation, AnimationOptions, FigureError, HandshapeOptions, SheetOptions, View, contact_sheet,
-    handshape_picture, handshape_sheet, write_gif, write_png,
+    face_sheet, handshape_picture, handshape_sheet, write_gif, write_png,
 };
 use chereme_motion::anatomy::Anatomy;
-use chereme_motion::{Clip, Instant, Side, Span};
+use chereme_motion::{Clip, Face, Instant, Side, Span};
+use chereme_sign::hamnosys::face::Expression;
 use chereme_sign::hamnosys::{Symbol, drawing};
 use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{self, Address, Stretch};
 use crate::animate::Staging;
+use crate::curves;
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::movement::{ChannelGroup, Track};
 use crate::notation::{self, Notation};
 use crate::progress::{Progress, Step, Unit};
+use crate::recombine::Recombination;
 use crate::sources::notation::own_body;
 
 /// A stretch longer than this is drawn only in part.
@@ -30,6 +33,9 @@ const LONGEST: i64 = 120_000_000;
 
 /// What the symbols of HamNoSys are called beside the inventories.
 const SYMBOLS: &str = "hamnosys";
+/// What the faces of SiGML's non-manuals are called beside the inventories, and how large one is drawn.
+const FACES: &str = "faces";
+const FACE: usize = 160;
 /// How high a symbol of notation is drawn, in pixels of a picture that can be shown at any size.
 const SYMBOL: f32 = 64.0;
 
@@ -38,7 +44,7 @@ const SYMBOL: f32 = 64.0;
 pub struct PictureOptions {
     /// How many pictures stand side by side on a contact sheet.
     pub frames: usize,
-    /// Whether the contact sheet shows the hands from close by.
+    /// Whether the contact sheet shows the hands from close by, and the face where it does something.
     pub hands: bool,
     /// How high one picture is, in pixels.
     pub height: usize,
@@ -88,6 +94,39 @@ pub struct Moving {
     pub clip: Clip,
     /// Which joint is what.
     pub anatomy: Anatomy,
+    /// What the face does in each frame, where curves of non-manuals tell it; else none.
+    pub faces: Vec<Face>,
+}
+
+/// Movement as it is drawn.
+#[derive(Debug, Clone, Copy)]
+pub struct Performance<'a> {
+    /// The movement.
+    pub clip: &'a Clip,
+    /// Which joint is what.
+    pub anatomy: &'a Anatomy,
+    /// What the face does in each frame; frames beyond them have it at rest.
+    pub faces: &'a [Face],
+}
+
+impl<'a> From<&'a Moving> for Performance<'a> {
+    fn from(moving: &'a Moving) -> Self {
+        Self {
+            clip: &moving.clip,
+            anatomy: &moving.anatomy,
+            faces: &moving.faces,
+        }
+    }
+}
+
+impl<'a> From<&'a Recombination> for Performance<'a> {
+    fn from(made: &'a Recombination) -> Self {
+        Self {
+            clip: &made.clip,
+            anatomy: &made.anatomy,
+            faces: &made.faces,
+        }
+    }
 }
 
 /// Returns the body that comes with the program: a single frame at rest, with which joint is what.
@@ -126,9 +165,15 @@ impl Corpus {
             None => stretch.span,
         };
         let track = Track::of(connection, stretch.recording.id)?;
-        let clip = track.clip(connection, track.frames_in(stretch.span), groups)?;
+        let frames = track.frames_in(stretch.span);
+        let clip = track.clip(connection, frames.clone(), groups)?;
+        // A word is mouthed over the whole of its curve, also where only a part of it is looked at.
+        let curves = curves::of_track(connection, &track, 0..track.frames())?;
+        let faces = chereme_compose::faces(&curves);
+        let faces = faces.get(frames).map(<[Face]>::to_vec).unwrap_or_default();
         Ok(Moving {
             clip,
+            faces,
             anatomy: track.anatomy(connection)?,
             stretch,
         })
@@ -165,7 +210,7 @@ impl Corpus {
         let span = Span::between(from, from.shifted(stretch.span.micros().min(LONGEST)));
         let moving = self.movement_in(address, Some(span), &ChannelGroup::ALL)?;
         let title = title(&moving.stretch);
-        draw_clip(&moving.clip, &moving.anatomy, &title, to, options, progress)
+        draw_clip((&moving).into(), &title, to, options, progress)
     }
 
     /// Draws the symbols of a notation to an SVG: what is stored, or else what the movement is transcribed as.
@@ -204,7 +249,7 @@ impl Corpus {
         };
         let done = self.animate(&[&name], &staging, None)?;
         let title = &notated.document.gloss;
-        let picture = draw_clip(&done.clip, &done.anatomy, title, to, options, progress)?;
+        let picture = draw_clip((&done).into(), title, to, options, progress)?;
         Ok(Picture {
             animated_on: Some(body),
             ..picture
@@ -212,7 +257,8 @@ impl Corpus {
     }
 
     /// Draws handshapes to a PNG: one value, or all values of an inventory that have a posture. The symbols of
-    /// HamNoSys, as the inventory `hamnosys`, are drawn to an SVG.
+    /// HamNoSys, as the inventory `hamnosys`, are drawn to an SVG; what faces do for the non-manuals of SiGML, as
+    /// the inventory `faces`, to a PNG.
     ///
     /// # Errors
     /// Where no inventory is called so, or it has no handshape of that name.
@@ -230,6 +276,9 @@ impl Corpus {
             }
             let chart = drawing::chart();
             return written(&chart, SYMBOLS, Symbol::all().len(), to, options.force);
+        }
+        if inventory == FACES && value.is_none() {
+            return draw_faces(to, options.force);
         }
         let all = inventories::load(self.store.read())?;
         let ids: Vec<&str> = all.iter().map(|it| it.inventory.id.as_str()).collect();
@@ -290,14 +339,7 @@ impl Corpus {
         let bytes = write(to, options.force, |out| {
             write_png(&image, out).map_err(figure)
         })?;
-        Ok(Picture {
-            path: to.to_owned(),
-            title,
-            bytes,
-            frames,
-            animated_on: None,
-            transcribed: false,
-        })
+        Ok(told(to, &title, bytes, frames))
     }
 }
 
@@ -307,14 +349,7 @@ fn written(picture: &str, title: &str, symbols: usize, to: &Path, force: bool) -
         out.write_all(picture.as_bytes())
             .map_err(|error| Error::file(to, error))
     })?;
-    Ok(Picture {
-        path: to.to_owned(),
-        title: title.to_owned(),
-        bytes,
-        frames: symbols,
-        animated_on: None,
-        transcribed: false,
-    })
+    Ok(told(to, title, bytes, symbols))
 }
 
 /// Draws a clip to a file; see [`Corpus::draw`].
@@ -322,13 +357,17 @@ fn written(picture: &str, title: &str, symbols: usize, to: &Path, force: bool) -
 /// # Errors
 /// As there.
 pub fn draw_clip(
-    clip: &Clip,
-    anatomy: &Anatomy,
+    performance: Performance<'_>,
     title: &str,
     to: &Path,
     options: &PictureOptions,
     progress: &mut Progress<'_>,
 ) -> Result<Picture> {
+    let Performance {
+        clip,
+        anatomy,
+        faces,
+    } = performance;
     let kind = extension(to);
     let mut hear = |done: usize, total: usize| {
         let (done, total) = (done as u64, Some(total as u64));
@@ -353,6 +392,11 @@ pub fn draw_clip(
             if options.hands && Side::BOTH.iter().any(|&side| anatomy.has_fingers(side)) {
                 sheet = sheet.with_hands();
             }
+            if options.hands {
+                sheet = sheet.with_faces(faces.to_vec());
+            } else {
+                sheet.faces = faces.to_vec();
+            }
             let image = contact_sheet(clip, anatomy, &sheet, &mut hear).map_err(figure)?;
             let bytes = write(to, options.force, |out| {
                 write_png(&image, out).map_err(figure)
@@ -364,6 +408,7 @@ pub fn draw_clip(
                 views: vec![View::Addressee, View::Left],
                 height: options.height,
                 speed: options.speed,
+                faces: faces.to_vec(),
                 ..AnimationOptions::default()
             };
             let mut animation = Animation::new(clip, anatomy, settings).map_err(figure)?;
@@ -380,14 +425,7 @@ pub fn draw_clip(
             ));
         }
     };
-    Ok(Picture {
-        path: to.to_owned(),
-        title: title.to_owned(),
-        bytes,
-        frames,
-        animated_on: None,
-        transcribed: false,
-    })
+    Ok(told(to, title, bytes, frames))
 }
 
 fn title(stretch: &Stretch) -> String {
@@ -408,6 +446,35 @@ fn extension(path: &Path) -> String {
     path.extension()
         .map(|it| it.to_string_lossy().to_lowercase())
         .unwrap_or_default()
+}
+
+/// Returns what is told of a picture of stored movement or of an inventory.
+fn told(to: &Path, title: &str, bytes: u64, frames: usize) -> Picture {
+    Picture {
+        path: to.to_owned(),
+        title: title.to_owned(),
+        bytes,
+        frames,
+        animated_on: None,
+        transcribed: false,
+    }
+}
+
+/// Draws every listed face of SiGML on the program's own body.
+fn draw_faces(to: &Path, force: bool) -> Result<Picture> {
+    if extension(to) != "png" {
+        return Err(ending(to, "faces are drawn to a .png"));
+    }
+    let face = |(code, means): (&str, &str)| {
+        let (part, short) = code.split_once('.')?;
+        let expression = Expression::of(part, short)?;
+        Some((format!("{short} {means}"), expression.fullest()))
+    };
+    let faces: Vec<_> = Expression::listed().filter_map(face).collect();
+    let (clip, anatomy) = built_in_body()?;
+    let image = face_sheet((&clip, &anatomy), &faces, 8, FACE).map_err(figure)?;
+    let bytes = write(to, force, |out| write_png(&image, out).map_err(figure))?;
+    Ok(told(to, FACES, bytes, faces.len()))
 }
 
 fn ending(path: &Path, advice: &str) -> Error {

@@ -11,7 +11,7 @@ use chereme_compose::{About, ENGINE, Input, Made, Note, Recipe, Report, Resolved
 use chereme_formats::bvh::convert;
 use chereme_formats::bvh::raw::{Column, Hierarchy};
 use chereme_motion::anatomy::Anatomy;
-use chereme_motion::{Clip, Convention, Side};
+use chereme_motion::{Clip, Convention, Face, Side};
 use chereme_sign::inventory;
 use chereme_sign::{Component, Field, Handedness, Reading};
 use rusqlite::Connection;
@@ -69,6 +69,9 @@ pub struct Recombination {
     /// The movement.
     #[serde(skip)]
     pub clip: Clip,
+    /// What the face does in each frame, where non-manuals tell it; else none.
+    #[serde(skip)]
+    pub faces: Vec<Face>,
     /// Which joint of it is what.
     #[serde(skip)]
     pub anatomy: std::sync::Arc<Anatomy>,
@@ -232,6 +235,7 @@ fn recombination(recipe: &Recipe, gloss: String, made: Made) -> Recombination {
         name: None,
         duration_us: made.clip.span().micros(),
         notes: made.notes.iter().map(timed).collect(),
+        faces: chereme_compose::faces(&made.curves),
         curves: made.curves.into_iter().map(|curve| curve.name).collect(),
         findings: Vec::new(),
         explanation: made.report.to_string(),

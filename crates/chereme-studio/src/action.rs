@@ -223,6 +223,7 @@ actions! {
     ViewTop "view.top" VIEW_TOP Stage Corpus;
     ViewRightHand "view.right-hand" VIEW_RIGHT_HAND Stage Corpus;
     ViewLeftHand "view.left-hand" VIEW_LEFT_HAND Stage Corpus;
+    ViewFace "view.face" VIEW_FACE Stage Corpus;
     StageSplit "stage.split" STAGE_SPLIT Stage Corpus;
     StageNextPane "stage.next-view" STAGE_NEXT_PANE Stage Corpus;
     StageTrails "stage.trails" STAGE_TRAILS Stage Corpus;

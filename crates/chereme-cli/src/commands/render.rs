@@ -15,13 +15,15 @@ use crate::output::{Bar, Output};
 /// WHAT is a gloss, token:41, recording:3, recording:"NGT Thanks", or inventory:configurations and
 /// inventory:configurations/U for handshapes. A sign that is there as notation only is animated first.
 /// The symbols of HamNoSys are drawn by the program, no font is needed: inventory:hamnosys shows all.
+/// What a face does for each non-manual of SiGML is seen in inventory:faces.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   chereme render mine.chereme ESCARGOT --to escargot.png
   chereme render ngt.chereme BABYSITTEN --to babysitten.gif --speed 0.5
   chereme render ngt.chereme BABYSITTEN --to notation.svg
-  chereme render mine.chereme inventory:configurations --to handshapes.png")]
+  chereme render mine.chereme inventory:configurations --to handshapes.png
+  chereme render mine.chereme inventory:faces --to faces.png")]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
@@ -40,7 +42,7 @@ pub(crate) struct Args {
     /// How fast an animation runs; 1 is the recorded speed
     #[arg(long, default_value_t = 1.0, value_name = "FACTOR")]
     speed: f64,
-    /// Leave out the pictures of the hands from close by
+    /// Leave out the pictures of hands and face from close by
     #[arg(long)]
     no_hands: bool,
     /// Which hand a handshape is drawn on

@@ -134,6 +134,7 @@ pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
     (Action::ViewTop, ["Alt+5", "=", "="]),
     (Action::ViewRightHand, ["Alt+6", "=", "="]),
     (Action::ViewLeftHand, ["Alt+7", "=", "="]),
+    (Action::ViewFace, ["Alt+V", "=", "="]),
     (Action::StageSplit, ["Alt+8", "=", "="]),
     (Action::StageNextPane, ["Alt+9", "=", "="]),
     (Action::StageTrails, ["Alt+T", "=", "Alt+T"]),

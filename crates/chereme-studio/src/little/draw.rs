@@ -8,7 +8,7 @@ use chereme_figure::handshape::{HandshapeOptions, handshape_picture};
 use chereme_figure::mesh::Mesh;
 use chereme_figure::raster::{Raster, Style};
 use chereme_figure::{Body, Framing, Image, Theme, View};
-use chereme_motion::{Anatomy, Clip, HandAngles, ModelPose, Side, Skeleton};
+use chereme_motion::{Anatomy, Clip, Face, HandAngles, ModelPose, Side, Skeleton};
 use eframe::egui::{Color32, ColorImage, Context};
 
 use super::data;
@@ -62,6 +62,8 @@ pub(super) enum Movement {
 /// Movement that can be drawn.
 pub(super) struct Ready {
     poses: Vec<ModelPose>,
+    /// As many, or none where the face is at rest throughout.
+    faces: Vec<Face>,
     pub(super) seconds: f64,
     body: Arc<Body>,
     anatomy: Anatomy,
@@ -232,9 +234,9 @@ struct Hand {
 
 impl Hand {
     fn prepare(&mut self, movement: &Movement) -> Option<Ready> {
-        let (clip, anatomy): (&Clip, &Anatomy) = match movement {
-            Movement::Recorded(moving) => (&moving.clip, &moving.anatomy),
-            Movement::Made(made) => (&made.clip, &made.anatomy),
+        let (clip, anatomy, faces): (&Clip, &Anatomy, &[Face]) = match movement {
+            Movement::Recorded(moving) => (&moving.clip, &moving.anatomy, &moving.faces),
+            Movement::Made(made) => (&made.clip, &made.anatomy, &made.faces),
         };
         if clip.frames() == 0 {
             return None;
@@ -245,7 +247,9 @@ impl Hand {
             .map(|index| clip.sample(data::moment(span, index, count)))
             .map(|pose| ModelPose::of(clip.skeleton(), &pose))
             .collect();
+        let face = |index| Face::at(faces, clip.rate(), data::moment(span, index, count));
         Some(Ready {
+            faces: (0..count).map_while(face).collect(),
             framing: Framing::signing(&poses, anatomy),
             seconds: span.seconds(),
             body: self.body(clip.skeleton(), anatomy),
@@ -302,6 +306,9 @@ impl Hand {
             *of = Some(ready.body.clone());
         } else {
             ready.body.shape(pose, mesh);
+        }
+        if let Some(face) = ready.faces.get(index) {
+            ready.body.express(pose, face, mesh);
         }
         let view = match focus {
             Focus::Signing => View::Addressee,

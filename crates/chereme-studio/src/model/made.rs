@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use chereme_corpus::{MadePart, Recombination};
-use chereme_motion::{Anatomy, Clip};
+use chereme_motion::{Anatomy, Clip, Face};
 use chereme_sign::Handedness;
 
 /// A made clip, with its name and what it was made from.
@@ -14,6 +14,8 @@ pub(crate) struct Made {
     /// The token whose notation it was made of, where it is that alone.
     pub(crate) token: Option<i64>,
     pub(crate) clip: Clip,
+    /// What the face does in each frame; none where it is at rest throughout.
+    pub(crate) faces: Vec<Face>,
     pub(crate) anatomy: Arc<Anatomy>,
     /// Which hand the signer signs with.
     pub(crate) handedness: Handedness,
@@ -42,6 +44,7 @@ impl Made {
             name: name.clone(),
             token: None,
             clip: made.clip.clone(),
+            faces: made.faces.clone(),
             anatomy: made.anatomy.clone(),
             handedness: made.handedness,
             parts: made.parts.clone(),

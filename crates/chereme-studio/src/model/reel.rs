@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use chereme_corpus::{Moving, RecordingGlance};
-use chereme_motion::{Instant, Pose, Rate, Span};
+use chereme_motion::{Face, Instant, Pose, Rate, Span};
 
 /// Frames of a piece.
 const PIECE: usize = 1200;
@@ -75,12 +75,24 @@ impl Reel {
 
     /// Returns the posture at that moment of the recording, where its piece is loaded.
     pub(crate) fn pose(&self, at: Instant) -> Option<Pose> {
+        let (moving, inside) = self.piece(at)?;
+        Some(moving.clip.sample(inside))
+    }
+
+    /// Returns what the face does at that moment, where it is told.
+    pub(crate) fn face(&self, at: Instant) -> Option<Face> {
+        let (moving, inside) = self.piece(at)?;
+        Face::at(&moving.faces, moving.clip.rate(), inside)
+    }
+
+    /// Returns the piece of a moment, where it is loaded, and the moment in it.
+    fn piece(&self, at: Instant) -> Option<(&Moving, Instant)> {
         let source = self.source.as_ref()?;
         let frame = source.frame(at);
         let moving = self.pieces.get(&(frame / PIECE))?;
         let start = source.rate.instant(frame / PIECE * PIECE).micros();
         let inside = at.micros() - source.offset - start;
-        Some(moving.clip.sample(Instant::from_micros(inside.max(0))))
+        Some((moving, Instant::from_micros(inside.max(0))))
     }
 
     /// Returns the next piece to load for a playhead there that moves that way, and marks it asked.
@@ -217,6 +229,7 @@ mod tests {
                 stretch,
                 clip,
                 anatomy,
+                faces: Vec::new(),
             }),
         );
         let x = |reel: &Reel, at| {

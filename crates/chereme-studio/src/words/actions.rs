@@ -123,6 +123,7 @@ texts! {
     VIEW_TOP: "From above", "D’en haut";
     VIEW_RIGHT_HAND: "Right hand close up", "Main droite de près";
     VIEW_LEFT_HAND: "Left hand close up", "Main gauche de près";
+    VIEW_FACE: "Face close up", "Visage de près";
     STAGE_SPLIT: "One, two or four views", "Une, deux ou quatre vues";
     STAGE_NEXT_PANE: "Next view of the stage", "Vue suivante de la scène";
     STAGE_TRAILS: "Trails of the hands", "Traces des mains";

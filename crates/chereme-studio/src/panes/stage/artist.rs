@@ -10,17 +10,35 @@ use chereme_figure::camera::Camera;
 use chereme_figure::mesh::Mesh;
 use chereme_figure::raster::{Layer, Raster, Style};
 use chereme_figure::{Body, Image};
-use chereme_motion::ModelPose;
+use chereme_motion::{Face, ModelPose};
 use eframe::egui::{Color32, ColorImage};
 
 /// Pictures that are wished for, one for each pane.
 pub(super) struct Wish {
-    /// Bodies, each in its posture.
-    pub(super) figures: Vec<(Arc<Body>, ModelPose)>,
+    pub(super) figures: Vec<Figure>,
     pub(super) panes: Vec<Pane>,
     pub(super) style: Style,
     /// Counted up from wish to wish.
     pub(super) number: u64,
+}
+
+/// A body in a posture.
+pub(super) struct Figure {
+    pub(super) body: Arc<Body>,
+    pub(super) pose: ModelPose,
+    /// What its face does, where it is not at rest.
+    pub(super) face: Option<Face>,
+}
+
+impl Figure {
+    /// Returns a body whose face is at rest.
+    pub(super) fn at_rest(body: Arc<Body>, pose: ModelPose) -> Self {
+        Self {
+            body,
+            pose,
+            face: None,
+        }
+    }
 }
 
 /// A picture from one place.
@@ -162,19 +180,22 @@ impl Hand {
         let begun = Instant::now();
         self.meshes
             .resize_with(wish.figures.len(), Default::default);
-        for ((body, pose), (of, mesh)) in wish.figures.iter().zip(&mut self.meshes) {
+        for (Figure { body, pose, face }, (of, mesh)) in wish.figures.iter().zip(&mut self.meshes) {
             if of.as_ref().is_some_and(|of| Arc::ptr_eq(of, body)) {
                 body.shape(pose, mesh);
             } else {
                 *mesh = body.mesh(pose);
                 *of = Some(body.clone());
             }
+            if let Some(face) = face {
+                body.express(pose, face, mesh);
+            }
         }
         let images = wish.panes.iter().map(|pane| self.pane(pane, &wish.style));
         Drawn {
             images: images.collect(),
             number: wish.number,
-            posture: wish.figures.first().map(|(_, pose)| pose.clone()),
+            posture: wish.figures.first().map(|figure| figure.pose.clone()),
             took: begun.elapsed(),
         }
     }

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::action::Action;
 
 /// The views with the actions that choose them.
-pub(crate) const VIEWS: [(View, Action); 7] = {
+pub(crate) const VIEWS: [(View, Action); 8] = {
     use chereme_motion::Side;
     [
         (View::Addressee, Action::ViewFront),
@@ -20,6 +20,7 @@ pub(crate) const VIEWS: [(View, Action); 7] = {
         (View::Top, Action::ViewTop),
         (View::Hand(Side::Right), Action::ViewRightHand),
         (View::Hand(Side::Left), Action::ViewLeftHand),
+        (View::Face, Action::ViewFace),
     ]
 };
 

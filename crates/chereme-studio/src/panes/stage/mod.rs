@@ -215,6 +215,7 @@ impl Stage {
             Action::ViewTop => View::Top,
             Action::ViewRightHand => View::Hand(Side::Right),
             Action::ViewLeftHand => View::Hand(Side::Left),
+            Action::ViewFace => View::Face,
             _ => return self.move_eye(action),
         };
         *self.eye() = Eye::of(view);
@@ -304,7 +305,7 @@ pub(crate) fn place(ctx: &Context) -> Option<Rect> {
 /// Returns where the signer's postures come from.
 fn movement<'a>(seen: &Seen<'a>) -> Movement<'a> {
     match &seen.shown.made {
-        Some(showing) => Movement::Clip(&showing.made.clip),
+        Some(showing) => Movement::Clip(&showing.made.clip, &showing.made.faces),
         None => Movement::Reel(seen.reel),
     }
 }

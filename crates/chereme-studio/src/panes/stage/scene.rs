@@ -6,7 +6,7 @@ use std::sync::Arc;
 use chereme_figure::mesh::{Mesh, Vertex, trail};
 use chereme_figure::palette::HandColours;
 use chereme_figure::{Body, Colour, Framing, Palette, Theme, View, body::group};
-use chereme_motion::{Anatomy, Clip, Finger, Instant, ModelPose, Part, Side, Skeleton};
+use chereme_motion::{Anatomy, Clip, Face, Finger, Instant, ModelPose, Part, Side, Skeleton};
 use glam::Vec3;
 
 use crate::model::reel::Reel;
@@ -44,7 +44,8 @@ pub(super) struct Subject {
 #[derive(Clone, Copy)]
 pub(super) enum Movement<'a> {
     Reel(&'a Reel),
-    Clip(&'a Clip),
+    /// With what the face does in each frame.
+    Clip(&'a Clip, &'a [Face]),
 }
 
 impl Movement<'_> {
@@ -52,10 +53,18 @@ impl Movement<'_> {
     pub(super) fn pose(self, skeleton: &Skeleton, at: Instant) -> Option<ModelPose> {
         let pose = match self {
             Self::Reel(reel) => reel.pose(at)?,
-            Self::Clip(clip) if clip.frames() == 0 => return None,
-            Self::Clip(clip) => clip.sample(at),
+            Self::Clip(clip, _) if clip.frames() == 0 => return None,
+            Self::Clip(clip, _) => clip.sample(at),
         };
         Some(ModelPose::of(skeleton, &pose))
+    }
+
+    /// Returns what the face does at that moment, where it is told.
+    pub(super) fn face(self, at: Instant) -> Option<Face> {
+        match self {
+            Self::Reel(reel) => reel.face(at),
+            Self::Clip(clip, faces) => Face::at(faces, clip.rate(), at),
+        }
     }
 }
 
@@ -414,7 +423,7 @@ mod tests {
         let (subject, clip) = subject();
         let count = |at| {
             subject
-                .ghosts(Movement::Clip(&clip), Instant::from_micros(at))
+                .ghosts(Movement::Clip(&clip, &[]), Instant::from_micros(at))
                 .len()
         };
         assert_eq!((count(0), count(150_000), count(1_000_000)), (3, 4, 6));
@@ -427,7 +436,7 @@ mod tests {
         let mut trails = |at: i64, reach: f64| {
             let at = Instant::from_micros(at);
             let paper = Theme::Light.background();
-            subject.trails(Movement::Clip(&clip), (at, end), reach, paper)
+            subject.trails(Movement::Clip(&clip, &[]), (at, end), reach, paper)
         };
         let (short, long) = (trails(1_000_000, 0.2), trails(1_000_000, 0.4));
         assert!(short.vertices.len() < long.vertices.len());

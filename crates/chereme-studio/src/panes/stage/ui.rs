@@ -9,7 +9,7 @@ use eframe::egui::{
     Stroke, StrokeKind, TextStyle, TextureOptions, Ui, UiBuilder, WidgetInfo, pos2, vec2,
 };
 
-use super::artist::{Artist, Pane, Sheet, Wish};
+use super::artist::{Artist, Figure, Pane, Sheet, Wish};
 use super::data::{self, Compare, Look, Part, VIEWS, Who};
 use super::scene::Subject;
 use super::{Eye, Stage, handle, marks, movement, original, tools, transport};
@@ -277,7 +277,10 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
     let (Some((_, signer)), Some(artist)) = (&mut stage.signer, &stage.artist) else {
         return;
     };
-    let mut figures = vec![(signer.body.clone(), pose.clone())];
+    let mut figures = vec![Figure {
+        face: movement(seen).face(look.at),
+        ..Figure::at_rest(signer.body.clone(), pose.clone())
+    }];
     let sheet = |figure, marks, opacity| Sheet {
         figure,
         marks,
@@ -288,7 +291,7 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
     if look.shows.ghosts {
         for (body, pose, opacity) in signer.ghosts(movement(seen), look.at) {
             ghosts.push((figures.len(), opacity));
-            figures.push((body, pose));
+            figures.push(Figure::at_rest(body, pose));
         }
     }
     let trails = look.shows.trails.map(|reach| {
@@ -298,14 +301,18 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
     });
     if let Some(grab) = &stage.holding.grab {
         ghosts.push((figures.len(), 0.6));
-        figures.push((signer.before(), grab.pose.clone()));
+        figures.push(Figure::at_rest(signer.before(), grab.pose.clone()));
     }
     let piece = stage.original.piece(look.at);
     let original = piece.and_then(|piece| {
         let (moving, subject) = piece.shown.as_ref()?;
         let then = original::moment(&piece.part, moving, look.at);
-        let pose = super::Movement::Clip(&moving.clip).pose(&subject.skeleton, then)?;
-        figures.push((subject.body.clone(), pose));
+        let movement = super::Movement::Clip(&moving.clip, &moving.faces);
+        let pose = movement.pose(&subject.skeleton, then)?;
+        figures.push(Figure {
+            face: movement.face(then),
+            ..Figure::at_rest(subject.body.clone(), pose)
+        });
         Some((figures.len() - 1, subject))
     });
     let mut panes = Vec::new();
@@ -315,7 +322,7 @@ fn wish(stage: &mut Stage, seen: &Seen<'_>, look: Look, pose: &ModelPose) {
             (Who::Original, Some((figure, subject))) => (subject, *figure),
             _ => (signer, 0),
         };
-        let camera = camera(subject, eye, *size, &figures[at].1);
+        let camera = camera(subject, eye, *size, &figures[at].pose);
         let ground = subject.ground(eye.view, theme, look.shows.grid);
         let mut layers = vec![sheet(None, Some(std::sync::Arc::new(ground)), 1.0)];
         if *who == Who::Original {

@@ -1,0 +1,107 @@
+//! The face that scalar curves of non-manuals mean, frame by frame.
+
+use std::ops::Range;
+
+use chereme_motion::Face;
+use chereme_sign::hamnosys::face::Expression;
+
+use crate::made::Curve;
+
+/// Returns the face of each frame, as many as the longest curve has; none where no curve is of a face.
+///
+/// A curve tells how much there is of its non-manual. What goes on in it, such as the sounds of a mouth picture, is
+/// spread evenly over the time in which there is at least half of it.
+#[must_use]
+pub fn faces(curves: &[Curve]) -> Vec<Face> {
+    let mut faces = Vec::new();
+    for curve in curves {
+        let known = curve.name.split_once('.');
+        let Some(expression) = known.and_then(|(part, code)| Expression::of(part, code)) else {
+            continue;
+        };
+        if faces.len() < curve.values.len() {
+            faces.resize(curve.values.len(), Face::default());
+        }
+        for run in runs(&curve.values) {
+            let core = core(&curve.values, &run);
+            for frame in run {
+                let share = (frame as f64 + 0.5 - core.start as f64) / core.len() as f64;
+                let face = expression.at(share.clamp(0.0, 1.0));
+                faces[frame].add(&face, curve.values[frame]);
+            }
+        }
+    }
+    faces
+}
+
+/// Returns the stretches in which there is something.
+fn runs(values: &[f64]) -> Vec<Range<usize>> {
+    let mut runs: Vec<Range<usize>> = Vec::new();
+    for (frame, value) in values.iter().enumerate() {
+        if *value > 0.0 {
+            match runs.last_mut() {
+                Some(run) if run.end == frame => run.end += 1,
+                _ => runs.push(frame..frame + 1),
+            }
+        }
+    }
+    runs
+}
+
+/// Returns the part of a run from the first to the last frame with at least half of the most in it.
+fn core(values: &[f64], run: &Range<usize>) -> Range<usize> {
+    let most = values[run.clone()].iter().copied().fold(0.0, f64::max);
+    let much = |frame: &usize| values[*frame] >= most / 2.0;
+    let first = run.clone().find(much).unwrap_or(run.start);
+    let last = run.clone().rev().find(much).unwrap_or(run.start);
+    first..last + 1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::faces;
+    use crate::made::Curve;
+
+    fn curve(name: &str, values: &[f64]) -> Curve {
+        Curve {
+            name: name.to_owned(),
+            values: values.to_vec(),
+        }
+    }
+
+    #[test]
+    fn curves_of_a_face_add_up() {
+        let up = [0.0, 0.5, 1.0, 0.5, 0.0];
+        let all = faces(&[
+            curve("brows.RB", &up),
+            curve("lids.SB", &up),
+            curve("head.SH", &[1.0; 9]),
+        ]);
+        assert_eq!(all.len(), 5, "a head is no face");
+        let brows: Vec<f64> = all.iter().map(|face| face.brows[0]).collect();
+        assert_eq!(brows, up);
+        assert_eq!(all[2].lids, [0.5, 0.5]);
+        assert!(faces(&[curve("head.SH", &[1.0; 9])]).is_empty());
+    }
+
+    #[test]
+    fn a_word_is_spoken_while_there_is_at_least_half_of_it() {
+        let mut values = vec![0.0; 30];
+        values[5..25].fill(1.0);
+        (values[4], values[25]) = (0.3, 0.3);
+        let all = faces(&[curve("mouthing.map", &values)]);
+        assert!(all[14].jaw > 0.7 && all[15].jaw > 0.7, "open in the middle");
+        assert!(all[5].jaw < 0.1 && all[24].jaw < 0.1, "closed at both ends");
+        assert!(all[5].pressed > 0.3 && all[4].pressed < 0.2);
+        assert!(all[3].is_at_rest() && all[26].is_at_rest());
+    }
+
+    #[test]
+    fn a_word_said_twice_begins_twice() {
+        let mut values = vec![1.0; 21];
+        values[10] = 0.0;
+        let all = faces(&[curve("mouthing.ba", &values)]);
+        assert!(all[0].jaw < 0.1 && all[9].jaw > 0.7);
+        assert!(all[11].jaw < 0.1 && all[20].jaw > 0.7);
+    }
+}
