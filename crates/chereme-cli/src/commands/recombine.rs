@@ -125,7 +125,7 @@ pub(super) fn tell(
             ..PictureOptions::default()
         };
         let progress = &mut Progress::new(&mut hear);
-        let picture = draw_clip((&*done).into(), title, path, &options, progress)?;
+        let picture = draw_clip(done.into(), title, path, &options, progress)?;
         drop(bar);
         output.line(format!("drew {}", path.display()))?;
         document["picture"] = json!(picture);
