@@ -152,8 +152,8 @@ fn in_characters(text: &str, lenient: bool) -> Result<InCharacters<'_>, Hamnosys
 #[must_use]
 pub fn in_plain_symbols(text: &str) -> Cow<'_, str> {
     const ESCAPES: [&str; 6] = ["u+", "\\u{", "\\u", "\\x{", "&#x", "0x"];
-    let some = |c: char| matches!(c, '\\' | '&' | '+' | 'x' | 'X') || c.is_ascii_digit();
-    if !text.contains(some) {
+    let begins = |pair: &[u8]| matches!(pair, [b'e' | b'E', b'0'] | [b'0', b'x' | b'X']);
+    if !text.contains(['\\', '&', '+']) && !text.as_bytes().windows(2).any(begins) {
         return Cow::Borrowed(text);
     }
     let (mut out, mut changed) = (String::with_capacity(text.len()), false);
@@ -165,6 +165,7 @@ pub fn in_plain_symbols(text: &str) -> Cow<'_, str> {
             let (symbol, length) = number(&rest[escape.len()..]).filter(|_| found)?;
             Some((symbol, escape.len() + length))
         });
+        let escape = escape.or_else(|| in_decimal(rest));
         let taken = match escape {
             Some((symbol, mut taken)) => {
                 out.push(symbol);
@@ -213,6 +214,14 @@ fn number(text: &str) -> Option<(char, usize)> {
     let symbol = char::from_u32(u32::from_str_radix(digits, 16).ok()?)?;
     let own = ('\u{e000}'..='\u{e0ff}').contains(&symbol);
     (own && Symbol::from_char(symbol).is_some()).then_some((symbol, zeros + 4))
+}
+
+/// Returns the symbol that `&#57345` begins a text with, and the length of that.
+fn in_decimal(text: &str) -> Option<(char, usize)> {
+    let digits = text.strip_prefix("&#")?.get(..5)?;
+    let symbol = char::from_u32(digits.parse().ok()?)?;
+    let own = ('\u{e000}'..='\u{e0ff}').contains(&symbol);
+    (own && Symbol::from_char(symbol).is_some()).then_some((symbol, 7))
 }
 
 /// Adds the symbols of two or more bare numbers that begin a text, and returns the length of what they were.
@@ -377,6 +386,7 @@ mod tests {
             "\\uE001\\uE020",
             "\\u{E001}\\u{e020}",
             "&#xE001;&#xE020;",
+            "&#57345;&#57376;",
             "0xE001 0x0000e020",
             "E001 E020",
             "E001, E020",
