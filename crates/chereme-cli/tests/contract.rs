@@ -246,6 +246,7 @@ const CASES: &[Case] = &[
         0,
         ANIMATED,
     ),
+    ("animate @c BOL", 1, ERROR),
     ("animate @c MERCI --language @more/language.json", 0, SPOKEN),
     ("animate @c MERCI --language mesured", 1, ERROR),
     ("animate @c MERCI --language @in/notes.txt", 1, ERROR),

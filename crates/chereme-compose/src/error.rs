@@ -201,7 +201,7 @@ pub enum Cause {
         what: &'static str,
     },
     /// The movement has no frame.
-    #[error("{0:?} has no frames")]
+    #[error("{0:?} has no frames; name a recording with movement")]
     Empty(String),
     /// The result would be too long to hold.
     #[error("the result would have {frames} frames; at most {most} can be made of this skeleton")]

@@ -95,6 +95,9 @@ fn wrong(error: chereme_formats::bvh::raw::BvhError) -> Error {
         .advise(remedy)
 }
 
+/// Guesses of unit and axes that are less sure than this are told.
+const SURE: f64 = 0.7;
+
 /// What a file's skeleton was understood as.
 struct Understood {
     convention: Convention,
@@ -134,6 +137,17 @@ fn understand(
                 convention.metres_per_unit
             ),
             "say the unit with --unit, such as --unit cm",
+        ));
+    }
+    let doubted = guess.confidence < SURE && guess.unit_name != "unknown";
+    if let Some(reason) = guess
+        .reasons
+        .last()
+        .filter(|_| doubted && options.axes.is_none())
+    {
+        report.findings.push(ReportFinding::warning(
+            format!("the file's axes are in doubt: {reason}"),
+            "look at it with `chereme render`; say the axes with --axes, or name the joints in a roles file",
         ));
     }
     Ok(Understood {

@@ -389,3 +389,25 @@ fn signs_in_json_are_a_lexicon() {
         .expect("a query");
     assert_eq!(hits.total, 1);
 }
+
+#[test]
+fn a_body_that_faces_away_from_its_toes_is_told() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let whole = include_str!("../../../../corpus/bol.bvh");
+    let (left, right) = ("Left", "Right");
+    let exchanged = whole
+        .replace(left, "Other")
+        .replace(right, left)
+        .replace("Other", right);
+    for (text, told) in [(whole, false), (&exchanged, true)] {
+        let report = import(&mut corpus, &desk.file("take.bvh", text), "{}");
+        let doubt = |it: &ReportFinding| it.message.contains("the toes point away");
+        assert_eq!(
+            report.findings.iter().any(doubt),
+            told,
+            "{:?}",
+            report.findings
+        );
+    }
+}

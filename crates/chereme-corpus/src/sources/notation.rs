@@ -13,6 +13,7 @@ use chereme_sign::hamnosys::Notated;
 use sha2::{Digest, Sha256};
 
 use super::{CorpusSources, missing, unreadable};
+use crate::address::{self, Address, Name};
 use crate::db::motion::hex;
 use crate::error::{Error, Result};
 use crate::notation::{self, Notation};
@@ -42,6 +43,12 @@ impl CorpusSources<'_> {
             return read.map(|(signs, _)| signs).map_err(|e| unreadable(&e));
         }
         if !name.contains(NEXT) {
+            if self.has(name) {
+                return Err(SourceError::Unreadable(format!(
+                    "{name} has no notation; import it as SiGML or HamNoSys, or write it from its movement: \
+                     `chereme transcribe CORPUS {name} --store`"
+                )));
+            }
             return Err(missing(self, name, &error));
         }
         let mut signs = Vec::new();
@@ -49,6 +56,17 @@ impl CorpusSources<'_> {
             signs.extend(self.notated(part.trim())?);
         }
         Ok(signs)
+    }
+
+    /// Tells whether a name is that of a sign or a token, notated or not.
+    fn has(&self, name: &str) -> bool {
+        match name.parse() {
+            Ok(Address::Gloss(gloss) | Address::Sign(Name::Text(gloss))) => {
+                address::sign(self.connection, &gloss).is_ok()
+            }
+            Ok(other) => address::token(self.connection, &other).is_ok(),
+            Err(_) => false,
+        }
     }
 
     fn notation_of(&self, name: &str) -> Result<Notation> {
