@@ -17,12 +17,12 @@ use crate::output::{Bar, Output};
 /// Take recordings, annotations, lexicons and inventories into a corpus
 ///
 /// Files: .bvh (movement), .eaf (ELAN annotations), .csv or .tsv (a lexicon of codings, of HamNoSys, or
-/// both; .json where it holds signs), .sigml or .hsigml (signs as notation; .xml where it is SiGML), .hns (HamNoSys, a sign a line: the
-/// gloss, a tab, the text; .txt where it has such lines), .json (an inventory), or folders of them. A
-/// movement and an annotation file with the same name become one
-/// recording. What each file was understood as is shown, and can be overridden. The corpus is made
-/// where there is none yet. An annotation file that was imported before and edited since updates its
-/// recording, annotation by annotation. One import is one operation: `chereme undo` takes it back.
+/// both; .json where it holds signs), .sigml or .hsigml (signs as notation; .xml where it is SiGML), .hns
+/// (HamNoSys, a sign a line: the gloss, a tab, the text; .txt where it has such lines), .json (an inventory),
+/// or folders of them. A movement and an annotation file with the same name become one recording. What each
+/// file was understood as is shown, and can be overridden. The corpus is made where there is none yet. An
+/// annotation file that was imported before and edited since updates its recording, annotation by
+/// annotation. One import is one operation: `chereme undo` takes it back.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -110,7 +110,12 @@ fn say(picture: &Picture, output: &mut Output) -> Result<()> {
         picture.title,
         picture.path.display(),
         picture.frames,
-        if symbols { "symbols" } else { "frames" },
+        match (symbols, picture.frames) {
+            (true, 1) => "symbol",
+            (true, _) => "symbols",
+            (false, 1) => "frame",
+            (false, _) => "frames",
+        },
         picture.bytes.div_ceil(1024)
     ))
 }
