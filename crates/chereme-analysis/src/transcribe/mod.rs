@@ -12,6 +12,7 @@
 //! | module | holds |
 //! |---|---|
 //! | `scene` | the hands in the signer's own space, frame by frame |
+//! | `steady` | joints that tremble from frame to frame are smoothed |
 //! | `shape`, `aim`, `place` | the nearest handshape, direction, palm, place |
 //! | `way`, `acts` | ways through space; what a hand does, act after act |
 //! | `hands` | symmetry of the two |
@@ -23,6 +24,7 @@ mod hands;
 mod place;
 mod scene;
 mod shape;
+mod steady;
 mod tree;
 pub(crate) mod way;
 mod words;
@@ -255,8 +257,16 @@ pub fn transcribe(
     anatomy: &Anatomy,
     options: &Options,
 ) -> Result<Transcription, TranscribeError> {
+    let steadied = steady::steadied(clip);
+    let clip = steadied.as_ref().map_or(clip, |steadied| &steadied.clip);
     let scene = scene::Scene::of(clip, anatomy, options)?;
-    Ok(tree::written(&scene, options))
+    let mut found = tree::written(&scene, options);
+    if let Some(steady::Steadied { most, joints, .. }) = steadied {
+        found.findings.push(format!(
+            "{joints} joints tremble from frame to frame, by {most:.1}° at most: they were smoothed"
+        ));
+    }
+    Ok(found)
 }
 
 /// Tells whether two handshapes look the same: their angles differ by less than a degree, so that no

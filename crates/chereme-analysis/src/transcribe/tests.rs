@@ -576,3 +576,36 @@ fn the_hand_is_no_nearer_to_the_place_told_than_its_residual_says() {
         told.residual
     );
 }
+
+#[test]
+fn noise_in_every_joint_makes_no_ways_of_its_own() {
+    let own = before_chest(HandClass::Flat);
+    let (made, anatomy) = clip(0.4, |time| {
+        let down = DVec3::NEG_Y * (0.25 * ARM * ease(time));
+        [Some(own.moved(down)), None]
+    });
+    let plain = transcribe(&made, &anatomy, &Options::default()).expect("a sign");
+    let mut seed = 3_u64;
+    let mut next = || {
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 33) as f64 / 2f64.powi(31) - 0.5
+    };
+    let channels = made.channels().iter().map(|channel| {
+        let shaken = channel.rotations.iter().map(|rotation| {
+            let by = DVec3::new(next(), next(), next()) * 0.07;
+            (*rotation * DQuat::from_scaled_axis(by)).normalize()
+        });
+        Channel {
+            rotations: shaken.collect(),
+            translations: channel.translations.clone(),
+        }
+    });
+    let channels = channels.collect();
+    let shaken = Clip::new(made.skeleton().clone(), made.rate(), channels).expect("a clip");
+    let found = transcribe(&shaken, &anatomy, &Options::default()).expect("a sign");
+    assert_eq!(found.stages.len(), plain.stages.len(), "{:?}", found.stages);
+    assert!(found.findings.iter().any(|it| it.contains("tremble")));
+    assert!(!plain.findings.iter().any(|it| it.contains("tremble")));
+}

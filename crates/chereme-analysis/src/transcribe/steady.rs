@@ -1,0 +1,162 @@
+//! Joints that tremble from frame to frame, as no person's do: noise of sensors, or of postures estimated one
+//! by one.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use chereme_motion::{Channel, Clip};
+use glam::{DQuat, DVec4};
+
+/// Joints that tremble by more than this are smoothed, to about half of it, in radians about each axis: 0.7
+/// degrees.
+const TREMBLES: f64 = 0.0122;
+/// The widest bell that smooths them, as a standard deviation in seconds: of hands that go to and fro four times
+/// a second it leaves eight tenths.
+const WIDEST: f64 = 0.05;
+/// The fewest frames of which noise can be told.
+const FEWEST: usize = 12;
+
+/// A clip whose trembling joints were smoothed.
+pub(super) struct Steadied {
+    pub(super) clip: Clip,
+    /// By how much the worst of them trembled, in degrees.
+    pub(super) most: f64,
+    /// How many they were.
+    pub(super) joints: usize,
+}
+
+/// Smooths the joints of a clip that tremble; nothing where none does.
+pub(super) fn steadied(clip: &Clip) -> Option<Steadied> {
+    let (mut most, mut joints) = (0.0_f64, 0);
+    let mut channels = Vec::with_capacity(clip.channels().len());
+    for channel in clip.channels() {
+        let trembles = noise(&channel.rotations);
+        if trembles < TREMBLES {
+            channels.push(channel.clone());
+            continue;
+        }
+        most = most.max(trembles.to_degrees());
+        joints += 1;
+        // White noise under such a bell of n frames is less by the root of 32 n / 27 times that of pi.
+        let enough = (2.0 * trembles / TREMBLES).powi(2) * 27.0 / (32.0 * PI.sqrt());
+        let wide = enough.min(WIDEST * clip.rate().per_second());
+        channels.push(Channel {
+            rotations: smoothed(&channel.rotations, wide),
+            translations: channel.translations.clone(),
+        });
+    }
+    if joints == 0 {
+        return None;
+    }
+    let clip = Clip::new(Arc::clone(clip.skeleton()), clip.rate(), channels).ok()?;
+    Some(Steadied { clip, most, joints })
+}
+
+/// Returns by how much rotations tremble about each axis, in radians: by the median of their fourth differences,
+/// which movement has little of.
+fn noise(rotations: &[DQuat]) -> f64 {
+    // The median length in three dimensions against the deviation along one of them.
+    const MEDIAN: f64 = 1.538;
+    if rotations.len() < FEWEST {
+        return 0.0;
+    }
+    let mut differences: Vec<f64> = rotations
+        .windows(5)
+        .map(|five| {
+            let like = |n: usize| {
+                let v = DVec4::from(five[n]);
+                if five[n].dot(five[2]) < 0.0 { -v } else { v }
+            };
+            let fourth = like(0) + like(4) - 4.0 * (like(1) + like(3)) + 6.0 * like(2);
+            fourth.length()
+        })
+        .collect();
+    let middle = differences.len() / 2;
+    let (_, median, _) = differences.select_nth_unstable_by(middle, f64::total_cmp);
+    // The squares of 1, 4, 6, 4, 1 are 70; a quaternion has half of the angle.
+    2.0 * *median / (MEDIAN * 70.0_f64.sqrt())
+}
+
+/// Returns rotations under a bell that is so many frames wide and leaves parabolas as they are (Wand and Jones,
+/// *Kernel smoothing*, 2.8: the Gaussian kernel of fourth order).
+fn smoothed(rotations: &[DQuat], wide: f64) -> Vec<DQuat> {
+    let reach = (3.0 * wide).ceil() as usize;
+    let bell: Vec<f64> = (0..=reach)
+        .map(|away| {
+            let square = (away as f64 / wide.max(1e-6)).powi(2);
+            (1.5 - 0.5 * square) * (-0.5 * square).exp()
+        })
+        .collect();
+    (0..rotations.len())
+        .map(|n| {
+            let near = n.saturating_sub(reach)..(n + reach + 1).min(rotations.len());
+            let sum: DVec4 = near
+                .map(|m| {
+                    let other = DVec4::from(rotations[m]);
+                    let sign = rotations[m].dot(rotations[n]).signum();
+                    other * (sign * bell[m.abs_diff(n)])
+                })
+                .sum();
+            DQuat::from_vec4(sum.normalize_or(DVec4::from(rotations[n])))
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    /// Numbers about 0 with a deviation of about 1.
+    fn noisy(seed: &mut u64) -> f64 {
+        let mut sum = -6.0;
+        for _ in 0..12 {
+            *seed = seed
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            sum += (*seed >> 33) as f64 / 2f64.powi(31);
+        }
+        sum
+    }
+
+    fn turning(frames: usize, noise: f64) -> Vec<DQuat> {
+        let mut seed = 7;
+        (0..frames)
+            .map(|n| {
+                let turn = DQuat::from_rotation_x(0.6 * (n as f64 / 60.0 * 2.0 * PI * 2.0).sin());
+                let by = DVec3::new(noisy(&mut seed), noisy(&mut seed), noisy(&mut seed));
+                turn * DQuat::from_scaled_axis(by * noise)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn noise_is_measured_beside_movement_which_has_none() {
+        assert!(noise(&turning(120, 0.0)) < 0.1 * TREMBLES);
+        for degrees in [1.0_f64, 2.0, 4.0] {
+            let found = noise(&turning(300, degrees.to_radians())).to_degrees();
+            assert!((found / degrees - 1.0).abs() < 0.15, "{degrees} {found}");
+        }
+    }
+
+    #[test]
+    fn what_is_smoothed_is_nearer_to_the_movement_than_what_trembles() {
+        let clean = turning(200, 0.0);
+        let shaken = turning(200, 0.035);
+        let off = |some: &[DQuat]| {
+            let sum: f64 = some
+                .iter()
+                .zip(&clean)
+                .map(|(a, b)| a.angle_between(*b).powi(2))
+                .sum();
+            (sum / clean.len() as f64).sqrt()
+        };
+        let smooth = smoothed(&shaken, WIDEST * 60.0);
+        assert!(
+            off(&smooth) < 0.7 * off(&shaken),
+            "{} {}",
+            off(&smooth),
+            off(&shaken)
+        );
+    }
+}
