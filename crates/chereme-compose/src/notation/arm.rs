@@ -25,9 +25,10 @@ pub(crate) struct Rig {
     /// The rotations at rest above the upper arm, from it to the forearm's joint, and on to the hand's.
     above: DQuat,
     between: [DQuat; 2],
-    /// The bones and the elbow's direction in the space of their joints.
+    /// The bones in the space of their joints.
     bones: [DVec3; 2],
-    elbow: DVec3,
+    /// The rotation that takes the upper arm and its elbow to the axes.
+    level: DQuat,
     /// The forearm's and hand's local rotations at rest.
     rest: [DQuat; 2],
     outside: DVec3,
@@ -108,7 +109,11 @@ impl WristAngles {
     /// Returns how far out of its range the wrist is bent, 1 at its end.
     pub(crate) fn bend(&self, limits: &Limits) -> f64 {
         let part = |angle: f64, range: [f64; 2]| angle / range[usize::from(angle > 0.0)];
-        part(self.flexion, limits.flexion).hypot(part(self.deviation, limits.deviation))
+        let [a, b] = [
+            part(self.flexion, limits.flexion),
+            part(self.deviation, limits.deviation),
+        ];
+        (a * a + b * b).sqrt()
     }
 
     /// Returns the angles nearest to these within the ranges of wrist and forearm; a forearm that
@@ -181,6 +186,19 @@ pub(crate) struct Held {
     pub(crate) along: DVec3,
     pub(crate) palm: DVec3,
     pub(crate) radial: DVec3,
+    /// The rotation that takes them to the axes.
+    level: DQuat,
+}
+
+impl Held {
+    pub(crate) fn of(along: DVec3, palm: DVec3, radial: DVec3) -> Self {
+        Self {
+            along,
+            palm,
+            radial,
+            level: basis(along, palm).inverse(),
+        }
+    }
 }
 
 impl Rig {
@@ -236,7 +254,7 @@ impl Rig {
                 relative(chain.forearm, chain.hand),
             ],
             bones,
-            elbow: elbow_local,
+            level: basis(bones[0], elbow_local).inverse(),
             rest: [chain.forearm, chain.hand].map(|joint| base.rotations[joint]),
             outside,
             forward,
@@ -404,7 +422,7 @@ impl Rig {
         let inner = forearm.cross(out) * -self.side.sign();
         let (sin, cos) = (angles.turn * -self.side.sign()).sin_cos();
         let palm = inner * cos + forearm.cross(inner) * sin;
-        let straight = basis(forearm, palm) * basis(held.along, held.palm).inverse();
+        let straight = basis(forearm, palm) * held.level;
         let (sin, cos) = angles.flexion.sin_cos();
         let across = angles.deviation.cos();
         let in_hand = held.along * (across * cos)
@@ -418,7 +436,7 @@ impl Rig {
         let up = (posed.elbow - posed.shoulder).normalize_or(self.forward);
         let fore = (posed.wrist - posed.elbow).normalize_or(up);
         let out = posed.across.cross(up).normalize_or(self.outside);
-        let upper = basis(up, out) * basis(self.bones[0], self.elbow).inverse();
+        let upper = basis(up, out) * self.level;
         let base = upper * self.between[0] * self.rest[0];
         let forearm = arc(base * self.bones[1], fore) * base;
         let rest = forearm * self.between[1] * self.rest[1];
@@ -464,7 +482,7 @@ fn nearest_on_ellipse(point: [f64; 2], ends: [f64; 2]) -> [f64; 2] {
         t += over / (2.0 * (u * u / (t + a * a) + v * v / (t + b * b)));
     }
     let (u, v) = (a * x / (t + a * a), b * y / (t + b * b));
-    let size = u.hypot(v).max(1.0);
+    let size = (u * u + v * v).sqrt().max(1.0);
     [a * u / size, b * v / size]
 }
 

@@ -22,6 +22,8 @@ const SWIVEL: f64 = 7.0;
 const ELBOW: f64 = 4.5;
 /// What a hand costs that is turned from what is written by all that is still as written.
 const TURNED: f64 = 75.0;
+/// What it costs to have an elbow an arm's length above the shoulder; grows with the square.
+const RAISED: f64 = 60.0;
 /// What it costs to be an arm's length off the place, and in the trunk; both grow with the square.
 const MISSED: f64 = 1.2e4;
 const WITHIN: f64 = 9e4;
@@ -30,6 +32,8 @@ const WITHIN: f64 = 9e4;
 const SHRUGS: [f64; 4] = [-1.0, -0.5, 0.5, 1.0];
 const SHRUGGED: f64 = 2.5;
 const SHRUGGING: f64 = 8.0;
+/// What is hopeless also when shrugged: so many times what the best costs, and more.
+const HOPELESS: (f64, f64) = (3.0, 60.0);
 /// What a hand costs that gives way so far that a shrug is weighed, and how long around that, in seconds.
 const GIVES_WAY: f64 = 1.0;
 const AROUND: f64 = 0.2;
@@ -75,7 +79,7 @@ impl Arm<'_> {
                     return least;
                 }
                 let bearing = Bearing { plane, shrug };
-                least.min(self.strained(wrist, turned, bearing) + shrugged)
+                least.min(self.strained(wrist, turned, bearing, least - shrugged) + shrugged)
             })
         };
         let still = least(0.0, f64::INFINITY);
@@ -87,9 +91,18 @@ impl Arm<'_> {
             .fold(still, |known, shrug| least(shrug, known))
     }
 
-    fn strained(&self, wrist: DVec3, turned: DQuat, bearing: Bearing) -> f64 {
+    /// The same for one way to hold it; nothing where it is surely more than `most`.
+    fn strained(&self, wrist: DVec3, turned: DQuat, bearing: Bearing, most: f64) -> f64 {
         let rig = self.rig();
         let posed = rig.reach(wrist, bearing, self.limits);
+        let missed = posed.wrist.distance(wrist) / rig.length();
+        let held = 0.3 * off_rule(bearing.plane.to_degrees())
+            + self.raised(&posed)
+            + self.within(&posed)
+            + MISSED * missed * missed;
+        if held > most {
+            return f64::INFINITY;
+        }
         let asked = rig.wrist(&posed, turned, &self.held);
         let off = |high: bool| {
             let angles = asked.allowed(self.limits, high);
@@ -104,11 +117,7 @@ impl Arm<'_> {
         } else {
             off(false)
         };
-        let missed = posed.wrist.distance(wrist) / rig.length();
-        0.3 * off_rule(bearing.plane.to_degrees())
-            + self.off(apart)
-            + self.within(&posed)
-            + MISSED * missed * missed
+        held + self.off(apart)
     }
 
     /// Returns what a hand costs that is turned off what is written.
@@ -116,6 +125,12 @@ impl Arm<'_> {
         let apart = apart / self.limits.tolerance;
         let over = (apart - 1.0).max(0.0);
         TURNED * apart.min(1.0).powi(2) + 36.0 * over + 75.0 * over * over
+    }
+
+    /// Returns what it costs that an elbow is above its shoulder.
+    fn raised(&self, posed: &Posed) -> f64 {
+        let above = (posed.elbow.y - posed.shoulder.y) / self.rig().length();
+        RAISED * above.max(0.0).powi(2)
     }
 
     /// Returns what it costs that an upper arm is in the trunk.
@@ -184,8 +199,13 @@ impl Arm<'_> {
     /// Adds what shrugged shoulders would do to the planes in which the hand gives way.
     fn shrug(&self, choices: &mut Vec<Choice>, want: &Want<'_>, free: bool) {
         let still = choices.clone();
+        let least = choices[best(choices)].cost;
+        // A shrug turns a forearm by some 20°: what is far worse than the best does not become it.
+        let hopeful = |choice: &&Choice| {
+            choice.amiss > 0.2 * GIVES_WAY && choice.cost < HOPELESS.0 * least + HOPELESS.1
+        };
         for shrug in SHRUGS {
-            for choice in still.iter().filter(|choice| choice.amiss > 0.2 * GIVES_WAY) {
+            for choice in still.iter().filter(hopeful) {
                 if choice.high && choice.angles.turned(self.limits) < 0.999 {
                     continue;
                 }
@@ -217,6 +237,7 @@ impl Arm<'_> {
         let cost = off_rule(bearing.plane.to_degrees())
             + SHRUGGED * bearing.shrug * bearing.shrug
             + 3.0 * (bend * bend + twist * twist)
+            + self.raised(&hung.posed)
             + amiss;
         Choice {
             bearing,

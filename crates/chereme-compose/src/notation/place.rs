@@ -9,7 +9,7 @@ use chereme_sign::hamnosys::sites::{
     BodySite, Face, HandPoint, Region, body_site, coming_first, hand_points,
 };
 use chereme_sign::hamnosys::{
-    BodyLocation, BodyPlace, Constellation, Contact, HandSite, Place, Site,
+    BodyLocation, BodyPlace, Constellation, Contact, Digit, HandSite, Place, Site,
 };
 
 use super::plan::{Frame, Planner, Who, acting};
@@ -397,12 +397,18 @@ impl Planner<'_> {
             Some(Contact::Close) => far,
             _ => 2.0 * far,
         };
-        let crossed = matches!(hands.contact, Some(Contact::Cross | Contact::Interlock));
         let unlike = hands.other.is_some() && hands.other != hands.dominant;
         let (points, way) = if mirrored && !unlike {
             let point = |n: usize, site: &Option<HandSite>, way: DVec3| match site {
                 Some(site) => self.site_points(n, site, frames[n]),
-                None if crossed => vec![HandPoint::Wrist(Face::Palmar)],
+                None if hands.contact == Some(Contact::Cross) => {
+                    vec![HandPoint::Wrist(Face::Palmar)]
+                }
+                // Fingers between fingers: their first bones meet.
+                None if hands.contact == Some(Contact::Interlock) => vec![
+                    HandPoint::Base(Digit::Middle, Face::Palmar),
+                    HandPoint::Middle(Digit::Middle, Face::Palmar),
+                ],
                 None => vec![self.facing(n, way, Region::Trunk)],
             };
             let other = hands.other.as_ref().or(hands.dominant.as_ref()).cloned();

@@ -87,8 +87,8 @@ pub(crate) struct HandState {
     pub(crate) handshape: Handshape,
     pub(crate) direction: DVec3,
     pub(crate) palm: f64,
-    /// Whether direction and palm are in words of its own, not those of the dominant hand.
-    pub(crate) own: [bool; 2],
+    /// The axes in which direction and palm were said.
+    pub(crate) axes: [DVec3; 2],
     /// Whether it takes part in the sign.
     pub(crate) used: bool,
 }
@@ -442,8 +442,8 @@ impl<'a> Planner<'a> {
         self.state[n].used = true;
         self.state[n].direction = DVec3::new(0.5, 0.0, 0.87).normalize();
         self.state[n].palm = 0.0;
-        self.state[n].own = [false; 2];
-        self.turn(n, frame);
+        self.state[n].axes = [frame.axes; 2];
+        self.turn(n);
         self.state[n].offset = self.palm_offset(n);
         self.state[n].point = stage.middle() + stage.direction(at);
     }
@@ -476,14 +476,14 @@ impl<'a> Planner<'a> {
             let palm = pick(&posture.palm, n);
             if let Some(aim) = extended {
                 self.state[n].direction = towards(aim);
-                self.state[n].own[0] = own_words(&posture.extended, n);
+                self.state[n].axes[0] = self.axes(&posture.extended, n, frame);
             }
             if let Some(aim) = palm {
                 self.state[n].palm = palm_angle(aim);
-                self.state[n].own[1] = own_words(&posture.palm, n);
+                self.state[n].axes[1] = self.axes(&posture.palm, n, frame);
             }
             if extended.is_some() || palm.is_some() {
-                self.turn(n, frame);
+                self.turn(n);
             }
         }
         if let Some(place) = &posture.place {
@@ -513,18 +513,20 @@ impl<'a> Planner<'a> {
         self.state[n].handshape = shape.clone();
     }
 
-    /// Turns a hand as its direction and palm say, in a frame, or in that of the signer where the words
-    /// are its own.
-    pub(crate) fn turn(&mut self, n: usize, frame: Frame) {
+    /// Returns the axes in which something is said of a hand: those of its frame, or of the signer where the
+    /// words are its own.
+    fn axes<T>(&self, said: &Each<T>, n: usize, frame: Frame) -> DVec3 {
+        if n == 1 && said.other().is_some() {
+            self.own_frame().axes
+        } else {
+            frame.axes
+        }
+    }
+
+    /// Turns a hand as its direction and palm say.
+    pub(crate) fn turn(&mut self, n: usize) {
         let state = &self.state[n];
-        let axes = |own: bool| {
-            if own {
-                self.own_frame().axes
-            } else {
-                frame.axes
-            }
-        };
-        let [pointing, facing] = state.own.map(axes);
+        let [pointing, facing] = state.axes;
         // The palm's letter is one of a hand that points so in its frame.
         let direction = state.direction * pointing * facing;
         let [direction, palm] =
@@ -581,11 +583,6 @@ fn split<T>(each: &Each<T>) -> [bool; 2] {
         Each::Split(a, b) => [a.is_some(), b.is_some()],
         _ => [false, false],
     }
-}
-
-/// Tells whether something is said of the other hand in words of its own.
-fn own_words<T>(each: &Each<T>, n: usize) -> bool {
-    n == 1 && each.other().is_some()
 }
 
 fn touches(posture: &Posture) -> bool {

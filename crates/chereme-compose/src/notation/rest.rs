@@ -19,7 +19,7 @@ pub(crate) fn resting(stage: &Stage, side: Side) -> (HandState, Shape) {
         handshape: Handshape::default(),
         direction: DVec3::Z,
         palm: 0.0,
-        own: [false; 2],
+        axes: [DVec3::ONE; 2],
         used: false,
     };
     let Some(hand) = stage.hand(side) else {

@@ -344,11 +344,7 @@ impl Hand {
 
     /// Returns the hand's directions in the space of its joint.
     pub(crate) fn held(&self) -> Held {
-        Held {
-            along: self.along,
-            palm: self.palm,
-            radial: self.radial,
-        }
+        Held::of(self.along, self.palm, self.radial)
     }
 
     /// Returns the hand's joint.
@@ -385,6 +381,8 @@ const OUTLINE: [(f64, f64, f64); 11] = [
     (-1.45, -0.25, 0.46),
 ];
 
+/// How far forward the trunk goes at most, in shoulder widths.
+const FRONT: f64 = 0.335;
 /// How far behind the middle the trunk goes, in shoulder widths.
 const BACK: f64 = 0.22;
 
@@ -417,6 +415,10 @@ impl Torso {
             return DVec3::ZERO;
         };
         let v = at - body.origin;
+        let z = v.dot(body.forward);
+        if z > FRONT * body.scale + margin {
+            return DVec3::ZERO;
+        }
         let y = v.dot(body.up) / self.trunk;
         let Some((front, wide)) = outline(y) else {
             return DVec3::ZERO;
@@ -424,7 +426,10 @@ impl Torso {
         let margin = margin / body.scale;
         let (front, wide, back) = (front + margin, wide + margin, BACK.min(front) + margin);
         let x = v.dot(body.left) / body.scale;
-        let z = v.dot(body.forward) / body.scale;
+        let z = z / body.scale;
+        if x.abs() >= wide || z >= front || z <= -back {
+            return DVec3::ZERO;
+        }
         let deep = |z: f64| if z >= 0.0 { front } else { back };
         let inside = |x: f64, z: f64| (x / wide).powi(2) + (z / deep(z)).powi(2) < 1.0;
         if front <= 0.0 || back <= 0.0 || wide <= 0.0 || !inside(x, z) {
@@ -433,10 +438,11 @@ impl Torso {
         // Only what is well behind the middle goes out at the back.
         let ahead = ((z + 0.5 * BACK) / (0.5 * BACK)).clamp(0.0, 1.0);
         let (nx, nz) = (x / (wide * wide), z / (deep(z) * deep(z)));
-        let size = nx.hypot(nz).max(1e-9);
+        let size = (nx * nx + nz * nz).sqrt().max(1e-9);
         let (dx, dz) = (nx / size, nz / size + 1.2 * ahead);
-        let (dx, dz) = if dx.hypot(dz) > 1e-6 {
-            (dx / dx.hypot(dz), dz / dx.hypot(dz))
+        let size = (dx * dx + dz * dz).sqrt();
+        let (dx, dz) = if size > 1e-6 {
+            (dx / size, dz / size)
         } else {
             (0.0, 1.0)
         };
