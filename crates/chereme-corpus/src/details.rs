@@ -10,6 +10,7 @@ use crate::db::search::begin_reading;
 use crate::db::signs::{self, TokenRow};
 use crate::db::{edits, notations, recipes};
 use crate::error::{Error, Result};
+use crate::media::MediaPlace;
 use crate::movement::Track;
 use crate::notation;
 
@@ -105,6 +106,8 @@ pub struct RecordingDetails {
     pub axes: Option<String>,
     /// The files that it came from: kind, name.
     pub files: Vec<(String, String)>,
+    /// The media files beside it.
+    pub media: Vec<MediaPlace>,
     /// The engine that made it, where it was made.
     pub engine: Option<String>,
 }
@@ -231,6 +234,7 @@ impl Corpus {
                 .into_iter()
                 .map(|file| (file.kind, file.name))
                 .collect(),
+            media: self.media(&Name::Number(id))?,
             engine: recipes::of_recording(&reading, id)?.map(|it| it.engine),
         };
         if recordings::motion_track(&reading, id)?.is_some() {

@@ -448,6 +448,22 @@ pub(crate) fn insert_media_track(connection: &Connection, row: &MediaTrackRow) -
     Ok(())
 }
 
+/// Says that the file of a media track lies elsewhere.
+pub(crate) fn move_media_track(connection: &Connection, track: i64, url: &str) -> Result<()> {
+    connection
+        .prepare_cached("UPDATE track SET media_url = ?2 WHERE id = ?1 AND kind = 'media'")?
+        .execute(params![track, url])?;
+    Ok(())
+}
+
+/// Removes a media track.
+pub(crate) fn remove_media_track(connection: &Connection, track: i64) -> Result<()> {
+    connection
+        .prepare_cached("DELETE FROM track WHERE id = ?1 AND kind = 'media'")?
+        .execute([track])?;
+    Ok(())
+}
+
 /// Returns the media tracks of a recording.
 pub(crate) fn media_tracks(connection: &Connection, recording: i64) -> Result<Vec<MediaTrackRow>> {
     let mut statement = connection.prepare_cached(

@@ -92,6 +92,7 @@ fn base(
             let more: Vec<Vocabulary> = other.vocabularies.into_iter().filter(new).collect();
             first.vocabularies.extend(more);
         }
+        relink(connection, recording.id, &mut first)?;
         return Ok(first);
     }
     let media = recordings::media_tracks(connection, recording.id)?.into_iter();
@@ -106,6 +107,28 @@ fn base(
             .collect(),
         ..Transcript::default()
     })
+}
+
+/// Says where media lie that were linked anew since the file was read; those that were not stay as it has them.
+fn relink(connection: &Connection, recording: i64, transcript: &mut Transcript) -> Result<()> {
+    let tracks = recordings::media_tracks(connection, recording)?;
+    if tracks.is_empty() {
+        return Ok(());
+    }
+    let before = std::mem::take(&mut transcript.media);
+    transcript.media = tracks
+        .into_iter()
+        .map(|track| {
+            let at = |it: &&Media| it.relative_url.as_ref().unwrap_or(&it.url) == &track.url;
+            before.iter().find(at).cloned().unwrap_or_else(|| Media {
+                url: track.url.clone(),
+                mime_type: track.media_type.clone().unwrap_or_default(),
+                time_origin: (track.offset_us != 0).then_some(-track.offset_us / 1000),
+                ..Media::default()
+            })
+        })
+        .collect();
+    Ok(())
 }
 
 /// Writes down what importing the file again would not guess.

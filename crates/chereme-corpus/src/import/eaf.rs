@@ -198,6 +198,7 @@ fn recording(job: &mut Job<'_>, transcript: &Transcript) -> Result<i64> {
             origin.as_deref(),
             licence.as_deref(),
         )?;
+        media(job, id, transcript)?;
         return Ok(id);
     }
     let id = recordings::insert_recording(
@@ -214,11 +215,23 @@ fn recording(job: &mut Job<'_>, transcript: &Transcript) -> Result<i64> {
         },
     )?;
     job.count("recordings", 1);
+    media(job, id, transcript)?;
+    job.recordings.insert(job.pair_key(), id);
+    Ok(id)
+}
+
+/// Stores the media files that a recording does not have yet.
+fn media(job: &mut Job<'_>, recording: i64, transcript: &Transcript) -> Result<()> {
+    let there = recordings::media_tracks(job.connection, recording)?;
     for (place, media) in transcript.media.iter().enumerate() {
+        let name = format!("media {}", place + 1);
+        if there.iter().any(|it| it.name == name) {
+            continue;
+        }
         let row = MediaTrackRow {
             id: 0,
-            recording_id: id,
-            name: format!("media {}", place + 1),
+            recording_id: recording,
+            name,
             offset_us: -media.time_origin.unwrap_or_default().saturating_mul(1000),
             url: media
                 .relative_url
@@ -229,8 +242,7 @@ fn recording(job: &mut Job<'_>, transcript: &Transcript) -> Result<i64> {
         recordings::insert_media_track(job.connection, &row)?;
         job.count("tracks", 1);
     }
-    job.recordings.insert(job.pair_key(), id);
-    Ok(id)
+    Ok(())
 }
 
 /// The one participant of all tiers, where there is one.

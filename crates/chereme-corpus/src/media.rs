@@ -1,0 +1,237 @@
+//! Media files beside recordings, such as the film of a take: where they are said to lie, and linking them anew.
+//!
+//! A corpus keeps where a file lies and never the file itself.
+
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use crate::Corpus;
+use crate::address::{self, Name};
+use crate::db::recordings::{self, MediaTrackRow};
+use crate::error::{Error, Result};
+
+/// What shall become of a recording's media.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum MediaChange {
+    /// A file goes with it, where a path or address says.
+    Add(String),
+    /// The file of the track of that row lies elsewhere.
+    Move(i64, String),
+    /// The track of that row goes.
+    Remove(i64),
+}
+
+/// A media file and where it was looked for.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct MediaPlace {
+    /// The track.
+    pub track: MediaTrackRow,
+    /// Where it lies, else where it was looked for first; nothing for an address on the network.
+    pub path: Option<PathBuf>,
+    /// Whether a file is there.
+    pub is_there: bool,
+}
+
+impl Corpus {
+    /// Changes which media files go with a recording, and returns its media tracks.
+    ///
+    /// # Errors
+    /// Where the recording is not there, a track is not one of its media tracks, or a place is blank.
+    pub fn change_media(
+        &mut self,
+        recording: &Name,
+        change: &MediaChange,
+    ) -> Result<Vec<MediaTrackRow>> {
+        self.store.operation("change media", |connection| {
+            let row = address::recording(connection, recording)?;
+            let before = recordings::media_tracks(connection, row.id)?;
+            let own = |id: i64| {
+                let found = before.iter().find(|it| it.id == id);
+                found.ok_or_else(|| {
+                    Error::wrong(format!("track {id} is no media file of {:?}", row.name))
+                        .advise("look at the recording's media again")
+                })
+            };
+            match change {
+                MediaChange::Add(url) => {
+                    let free = (1..).find(|n| {
+                        let name = format!("media {n}");
+                        before.iter().all(|it| it.name != name)
+                    });
+                    let new = MediaTrackRow {
+                        id: 0,
+                        recording_id: row.id,
+                        name: format!("media {}", free.unwrap_or_default()),
+                        offset_us: 0,
+                        media_type: media_type(url).map(str::to_owned),
+                        url: said(url)?,
+                    };
+                    recordings::insert_media_track(connection, &new)?;
+                }
+                MediaChange::Move(id, url) => {
+                    own(*id)?;
+                    recordings::move_media_track(connection, *id, &said(url)?)?;
+                }
+                MediaChange::Remove(id) => {
+                    own(*id)?;
+                    recordings::remove_media_track(connection, *id)?;
+                }
+            }
+            let after = recordings::media_tracks(connection, row.id)?;
+            Ok((after, row.name.clone()))
+        })
+    }
+
+    /// Returns the media files of a recording, and whether they are where they are said to be: at that path,
+    /// beside the corpus, or by their names in the corpus's folder.
+    ///
+    /// # Errors
+    /// Where the recording is not there, or the database fails.
+    pub fn media(&self, recording: &Name) -> Result<Vec<MediaPlace>> {
+        let connection = self.store.read();
+        let row = address::recording(connection, recording)?;
+        let folder = self.path().parent().unwrap_or(Path::new(""));
+        let tracks = recordings::media_tracks(connection, row.id)?.into_iter();
+        Ok(tracks.map(|track| placed(track, folder)).collect())
+    }
+}
+
+fn said(url: &str) -> Result<String> {
+    match url.trim() {
+        "" => Err(Error::wrong("a media file needs a place").advise("give its path")),
+        url => Ok(url.to_owned()),
+    }
+}
+
+fn placed(track: MediaTrackRow, folder: &Path) -> MediaPlace {
+    let candidates = candidates(&track.url, folder);
+    let there = candidates.iter().find(|path| path.is_file()).cloned();
+    MediaPlace {
+        track,
+        is_there: there.is_some(),
+        path: there.or_else(|| candidates.into_iter().next()),
+    }
+}
+
+/// Returns where the file of a URL or path may lie, the likeliest first.
+fn candidates(url: &str, folder: &Path) -> Vec<PathBuf> {
+    let local = match url.split_once("://") {
+        Some((scheme, rest)) if scheme.eq_ignore_ascii_case("file") => {
+            // Between the slashes stands a machine, which is this one.
+            decoded(&rest[rest.find('/').unwrap_or(0)..])
+        }
+        Some(_) => return Vec::new(),
+        None => match url.strip_prefix("file:") {
+            Some(rest) => decoded(rest.strip_prefix('/').unwrap_or(rest)),
+            None => url.to_owned(),
+        },
+    };
+    let path = Path::new(&local);
+    let mut all = vec![folder.join(path)];
+    // Paths of other systems have names too.
+    let name = local.rsplit(['/', '\\']).next().unwrap_or_default();
+    if !name.is_empty() {
+        all.push(folder.join(name));
+    }
+    all
+}
+
+/// Returns a URL's path with `%20` and the like as what they stand for.
+fn decoded(text: &str) -> String {
+    let bytes = text.as_bytes();
+    let mut out = Vec::with_capacity(bytes.len());
+    let mut at = 0;
+    while let Some(byte) = bytes.get(at) {
+        let hex = bytes.get(at + 1..at + 3).filter(|_| *byte == b'%');
+        let value = hex
+            .and_then(|it| std::str::from_utf8(it).ok())
+            .and_then(|it| u8::from_str_radix(it, 16).ok());
+        out.push(value.unwrap_or(*byte));
+        at += if value.is_some() { 3 } else { 1 };
+    }
+    String::from_utf8_lossy(&out).into_owned()
+}
+
+/// Returns the media type that a file's name tells.
+fn media_type(url: &str) -> Option<&'static str> {
+    let end = url.rsplit('.').next()?.to_ascii_lowercase();
+    Some(match end.as_str() {
+        "mp4" | "m4v" => "video/mp4",
+        "mov" => "video/quicktime",
+        "mpg" | "mpeg" => "video/mpeg",
+        "webm" => "video/webm",
+        "avi" => "video/x-msvideo",
+        "mkv" => "video/x-matroska",
+        "wav" => "audio/x-wav",
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_read_as_elan_writes_them() {
+        let folder = Path::new("/corpus");
+        let first = |url: &str| candidates(url, folder).first().cloned();
+        for (url, path) in [
+            ("./film.mp4", "/corpus/./film.mp4"),
+            ("file:///home/a%20b/film.mp4", "/home/a b/film.mp4"),
+            ("file://machine/film.mp4", "/film.mp4"),
+            ("file:/./film.wav", "/corpus/./film.wav"),
+            ("/films/1.mp4", "/films/1.mp4"),
+            ("100%.mp4", "/corpus/100%.mp4"),
+        ] {
+            assert_eq!(first(url), Some(PathBuf::from(path)), "{url}");
+        }
+        assert_eq!(first("https://example.org/film.mp4"), None);
+        let last = candidates("file:///D:/Data\\film.mpg", folder).pop();
+        assert_eq!(last, Some(PathBuf::from("/corpus/film.mpg")));
+    }
+
+    #[test]
+    fn media_are_linked_anew_and_found_and_that_is_undone() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("c.chereme");
+        let mut corpus = Corpus::create(&path, "A").expect("made");
+        let eaf = folder.path().join("take.eaf");
+        let text = r#"<?xml version="1.0" encoding="UTF-8"?>
+<ANNOTATION_DOCUMENT AUTHOR="" DATE="2020-01-01T00:00:00+00:00" FORMAT="3.0" VERSION="3.0">
+<HEADER MEDIA_FILE="" TIME_UNITS="milliseconds"><MEDIA_DESCRIPTOR MEDIA_URL="file:///gone/film.mp4" MIME_TYPE="video/mp4"/></HEADER>
+<TIME_ORDER/><TIER LINGUISTIC_TYPE_REF="t" TIER_ID="Gloss"/><LINGUISTIC_TYPE LINGUISTIC_TYPE_ID="t" TIME_ALIGNABLE="true"/>
+</ANNOTATION_DOCUMENT>"#;
+        std::fs::write(&eaf, text).expect("written");
+        let options = crate::ImportOptions::default();
+        let mut heard = crate::unheard;
+        let mut progress = crate::Progress::new(&mut heard);
+        corpus
+            .import(&[eaf], &options, &mut progress)
+            .expect("imported");
+        let take = Name::Text("take".to_owned());
+        let found = corpus.media(&take).expect("read");
+        assert_eq!(found[0].path, Some(PathBuf::from("/gone/film.mp4")));
+        assert!(!found[0].is_there);
+        std::fs::write(folder.path().join("film.mp4"), "").expect("written");
+        assert!(corpus.media(&take).expect("read")[0].is_there);
+        let id = found[0].track.id;
+        let moved = MediaChange::Move(id, "other.mp4".to_owned());
+        let after = corpus.change_media(&take, &moved).expect("moved");
+        assert_eq!(after[0].url, "other.mp4");
+        corpus.undo().expect("undone");
+        assert_eq!(
+            corpus.media(&take).expect("read")[0].track.url,
+            "file:///gone/film.mp4"
+        );
+        let added = corpus.change_media(&take, &MediaChange::Add("b.mov".to_owned()));
+        assert_eq!(added.expect("added").len(), 2);
+        let left = corpus.change_media(&take, &MediaChange::Remove(id));
+        assert_eq!(left.expect("removed")[0].name, "media 2");
+        assert!(
+            corpus
+                .change_media(&take, &MediaChange::Remove(id))
+                .is_err()
+        );
+    }
+}
