@@ -461,6 +461,7 @@ impl Studio {
         self.small = small;
         let before = (self.busy, small);
         self.tree = layout::remembered(self.laid_out().as_ref(), before);
+        self.panes.timeline.show_tier();
         if let Some(pane) = self.pane {
             layout::bring(&mut self.tree, pane);
         }

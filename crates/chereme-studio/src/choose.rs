@@ -26,6 +26,8 @@ pub(crate) enum Choose {
     Files,
     /// A folder to take into the open corpus.
     Folder,
+    /// A media file for the recording of that row, in place of the track of that row where one is said.
+    Media(i64, Option<i64>),
 }
 
 /// Chosen paths, none where nothing was chosen.
@@ -103,6 +105,9 @@ impl Choose {
         let first = match self {
             Self::Files | Self::Folder if !paths.is_empty() => return Some(Command::Import(paths)),
             _ if paths.is_empty() => return None,
+            Self::Media(recording, track) => {
+                return Some(Command::Media(recording, track, paths.swap_remove(0)));
+            }
             _ => paths.swap_remove(0),
         };
         Some(Command::Begin(match self {
@@ -138,6 +143,12 @@ fn native(what: Choose, language: Language) -> Paths {
             let title = words::START_IMPORT.of(language);
             let folder = dialog.set_title(title).pick_folder();
             Box::pin(async move { one(folder.await) })
+        }
+        Choose::Media(..) => {
+            let file = dialog
+                .set_title(words::CHOOSE_MEDIA.of(language))
+                .pick_file();
+            Box::pin(async move { one(file.await) })
         }
         Choose::Files => {
             let files = dialog

@@ -60,6 +60,8 @@ pub(crate) enum Command {
     Handle(Option<Handle>),
     /// The placement of that card was dragged there.
     Placed(u64, Goal),
+    /// A media file goes with the recording of that row, in place of the track of that row where one is said.
+    Media(i64, Option<i64>, PathBuf),
     /// Have these files and folders taken in: opens the import with them.
     Import(Vec<PathBuf>),
     /// Show all that is known of something in the inspector.

@@ -45,7 +45,12 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
                 let parts = [(tabs(&above), 0.6), (tabs(&[Timeline]), 0.4)];
                 shares(&mut tiles, Vertical, &parts)
             }
-            Busy::Searching | Busy::Recombining => {
+            Busy::Recombining => {
+                let left = tabs(&[Library, Search, Recombine, Import]);
+                let side = tabs(&[Stage, Timeline, Inspector, History]);
+                shares(&mut tiles, Horizontal, &[(left, 0.46), (side, 0.54)])
+            }
+            Busy::Searching => {
                 let left = tabs(&[Library, Search, Recombine, Import]);
                 let side = [
                     (tabs(&[Stage]), 0.64),

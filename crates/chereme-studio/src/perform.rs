@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use chereme_corpus::MediaChange;
 use chereme_motion::{Instant, Rate, Span};
 use eframe::egui::{Context, ViewportCommand};
 
@@ -101,6 +102,15 @@ impl Studio {
             Command::Placed(card, goal) => {
                 self.panes.recombine.place(card, goal);
                 self.keep_up(ctx);
+            }
+            Command::Media(recording, track, path) => {
+                let path = path.to_string_lossy().into_owned();
+                let change = match track {
+                    Some(track) => MediaChange::Move(track, path),
+                    None => MediaChange::Add(path),
+                };
+                let name = chereme_corpus::Name::Number(recording);
+                self.out.work(Work::ChangeMedia(name, change));
             }
             Command::Import(paths) => {
                 self.panes.import.propose(&paths);
@@ -345,6 +355,7 @@ impl Studio {
     fn lay_out(&mut self, busy: Busy) {
         self.busy = busy;
         self.tree = layout::of(busy, self.small);
+        self.panes.timeline.show_tier();
     }
 
     fn bring(&mut self, pane: PaneKind) {

@@ -88,3 +88,23 @@ fn another_programs_change_is_noticed() {
         has(window, "LIMACE")
     });
 }
+
+#[test]
+fn a_small_window_has_stage_and_timeline_and_goes_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    until(&mut window, "the tiers", |it| has(it, "Tier Gloss"));
+    assert!(has(&window, "Trails"));
+    window.set_size(eframe::egui::vec2(800.0, 600.0));
+    window.run_steps(3);
+    assert!(has(&window, "Tier Gloss") && has(&window, "Show…") && !has(&window, "Trails"));
+    assert!(!has(&window, "Recordings (1)"));
+    // The time leads to another.
+    click(&mut window, "Go to a time…");
+    window.run_steps(3);
+    assert!(has(&window, "Go"));
+    window.key_press(eframe::egui::Key::Escape);
+    window.set_size(eframe::egui::vec2(1280.0, 800.0));
+    window.run_steps(3);
+    assert!(has(&window, "Trails") && has(&window, "Recordings (1)"));
+}

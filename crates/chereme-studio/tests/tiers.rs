@@ -198,3 +198,30 @@ fn the_curves_of_the_face_have_lanes_where_they_are_stored() {
             .is_none()
     );
 }
+
+#[test]
+fn a_component_is_described_by_keys_and_proposes_where_it_belongs() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path());
+    click(&mut window, "Tier Gloss");
+    press(&mut window, CTRL, Key::T);
+    press(&mut window, NONE, Key::Tab);
+    window.event(eframe::egui::Event::Text("p".to_owned()));
+    window.run_steps(3);
+    // Enter opens the list that has the focus, and closes nothing.
+    press(&mut window, NONE, Key::Enter);
+    press(&mut window, NONE, Key::Escape);
+    let name = window.get_by_role_and_label(Role::TextInput, "Name of the tier");
+    assert_eq!(name.value().as_deref(), Some("placement"));
+    let before = operations(&window);
+    name.focus();
+    window.run_steps(2);
+    press(&mut window, NONE, Key::Enter);
+    stored(&mut window, before);
+    let path = window.state().corpus().expect("open").clone();
+    let corpus = chereme_corpus::Corpus::open(&path, "reader").expect("opened");
+    let contents = corpus.contents(1).expect("read");
+    let tier = |name: &str| contents.tiers.iter().find(|it| it.row.name == name);
+    let (gloss, added) = (tier("Gloss").expect("a tier"), tier("placement"));
+    assert_eq!(added.expect("added").row.parent_id, Some(gloss.row.id));
+}

@@ -442,3 +442,18 @@ fn a_handshape_is_chosen_by_its_picture() {
     stored(&mut window, before);
     assert_eq!(values(&window, "Configuration RH")[0], "U");
 }
+
+#[test]
+fn what_was_deleted_is_selected_again_when_it_comes_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = three(folder.path());
+    click(&mut window, "Gloss: b");
+    let before = operations(&window);
+    press(&mut window, CTRL | ALT, Key::D);
+    stored(&mut window, before);
+    press(&mut window, CTRL, Key::Z);
+    stored(&mut window, before + 1);
+    press(&mut window, NONE, Key::Enter);
+    let field = window.get_by_label("Value on Gloss");
+    assert_eq!(field.value().as_deref(), Some("b"));
+}

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use chereme_corpus::Error;
+use chereme_corpus::{Cause, Error};
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{
     Align, Align2, Area, Context, Frame, Id, Label, Layout, Order, RichText, Role, ScrollArea,
@@ -32,6 +32,8 @@ pub(crate) struct Notice {
     detail: Option<String>,
     /// Whether it stays until it is put away.
     pub(crate) stays: bool,
+    /// Whether it is over as soon as something could be written: a full disk, another's lock.
+    passes: bool,
     /// When it was first seen, on the window's clock.
     since: Option<f64>,
 }
@@ -68,6 +70,7 @@ impl Notices {
         self.add(told.text, told.remedy, true);
         if let Some(notice) = self.all.last_mut() {
             notice.detail = told.detail;
+            notice.passes = matches!(error.cause(), Some(Cause::Full | Cause::Busy));
         }
     }
 
@@ -82,6 +85,16 @@ impl Notices {
 
     /// Tells what came of work, where that is worth a word.
     pub(crate) fn of(&mut self, outcome: &Outcome, language: Language) {
+        let written = matches!(
+            outcome,
+            Outcome::Annotated(_)
+                | Outcome::Changed
+                | Outcome::Imported(_)
+                | Outcome::Recombined(_)
+                | Outcome::Undone(_)
+                | Outcome::Redone(_)
+        );
+        self.all.retain(|notice| !(written && notice.passes));
         let text = match outcome {
             Outcome::Recombined(made) => {
                 fill(words::NOTICE_STORED.of(language), &[("gloss", &made.gloss)])
@@ -125,6 +138,7 @@ impl Notices {
             remedy,
             detail: None,
             stays,
+            passes: false,
             since: None,
         });
         while self.all.len() > MOST {

@@ -67,6 +67,13 @@ texts! {
     AXES: "Axes of the file", "Axes du fichier";
     FILES: "Files", "Fichiers";
     MEDIA: "Media", "Médias";
+    MEDIA_THERE: "is at {path}", "se trouve à {path}";
+    MEDIA_GONE: "is not at {path}, nor beside the corpus", "n’est ni à {path}, ni à côté du corpus";
+    MEDIA_ELSEWHERE: "lies on another machine", "se trouve sur une autre machine";
+    MEDIA_FIND: "Find it…", "Le retrouver…";
+    MEDIA_REMOVE: "Unlink", "Délier";
+    MEDIA_ADD: "Link a media file…", "Lier un média…";
+    MEDIA_HINT: "A film of the take; Chereme keeps where it lies, ELAN plays it from an exported file.", "Un film de la prise ; Chereme retient où il se trouve, ELAN le lit depuis un fichier exporté.";
     ENGINE: "Made by version", "Fait par la version";
     USES: "Tokens with it", "Occurrences avec elle";
     SEARCH_USES: "Find them", "Les trouver";

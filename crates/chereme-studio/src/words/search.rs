@@ -9,6 +9,8 @@ texts! {
     OFFER_KEYS: "Tab or arrow keys and Enter", "Tab ou flèches et Entrée";
     NOT_KEPT: "No search is kept as {name}.", "Aucune recherche n’est gardée sous {name}.";
     MEND: "Write {text}", "Écrire {text}";
+    NOTATION_CLEAR: "Take the symbols away", "Retirer les symboles";
+    NOTATION_NOTHING: "These symbols mean no value yet.", "Ces symboles ne disent encore aucune valeur.";
     ROWS: "Conditions", "Conditions";
     NO_ROWS: "The rows come back when the query can be read.", "Les lignes reviennent quand la requête se lit.";
     ADD: "Add a condition", "Ajouter une condition";

@@ -55,6 +55,7 @@ texts! {
     STEP_BY: "the next begins after", "le suivant commence après";
     STEP_REST: "rest between", "pause entre deux";
     STEP_TIMES: "each played", "chacun joué";
+    CHOOSE_MEDIA: "Choose a media file", "Choisir un média";
     NEEDS_SELECTION: "Select a span first: drag on the timeline, or {timing.extend-frame-forward}; or {annotation.begin-end} at its begin and end.", "Sélectionnez d’abord un intervalle : glissez sur la ligne de temps, ou {timing.extend-frame-forward} ; ou {annotation.begin-end} au début et à la fin.";
     NEEDS_SIGN: "Choose a sign first: a hit, a sign of the library, or its gloss.", "Choisissez d’abord un signe : un résultat, un signe du fonds ou sa glose.";
     NEEDS_ANNOTATION: "Select an annotation first.", "Sélectionnez d’abord une annotation.";

@@ -2,6 +2,7 @@
 
 texts! {
     TITLE: "Stage", "Scène";
+    EMPTY: "Nothing is here yet: take in files or a folder, or drop them on the window.", "Il n’y a encore rien ici : importez des fichiers ou un dossier, ou déposez-les sur la fenêtre.";
     NO_RECORDING: "Choose a recording to see it here.", "Choisissez un enregistrement pour le voir ici.";
     ONLY_SIGNS: "There are no recordings here, but signs; they are found in the search.", "Il n’y a pas d’enregistrements ici, mais des signes ; la recherche les trouve.";
     TO_SIGNS: "To the search", "Vers la recherche";

@@ -49,6 +49,9 @@ pub(super) fn carry(
         Work::ChangeRecording(name, change) => corpus
             .change_recording(&name, &change)
             .map(|_| Outcome::Changed)?,
+        Work::ChangeMedia(name, change) => corpus
+            .change_media(&name, &change)
+            .map(|_| Outcome::Changed)?,
         Work::ChangeSigner(name, change) => corpus
             .change_signer(&name, &change)
             .map(|_| Outcome::Changed)?,

@@ -14,8 +14,9 @@ use std::sync::Arc;
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, Copied, Curves,
     Details, Error, ExportOptions, ExportReport, ExportWhat, ImportOptions, ImportReport,
-    KeptSearch, MadePart, Moving, Name, NewTier, OperationRow, Recombination, RecordingChange,
-    Scheme, SearchOptions, SignChange, SignerChange, Suggestions, TierChange, TierName, Unit,
+    KeptSearch, MadePart, MediaChange, Moving, Name, NewTier, OperationRow, Recombination,
+    RecordingChange, Scheme, SearchOptions, SignChange, SignerChange, Suggestions, TierChange,
+    TierName, Unit,
 };
 use chereme_motion::Span;
 
@@ -73,6 +74,8 @@ pub(crate) enum Work {
     },
     /// Changes a recording.
     ChangeRecording(Name, Box<RecordingChange>),
+    /// Changes which media go with a recording.
+    ChangeMedia(Name, MediaChange),
     /// Changes a signer.
     ChangeSigner(Name, Box<SignerChange>),
     /// Changes a sign.
@@ -244,6 +247,7 @@ impl Work {
             | Self::Import(..)
             | Self::Walk { .. }
             | Self::ChangeRecording(..)
+            | Self::ChangeMedia(..)
             | Self::ChangeSigner(..)
             | Self::ChangeSign(..)
             | Self::SetCitation(_)

@@ -1,16 +1,17 @@
 //! What is told of recordings, signers, signs and values.
 
 use chereme_corpus::{
-    Name, RecordingChange, RecordingDetails, RecordingGlance, SignChange, SignDetails,
+    MediaChange, Name, RecordingChange, RecordingDetails, RecordingGlance, SignChange, SignDetails,
     SignerChange, SignerDetails, SignerRow,
 };
 use chereme_motion::{Instant, Side};
-use eframe::egui::{CollapsingHeader, Id, RichText, Sense, Ui, vec2};
+use eframe::egui::{CollapsingHeader, Id, Label, RichText, Sense, Ui, vec2};
 
 use super::data;
 use super::edit::{choice, grid, line, notes, offered, said, title};
 use super::ui::{lines, link};
 use super::{Inspector, Thing};
+use crate::choose::Choose;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::complete::fitting;
@@ -95,7 +96,12 @@ pub(super) fn none_if_blank(text: String) -> Option<String> {
     Some(text.trim().to_owned()).filter(|text| !text.is_empty())
 }
 
-pub(super) fn recording_more(ui: &mut Ui, seen: &Seen<'_>, it: &RecordingDetails) {
+pub(super) fn recording_more(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    it: &RecordingDetails,
+    out: &mut Outbox,
+) {
     grid(ui, "recording file", |ui| {
         if let Some(metres) = it.metres_per_unit {
             said(ui, seen, words::UNITS, &format!("{metres} m"));
@@ -107,14 +113,6 @@ pub(super) fn recording_more(ui: &mut Ui, seen: &Seen<'_>, it: &RecordingDetails
             let files: Vec<&str> = it.files.iter().map(|(_, name)| name.as_str()).collect();
             said(ui, seen, words::FILES, &files.join(", "));
         }
-        let media = seen
-            .snapshot
-            .contents(it.id)
-            .map(|contents| &contents.media);
-        if let Some(media) = media.filter(|media| !media.is_empty()) {
-            let urls: Vec<&str> = media.iter().map(|it| it.url.as_str()).collect();
-            said(ui, seen, words::MEDIA, &urls.join(", "));
-        }
         if let Some(engine) = &it.engine {
             said(ui, seen, words::ENGINE, engine);
         }
@@ -122,6 +120,7 @@ pub(super) fn recording_more(ui: &mut Ui, seen: &Seen<'_>, it: &RecordingDetails
             said(ui, seen, words::JOINTS, &it.joints.to_string());
         }
     });
+    media(ui, seen, it, out);
     if it.roles.is_empty() {
         return;
     }
@@ -139,6 +138,45 @@ pub(super) fn recording_more(ui: &mut Ui, seen: &Seen<'_>, it: &RecordingDetails
             ui.label(RichText::new(fill(seen.say(words::MISSING), &[("what", &what)])).small());
         }
     });
+}
+
+/// Shows the media files beside a recording: whether they are there, and how to link them.
+fn media(ui: &mut Ui, seen: &Seen<'_>, it: &RecordingDetails, out: &mut Outbox) {
+    let change = |out: &mut Outbox, change: MediaChange| {
+        out.work(Work::ChangeMedia(Name::Number(it.id), change));
+    };
+    for (at, place) in it.media.iter().enumerate() {
+        let track = &place.track;
+        grid(ui, &format!("media {at}"), |ui| {
+            let key = Id::unique(("media", track.id));
+            if let Some(url) = line(ui, seen, key, words::MEDIA, &track.url) {
+                change(out, MediaChange::Move(track.id, url));
+            }
+        });
+        let path = place.path.as_ref().map(|it| it.display().to_string());
+        let (text, colour) = match (&path, place.is_there) {
+            (Some(_), true) => (words::MEDIA_THERE, seen.colours().good),
+            (Some(_), false) => (words::MEDIA_GONE, seen.colours().trouble),
+            (None, _) => (words::MEDIA_ELSEWHERE, ui.visuals().weak_text_color()),
+        };
+        let text = fill(seen.say(text), &[("path", &path.unwrap_or_default())]);
+        ui.add(Label::new(RichText::new(text).small().color(colour)).wrap());
+        ui.horizontal_wrapped(|ui| {
+            if ui.small_button(seen.say(words::MEDIA_FIND)).clicked() {
+                out.send(Command::Choose(Choose::Media(it.id, Some(track.id))));
+            }
+            if ui.small_button(seen.say(words::MEDIA_REMOVE)).clicked() {
+                change(out, MediaChange::Remove(track.id));
+            }
+        });
+    }
+    let hint = seen.say(words::MEDIA_HINT);
+    let add = ui
+        .small_button(seen.say(words::MEDIA_ADD))
+        .on_hover_text(hint);
+    if add.clicked() {
+        out.send(Command::Choose(Choose::Media(it.id, None)));
+    }
 }
 
 pub(super) fn signer(ui: &mut Ui, seen: &Seen<'_>, row: &SignerRow, out: &mut Outbox) {

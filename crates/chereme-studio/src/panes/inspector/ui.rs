@@ -5,7 +5,7 @@ use chereme_corpus::{
     ValueState,
 };
 use chereme_motion::{Instant, Span};
-use eframe::egui::{CollapsingHeader, Id, RichText, Ui};
+use eframe::egui::{CollapsingHeader, Id, RichText, TextStyle, TextWrapMode, Ui, WidgetText};
 
 use super::about::{self, recording, recording_more, signer, signer_more};
 use super::data::{self, Line};
@@ -35,7 +35,10 @@ fn part(
     what: &str,
     content: impl FnOnce(&mut Ui),
 ) {
-    let title = RichText::new(format!("{} · {what}", seen.say(text)));
+    // A long name is cut, for a header takes all the width that its text wants.
+    let title = WidgetText::from(format!("{} · {what}", seen.say(text)));
+    let room = ui.available_width() - 24.0;
+    let title = title.into_galley(ui, Some(TextWrapMode::Truncate), room, TextStyle::Button);
     CollapsingHeader::new(title)
         .id_salt(text.en)
         .default_open(open)
@@ -143,7 +146,7 @@ pub(super) fn thing(
         Some(Ok(Details::Token(token))) => super::token::show(it, ui, seen, &token, out),
         Some(Ok(Details::Sign(sign))) => about::sign(it, ui, seen, &sign, out),
         Some(Ok(Details::Signer(signer))) => signer_more(it, ui, seen, &signer),
-        Some(Ok(Details::Recording(recording))) => recording_more(ui, seen, &recording),
+        Some(Ok(Details::Recording(recording))) => recording_more(ui, seen, &recording, out),
         Some(Ok(Details::Value(inventory, value, uses))) => {
             about::value(it, ui, seen, (inventory, &value), uses, out);
         }

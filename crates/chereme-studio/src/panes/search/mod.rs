@@ -3,6 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | `builder`, `rows` | the query as conditions: the data, and the rows |
+//! | `symbols` | what a notation asks for |
 //! | `suggest`, `field` | the query as text: what could be written next, and the field |
 //! | `hits`, `results` | what was found: pages and order, and the grid and the table |
 //! | `page` | the pane from top to bottom |
@@ -19,6 +20,7 @@ mod page;
 mod results;
 mod rows;
 mod suggest;
+mod symbols;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -59,6 +61,8 @@ pub(crate) enum View {
 pub(crate) struct Search {
     field: Field,
     rows: Rows,
+    /// What was picked from the board of HamNoSys symbols.
+    symbols: String,
     /// Whether the rows are shown.
     built: bool,
     view: View,
@@ -106,6 +110,7 @@ impl Default for Search {
     fn default() -> Self {
         Self {
             built: true,
+            symbols: String::new(),
             playing: true,
             counted: true,
             field: Field::default(),

@@ -3,7 +3,7 @@
 use chereme_sign::query::Query;
 use eframe::egui::{RichText, Ui, vec2};
 
-use super::{PAUSE, Search, View, aside, facets, results, rows, suggest};
+use super::{PAUSE, Search, View, aside, facets, results, rows, suggest, symbols};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
@@ -95,7 +95,8 @@ impl Search {
                 self.built = !self.built;
             }
             let turned = self.aside.menus(ui, seen, out, &self.field.text);
-            if let Some(query) = turned {
+            let asked = symbols::show(ui, seen, &mut self.symbols);
+            if let Some(query) = turned.or(asked) {
                 self.turn_to(query, out);
             }
         });

@@ -46,7 +46,9 @@ pub(super) fn show(
         let rate = rate(seen);
         let (now, all) = (time_text(player.playhead()), time_text(player.whole.end()));
         go_to(ui, seen, out, &now);
-        ui.label(RichText::new(format!("/ {all}")).monospace().weak());
+        if !low || ui.available_size_before_wrap().x > 170.0 {
+            ui.label(RichText::new(format!("/ {all}")).monospace().weak());
+        }
         if let Some(rate) = rate.filter(|_| !low) {
             let (frame, frames) = frames(player.playhead(), player.whole, rate);
             let text = fill(

@@ -21,8 +21,8 @@ use crate::words::{Text, fill, stage as words};
 
 /// The most pixels that are drawn; larger stages show theirs scaled.
 const MOST_PIXELS: f32 = 1_600_000.0;
-/// Lower stages have their tools behind a button.
-const LOW: f32 = 300.0;
+/// Narrower and lower stages have their tools behind a button.
+const LOW: egui::Vec2 = vec2(480.0, 300.0);
 /// How long a frame waits for the picture of what a recipe has just become: it is seen in the frame in which
 /// it is known, and there is time left for the rest of the window.
 const AT_ONCE: std::time::Duration = std::time::Duration::from_millis(12);
@@ -36,7 +36,7 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
     stage.follow(seen, time, out);
     let frame = egui::Frame::new();
     // Where there is little height the signer has it.
-    let low = ui.available_height() < LOW;
+    let low = ui.available_height() < LOW.y || ui.available_width() < LOW.x;
     if !low {
         egui::Panel::top("stage tools")
             .frame(frame)
@@ -76,7 +76,10 @@ fn why_nothing(stage: &Stage, seen: &Seen<'_>) -> Option<Text> {
     } else if seen.shown.recording.is_none() {
         let overview = &seen.snapshot.overview;
         let only_signs = overview.recordings.is_empty() && !overview.signs.is_empty();
-        Some(if only_signs {
+        let empty = overview.recordings.is_empty() && overview.signs.is_empty();
+        Some(if empty {
+            words::EMPTY
+        } else if only_signs {
             words::ONLY_SIGNS
         } else {
             words::NO_RECORDING
@@ -433,12 +436,16 @@ fn who(stage: &Stage, ui: &Ui, seen: &Seen<'_>, part: &Part) {
         Some(piece) => no_original(seen, &piece.part.from),
         None => return,
     };
-    chip(
-        ui,
-        part.rect.right_top() + vec2(-8.0, 8.0),
-        Align2::RIGHT_TOP,
-        &text,
-    );
+    // Above there is the choice of the view.
+    let (at, anchor) = if part.rect.width() < 300.0 {
+        (
+            part.rect.left_bottom() + vec2(8.0, -8.0),
+            Align2::LEFT_BOTTOM,
+        )
+    } else {
+        (part.rect.right_top() + vec2(-8.0, 8.0), Align2::RIGHT_TOP)
+    };
+    chip(ui, at, anchor, &text);
 }
 
 fn no_original(seen: &Seen<'_>, made_by: &str) -> String {

@@ -246,9 +246,10 @@ fn field(
     let mut said = Said::Nothing;
     let mut turn = false;
     let opened = editing.begun;
-    let shown = area(ui, below, WIDTH).show(ui.ctx(), |ui| {
+    let (area, width) = area(ui, below, WIDTH);
+    let shown = area.show(ui.ctx(), |ui| {
         eframe::egui::Frame::popup(ui.style()).show(ui, |ui| {
-            ui.set_width(WIDTH);
+            ui.set_width(width);
             let before = editing.text.clone();
             let label = fill(scene.seen.say(words::VALUE_ON), &[("tier", &tier.row.name)]);
             text_field(ui, editing, &label);
@@ -314,7 +315,8 @@ fn pictures(
     let width = width.min(screen.width() - 48.0);
     let mut said = Said::Nothing;
     let mut back = false;
-    let shown = area(ui, below, width).show(ui.ctx(), |ui| {
+    let (area, width) = area(ui, below, width);
+    let shown = area.show(ui.ctx(), |ui| {
         eframe::egui::Frame::popup(ui.style()).show(ui, |ui| {
             ui.set_width(width);
             ui.set_max_height((screen.height() - 80.0).min(460.0));
@@ -341,40 +343,49 @@ fn pictures(
 /// Returns where the field lies: below the annotation, or above where there is more room.
 ///
 /// What opens upwards stands beside the middle of the stage, so that the signer stays in sight.
-fn area(ui: &Ui, below: Rect, width: f32) -> Area {
+fn area(ui: &Ui, below: Rect, width: f32) -> (Area, f32) {
     let screen = ui.ctx().content_rect();
     let (under, over) = (screen.bottom() - below.bottom(), below.top() - screen.top());
-    let (corner, at) = if under < ROOM && over > under {
+    let (corner, at, width) = if under < ROOM && over > under {
         let at = below.left_top() - vec2(0.0, 2.0);
         let stage = stage::place(ui.ctx()).filter(|it| it.top() < at.y);
-        let left = stage.map_or(at.x, |it| beside(at.x, width, it, screen));
-        (Align2::LEFT_BOTTOM, pos2(left, at.y))
+        let (left, width) = stage.map_or((at.x, width), |it| beside(at.x, width, it, screen));
+        (Align2::LEFT_BOTTOM, pos2(left, at.y), width)
     } else {
-        (Align2::LEFT_TOP, below.left_bottom() + vec2(0.0, 2.0))
+        let at = below.left_bottom() + vec2(0.0, 2.0);
+        (Align2::LEFT_TOP, at, width)
     };
-    Area::new(Id::unique("timeline value").with(corner.0))
+    let area = Area::new(Id::unique("timeline value").with(corner.0))
         .order(Order::Foreground)
         .pivot(corner)
         .fixed_pos(at)
-        .constrain_to(screen)
+        .constrain_to(screen);
+    (area, width)
 }
 
-/// Returns where something begins that is `width` wide and shall begin at `left`, so that it lies beside the
-/// middle of the stage, where the signer is; `left` where there is no room for that.
-fn beside(left: f32, width: f32, stage: Rect, screen: Rect) -> f32 {
+/// Returns where something begins that shall be `width` wide and begin at `left`, and how wide it is then, so
+/// that it lies beside the middle of the stage, where the signer is; as wished where there is no room for that.
+fn beside(left: f32, width: f32, stage: Rect, screen: Rect) -> (f32, f32) {
+    /// Narrower than this nothing is chosen well, and an edge.
+    const LEAST: f32 = 260.0;
+    const EDGE: f32 = 18.0;
     let half = (stage.width() * 0.5).min(stage.height() * 0.55).min(150.0);
-    let width = width + 16.0;
-    let signer = stage.center().x - half..=stage.center().x + half;
-    if left + width <= *signer.start() || left >= *signer.end() {
-        return left;
+    let (from, to) = (stage.center().x - half, stage.center().x + half);
+    if left + width + EDGE <= from || left >= to {
+        return (left, width);
     }
-    let (before, after) = (signer.start() - width, *signer.end());
-    let fits = |at: f32| at >= screen.left() && at + width <= screen.right();
-    match (fits(before), fits(after)) {
-        (true, true) if (after - left).abs() < (left - before).abs() => after,
-        (true, _) => before,
-        (false, true) => after,
-        _ => left,
+    let (before, after) = (from - screen.left() - EDGE, screen.right() - to - EDGE);
+    let before_it = || {
+        let width = width.min(before);
+        (from - width - EDGE, width)
+    };
+    match (before >= width, after >= width) {
+        (true, true) if to - left < left + width - from => (to, width),
+        (true, _) => before_it(),
+        (false, true) => (to, width),
+        _ if before.max(after) < LEAST => (left, width),
+        _ if before >= after => before_it(),
+        _ => (to, after),
     }
 }
 
@@ -496,5 +507,24 @@ mod tests {
         let text = serde_json::to_string(&it).expect("written");
         let read: Editing = serde_json::from_str(&text).expect("read");
         assert_eq!(read, it);
+    }
+
+    #[test]
+    fn what_opens_leaves_the_signer_in_sight() {
+        let screen = Rect::from_min_size(pos2(0.0, 0.0), vec2(1280.0, 800.0));
+        let stage = Rect::from_min_max(pos2(340.0, 60.0), pos2(1000.0, 390.0));
+        let clear = |(left, width): (f32, f32)| left + width <= 520.0 || left >= 820.0;
+        for left in [100.0, 300.0, 412.0, 600.0, 700.0, 900.0] {
+            for width in [260.0, 574.0] {
+                let (at, wide) = beside(left, width, stage, screen);
+                assert!(
+                    clear((at, wide)) && wide >= 260.0 && at >= 0.0,
+                    "{left} {width}"
+                );
+                assert!(at + wide <= 1280.0 || at == left);
+            }
+        }
+        let small = Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 300.0));
+        assert_eq!(beside(50.0, 260.0, small, small), (50.0, 260.0));
     }
 }

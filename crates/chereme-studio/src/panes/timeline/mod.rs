@@ -260,6 +260,11 @@ impl Timeline {
         self.editing = Some(Editing::new(recording, target, String::new()));
     }
 
+    /// Has the selected tier brought into sight.
+    pub(crate) fn show_tier(&mut self) {
+        self.reveal = true;
+    }
+
     /// Returns whether a value is being typed, so that letters are no keys.
     pub(crate) fn is_typing(&self) -> bool {
         self.is_open() && self.drawn

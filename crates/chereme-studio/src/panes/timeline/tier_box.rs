@@ -115,7 +115,9 @@ impl TierBox {
         if let Some(gloss) = gloss.filter(|_| component) {
             let below = (gloss.row.name.clone(), Stereotype::IncludedIn);
             self.parent.get_or_insert(below);
-            self.hand = self.hand.or(gloss.row.hand.as_deref().and_then(Hands::of));
+            if !self.role.starts_with("nonmanual") {
+                self.hand = self.hand.or(gloss.row.hand.as_deref().and_then(Hands::of));
+            }
         }
         if !self.name.trim().is_empty() && self.name != self.proposed {
             return;

@@ -39,6 +39,8 @@ pub(super) struct Layout {
     names: f32,
     /// How far the rows are scrolled.
     pub(super) top: f32,
+    /// Whether there are other rows than before, which are to be seen.
+    fresh: bool,
     /// How far they are to be scrolled next.
     pub(super) scroll_to: Option<f32>,
 }
@@ -94,7 +96,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
     ui.spacing_mut().item_spacing.y = 2.0;
     bar::show(ui, &scene, out);
     if timeline.layout.update(ui, scene.contents, seen) {
-        timeline.reveal = true;
+        (timeline.reveal, timeline.layout.fresh) = (true, true);
     }
     let most = (ui.available_width() * NAMES_SHARE).max(NAMES);
     let names = timeline.layout.names.min(most);
@@ -130,9 +132,17 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
 
 /// Says where to go in a corpus that has no recordings.
 fn no_recordings(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
-    ui.label(seen.say(words::NO_RECORDINGS));
+    let empty = seen.snapshot.overview.signs.is_empty();
+    let (text, actions): (_, &[Action]) = if empty {
+        let import = &[Action::ImportFiles, Action::ImportFolder];
+        (crate::words::stage::EMPTY, import)
+    } else {
+        let signs = &[Action::ShowLibrary, Action::Search, Action::Import];
+        (words::NO_RECORDINGS, signs)
+    };
+    ui.label(seen.say(text));
     ui.horizontal_wrapped(|ui| {
-        for action in [Action::ShowLibrary, Action::Search, Action::Import] {
+        for action in actions.iter().copied() {
             let button = ui.button(seen.say(action.row().name));
             if button.on_hover_text(seen.keys.text(action)).clicked() {
                 out.send(Command::Do(action));
@@ -294,12 +304,25 @@ impl Drawing<'_, '_> {
             return None;
         }
         let is = |row: &Row| Some(contents.tiers[row.tier].row.id) == self.seen.shown.tier;
-        let at = all.iter().position(is)? as f32 * ROW;
+        let number = all.iter().position(is)?;
+        let at = number as f32 * ROW;
         let top = self.timeline.layout.top;
+        // What hangs below it is shown as well, as far as there is room for both.
+        let below = all[number + 1..].iter();
+        let family = below
+            .take_while(|row| row.depth > all[number].depth)
+            .count();
+        let rows = if self.timeline.layout.fresh {
+            family
+        } else {
+            0
+        };
+        let end = (at + (rows + 1) as f32 * ROW).min(at + height);
+        self.timeline.layout.fresh = false;
         if at < top {
             Some(at)
-        } else if at + ROW > top + height {
-            Some(at + ROW - height)
+        } else if end > top + height {
+            Some(end - height)
         } else {
             None
         }

@@ -1,0 +1,75 @@
+//! What a notation asks for: signs that have the values it means.
+
+use chereme_sign::Inventory;
+use chereme_sign::hamnosys::components::Mapper;
+use chereme_sign::hamnosys::{Notated, parse_lenient};
+use chereme_sign::query::Pattern;
+use eframe::egui::{RichText, Ui};
+
+use super::builder::{self, Condition, How, Subject};
+use crate::context::Seen;
+use crate::pickers::{board, hamnosys};
+use crate::words::search as words;
+
+/// How high the symbols are.
+const EM: f32 = 22.0;
+
+/// Draws the board and what was picked from it; returns the query that this asks for, where it changed.
+pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, text: &mut String) -> Option<String> {
+    let mut changed = board::button(ui, seen, text);
+    if !text.is_empty() {
+        hamnosys::of_text(ui, seen, text, EM);
+        if ui.small_button(seen.say(words::NOTATION_CLEAR)).clicked() {
+            text.clear();
+            changed = true;
+        }
+    }
+    let query = changed.then(|| query(text, inventories(seen)))?;
+    if query.is_empty() && !text.is_empty() {
+        ui.label(RichText::new(seen.say(words::NOTATION_NOTHING)).small());
+    }
+    Some(query)
+}
+
+fn inventories<'a>(seen: &Seen<'a>) -> impl Iterator<Item = &'a Inventory> {
+    let all = seen.snapshot.overview.inventories.iter();
+    all.map(|it| &it.inventory)
+}
+
+/// Returns the query for signs with the values that a notation means; empty where it means none yet.
+fn query<'i>(text: &str, inventories: impl Iterator<Item = &'i Inventory>) -> String {
+    let sign = Notated {
+        text: Some(text.to_owned()),
+        sign: parse_lenient(text).sign,
+        ..Notated::default()
+    };
+    let mapped = Mapper::new(inventories).map(&sign);
+    let rows: Vec<Condition> = mapped
+        .values
+        .into_iter()
+        .map(|it| {
+            let value = vec![Pattern::literal(it.value)];
+            Condition::Values(Subject::Component(it.field), How::Is, value)
+        })
+        .collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    builder::text(&rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_notation_asks_for_what_it_means() {
+        let all = chereme_sign::inventory::builtin();
+        let found = query("hamfinger23 hamextfingeru hampalml hamchin", all.iter());
+        assert!(found.contains("configuration=U"), "{found}");
+        assert!(found.contains("placement=chin"), "{found}");
+        let shape = query("hamfinger23", all.iter());
+        assert!(shape.contains("configuration=U"), "{shape}");
+        assert_eq!(query("", all.iter()), "");
+    }
+}
