@@ -4,6 +4,8 @@ use crate::table::{COLUMNS, Cells, PADDED, Row};
 use serde_json::{Map, Value};
 use std::borrow::Cow;
 
+/// The most bytes of JSON that are read; as values they take many times their size.
+const BYTES: usize = 64 << 20;
 /// The title of the column that the keys of an object stand in.
 const KEY: &str = "gloss";
 /// The title of the column of a text that stands for a whole sign.
@@ -15,7 +17,7 @@ const TEXT: &str = "hamnosys";
 /// JSON. Nothing for bytes that are no JSON, JSON of another shape, or with more columns than any table needs.
 pub(super) fn read(bytes: &[u8]) -> Option<Cells> {
     let text = str::from_utf8(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)).ok()?;
-    if !text.trim_start().starts_with(['{', '[']) {
+    if bytes.len() > BYTES || !text.trim_start().starts_with(['{', '[']) {
         return None;
     }
     let rows: Vec<(Option<String>, Map<String, Value>)> = match serde_json::from_str(text).ok()? {
