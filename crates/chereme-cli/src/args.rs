@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use chereme_corpus::{Corpus, Error};
-use clap::Parser;
+use chereme_motion::Side;
+use clap::{Parser, ValueEnum};
 
 use crate::commands::Command;
 
@@ -49,6 +50,22 @@ impl Cli {
     /// Opens the corpus.
     pub(crate) fn open(&self, path: &Path) -> Result<Corpus> {
         Ok(Corpus::open(path, &self.author())?)
+    }
+}
+
+/// One of the two sides, as a word of the command line.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(crate) enum SideWord {
+    Right,
+    Left,
+}
+
+impl SideWord {
+    pub(crate) fn side(self) -> Side {
+        match self {
+            Self::Right => Side::Right,
+            Self::Left => Side::Left,
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use chereme_motion::anatomy::RolesError;
 use clap::ValueEnum;
 use serde_json::Value;
 
-use crate::args::{Cli, read_text, wrong_text};
+use crate::args::{Cli, SideWord, read_text, wrong_text};
 use crate::output::{Bar, Output};
 
 /// Take recordings, annotations, lexicons and inventories into a corpus
@@ -43,7 +43,7 @@ pub(crate) struct Args {
     signer: Option<String>,
     /// The signer's dominant hand
     #[arg(long, value_enum)]
-    handedness: Option<HandWord>,
+    handedness: Option<SideWord>,
     /// The unit of length of the movement files: m, cm, mm, inch, ft, acclaim, or metres per unit
     #[arg(long, value_parser = unit)]
     unit: Option<f64>,
@@ -65,12 +65,6 @@ pub(crate) struct Args {
     /// The terms under which the recordings may be used
     #[arg(long, value_name = "TEXT")]
     licence: Option<String>,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum HandWord {
-    Right,
-    Left,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -159,10 +153,6 @@ fn options(args: &Args) -> Result<ImportOptions> {
             "write a JSON object such as {\"tiers\": {\"Tier 1\": \"right.configuration\"}}";
         Ok(Mapping::from_json(&text).map_err(|error| wrong_text(path, error, advice))?)
     });
-    let word = |hand: HandWord| match hand {
-        HandWord::Right => "right",
-        HandWord::Left => "left",
-    };
     let origin = |origin: OriginWord| match origin {
         OriginWord::Captured => "captured",
         OriginWord::Made => "made",
@@ -170,7 +160,7 @@ fn options(args: &Args) -> Result<ImportOptions> {
     };
     Ok(ImportOptions {
         signer: args.signer.clone(),
-        handedness: args.handedness.map(|hand| word(hand).to_owned()),
+        handedness: args.handedness.map(|hand| hand.side().name().to_owned()),
         metres_per_unit: args.unit,
         axes: args.axes,
         roles: roles.transpose()?,

@@ -4,10 +4,8 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::{Address, Picture, PictureOptions, Progress};
-use chereme_motion::Side;
-use clap::ValueEnum;
 
-use crate::args::Cli;
+use crate::args::{Cli, SideWord};
 use crate::output::{Bar, Output};
 
 /// Draw movement as a contact sheet (.png) or an animation (.gif), handshapes (.png), or notation (.svg)
@@ -46,17 +44,11 @@ pub(crate) struct Args {
     #[arg(long)]
     no_hands: bool,
     /// Which hand a handshape is drawn on
-    #[arg(long, value_enum, default_value_t = HandWord::Right)]
-    hand: HandWord,
+    #[arg(long, value_enum, default_value_t = SideWord::Right)]
+    hand: SideWord,
     /// Write over a file that is there already
     #[arg(long)]
     force: bool,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum HandWord {
-    Right,
-    Left,
 }
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
@@ -74,11 +66,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 Some((inventory, value)) => (inventory, Some(value)),
                 None => (name, None),
             };
-            let side = match args.hand {
-                HandWord::Right => Side::Right,
-                HandWord::Left => Side::Left,
-            };
-            corpus.draw_handshapes(inventory, value, side, &args.to, &options)?
+            corpus.draw_handshapes(inventory, value, args.hand.side(), &args.to, &options)?
         }
         None => {
             let address: Address = args.what.parse()?;

@@ -5,10 +5,10 @@ use chereme_corpus::{
     Address, Copied, Corpus, Hands, Name, NewTier, RecordingChange, Scheme, SignChange,
     SignerChange, Stereotype, TierChange, TierName, TierRole, Values,
 };
-use chereme_motion::Side;
 use clap::{Subcommand, ValueEnum};
 
 use super::annotate;
+use crate::args::SideWord;
 use crate::output::Output;
 
 #[derive(Debug, Subcommand)]
@@ -147,12 +147,6 @@ pub(super) enum HandWord {
     None,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(super) enum SideWord {
-    Right,
-    Left,
-}
-
 impl HandWord {
     fn hands(self) -> Option<Hands> {
         use chereme_sign::HandRef;
@@ -284,13 +278,9 @@ pub(super) fn run(
             name,
             handedness,
         } => {
-            let side = |word: SideWord| match word {
-                SideWord::Right => Side::Right,
-                SideWord::Left => Side::Left,
-            };
             let change = SignerChange {
                 name: name.clone(),
-                handedness: handedness.map(|word| Some(side(word))),
+                handedness: handedness.map(|word| Some(word.side())),
                 notes: None,
             };
             let named = match signer.parse()? {
