@@ -39,7 +39,9 @@ pub(super) struct Layout {
     names: f32,
     /// How far the rows are scrolled.
     pub(super) top: f32,
-    /// Whether there are other rows than before, which are to be seen.
+    /// Whether there are other rows since the last frame.
+    grown: bool,
+    /// Whether these are to be seen.
     fresh: bool,
     /// How far they are to be scrolled next.
     pub(super) scroll_to: Option<f32>,
@@ -95,8 +97,13 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
     follow_up(timeline, &scene, out);
     ui.spacing_mut().item_spacing.y = 2.0;
     bar::show(ui, &scene, out);
-    if timeline.layout.update(ui, scene.contents, seen) {
+    // The rows are scrolled to when the area knows how many there are.
+    if std::mem::take(&mut timeline.layout.grown) {
         (timeline.reveal, timeline.layout.fresh) = (true, true);
+    }
+    if timeline.layout.update(ui, scene.contents, seen) {
+        timeline.layout.grown = true;
+        ui.ctx().request_repaint();
     }
     let most = (ui.available_width() * NAMES_SHARE).max(NAMES);
     let names = timeline.layout.names.min(most);
