@@ -328,6 +328,15 @@ pub enum SourceError {
         /// The address as written.
         address: String,
     },
+    /// The sign is not there as notation.
+    #[error(
+        "{address:?} has no notation; import it as SiGML or HamNoSys, or write it from its movement: \
+         `chereme transcribe CORPUS {address} --store`"
+    )]
+    NoNotation {
+        /// The address as written.
+        address: String,
+    },
     /// No inventory has this value.
     #[error("{text:?} is no {component} of any inventory{}", chereme_sign::text::did_you_mean(nearest.as_deref()))]
     UnknownValue {

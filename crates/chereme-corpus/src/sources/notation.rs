@@ -44,10 +44,8 @@ impl CorpusSources<'_> {
         }
         if !name.contains(NEXT) {
             if self.has(name) {
-                return Err(SourceError::Unreadable(format!(
-                    "{name} has no notation; import it as SiGML or HamNoSys, or write it from its movement: \
-                     `chereme transcribe CORPUS {name} --store`"
-                )));
+                let address = name.to_owned();
+                return Err(SourceError::NoNotation { address });
             }
             return Err(missing(self, name, &error));
         }
