@@ -1,9 +1,9 @@
 //! What a notation asks for: signs that have the values it means.
 
-use chereme_sign::Inventory;
 use chereme_sign::hamnosys::components::Mapper;
-use chereme_sign::hamnosys::{Notated, parse_lenient};
+use chereme_sign::hamnosys::{Class, Notated, Symbol, parse_lenient, to_names};
 use chereme_sign::query::Pattern;
+use chereme_sign::{Component, Inventory};
 use eframe::egui::{RichText, Ui};
 
 use super::builder::{self, Condition, How, Subject};
@@ -47,6 +47,7 @@ fn query<'i>(text: &str, inventories: impl Iterator<Item = &'i Inventory>) -> St
     let rows: Vec<Condition> = mapped
         .values
         .into_iter()
+        .filter(|it| is_written(text, it.field.component))
         .map(|it| {
             let value = vec![Pattern::literal(it.value)];
             Condition::Values(Subject::Component(it.field), How::Is, value)
@@ -56,6 +57,18 @@ fn query<'i>(text: &str, inventories: impl Iterator<Item = &'i Inventory>) -> St
         return String::new();
     }
     builder::text(&rows)
+}
+
+/// Returns whether a notation says something of a component; what it leaves to what is usual is not asked for.
+fn is_written(text: &str, component: Component) -> bool {
+    let classes: &[Class] = match component {
+        Component::Placement => &[Class::Location],
+        Component::Movement => &[Class::Movement, Class::Repetition, Class::Manner],
+        _ => return true,
+    };
+    let names = to_names(text).unwrap_or_default();
+    let mut symbols = names.into_iter().filter_map(Symbol::from_name);
+    symbols.any(|symbol| classes.contains(&symbol.class()))
 }
 
 #[cfg(test)]
@@ -70,6 +83,10 @@ mod tests {
         assert!(found.contains("placement=chin"), "{found}");
         let shape = query("hamfinger23", all.iter());
         assert!(shape.contains("configuration=U"), "{shape}");
+        assert!(
+            !shape.contains("placement") && !shape.contains("movement"),
+            "{shape}"
+        );
         assert_eq!(query("", all.iter()), "");
     }
 }
