@@ -11,6 +11,8 @@
 //! turned by `N(radial) · B(palmar) · O(opposition)`, O about its own length, and its joints by
 //! turns along → away from *radial*. D is relative to the straight finger along the hand.
 
+use std::f64::consts::FRAC_PI_2;
+
 use glam::{DQuat, DVec3};
 
 use super::{Anatomy, Part};
@@ -29,7 +31,8 @@ pub(super) struct HandFrame {
     basis: DQuat,
     thumb: [Option<Zero>; 3],
     fingers: [[Option<Zero>; 3]; 4],
-    metacarpals: Vec<usize>,
+    /// The bones inside the palm, of each finger that has one.
+    metacarpals: [Option<usize>; 4],
 }
 
 /// A joint and its rotation in the hand's space when the finger is straight along the hand.
@@ -37,6 +40,21 @@ pub(super) struct HandFrame {
 struct Zero {
     joint: usize,
     rotation: DQuat,
+}
+
+/// How far the bones inside the palm turn at most, in radians: 10 degrees for the ring finger and 23 for the little
+/// finger, less than hands can (El-Shennawy et al. 2001, J. Hand Surg. 26A: some 20 and 27 degrees).
+const ARCH: [f64; 4] = [0.0, 0.0, 0.17, 0.40];
+/// How far the base of a finger is bent in a hand at ease, in radians: so far the palm stays flat.
+const LAX: f64 = 0.5;
+/// How far a finger is spread where it is spread wide, in radians.
+const WIDE: f64 = 0.35;
+
+/// Returns how far the bone inside the palm of a finger turns towards the palm.
+fn arch(place: usize, finger: &FingerAngles) -> f64 {
+    let bent = ((finger.flexion[0] - LAX) / (FRAC_PI_2 - LAX)).clamp(0.0, 1.0);
+    let outwards = (-finger.spread / WIDE).clamp(0.0, 1.0);
+    ARCH[place] * bent * outwards
 }
 
 impl HandFrame {
@@ -75,7 +93,7 @@ impl HandFrame {
             basis: DQuat::from_mat3(&basis).normalize(),
             thumb: [None; 3],
             fingers: [[None; 3]; 4],
-            metacarpals: Vec::new(),
+            metacarpals: Finger::ALL.map(|finger| anatomy.joint(Part::Finger(side, finger, 0))),
         };
         frame.thumb = frame.zeros(
             skeleton,
@@ -86,9 +104,6 @@ impl HandFrame {
         for finger in Finger::ALL {
             let joints = [1, 2, 3].map(|n| anatomy.joint(Part::Finger(side, finger, n)));
             frame.fingers[finger.index()] = frame.zeros(skeleton, hand, joints, false);
-            frame
-                .metacarpals
-                .extend(anatomy.joint(Part::Finger(side, finger, 0)));
         }
         Some(frame)
     }
@@ -253,8 +268,10 @@ impl Anatomy {
 
     /// Gives the hand of `side` in `pose` the posture `angles` and returns whether it has fingers.
     ///
-    /// Only rotations below the wrist change: metacarpals go to rest, finger joints are set, angles
-    /// of joints that the skeleton lacks are left out, and everything else stays.
+    /// Only rotations below the wrist change: finger joints are set, angles of joints that the skeleton lacks are
+    /// left out, and everything else stays. Metacarpals go to rest, but for those of ring and little finger, which
+    /// carry their fingers towards the palm where these are bent and spread at once, as around a ball
+    /// (Kennaway, *Avatar-independent scripting for real-time gesture animation*, section 4.3).
     ///
     /// # Panics
     /// Where `pose` has fewer joints than `skeleton`.
@@ -269,8 +286,16 @@ impl Anatomy {
         else {
             return false;
         };
-        for &joint in &frame.metacarpals {
-            pose.rotations[joint] = skeleton.joint(joint).rest;
+        for (place, joint) in frame.metacarpals.iter().enumerate() {
+            let Some(joint) = *joint else { continue };
+            let rest = skeleton.joint(joint).rest;
+            let arch = arch(place, &angles.fingers[place]);
+            pose.rotations[joint] = if arch > 0.0 && skeleton.parent(joint) == Some(hand) {
+                let turn = frame.turn(RotationOrder::XYZ, [arch, 0.0, 0.0]);
+                (turn * rest).normalize()
+            } else {
+                rest
+            };
         }
         let mut set = |zeros: &[Option<Zero>; 3], turns: [DQuat; 3]| {
             let mut turned = DQuat::IDENTITY;

@@ -185,6 +185,51 @@ fn only_the_fingers_change_and_a_hand_without_any_is_refused() {
 }
 
 #[test]
+fn a_hand_around_a_ball_has_an_arch_inside_the_palm() {
+    let wear = Wear {
+        frames: any_turn,
+        metacarpals: true,
+        ..PLAIN
+    };
+    let (skeleton, anatomy) = worn(wear);
+    // How far towards the palm the fingers' bases are carried, in metres.
+    let arched = |side: Side, bend: f64, spread: f64| {
+        let mut angles = HandAngles::default();
+        for (finger, outwards) in angles.fingers.iter_mut().zip([0.5, 0.0, -0.5, -1.0]) {
+            finger.flexion = [bend, bend, 0.5 * bend];
+            finger.spread = spread * outwards;
+        }
+        let rest = skeleton.rest_pose();
+        let mut pose = rest.clone();
+        assert!(anatomy.set_hand_angles(&skeleton, side, &angles, &mut pose));
+        let back = anatomy
+            .hand_angles(&skeleton, side, &pose)
+            .expect("fingers");
+        let off = back.to_array().into_iter().zip(angles.to_array());
+        assert!(off.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < 1e-6);
+        let [before, after] = [&rest, &pose].map(|pose| ModelPose::of(&skeleton, pose));
+        let palm = anatomy.palm_normal(side, &before).expect("a palm");
+        Finger::ALL.map(|finger| {
+            let base = anatomy
+                .joint(Part::Finger(side, finger, 1))
+                .expect("a base");
+            (after.position(base) - before.position(base)).dot(palm)
+        })
+    };
+    for side in Side::BOTH {
+        for (bend, spread) in [(1.0, 0.0), (0.0, 0.35), (-0.2, 0.35), (1.2, -0.2)] {
+            assert_eq!(arched(side, bend, spread), [0.0; 4], "{bend} {spread}");
+        }
+        let [index, middle, ring, little] = arched(side, 0.9, 0.35);
+        assert_eq!([index, middle], [0.0; 2]);
+        assert!(
+            ring > 0.001 && little > 2.0 * ring && little < 0.03,
+            "{ring} {little}"
+        );
+    }
+}
+
+#[test]
 fn every_part_is_found_in_every_convention_without_doubt() {
     let plain = body(PLAIN);
     let mut all = conventions();
