@@ -171,6 +171,7 @@ fn media_type(url: &str) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::address::Address;
 
     #[test]
     fn places_are_read_as_elan_writes_them() {
@@ -219,6 +220,20 @@ mod tests {
         let moved = MediaChange::Move(id, "other.mp4".to_owned());
         let after = corpus.change_media(&take, &moved).expect("moved");
         assert_eq!(after[0].url, "other.mp4");
+        let mut exported = |corpus: &Corpus, to: &str| {
+            let path = folder.path().join(to);
+            let what = crate::ExportWhat::Address(Address::Recording(take.clone()));
+            let options = crate::ExportOptions { force: true };
+            corpus
+                .export(&what, &path, &options, &mut progress)
+                .expect("exported");
+            std::fs::read_to_string(path).expect("an EAF file")
+        };
+        let text = exported(&corpus, "1.eaf");
+        assert!(
+            text.contains("other.mp4") && !text.contains("gone"),
+            "{text}"
+        );
         corpus.undo().expect("undone");
         assert_eq!(
             corpus.media(&take).expect("read")[0].track.url,
@@ -227,7 +242,16 @@ mod tests {
         let added = corpus.change_media(&take, &MediaChange::Add("b.mov".to_owned()));
         assert_eq!(added.expect("added").len(), 2);
         let left = corpus.change_media(&take, &MediaChange::Remove(id));
-        assert_eq!(left.expect("removed")[0].name, "media 2");
+        let left = left.expect("removed");
+        assert_eq!(left[0].name, "media 2");
+        corpus
+            .change_media(&take, &MediaChange::Remove(left[0].id))
+            .expect("removed");
+        let text = exported(&corpus, "2.eaf");
+        assert!(
+            !text.contains("MEDIA_DESCRIPTOR"),
+            "what is unlinked is not written"
+        );
         assert!(
             corpus
                 .change_media(&take, &MediaChange::Remove(id))

@@ -112,9 +112,6 @@ fn base(
 /// Says where media lie that were linked anew since the file was read; those that were not stay as it has them.
 fn relink(connection: &Connection, recording: i64, transcript: &mut Transcript) -> Result<()> {
     let tracks = recordings::media_tracks(connection, recording)?;
-    if tracks.is_empty() {
-        return Ok(());
-    }
     let before = std::mem::take(&mut transcript.media);
     transcript.media = tracks
         .into_iter()
