@@ -410,7 +410,8 @@ pub(crate) struct HoldingRow {
     pub(crate) span_us: Option<(i64, i64)>,
 }
 
-/// Returns the tokens of recordings that hold a value of a component, captured ones first.
+/// Returns the tokens of recordings that hold a value of a component, captured ones first. What was made shows
+/// nothing that its sources do not, and would be shown to itself.
 pub(crate) fn tokens_holding(
     connection: &Connection,
     component: &str,
@@ -423,8 +424,8 @@ pub(crate) fn tokens_holding(
          JOIN recording r ON r.id = t.recording_id
          LEFT JOIN signer g ON g.id = r.signer_id
          LEFT JOIN annotation a ON a.id = v.annotation_id
-         WHERE v.component = ?1 AND v.feature IS NULL AND v.value = ?2
-         ORDER BY CASE r.origin WHEN 'captured' THEN 0 WHEN 'generated' THEN 1 ELSE 2 END, t.id, v.id
+         WHERE v.component = ?1 AND v.feature IS NULL AND v.value = ?2 AND r.origin <> 'made'
+         ORDER BY r.origin <> 'captured', t.id, v.id
          LIMIT 200",
     )?;
     let rows = statement
