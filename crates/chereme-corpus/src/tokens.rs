@@ -220,7 +220,7 @@ impl Said {
         let around: Vec<ComponentSpan> = owned.iter().map(|coded| coded.span.clone()).collect();
         readings(own, &[], hand, &around)
             .into_iter()
-            .map(|(field, reading)| row_of(&field, &reading, &owned))
+            .map(|(field, place)| row_of(&field, owned[place]))
             .collect()
     }
 
@@ -250,17 +250,8 @@ impl Said {
     }
 }
 
-fn row_of(field: &Field, reading: &Reading, owned: &[&Coded]) -> TokenValueRow {
-    let says = |coded: &&&Coded| {
-        coded.span.reading == *reading
-            && coded.span.field.component == field.component
-            && coded.span.field.feature == field.feature
-            && (coded.span.field.hand == field.hand || coded.span.field.hand.is_none())
-    };
-    let source = match field.phase {
-        Some(Phase::Final) => owned.iter().rfind(says),
-        _ => owned.iter().find(says),
-    };
+fn row_of(field: &Field, source: &Coded) -> TokenValueRow {
+    let reading = &source.span.reading;
     let (phase, position) = match field.phase {
         None => (None, 0),
         Some(Phase::Initial) => (Some("initial"), 0),
@@ -275,8 +266,8 @@ fn row_of(field: &Field, reading: &Reading, owned: &[&Coded]) -> TokenValueRow {
         position,
         state: state_name(reading).to_owned(),
         value: reading.value().map(str::to_owned),
-        inventory_id: source.and_then(|coded| coded.inventory),
-        annotation_id: source.map(|coded| coded.annotation),
+        inventory_id: source.inventory,
+        annotation_id: Some(source.annotation),
     }
 }
 

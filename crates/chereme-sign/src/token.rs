@@ -34,7 +34,8 @@ pub fn owner(annotation: Span, tokens: &[Span]) -> Option<usize> {
     (shared(token) > 0 && enough).then_some(place)
 }
 
-/// Returns what the component annotations around a gloss say about it, field by field.
+/// Returns what the component annotations around a gloss say about it: each field with the place in `around` of the
+/// annotation that says its value.
 ///
 /// `token` is the gloss's span and `others` are the spans of the glosses around it, of the same
 /// hand or signer: an annotation belongs to one gloss only, see [`owner`]. `hand` is the gloss's
@@ -64,7 +65,8 @@ pub fn owner(annotation: Span, tokens: &[Span]) -> Option<usize> {
 ///     says("right.configuration", span(600, 900), "S"),
 /// ];
 /// let found = readings(span(0, 600), &[span(620, 900)], None, &around);
-/// let found: Vec<String> = found.iter().map(|(field, value)| format!("{field}={value}")).collect();
+/// let said = |(field, place): &(_, usize)| format!("{field}={}", around[*place].reading);
+/// let found: Vec<String> = found.iter().map(said).collect();
 /// assert_eq!(
 ///     found,
 ///     ["right.configuration=U", "initial.right.placement=chin", "final.right.placement=chest"]
@@ -76,31 +78,35 @@ pub fn readings(
     others: &[Span],
     hand: Option<HandRef>,
     around: &[ComponentSpan],
-) -> Vec<(Field, Reading)> {
+) -> Vec<(Field, usize)> {
     let tokens: Vec<Span> = std::iter::once(token)
         .chain(others.iter().copied())
         .collect();
-    let mut fields: BTreeMap<Key, Vec<&ComponentSpan>> = BTreeMap::new();
-    for said in around {
+    let mut fields: BTreeMap<Key, Vec<usize>> = BTreeMap::new();
+    for (place, said) in around.iter().enumerate() {
         let manual = said.field.component.is_manual();
         let about = said.field.hand.or(hand.filter(|_| manual));
         let ours = !manual || hand.is_none() || about == hand;
         if ours && owner(said.span, &tokens) == Some(0) {
             let key = (said.field.component, said.field.feature.as_deref(), about);
-            fields.entry(key).or_default().push(said);
+            fields.entry(key).or_default().push(place);
         }
     }
     fields
         .into_iter()
-        .flat_map(|(key, said)| phased(key, said))
+        .flat_map(|(key, said)| phased(key, said, around))
         .collect()
 }
 
 type Key<'a> = (Component, Option<&'a str>, Option<HandRef>);
 
-fn phased((component, feature, hand): Key, mut said: Vec<&ComponentSpan>) -> Vec<(Field, Reading)> {
-    said.sort_by_key(|said| (said.span.start(), said.span.end()));
-    said.dedup_by(|later, earlier| later.reading == earlier.reading);
+fn phased(
+    (component, feature, hand): Key,
+    mut said: Vec<usize>,
+    around: &[ComponentSpan],
+) -> Vec<(Field, usize)> {
+    said.sort_by_key(|place| (around[*place].span.start(), around[*place].span.end()));
+    said.dedup_by(|later, earlier| around[*later].reading == around[*earlier].reading);
     let last = said.len().saturating_sub(1);
     let phase = |place: usize| match place {
         _ if last == 0 => Some(None),
@@ -116,7 +122,7 @@ fn phased((component, feature, hand): Key, mut said: Vec<&ComponentSpan>) -> Vec
     };
     let numbered = said.into_iter().enumerate();
     numbered
-        .filter_map(|(place, said)| Some((field(phase(place)?), said.reading.clone())))
+        .filter_map(|(place, said)| Some((field(phase(place)?), said)))
         .collect()
 }
 
@@ -221,9 +227,25 @@ mod tests {
         ] {
             let around: Vec<ComponentSpan> = around.iter().map(|text| says(text)).collect();
             let found = readings(span(0, 100), &[span(100, 200)], hand, &around);
-            let found: Vec<String> = found.iter().map(|(f, r)| format!("{f}={r}")).collect();
+            let found = found
+                .iter()
+                .map(|(f, place)| format!("{f}={}", around[*place].reading));
+            let found: Vec<String> = found.collect();
             assert_eq!(found.join(" "), wanted);
         }
+    }
+
+    #[test]
+    fn a_value_that_comes_again_is_that_of_its_own_annotation() {
+        let around = [
+            "60-80 movement=out",
+            "0-20 movement=out",
+            "20-30 movement=down",
+        ]
+        .map(says);
+        let found = readings(span(0, 100), &[], None, &around);
+        let places: Vec<usize> = found.into_iter().map(|(_, place)| place).collect();
+        assert_eq!(places, [1, 2, 0]);
     }
 
     proptest! {

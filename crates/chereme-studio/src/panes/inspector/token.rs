@@ -134,7 +134,7 @@ fn coding(
         ui.weak(seen.say(words::UNSET_ALL));
         ui.end_row();
     }
-    for (place, value) in token.values.iter().enumerate() {
+    for value in &token.values {
         let (texts, rest) = data::field_words(&value.field);
         // What tells fields of one component apart stands before whose hand they are of.
         let mut name: Vec<&str> = texts.iter().map(|text| seen.say(*text)).collect();
@@ -150,8 +150,7 @@ fn coding(
         let label = label.on_hover_text(&name).id;
         ui.horizontal(|ui| {
             if let Some(annotation) = value.annotation {
-                // One annotation may say several values of a field, such as two movements at once.
-                let key = Id::unique(("token value", token.row.id, place, annotation));
+                let key = Id::unique(("token value", token.row.id, &value.field, annotation));
                 let candidates = |typed: &str| values_like(seen, value.inventory, typed);
                 ui.set_max_width((ui.available_width() - 24.0).max(60.0));
                 if let Some(text) = field(ui, seen, key, label, &now, &candidates) {
