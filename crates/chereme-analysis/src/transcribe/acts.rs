@@ -48,6 +48,11 @@ const SWAYS: f64 = 0.06;
 pub(super) const LETS_GO: f64 = 0.15;
 /// The least time in which a hand may do something else than go a way, in seconds.
 const GAP: f64 = 0.1;
+/// What sways or plays as a hand goes has done so before and after it where that lasts no longer than this, in
+/// seconds: hands set out and arrive slowly.
+const LULL: f64 = 0.3;
+/// A part of the hand that is less likely meant by so many nepers must have a way that is nearer by a factor of e.
+const PER: f64 = 10.0;
 
 /// Something a hand does.
 #[derive(Debug, Clone)]
@@ -90,6 +95,16 @@ impl Act {
     }
 }
 
+/// What is known of the parts of a hand.
+pub(super) struct Seeing<'a> {
+    /// Returns where the parts are, in the second frame, that are at the body or the other hand in the first.
+    pub(super) parts: &'a dyn Fn(usize, usize) -> Vec<DVec3>,
+    /// As it, of parts that may be meant instead, each with how much less likely that is in nepers.
+    pub(super) others: &'a dyn Fn(usize, usize) -> Vec<(DVec3, f64)>,
+    /// In how many frames a part of the hand lets go of what it was at.
+    pub(super) lets_go: usize,
+}
+
 /// A hand with the points of it whose ways are looked at: those that may be meant, and others that the
 /// hand may turn about.
 pub(super) struct Mover<'a> {
@@ -97,12 +112,9 @@ pub(super) struct Mover<'a> {
     points: Vec<Vec<DVec3>>,
     /// How many of them may be meant.
     meant: usize,
-    /// Returns where the parts are, in the second frame, that are at the body or the other hand in the first.
-    parts: &'a dyn Fn(usize, usize) -> Vec<DVec3>,
+    seen: Seeing<'a>,
     /// What was asked of it, in the hand's own space.
     known: RefCell<BTreeMap<(usize, usize), Vec<DVec3>>>,
-    /// In how many frames a part of the hand lets go of what it was at.
-    lets_go: usize,
 }
 
 impl<'a> Mover<'a> {
@@ -111,15 +123,14 @@ impl<'a> Mover<'a> {
     pub(super) fn new(
         track: &'a Track,
         ends: [usize; 2],
-        parts: &'a dyn Fn(usize, usize) -> Vec<DVec3>,
+        seen: Seeing<'a>,
         pivots: &[(DVec3, usize)],
-        lets_go: usize,
     ) -> Self {
         let carried = |&(at, frame): &(DVec3, usize)| track.carried(at, frame);
         let mut known = BTreeMap::new();
         let mut points = Vec::new();
         for frame in ends {
-            let at = parts(frame, frame);
+            let at = (seen.parts)(frame, frame);
             points.extend(at.iter().map(|&at| track.carried(at, frame)));
             known.insert((frame, frame), own(track, &at, frame));
         }
@@ -131,9 +142,8 @@ impl<'a> Mover<'a> {
             track,
             points,
             meant,
-            parts,
+            seen,
             known: RefCell::new(known),
-            lets_go,
         }
     }
 
@@ -166,29 +176,67 @@ impl<'a> Mover<'a> {
             share.min(1.0)
         };
         let by_turn: Vec<f64> = (first..=last).map(done).collect();
-        let soon = |n: usize| ((n - first) as f64 / self.lets_go as f64).min(1.0);
+        let soon = |n: usize| ((n - first) as f64 / self.seen.lets_go as f64).min(1.0);
         let by_time: Vec<f64> = (first..=last).map(soon).collect();
-        let mut best = plain;
         let from = self.own_parts(first, first);
-        let mut to = self.own_parts(last, last);
+        let mut to: Vec<(DVec3, f64)> = Vec::new();
+        to.extend(self.own_parts(last, last).into_iter().map(|at| (at, 0.0)));
         if changes > RESHAPED {
-            to.extend(self.own_parts(first, last));
+            to.extend(self.own_parts(first, last).into_iter().map(|at| (at, 0.0)));
         }
+        let told = to.len();
+        to.extend(self.other_parts(last, last));
+        if changes > RESHAPED {
+            to.extend(self.other_parts(last, first));
+        }
+        let mut best = plain;
         for a in &from {
-            for b in to.iter().filter(|b| a.distance(**b) > 1e-3) {
-                for done in [&by_turn, &by_time] {
-                    let way: Vec<DVec3> = (first..=last)
-                        .zip(done)
-                        .map(|(n, &share)| track.wrist[n] + track.turned[n] * a.lerp(*b, share))
-                        .collect();
+            for (n, (b, less)) in to.iter().enumerate() {
+                if a.distance(*b) < 1e-3 {
+                    continue;
+                }
+                let weight = (less / PER).exp();
+                let mut take = |way: Vec<DVec3>| {
                     let found = fit(&way);
-                    if score(&found) < score(&best) {
+                    // Nobody goes round by one part after the other; and parts that are guessed at only make it plainer.
+                    let taken = match found.way {
+                        Way::Straight { .. } => true,
+                        Way::Circle { .. } => false,
+                        _ => n < told,
+                    };
+                    if taken && weight * score(&found) < score(&best) {
                         best = found;
                     }
+                };
+                let passes = |done: &[f64], let_go: bool| {
+                    let frames = (first..=last).zip(done);
+                    let at = frames.map(|(n, &share)| {
+                        let part = a.lerp(*b, share);
+                        let at = track.wrist[n] + track.turned[n] * part;
+                        at - if let_go {
+                            track.turned[first] * (part - *a)
+                        } else {
+                            DVec3::ZERO
+                        }
+                    });
+                    at.collect::<Vec<_>>()
+                };
+                take(passes(&by_turn, false));
+                take(passes(&by_time, false));
+                // A hand that leaves what it was at goes on as a whole: the palm's way counts from where it lets go.
+                if *b == to[0].0 {
+                    take(passes(&by_time, true));
                 }
             }
         }
         best
+    }
+
+    /// Returns parts that may be meant in one frame besides, where they are in another in the hand's own space, and
+    /// how much less likely they are.
+    fn other_parts(&self, meant: usize, frame: usize) -> Vec<(DVec3, f64)> {
+        let (at, less): (Vec<_>, Vec<_>) = (self.seen.others)(meant, frame).into_iter().unzip();
+        own(self.track, &at, frame).into_iter().zip(less).collect()
     }
 
     /// Returns where the parts are in one frame that may be meant in another, the palm first, in the hand's own
@@ -199,7 +247,7 @@ impl<'a> Mover<'a> {
         let mut known = self.known.borrow_mut();
         let parts = known
             .entry((meant, frame))
-            .or_insert_with(|| own(track, &(self.parts)(meant, frame), frame));
+            .or_insert_with(|| own(track, &(self.seen.parts)(meant, frame), frame));
         all.extend(parts.iter());
         all
     }
@@ -240,12 +288,12 @@ fn plain(way: &Way) -> f64 {
 /// The frames in which a hand signs, ways from and to rest cut off.
 pub(super) fn signing(scene: &Scene<'_>, track: &Track) -> RangeInclusive<usize> {
     let last = track.palm.len() - 1;
-    let (ways, _) = ways(
-        scene,
-        &Mover::new(track, [0, last], &|_, _| Vec::new(), &[], 1),
-        0,
-        last,
-    );
+    let nothing = Seeing {
+        parts: &|_, _| Vec::new(),
+        others: &|_, _| Vec::new(),
+        lets_go: 1,
+    };
+    let (ways, _) = ways(scene, &Mover::new(track, [0, last], nothing, &[]), 0, last);
     let mut first = 0;
     let mut end = last;
     // Hands that lie in the lap or are folded before the belly rest, if they come up far from there.
@@ -288,21 +336,42 @@ pub(super) fn acts(
     let ways = joined(scene, mover, &ways, |n| speeds[n - first]);
     let left = ways.first().map(|way| *way.start());
     let several = ways.len() > 1;
+    let mut begun = None;
     for way in ways {
         let (start, end) = (*way.start(), *way.end());
         if several && is_brief(scene, mover, start, end) {
             from = end;
             continue;
         }
-        found.extend(on_the_spot(scene, track, from, start, plays.as_ref()));
-        found.push(going(scene, mover, start, end, plays.as_ref()));
+        let before = on_the_spot(scene, track, from, start, plays.as_ref());
+        let goes = going(scene, mover, start, end, plays.as_ref());
+        if lulls(scene, &goes, &before, start - from) {
+            begun = begun.or(before.first().map(Act::first));
+        } else {
+            found.extend(before);
+        }
+        found.push(goes);
         from = end;
     }
-    found.extend(on_the_spot(scene, track, from, last, plays.as_ref()));
+    let after = on_the_spot(scene, track, from, last, plays.as_ref());
+    let with = found.last();
+    if !with.is_some_and(|with| lulls(scene, with, &after, last - from)) {
+        found.extend(after);
+    }
     let found = folded(scene, track, found);
-    let begun = found.first().map(|act| act.first());
-    let start = begun.map(|begun| left.map_or(begun, |left| left.min(begun)));
-    (found, start)
+    let first = found.first().map(Act::first);
+    let start = first.into_iter().chain(left).chain(begun).min();
+    (found, start.filter(|_| first.is_some()))
+}
+
+/// Tells whether what a hand does for some frames before or after a way is what it does on that way besides.
+fn lulls(scene: &Scene<'_>, way: &Act, beside: &[Act], frames: usize) -> bool {
+    let same = |act: &Act| match (&act.kind, &way.with) {
+        (Kind::Sway(Sway::Play { .. }), Some(Sway::Play { .. })) => true,
+        (Kind::Sway(Sway::Wrist { .. }) | Kind::Change, Some(Sway::Wrist { .. })) => !act.reshaped,
+        _ => false,
+    };
+    scene.seconds(frames) < LULL && beside.iter().all(same)
 }
 
 /// Tells whether a way is too brief and short to be meant: the hand comes into its posture, or leaves it.

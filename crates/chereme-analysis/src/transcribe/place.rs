@@ -85,6 +85,8 @@ const UNSAID: f64 = 1.5;
 const OWN_SIDES: f64 = 1.0;
 /// What lies nearer to the middle of two places than this share of the way to either lies between.
 const BETWEEN_THEM: f64 = 0.6;
+/// Parts of the hand are thought of as meant that are no less likely than by this, in nepers.
+const RATHER_NOT: f64 = 8.0;
 /// Half-way between two places may be meant that are nearer to each other than this, in metres.
 const APART: f64 = 0.2;
 /// As above, of one place and beside it.
@@ -502,6 +504,33 @@ impl<'a> Body<'a> {
         found.extend(self.together().map(|together| vec![together.parts[n]]));
         let placed = self.place(n, false).filter(|placed| placed.small);
         found.extend(placed.map(|placed| placed.parts));
+        found
+    }
+
+    /// Returns parts of a hand that may be meant instead, each with how much less likely that is, in nepers, than
+    /// what is likeliest: those of other places and other pairs of parts.
+    pub(super) fn other_parts(&self, n: usize) -> Vec<(Vec<HandPoint>, f64)> {
+        let Some(hand) = self.hands[n].as_ref() else {
+            return Vec::new();
+        };
+        let mut found: Vec<(Vec<HandPoint>, f64)> = Vec::new();
+        let mut add = |parts: Vec<HandPoint>, less: f64| match found
+            .iter_mut()
+            .find(|(known, _)| *known == parts)
+        {
+            Some((_, known)) => *known = known.min(less),
+            None => found.push((parts, less)),
+        };
+        let all = self.candidates(n, hand, false);
+        let best = all.iter().map(|it| it.score).fold(f64::INFINITY, f64::min);
+        let near = all.iter().filter(|it| it.small);
+        for it in near.filter(|it| it.score < best + RATHER_NOT) {
+            let parts = it.said.map_or_else(|| vec![it.meant], <[_]>::to_vec);
+            add(parts, it.score - best);
+        }
+        for (part, less) in self.other_pairs(n, RATHER_NOT) {
+            add(vec![part], less);
+        }
         found
     }
 

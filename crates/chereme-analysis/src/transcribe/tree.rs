@@ -15,7 +15,7 @@ use chereme_sign::hamnosys::{
 };
 use glam::DVec3;
 
-use super::acts::{Act, Kind, LETS_GO, Mover, Sway, acts, signing};
+use super::acts::{Act, Kind, LETS_GO, Mover, Seeing, Sway, acts, signing};
 use super::aim;
 use super::hands::{Relation, RelationKind, relation, signs};
 use super::place::{Body, Placed, Together, named};
@@ -178,23 +178,29 @@ impl<'a> Writer<'a> {
     ) -> (Vec<Act>, Option<usize>) {
         let ends = [*frames.start(), *frames.end()];
         let parts = |meant: usize, frame: usize| {
-            let Some(body) = self.body(meant) else {
+            let (Some(body), Some(at)) = (self.body(meant), self.body(frame)) else {
                 return Vec::new();
             };
-            let parts = body.meant_parts(hand);
-            if meant == frame {
-                return body.where_are(hand, &parts);
-            }
-            let at = self.body(frame);
-            at.map_or_else(Vec::new, |at| at.where_are(hand, &parts))
+            at.where_are(hand, &body.meant_parts(hand))
+        };
+        let others = |meant: usize, frame: usize| {
+            let (Some(body), Some(at)) = (self.body(meant), self.body(frame)) else {
+                return Vec::new();
+            };
+            let (parts, less): (Vec<_>, Vec<_>) = body.other_parts(hand).into_iter().unzip();
+            at.where_are(hand, &parts).into_iter().zip(less).collect()
         };
         let mut pivots = Vec::new();
         for frame in ends {
             let tips = self.body(frame).map(|body| body.tips(hand));
             pivots.extend(tips.into_iter().flatten().map(|at| (at, frame)));
         }
-        let lets_go = self.scene.frames(LETS_GO);
-        let mover = Mover::new(track, ends, &parts, &pivots, lets_go);
+        let seen = Seeing {
+            parts: &parts,
+            others: &others,
+            lets_go: self.scene.frames(LETS_GO),
+        };
+        let mover = Mover::new(track, ends, seen, &pivots);
         acts(self.scene, &mover, frames)
     }
 

@@ -12,7 +12,7 @@ const POINTS: usize = 48;
 const CURVED: f64 = 0.075;
 /// A shallower one is an arc where it is so deep at least, in metres and against its chord, and off by no
 /// more than this share of what a straight way is.
-const SHALLOW: (f64, f64, f64) = (0.02, 0.035, 0.15);
+const SHALLOW: (f64, f64, f64) = (0.015, 0.035, 0.15);
 /// A way round counts as a circle from this angle on: five sixths of a turn.
 pub(super) const ROUND: f64 = TAU * 0.83;
 /// From this angle on it is part of a circle rather than an arc, of which the deepest is half a turn, where it

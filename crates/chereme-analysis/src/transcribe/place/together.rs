@@ -76,6 +76,16 @@ impl Body<'_> {
         all.into_iter().map(|(_, together)| together).collect()
     }
 
+    /// Returns the parts of a hand that may be at the other one, with how much less likely that is than the
+    /// likeliest, up to `most` nepers.
+    pub(super) fn other_pairs(&self, n: usize, most: f64) -> Vec<(HandPoint, f64)> {
+        let unlikely = |it: &Together| it.unlikely + STEP * ranks(it);
+        let all = self.pairs(4 * PAIRS, unlikely);
+        let best = all.first().map_or(0.0, unlikely);
+        let others = all.iter().map(|it| (it.parts[n], unlikely(it) - best));
+        others.filter(|(_, less)| *less < most).collect()
+    }
+
     fn by_each_other(&self, [own, other]: [&Spotted; 2]) -> Together {
         let apart = own.at - other.at;
         let distance = apart.length();
