@@ -36,7 +36,7 @@ use crate::db::search::{self as rows, State, TokenDocument};
 use crate::error::{Error, Result};
 
 /// Raised whenever documents are made otherwise than before: indexes of other numbers are remade.
-const FORMAT: i64 = 2;
+const FORMAT: i64 = 3;
 const WORDS: &str = "words";
 const MEMORY: usize = 64 << 20;
 const SMALL_SEGMENT: u32 = 20_000;

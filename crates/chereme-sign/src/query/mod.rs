@@ -107,7 +107,8 @@ Times: duration, start, end, in s, ms or min
   duration<0.8s   duration=0.5s..1s   start>=2min
 
 The token as a whole
-  origin=captured,made,lexicon,generated  hand=right,left,both
+  origin=captured,made,lexicon,generated
+  hand=right,left,dominant,weak,both      it is annotated for, else coded for
   signer=  recording=  sign=  token=  tier=  inventory=
 
 Beside another annotation of the recording

@@ -336,7 +336,8 @@ pub enum Property {
     Tier,
     /// The name of an inventory that values of the token come from.
     Inventory,
-    /// The hand that the token is annotated for: `right`, `left`, `dominant`, `weak` or `both`.
+    /// The hand that the token is annotated for, else the hands that something is coded of: `right`,
+    /// `left`, `dominant`, `weak` or `both`.
     Hand,
 }
 

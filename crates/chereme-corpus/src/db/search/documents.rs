@@ -169,6 +169,32 @@ struct SignTexts {
     translations: Vec<Rc<str>>,
 }
 
+/// The hands of a token: the one that it is annotated for, else those that something is coded of.
+#[derive(Default)]
+struct Hands {
+    dominant: bool,
+    weak: bool,
+}
+
+impl Hands {
+    fn add(&mut self, hand: Option<&str>, left_handed: bool) {
+        let codes = hand_codes(hand, left_handed);
+        self.dominant |= codes.contains(&'d');
+        self.weak |= codes.contains(&'w');
+    }
+
+    fn names(&self, left_handed: bool) -> &'static [&'static str] {
+        match (self.dominant, self.weak, left_handed) {
+            (true, true, _) => &["both"],
+            (true, false, false) => &["right", "dominant"],
+            (true, false, true) => &["left", "dominant"],
+            (false, true, false) => &["left", "weak"],
+            (false, true, true) => &["right", "weak"],
+            (false, false, _) => &[],
+        }
+    }
+}
+
 /// What is known of a recording: its signer, and what is said and remarked in it, by time.
 struct Around {
     signer: Option<i64>,
@@ -216,10 +242,13 @@ impl<'c> Reader<'c> {
             said_during(&around.translations, time, &mut document.translations);
             said_during(&around.comments, time, &mut document.comments);
         }
-        self.add_marks(token, left_handed, &mut document)?;
-        let mut inventories = Vec::new();
+        self.add_marks(token, &mut document)?;
+        let (mut inventories, mut coded) = (Vec::new(), Hands::default());
         values.of(token.id, |row| {
             document.readings.push(self.terms_of(row, left_handed)?);
+            if row.get_ref(6)?.as_str() == Ok("value") {
+                coded.add(row.get_ref(1)?.as_str().ok(), left_handed);
+            }
             let inventory: Option<i64> = row.get(8)?;
             inventories.extend(inventory.filter(|id| !inventories.contains(id)));
             Ok(())
@@ -228,26 +257,18 @@ impl<'c> Reader<'c> {
             let name = self.inventory(id)?;
             document.marks.push(self.mark(Mark::Inventory, &name));
         }
+        if let Some(hand) = token.hand.as_deref() {
+            coded = Hands::default();
+            coded.add(Some(hand), left_handed);
+        }
+        for name in coded.names(left_handed) {
+            document.marks.push(self.mark(Mark::Hand, name));
+        }
         Ok(document)
     }
 
-    fn add_marks(
-        &mut self,
-        token: &TokenFields,
-        left_handed: bool,
-        document: &mut TokenDocument,
-    ) -> Result<()> {
+    fn add_marks(&mut self, token: &TokenFields, document: &mut TokenDocument) -> Result<()> {
         let mut marks = vec![self.mark(Mark::Origin, &token.origin)];
-        if let Some(hand) = token.hand.as_deref() {
-            let names: &[&str] = match (hand, hand_codes(Some(hand), left_handed)) {
-                ("both", _) | (_, []) => &["both"],
-                (_, ['r', 'd']) => &["right", "dominant"],
-                (_, ['l', 'w']) => &["left", "weak"],
-                (_, ['r', 'w']) => &["right", "weak"],
-                _ => &["left", "dominant"],
-            };
-            marks.extend(names.iter().map(|name| self.mark(Mark::Hand, name)));
-        }
         if let Some(tier) = token.tier {
             let name = self.tier(tier)?;
             marks.push(self.mark(Mark::Tier, &name));

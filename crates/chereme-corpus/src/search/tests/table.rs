@@ -216,9 +216,9 @@ recording!=2 => CHAT BOL-2H MAISON
 sign=BOL => BOL
 token=2 => BOL-2H
 hand=right => CHAT
-hand=dominant => CHAT
-hand=both => BOL-2H
-hand=unset => MAISON INDEX:1 ÉCOLE BOL ESCARGOT
+hand=dominant => CHAT INDEX:1
+hand=both => BOL-2H ÉCOLE BOL
+hand=unset => MAISON ESCARGOT
 overlaps nonmanual.brows=raised => CHAT BOL-2H INDEX:1
 not-overlaps nonmanual.brows=raised => MAISON ÉCOLE
 inside nonmanual.brows=furrowed => MAISON ÉCOLE
