@@ -523,7 +523,7 @@ pub struct Nonmanual {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Indicate {
-    /// The hands that move.
+    /// The hands that are sent; one that stays still away from the other is left where it is.
     #[serde(default = "both")]
     pub hand: Hands,
     /// Where the movement starts; without one where it did.

@@ -5,12 +5,12 @@ use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::{Component, Reading};
 
 use crate::arm::{self, Reach};
-use crate::body::Frame;
+use crate::body::{Frame, arm_length};
 use crate::course::Course;
 use crate::error::Cause;
 use crate::made::About;
 use crate::ops::place::{self, told};
-use crate::recipe::{Amplify, Indicate, Leg, Solver, Travel};
+use crate::recipe::{Amplify, Indicate, Leg, Solver, Spot, Travel};
 use crate::resolve::PlaceInput;
 use crate::work::{Columns, Group, Work};
 
@@ -117,42 +117,118 @@ fn way(work: &Work, frame: &Frame, path: &[Leg], course: &Course) -> Vec<DVec3> 
         .collect()
 }
 
+/// A hand that a verb sends elsewhere.
+struct Sent {
+    side: Side,
+    path: Vec<DVec3>,
+    shoulders: [DVec3; 2],
+    arm: f64,
+}
+
+impl Sent {
+    fn of(work: &Work, side: Side) -> Result<Self, Cause> {
+        let chain = work.anatomy.arm(side).ok_or(Cause::NoArm(side))?;
+        let columns = Columns::of(work, [chain.upper, chain.hand]);
+        let shoulder = columns.positions(chain.upper);
+        Ok(Self {
+            side,
+            path: columns.positions(chain.hand).to_vec(),
+            shoulders: [shoulder[0], shoulder[work.frames - 1]],
+            arm: arm_length(work, side).ok_or(Cause::NoArm(side))?,
+        })
+    }
+
+    fn is_still(&self) -> bool {
+        self.path.iter().all(|at| at.distance(self.path[0]) < STILL)
+    }
+
+    /// Returns the share of the way from `near` to `far` at which the wrist is within the arm's reach, at
+    /// the start or the end, where it is `beside` the hands' middle.
+    fn reaches(&self, end: usize, beside: DVec3, near: DVec3, far: DVec3) -> f64 {
+        let most = REACH * self.arm;
+        let within =
+            |share: f64| (near.lerp(far, share) + beside).distance(self.shoulders[end]) <= most;
+        (0..=20)
+            .rev()
+            .map(|n| f64::from(n) / 20.0)
+            .find(|&it| within(it))
+            .unwrap_or(0.0)
+    }
+}
+
+/// Wrists that stay within this many metres do not move.
+const STILL: f64 = 0.03;
+
+/// How far, as a share of its length, an arm is stretched at most towards what is only a direction.
+const REACH: f64 = 0.95;
+
+/// Returns the hands that are sent: those that move, if one of them does and the other is not by it.
+fn sent(work: &Work, sides: &[Side]) -> Result<Vec<Sent>, Cause> {
+    let all = sides.iter().map(|&side| Sent::of(work, side));
+    let mut all = all.collect::<Result<Vec<_>, _>>()?;
+    if let [one, other] = all.as_slice() {
+        let pairs = one.path.iter().zip(&other.path);
+        let nearest = pairs.map(|(a, b)| a.distance(*b)).fold(f64::MAX, f64::min);
+        if one.is_still() != other.is_still() && nearest > 0.3 * one.arm {
+            all.retain(|hand| !hand.is_still());
+        }
+    }
+    Ok(all)
+}
+
 /// Makes the hands' movement start and end elsewhere: the way between is turned and stretched with
 /// its ends, and the hands turn about the vertical with it.
+///
+/// What is only a direction, such as `left` or `you`, is as far as the arms reach. A hand that hangs or lies
+/// still while the other one moves stays where it is.
 pub(crate) fn indicate(
     work: &mut Work,
     settings: &Indicate,
     places: [Option<&PlaceInput>; 2],
     operator: &str,
 ) -> Result<Done, Cause> {
-    let sides = settings.hand.sides(work.handedness);
-    let frame = place::frame(work, sides)?;
-    let paths = sides
-        .iter()
-        .map(|&side| wrist_path(work, side))
-        .collect::<Result<Vec<_>, _>>()?;
-    let middle = |f: usize| paths.iter().map(|path| path[f]).sum::<DVec3>() / paths.len() as f64;
-    let (start, end) = (middle(0), middle(work.frames - 1));
-    let spot = |at: usize, now: DVec3| {
-        let wanted = [&settings.from, &settings.to][at].as_ref();
-        wanted.map_or(Ok(now), |spot| {
-            let place = places[at].map(|input| &input.at);
-            frame
-                .spot(work, spot, place, sides[0])
-                .ok_or(Cause::NoMeaning {
-                    value: spot.to_string(),
-                    what: "landmark that this skeleton has",
-                })
-        })
+    let hands = sent(work, settings.hand.sides(work.handedness))?;
+    let sides: Vec<Side> = hands.iter().map(|hand| hand.side).collect();
+    let frame = place::frame(work, &sides)?;
+    let middle =
+        |f: usize| hands.iter().map(|hand| hand.path[f]).sum::<DVec3>() / hands.len() as f64;
+    let ends = [0, work.frames - 1];
+    let [start, end] = ends.map(middle);
+    let mut did = Vec::new();
+    let mut spot = |at: usize, now: DVec3| -> Result<DVec3, Cause> {
+        let Some(spot) = [&settings.from, &settings.to][at].as_ref() else {
+            return Ok(now);
+        };
+        let find = |spot| frame.spot(work, spot, places[at].map(|input| &input.at), sides[0]);
+        let whole = find(spot).ok_or(Cause::NoMeaning {
+            value: spot.to_string(),
+            what: "landmark that this skeleton has",
+        })?;
+        let near = find(&Spot::Me).unwrap_or(whole);
+        if !matches!(spot, Spot::Towards(_) | Spot::You) {
+            return Ok(whole);
+        }
+        let shares = hands
+            .iter()
+            .map(|hand| hand.reaches(at, hand.path[ends[at]] - now, near, whole));
+        let share = shares.fold(1.0, f64::min);
+        if share < 1.0 {
+            did.push(format!(
+                "{spot} is {:.0} cm nearer, as far as the arms reach",
+                near.distance(whole) * (1.0 - share) * 100.0
+            ));
+        }
+        Ok(near.lerp(whole, share))
     };
     let (from, to) = (spot(0, start)?, spot(1, end)?);
     let shares = travelled(&(0..work.frames).map(middle).collect::<Vec<_>>());
     let turn = level_turn(end - start, to - from);
     let mut worst = Reach::default();
-    for (&side, path) in sides.iter().zip(&paths) {
+    for Sent { side, path, .. } in &hands {
+        let side = *side;
         let chain = work.anatomy.arm(side).ok_or(Cause::NoArm(side))?;
         let columns = Columns::of(work, [chain.hand]);
-        let hands: Vec<DQuat> = columns
+        let turned: Vec<DQuat> = columns
             .rotations(chain.hand)
             .iter()
             .map(|q| turn * *q)
@@ -163,24 +239,18 @@ pub(crate) fn indicate(
                 from.lerp(to, shares[f]) + turn * (path[f] - line)
             })
             .collect();
-        let reach = arm::move_wrist(
-            work,
-            side,
-            &columns,
-            &targets,
-            Some(&hands),
-            Solver::Analytic,
-        )
-        .ok_or(Cause::NoArm(side))?;
+        let solver = Solver::Analytic;
+        let reach = arm::move_wrist(work, side, &columns, &targets, Some(&turned), solver)
+            .ok_or(Cause::NoArm(side))?;
         place::check(side, &reach)?;
         worst = worst.worse(reach);
     }
-    moved(work, sides, operator);
-    let mut did = vec![format!(
+    moved(work, &sides, operator);
+    did.push(format!(
         "the way of {:.0} cm became {:.0} cm",
         start.distance(end) * 100.0,
         from.distance(to) * 100.0
-    )];
+    ));
     did.extend(told(&worst));
     Ok((did, worst.residual))
 }

@@ -80,6 +80,8 @@ fn paths_are_scaled_carried_and_sent() {
             path[0],
             path[119]
         );
+        let across = wrist(&made(&format!("{gloss} | from right to left")), Side::Right);
+        assert!(across[119].x > across[0].x + 0.3, "{gloss}: {across:?}");
         for made in [carried, sent] {
             bones_keep_their_lengths(&made.clip);
             assert_eq!(differing(&made, &source(gloss)), [Group::Arm(Side::Right)]);
