@@ -3,6 +3,7 @@
 mod common;
 
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use chereme_corpus::Corpus;
 use chereme_tests::workers::{Worker, small_corpus};
@@ -56,6 +57,33 @@ fn a_second_session_sees_what_the_first_one_does() {
     assert_eq!(first.log(9).expect("log").len(), 3);
     assert!(first.redo().is_err(), "it is done already");
     first.undo().expect("undone");
+}
+
+static WAITS: AtomicUsize = AtomicUsize::new(0);
+
+#[test]
+fn who_reads_never_waits_for_a_writer_and_who_writes_says_that_it_waits() {
+    chereme_corpus::on_waiting(|| {
+        WAITS.fetch_add(1, Ordering::SeqCst);
+    });
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = small_corpus(folder.path(), "shared.chereme").expect("a corpus");
+    let other = rusqlite::Connection::open(&path).expect("opened");
+    other.execute_batch("BEGIN IMMEDIATE").expect("locked");
+    let reader = Corpus::open(&path, "reader").expect("opened");
+    assert!(!reader.log(9).expect("read").is_empty());
+    drop(reader);
+    assert_eq!(WAITS.load(Ordering::SeqCst), 0);
+    let writer = std::thread::spawn({
+        let path = path.clone();
+        move || Corpus::open(&path, "writer").and_then(|mut corpus| corpus.undo())
+    });
+    while WAITS.load(Ordering::SeqCst) == 0 && !writer.is_finished() {
+        std::thread::yield_now();
+    }
+    other.execute_batch("ROLLBACK").expect("unlocked");
+    writer.join().expect("no panic").expect("undone after all");
+    assert!(WAITS.load(Ordering::SeqCst) > 0, "it said that it waits");
 }
 
 #[test]

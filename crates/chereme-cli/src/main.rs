@@ -20,6 +20,7 @@ fn main() -> ExitCode {
         Err(error) => return output::usage(&error, std::env::args().any(|arg| arg == "--json")),
     };
     let mut output = Output::new(cli.json);
+    chereme_corpus::on_waiting(output::waiting);
     let done = commands::run(&cli, &mut output).and_then(|code| output.finish().map(|()| code));
     match done {
         Ok(code) => code,

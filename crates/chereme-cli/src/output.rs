@@ -3,6 +3,8 @@
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::process::ExitCode;
+use std::sync::Once;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
 use anyhow::Result;
@@ -178,12 +180,16 @@ impl Bar {
         } else {
             ProgressDrawTarget::hidden()
         };
+        // Where it cannot be had, Ctrl-C ends the program at once, which harms no corpus either.
+        static LISTEN: Once = Once::new();
+        LISTEN.call_once(|| drop(ctrlc::set_handler(interrupted)));
+        BARS.fetch_add(1, Ordering::Relaxed);
         let bar = ProgressBar::with_draw_target(None, target);
         bar.enable_steady_tick(Duration::from_millis(200));
         Self { bar, unit: None }
     }
 
-    /// Shows a step; Ctrl-C ends the program, which leaves the corpus as it was.
+    /// Shows a step; after Ctrl-C the work is told to stop, which leaves the corpus as it was.
     pub(crate) fn show(&mut self, step: Step<'_>) -> ControlFlow<()> {
         if self.unit != Some(step.unit) {
             self.unit = Some(step.unit);
@@ -202,12 +208,36 @@ impl Bar {
         if self.bar.message() != step.task {
             self.bar.set_message(step.task.to_owned());
         }
-        ControlFlow::Continue(())
+        if STOP.load(Ordering::Relaxed) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+}
+
+/// Tells that another program writes to the corpus.
+pub(crate) fn waiting() {
+    // Whoever closed the terminal need not know.
+    let _ = writeln!(
+        io::stderr(),
+        "waiting for another program that is writing to the corpus ..."
+    );
+}
+
+static STOP: AtomicBool = AtomicBool::new(false);
+static BARS: AtomicUsize = AtomicUsize::new(0);
+
+/// What Ctrl-C does: it asks long work to stop, and ends everything else, as it ends work that was asked before.
+fn interrupted() {
+    if BARS.load(Ordering::Relaxed) == 0 || STOP.swap(true, Ordering::Relaxed) {
+        std::process::exit(130);
     }
 }
 
 impl Drop for Bar {
     fn drop(&mut self) {
+        BARS.fetch_sub(1, Ordering::Relaxed);
         self.bar.finish_and_clear();
     }
 }

@@ -66,7 +66,7 @@ pub use contents::{
 pub use db::recordings::{MediaTrackRow, RecordingRow, SignerRow};
 pub use db::signs::TokenRow;
 pub use db::tiers::TierRow;
-pub use db::{OperationKind, OperationRow};
+pub use db::{OperationKind, OperationRow, on_waiting};
 pub use details::{
     Details, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue,
 };

@@ -44,8 +44,8 @@ pub(crate) fn copy(connection: &Connection, to: &Path) -> Result<()> {
 /// Opens such a copy, to read it; that leaves its bytes as they are.
 pub(crate) fn read_copy(path: &Path) -> Result<Connection> {
     let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX;
-    let connection = Connection::open_with_flags(path, flags)?;
-    open::configure(&connection)?;
+    let mut connection = Connection::open_with_flags(path, flags)?;
+    open::configure(&mut connection)?;
     connection.execute_batch("BEGIN")?;
     Ok(connection)
 }

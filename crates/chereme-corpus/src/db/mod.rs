@@ -24,6 +24,7 @@ pub(crate) mod spans;
 pub(crate) mod tiers;
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use rusqlite::{Connection, TransactionBehavior};
 
@@ -33,6 +34,7 @@ use crate::search::index::SearchIndex;
 pub(crate) use history::log as history_log;
 pub use history::{OperationKind, OperationRow};
 pub(crate) use open::SCHEMA_VERSION;
+pub use open::on_waiting;
 
 /// An open corpus file: its connection, its search index, and who works with it.
 pub(crate) struct Store {
@@ -159,7 +161,9 @@ impl Store {
 
 impl Drop for Store {
     fn drop(&mut self) {
-        // Closing leaves one true single file; failing to is harmless, the next opening does it.
+        // Closing leaves one true single file; failing to is harmless, the next opening does it, and so
+        // nobody waits for another writer here.
+        let _ = self.connection.busy_timeout(Duration::ZERO);
         let _ = self
             .connection
             .execute_batch("PRAGMA optimize; PRAGMA wal_checkpoint(TRUNCATE);");

@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::{ErrorKind, Read as _};
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::time::Duration;
 
 use rusqlite::config::DbConfig;
@@ -59,7 +60,7 @@ fn make(path: &Path, fill: impl FnOnce(&Connection) -> Result<()>) -> Result<()>
         | OpenFlags::SQLITE_OPEN_NO_MUTEX;
     let mut connection = Connection::open_with_flags(path, flags)?;
     connection.execute_batch("PRAGMA page_size = 16384; PRAGMA journal_mode = WAL;")?;
-    configure(&connection)?;
+    configure(&mut connection)?;
     connection.pragma_update(None, "application_id", APPLICATION_ID)?;
     raise(&mut connection, fill)?;
     connection.close().map_err(|(_, error)| error)?;
@@ -191,8 +192,9 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
         return Err(refuse(reason, remedy));
     }
     let mut connection = connect(path)?;
+    let configured = configure(&mut connection);
     let pragma = |name: &str| connection.pragma_query_value(None, name, |row| row.get::<_, i32>(0));
-    let application = configure(&connection)
+    let application = configured
         .and_then(|()| Ok(pragma("application_id")?))
         .map_err(|error| match &error {
             Error::Database(fault)
@@ -241,8 +243,32 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
     Ok(connection)
 }
 
-pub(super) fn configure(connection: &Connection) -> Result<()> {
-    connection.busy_timeout(Duration::from_secs(20))?;
+static WAITING: OnceLock<fn()> = OnceLock::new();
+
+/// Has `tell` called whenever work has waited for a second for another program that writes to the corpus.
+///
+/// It counts for the whole program, and only the first call does. After 20 seconds the work is refused.
+pub fn on_waiting(tell: fn()) {
+    // A second listener is not an error: the first one tells already.
+    let _ = WAITING.set(tell);
+}
+
+const PAUSE: Duration = Duration::from_millis(25);
+const TOLD_AFTER: i32 = 40;
+const REFUSED_AFTER: i32 = 800;
+
+fn wait(before: i32) -> bool {
+    if before == TOLD_AFTER
+        && let Some(tell) = WAITING.get()
+    {
+        tell();
+    }
+    std::thread::sleep(PAUSE);
+    before < REFUSED_AFTER
+}
+
+pub(super) fn configure(connection: &mut Connection) -> Result<()> {
+    connection.busy_handler(Some(wait))?;
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true)?;
     connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
     // Without it statements are parsed anew whenever a parameter changes.
