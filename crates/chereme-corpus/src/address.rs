@@ -7,6 +7,7 @@ use chereme_motion::{Instant, Span};
 use chereme_sign::text::{did_you_mean, fold, nearest};
 use rusqlite::Connection;
 
+use crate::db::notations;
 use crate::db::recordings::{self, RecordingRow, SignerRow};
 use crate::db::signs::{self, TokenRow};
 use crate::error::{Error, Result};
@@ -264,10 +265,17 @@ pub(crate) fn stretch(connection: &Connection, address: &Address) -> Result<Stre
     let (Some(recording), Some(start), Some(end)) =
         (token.recording_id, token.start_us, token.end_us)
     else {
+        let (known_by, remedy) = if notations::of_token(connection, token.id)?.is_some() {
+            let remedy = "make it move first: `chereme animate CORPUS GLOSS --as NAME`";
+            ("is notation", remedy)
+        } else {
+            let remedy = "name a token that was recorded, such as token:41";
+            ("is a lexicon entry", remedy)
+        };
         return Err(
-            Error::wrong(format!("{address} is a lexicon entry without movement"))
+            Error::wrong(format!("{address} {known_by} without movement"))
                 .at(address.to_string())
-                .advise("name a token that was recorded, such as token:41"),
+                .advise(remedy),
         );
     };
     Ok(Stretch {
