@@ -11,7 +11,7 @@ use chereme_sign::hamnosys::{self, Sign};
 use serde_json::json;
 
 use crate::Corpus;
-use crate::address::{self, Address};
+use crate::address::{self, Address, Name};
 use crate::error::{Error, Result};
 use crate::notation;
 use crate::recombine::{NotationFinding, Recombination};
@@ -21,7 +21,7 @@ use crate::sources::notation::{NEXT, OWN_BODY};
 /// Who signs what is notated, and how.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Staging<'a> {
-    /// The address of a signer or a recording whose body signs; without one the corpus chooses, and one
+    /// The name or address of a signer or a recording whose body signs; without one the corpus chooses, and one
     /// without any movement takes the body that comes with the program.
     pub signer: Option<&'a str>,
     /// The body language: `default`, `measured` in the corpus's captured signs, or a file; without one
@@ -45,9 +45,11 @@ impl Corpus {
         staging: &Staging<'_>,
         gloss: Option<&str>,
     ) -> Result<Recombination> {
-        if let Some(signer) = staging.signer {
-            self.check_body(signer)?;
-        }
+        let body = staging.signer.map(|it| self.body(it)).transpose()?;
+        let staging = &Staging {
+            signer: body.as_deref(),
+            ..*staging
+        };
         let (node, mut findings) = leaf(notation, staging)?;
         let recipe = json!({"version": VERSION, "make": node}).to_string();
         let mut done = match gloss {
@@ -64,19 +66,30 @@ impl Corpus {
         Ok(done)
     }
 
-    /// Refuses whom the corpus does not know.
-    fn check_body(&self, signer: &str) -> Result<()> {
+    /// Returns the address of a body, which may be a signer's or a recording's name alone.
+    ///
+    /// # Errors
+    /// Where the corpus knows nobody of that name.
+    fn body(&self, wanted: &str) -> Result<String> {
         let connection = self.store.read();
-        match signer.parse() {
-            _ if signer == OWN_BODY => Ok(()),
-            Ok(Address::Recording(name)) => address::recording(connection, &name).map(drop),
-            Ok(Address::Signer(name)) => address::signer(connection, &name).map(drop),
-            _ => Err(
-                Error::wrong(format!("{signer:?} names nobody's body")).advise(
-                    "write signer:NAME or recording:NAME; `chereme list CORPUS signers` lists them",
-                ),
-            ),
+        let name = || Name::Text(wanted.to_owned());
+        match wanted.parse() {
+            _ if wanted == OWN_BODY => {}
+            Ok(Address::Recording(name)) => drop(address::recording(connection, &name)?),
+            Ok(Address::Signer(name)) => drop(address::signer(connection, &name)?),
+            _ if address::signer(connection, &name()).is_ok() => {
+                return Ok(Address::Signer(name()).to_string());
+            }
+            _ if address::recording(connection, &name()).is_ok() => {
+                return Ok(Address::Recording(name()).to_string());
+            }
+            _ => {
+                return Err(Error::wrong(format!("{wanted:?} names nobody's body")).advise(
+                    "write the name of a signer or a recording; `chereme list CORPUS signers` lists them",
+                ));
+            }
         }
+        Ok(wanted.to_owned())
     }
 
     /// Returns the address of the body that the corpus chooses where none is named.

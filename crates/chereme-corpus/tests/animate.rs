@@ -60,6 +60,7 @@ fn what_cannot_be_read_is_told_and_nothing_is_stored() {
         ("NONE", None, "NONE"),
         ("hamflathand hamparbegin", None, "symbol"),
         ("hamflathand hamextfingeru", Some("signer:nobody"), "nobody"),
+        ("hamflathand hamextfingeru", Some("nobody"), "nobody"),
     ] {
         let staging = Staging {
             signer,

@@ -19,15 +19,15 @@ use crate::output::Output;
 Examples:
   chereme animate ngt.chereme BABYSITTEN --draw babysitten.png
   chereme animate ngt.chereme HALLO VRIEND DANK_JE --as GROET --explain
-  chereme animate mine.chereme 'hamflathand hamextfingeru hampalml hamchin hamtouch' --signer signer:Anna
-  chereme animate mine.chereme thanks.sigml --signer recording:take1 --as THANKS")]
+  chereme animate mine.chereme 'hamflathand hamextfingeru hampalml hamchin hamtouch' --signer Anna
+  chereme animate mine.chereme thanks.sigml --signer take1 --as THANKS")]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
     /// The notation: a file, HamNoSys text, or a notated sign
     #[arg(required = true)]
     notation: Vec<String>,
-    /// Whose body signs: signer:NAME, or recording:NAME for its skeleton; else the corpus chooses
+    /// Whose body signs: a signer, or a recording for its skeleton (signer:NAME, recording:NAME); else the corpus chooses
     #[arg(long, value_name = "SIGNER")]
     signer: Option<String>,
     /// How large, how long and how deep movements are: default, measured (in the corpus's captured signs,
