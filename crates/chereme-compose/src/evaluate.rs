@@ -327,10 +327,11 @@ impl Evaluator<'_> {
 
     fn done(&mut self, path: String, step: String, mut done: Done) {
         done.did.append(&mut self.aside);
-        if done.residual.is_some_and(|residual| residual > 1e-3) {
-            self.report
-                .warnings
-                .push(format!("{step}: not every target was reached"));
+        if let Some(residual) = done.residual.filter(|residual| *residual > 1e-3) {
+            self.report.warnings.push(format!(
+                "{step}: a hand stays up to {:.1} cm from where it should be",
+                residual * 100.0
+            ));
         }
         self.report.steps.push(StepReport {
             path,
