@@ -343,6 +343,9 @@ impl OpenIndex {
         for facet in facets {
             document.add_text(fields.facet, facet);
         }
+        if let Some(hand) = token.hand {
+            document.add_text(fields.facet, format!("hand={hand}"));
+        }
         if let Some((start, end)) = token.time {
             document.add_i64(fields.start, start);
             document.add_i64(fields.end, end);

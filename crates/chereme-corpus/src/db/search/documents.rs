@@ -22,6 +22,8 @@ pub(crate) struct TokenDocument {
     pub(crate) comments: Vec<Rc<str>>,
     pub(crate) readings: Vec<Rc<ReadingTerms>>,
     pub(crate) marks: Vec<Rc<str>>,
+    /// The hands by their part in signing: `dominant`, `weak` or `both`.
+    pub(crate) hand: Option<&'static str>,
     /// Start and end.
     pub(crate) time: Option<(i64, i64)>,
 }
@@ -261,7 +263,9 @@ impl<'c> Reader<'c> {
             coded = Hands::default();
             coded.add(Some(hand), left_handed);
         }
-        for name in coded.names(left_handed) {
+        let names = coded.names(left_handed);
+        document.hand = names.last().copied();
+        for name in names {
             document.marks.push(self.mark(Mark::Hand, name));
         }
         Ok(document)

@@ -328,6 +328,7 @@ fn an_answer_is_json_as_scripts_expect_it() {
             "both.placement": { "neutral": 1 },
             "dominant.configuration": { "B": 1 },
             "gloss": { "BOL": 1, "BOL-2H": 1, "ÉCOLE": 1 },
+            "hand": { "both": 3 },
             "left.configuration": { "S": 1 },
             "movement.direction": { "up": 1 },
             "nonmanual.brows": { "furrowed": 1 },

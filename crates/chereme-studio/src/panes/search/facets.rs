@@ -14,7 +14,7 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::inspector::Thing;
 use crate::pickers;
-use crate::words::{Text, fill, library, search as words};
+use crate::words::{Text, fill, library, recombine, search as words};
 
 /// The words of fields for hands and phases.
 const PARTS: [(&str, Text); 6] = [
@@ -82,9 +82,25 @@ pub(super) fn order<'a>(fields: impl Iterator<Item = &'a String>) -> Vec<&'a Str
     all
 }
 
+/// The words of fields that are no component.
+const OTHERS: [(&str, Text); 4] = [
+    ("gloss", words::GLOSS),
+    ("hand", words::HAND),
+    ("recording", words::RECORDING),
+    ("signer", words::SIGNER),
+];
+
+/// The words of the hands of a sign.
+const HANDS: [(&str, Text); 3] = [
+    ("both", recombine::BOTH_HANDS),
+    ("dominant", words::DOMINANT),
+    ("weak", words::WEAK),
+];
+
 fn facet_name(field: &str, seen: &Seen<'_>) -> String {
     let Ok(known) = field.parse::<Field>() else {
-        return field.to_owned();
+        let known = OTHERS.iter().find(|(word, _)| *word == field);
+        return known.map_or(field, |(_, text)| seen.say(*text)).to_owned();
     };
     let mut name = seen.say(component_text(known.component)).to_owned();
     for part in known.feature.iter() {
@@ -149,7 +165,9 @@ fn facet(
         let font = TextStyle::Body.resolve(ui.style());
         let text = visuals.text_color();
         let at = pos2(left, rect.center().y);
-        painter.text(at, Align2::LEFT_CENTER, value, font.clone(), text);
+        let hand = HANDS.iter().find(|it| field == "hand" && it.0 == value);
+        let said = hand.map_or(value, |(_, text)| seen.say(*text));
+        painter.text(at, Align2::LEFT_CENTER, said, font.clone(), text);
         let at = rect.right_center() - vec2(6.0, 0.0);
         let weak = ui.visuals().weak_text_color();
         painter.text(at, Align2::RIGHT_CENTER, count, font, weak);
