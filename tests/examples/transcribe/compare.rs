@@ -650,7 +650,15 @@ fn named(motion: &Motion, at: &mut Option<Place>) -> Vec<Done> {
                 .as_deref()
                 .map(|motion| flat(motion, at))
                 .unwrap_or_default();
-            if all.is_empty() {
+            // A hand that waits for the other one goes nowhere.
+            let waits = motion.as_deref().is_some_and(|motion| match &motion.kind {
+                MotionKind::Split(own, _) => {
+                    let own = own.as_deref().map(|own| &own.kind);
+                    matches!(own, None | Some(MotionKind::Still))
+                }
+                _ => false,
+            });
+            if all.is_empty() && !waits {
                 all.push(done(if place { "straight" } else { "replacement" }));
             }
             if let Some(last) = all.last_mut() {

@@ -20,7 +20,7 @@ use sway::{play, wrist};
 pub(super) use sway::{Sway, wrist_name};
 
 /// The least peak of speed of a way in arm lengths a second, and of a turn in radians a second.
-const LEAST: (f64, f64) = (0.2, 0.35);
+const LEAST: (f64, f64) = (0.12, 0.35);
 /// The least length of a way in arm lengths: a third of a small movement.
 const SHORT: f64 = 0.035;
 /// A small way that takes less time than this is none, in seconds: the fastest ones take twice as long.
@@ -28,6 +28,8 @@ const BRIEF: f64 = 0.11;
 /// A hand that turns by this, or whose angles change by that, ends in another posture; in radians.
 const TURNED: f64 = 0.3;
 const RESHAPED: f64 = 0.07;
+/// What is done again and again may be smaller, by this share.
+const AGAIN: f64 = 1.0 / 3.0;
 /// A hand stops where it is slower than this share of its speed before and after.
 const STOPS: f64 = 0.2;
 /// It goes on round a corner above this share, where it comes back to where it began by another way: a circle
@@ -558,9 +560,54 @@ fn on_the_spot(
         return vec![act(first..=last, Kind::Sway(sway))];
     }
     let changes = cut(scene, &speeds, LEAST.1, first);
-    changes
+    let found: Vec<Act> = changes
         .into_iter()
         .map(|frames| act(frames, Kind::Change))
         .filter(|act| act.turned || act.reshaped)
-        .collect()
+        .collect();
+    if found.is_empty() {
+        return to_and_fro(scene, track, first, last, act);
+    }
+    found
+}
+
+/// Returns small changes of a hand that goes nowhere, where they are done again and again: once they would be
+/// none.
+fn to_and_fro(
+    scene: &Scene<'_>,
+    track: &Track,
+    first: usize,
+    last: usize,
+    act: impl Fn(RangeInclusive<usize>, Kind) -> Act,
+) -> Vec<Act> {
+    let changed = |a: usize, b: usize| [track.turn(a, b).length(), track.reshaped(a, b)];
+    let speeds: Vec<f64> = (first..=last)
+        .map(|n| {
+            let (a, b) = (n.saturating_sub(1).max(first), (n + 1).min(last));
+            let [turn, shape] = changed(a, b);
+            turn.hypot(shape) / scene.seconds((b - a).max(1))
+        })
+        .collect();
+    let found: Vec<Act> = cut(scene, &speeds, LEAST.1 * AGAIN, first)
+        .into_iter()
+        .map(|frames| {
+            let [turn, shape] = changed(*frames.start(), *frames.end());
+            Act {
+                turned: turn > TURNED * AGAIN,
+                reshaped: shape > RESHAPED * AGAIN,
+                ..act(frames, Kind::Change)
+            }
+        })
+        .filter(|act| act.turned || act.reshaped)
+        .collect();
+    let back = |pair: &[Act]| {
+        let [a, b] = [&pair[0], &pair[1]];
+        let [turn, shape] = changed(a.first(), b.last());
+        let [there, reshaped] = changed(a.first(), a.last());
+        turn.hypot(shape) < 0.5 * there.hypot(reshaped)
+    };
+    if found.len() >= 3 && found.windows(2).all(back) {
+        return found;
+    }
+    Vec::new()
 }

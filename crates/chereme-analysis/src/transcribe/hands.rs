@@ -107,6 +107,16 @@ fn symmetries() -> impl Iterator<Item = Symmetry> {
     })
 }
 
+/// Returns the hand that signs where only one does: the other one, 1, where the dominant arm is lacking or rests
+/// all the time.
+pub(super) fn lead(scene: &Scene<'_>) -> usize {
+    let rests = scene.hands.each_ref().map(|track| {
+        let track = track.as_ref();
+        track.is_none_or(|track| track.rests.iter().all(|rests| *rests))
+    });
+    usize::from(scene.hands[0].is_none() || rests == [true, false])
+}
+
 /// Returns how the other hand goes with the dominant one in a stretch of frames.
 pub(super) fn relation(scene: &Scene<'_>, frames: &RangeInclusive<usize>) -> Relation {
     let alone = Relation {
@@ -117,6 +127,9 @@ pub(super) fn relation(scene: &Scene<'_>, frames: &RangeInclusive<usize>) -> Rel
     let [Some(dominant), Some(other)] = &scene.hands else {
         return alone;
     };
+    if lead(scene) == 1 {
+        return alone;
+    }
     let (first, last) = (*frames.start(), *frames.end());
     let middle = first + (last - first) / 2;
     let still = |track: &Track| {

@@ -47,8 +47,10 @@ pub(super) struct Track {
     pub(super) angles: Vec<HandAngles>,
     pub(super) known: Known,
     pub(super) missing: Vec<Part>,
-    /// Whether the hand hangs at rest or the arm sticks out as in a reference posture.
+    /// Whether the hand hangs at rest, or both arms stick out as in a reference posture.
     pub(super) rests: Vec<bool>,
+    /// Whether the arm sticks out sideways.
+    sticks: Vec<bool>,
 }
 
 /// The signer's level axes in one posture.
@@ -149,6 +151,13 @@ impl<'a> Scene<'a> {
         if tracks.iter().all(Option::is_none) {
             return Err(TranscribeError::NoBody);
         }
+        for frame in 0..clip.frames() {
+            if tracks.iter().flatten().all(|track| track.sticks[frame]) {
+                for track in tracks.iter_mut().flatten() {
+                    track.rests[frame] = true;
+                }
+            }
+        }
         scene.hands = tracks;
         Ok(scene)
     }
@@ -164,7 +173,7 @@ impl<'a> Scene<'a> {
             for (count, side) in resting.iter_mut().zip(Side::BOTH) {
                 let arm = self.anatomy.arm(side)?;
                 let reach = model.position(arm.hand) - model.position(arm.upper);
-                *count += usize::from(self.rests(axes.direction(reach)));
+                *count += usize::from(self.hangs(axes.direction(reach)));
             }
         }
         match resting {
@@ -207,18 +216,21 @@ impl<'a> Scene<'a> {
         track.along.push(a);
         track.normal.push(n);
         track.turned.push(rotation(a, n));
-        track
-            .rests
-            .push(self.rests(axes.direction(wrist - shoulder)));
+        let reach = axes.direction(wrist - shoulder);
+        track.rests.push(self.hangs(reach));
+        track.sticks.push(self.sticks(reach));
     }
 
-    /// Tells whether an arm hangs down, or sticks out sideways as in a reference posture.
-    fn rests(&self, reach: DVec3) -> bool {
-        let long = reach.length() / self.arm;
+    /// Tells whether an arm hangs down.
+    fn hangs(&self, reach: DVec3) -> bool {
         let way = reach.normalize_or(DVec3::NEG_Y);
-        let hangs = way.y < -0.78 && long > 0.8 && reach.z < 0.35 * self.arm;
-        let sticks = way.x.abs() > 0.85 && long > 0.93 && way.z.abs() < 0.4;
-        hangs || sticks
+        way.y < -0.78 && reach.length() > 0.8 * self.arm && reach.z < 0.35 * self.arm
+    }
+
+    /// Tells whether an arm sticks out sideways, as both do in a reference posture.
+    fn sticks(&self, reach: DVec3) -> bool {
+        let way = reach.normalize_or(DVec3::NEG_Y);
+        way.x.abs() > 0.85 && reach.length() > 0.93 * self.arm && way.z.abs() < 0.4
     }
 
     /// Returns frames for a time in seconds, one at least.
@@ -250,6 +262,7 @@ impl Track {
             known,
             missing,
             rests: Vec::new(),
+            sticks: Vec::new(),
         }
     }
 

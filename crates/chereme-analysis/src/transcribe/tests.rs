@@ -288,6 +288,21 @@ fn the_left_handed_sign_is_written_as_the_right_handed_one() {
 }
 
 #[test]
+fn the_other_hand_alone_is_told_as_that_though_its_arm_sticks_out() {
+    let own = Held::new([0.15, -0.12, 0.30], "or", "dr", HandClass::Finger2);
+    let sideways = DVec3::new(0.50, 0.08, -0.27);
+    let found = read(0.5, |time| {
+        [None, Some(own.moved(sideways * ease(time / 0.5)))]
+    });
+    assert_eq!(found.hands, HandsUsed::Nondominant);
+    let shape = found.posture.shape.dominant().expect("a shape");
+    assert_eq!(shape.form.class, HandClass::Finger2);
+    let direction = found.posture.extended.dominant().expect("a direction");
+    assert_eq!(direction.first.to_string(), "or");
+    assert!(!found.actions.is_empty());
+}
+
+#[test]
 fn a_finger_at_the_chin_touches_it() {
     let (clip, anatomy) = clip(0.3, |_| [None, None]);
     let model = clip.model_pose(0);

@@ -8,6 +8,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
+use chereme_motion::{Finger, Part, Side};
 use chereme_sign::hamnosys::{
     Aim, Amount, BodyPlace, Circular, Clock, Compass, Constellation, Contact, Curve, Directed,
     Direction, Each, Ellipse, Growth, HandsUsed, Handshape, Manual, Motion, MotionKind, Place,
@@ -17,7 +18,7 @@ use glam::DVec3;
 
 use super::acts::{Act, Kind, LETS_GO, Mover, Seeing, Sway, acts, signing};
 use super::aim;
-use super::hands::{Relation, RelationKind, relation, signs};
+use super::hands::{Relation, RelationKind, lead, relation, signs};
 use super::place::{Body, Placed, Together, named};
 use super::scene::{Scene, Track, length};
 use super::shape::Forms;
@@ -49,7 +50,7 @@ pub(super) fn written(scene: &Scene<'_>, options: &Options) -> Transcription {
     Writer::new(scene, options).written()
 }
 
-/// Returns how far the dominant hand is from a place, and that place from another.
+/// Returns how far the hand that signs is from a place, and that place from another.
 pub(super) fn off_place(
     scene: &Scene<'_>,
     options: &Options,
@@ -57,11 +58,12 @@ pub(super) fn off_place(
     (place, other): (&BodyPlace, Option<&BodyPlace>),
     symmetric: bool,
 ) -> Option<(f64, f64)> {
-    let body = Writer::new(scene, options).body(frame)?;
-    let own = body.goal_of(0, place, symmetric)?;
-    let apart = other.and_then(|other| body.goal_of(0, other, symmetric));
+    let writer = Writer::new(scene, options);
+    let (body, n) = (writer.body(frame)?, writer.lead);
+    let own = body.goal_of(n, place, symmetric)?;
+    let apart = other.and_then(|other| body.goal_of(n, other, symmetric));
     let apart = apart.map_or(f64::INFINITY, |at| at.distance(own));
-    Some((body.off(0, place, symmetric)?, apart))
+    Some((body.off(n, place, symmetric)?, apart))
 }
 
 /// The handshapes of hands in frames.
@@ -69,6 +71,8 @@ type Shapes = BTreeMap<(chereme_motion::Side, usize), Option<Found<Handshape>>>;
 
 struct Writer<'a> {
     scene: &'a Scene<'a>,
+    /// The hand that signs where only one does.
+    lead: usize,
     options: &'a Options,
     forms: std::sync::Arc<Forms>,
     features: Vec<Feature>,
@@ -85,6 +89,7 @@ impl<'a> Writer<'a> {
     fn new(scene: &'a Scene<'a>, options: &'a Options) -> Self {
         Self {
             scene,
+            lead: lead(scene),
             options,
             forms: Forms::of(&options.language),
             features: Vec::new(),
@@ -98,8 +103,7 @@ impl<'a> Writer<'a> {
 
     fn written(mut self) -> Transcription {
         let scene = self.scene;
-        // A skeleton with one arm signs with that.
-        let lead = usize::from(scene.hands[0].is_none());
+        let lead = self.lead;
         let Some(track) = scene.hands[lead].as_ref() else {
             return self.done(Manual::default(), 0, scene.clip.frames());
         };
@@ -117,10 +121,7 @@ impl<'a> Writer<'a> {
             body.shift(1, by);
         }
         let posture = self.posture(start, &relation, body.as_ref());
-        let hands = match relation.kind {
-            RelationKind::Alike(symmetry) => HandsUsed::Both(symmetry),
-            _ => HandsUsed::Dominant,
-        };
+        let hands = self.used(&relation.kind);
         self.ends(None, words::begun(hands, posture.clone()));
         let mut actions: Vec<Motion> = Vec::new();
         let other = scene.hands[1].as_ref().filter(|_| lead == 0);
@@ -155,6 +156,17 @@ impl<'a> Writer<'a> {
             ..Manual::default()
         };
         self.done(manual, first, last + 1)
+    }
+
+    /// Returns which hands act; a skeleton with one arm signs with that.
+    fn used(&self, kind: &RelationKind) -> HandsUsed {
+        match kind {
+            RelationKind::Alike(symmetry) => HandsUsed::Both(*symmetry),
+            RelationKind::Alone if self.lead == 1 && self.scene.hands[0].is_some() => {
+                HandsUsed::Nondominant
+            }
+            _ => HandsUsed::Dominant,
+        }
     }
 
     fn done(self, manual: Manual, first: usize, end: usize) -> Transcription {
@@ -233,11 +245,23 @@ impl<'a> Writer<'a> {
                     "the {side} hand has too few fingers to tell where its palm faces"
                 ));
             }
-            if !track.missing.is_empty() {
-                let names: Vec<String> = track.missing.iter().map(ToString::to_string).collect();
+            let names = |parts: &[Part]| {
+                let names: Vec<String> = parts.iter().map(ToString::to_string).collect();
+                names.join(", ")
+            };
+            let missing = &track.missing;
+            let there: Vec<Part> = joints(track.side)
+                .filter(|part| !missing.contains(part))
+                .collect();
+            if there.len() < missing.len() && !there.is_empty() {
+                self.findings.push(format!(
+                    "the {side} handshape is told by {} alone, and may be any other",
+                    names(&there)
+                ));
+            } else if !missing.is_empty() {
                 self.findings.push(format!(
                     "the {side} handshape is told without {}",
-                    names.join(", ")
+                    names(missing)
                 ));
             }
         }
@@ -297,8 +321,8 @@ impl<'a> Writer<'a> {
             Some(self.see(track, frame))
         });
         let acts = [
-            scene.hands[0].is_some(),
-            scene.hands[0].is_none() || relation.kind != RelationKind::Alone,
+            self.lead == 0,
+            self.lead == 1 || relation.kind != RelationKind::Alone,
         ];
         let alike = self.alike(frame, relation, &seen);
         for (n, seen) in seen.iter().enumerate() {
@@ -353,10 +377,9 @@ impl<'a> Writer<'a> {
     /// Tells the place of the hands.
     fn place(&mut self, frame: usize, relation: &Relation, body: &Body<'_>) -> Option<Place> {
         let scene = self.scene;
-        let lead = usize::from(scene.hands[0].is_none());
         if relation.kind == RelationKind::Alone {
-            let placed = body.place(lead, false)?;
-            self.told_place(scene.hands[lead].as_ref(), frame, &placed);
+            let placed = body.place(self.lead, false)?;
+            self.told_place(scene.hands[self.lead].as_ref(), frame, &placed);
             return Some(Place::Body(placed.place));
         }
         if let RelationKind::Alike(_) = relation.kind {
@@ -535,6 +558,13 @@ impl<'a> Writer<'a> {
             },
         })
     }
+}
+
+/// Returns the joints that a handshape is told by.
+fn joints(side: Side) -> impl Iterator<Item = Part> {
+    let thumb = (0..3).map(move |n| Part::Thumb(side, n));
+    let fingers = Finger::ALL.into_iter();
+    thumb.chain(fingers.flat_map(move |finger| (1..4).map(move |n| Part::Finger(side, finger, n))))
 }
 
 /// Returns from where a hand that goes round half a turn behind the other is to where it is told to be: as

@@ -74,12 +74,16 @@ impl Writer<'_> {
             residual: relation.residual,
             runner_up: relation.runner_up,
         };
+        let used = |kind: &RelationKind| words::hands(self.used(kind));
+        let texts = [
+            Some(&found.best),
+            found.runner_up.as_ref().map(|(kind, _)| kind),
+        ];
+        let texts = texts.map(|kind| kind.map(|kind| (*kind, used(kind))));
         self.told(FeatureKind::Hands, None, frame, &found, |kind| {
-            let hands = match kind {
-                RelationKind::Alike(symmetry) => HandsUsed::Both(*symmetry),
-                _ => HandsUsed::Dominant,
-            };
-            Said::new(kind.words(), words::hands(hands))
+            let known = texts.iter().flatten().find(|(of, _)| of == kind);
+            let text = known.map_or_else(String::new, |(_, text)| text.clone());
+            Said::new(kind.words(), text)
         });
     }
 
