@@ -43,10 +43,12 @@
 
 pub mod animation;
 pub mod body;
+mod buffers;
 pub mod camera;
 pub mod chart;
 pub mod error;
 pub mod faces;
+mod fill;
 mod font;
 pub mod handshape;
 pub mod image;

@@ -40,9 +40,9 @@ const PLAIN: fn() -> Style = || Style {
 fn covered(raster: &Raster) -> usize {
     raster
         .buffers
-        .group
+        .paint
         .iter()
-        .filter(|&&group| group != 0)
+        .filter(|&&paint| paint != 0)
         .count()
 }
 
@@ -102,7 +102,7 @@ fn neighbouring_triangles_leave_no_gap_and_no_sample_twice() {
             let [dx, dy] = [x, y].map(|v| (v as f32 + 0.5) / 64.0 - 1.0);
             if dx.hypot(dy) < 0.88 {
                 let index = raster.buffers.index(x, y);
-                assert_eq!(raster.buffers.group[index], 1, "a gap at {x}, {y}");
+                assert_eq!(raster.buffers.paint[index] >> 24, 1, "a gap at {x}, {y}");
             }
         }
     }

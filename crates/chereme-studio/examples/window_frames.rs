@@ -6,7 +6,8 @@
 //! sign made from another instead, and only plays the two signers side by side; `grid` imports the starter
 //! corpus, and shows all its signs as at least 24 looping little figures. Prints for each scene how long
 //! a frame took to compute on the window's thread, how far apart frames were, and how long pictures of the stage
-//! took on the thread that draws them.
+//! took on the thread that draws them. At last the window is empty: frames are as far apart then as the
+//! machine has them.
 //!
 //! `change` imports the starter corpus and changes a placement of recipes again and again, each time when what the
 //! last change made has been drawn. Prints how long the recipe took to be made without a window, how long after the
@@ -66,13 +67,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         studio: Studio::new(options),
         change: Change::default(),
         scenes: if two {
-            VecDeque::from([Scene::Two])
+            VecDeque::from([Scene::Two, Scene::Empty])
         } else if change {
             (0..RECIPES.len()).map(Scene::Change).collect()
         } else if grid {
-            VecDeque::from([Scene::Grid])
+            VecDeque::from([Scene::Grid, Scene::Empty])
         } else {
-            VecDeque::from([Scene::Play, Scene::Scroll, Scene::Drag])
+            VecDeque::from([Scene::Play, Scene::Scroll, Scene::Drag, Scene::Empty])
         },
         drawn: Vec::new(),
         begun: None,
@@ -234,6 +235,8 @@ enum Scene {
     Grid,
     /// Changing a recipe.
     Change(usize),
+    /// Nothing at all: what frames of a window take that are none of the studio's.
+    Empty,
 }
 
 /// How far changing a recipe is.
@@ -289,7 +292,7 @@ impl Scene {
             (Self::Change(nth), 5) => vec![Event::Text(RECIPES[nth].into())],
             (Self::Change(_), 6) => vec![key(Key::ArrowLeft, Modifiers::NONE); 2],
             (Self::Change(_), 40) => vec![key(Key::Space, Modifiers::COMMAND)],
-            (Self::Play | Self::Two | Self::Grid | Self::Change(_), _) => Vec::new(),
+            (Self::Play | Self::Two | Self::Grid | Self::Change(_) | Self::Empty, _) => Vec::new(),
             (Self::Scroll, frame) => {
                 let zooms = frame % 240 >= 180;
                 let up = frame % 120 >= 60;
@@ -343,7 +346,9 @@ struct Meter {
 impl eframe::App for Meter {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         let now = Instant::now();
-        self.studio.ui(ui);
+        if self.scenes.front() != Some(&Scene::Empty) {
+            self.studio.ui(ui);
+        }
         ui.ctx().request_repaint();
         // The first frames of a scene only set it.
         if self

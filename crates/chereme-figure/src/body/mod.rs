@@ -48,7 +48,7 @@ pub mod group {
     pub const REST: u8 = 3;
 
     /// From here on: marks in space, such as a grid or a trail, without light and lines.
-    pub const FLAT: u8 = 200;
+    pub const FLAT: u8 = 128;
 
     /// Returns the number of an arm.
     #[must_use]

@@ -170,9 +170,24 @@ fn held<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 /// Buffers kept from picture to picture.
 #[derive(Default)]
 struct Hand {
-    raster: Raster,
     meshes: Vec<(Option<Arc<Body>>, Mesh)>,
+    canvases: Vec<Canvas>,
+}
+
+/// What is kept for a pane.
+#[derive(Default)]
+struct Canvas {
+    raster: Raster,
     joined: Mesh,
+    ground: Option<Ground>,
+}
+
+/// What lies below the figures, and all that its picture depends on.
+struct Ground {
+    mesh: Arc<Mesh>,
+    camera: Camera,
+    style: Style,
+    image: Image,
 }
 
 impl Hand {
@@ -191,19 +206,46 @@ impl Hand {
                 body.express(pose, face, mesh);
             }
         }
-        let images = wish.panes.iter().map(|pane| self.pane(pane, &wish.style));
         Drawn {
-            images: images.collect(),
+            images: self.panes(wish),
             number: wish.number,
             posture: wish.figures.first().map(|figure| figure.pose.clone()),
             took: begun.elapsed(),
         }
     }
 
-    fn pane(&mut self, pane: &Pane, style: &Style) -> ColorImage {
-        let mut image = Image::new(pane.size[0], pane.size[1], style.theme.background());
+    /// Draws every pane; several at once, each on a thread of its own.
+    fn panes(&mut self, wish: &Wish) -> Vec<ColorImage> {
+        self.canvases.resize_with(wish.panes.len(), Canvas::default);
+        let meshes = &self.meshes;
+        let style = Style {
+            threads: (wish.style.threads / wish.panes.len().max(1)).max(1),
+            ..wish.style
+        };
+        let mut work: Vec<_> = wish.panes.iter().zip(&mut self.canvases).collect();
+        let last = work.pop();
+        std::thread::scope(|scope| {
+            let others: Vec<_> = work
+                .into_iter()
+                .map(|(pane, canvas)| scope.spawn(move || canvas.draw(pane, meshes, &style)))
+                .collect();
+            let last = last.map(|(pane, canvas)| canvas.draw(pane, meshes, &style));
+            let others = others.into_iter().map(|it| it.join());
+            others.flatten().chain(last).collect()
+        })
+    }
+}
+
+impl Canvas {
+    fn draw(
+        &mut self,
+        pane: &Pane,
+        meshes: &[(Option<Arc<Body>>, Mesh)],
+        style: &Style,
+    ) -> ColorImage {
+        let mut image = None;
         for sheet in &pane.layers {
-            let figure = sheet.figure.and_then(|at| self.meshes.get(at));
+            let figure = sheet.figure.and_then(|at| meshes.get(at));
             let mesh = match (figure, &sheet.marks) {
                 (Some((_, figure)), Some(marks)) => {
                     self.joined.clone_from(figure);
@@ -211,6 +253,10 @@ impl Hand {
                     &self.joined
                 }
                 (Some((_, figure)), None) => figure,
+                (None, Some(marks)) if image.is_none() => {
+                    image = Some(self.on_ground(pane, marks, style));
+                    continue;
+                }
                 (None, Some(marks)) => marks,
                 (None, None) => continue,
             };
@@ -219,11 +265,42 @@ impl Hand {
                 opacity: sheet.opacity,
                 veiled: sheet.veiled,
             };
-            self.raster
-                .draw_over(&mut image, layer, &pane.camera, style);
+            let image = image.get_or_insert_with(|| paper(pane, style));
+            self.raster.draw_over(image, layer, &pane.camera, style);
         }
+        let image = image.unwrap_or_else(|| paper(pane, style));
         let pixels = image.pixels().iter();
         let pixels = pixels.map(|it| Color32::from_rgb(it.0[0], it.0[1], it.0[2]));
         ColorImage::new(pane.size, pixels.collect())
     }
+
+    /// Returns a picture of what lies below the figures, which is drawn only where it is another than the last.
+    fn on_ground(&mut self, pane: &Pane, mesh: &Arc<Mesh>, style: &Style) -> Image {
+        let same = |it: &Ground| {
+            let size = [it.image.width(), it.image.height()];
+            (it.camera, it.style, size) == (pane.camera, *style, pane.size) && it.mesh == *mesh
+        };
+        if let Some(ground) = self.ground.as_ref().filter(|it| same(it)) {
+            return ground.image.clone();
+        }
+        let mut image = paper(pane, style);
+        let layer = Layer {
+            mesh,
+            opacity: 1.0,
+            veiled: false,
+        };
+        self.raster
+            .draw_over(&mut image, layer, &pane.camera, style);
+        self.ground = Some(Ground {
+            mesh: mesh.clone(),
+            camera: pane.camera,
+            style: *style,
+            image: image.clone(),
+        });
+        image
+    }
+}
+
+fn paper(pane: &Pane, style: &Style) -> Image {
+    Image::new(pane.size[0], pane.size[1], style.theme.background())
 }

@@ -1,0 +1,158 @@
+//! What is nearest at every sample of a picture, and its parting into bands of rows.
+
+use std::ops::Range;
+
+/// The depth of paper.
+const PAPER: f32 = f32::INFINITY;
+/// How much nearer than what hides it a veiled layer has to be, in metres, so that what hardly moved
+/// does not come through.
+const VEIL: f32 = 0.015;
+/// Colours are kept times this in a byte, so that light beyond white is not lost before shade falls on it.
+const SCALE: f32 = 0.875;
+
+/// What is nearest at every sample; a margin of paper all around saves the test for the edge.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Buffers {
+    /// Columns and rows of samples, the margin not counted.
+    pub(crate) size: [usize; 2],
+    pub(crate) margin: usize,
+    pub(crate) stride: usize,
+    /// Distance from the eye in metres; infinite where there is paper.
+    pub(crate) depth: Vec<f32>,
+    /// The part of the body and the lit colour, see [`packed`]; 0 where there is paper.
+    pub(crate) paint: Vec<u32>,
+    /// Columns and rows of samples outside of which all is paper.
+    pub(crate) used: [Range<usize>; 2],
+    /// Whether there are marks without light and lines among the parts.
+    pub(crate) marked: bool,
+    /// The depths of the last layer that was not veiled.
+    solid: Vec<f32>,
+    /// The rows outside of which depths are those of paper.
+    depth_used: Range<usize>,
+    solid_used: Range<usize>,
+}
+
+/// Returns a colour with the part it belongs to as one number: the part, then blue, green and red, a byte each.
+#[inline(always)]
+pub(crate) fn packed(group: u8, colour: [f32; 3]) -> u32 {
+    let [red, green, blue] = colour;
+    u32::from(group) << 24 | whole(blue) << 16 | whole(green) << 8 | whole(red)
+}
+
+/// Returns the whole number from 0 to 255 that is nearest to one that exceeds these by less than a half.
+#[inline(always)]
+pub(crate) fn whole(part: f32) -> u32 {
+    /// What is added to a number makes its whole part the lowest bits: 2²³.
+    const WHOLE: f32 = 8_388_608.0;
+    (part + WHOLE).to_bits() & 0xFF
+}
+
+/// Returns the value that [`packed`] takes for a part of a colour, 0 to 255 and brighter.
+#[inline(always)]
+pub(crate) fn kept(part: f32) -> f32 {
+    (part * SCALE).clamp(0.0, 255.0)
+}
+
+/// Returns a part of packed colours again, 0 for red to 2 for blue.
+#[inline(always)]
+pub(crate) fn unpacked(paint: u32, part: usize) -> f32 {
+    (paint >> (8 * part) & 0xFF) as i32 as f32 * (1.0 / SCALE)
+}
+
+impl Buffers {
+    /// Makes all of it paper again.
+    pub(crate) fn clear(&mut self, size: [usize; 2], margin: usize) {
+        if (self.size, self.margin) == (size, margin) {
+            let rows = self.rows_of(&self.used[1]);
+            self.paint[rows].fill(0);
+            let rows = self.rows_of(&self.depth_used);
+            self.depth[rows].fill(PAPER);
+        } else {
+            self.size = size;
+            self.margin = margin;
+            self.stride = size[0] + 2 * margin;
+            let len = self.stride * (size[1] + 2 * margin);
+            for depths in [&mut self.depth, &mut self.solid] {
+                depths.clear();
+                depths.resize(len, PAPER);
+            }
+            self.paint.clear();
+            self.paint.resize(len, 0);
+            self.solid_used = 0..0;
+        }
+        self.set_used([0..0, 0..0]);
+    }
+
+    /// Tells outside of which columns and rows of samples all will be paper.
+    pub(crate) fn set_used(&mut self, used: [Range<usize>; 2]) {
+        self.depth_used = used[1].clone();
+        self.used = used;
+    }
+
+    /// Returns the place of a sample in the buffers.
+    #[inline]
+    pub(crate) fn index(&self, x: usize, y: usize) -> usize {
+        (y + self.margin) * self.stride + x + self.margin
+    }
+
+    /// Returns where in the buffers whole rows lie.
+    fn rows_of(&self, rows: &Range<usize>) -> Range<usize> {
+        let at = |row: usize| (row + self.margin) * self.stride;
+        at(rows.start)..at(rows.end.max(rows.start))
+    }
+
+    /// Takes away what lies behind the last layer that was [kept](Self::keep).
+    pub(crate) fn veil(&mut self) {
+        let rows = self.rows_of(&self.used[1]);
+        let (depth, paint) = (&mut self.depth[rows.clone()], &mut self.paint[rows.clone()]);
+        for ((depth, paint), before) in depth.iter_mut().zip(paint).zip(&self.solid[rows]) {
+            if *before < *depth + VEIL {
+                *depth = PAPER;
+                *paint = 0;
+            }
+        }
+    }
+
+    /// Keeps the depths of this layer for those that are veiled by it; what is here is another's until it is cleared.
+    pub(crate) fn keep(&mut self) {
+        std::mem::swap(&mut self.solid, &mut self.depth);
+        std::mem::swap(&mut self.solid_used, &mut self.depth_used);
+    }
+
+    /// Parts the used rows of samples into `count` bands, fewer where there are few rows.
+    pub(crate) fn bands(&mut self, count: usize) -> Vec<Band<'_>> {
+        let used = self.used[1].clone();
+        let each = used.len().div_ceil(count).max(1);
+        let rows = self.rows_of(&self.used[1]);
+        let mut depth = &mut self.depth[rows.clone()];
+        let mut paint = &mut self.paint[rows];
+        let mut bands = Vec::with_capacity(count);
+        for first in used.clone().step_by(each) {
+            let rows = each.min(used.end - first);
+            let (depths, paints);
+            (depths, depth) = depth.split_at_mut(rows * self.stride);
+            (paints, paint) = paint.split_at_mut(rows * self.stride);
+            bands.push(Band {
+                first,
+                rows,
+                width: self.size[0],
+                margin: self.margin,
+                stride: self.stride,
+                depth: depths,
+                paint: paints,
+            });
+        }
+        bands
+    }
+}
+
+/// Some rows of the buffers.
+pub(crate) struct Band<'a> {
+    pub(crate) first: usize,
+    pub(crate) rows: usize,
+    pub(crate) width: usize,
+    pub(crate) margin: usize,
+    pub(crate) stride: usize,
+    pub(crate) depth: &'a mut [f32],
+    pub(crate) paint: &'a mut [u32],
+}

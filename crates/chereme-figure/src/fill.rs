@@ -1,0 +1,233 @@
+//! Triangles to samples: which are inside, what of them is nearest, and its colour.
+
+use pulp::{Arch, NullaryFnOnce};
+
+use crate::buffers::{Band, packed, whole};
+
+/// The snapping of corners: samples are divided by this.
+pub(crate) const SUBPIXELS: f32 = 16.0;
+const UNIT: i32 = SUBPIXELS as i32;
+/// The widest and highest that a triangle may be for products of its sides to fit 32 bits, in parts of a sample.
+const NARROW: i32 = 1 << 14;
+
+/// A vertex in the picture: snapped place; depth and lit colour; the part it belongs to.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Corner {
+    pub(crate) at: [i32; 2],
+    pub(crate) values: [f32; 4],
+    pub(crate) group: u8,
+    pub(crate) seen: bool,
+}
+
+/// Fills those samples of a band that lie in triangles.
+pub(crate) fn fill(band: Band<'_>, corners: &[Corner], triangles: &[[u32; 3]]) {
+    Arch::new().dispatch(Fill {
+        band,
+        corners,
+        triangles,
+    });
+}
+
+/// A call that is compiled for each instruction set and chosen when run.
+struct Fill<'a> {
+    band: Band<'a>,
+    corners: &'a [Corner],
+    triangles: &'a [[u32; 3]],
+}
+
+impl NullaryFnOnce for Fill<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn call(self) {
+        let mut band = self.band;
+        for triangle in self.triangles {
+            band.triangle(triangle.map(|index| &self.corners[index as usize]));
+        }
+    }
+}
+
+impl Band<'_> {
+    /// Fills the samples whose middle is inside a triangle that faces the eye.
+    #[inline(always)]
+    fn triangle(&mut self, corners: [&Corner; 3]) {
+        let [a, b, c] = corners;
+        let area = cross(a.at, b.at, c.at);
+        if area >= 0 || !(a.seen && b.seen && c.seen) {
+            return;
+        }
+        let range = |axis: usize, first: usize, count: usize| {
+            let [a, b, c] = corners.map(|corner| corner.at[axis]);
+            let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+            let from = (low + UNIT / 2 - 1).div_euclid(UNIT).max(first as i32);
+            let to = (high - UNIT / 2).div_euclid(UNIT);
+            (from, to.min((first + count) as i32 - 1), high - low)
+        };
+        let (top, bottom, height) = range(1, self.first, self.rows);
+        let (left, right, width) = range(0, 0, self.width);
+        if top > bottom || left > right {
+            return;
+        }
+        let place = [left, right, top, bottom];
+        if width.max(height) < NARROW {
+            self.narrow(corners, area as i32, place);
+        } else {
+            self.wide(corners, area, place);
+        }
+    }
+
+    /// Fills a triangle in integers of 32 bits.
+    #[inline(always)]
+    fn narrow(&mut self, [a, b, c]: [&Corner; 3], area: i32, place: [i32; 4]) {
+        let [left, right, top, bottom] = place;
+        let middle = [left * UNIT + UNIT / 2, top * UNIT + UNIT / 2];
+        let edge = |from: &Corner, to: &Corner| {
+            let side = [to.at[0] - from.at[0], to.at[1] - from.at[1]];
+            let away = [middle[0] - from.at[0], middle[1] - from.at[1]];
+            let value = side[0] * away[1] - side[1] * away[0];
+            (value, side[1] * UNIT, side[0] * UNIT)
+        };
+        let (mut u, across_u, down_u) = edge(b, c);
+        let (mut v, across_v, down_v) = edge(c, a);
+        let limits = [
+            Limit::new(across_u),
+            Limit::new(across_v),
+            Limit::new(-across_u - across_v),
+        ];
+        let share = 1.0 / area as f32;
+        let beside = |corner: &Corner| -> [f32; 4] {
+            std::array::from_fn(|part| (corner.values[part] - c.values[part]) * share)
+        };
+        let (beside_a, beside_b) = (beside(a), beside(b));
+        let step: [f32; 4] = std::array::from_fn(|part| {
+            -(beside_a[part] * across_u as f32 + beside_b[part] * across_v as f32)
+        });
+        let group = u32::from(a.group) << 24;
+        let wide = right - left;
+        let mut start = (top as usize - self.first) * self.stride + self.margin + left as usize;
+        for _ in top..=bottom {
+            let (mut from, mut to) = (0, wide);
+            for (limit, value) in limits.iter().zip([u, v, area - u - v]) {
+                limit.cut(value, &mut from, &mut to);
+            }
+            if from <= to {
+                let (u, v) = ((u - across_u * from) as f32, (v - across_v * from) as f32);
+                let first: [f32; 4] = std::array::from_fn(|part| {
+                    c.values[part] + beside_a[part] * u + beside_b[part] * v
+                });
+                let row = start + from as usize..=start + to as usize;
+                let depths = self.depth[row.clone()].iter_mut();
+                let mut k = 0.0;
+                for (depth, paint) in depths.zip(&mut self.paint[row]) {
+                    let own = first[0] + step[0] * k;
+                    if own < *depth {
+                        *depth = own;
+                        let colour = [1, 2, 3].map(|part| whole(first[part] + step[part] * k));
+                        *paint = group | colour[2] << 16 | colour[1] << 8 | colour[0];
+                    }
+                    k += 1.0;
+                }
+            }
+            u += down_u;
+            v += down_v;
+            start += self.stride;
+        }
+    }
+
+    /// Fills a triangle of any size.
+    #[cold]
+    fn wide(&mut self, corners: [&Corner; 3], area: i64, [left, right, top, bottom]: [i32; 4]) {
+        let [a, b, c] = corners;
+        let unit = i64::from(UNIT);
+        let edges = [(b, c), (c, a), (a, b)];
+        let sides =
+            edges.map(|(from, to)| [0, 1].map(|axis| i64::from(to.at[axis] - from.at[axis])));
+        let across = sides.map(|side| side[1] * unit);
+        let down = sides.map(|side| side[0] * unit);
+        let middle = [left * UNIT + UNIT / 2, top * UNIT + UNIT / 2];
+        let mut first = edges.map(|(from, to)| cross(from.at, to.at, middle));
+        let share = 1.0 / area as f32;
+        let last = i64::from(right - left);
+        for row in top..=bottom {
+            let (from, to) = span(first, across, last);
+            let start = (row as usize - self.first) * self.stride + self.margin + left as usize;
+            for column in from..=to {
+                let inside = [0, 1, 2].map(|i| (first[i] - across[i] * column) as f32 * share);
+                let value = |part: usize| -> f32 {
+                    let values = corners.iter().zip(inside);
+                    values
+                        .map(|(corner, share)| corner.values[part] * share)
+                        .sum()
+                };
+                let (at, depth) = (start + column as usize, value(0));
+                if depth < self.depth[at] {
+                    self.depth[at] = depth;
+                    self.paint[at] = packed(a.group, [value(1), value(2), value(3)]);
+                }
+            }
+            for i in 0..3 {
+                first[i] += down[i];
+            }
+        }
+    }
+}
+
+/// Which columns of a row lie on the inner side of an edge.
+#[derive(Clone, Copy)]
+struct Limit {
+    /// How much the edge's value falls from column to column.
+    across: i32,
+    /// One over that, 0 where it stays.
+    inverse: f64,
+}
+
+impl Limit {
+    #[inline(always)]
+    fn new(across: i32) -> Self {
+        let inverse = if across == 0 {
+            0.0
+        } else {
+            1.0 / f64::from(across)
+        };
+        Self { across, inverse }
+    }
+
+    /// Leaves of columns those where the edge's value, `value` at column 0, is not positive.
+    ///
+    /// The quotient of two such numbers is whole or is a hundred times farther from it than what is allowed for the
+    /// rounding of its product.
+    #[inline(always)]
+    fn cut(self, value: i32, from: &mut i32, to: &mut i32) {
+        const ROUNDING: f64 = 1e-8;
+        let column = f64::from(value) * self.inverse;
+        if self.across > 0 {
+            *from = (*from).max((column - ROUNDING).ceil() as i32);
+        } else if self.across < 0 {
+            *to = (*to).min((column + ROUNDING).floor() as i32);
+        }
+    }
+}
+
+/// Returns the first and the last of columns 0 to `wide` whose three edge values, `first` less
+/// `across` times the column, are none positive; the first exceeds the last where there is none.
+fn span(first: [i64; 3], across: [i64; 3], wide: i64) -> (i64, i64) {
+    let (mut from, mut to) = (0, wide);
+    for (value, step) in first.into_iter().zip(across) {
+        if step > 0 && value > 0 {
+            from = from.max((value + step - 1) / step);
+        } else if step < 0 && value <= 0 {
+            to = to.min(value / step);
+        } else if value > 0 {
+            return (1, 0);
+        }
+    }
+    (from, to)
+}
+
+/// Returns twice the signed area of a triangle in the picture, negative where it turns
+/// anticlockwise to the eye (rows count downwards).
+#[inline(always)]
+fn cross(a: [i32; 2], b: [i32; 2], c: [i32; 2]) -> i64 {
+    let side = |from: [i32; 2], to: [i32; 2], axis: usize| i64::from(to[axis] - from[axis]);
+    side(a, b, 0) * side(a, c, 1) - side(a, b, 1) * side(a, c, 0)
+}
