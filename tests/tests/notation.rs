@@ -13,6 +13,8 @@ use chereme_compose::notation::{Settings, animate};
 /// The fastest that a wrist may go in metres a second, and joints of an arm in radians a second.
 const FASTEST: f64 = 6.0;
 const TURNING: f64 = 45.0;
+/// How deep a hand or an elbow is in the trunk at most, in metres.
+const DEEPEST: f64 = 0.01;
 /// Every so many signs are made on each body.
 const EVERY: usize = 12;
 
@@ -35,6 +37,18 @@ fn holds_on(body: &Path, folder: &Path, first: usize) {
             worst.wrist < 1.05,
             "{name}: a wrist bends to {:.2} of its range",
             worst.wrist
+        );
+        assert!(
+            worst.turn < 1.02,
+            "{name}: a forearm turns to {:.2} of its range",
+            worst.turn
+        );
+        assert!(
+            worst.hand_depth.max(worst.elbow_depth) < DEEPEST,
+            "{name}: a hand is {:.3} m in the trunk, an elbow {:.3} m, at {:.2} s",
+            worst.hand_depth,
+            worst.elbow_depth,
+            worst.deepest
         );
         assert!(
             worst.speed < FASTEST,

@@ -25,6 +25,8 @@ pub(crate) struct Worst {
     pub(crate) elbow_speed: f64,
     /// The fastest turn of a joint of the arm in radians per second.
     pub(crate) turning: f64,
+    /// How far an elbow is above its shoulder, in metres.
+    pub(crate) above: f64,
 }
 
 /// Measures a movement frame by frame.
@@ -34,6 +36,7 @@ pub(crate) fn worst(made: &Made) -> Worst {
     let mut worst = Worst::default();
     let mut before: Option<ModelPose> = None;
     let rest = clip.model_pose(0);
+    let still = Trunk::of(anatomy, skeleton, &rest);
     let per_second = clip.rate().per_second();
     for frame in 0..clip.frames() {
         let model = clip.model_pose(frame);
@@ -46,7 +49,7 @@ pub(crate) fn worst(made: &Made) -> Worst {
                 worst.bone = worst.bone.max((length(&model) - length(&rest)).abs());
             }
         }
-        let trunk = Trunk::of(anatomy, skeleton, &model);
+        let trunk = still.as_ref().map(|still| still.moved(&rest, &model));
         let depth = |at: DVec3| trunk.as_ref().map_or(0.0, |trunk| trunk.depth(at));
         let known = worst.hand_depth.max(worst.elbow_depth);
         for side in Side::BOTH {
@@ -62,6 +65,8 @@ pub(crate) fn worst(made: &Made) -> Worst {
                 worst.hand_depth = worst.hand_depth.max(depth(model.position(joint)));
             }
             worst.elbow_depth = worst.elbow_depth.max(depth(model.position(arm.forearm)));
+            let [shoulder, elbow] = [arm.upper, arm.forearm].map(|joint| model.position(joint).y);
+            worst.above = worst.above.max(elbow - shoulder);
             if let Some(before) = &before {
                 let speed = |joint: usize| {
                     model.position(joint).distance(before.position(joint)) * per_second
@@ -123,10 +128,12 @@ fn wrist(anatomy: &Anatomy, model: &ModelPose, side: Side) -> (f64, f64) {
     (bend, turn)
 }
 
-/// The trunk's surface in one frame: through the landmarks of its front, an ellipse at each height.
+/// The trunk's surface in one frame, which goes with what carries the collar bones: through the landmarks of its front, an ellipse at each height.
+#[derive(Clone)]
 struct Trunk {
     frame: BodyFrame,
     front: Vec<DVec3>,
+    joint: Option<usize>,
 }
 
 impl Trunk {
@@ -145,7 +152,32 @@ impl Trunk {
             .filter_map(|name| anatomy.landmark(skeleton, model, name))
             .map(|at| frame.to_body(at))
             .collect();
-        Some(Self { frame, front })
+        let arm = anatomy.arm(Side::Right).or(anatomy.arm(Side::Left));
+        let joint = arm.and_then(|arm| skeleton.parent(arm.clavicle.unwrap_or(arm.upper)));
+        Some(Self {
+            frame,
+            front,
+            joint,
+        })
+    }
+
+    /// Returns the surface as it is in a frame, from how it is at rest.
+    fn moved(&self, rest: &ModelPose, model: &ModelPose) -> Self {
+        let Some(joint) = self.joint else {
+            return self.clone();
+        };
+        let turn = model.rotation(joint) * rest.rotation(joint).inverse();
+        let frame = &self.frame;
+        Self {
+            frame: BodyFrame {
+                origin: model.position(joint) + turn * (frame.origin - rest.position(joint)),
+                left: turn * frame.left,
+                up: turn * frame.up,
+                forward: turn * frame.forward,
+                ..frame.clone()
+            },
+            ..self.clone()
+        }
     }
 
     /// Returns how far a point within the trunk is from its front and sides, in metres, level.

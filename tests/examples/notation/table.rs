@@ -26,6 +26,7 @@ impl Worst {
             speed: self.speed.max(other.speed),
             elbow_speed: self.elbow_speed.max(other.elbow_speed),
             turning: self.turning.max(other.turning),
+            above: self.above.max(other.above),
         }
     }
 }
@@ -37,17 +38,20 @@ pub(crate) fn list(folder: &Path, path: &str) -> Result<()> {
         rate: Rate::new(120, 1)?,
         ..Settings::default()
     };
-    println!("sign\thand depth\telbow depth\tdeepest\tspeed\tturning\tsaid");
+    println!("sign\thand depth\telbow depth\tdeepest\twrist\tforearm\tspeed\tturning\tabove\tsaid");
     for (name, notated) in &bodies::signs(folder)? {
         let made = animate(&[notated], &stage, &settings)?;
         let own = worst(&made);
         println!(
-            "{name}\t{:.4}\t{:.4}\t{:.2}\t{:.2}\t{:.1}\t{}",
+            "{name}\t{:.4}\t{:.4}\t{:.2}\t{:.3}\t{:.3}\t{:.2}\t{:.1}\t{:.3}\t{}",
             own.hand_depth,
             own.elbow_depth,
             own.deepest,
+            own.wrist,
+            own.turn,
             own.speed,
             own.turning,
+            own.above,
             made.report.warnings.join("; ")
         );
     }
@@ -111,9 +115,10 @@ pub(crate) fn print(folder: &Path, paths: &[&str]) -> Result<()> {
             "  short of what they touch {short}, off their way {off}, turned by more than 22.5° {turned}, by more than 10° {told}, moved out of the trunk {pushed}"
         );
         println!("  worst: {all:?}");
-        let by: [Judged; 6] = [
+        let by: [Judged; 7] = [
             ("hand in the trunk", 0.01, |worst| worst.hand_depth),
             ("elbow in the trunk", 0.01, |worst| worst.elbow_depth),
+            ("elbow above its shoulder", 0.03, |worst| worst.above),
             ("speed", 6.0, |worst| worst.speed),
             ("turning", 45.0, |worst| worst.turning),
             ("wrist", 1.02, |worst| worst.wrist),

@@ -94,6 +94,17 @@ pub(crate) struct Bearing {
     pub(crate) shrug: f64,
 }
 
+impl Bearing {
+    /// Returns what is between two bearings.
+    pub(crate) fn mix(&self, to: &Self, share: f64) -> Self {
+        let mix = |a: f64, b: f64| a + (b - a) * share;
+        Self {
+            plane: mix(self.plane, to.plane),
+            shrug: mix(self.shrug, to.shrug),
+        }
+    }
+}
+
 /// How a hand hangs on its forearm, in radians.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct WristAngles {
@@ -318,6 +329,56 @@ impl Rig {
             wrist: shoulder + line * reach,
             across: line.cross(pole).normalize_or(self.outside),
             help,
+        }
+    }
+
+    /// Returns the posture of an arm whose joints are turned so, as [`rotations`](Self::rotations) are, and its
+    /// hand's rotation in model space.
+    pub(crate) fn posed(&self, [collar, upper, forearm, hand]: [DQuat; 4]) -> (Posed, DQuat) {
+        let (shoulder, help, above) = match &self.clavicle {
+            Some(clavicle) => {
+                let turned = clavicle.above * collar;
+                let help = (turned * clavicle.turned.inverse()).normalize();
+                let shoulder = clavicle.at + help * (self.shoulder - clavicle.at);
+                (shoulder, help, turned * clavicle.between)
+            }
+            None => (self.shoulder, DQuat::IDENTITY, self.above),
+        };
+        let upper = above * upper;
+        let forearm = upper * self.between[0] * forearm;
+        let hand = (forearm * self.between[1] * hand).normalize();
+        let elbow = shoulder + upper * (self.bones[0] * self.lengths[0]);
+        let wrist = elbow + forearm * (self.bones[1] * self.lengths[1]);
+        let line = (wrist - shoulder).normalize_or(self.forward);
+        let across = line.cross(elbow - shoulder).normalize_or(self.outside);
+        let posed = Posed {
+            shoulder,
+            elbow,
+            wrist,
+            across,
+            help,
+        };
+        (posed, hand)
+    }
+
+    /// Brings the wrist elsewhere from the same shoulder, the arm's plane turned outwards by an angle.
+    pub(crate) fn moved(&self, posed: &Posed, wrist: DVec3, outwards: f64) -> Posed {
+        let way = wrist - posed.shoulder;
+        let line = way.normalize_or(self.forward);
+        let [first, second] = self.lengths;
+        let least = (first - second).abs() + 0.02 * self.length();
+        let reach = way.length().clamp(least, 0.9999 * self.length());
+        let x = ((first * first - second * second + reach * reach) / (2.0 * reach))
+            .clamp(-first, first);
+        let off = (first * first - x * x).max(0.0).sqrt();
+        let pole = (posed.elbow - posed.shoulder).reject_from_normalized(line);
+        let pole = pole.normalize_or(posed.across.cross(line).normalize_or(DVec3::NEG_Y));
+        let pole = DQuat::from_axis_angle(line, outwards * self.side.sign()) * pole;
+        Posed {
+            elbow: posed.shoulder + line * x + pole * off,
+            wrist: posed.shoulder + line * reach,
+            across: line.cross(pole).normalize_or(self.outside),
+            ..*posed
         }
     }
 

@@ -13,12 +13,13 @@
 //! | `motion` | motions, repetitions, sequences |
 //! | `path`, `pace` | ways through space; how they run in time |
 //! | `stage` | the body: its surface, points of its hands |
-//! | `thumb`, `rest` | the thumb of a pinch; hands at rest |
+//! | `thumb`, `rest`, `lift` | the thumb of a pinch; hands at rest; arms raised to be touched |
 //! | `arm` | elbow, collar bone, wrist |
 //! | `track` | from events to what hands should do in each frame |
 //! | `part` | two hands that would go through each other |
 //! | `choose` | over time: the arm's plane and its shoulder |
-//! | `solve` | from that to postures of an arm, without jumps |
+//! | `solve`, `settle` | from that to postures of an arm, without jumps |
+//! | `mend` | what is left in the trunk is led out of it |
 //! | `warp` | time stretched where an arm would go too fast |
 //! | `nonmanual` | head, trunk, shoulders; the curves of all non-manuals |
 //! | `notes` | what is said about the movement |
@@ -26,6 +27,8 @@
 mod arm;
 mod choose;
 mod ease;
+mod lift;
+mod mend;
 mod motion;
 mod nonmanual;
 mod notes;
@@ -35,6 +38,7 @@ mod path;
 mod place;
 mod plan;
 mod rest;
+mod settle;
 mod solve;
 mod stage;
 #[cfg(test)]
@@ -128,25 +132,21 @@ pub fn animate(
         total,
     };
     let hands = sides.map(|side| body.hand(side));
-    let [mut first, mut second] = [0, 1].map(|n| track::wanted(&plan, n, &timing));
+    let [mut first, mut second] = [0, 1].map(|n| track::wanted(&body, &plan, n, &timing));
     let parted = match hands {
         [Some(a), Some(b)] => part::part(&body, [a, b], [&mut first, &mut second], rate),
         _ => None,
     };
-    let made = [&first, &second].map(|wanted| {
-        let n = usize::from(std::ptr::eq(wanted, &second));
-        let hand = hands[n]?;
-        Some(track::Made::of(
-            &body,
-            hand,
-            (&plan, n),
-            wanted,
-            &limits,
-            &timing,
-        ))
+    let mut wanted = [Some(first), Some(second)];
+    let made = [0, 1].map(|n| {
+        let (hand, wanted) = (hands[n]?, wanted[n].take()?);
+        let made = track::Made::of(&body, hand, (&plan, n), wanted, &limits, &timing);
+        Some(made)
     });
-    let moved: Vec<_> = made.iter().flatten().map(track::Made::moved).collect();
-    let warp = Warp::of(&moved, rate, &fastest(&settings.language, &body));
+    let arms: Vec<&track::Made<'_>> = made.iter().flatten().collect();
+    let moved: Vec<_> = arms.iter().map(|made| made.moved()).collect();
+    let fastest = fastest(&settings.language, &body);
+    let warp = Warp::of(&moved, rate, &fastest, |arm, n| arms[arm].hasty(n));
     let total = frames(warp.at(plan.end), rate)?.max(warp.frames().len());
     let mut channels = standing(&body, total);
     let mut fits = [None; 2];

@@ -12,6 +12,7 @@ use chereme_sign::hamnosys::{
     BodyLocation, BodyPlace, Constellation, Contact, Digit, HandSite, Place, Site,
 };
 
+use super::lift::inside;
 use super::plan::{Frame, Planner, Who, acting};
 use super::solve::Arm;
 
@@ -259,22 +260,28 @@ impl Planner<'_> {
     fn site(&self, n: usize, site: &Site<BodyLocation>, frame: Frame) -> Placed {
         let stage = self.stage;
         let found = body_site(site, self.sides[n], frame.mirrored);
-        let root = match found.region {
+        let own = match found.region {
             Region::Arm(side) => self.arm_part(side, &found.landmark),
             _ => None,
         };
+        let root = own.map(|(at, _)| at);
         let root = root.or_else(|| stage.landmark(&found.landmark));
         let root =
             root.unwrap_or_else(|| stage.middle() + stage.forward * (0.33 * stage.shoulders));
         let out = stage
             .direction(DVec3::from(found.out))
             .normalize_or(stage.forward);
+        // Where an arm is bent, its inside is known.
+        let out = match own {
+            Some((_, inner)) if inside(site) => inner.unwrap_or(out),
+            _ => out,
+        };
         let flesh = match found.region {
             Region::Arm(_) => out * (0.08 * stage.arm),
             _ => DVec3::ZERO,
         };
-        let own = self.language.places.get(&found.landmark);
-        let offset = DVec3::from(found.offset) + own.map_or(DVec3::ZERO, |by| DVec3::from(*by));
+        let moved = self.language.places.get(&found.landmark);
+        let offset = DVec3::from(found.offset) + moved.map_or(DVec3::ZERO, |by| DVec3::from(*by));
         let offset = stage.direction(offset * stage.shoulders);
         Placed {
             at: root + offset + flesh,
@@ -283,19 +290,24 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns where a part of an arm is as that arm is planned.
-    fn arm_part(&self, side: Side, landmark: &str) -> Option<DVec3> {
+    /// Returns where a part of an arm is as that arm is planned, and the unit vector out of the inside of its
+    /// elbow where it is bent.
+    fn arm_part(&self, side: Side, landmark: &str) -> Option<(DVec3, Option<DVec3>)> {
         let hand = self.stage.hand(side)?;
         let n = usize::from(self.sides[1] == side);
         let state = &self.state[n];
         let arm = Arm::of(self.stage, hand, &self.limits);
         let bearing = arm.bearing(state.wrist(), state.rotation);
         let posed = hand.rig.reach(state.wrist(), bearing, &self.limits);
-        Some(match landmark.rsplit_once('-')?.1 {
+        let at = match landmark.rsplit_once('-')?.1 {
             "elbow" => posed.elbow,
             "forearm" => posed.elbow.lerp(posed.wrist, 0.5),
             _ => posed.shoulder.lerp(posed.elbow, 0.55),
-        })
+        };
+        let chord = (posed.wrist - posed.shoulder).normalize_or(DVec3::NEG_Y);
+        let inner = -(posed.elbow - posed.shoulder).reject_from_normalized(chord);
+        let bent = inner.length() > 0.05 * self.stage.arm;
+        Some((at, inner.try_normalize().filter(|_| bent)))
     }
 
     /// Returns the point of a hand that comes first where it goes along `way`, in model space.

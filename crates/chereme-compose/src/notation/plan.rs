@@ -111,6 +111,8 @@ pub(crate) struct SignSpan {
 
 /// What hands do, and when.
 pub(crate) struct Plan {
+    /// The dominant side, then the other.
+    pub(crate) sides: [Side; 2],
     pub(crate) start: [HandState; 2],
     pub(crate) events: [Vec<Event>; 2],
     pub(crate) shapes: [Vec<Shape>; 2],
@@ -226,6 +228,7 @@ impl<'a> Planner<'a> {
             shaped: [Vec::new(), Vec::new()],
             speed: 1.0,
             plan: Plan {
+                sides,
                 start,
                 events: [Vec::new(), Vec::new()],
                 shapes,
@@ -285,6 +288,7 @@ impl<'a> Planner<'a> {
             }
         }
         let posture = self.begun(&part.posture);
+        let lifted = self.lift(&posture, named);
         self.begun = false;
         if !part.holdover || !part.posture.is_empty() {
             self.assume(&posture, named);
@@ -298,6 +302,7 @@ impl<'a> Planner<'a> {
         let drops = !part.holdover && self.lone(part);
         let dropped =
             [0, 1].map(|n| drops && named[n].is_none() && before[n].used && !self.waits(n, next));
+        let dropped = [0, 1].map(|n| dropped[n] && !lifted[n]);
         let length = (0..2)
             .map(|n| self.length_between(&before[n], &goal[n], n))
             .fold(0.0, f64::max);
@@ -321,6 +326,7 @@ impl<'a> Planner<'a> {
                 self.plan.contacts[n].push((reached, reached + most));
             }
         }
+        self.lifted(lifted, &goal, [time, reached]);
         if dropped.iter().any(|&drop| drop) {
             self.relax(dropped, time, Some(reached));
         }
@@ -425,31 +431,6 @@ impl<'a> Planner<'a> {
         hands.other.is_none()
             && !self.state[1 - own].used
             && (self.at_body[own].is_some() || hands.at.is_some())
-    }
-
-    /// Brings a hand that hung at rest before the body, as what nothing more is said of.
-    pub(crate) fn raise(&mut self, n: usize) {
-        let mut frame = self.own_frame();
-        if n == 1 {
-            frame.axes.x = -frame.axes.x;
-        }
-        let stage = self.stage;
-        let at = DVec3::new(
-            -0.45 * frame.axes.x * stage.shoulders,
-            -0.85 * stage.shoulders,
-            self.language.medium_trunk * stage.arm,
-        );
-        self.state[n].used = true;
-        self.state[n].direction = DVec3::new(0.5, 0.0, 0.87).normalize();
-        self.state[n].palm = 0.0;
-        self.state[n].axes = [frame.axes; 2];
-        self.turn(n);
-        self.state[n].offset = self.palm_offset(n);
-        self.state[n].point = stage.middle() + stage.direction(at);
-    }
-
-    fn palm_offset(&self, n: usize) -> DVec3 {
-        self.offset(n, &[HandPoint::Palm])
     }
 
     /// Returns the middle of points of a hand in its space.

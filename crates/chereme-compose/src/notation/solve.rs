@@ -5,8 +5,6 @@
 //! it, in angles of the wrist, so that nothing leaves its range; and last the wrist is put where the hand's
 //! point is in its place.
 
-use std::ops::Range;
-
 use chereme_motion::glam::{DQuat, DVec3};
 
 use super::arm::{Bearing, Held, Limits, Posed, Rig, WristAngles};
@@ -21,7 +19,7 @@ pub(crate) const BENDING: f64 = 28.0;
 /// How fast a hand is pushed out of the trunk at most, in arm lengths a second.
 const PUSHING: f64 = 5.0;
 /// The time before and after what changes at once over which it is spread, in seconds.
-const AROUND: f64 = 0.09;
+pub(super) const AROUND: f64 = 0.09;
 /// How near to the trunk's surface points of a hand come, in metres.
 const MARGIN: f64 = 0.006;
 /// How far a hand turns about its point to leave the trunk or come within reach, in radians.
@@ -41,11 +39,11 @@ pub(crate) struct Row {
     pub(crate) offset: DVec3,
     /// How the hand should be turned.
     pub(crate) turned: DQuat,
-    bearing: Bearing,
-    angles: WristAngles,
-    push: DVec3,
+    pub(super) bearing: Bearing,
+    pub(super) angles: WristAngles,
+    pub(super) push: DVec3,
     /// The hand gives way to nothing.
-    kept: bool,
+    pub(super) kept: bool,
 }
 
 /// Where an arm came in one frame.
@@ -57,6 +55,8 @@ pub(crate) struct Got {
     pub(crate) residual: f64,
     /// How far it was moved out of the trunk, in metres.
     pub(crate) pushed: f64,
+    /// The way by which what is still in the trunk of the hand would leave it.
+    pub(crate) within: DVec3,
 }
 
 /// An arm on its stage.
@@ -125,11 +125,10 @@ impl<'a> Arm<'a> {
         &self.hand.rig
     }
 
-    /// Returns how the arm is held at each frame.
-    pub(crate) fn rows(&self, wanted: &Wanted<'_>, rate: f64) -> Vec<Row> {
+    /// Returns how the arm is held at each frame, and the end at which its forearm stops.
+    pub(super) fn ways(&self, wanted: &Wanted<'_>, rate: f64) -> Vec<(Bearing, bool)> {
         let total = wanted.points.len();
         let step = ((CHOSEN * rate).round() as usize).max(1);
-        let want = |frame: usize| self.want(wanted, frame);
         let free = wanted.free();
         // A moment at which the hand is turned as written counts, also where it lies between two keys.
         let near = |frame: usize| {
@@ -140,20 +139,34 @@ impl<'a> Arm<'a> {
                 .unwrap_or(frame)
         };
         let keys = (0..total.div_ceil(step) + 1).map(|n| near((n * step).min(total - 1)));
-        let keys = keys.map(|frame| (want(frame), free[frame]));
+        let keys = keys.map(|frame| (self.want(wanted, frame), free[frame]));
         let keys = self.choose(keys, step as f64 / rate);
         let planes = spline(&keys, step, total, |bearing| bearing.plane);
         let shrugs = spline(&keys, step, total, |bearing| bearing.shrug);
-        let mut rows: Vec<Row> = Vec::with_capacity(total);
-        let mut before: Option<(Want<'_>, Bearing, bool)> = None;
-        for (frame, (plane, shrug)) in planes.into_iter().zip(shrugs).enumerate() {
-            let (want, high) = (want(frame), keys[(frame + step / 2) / step].high);
-            let bearing = Bearing { plane, shrug };
-            let same = before.replace((want, bearing, high)) == before;
+        let high = |frame: usize| keys[(frame + step / 2) / step].high;
+        let bearings = planes.into_iter().zip(shrugs).enumerate();
+        bearings
+            .map(|(frame, (plane, shrug))| (Bearing { plane, shrug }, high(frame)))
+            .collect()
+    }
+
+    /// Returns what a hand does at each frame with its arm held so.
+    pub(super) fn laid(
+        &self,
+        wanted: &Wanted<'_>,
+        ways: &[(Bearing, bool)],
+        rate: f64,
+    ) -> Vec<Row> {
+        let mut rows: Vec<Row> = Vec::with_capacity(ways.len());
+        let mut before: Option<(Want<'_>, (Bearing, bool))> = None;
+        for (frame, &way) in ways.iter().enumerate() {
+            let want = self.want(wanted, frame);
+            let same = before.replace((want, way)) == before;
             if let (true, Some(&row)) = (same && before.is_some(), rows.last()) {
                 rows.push(row);
                 continue;
             }
+            let (bearing, high) = way;
             let hung = self.hang(&want, bearing, high, TRIES);
             rows.push(Row {
                 point: want.point,
@@ -166,7 +179,7 @@ impl<'a> Arm<'a> {
             });
         }
         self.lead(&mut rows, wanted);
-        calm(&mut rows, &free, rate);
+        calm(&mut rows, &wanted.free(), rate);
         self.spread(&mut rows, &wanted.touch, rate);
         rows
     }
@@ -283,79 +296,6 @@ impl<'a> Arm<'a> {
         }
     }
 
-    /// Puts the arm where its hand's point is in its place, the wrist bent and turned as it is held;
-    /// what would enter the trunk is moved out of it.
-    pub(crate) fn settle(&self, row: &Row, outlines: [&[DVec3]; 2], before: Option<&Got>) -> Got {
-        let rig = self.rig();
-        let at = |wrist: DVec3| {
-            let posed = rig.reach(wrist, row.bearing, self.limits);
-            let rotation = rig.hung(&posed, &row.angles, &self.held);
-            (posed, rotation)
-        };
-        if row.kept {
-            let wrist = row.point - row.turned * row.offset;
-            let posed = rig.reach(wrist, row.bearing, self.limits);
-            let asked = rig.wrist(&posed, row.turned, &self.held);
-            let within = asked.bend(self.limits) < 1.0 + 1e-6;
-            if posed.wrist.distance(wrist) < 1e-4 && within {
-                return Got {
-                    residual: posed.wrist.distance(wrist),
-                    posed,
-                    rotation: row.turned,
-                    pushed: 0.0,
-                };
-            }
-        }
-        let goal = row.point + row.push;
-        let start = before.map_or(row.turned, |got| got.rotation);
-        let mut wrist = goal - start * row.offset;
-        let mut last: Option<(DVec3, DVec3)> = None;
-        let (mut posed, mut rotation) = at(wrist);
-        let mut best = (f64::INFINITY, posed, rotation);
-        for _ in 0..12 {
-            let asked = goal - rotation * row.offset;
-            let miss = asked - wrist;
-            let off = (posed.wrist + rotation * row.offset).distance(goal);
-            if off < best.0 {
-                best = (off, posed, rotation);
-            }
-            if miss.length() < 5e-5 {
-                break;
-            }
-            // Anderson's acceleration with one step of memory.
-            let next = match last {
-                Some((before, missed)) => {
-                    let turned = miss - missed;
-                    let share = miss.dot(turned) / turned.length_squared().max(1e-18);
-                    let share = share.clamp(-2.0, 0.8);
-                    asked - (asked - before) * share
-                }
-                None => asked,
-            };
-            last = Some((asked, miss));
-            wrist = next;
-            (posed, rotation) = at(wrist);
-        }
-        if (posed.wrist + rotation * row.offset).distance(goal) > best.0 {
-            (_, posed, rotation) = best;
-        }
-        let mut pushed = row.push.length();
-        for _ in 0..4 {
-            let (out, _) = self.way_out(posed.wrist, rotation, outlines);
-            if out.length() < 2e-4 {
-                break;
-            }
-            pushed += out.length();
-            (posed, rotation) = at(posed.wrist + out);
-        }
-        Got {
-            residual: (posed.wrist + rotation * row.offset).distance(row.point),
-            posed,
-            rotation,
-            pushed,
-        }
-    }
-
     /// Returns what keeps a hand from being turned as it should be.
     pub(crate) fn hindrance(&self, row: &Row, got: &Got) -> Hindrance {
         let wrist = row.point + row.push - row.turned * row.offset;
@@ -375,7 +315,12 @@ impl<'a> Arm<'a> {
     }
 
     /// Returns the way by which the deepest point of a hand leaves the trunk, and that point.
-    fn way_out(&self, wrist: DVec3, turned: DQuat, outlines: [&[DVec3]; 2]) -> (DVec3, DVec3) {
+    pub(super) fn way_out(
+        &self,
+        wrist: DVec3,
+        turned: DQuat,
+        outlines: [&[DVec3]; 2],
+    ) -> (DVec3, DVec3) {
         let torso = &self.stage.torso;
         if torso.is_clear(wrist, 1.3 * self.hand.length()) {
             return (DVec3::ZERO, wrist);
@@ -412,7 +357,8 @@ impl<'a> Arm<'a> {
             if !(around.start + 1..around.end).any(fast) {
                 continue;
             }
-            let eased = eased(rows, around.clone(), near);
+            let pushes: Vec<DVec3> = rows[around.clone()].iter().map(|row| row.push).collect();
+            let eased = eased(&pushes, near);
             let touch = &touch[around.clone()];
             for ((row, push), &touch) in rows[around].iter_mut().zip(eased).zip(touch) {
                 row.push = push.lerp(row.push, touch);
@@ -422,16 +368,14 @@ impl<'a> Arm<'a> {
     }
 }
 
-/// Returns the longest pushes near each frame, averaged: nowhere shorter than they must be.
-fn eased(rows: &[Row], around: Range<usize>, near: usize) -> Vec<DVec3> {
-    let own = &rows[around];
+/// Returns the longest near each frame, averaged: nowhere shorter than it must be; both ends stay as they are.
+pub(super) fn eased(own: &[DVec3], near: usize) -> Vec<DVec3> {
     let window = |n: usize| n.saturating_sub(near)..(n + near + 1).min(own.len());
     let longest: Vec<DVec3> = (0..own.len())
         .map(|n| {
-            let pushes = own[window(n)].iter().map(|row| row.push);
-            pushes.fold(DVec3::ZERO, |most, push| {
-                if push.length_squared() > most.length_squared() {
-                    push
+            own[window(n)].iter().fold(DVec3::ZERO, |most, by| {
+                if by.length_squared() > most.length_squared() {
+                    *by
                 } else {
                     most
                 }
@@ -440,11 +384,10 @@ fn eased(rows: &[Row], around: Range<usize>, near: usize) -> Vec<DVec3> {
         .collect();
     (0..own.len())
         .map(|n| {
-            // Both ends stay as they are.
             let near = near.min(n).min(own.len() - 1 - n);
             let part = &longest[n - near..=n + near];
             if near == 0 {
-                return own[n].push;
+                return own[n];
             }
             part.iter().sum::<DVec3>() / part.len() as f64
         })

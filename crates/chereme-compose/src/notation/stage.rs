@@ -138,13 +138,33 @@ impl Stage {
                 outline: Vec::new(),
             };
         };
-        let rotations: Vec<DQuat> = hand.fingers.iter().map(|&j| pose.rotations[j]).collect();
+        let rotations = hand.fingers.iter().map(|&j| pose.rotations[j]).collect();
+        self.shape_with(hand, angles, rotations, &pose.translations)
+    }
+
+    /// Returns the outline of a hand whose fingers are turned so.
+    pub(crate) fn outline(&self, side: Side, rotations: Vec<DQuat>) -> Vec<DVec3> {
+        let Some(hand) = self.hand(side) else {
+            return Vec::new();
+        };
+        let angles = HandAngles::default();
+        let shape = self.shape_with(hand, angles, rotations, &self.base.translations);
+        shape.outline
+    }
+
+    fn shape_with(
+        &self,
+        hand: &Hand,
+        angles: HandAngles,
+        rotations: Vec<DQuat>,
+        translations: &[DVec3],
+    ) -> Shape {
         let mut places: Vec<(DVec3, DQuat)> = Vec::with_capacity(rotations.len());
         for (&joint, &turn) in hand.fingers.iter().zip(&rotations) {
             let parent = self.skeleton.parent(joint);
             let above = hand.fingers.iter().position(|&j| Some(j) == parent);
             let (at, turned) = above.map_or((DVec3::ZERO, DQuat::IDENTITY), |n| places[n]);
-            places.push((at + turned * pose.translations[joint], turned * turn));
+            places.push((at + turned * translations[joint], turned * turn));
         }
         let mut shape = Shape {
             angles,
@@ -162,6 +182,13 @@ impl Stage {
                 outline.push(self.point(hand, &shape, point));
             }
         }
+        // The joints before the tips stand out where fingers are hooked.
+        let ends = Digit::ALL.into_iter().filter_map(|digit| {
+            let joint = self.anatomy.joint(digit_joint(hand.side, digit, 3))?;
+            let n = hand.fingers.iter().position(|&j| j == joint)?;
+            Some(shape.places[n].0)
+        });
+        outline.extend(ends);
         shape.outline = outline;
         shape
     }
@@ -408,6 +435,25 @@ impl Torso {
         self.way_out(at, around) == DVec3::ZERO
     }
 
+    /// Returns the way by which an elbow nearer than `margin` metres to the trunk leaves it: to its side where it
+    /// is beside the back.
+    pub(crate) fn way_aside(&self, at: DVec3, margin: f64) -> DVec3 {
+        let Some(body) = &self.body else {
+            return DVec3::ZERO;
+        };
+        let v = body.to_body(at);
+        if !(-BACK..0.0).contains(&v.z) {
+            return self.way_out(at, margin);
+        }
+        let Some((_, wide)) =
+            outline(v.y * body.scale / self.trunk).filter(|(front, _)| *front > 0.0)
+        else {
+            return DVec3::ZERO;
+        };
+        let deep = wide * body.scale + margin - v.x.abs() * body.scale;
+        body.left * (deep.max(0.0) * if v.x < 0.0 { -1.0 } else { 1.0 })
+    }
+
     /// Returns the way by which a point nearer than `margin` metres to the trunk leaves it, level:
     /// outwards as the surface is, and rather to the front.
     pub(crate) fn way_out(&self, at: DVec3, margin: f64) -> DVec3 {
@@ -432,8 +478,13 @@ impl Torso {
         }
         let deep = |z: f64| if z >= 0.0 { front } else { back };
         let inside = |x: f64, z: f64| (x / wide).powi(2) + (z / deep(z)).powi(2) < 1.0;
-        if front <= 0.0 || back <= 0.0 || wide <= 0.0 || !inside(x, z) {
+        if front <= 0.0 || back <= 0.0 || wide <= 0.0 {
             return DVec3::ZERO;
+        }
+        if !inside(x, z) {
+            return corner(x, z, wide, back).map_or(DVec3::ZERO, |(dx, dz)| {
+                (body.left * dx + body.forward * dz) * body.scale
+            });
         }
         // Only what is well behind the middle goes out at the back.
         let ahead = ((z + 0.5 * BACK) / (0.5 * BACK)).clamp(0.0, 1.0);
@@ -452,8 +503,23 @@ impl Torso {
         let half = x * dx / (wide * wide) + z * dz / (b * b);
         let rest = (x / wide).powi(2) + (z / b).powi(2) - 1.0;
         let t = (-half + (half * half - along * rest).max(0.0).sqrt()) / along;
-        (body.left * dx + body.forward * dz) * (t.max(0.0) * body.scale)
+        let (dx, dz) = (dx * t.max(0.0), dz * t.max(0.0));
+        let (more_x, more_z) = corner(x + dx, z + dz, wide, back).unwrap_or_default();
+        (body.left * (dx + more_x) + body.forward * (dz + more_z)) * body.scale
     }
+}
+
+/// Returns the shorter way out of the corner beside the back, which is rather square than round: to the left and
+/// forward.
+fn corner(x: f64, z: f64, wide: f64, back: f64) -> Option<(f64, f64)> {
+    let (aside, behind) = (0.94 * wide - x.abs(), z + 0.92 * back);
+    if z >= 0.0 || aside <= 0.0 || behind <= 0.0 {
+        return None;
+    }
+    Some(match aside < behind {
+        true => (aside * x.signum(), 0.0),
+        false => (0.0, -behind),
+    })
 }
 
 /// Returns how far out of the middle a place is, in parts of the trunk's outline at its height.

@@ -25,6 +25,9 @@ pub(crate) struct Track {
 /// From which angle on it is told that a hand is turned otherwise than written, in radians.
 pub(crate) const TOLD: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
+/// From which angle on a joint's way between two frames is long, in radians.
+const LONG: f64 = 0.04;
+
 /// How well a hand came where it should during signs, transitions left out.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Fit {
@@ -89,7 +92,9 @@ pub(crate) struct Timing<'a> {
 
 /// The frames of one hand before time is stretched.
 pub(crate) struct Made<'a> {
-    hand: &'a Hand,
+    solver: Arm<'a>,
+    outlines: Outlines<'a>,
+    rows: Vec<Row>,
     arm: [Vec<DQuat>; 4],
     fingers: Vec<Vec<DQuat>>,
     got: Vec<Got>,
@@ -100,26 +105,19 @@ impl<'a> Made<'a> {
     pub(crate) fn of(
         stage: &'a Stage,
         hand: &'a Hand,
-        (plan, n): (&Plan, usize),
-        wanted: &Wanted<'_>,
+        (plan, n): (&'a Plan, usize),
+        wanted: Wanted<'a>,
         limits: &'a Limits,
         timing: &Timing<'_>,
     ) -> Self {
         let solver = Arm::of(stage, hand, limits);
-        let rows = solver.rows(wanted, timing.rate);
-        let mut got: Vec<Got> = Vec::with_capacity(rows.len());
+        let (rows, got) = solver.over_time(&wanted, timing.rate);
         let mut arm: [Vec<DQuat>; 4] = std::array::from_fn(|_| Vec::with_capacity(rows.len()));
-        for (frame, row) in rows.iter().enumerate() {
-            let same = frame > 0 && rows[frame - 1] == *row;
-            let next = match got.last() {
-                Some(&last) if same => last,
-                last => solver.settle(row, wanted.outlines.at(frame), last),
-            };
-            let rotations = hand.rig.rotations(&next.posed, next.rotation);
+        for got in &got {
+            let rotations = hand.rig.rotations(&got.posed, got.rotation);
             for (column, rotation) in arm.iter_mut().zip(rotations) {
                 column.push(rotation);
             }
-            got.push(next);
         }
         let free = wanted.free();
         let mut fit = Fit::default();
@@ -132,9 +130,11 @@ impl<'a> Made<'a> {
             }
         }
         Self {
-            hand,
             arm,
             fingers: fingers(stage, hand, plan, n, timing),
+            solver,
+            outlines: wanted.outlines,
+            rows,
             got,
             fit,
         }
@@ -142,7 +142,7 @@ impl<'a> Made<'a> {
 
     /// Returns what of the arm has a speed, a value a frame.
     pub(crate) fn moved(&self) -> Vec<Moved> {
-        let rig = &self.hand.rig;
+        let rig = self.solver.rig();
         let each = self.got.iter().enumerate();
         each.map(|(n, got)| Moved {
             wrist: got.posed.wrist,
@@ -174,11 +174,93 @@ impl<'a> Made<'a> {
             };
             frames.iter().map(at).collect()
         };
+        let mut solved: Option<(usize, bool)> = None;
+        let arm = frames.iter().map(|&(n, share)| {
+            let carried = match solved {
+                Some((known, carried)) if known == n => carried,
+                _ => self.is_carried(n, warp),
+            };
+            solved = Some((n, carried));
+            self.between(n, share, carried)
+        });
+        let mut arm: Vec<[DQuat; 4]> = arm.collect();
+        let outlines = |frame: usize| self.outlines.at(frames[frame].0);
+        self.solver.clear(&mut arm, outlines, warp.rate());
         Track {
-            arm: self.arm.map(stretched),
+            arm: [0, 1, 2, 3].map(|joint| arm.iter().map(|turned| turned[joint]).collect()),
             fingers: self.fingers.into_iter().map(stretched).collect(),
             fit: self.fit,
         }
+    }
+
+    /// Returns how the arm's joints are turned between a planned frame and the next: each by its own way, or
+    /// with the hand carried, so that nothing leaves its range.
+    fn between(&self, n: usize, share: f64, carried: bool) -> [DQuat; 4] {
+        let here = [0, 1, 2, 3].map(|joint| self.arm[joint][n]);
+        let Some(next) = self.rows.get(n + 1).filter(|_| share > 0.0) else {
+            return here;
+        };
+        if carried {
+            let ends = [&self.got[n], &self.got[n + 1]];
+            let bearing = self.rows[n].bearing.mix(&next.bearing, share);
+            let (posed, rotation) = self.solver.carried(ends, bearing, share);
+            return self.solver.rig().rotations(&posed, rotation);
+        }
+        [0, 1, 2, 3].map(|joint| {
+            let (from, to) = (here[joint], self.arm[joint][n + 1]);
+            match from == to {
+                true => from,
+                false => from.slerp(to, share).normalize(),
+            }
+        })
+    }
+
+    /// Returns how far a joint turns in radians and the wrist goes in metres between a planned frame and the next
+    /// if all of the way were as fast as its fastest part, the hand carried.
+    pub(crate) fn hasty(&self, n: usize) -> [f64; 2] {
+        const PARTS: usize = 8;
+        let Some(next) = self.rows.get(n + 1) else {
+            return [0.0; 2];
+        };
+        let rig = self.solver.rig();
+        let ends = [&self.got[n], &self.got[n + 1]];
+        let at = |part: usize| {
+            let share = part as f64 / PARTS as f64;
+            let bearing = self.rows[n].bearing.mix(&next.bearing, share);
+            let (posed, rotation) = self.solver.carried(ends, bearing, share);
+            (posed.wrist, rig.turned(&posed, rotation))
+        };
+        let mut before = (
+            ends[0].posed.wrist,
+            rig.turned(&ends[0].posed, ends[0].rotation),
+        );
+        let mut most = [0.0_f64; 2];
+        for part in 1..=PARTS {
+            let here = if part < PARTS {
+                at(part)
+            } else {
+                (
+                    ends[1].posed.wrist,
+                    rig.turned(&ends[1].posed, ends[1].rotation),
+                )
+            };
+            let turns = before.1.iter().zip(&here.1);
+            let turn = turns.map(|(a, b)| a.angle_between(*b)).fold(0.0, f64::max);
+            most[0] = most[0].max(turn * PARTS as f64);
+            most[1] = most[1].max(before.0.distance(here.0) * PARTS as f64);
+            before = here;
+        }
+        most
+    }
+
+    /// Tells whether a way from a planned frame to the next is so long that the hand is carried, and not too
+    /// fast then.
+    fn is_carried(&self, n: usize, warp: &Warp) -> bool {
+        if n + 1 >= self.rows.len() {
+            return false;
+        }
+        let turns = (0..4).map(|joint| self.arm[joint][n].angle_between(self.arm[joint][n + 1]));
+        turns.fold(0.0, f64::max) > LONG && warp.allows(n, self.hasty(n))
     }
 }
 
@@ -217,7 +299,12 @@ fn signing(plan: &Plan, time: f64) -> bool {
 }
 
 /// Returns what a hand should do at each frame.
-pub(crate) fn wanted<'a>(plan: &'a Plan, n: usize, timing: &Timing<'_>) -> Wanted<'a> {
+pub(crate) fn wanted<'a>(
+    stage: &Stage,
+    plan: &'a Plan,
+    n: usize,
+    timing: &Timing<'_>,
+) -> Wanted<'a> {
     let &Timing { paces, rate, total } = timing;
     let start = &plan.start[n];
     let mut order: Vec<&Event> = plan.events[n].iter().collect();
@@ -271,7 +358,7 @@ pub(crate) fn wanted<'a>(plan: &'a Plan, n: usize, timing: &Timing<'_>) -> Wante
         turns: turns.done(),
         offsets: offsets.done(),
         wrist,
-        outlines: outlines(plan, n, timing),
+        outlines: outlines(stage, plan, n, timing),
         touch: touch(&plan.contacts[n], timing),
         ways,
     }
@@ -346,6 +433,14 @@ fn shape_spans(events: &[Event], rate: f64, total: usize) -> Vec<(Range<usize>, 
     spans
 }
 
+/// Returns how much of a change of shape is done: hands take theirs in the first part of a way without meaning.
+fn early(event: &Event, frame: usize, timing: &Timing<'_>) -> f64 {
+    let time = share(event, frame, timing.rate);
+    let lax = event.pace == Pace::Lax;
+    let time = if lax { time * 1.4 } else { time };
+    timing.paces.share(event.pace, time)
+}
+
 fn fingers(
     stage: &Stage,
     hand: &Hand,
@@ -353,25 +448,15 @@ fn fingers(
     n: usize,
     timing: &Timing<'_>,
 ) -> Vec<Vec<DQuat>> {
-    let &Timing { paces, rate, total } = timing;
+    let &Timing { rate, total, .. } = timing;
     let shapes = &plan.shapes[n];
     let spans = shape_spans(&plan.events[n], rate, total);
-    // Hands take their shape in the first part of a way without meaning.
-    let early = |event: &Event, frame: usize| {
-        let time = share(event, frame, rate);
-        let time = if event.pace == Pace::Lax {
-            time * 1.4
-        } else {
-            time
-        };
-        paces.share(event.pace, time)
-    };
     let mut all: Vec<Vec<DQuat>> = (0..hand.fingers.len())
         .map(|joint| {
             let mut steps = Steps::new(shapes[plan.start[n].shape].rotations[joint], total);
             for (span, shape, event) in &spans {
                 let to = shapes[*shape].rotations[joint];
-                steps.go(span.clone(), to, nlerp, |frame| early(event, frame));
+                steps.go(span.clone(), to, nlerp, |frame| early(event, frame, timing));
             }
             steps.done()
         })
@@ -435,28 +520,60 @@ fn play(
     }
 }
 
-/// The outlines of a hand, and from which frame on which two hold.
+/// The outlines of a hand, and from which frame on which two hold: while it changes its shape, those on the way.
 pub(crate) struct Outlines<'a> {
-    from: Vec<(usize, &'a [DVec3], &'a [DVec3])>,
+    from: Vec<(usize, [Outline<'a>; 2])>,
+    between: Vec<Vec<DVec3>>,
 }
 
-fn outlines<'a>(plan: &'a Plan, n: usize, timing: &Timing<'_>) -> Outlines<'a> {
-    let of = |shape: usize| plan.shapes[n][shape].outline.as_slice();
-    let mut now = of(plan.start[n].shape);
-    let mut from = vec![(0, now, now)];
-    for (span, shape, _) in shape_spans(&plan.events[n], timing.rate, timing.total) {
-        let next = of(shape);
-        from.push((span.start, now, next));
-        from.push((span.end, next, next));
-        now = next;
+/// The outline of a shape, or one by its number between shapes.
+#[derive(Clone, Copy)]
+enum Outline<'a> {
+    Shape(&'a [DVec3]),
+    Between(usize),
+}
+
+/// How many steps a change of shape is looked at in.
+const STEPS: usize = 4;
+
+fn outlines<'a>(stage: &Stage, plan: &'a Plan, n: usize, timing: &Timing<'_>) -> Outlines<'a> {
+    let shapes = &plan.shapes[n];
+    let of = |shape: usize| Outline::Shape(shapes[shape].outline.as_slice());
+    let mut now = plan.start[n].shape;
+    let mut from = vec![(0, [of(now); 2])];
+    let mut between = Vec::new();
+    for (span, shape, event) in shape_spans(&plan.events[n], timing.rate, timing.total) {
+        let mut steps = vec![of(now)];
+        for step in 1..STEPS {
+            let share = step as f64 / STEPS as f64;
+            let turns = shapes[now].rotations.iter().zip(&shapes[shape].rotations);
+            let turns = turns.map(|(a, b)| nlerp(*a, *b, share)).collect();
+            between.push(stage.outline(plan.sides[n], turns));
+            steps.push(Outline::Between(between.len() - 1));
+        }
+        steps.push(of(shape));
+        let mut last = None;
+        for frame in span.clone() {
+            let share = early(event, frame, timing);
+            let step = ((share * STEPS as f64) as usize).min(STEPS - 1);
+            if last.replace(step) != Some(step) {
+                from.push((frame, [steps[step], steps[step + 1]]));
+            }
+        }
+        from.push((span.end, [of(shape); 2]));
+        now = shape;
     }
-    Outlines { from }
+    Outlines { from, between }
 }
 
 impl Outlines<'_> {
     pub(crate) fn at(&self, frame: usize) -> [&[DVec3]; 2] {
         let n = self.from.partition_point(|&(from, ..)| from <= frame);
-        let (_, a, b) = self.from[n.saturating_sub(1)];
-        [a, b]
+        self.from[n.saturating_sub(1)]
+            .1
+            .map(|outline| match outline {
+                Outline::Shape(points) => points,
+                Outline::Between(n) => &self.between[n],
+            })
     }
 }

@@ -6,8 +6,11 @@ use chereme_motion::glam::{DQuat, DVec3};
 /// could do.
 const HARDEST: f64 = 75.0;
 
+/// How often longer than its ends alone need a step lasts at most for what is between them.
+const LONGER: f64 = 4.0;
+
 /// How fast arms may go.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Fastest {
     /// A joint, in radians a second.
     pub(crate) joint: f64,
@@ -30,17 +33,24 @@ pub(crate) struct Moved {
 pub(crate) struct Warp {
     times: Vec<f64>,
     rate: f64,
+    fastest: Fastest,
 }
 
 impl Warp {
     /// Returns the time that keeps arms at `rate` frames a second within what is allowed.
     ///
     /// Each step lasts as long as the fastest part needs; steps near to a stretched one last somewhat
-    /// longer, too, so that nothing brakes at once.
-    pub(crate) fn of(arms: &[Vec<Moved>], rate: f64, fastest: &Fastest) -> Self {
+    /// longer, too, so that nothing brakes at once. `hasty` says of an arm and a frame how far a joint turns
+    /// and a wrist goes until the next if all of the way were as fast as its fastest part.
+    pub(crate) fn of(
+        arms: &[Vec<Moved>],
+        rate: f64,
+        fastest: &Fastest,
+        hasty: impl Fn(usize, usize) -> [f64; 2],
+    ) -> Self {
         let total = arms.iter().map(Vec::len).max().unwrap_or(0);
         let mut lasts = vec![1.0_f64; total.saturating_sub(1)];
-        for arm in arms {
+        for (which, arm) in arms.iter().enumerate() {
             for (n, pair) in arm.windows(2).enumerate() {
                 let [a, b] = [pair[0], pair[1]];
                 let way = a.wrist.distance(b.wrist) * rate / fastest.wrist;
@@ -54,6 +64,10 @@ impl Warp {
                     let each = a.local.iter().zip(b.local);
                     let sum: f64 = each.map(|(a, b)| a.angle_between(b)).sum();
                     last = (1.2 * turn).max(1.6 * way).max(sum * rate / fastest.joint);
+                    let needed = needed(hasty(which, n), rate, fastest);
+                    if needed < LONGER * last {
+                        last = last.max(needed);
+                    }
                 }
                 lasts[n] = lasts[n].max(last);
             }
@@ -78,7 +92,22 @@ impl Warp {
             now += last / rate;
             times.push(now);
         }
-        Self { times, rate }
+        Self {
+            times,
+            rate,
+            fastest: *fastest,
+        }
+    }
+
+    /// Returns the frames a second.
+    pub(crate) fn rate(&self) -> f64 {
+        self.rate
+    }
+
+    /// Tells whether a step lasts long enough for what is hasty in it.
+    pub(crate) fn allows(&self, n: usize, hasty: [f64; 2]) -> bool {
+        let lasts = (self.times[n + 1] - self.times[n]) * self.rate;
+        needed(hasty, self.rate, &self.fastest) <= lasts * (1.0 + 1e-9)
     }
 
     /// Tells whether time runs as planned.
@@ -118,6 +147,11 @@ impl Warp {
             })
             .collect()
     }
+}
+
+/// Returns how long a step lasts in which a joint turns and a wrist goes so far.
+fn needed([turn, way]: [f64; 2], rate: f64, fastest: &Fastest) -> f64 {
+    (turn * rate / fastest.joint).max(way * rate / fastest.wrist)
 }
 
 /// Lets steps last longer in which a wrist or an elbow would start, turn or stop too hard, seen over a
@@ -160,7 +194,12 @@ mod tests {
 
     #[test]
     fn slow_arms_keep_their_time() {
-        let warp = Warp::of(&[along(&[0.0, 0.01, 0.02, 0.02])], 100.0, &FASTEST);
+        let warp = Warp::of(
+            &[along(&[0.0, 0.01, 0.02, 0.02])],
+            100.0,
+            &FASTEST,
+            |_, _| [0.0; 2],
+        );
         assert!(warp.is_none());
         assert_eq!(warp.frames().len(), 4);
         assert!((warp.at(0.025) - 0.025).abs() < 1e-12);
@@ -170,7 +209,7 @@ mod tests {
     fn a_step_at_once_takes_as_long_as_it_must() {
         let mut places = vec![0.0; 20];
         places.extend(vec![0.5; 20]);
-        let warp = Warp::of(&[along(&places)], 100.0, &FASTEST);
+        let warp = Warp::of(&[along(&places)], 100.0, &FASTEST, |_, _| [0.0; 2]);
         assert!(
             (warp.at(0.2) - warp.at(0.19) - 0.16).abs() < 1e-12,
             "0.5 m at 5 m/s, and the bow about the joints"

@@ -13,15 +13,19 @@ impl Planner<'_> {
         env: &Env,
     ) -> f64 {
         let named = self.addressed(posture, who);
-        for (n, _) in acting(named) {
-            if !self.state[n].used {
-                self.raise(n);
-            }
+        let start = self.state.clone();
+        let raised = [0, 1].map(|n| named[n].is_some() && !start[n].used);
+        for n in (0..2).filter(|&n| raised[n]) {
+            self.raise(n);
         }
         let before = self.state.clone();
         let planned = motion.map(|motion| self.motion(motion, who, time, env));
-        let now = self.state.clone();
+        let mut now = self.state.clone();
+        for n in (0..2).filter(|&n| raised[n]) {
+            now[n] = rested(&now[n], &before[n], &start[n]);
+        }
         self.fixed = staying(motion, who);
+        let lifted = self.lift(posture, named);
         self.assume(posture, named);
         if let Some(place) = &posture.place {
             self.placed();
@@ -59,6 +63,7 @@ impl Planner<'_> {
             self.straighten(time, end, pace, who);
         }
         self.state = now;
+        self.lifted(lifted, &goal, [time, end]);
         if posture.place.as_ref().is_some_and(brushes) {
             for (n, _) in acting(named) {
                 self.brush(n, &before[n], &goal[n], [time, end]);
@@ -144,6 +149,19 @@ impl Planner<'_> {
             }
         }
     }
+}
+
+/// Returns a hand as planned that was thought to be raised at first, and hangs at rest.
+fn rested(now: &HandState, raised: &HandState, start: &HandState) -> HandState {
+    let mut own = now.clone();
+    own.point += start.point - raised.point;
+    if now.rotation == raised.rotation {
+        own.rotation = start.rotation;
+    }
+    if now.offset == raised.offset {
+        own.offset = start.offset;
+    }
+    own
 }
 
 /// Returns the hand that stays where it is in a motion that leads both to each other.

@@ -1,0 +1,233 @@
+//! What is left in the trunk of an arm that is laid over time is led out of it.
+//!
+//! How an arm is held is chosen at moments and is smooth between them, and what a hand gives way to is spread
+//! over time: either may lead an elbow or a hand into the trunk for a moment. There the arm's plane
+//! turns on, or the hand goes farther out, before and after likewise, until nothing is left in.
+
+use std::sync::LazyLock;
+
+use chereme_motion::glam::{DQuat, DVec3};
+
+use super::arm::Bearing;
+use super::solve::{AROUND, Arm, Got, Row, eased};
+use super::track::{Outlines, Wanted};
+
+/// How often it is looked again whether something is left.
+const ROUNDS: usize = 6;
+/// From how deep on something is led out, in metres.
+const DEEP: f64 = 1e-3;
+/// How near to the trunk's surface an elbow is led, in metres.
+const NEAR: f64 = 0.008;
+/// Steps by which a hand is led out one way, in metres, and how many.
+const STEP: f64 = 0.005;
+const FARTHEST: u32 = 60;
+/// The turns that are tried for an elbow, in degrees, each with what it costs, the cheapest first: inwards, before
+/// the trunk, four times as much.
+static TURNS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
+    let steps = (1..=30).map(|n| 4.0 * f64::from(n));
+    let mut all: Vec<(f64, f64)> = steps.flat_map(|by| [(by, by), (-by, 4.0 * by)]).collect();
+    all.sort_by(|a, b| a.1.total_cmp(&b.1));
+    all
+});
+
+impl Arm<'_> {
+    /// Returns what an arm does at each frame, and where it comes.
+    pub(crate) fn over_time(&self, wanted: &Wanted<'_>, rate: f64) -> (Vec<Row>, Vec<Got>) {
+        let mut ways = self.ways(wanted, rate);
+        let mut rows = self.laid(wanted, &ways, rate);
+        let mut got = self.settled(&rows, &wanted.outlines);
+        let near = ((AROUND * rate).ceil() as usize).max(1);
+        let mut more = vec![DVec3::ZERO; rows.len()];
+        for _ in 0..ROUNDS {
+            let turns = got.iter().zip(&rows);
+            let turns: Vec<DVec3> = turns
+                .map(|(got, row)| DVec3::X * self.turned_out(got, row.bearing))
+                .collect();
+            let within = got.iter().map(|got| match got.within.length() > DEEP {
+                true => got.within,
+                false => DVec3::ZERO,
+            });
+            let mut outs: Vec<DVec3> = within.collect();
+            one_way(&mut outs, &self.ways_out(), |frame, by| {
+                let Got {
+                    posed, rotation, ..
+                } = got[frame];
+                let out = self.way_out(posed.wrist + by, rotation, wanted.outlines.at(frame));
+                out.0 == DVec3::ZERO
+            });
+            for ((out, got), turn) in outs.iter_mut().zip(&got).zip(&turns) {
+                if *out == DVec3::ZERO && *turn == DVec3::ZERO {
+                    *out = self.led_out(got);
+                }
+            }
+            let [turned, pushed] =
+                [&turns, &outs].map(|all| all.iter().any(|by| *by != DVec3::ZERO));
+            if turned {
+                for ((bearing, _), by) in ways.iter_mut().zip(eased(&turns, near)) {
+                    bearing.plane += by.x;
+                }
+                rows = self.laid(wanted, &ways, rate);
+            }
+            let outs = eased(&outs, near);
+            for (more, by) in more.iter_mut().zip(&outs) {
+                *more += *by;
+            }
+            if !turned && !pushed {
+                break;
+            }
+            // What is laid anew is as it was before.
+            let pushes = if turned { &more } else { &outs };
+            for (row, by) in rows
+                .iter_mut()
+                .zip(pushes)
+                .filter(|(_, by)| **by != DVec3::ZERO)
+            {
+                row.push += *by;
+                row.kept = false;
+            }
+            got = self.settled(&rows, &wanted.outlines);
+        }
+        (rows, got)
+    }
+
+    /// Leads out of the trunk what came into it where time was stretched, and wrists back into their range: the
+    /// rotations of an arm's joints, frame by frame.
+    pub(crate) fn clear<'o>(
+        &self,
+        frames: &mut [[DQuat; 4]],
+        outlines: impl Fn(usize) -> [&'o [DVec3]; 2],
+        rate: f64,
+    ) {
+        let rig = self.rig();
+        let torso = &self.stage.torso;
+        let near = ((AROUND * rate).ceil() as usize).max(1);
+        for _ in 0..ROUNDS {
+            let amiss = frames.iter().enumerate().map(|(frame, turned)| {
+                let (posed, hand) = rig.posed(*turned);
+                let out = self.way_out(posed.wrist, hand, outlines(frame)).0;
+                let out = if out.length() > DEEP {
+                    out
+                } else {
+                    DVec3::ZERO
+                };
+                let tried = |by: f64| rig.moved(&posed, posed.wrist, by.to_radians()).elbow;
+                let deep = torso.way_aside(posed.elbow, -0.003).length() > DEEP;
+                let turn = (1..30).map(|n| 4.0 * f64::from(n)).filter(|_| deep);
+                let turn = turn
+                    .into_iter()
+                    .find(|by| torso.way_aside(tried(*by), 0.0) == DVec3::ZERO);
+                (out, DVec3::X * turn.unwrap_or(0.0).to_radians())
+            });
+            let (mut outs, turns): (Vec<DVec3>, Vec<DVec3>) = amiss.unzip();
+            if [&outs, &turns]
+                .iter()
+                .all(|all| all.iter().all(|by| *by == DVec3::ZERO))
+            {
+                break;
+            }
+            one_way(&mut outs, &self.ways_out(), |frame, by| {
+                let (posed, hand) = rig.posed(frames[frame]);
+                self.way_out(posed.wrist + by, hand, outlines(frame)).0 == DVec3::ZERO
+            });
+            let (outs, turns) = (eased(&outs, near), eased(&turns, near));
+            for ((turned, out), turn) in frames.iter_mut().zip(outs).zip(turns) {
+                if out == DVec3::ZERO && turn == DVec3::ZERO {
+                    continue;
+                }
+                let (posed, hand) = rig.posed(*turned);
+                let posed = rig.moved(&posed, posed.wrist + out, turn.x);
+                *turned = rig.rotations(&posed, self.within_range(&posed, hand));
+            }
+        }
+    }
+
+    /// Returns how far a hand goes out for its elbow to leave the trunk.
+    fn led_out(&self, got: &Got) -> DVec3 {
+        let elbow = self.stage.torso.way_out(got.posed.elbow, 0.0);
+        match elbow.length() > DEEP {
+            true => elbow,
+            false => DVec3::ZERO,
+        }
+    }
+
+    /// Returns the ways by which a hand leaves the trunk: forward, to its own side, and between.
+    fn ways_out(&self) -> [DVec3; 3] {
+        let forward = self.stage.forward;
+        let outside = self.stage.left * self.hand.side.sign();
+        [forward, (forward + outside).normalize(), outside]
+    }
+
+    /// Returns where the arm comes at each frame.
+    fn settled(&self, rows: &[Row], outlines: &Outlines<'_>) -> Vec<Got> {
+        let mut all: Vec<Got> = Vec::with_capacity(rows.len());
+        for (frame, row) in rows.iter().enumerate() {
+            let same = frame > 0 && rows[frame - 1] == *row;
+            let next = match all.last() {
+                Some(&last) if same => last,
+                last => self.settle(row, outlines.at(frame), last),
+            };
+            all.push(next);
+        }
+        all
+    }
+
+    /// Returns how far the arm's plane turns for an elbow that is in the trunk to leave it, in radians: as little
+    /// as it must, and rather outwards; where none is out of it, to where it is least deep.
+    fn turned_out(&self, got: &Got, bearing: Bearing) -> f64 {
+        let torso = &self.stage.torso;
+        let own = torso.way_aside(got.posed.elbow, -0.003).length();
+        if own < DEEP {
+            return 0.0;
+        }
+        let mut best = (own + 0.1 * NEAR, 0.0);
+        for (by, cost) in TURNS.iter() {
+            let plane = bearing.plane + by.to_radians();
+            let tried = Bearing { plane, ..bearing };
+            let posed = self.rig().reach(got.posed.wrist, tried, self.limits);
+            let upper = posed.shoulder.lerp(posed.elbow, 0.6);
+            let deep =
+                torso.way_aside(posed.elbow, NEAR).length() + torso.way_out(upper, 0.0).length();
+            if deep == 0.0 {
+                return by.to_radians();
+            }
+            if deep + 1e-4 * cost < best.0 {
+                best = (deep + 1e-4 * cost, *by);
+            }
+        }
+        best.1.to_radians()
+    }
+}
+
+/// Lets what goes out in frames that follow one another go one way until it is `clear`: that by which the
+/// farthest goes least far, of these and its own.
+fn one_way(outs: &mut [DVec3], ways: &[DVec3], clear: impl Fn(usize, DVec3) -> bool) {
+    let mut start = 0;
+    while let Some(first) = (start..outs.len()).find(|&n| outs[n] != DVec3::ZERO) {
+        let within = outs[first..].iter().take_while(|out| **out != DVec3::ZERO);
+        let run = first..first + within.count();
+        start = run.end;
+        let farthest = run.clone().max_by(|&a, &b| {
+            let [a, b] = [a, b].map(|n| outs[n].length_squared());
+            a.total_cmp(&b)
+        });
+        let own = outs[farthest.unwrap_or(first)].normalize_or_zero();
+        let mut least = f64::INFINITY;
+        let mut best: Option<Vec<DVec3>> = None;
+        for way in ways.iter().copied().chain([own]) {
+            let needed = |frame: usize| {
+                let mut tried = (1..=FARTHEST).map(|n| way * (STEP * f64::from(n)));
+                tried.find(|by| clear(frame, *by))
+            };
+            let Some(all) = run.clone().map(needed).collect::<Option<Vec<_>>>() else {
+                continue;
+            };
+            let most = all.iter().map(|by| by.length()).fold(0.0, f64::max);
+            if most < least {
+                (least, best) = (most, Some(all));
+            }
+        }
+        if let Some(all) = best {
+            outs[run].copy_from_slice(&all);
+        }
+    }
+}
