@@ -56,13 +56,13 @@ impl Corpus {
             match change {
                 MediaChange::Add(url) => {
                     let free = (1..).find(|n| {
-                        let name = format!("media {n}");
+                        let name = linked(*n);
                         before.iter().all(|it| it.name != name)
                     });
                     let new = MediaTrackRow {
                         id: 0,
                         recording_id: row.id,
-                        name: format!("media {}", free.unwrap_or_default()),
+                        name: linked(free.unwrap_or_default()),
                         offset_us: 0,
                         media_type: media_type(url).map(str::to_owned),
                         url: said(url)?,
@@ -95,6 +95,11 @@ impl Corpus {
         let tracks = recordings::media_tracks(connection, row.id)?.into_iter();
         Ok(tracks.map(|track| placed(track, folder)).collect())
     }
+}
+
+/// Returns the name of a file that a person linked, another than those of files that transcripts name.
+fn linked(number: u32) -> String {
+    format!("linked {number}")
 }
 
 fn said(url: &str) -> Result<String> {
@@ -243,7 +248,7 @@ mod tests {
         assert_eq!(added.expect("added").len(), 2);
         let left = corpus.change_media(&take, &MediaChange::Remove(id));
         let left = left.expect("removed");
-        assert_eq!(left[0].name, "media 2");
+        assert_eq!(left[0].name, "linked 1");
         corpus
             .change_media(&take, &MediaChange::Remove(left[0].id))
             .expect("removed");

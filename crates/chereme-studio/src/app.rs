@@ -197,6 +197,12 @@ impl Studio {
         self.desk.as_ref().map(|desk| &desk.path)
     }
 
+    /// Returns the moment of the corpus that is shown, as [`generation`](chereme_corpus::Corpus::generation) counts.
+    #[must_use]
+    pub fn generation(&self) -> Option<i64> {
+        Some(self.snapshot.as_ref()?.overview.generation)
+    }
+
     /// Returns whether nothing is being done: no work, no opening, the corpus read.
     #[must_use]
     pub fn is_idle(&self) -> bool {

@@ -10,7 +10,7 @@ use chereme_corpus::Corpus;
 use chereme_studio::Options;
 use common::{Window, has, idle, options, small_corpus, until, window};
 use eframe::egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 
 /// The folder in which the process that is to be killed types.
 const TYPIST: &str = "CHEREME_TEST_TYPIST";
@@ -100,6 +100,10 @@ fn what_was_typed_before_a_kill_is_back_in_its_place() {
         let mut window = open(folder.path(), &corpus);
         until(&mut window, "the text", |it| field(it).is_some());
         let back = field(&window).expect("the field");
+        window.run_steps(3);
+        let tier = window.get_by_label("Tier Gloss");
+        let chosen = format!("{:?}", tier.accesskit_node().toggled());
+        assert!(chosen.contains("True"), "its tier is turned to");
         // A letter may have been written that there was no time to tell of.
         assert!(back.starts_with(&typed), "{back:?} is not {typed:?}");
         window.key_press(Key::Enter);

@@ -142,6 +142,9 @@ fn limace_is_made_from_escargot_stored_undone_and_changed() {
     window.get_by_label_contains("Handshape").click();
     window.run_steps(3);
     assert!(shows(&window, "Not filled in yet"));
+    assert!(has(&window, "Type to find a value"), "its picker is open");
+    key(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(!has(&window, "Type to find a value"));
     assert_eq!(recipe_of(&window), "ESCARGOT");
     type_into(&mut window, "Handshape", "U");
     assert_eq!(recipe_of(&window), "ESCARGOT | configure dominant U");

@@ -6,7 +6,7 @@ use chereme_corpus::{Corpus, TierName};
 use common::tiers::*;
 use common::{Window, click, has, idle, until};
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Role, pos2};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 
 /// Returns the field for the name of a tier.
 fn named<'w>(window: &'w Window<'_>) -> egui_kittest::Node<'w> {
@@ -218,6 +218,25 @@ fn several_are_selected_by_click_and_frame_and_changed_together() {
     stored(&mut window, before + 1);
     let new = says(&window, "Gloss");
     assert!(new[0].0 > old[0].0 && new[1].0 > old[1].0 && new[2] == old[2]);
+}
+
+#[test]
+fn the_selected_tier_stays_in_sight_where_the_window_gets_lower() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path());
+    for _ in 0..16 {
+        press(&mut window, CTRL, Key::ArrowDown);
+    }
+    let all = window.query_all_by_label_contains("Tier ");
+    let lowest = all.max_by(|a, b| a.rect().top().total_cmp(&b.rect().top()));
+    let name = lowest.and_then(|it| it.accesskit_node().label());
+    let name = name.expect("a tier");
+    window.set_size(eframe::egui::vec2(1280.0, 650.0));
+    window.run_steps(8);
+    assert!(has(&window, &name), "{name}");
+    window.set_size(eframe::egui::vec2(1280.0, 1040.0));
+    window.run_steps(8);
+    assert!(has(&window, &name), "{name}");
 }
 
 #[test]

@@ -25,8 +25,8 @@ mod rose;
 
 use chereme_sign::Inventory;
 use eframe::egui::{
-    Id, Popup, PopupCloseBehavior, Rect, Response, RichText, Role, ScrollArea, Sense, StrokeKind,
-    TextEdit, TextStyle, Ui, WidgetInfo, WidgetText, pos2, vec2,
+    Id, Key, Popup, PopupCloseBehavior, Rect, Response, RichText, Role, ScrollArea, Sense,
+    StrokeKind, TextEdit, TextStyle, Ui, WidgetInfo, WidgetText, pos2, vec2,
 };
 
 use crate::command::Command;
@@ -161,8 +161,9 @@ pub(crate) fn button(
         ui.set_max_height((screen.y - 120.0).min(440.0));
         pick(ui, picker, seen, inventory, chosen)
     });
+    let away = picked.is_some() && ui.input(|input| input.key_pressed(Key::Escape));
     let picked = picked.and_then(|it| it.inner);
-    if picked.is_some() {
+    if picked.is_some() || away {
         Popup::close_id(ui.ctx(), id);
         response.request_focus();
     }

@@ -58,9 +58,16 @@ pub fn press(window: &mut Window<'_>, modifiers: Modifiers, key: Key) {
     window.run_steps(2);
 }
 
+/// Draws frames until an edit is in the corpus, and in the window too.
 pub fn stored(window: &mut Window<'_>, operations_before: usize) {
     until(window, "the edit", |it| {
         it.state().is_idle() && operations(it) > operations_before
+    });
+    let path = window.state().corpus().expect("open").clone();
+    let corpus = Corpus::open(&path, "reader").expect("opened");
+    let stored = corpus.generation().expect("read");
+    until(window, "what was stored", |it| {
+        it.state().generation() >= Some(stored)
     });
     window.run_steps(2);
 }

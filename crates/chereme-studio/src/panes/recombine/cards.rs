@@ -8,7 +8,7 @@ use eframe::egui::{
 use super::Recombine;
 use super::live::{Note, Trouble};
 use super::stack::{Card, Stack, What};
-use super::{catalogue, settings};
+use super::{catalogue, fields, settings};
 use crate::action::Action;
 use crate::context::Seen;
 use crate::words::{fill, recombine as words};
@@ -37,6 +37,8 @@ struct Shown<'a> {
     chosen: bool,
     /// Whether what is typed shall go to it.
     focus: bool,
+    /// Whether it is new, and what is typed shall go to its first field.
+    fresh: bool,
     note: Option<&'a Note>,
     trouble: Option<&'a Trouble>,
 }
@@ -44,7 +46,7 @@ struct Shown<'a> {
 /// Shows every card; whether any was changed.
 pub(super) fn show(pane: &mut Recombine, ui: &mut Ui, seen: &Seen<'_>) -> bool {
     let mut did = Vec::new();
-    let focus = pane.focus.take();
+    let (focus, fresh) = (pane.focus.take(), pane.fresh.take());
     let mut places = Vec::new();
     let Recombine { stack, live, .. } = pane;
     for (at, card) in stack.cards().iter().enumerate() {
@@ -54,6 +56,7 @@ pub(super) fn show(pane: &mut Recombine, ui: &mut Ui, seen: &Seen<'_>) -> bool {
             counts: stack.counts(at),
             chosen: pane.chosen == Some(card.id),
             focus: focus == Some(card.id),
+            fresh: fresh == Some(card.id),
             note: live.notes.get(&card.id).filter(|_| live.trouble.is_none()),
             trouble: live.trouble.as_ref().filter(|it| it.card == Some(card.id)),
         };
@@ -117,7 +120,12 @@ fn frame(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &m
                     first: shown.first,
                     whole: shown.chosen,
                 };
-                settings::show(ui, seen, at, &mut what)
+                if shown.fresh {
+                    fields::give_focus(ui);
+                }
+                let changed = settings::show(ui, seen, at, &mut what);
+                fields::takes_focus(ui);
+                changed
             })
             .inner;
         if changed {

@@ -22,6 +22,22 @@ use crate::words::{Text, recombine as words};
 
 /// Where a picker leaves what it asks about.
 const ASKED: &str = "asked of a card";
+/// Where the focus waits for the first field of a new card.
+const GIVEN: &str = "focus of a new card";
+
+/// Has the first field that takes it get the focus.
+pub(super) fn give_focus(ui: &Ui) {
+    ui.data_mut(|data| data.insert_temp(Id::unique(GIVEN), ()));
+}
+
+/// Returns whether a field is the first one since the focus was given, or all were asked.
+pub(super) fn takes_focus(ui: &Ui) -> bool {
+    ui.data_mut(|data| {
+        let given = data.get_temp::<()>(Id::unique(GIVEN)).is_some();
+        data.remove::<()>(Id::unique(GIVEN));
+        given
+    })
+}
 
 /// Shows a name before what follows it.
 pub(super) fn caption(ui: &mut Ui, seen: &Seen<'_>, text: Text) -> Response {
@@ -348,7 +364,7 @@ pub(super) fn of_inventory(
     let line = Line {
         name: seen.say(name),
         hint: seen.say(hint),
-        width: (ui.available_width() - 110.0).clamp(60.0, 76.0),
+        width: (ui.available_width() - 110.0).clamp(60.0, 100.0),
     };
     let typed = complete(ui, id, line, text, &candidates);
     let held = all.iter().find(|it| it.find(text).is_some());
@@ -361,6 +377,13 @@ pub(super) fn of_inventory(
             .clone()
     });
     let mut picker = state.lock().unwrap_or_else(PoisonError::into_inner);
+    if takes_focus(ui) {
+        if text.is_empty() {
+            *picker = Picker::opening();
+        } else {
+            typed.response.request_focus();
+        }
+    }
     let chosen = Some(text.as_str()).filter(|text| inventory.find(text).is_some());
     let name = format!("{}…", seen.say(name));
     let picked = pickers::button(ui, &mut picker, seen, inventory, chosen, &name);
@@ -472,6 +495,9 @@ pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut 
             width: (ui.available_width() - 84.0).clamp(80.0, 200.0),
         };
         let typed = complete(ui, id, line, text, &candidates);
+        if takes_focus(ui) {
+            typed.response.request_focus();
+        }
         let mut changed = typed.changed;
         if let Some((token, gloss)) = selected_token(seen) {
             let button = ui.button(seen.say(words::TAKE_SELECTED));

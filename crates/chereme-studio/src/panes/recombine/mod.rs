@@ -50,6 +50,8 @@ pub(crate) struct Recombine {
     chosen: Option<u64>,
     /// The card that what is typed shall go to.
     focus: Option<u64>,
+    /// The card that was just added, whose first field is to have it.
+    fresh: Option<u64>,
     live: Live,
     suggest: suggest::Suggest,
     gloss: String,
@@ -304,7 +306,7 @@ impl Recombine {
     fn add(&mut self, what: What) {
         let after = self.chosen.filter(|_| !what.is_source());
         let id = self.stack.add(after, what);
-        (self.chosen, self.focus) = (id, id);
+        (self.chosen, self.focus, self.fresh) = (id, id, id);
         self.follow_cards();
     }
 

@@ -88,6 +88,9 @@ pub(super) fn line(ui: &mut Ui, name: &str, hint: &str, text: &mut String) -> bo
         .desired_width((ui.available_width() - 8.0).min(260.0));
     let response = ui.add(field);
     response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));
+    if fields::takes_focus(ui) {
+        response.request_focus();
+    }
     response.changed()
 }
 

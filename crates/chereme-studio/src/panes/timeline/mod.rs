@@ -115,6 +115,8 @@ pub(crate) struct Timeline {
     tier_asked: Option<(WorkId, tier_box::TierBox)>,
     /// The name of a tier to be selected as soon as it is there.
     tier_named: Option<String>,
+    /// Whether what was typed was put back, and its tier is to be turned to.
+    restored: bool,
     /// The tier that is held by its name, to be put elsewhere.
     tier_held: Option<i64>,
     curves: lanes::Curves,
@@ -328,6 +330,7 @@ impl Timeline {
     pub(crate) fn restore(&mut self, draft: Draft) {
         self.editing = draft.editing.map(Editing::again);
         self.begun = draft.begun;
+        self.restored = self.editing.is_some();
     }
 
     /// Forgets the ghosts when the snapshot has what they stood for.

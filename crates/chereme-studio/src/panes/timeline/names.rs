@@ -110,8 +110,9 @@ impl Drawing<'_, '_> {
     }
 
     fn header_menu(&mut self, response: &Response, tier: i64) {
-        const EDIT: [Action; 4] = [
+        const EDIT: [Action; 5] = [
             Action::AddTier,
+            Action::UsualTiers,
             Action::ChangeTier,
             Action::CopyTier,
             Action::RemoveTier,

@@ -45,6 +45,9 @@ pub(super) struct Layout {
     fresh: bool,
     /// How far they are to be scrolled next.
     pub(super) scroll_to: Option<f32>,
+    /// The tier that was selected last, and how high the rows were while it was in sight.
+    seen: Option<i64>,
+    height: Option<f32>,
 }
 
 impl Layout {
@@ -174,6 +177,11 @@ fn follow_up(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) {
         }
         out.send(Command::Annotations(all));
     }
+    let restored = timeline.editing.as_ref().filter(|_| timeline.restored);
+    if let Some(tier) = restored.and_then(|it| it.tier(scene)) {
+        out.send(Command::Tier(Some(tier.row.id)));
+        timeline.restored = false;
+    }
     if let Some(name) = &timeline.tier_named {
         let tiers = &scene.contents.tiers;
         let id = tiers
@@ -277,6 +285,12 @@ impl Drawing<'_, '_> {
         if let Some(gesture) = &self.timeline.gesture {
             moving.extend(gesture.moving());
         }
+        // What was selected elsewhere, a hit for one, comes into sight; and it stays there where the pane is another.
+        let selected = self.seen.shown.tier;
+        if selected != self.timeline.layout.seen && !ui.input(|input| input.pointer.any_down()) {
+            self.timeline.layout.seen = selected;
+            self.timeline.reveal |= selected.is_some();
+        }
         let mut scroll = ScrollArea::vertical().auto_shrink(false);
         let held = self.timeline.layout.scroll_to.take();
         if let Some(offset) = self.reveal(&all, contents, area.height()).or(held) {
@@ -288,6 +302,17 @@ impl Drawing<'_, '_> {
             }
         });
         self.timeline.layout.top = shown.state.clamped_offset().y;
+        let is = |row: &Row| Some(contents.tiers[row.tier].row.id) == selected;
+        let inside = all.iter().position(is).is_some_and(|number| {
+            let top = number as f32 * ROW - self.timeline.layout.top;
+            (0.0..=area.height() - ROW).contains(&top)
+        });
+        let before = self.timeline.layout.height.take();
+        if !inside && before.is_some_and(|before| before != area.height()) {
+            self.timeline.reveal = true;
+            ui.ctx().request_repaint();
+        }
+        self.timeline.layout.height = inside.then_some(area.height());
         self.timeline.layout.all = all;
         self.timeline.ghosts = ghosts;
         self.held_tier(ui, contents, area);
