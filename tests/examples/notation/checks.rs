@@ -174,7 +174,7 @@ impl Trunk {
                 left: turn * frame.left,
                 up: turn * frame.up,
                 forward: turn * frame.forward,
-                ..frame.clone()
+                ..*frame
             },
             ..self.clone()
         }
