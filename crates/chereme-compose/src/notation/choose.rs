@@ -20,10 +20,11 @@ const INWARDS: f64 = 4.0;
 const SWIVEL: f64 = 7.0;
 /// How fast an elbow goes without cost, in arm lengths a second: 2.5 m/s at 55 cm.
 const ELBOW: f64 = 4.5;
-/// What a hand costs that is turned from what is written by all that is still as written.
+/// What a hand costs that is turned from what is written by all that is still as written; half as far costs an
+/// eighth, so that no elbow is thrown out for a few degrees.
 const TURNED: f64 = 75.0;
 /// What it costs to have an elbow an arm's length above the shoulder; grows with the square.
-const RAISED: f64 = 60.0;
+const RAISED: f64 = 200.0;
 /// What it costs to be an arm's length off the place, and in the trunk; both grow with the square.
 const MISSED: f64 = 1.2e4;
 const WITHIN: f64 = 9e4;
@@ -124,7 +125,7 @@ impl Arm<'_> {
     fn off(&self, apart: f64) -> f64 {
         let apart = apart / self.limits.tolerance;
         let over = (apart - 1.0).max(0.0);
-        TURNED * apart.min(1.0).powi(2) + 36.0 * over + 75.0 * over * over
+        TURNED * apart.min(1.0).powi(3) + 36.0 * over + 75.0 * over * over
     }
 
     /// Returns what it costs that an elbow is above its shoulder.
@@ -321,7 +322,7 @@ fn cheapest<K>(lists: &[(K, Vec<Choice>)], of: &[usize], dt: f64) -> Vec<Choice>
 /// goes inwards, before the trunk.
 fn off_rule(degrees: f64) -> f64 {
     let near = degrees.abs().min(60.0);
-    let outwards = 0.7 * (near / 36.0).powi(2) + 0.05 * (degrees.abs() - near);
+    let outwards = 2.0 * (near / 36.0).powi(2) + 0.1 * (degrees.abs() - near);
     if degrees < 0.0 {
         INWARDS * outwards
     } else {
@@ -335,7 +336,7 @@ fn change(from: &Choice, to: &Choice, dt: f64, most: f64) -> Option<f64> {
     let over = |speed: f64| (speed - 1.0).max(0.0).powi(2);
     let swivel = (to.bearing.plane - from.bearing.plane).abs() / (SWIVEL * dt);
     let shrug = (to.bearing.shrug - from.bearing.shrug).abs() / (SHRUGGING * dt);
-    let own = 0.6 * (swivel * swivel + shrug * shrug) + 60.0 * over(swivel);
+    let own = 2.0 * (swivel * swivel + shrug * shrug) + 60.0 * over(swivel);
     if own > most * (1.0 + 1e-9) + 1e-9 {
         return None;
     }
