@@ -50,6 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             .with_title("Chereme")
             .with_position([0.0, 0.0])
             .with_inner_size([1280.0, 800.0]),
+        dithering: false,
         ..eframe::NativeOptions::default()
     };
     native.glow_options.vsync = false;
