@@ -6,12 +6,6 @@ use chereme_tests::repository::{self, TextFile};
 
 const LONGEST: usize = 700;
 
-/// Files that may be longer, each with its reason.
-const LONG_TABLES: [(&str, &str); 1] = [(
-    "crates/chereme-sign/src/query/tests.rs",
-    "cases of queries as text in, text out",
-)];
-
 /// This file writes the words that it looks for.
 const OWN: &str = "tests/tests/tidy.rs";
 
@@ -55,20 +49,11 @@ fn every_rust_file_begins_by_saying_what_it_is() {
 #[test]
 fn no_file_is_longer_than_a_person_reads() {
     let files = rust();
-    let mut faults = Vec::new();
-    for file in &files {
-        let lines = file.text.lines().count();
-        let table = LONG_TABLES.iter().any(|(path, _)| *path == file.path);
-        if lines > LONGEST && !table {
-            faults.push(format!("{} has {lines} lines: split it", file.path));
-        }
-        if lines <= LONGEST && table {
-            faults.push(format!(
-                "{} is no longer long: take it off the list",
-                file.path
-            ));
-        }
-    }
+    let lengths = files.iter().map(|file| (file, file.text.lines().count()));
+    let faults: Vec<String> = lengths
+        .filter(|(_, lines)| *lines > LONGEST)
+        .map(|(file, lines)| format!("{} has {lines} lines: split it", file.path))
+        .collect();
     expect_none("length", &faults);
 }
 
