@@ -253,9 +253,10 @@ pub fn on_waiting(tell: fn()) {
     let _ = WAITING.set(tell);
 }
 
-const PAUSE: Duration = Duration::from_millis(25);
-const TOLD_AFTER: i32 = 40;
-const REFUSED_AFTER: i32 = 800;
+/// The longest pause between two tries, in milliseconds; the first is the shortest.
+const PAUSE: u64 = 25;
+const TOLD_AFTER: i32 = 44;
+const REFUSED_AFTER: i32 = 804;
 
 fn wait(before: i32) -> bool {
     if before == TOLD_AFTER
@@ -263,7 +264,7 @@ fn wait(before: i32) -> bool {
     {
         tell();
     }
-    std::thread::sleep(PAUSE);
+    std::thread::sleep(Duration::from_millis(PAUSE.min(1 << before.clamp(0, 5))));
     before < REFUSED_AFTER
 }
 
