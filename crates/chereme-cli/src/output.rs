@@ -218,11 +218,13 @@ impl Bar {
 
 /// Tells that another program writes to the corpus.
 pub(crate) fn waiting() {
+    note("waiting for another program that is writing to the corpus ...");
+}
+
+/// Says something beside the output.
+fn note(text: &str) {
     // Whoever closed the terminal need not know.
-    let _ = writeln!(
-        io::stderr(),
-        "waiting for another program that is writing to the corpus ..."
-    );
+    let _ = writeln!(io::stderr(), "{text}");
 }
 
 static STOP: AtomicBool = AtomicBool::new(false);
@@ -233,6 +235,7 @@ fn interrupted() {
     if BARS.load(Ordering::Relaxed) == 0 || STOP.swap(true, Ordering::Relaxed) {
         std::process::exit(130);
     }
+    note("stopping; Ctrl-C again ends the program at once");
 }
 
 impl Drop for Bar {
