@@ -8,10 +8,12 @@ use chereme_formats::Finding;
 use chereme_motion::Side;
 use chereme_motion::anatomy::Anatomy;
 use chereme_sign::hamnosys::{self, Sign};
+use chereme_sign::text::{did_you_mean, nearest};
 use serde_json::json;
 
 use crate::Corpus;
 use crate::address::{self, Address, Name};
+use crate::db::recordings;
 use crate::error::{Error, Result};
 use crate::notation;
 use crate::recombine::{NotationFinding, Recombination};
@@ -84,7 +86,14 @@ impl Corpus {
                 return Ok(Address::Recording(name()).to_string());
             }
             _ => {
-                return Err(Error::wrong(format!("{wanted:?} names nobody's body")).advise(
+                let (signers, takes) = (
+                    recordings::signers(connection)?,
+                    recordings::recordings(connection)?,
+                );
+                let signers = signers.iter().map(|signer| signer.name.as_str());
+                let takes = takes.iter().map(|take| take.name.as_str());
+                let near = did_you_mean(nearest(wanted, signers.chain(takes)));
+                return Err(Error::wrong(format!("{wanted:?} names nobody's body{near}")).advise(
                     "write the name of a signer or a recording; `chereme list CORPUS signers` lists them",
                 ));
             }
