@@ -43,11 +43,7 @@ impl Arm<'_> {
             let turns: Vec<DVec3> = turns
                 .map(|(got, row)| DVec3::X * self.turned_out(got, row.bearing))
                 .collect();
-            let within = got.iter().map(|got| match got.within.length() > DEEP {
-                true => got.within,
-                false => DVec3::ZERO,
-            });
-            let mut outs: Vec<DVec3> = within.collect();
+            let mut outs: Vec<DVec3> = got.iter().map(|got| if_deep(got.within)).collect();
             one_way(&mut outs, &self.ways_out(), |frame, by| {
                 let Got {
                     posed, rotation, ..
@@ -57,7 +53,8 @@ impl Arm<'_> {
             });
             for ((out, got), turn) in outs.iter_mut().zip(&got).zip(&turns) {
                 if *out == DVec3::ZERO && *turn == DVec3::ZERO {
-                    *out = self.led_out(got);
+                    // The hand goes out for its elbow to leave the trunk.
+                    *out = if_deep(self.stage.torso.way_out(got.posed.elbow, 0.0));
                 }
             }
             let [turned, pushed] =
@@ -104,12 +101,7 @@ impl Arm<'_> {
         for _ in 0..ROUNDS {
             let amiss = frames.iter().enumerate().map(|(frame, turned)| {
                 let (posed, hand) = rig.posed(*turned);
-                let out = self.way_out(posed.wrist, hand, outlines(frame)).0;
-                let out = if out.length() > DEEP {
-                    out
-                } else {
-                    DVec3::ZERO
-                };
+                let out = if_deep(self.way_out(posed.wrist, hand, outlines(frame)).0);
                 let tried = |by: f64| rig.moved(&posed, posed.wrist, by.to_radians()).elbow;
                 let deep = torso.way_aside(posed.elbow, -0.003).length() > DEEP;
                 let turn = (1..30).map(|n| 4.0 * f64::from(n)).filter(|_| deep);
@@ -138,15 +130,6 @@ impl Arm<'_> {
                 let posed = rig.moved(&posed, posed.wrist + out, turn.x);
                 *turned = rig.rotations(&posed, self.within_range(&posed, hand));
             }
-        }
-    }
-
-    /// Returns how far a hand goes out for its elbow to leave the trunk.
-    fn led_out(&self, got: &Got) -> DVec3 {
-        let elbow = self.stage.torso.way_out(got.posed.elbow, 0.0);
-        match elbow.length() > DEEP {
-            true => elbow,
-            false => DVec3::ZERO,
         }
     }
 
@@ -195,6 +178,15 @@ impl Arm<'_> {
             }
         }
         best.1.to_radians()
+    }
+}
+
+/// Returns a way out that is worth going, else none.
+fn if_deep(out: DVec3) -> DVec3 {
+    if out.length() > DEEP {
+        out
+    } else {
+        DVec3::ZERO
     }
 }
 

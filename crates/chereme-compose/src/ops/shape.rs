@@ -204,10 +204,10 @@ pub(crate) fn indicate(
             value: spot.to_string(),
             what: "landmark that this skeleton has",
         })?;
-        let near = find(&Spot::Me).unwrap_or(whole);
         if !matches!(spot, Spot::Towards(_) | Spot::You) {
             return Ok(whole);
         }
+        let near = find(&Spot::Me).unwrap_or(whole);
         let shares = hands
             .iter()
             .map(|hand| hand.reaches(at, hand.path[ends[at]] - now, near, whole));
