@@ -79,7 +79,7 @@ pub fn run(options: Options) -> Result<(), Error> {
             .with_inner_size([1280.0, 800.0])
             .with_min_inner_size([640.0, 420.0])
             .with_drag_and_drop(true),
-        // There is no gradient that it would smooth, and it costs where windows are drawn in software.
+        // It smooths gradients, of which there are only the ends of lists, and costs where windows are drawn in software.
         dithering: false,
         ..eframe::NativeOptions::default()
     };

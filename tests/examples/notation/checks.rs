@@ -128,7 +128,8 @@ fn wrist(anatomy: &Anatomy, model: &ModelPose, side: Side) -> (f64, f64) {
     (bend, turn)
 }
 
-/// The trunk's surface in one frame, which goes with what carries the collar bones: through the landmarks of its front, an ellipse at each height.
+/// The trunk's surface in one frame, which goes with what carries the collar bones: through the landmarks of its
+/// front, an ellipse at each height.
 #[derive(Clone)]
 struct Trunk {
     frame: BodyFrame,
