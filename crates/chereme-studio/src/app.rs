@@ -15,7 +15,6 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen, Shown};
 use crate::draft::Drafts;
 use crate::keys::{Keys, Place};
-use crate::layout::Busy;
 use crate::little::Figures;
 use crate::model::Snapshot;
 use crate::model::reel::Reel;
@@ -46,8 +45,6 @@ pub struct Studio {
     pub(crate) reel: Reel,
     pub(crate) little: Figures,
     pub(crate) tree: Tree<PaneKind>,
-    /// What the panes were laid out for last.
-    pub(crate) busy: Busy,
     /// Whether the layout is that of a small window.
     pub(crate) small: bool,
     pub(crate) panes: Panes,
@@ -99,8 +96,7 @@ impl Studio {
             author,
             folders,
             keys: Keys::new(settings.keymap, &settings.keys),
-            tree: layout::remembered(settings.layout.as_ref(), (Busy::Annotating, false)),
-            busy: Busy::Annotating,
+            tree: layout::remembered(settings.layout.as_ref(), (settings.busy, false)),
             small: false,
             saved: settings.clone(),
             settings,
@@ -135,6 +131,8 @@ impl Studio {
         theme::apply(&ctx, &self.settings);
         self.fit(ctx.content_rect().size());
         self.listen();
+        self.panes.search.show_made(&mut self.out);
+        self.panes.library.show_made(&mut self.out);
         if self.panes.recombine.has_news() {
             // What was made is in the pictures that are asked for in this frame.
             self.keep_up(&ctx);
@@ -465,7 +463,7 @@ impl Studio {
             return;
         }
         self.small = small;
-        let before = (self.busy, small);
+        let before = (self.settings.busy, small);
         self.tree = layout::remembered(self.laid_out().as_ref(), before);
         self.panes.timeline.show_tier();
         if let Some(pane) = self.pane {

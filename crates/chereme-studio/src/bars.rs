@@ -5,6 +5,8 @@ use eframe::egui::{Align, Button, Layout, MenuBar, ProgressBar, ScrollArea, Ui};
 use crate::action::{ACTIONS, Action, Context, Menu};
 use crate::app::Studio;
 use crate::command::Command;
+use crate::layout::Busy;
+use crate::panes::history::data as history;
 use crate::panes::timeline::bar;
 use crate::words::{fill, shell as words};
 use crate::work::Lane;
@@ -42,12 +44,17 @@ impl Studio {
     /// Shows what one can be busy with, from right to left.
     fn layouts(&mut self, ui: &mut Ui) {
         let language = self.settings.language;
-        for (action, text) in [
-            (Action::LayoutRecombine, words::RECOMBINING),
-            (Action::LayoutSearch, words::SEARCHING),
-            (Action::LayoutAnnotate, words::ANNOTATING),
+        for (action, text, busy) in [
+            (
+                Action::LayoutRecombine,
+                words::RECOMBINING,
+                Busy::Recombining,
+            ),
+            (Action::LayoutSearch, words::SEARCHING, Busy::Searching),
+            (Action::LayoutAnnotate, words::ANNOTATING, Busy::Annotating),
         ] {
-            let button = ui.button(text.of(language)).on_hover_ui(|ui| {
+            let button = Button::selectable(self.settings.busy == busy, text.of(language));
+            let button = ui.add(button).on_hover_ui(|ui| {
                 ui.label(action.row().name.of(language));
                 ui.weak(self.keys.text(action));
             });
@@ -61,12 +68,27 @@ impl Studio {
         let open = self.snapshot.is_some();
         for row in ACTIONS.iter().filter(|row| row.menu == menu) {
             let counts = open || row.context == Context::Everywhere;
-            let button = Button::new(row.name.of(self.settings.language))
-                .shortcut_text(self.keys.text(row.action));
-            if ui.add_enabled(counts, button).clicked() {
+            let name = row.name.of(self.settings.language);
+            let button = Button::new(name).shortcut_text(self.keys.text(row.action));
+            let response = ui.add_enabled(counts, button);
+            let response = match self.steps(row.action) {
+                Some(what) => response.on_hover_text(what),
+                None => response,
+            };
+            if response.clicked() {
                 self.out.send(Command::Do(row.action));
             }
         }
+    }
+
+    /// Returns what a step back or forward would change in the corpus.
+    fn steps(&self, action: Action) -> Option<String> {
+        if !matches!(action, Action::Undo | Action::Redo) {
+            return None;
+        }
+        let operations = &self.snapshot.as_ref()?.overview.operations;
+        let back = action == Action::Undo;
+        history::next(operations, back, self.settings.language)
     }
 
     fn recent_menu(&mut self, ui: &mut Ui) {

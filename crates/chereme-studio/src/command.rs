@@ -38,6 +38,8 @@ pub(crate) enum Command {
     Recording(i64),
     /// Show a span of a recording, selected, with the playhead at its start.
     Place(i64, Span),
+    /// Bring the stage into sight, where what was opened is shown.
+    Look,
     /// Select a tier.
     Tier(Option<i64>),
     /// Select annotations.
@@ -66,6 +68,8 @@ pub(crate) enum Command {
     Import(Vec<PathBuf>),
     /// Show all that is known of something in the inspector.
     Inspect(Thing),
+    /// Turn the inspector to something, and bring it into sight where that does not hide the stage.
+    Note(Thing),
     /// Find what this query asks for.
     Find(String),
     /// Turn to a recipe, that of the stored recording of that name where there is one.

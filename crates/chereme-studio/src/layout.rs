@@ -2,15 +2,18 @@
 
 use eframe::egui::{Id, Vec2, vec2};
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tiles, Tree};
+use serde::{Deserialize, Serialize};
 
 use crate::panes::PaneKind;
 
 const ID: &str = "panes";
 
 /// What one is busy with, and so which panes want room.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub(crate) enum Busy {
     /// The timeline goes from edge to edge, as annotators know it.
+    #[default]
     Annotating,
     /// Hits have half of the window.
     Searching,
@@ -62,21 +65,26 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
         }
     } else {
         let left = tabs(&[Library, Search, Recombine, Import]);
-        let (stage, timeline) = (tabs(&[Stage]), tabs(&[Timeline]));
-        let right = tabs(&[Inspector, History]);
+        let stage = tabs(&[Stage]);
+        // Three panes above each other would be too low to read.
+        let below = match busy {
+            Busy::Annotating => tabs(&[Timeline]),
+            _ => tabs(&[Timeline, Inspector, History]),
+        };
         match busy {
             Busy::Annotating => {
+                let right = tabs(&[Inspector, History]);
                 let top = [(left, 0.26), (stage, 0.52), (right, 0.22)];
                 let top = shares(&mut tiles, Horizontal, &top);
-                shares(&mut tiles, Vertical, &[(top, 0.58), (timeline, 0.42)])
+                shares(&mut tiles, Vertical, &[(top, 0.58), (below, 0.42)])
             }
             Busy::Searching => {
-                let side = [(stage, 0.52), (timeline, 0.26), (right, 0.22)];
+                let side = [(stage, 0.58), (below, 0.42)];
                 let side = shares(&mut tiles, Vertical, &side);
                 shares(&mut tiles, Horizontal, &[(left, 0.52), (side, 0.48)])
             }
             Busy::Recombining => {
-                let side = [(stage, 0.64), (timeline, 0.2), (right, 0.16)];
+                let side = [(stage, 0.68), (below, 0.32)];
                 let side = shares(&mut tiles, Vertical, &side);
                 shares(&mut tiles, Horizontal, &[(left, 0.38), (side, 0.62)])
             }
@@ -123,6 +131,25 @@ pub(crate) fn remembered(
 pub(crate) fn shows(tree: &Tree<PaneKind>, kind: PaneKind) -> bool {
     let tile = tree.tiles.find_pane(&kind);
     tile.is_some_and(|tile| tree.active_tiles().contains(&tile))
+}
+
+/// Returns whether a pane stands behind the other or before it, so that only one of them is in sight.
+pub(crate) fn hides(tree: &Tree<PaneKind>, kind: PaneKind, other: PaneKind) -> bool {
+    let parent = |kind: PaneKind| tree.tiles.parent_of(tree.tiles.find_pane(&kind)?);
+    kind != other && parent(kind).is_some_and(|it| Some(it) == parent(other))
+}
+
+/// Brings the stage into sight, and the timeline where only what tells of things stands before it.
+pub(crate) fn look(tree: &mut Tree<PaneKind>) {
+    use PaneKind::{History, Inspector, Stage, Timeline};
+    if !shows(tree, Stage) {
+        bring(tree, Stage);
+    }
+    let told = [Inspector, History];
+    let told = told.into_iter().find(|it| hides(tree, *it, Timeline));
+    if told.is_some_and(|it| shows(tree, it)) && !hides(tree, Stage, Timeline) {
+        bring(tree, Timeline);
+    }
 }
 
 /// Puts all panes away but these, or brings all of them back where any is away.
@@ -204,6 +231,25 @@ mod tests {
         assert!(!shows(&tree, PaneKind::History));
         bring(&mut tree, PaneKind::History);
         assert!(tree.active_tiles().contains(&history) && shows(&tree, PaneKind::History));
+    }
+
+    #[test]
+    fn what_is_opened_is_seen_wherever_the_stage_stands() {
+        use PaneKind::{Inspector, Library, Search, Stage, Timeline};
+        for busy in [Busy::Annotating, Busy::Searching, Busy::Recombining] {
+            for small in [false, true] {
+                let mut tree = of(busy, small);
+                bring(&mut tree, Inspector);
+                bring(&mut tree, Search);
+                look(&mut tree);
+                assert!(shows(&tree, Stage), "{busy:?} {small}");
+                let beside = !hides(&tree, Stage, Timeline);
+                assert_eq!(shows(&tree, Timeline), beside, "{busy:?} {small}");
+            }
+        }
+        let tree = of(Busy::Annotating, true);
+        assert!(hides(&tree, Search, Stage) && hides(&tree, Search, Library));
+        assert!(!hides(&tree, Stage, Timeline) && !hides(&tree, Stage, Stage));
     }
 
     #[test]

@@ -87,6 +87,7 @@ impl Studio {
                 self.shown.span = Some(span);
                 self.shown.player.seek(span.start());
             }
+            Command::Look => self.look(ctx),
             Command::Tier(tier) => self.shown.tier = tier,
             Command::Annotations(annotations) => self.shown.annotations = annotations,
             Command::Span(span) => self.shown.span = span,
@@ -120,6 +121,12 @@ impl Studio {
                 // It shows itself, and what is typed goes on to where it went.
                 self.panes.inspector.turn_to(thing);
                 layout::bring(&mut self.tree, PaneKind::Inspector);
+            }
+            Command::Note(thing) => {
+                self.panes.inspector.turn_to(thing);
+                if !layout::hides(&self.tree, PaneKind::Inspector, PaneKind::Stage) {
+                    layout::bring(&mut self.tree, PaneKind::Inspector);
+                }
             }
             Command::Make { recipe, gloss } => {
                 self.panes.recombine.open(&recipe, None, Some(gloss));
@@ -353,7 +360,7 @@ impl Studio {
     }
 
     fn lay_out(&mut self, busy: Busy) {
-        self.busy = busy;
+        self.settings.busy = busy;
         self.tree = layout::of(busy, self.small);
         self.panes.timeline.show_tier();
     }
@@ -364,6 +371,24 @@ impl Studio {
         let others = PaneKind::ALL.into_iter().filter(|other| *other != pane);
         others.for_each(|other| self.panes.get_mut(other).leave());
         self.panes.get_mut(pane).come();
+    }
+
+    /// Brings what was opened into sight; where that hides the hits it was opened from, it is told how to come
+    /// back to them.
+    fn look(&mut self, ctx: &Context) {
+        let from = self.pane;
+        layout::look(&mut self.tree);
+        let Some(pane) = from.filter(|pane| !layout::shows(&self.tree, *pane)) else {
+            return;
+        };
+        self.pane = Some(PaneKind::Stage);
+        if let Some(focused) = ctx.memory(|memory| memory.focused()) {
+            ctx.memory_mut(|memory| memory.surrender_focus(focused));
+        }
+        if pane == PaneKind::Search {
+            let text = words::BACK_TO_HITS.of(self.settings.language);
+            self.overlays.notices.hint(self.keys.named(text));
+        }
     }
 
     fn walk_recordings(&mut self, by: isize) {
@@ -478,6 +503,7 @@ impl Studio {
 
     fn close(&mut self) {
         self.keep_view(true);
+        self.start.leave();
         self.view = None;
         self.desk = None;
         self.drafts = Drafts::default();

@@ -46,6 +46,8 @@ pub(crate) struct Settings {
     pub(crate) export_folder: Option<PathBuf>,
     /// Queries that are kept, and those that were asked.
     pub(crate) searches: Searches,
+    /// What the panes were laid out for last.
+    pub(crate) busy: crate::layout::Busy,
     /// Where the panes are; the usual layout where nothing is said.
     pub(crate) layout: Option<Tree<PaneKind>>,
     /// The same of a small window.
@@ -117,6 +119,7 @@ impl Default for Settings {
             recent: Vec::new(),
             export_folder: None,
             searches: Searches::default(),
+            busy: crate::layout::Busy::default(),
             layout: None,
             small_layout: None,
             timeline: Ways::default(),

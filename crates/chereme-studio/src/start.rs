@@ -3,7 +3,10 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use eframe::egui::{Button, Key, ProgressBar, RichText, ScrollArea, TextEdit, Ui};
+use eframe::egui::epaint::RectShape;
+use eframe::egui::{
+    Button, Key, ProgressBar, Response, RichText, ScrollArea, Shape, StrokeKind, TextEdit, Ui,
+};
 
 use crate::action::Action;
 use crate::app::Studio;
@@ -17,6 +20,15 @@ use crate::work::begin::Begin;
 #[derive(Debug, Default)]
 pub(crate) struct Start {
     path: String,
+    /// Whether the keyboard has been given to what one most likely wants.
+    come: bool,
+}
+
+impl Start {
+    /// Has the keyboard given anew when the page is seen again.
+    pub(crate) fn leave(&mut self) {
+        self.come = false;
+    }
 }
 
 /// Returns what a typed path can be used for: open it, make it, or import it.
@@ -36,6 +48,10 @@ type Offer = (Text, Text, Command);
 type Typed = (Text, fn(PathBuf) -> Begin);
 
 const WIDE: f32 = 620.0;
+/// How many recent corpora are on the page; the others are in the menu.
+const RECENT: usize = 4;
+/// A window lower than this has no room to spare.
+const LOW: f32 = 680.0;
 
 impl Studio {
     pub(crate) fn start_page(&mut self, ui: &mut Ui) {
@@ -47,22 +63,27 @@ impl Studio {
                 ui.add_space(left.max(0.0));
                 ui.vertical(|ui| {
                     ui.set_width(width);
-                    ui.add_space(56.0);
+                    let low = ui.ctx().content_rect().height() < LOW;
+                    ui.add_space(if low { 12.0 } else { 56.0 });
                     ui.label(
                         RichText::new(words::START_TITLE.of(language))
                             .size(34.0)
                             .strong(),
                     );
                     ui.label(RichText::new(words::START_LEAD.of(language)).size(16.0));
-                    ui.add_space(24.0);
+                    let gap = if low { 10.0 } else { 24.0 };
+                    ui.add_space(gap);
                     if self.beginning.is_some() {
                         self.beginning_page(ui);
                         return;
                     }
+                    // Who was here before goes on with what is there.
+                    if !self.settings.recent.is_empty() {
+                        self.recent_part(ui);
+                        ui.add_space(gap);
+                    }
                     self.offers_part(ui);
-                    ui.add_space(24.0);
-                    self.recent_part(ui);
-                    ui.add_space(24.0);
+                    ui.add_space(gap);
                     self.path_part(ui);
                 });
             });
@@ -112,7 +133,11 @@ impl Studio {
             ),
         ];
         for (name, hint, command) in offers {
-            if list_row(ui, 46.0, false, name.of(language), hint.of(language)).clicked() {
+            let row = offer(ui, 46.0, name.of(language), hint.of(language));
+            if !std::mem::replace(&mut self.start.come, true) {
+                row.request_focus();
+            }
+            if row.clicked() {
                 self.out.send(command);
             }
         }
@@ -145,10 +170,7 @@ impl Studio {
     fn recent_part(&mut self, ui: &mut Ui) {
         let language = self.settings.language;
         ui.strong(words::RECENT.of(language));
-        if self.settings.recent.is_empty() {
-            ui.weak(words::START_NONE.of(language));
-        }
-        for path in &self.settings.recent {
+        for path in self.settings.recent.iter().take(RECENT) {
             let there = path.is_file();
             let (name, folder) = parts(path);
             let about = if there {
@@ -156,12 +178,27 @@ impl Studio {
             } else {
                 format!("{folder} · {}", words::START_GONE.of(language))
             };
-            let row = ui.add_enabled_ui(there, |ui| list_row(ui, 40.0, false, &name, &about));
+            let row = ui.add_enabled_ui(there, |ui| offer(ui, 40.0, &name, &about));
+            if there && !std::mem::replace(&mut self.start.come, true) {
+                row.inner.request_focus();
+            }
             if row.inner.clicked() {
                 self.out.send(Command::Begin(Begin::Open(path.clone())));
             }
         }
     }
+}
+
+/// Shows something that can be begun with, with a frame that says so.
+fn offer(ui: &mut Ui, height: f32, name: &str, about: &str) -> Response {
+    let frame = ui.painter().add(Shape::Noop);
+    let row = list_row(ui, height, false, name, about);
+    let visuals = ui.visuals();
+    let fill = visuals.faint_bg_color;
+    let edge = visuals.widgets.noninteractive.bg_stroke;
+    let shape = RectShape::new(row.rect, 5.0, fill, edge, StrokeKind::Inside);
+    ui.painter().set(frame, shape);
+    row
 }
 
 /// Returns a file's name without its ending, and the folder it is in.

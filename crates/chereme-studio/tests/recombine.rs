@@ -160,6 +160,10 @@ fn limace_is_made_from_escargot_stored_undone_and_changed() {
     key(&mut window, Modifiers::COMMAND, Key::Z);
     idle(&mut window);
     assert!(!recordings(&window).contains(&"LIMACE".to_owned()));
+    // What was taken back is not said to be stored.
+    until(&mut window, "the snapshot", |window| {
+        !has(window, "Show it")
+    });
     key(&mut window, Modifiers::COMMAND, Key::Y);
     idle(&mut window);
     assert!(recordings(&window).contains(&"LIMACE".to_owned()));
@@ -398,7 +402,8 @@ fn history_walks_back_and_forward_and_asks_before_several_steps() {
     idle(&mut window);
     until(&mut window, "undone", |window| !has(window, "TROIS"));
     assert_eq!(recordings(&window).len(), 2, "{:?}", recordings(&window));
-    click(&mut window, "DEUX made: ESCARGOT | reverse");
+    idle(&mut window);
+    press(&mut window, "DEUX made: ESCARGOT | reverse");
     idle(&mut window);
     until(&mut window, "done again", |window| has(window, "DEUX"));
     assert_eq!(recordings(&window).len(), 3);
@@ -464,7 +469,10 @@ fn what_cannot_be_made_is_told_on_its_card_and_nowhere_else() {
     key(&mut window, Modifiers::COMMAND, Key::R);
     type_into(&mut window, "Recipe", "ESCARGOT | configure right NOSUCH");
     idle(&mut window);
-    assert!(shows(&window, "NOSUCH"));
+    // A name that is still being typed is no mistake yet.
+    until(&mut window, "what is wrong", |window| {
+        shows(window, "NOSUCH")
+    });
     assert!(!has(&window, "Close"), "no notice stands in the way");
     click(&mut window, "Clear");
     type_into(&mut window, "Recipe", "ESCARGOT");

@@ -68,6 +68,53 @@ fn a_handshape_is_searched_for_by_typing_with_completion_and_its_hit_opened_by_k
 }
 
 #[test]
+fn everyday_words_are_understood_and_what_is_opened_in_a_small_window_is_seen() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    window.set_size(eframe::egui::vec2(800.0, 600.0));
+    window.run_steps(3);
+    assert!(has(&window, "Play"));
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    window.run_steps(3);
+    assert!(!has(&window, "Play"), "the stage is behind the search");
+    type_query(&mut window, "handshape Y");
+    enter(&mut window);
+    assert_eq!(query(&window), "configuration=Y");
+    assert_eq!(hits(&window), 1);
+    window.key_press(Key::ArrowDown);
+    window.run_steps(3);
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    idle(&mut window);
+    assert!(has(&window, "Play") && has(&window, "Tier Gloss"));
+    assert!(
+        window
+            .query_by_label_contains("Ctrl+F goes back to what was found")
+            .is_some()
+    );
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    window.run_steps(3);
+    assert_eq!(query(&window), "configuration=Y");
+    assert_eq!(hits(&window), 1);
+    // With a layout that shows both, nothing goes behind.
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F2);
+    window.run_steps(3);
+    assert!(has(&window, "Play") && hits(&window) == 1);
+}
+
+#[test]
+fn what_finds_nothing_is_offered_as_what_it_may_mean() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = searching(folder.path());
+    type_query(&mut window, "forehead Y");
+    enter(&mut window);
+    assert_eq!(hits(&window), 0);
+    click(&mut window, "Search for placement=forehead configuration=Y");
+    idle(&mut window);
+    assert_eq!(query(&window), "placement=forehead configuration=Y");
+}
+
+#[test]
 fn a_slip_is_marked_and_mended() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = searching(folder.path());

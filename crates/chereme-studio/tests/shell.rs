@@ -52,6 +52,49 @@ fn the_start_page_says_what_is_wrong_and_what_helps() {
 }
 
 #[test]
+fn the_start_page_is_walked_by_keys_and_goes_on_with_what_was_open() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = small_corpus(folder.path());
+    let mut window = open_starter_by_key(folder.path());
+    assert!(has(&window, "escargot"));
+    window.key_press_modifiers(Modifiers::COMMAND, Key::W);
+    window.run_steps(3);
+    // The corpus that was open last has the keyboard, the offers stand below it.
+    let focused = |window: &Window<'_>, label: &str| window.get_by_label(label).is_focused();
+    assert!(focused(&window, "starter"));
+    window.key_press(Key::ArrowDown);
+    window.run_steps(2);
+    assert!(focused(&window, "Open the starter corpus"));
+    drop(window);
+    let corpus = Some(path);
+    let mut window = self::window(Options {
+        corpus,
+        ..options(folder.path())
+    });
+    until(&mut window, "the corpus", |window| has(window, "escargot"));
+    idle(&mut window);
+    drop(window);
+    let mut window = self::window(options(folder.path()));
+    window.run_steps(3);
+    window.key_press(Key::Enter);
+    until(&mut window, "the corpus", |window| has(window, "escargot"));
+    let open = window.state().corpus().expect("open");
+    assert!(open.ends_with("small.chereme"), "{open:?}");
+}
+
+/// Opens the starter corpus without a mouse.
+fn open_starter_by_key<'a>(folder: &std::path::Path) -> Window<'a> {
+    let mut window = window(options(folder));
+    window.run_steps(2);
+    window.key_press(Key::Enter);
+    until(&mut window, "the starter corpus", |window| {
+        has(window, "escargot")
+    });
+    idle(&mut window);
+    window
+}
+
+#[test]
 fn what_was_opened_and_chosen_is_remembered() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());

@@ -463,6 +463,47 @@ fn a_handshape_is_chosen_by_its_picture() {
 }
 
 #[test]
+fn a_digit_means_the_same_value_in_the_list_and_among_the_pictures() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path());
+    click(&mut window, "Tier Configuration RH");
+    press(&mut window, ALT, Key::ArrowRight);
+    let before = operations(&window);
+    press(&mut window, NONE, Key::F3);
+    window.run_steps(3);
+    press(&mut window, CTRL, Key::Num2);
+    stored(&mut window, before);
+    let pictured = values(&window, "Configuration RH")[0].clone();
+    // The first digit is that of the value that is used, as it is in the list.
+    assert_eq!(pictured, "A");
+}
+
+#[test]
+fn the_column_of_names_grows_for_a_name_that_is_scrolled_into_sight_and_rests() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path());
+    window.set_size(eframe::egui::vec2(1280.0, 660.0));
+    click(&mut window, "Tier Gloss");
+    let lane = |window: &Window<'_>| rect(window, "Lane of Gloss").left();
+    let narrow = lane(&window);
+    press(&mut window, CTRL, Key::T);
+    let long = "Zzz of which nobody knows why it is";
+    named(&window).type_text(long);
+    window.step();
+    let before = operations(&window);
+    click(&mut window, "Add");
+    stored(&mut window, before);
+    window.run_steps(40);
+    assert!(has(&window, &format!("Tier {long}")));
+    for _ in 0..40 {
+        press(&mut window, CTRL, Key::ArrowUp);
+    }
+    window.run_steps(40);
+    let wide = lane(&window);
+    assert!(wide > narrow + 40.0, "{narrow} {wide}");
+}
+
+#[test]
 fn what_was_deleted_is_selected_again_when_it_comes_back() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = three(folder.path());

@@ -58,6 +58,22 @@ impl Chord {
         !function && !self.alt
     }
 
+    /// Returns the chord as people read it: with the sign that stands on the key, where it has one.
+    pub(crate) fn label(self) -> String {
+        let name = self.key.name();
+        let sign = match self.key {
+            Key::Plus => "+",
+            key => key.symbol_or_name(),
+        };
+        // Arrows and the like are read more easily as words.
+        if sign.is_ascii() && sign != name {
+            let text = self.to_string();
+            format!("{}{sign}", text.strip_suffix(name).unwrap_or_default())
+        } else {
+            self.to_string()
+        }
+    }
+
     /// Returns whether a handle on the stage that has the focus does something with it.
     pub(crate) fn is_for_handles(self) -> bool {
         const MOVING: [Key; 3] = [Key::PageUp, Key::PageDown, Key::Escape];
@@ -150,6 +166,17 @@ mod tests {
             "Comma",
         ] {
             assert_eq!(text.parse::<Chord>().expect("a chord").to_string(), text);
+        }
+        for (text, label) in [
+            ("Ctrl+Comma", "Ctrl+,"),
+            ("Ctrl+Plus", "Ctrl++"),
+            ("Alt+Left", "Alt+Left"),
+            ("Period", "."),
+            ("Shift+Slash", "Shift+/"),
+            ("Shift+Enter", "Shift+Enter"),
+        ] {
+            let chord = text.parse::<Chord>().expect("a chord");
+            assert_eq!(chord.label(), label);
         }
         assert_eq!("Ctrl++".parse::<Chord>().map(|it| it.key), Ok(Key::Plus));
         for bad in ["", "Ctrl+", "Hyper+A", "NoKey"] {

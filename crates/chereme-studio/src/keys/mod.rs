@@ -98,7 +98,7 @@ impl Keys {
 
     /// Returns the keys of an action as people read them, such as `Ctrl+Z`; empty where it has none.
     pub(crate) fn text(&self, action: Action) -> String {
-        let all: Vec<String> = self.of(action).iter().map(Chord::to_string).collect();
+        let all: Vec<String> = self.of(action).iter().map(|it| it.label()).collect();
         all.join(", ")
     }
 
@@ -109,7 +109,7 @@ impl Keys {
         for row in ACTIONS {
             let place = format!("{{{}}}", row.id);
             if told.contains(&place) {
-                let keys = self.of(row.action).first().map(Chord::to_string);
+                let keys = self.of(row.action).first().map(|it| it.label());
                 told = told.replace(&place, &keys.unwrap_or_else(|| row.id.to_owned()));
             }
         }

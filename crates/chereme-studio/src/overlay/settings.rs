@@ -5,6 +5,7 @@ use eframe::egui::{Align2, Context, DragValue, Grid, Id, Slider, Ui, Window};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::Outbox;
+use crate::keys::Keymap;
 use crate::player::Stepping;
 use crate::settings::{Settings, ThemeChoice};
 use crate::words::{Language, shell as words};
@@ -66,6 +67,13 @@ impl SettingsWindow {
                     if slider.drag_stopped() || (slider.changed() && !slider.dragged()) {
                         changed.scale = scale;
                     }
+                    ui.end_row();
+                    ui.label(words::KEYMAP.of(language));
+                    ui.horizontal_wrapped(|ui| {
+                        for (it, text) in Keymap::ALL {
+                            ui.selectable_value(&mut changed.keymap, it, text.of(language));
+                        }
+                    });
                     ui.end_row();
                     ui.label(Action::StepAndRepeat.row().name.of(language));
                     stepping(ui, language, &mut changed.stepping);

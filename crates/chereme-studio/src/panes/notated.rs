@@ -6,6 +6,7 @@ use std::sync::Arc;
 use chereme_corpus::Error;
 
 use super::bare::Bare;
+use crate::command::Command;
 use crate::context::Outbox;
 use crate::model::made::Made;
 use crate::work::{Ended, Outcome, Work, WorkId};
@@ -49,8 +50,16 @@ impl Notated {
         self.get(token, gloss, out);
     }
 
+    /// Shows on the stage what was opened, when it is made.
+    pub(crate) fn show(&mut self, out: &mut Outbox) {
+        if let Some(made) = self.wanted(out) {
+            out.send(Command::Made(Some(made)));
+            out.send(Command::Look);
+        }
+    }
+
     /// Returns what is to be shown on the stage now, once; asks for it where another was being made.
-    pub(crate) fn wanted(&mut self, out: &mut Outbox) -> Option<Arc<Made>> {
+    fn wanted(&mut self, out: &mut Outbox) -> Option<Arc<Made>> {
         let (token, gloss) = self.wanted.clone()?;
         let known = self.made.contains_key(&token);
         let made = self.get(token, &gloss, out);
@@ -103,7 +112,6 @@ impl Notated {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::command::Command;
 
     fn asked(out: &mut Outbox) -> Vec<(WorkId, String)> {
         let commands = out.take().into_iter();

@@ -101,10 +101,14 @@ impl Cells<'_> {
         if let Some(at) = at {
             picker.at = Some(id_of(&cells[at]).to_owned());
         }
+        let of_digit = |digit: usize| match picker.digits.get(digit) {
+            Some(value) => cells.iter().position(|cell| id_of(cell) == value),
+            None => Some(digit).filter(|_| picker.digits.is_empty()),
+        };
         let by_key = if self.pressed.enter {
             at.or(Some(0))
         } else {
-            self.pressed.digit
+            self.pressed.digit.and_then(of_digit)
         };
         let picked = picked.or(by_key).and_then(|number| cells.get(number))?;
         Some(id_of(picked).to_owned())

@@ -49,6 +49,8 @@ pub(crate) struct Picker {
     fresh: bool,
     /// Its button opens it as soon as it is drawn.
     opens: bool,
+    /// The values of the digits from 1 on; the first ones where nothing is said.
+    pub(crate) digits: Vec<String>,
     /// The inventory and the value of which all that is known is asked for.
     asked: Option<(String, String)>,
     /// Of places: those in space rather than those on the body, from the side, and how far off.
@@ -252,10 +254,14 @@ fn grid(
                     rect: at(n),
                 })
                 .collect();
-            let digits = shown.len() > 1;
+            let (digits, given) = (shown.len() > 1, picker.digits.clone());
             cells.show(ui, picker, &all, |ui, cell, state| {
                 let value = &cells.inventory.values[cell.value];
-                let digit = (digits && state.number < 9).then_some(state.number + 1);
+                let number = match &given[..] {
+                    [] => Some(state.number).filter(|number| *number < 9),
+                    given => given.iter().position(|it| *it == value.id),
+                };
+                let digit = number.filter(|_| digits).map(|number| number + 1);
                 paint::cell(ui, cell.rect, cells, value, &state, digit);
             })
         })

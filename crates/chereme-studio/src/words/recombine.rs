@@ -41,8 +41,7 @@ texts! {
     SIGN: "Sign", "Signe";
     SIGN_NAME: "Gloss or address of the sign", "Glose ou adresse du signe";
     SIGN_HINT: "Gloss", "Glose";
-    TAKE_SELECTED: "Selected", "Sélection";
-    TAKE_SELECTED_TIP: "Take what is selected: {gloss}", "Prendre la sélection : {gloss}";
+    TAKE_SELECTED: "Take {gloss}", "Prendre {gloss}";
     SPELL: "Spelling", "Épellation";
     LETTERS: "Letters", "Lettres";
     LETTERS_HINT: "LSF", "LSF";

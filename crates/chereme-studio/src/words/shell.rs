@@ -32,7 +32,6 @@ texts! {
     NO_CHOOSER: "No file chooser came up on this system. Type the path, or drop the file on the window.", "Aucun sélecteur de fichiers ne s’est ouvert. Écrivez le chemin, ou déposez le fichier sur la fenêtre.";
     EMPTY_CORPUS: "This corpus is empty: take files in here.", "Ce corpus est vide : importez des fichiers ici.";
     START_DROP: "Or drop a corpus, files or a folder on the window.", "Ou déposez un corpus, des fichiers ou un dossier sur la fenêtre.";
-    START_NONE: "Nothing was opened here yet.", "Rien n’a encore été ouvert ici.";
     START_GONE: "not there any more", "n’existe plus";
     STARTER_MISSING_PLACE: "There is no folder for the starter corpus.", "Il n’y a pas de dossier pour le corpus de départ.";
     STARTER_MISSING_REMEDY: "Open or make a corpus by its path instead.", "Ouvrez ou créez plutôt un corpus par son chemin.";
@@ -58,6 +57,7 @@ texts! {
     CHOOSE_MEDIA: "Choose a media file", "Choisir un média";
     NEEDS_SELECTION: "Select a span first: drag on the timeline, or {timing.extend-frame-forward}; or {annotation.begin-end} at its begin and end.", "Sélectionnez d’abord un intervalle : glissez sur la ligne de temps, ou {timing.extend-frame-forward} ; ou {annotation.begin-end} au début et à la fin.";
     NEEDS_SIGN: "Choose a sign first: a hit, a sign of the library, or its gloss.", "Choisissez d’abord un signe : un résultat, un signe du fonds ou sa glose.";
+    BACK_TO_HITS: "{edit.search} goes back to what was found; {layout.search} shows both beside each other.", "{edit.search} revient aux résultats ; {layout.search} montre les deux côte à côte.";
     NEEDS_ANNOTATION: "Select an annotation first.", "Sélectionnez d’abord une annotation.";
     PALETTE_HINT: "Type what you want to do", "Écrivez ce que vous voulez faire";
     PALETTE_NONE: "No command is called like that.", "Aucune commande ne s’appelle ainsi.";

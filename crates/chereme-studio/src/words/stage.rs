@@ -10,6 +10,7 @@ texts! {
     LOADING: "Loading the movement…", "Chargement du mouvement…";
     NO_FINGERS: "This skeleton has no fingers: its hands are mittens.", "Ce squelette n’a pas de doigts : les mains sont des moufles.";
     COMING: "Loading what is here…", "Chargement de ce passage…";
+    NO_MORE: "no movement after {time}", "pas de mouvement après {time}";
     FRAME_OF: "frame {n} of {all}", "image {n} sur {all}";
     SPLIT_1: "One view", "Une vue";
     SPLIT_2: "Two views", "Deux vues";

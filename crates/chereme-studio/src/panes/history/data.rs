@@ -78,6 +78,20 @@ fn standings(operations: &[OperationRow]) -> BTreeMap<i64, Standing> {
         .collect()
 }
 
+/// Returns what would be taken back next, or done again next, as a sentence.
+pub(crate) fn next(operations: &[OperationRow], back: bool, language: Language) -> Option<String> {
+    let wanted = if back {
+        Standing::Stands(0)
+    } else {
+        Standing::Undone(1)
+    };
+    let (id, _) = standings(operations)
+        .into_iter()
+        .find(|(_, standing)| *standing == wanted)?;
+    let found = operations.iter().find(|it| it.id == id)?;
+    Some(sentence(found, language))
+}
+
 /// Returns how many operations stand.
 pub(crate) fn standing(operations: &[OperationRow]) -> usize {
     let all = standings(operations);

@@ -1,6 +1,6 @@
 //! What was done, by whom, the newest first; back to any point and forward again.
 
-mod data;
+pub(crate) mod data;
 
 use std::sync::Arc;
 

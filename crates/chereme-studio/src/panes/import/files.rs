@@ -52,6 +52,7 @@ pub(super) fn show(
                         && ui.small_button(seen.say(words::SHOW)).clicked()
                     {
                         out.send(Command::Recording(there.row.id));
+                        out.send(Command::Look);
                     }
                 });
             }

@@ -104,7 +104,7 @@ pub(super) fn recording_more(
 ) {
     grid(ui, "recording file", |ui| {
         if let Some(metres) = it.metres_per_unit {
-            said(ui, seen, words::UNITS, &format!("{metres} m"));
+            said(ui, seen, words::UNITS, &data::metres(metres));
         }
         if let Some(axes) = &it.axes {
             said(ui, seen, words::AXES, axes);

@@ -103,6 +103,13 @@ pub(crate) fn field_words(field: &str) -> (Vec<Text>, Vec<&str>) {
     (texts, rest)
 }
 
+/// Returns a length in metres as it is read, to four digits that count.
+pub(crate) fn metres(length: f64) -> String {
+    let before = length.abs().max(1e-9).log10().floor() + 1.0;
+    let scale = 10f64.powf((4.0 - before).clamp(0.0, 12.0));
+    format!("{} m", (length * scale).round() / scale)
+}
+
 /// Reads a time such as `0:01.500`, `1.5` or `1.5 s`.
 pub(crate) fn read_time(text: &str) -> Option<Instant> {
     let text = text.trim().trim_end_matches('s').trim();
@@ -137,6 +144,20 @@ mod tests {
         }
         let at = Instant::from_micros(61_234_000);
         assert_eq!(read_time(&time_text(at)), Some(at));
+    }
+
+    #[test]
+    fn lengths_have_the_digits_that_count() {
+        for (length, text) in [
+            (0.01, "0.01 m"),
+            (0.056_444_444_4, "0.05644 m"),
+            (1.0, "1 m"),
+            (0.0254, "0.0254 m"),
+            (12_345.678, "12346 m"),
+            (0.0, "0 m"),
+        ] {
+            assert_eq!(metres(length), text);
+        }
     }
 
     #[test]

@@ -11,6 +11,7 @@ use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::library::origin_text;
 use crate::panes::recombine::recipe_of;
+use crate::panes::search::feature_text;
 use crate::pickers::hamnosys;
 use crate::words::inspector as words;
 use crate::work::Work;
@@ -92,6 +93,7 @@ pub(super) fn show(
                 recording,
                 Span::between(micros(start), micros(end)),
             ));
+            out.send(Command::Look);
         }
     });
 }
@@ -129,6 +131,7 @@ fn coding(
     token: &TokenDetails,
     out: &mut Outbox,
 ) {
+    let names = (ui.available_width() * 0.45).clamp(80.0, 190.0);
     if token.values.is_empty() {
         ui.label("");
         ui.weak(seen.say(words::UNSET_ALL));
@@ -139,6 +142,7 @@ fn coding(
         // What tells fields of one component apart stands before whose hand they are of.
         let mut name: Vec<&str> = texts.iter().map(|text| seen.say(*text)).collect();
         let after = name.len().min(1);
+        let rest = rest.into_iter().map(|it| feature_text(it, seen));
         name.splice(after..after, rest);
         let name = name.join(" ");
         let now = match value.state.as_str() {
@@ -146,8 +150,12 @@ fn coding(
             "not-applicable" => "n/a".to_owned(),
             other => other.to_owned(),
         };
-        let label = ui.add(Label::new(RichText::new(&name).weak()).truncate());
-        let label = label.on_hover_text(&name).id;
+        let text = Label::new(RichText::new(&name).weak()).wrap();
+        let label = ui.scope(|ui| {
+            ui.set_max_width(names);
+            ui.add(text).id
+        });
+        let label = label.inner;
         ui.horizontal(|ui| {
             if let Some(annotation) = value.annotation {
                 let key = Id::unique(("token value", token.row.id, &value.field, annotation));

@@ -129,12 +129,22 @@ impl Library {
             Moves::Recorded(recording, span) => {
                 out.send(Command::Made(None));
                 out.send(Command::Place(recording, span));
-                return;
+                out.send(Command::Look);
             }
-            Moves::Notated => self.notated.open(token, &row.gloss, out),
-            Moves::Not => out.send(Command::Made(None)),
+            Moves::Notated => {
+                out.send(Command::Note(Thing::Token(token)));
+                self.notated.open(token, &row.gloss, out);
+            }
+            Moves::Not => {
+                out.send(Command::Made(None));
+                out.send(Command::Inspect(Thing::Token(token)));
+            }
         }
-        out.send(Command::Inspect(Thing::Token(token)));
+    }
+
+    /// Shows on the stage what was chosen and is made now, also where another pane is before this one.
+    pub(crate) fn show_made(&mut self, out: &mut Outbox) {
+        self.notated.show(out);
     }
 
     /// Tells of the chosen sign what can be done where nothing moves.
@@ -220,6 +230,7 @@ impl Library {
                 }
                 if response.clicked() {
                     out.send(Command::Recording(row.id));
+                    out.send(Command::Look);
                 }
                 response.context_menu(|ui| {
                     inspect(ui, seen, Thing::Recording(row.id), out);
@@ -318,9 +329,6 @@ fn inspect(ui: &mut Ui, seen: &Seen<'_>, thing: Thing, out: &mut Outbox) {
 impl Pane for Library {
     fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         self.notated.follow(seen.snapshot.overview.generation);
-        if let Some(made) = self.notated.wanted(out) {
-            out.send(Command::Made(Some(made)));
-        }
         let overview = &seen.snapshot.overview;
         if overview.recordings.is_empty() && overview.signs.is_empty() {
             ui.label(seen.say(words::EMPTY));

@@ -18,6 +18,9 @@ const FAR: f64 = 0.005;
 /// How near the edge a dragged card makes the list scroll.
 const EDGE: f32 = 28.0;
 
+/// How long nothing is typed before what is wrong with it is told, in seconds.
+const TYPING: f64 = 1.2;
+
 /// What is dragged: a card of the stack.
 struct Dragged(u64);
 
@@ -48,6 +51,12 @@ pub(super) fn show(pane: &mut Recombine, ui: &mut Ui, seen: &Seen<'_>) -> bool {
     let mut did = Vec::new();
     let (focus, fresh) = (pane.focus.take(), pane.fresh.take());
     let mut places = Vec::new();
+    // A name that is still being typed is no mistake yet.
+    let now = ui.input(|input| input.time);
+    let typing = ui.ctx().text_edit_focused() && now - pane.changed.1 < TYPING;
+    if typing {
+        ui.ctx().request_repaint_after_secs(TYPING as f32);
+    }
     let Recombine { stack, live, .. } = pane;
     for (at, card) in stack.cards().iter().enumerate() {
         let shown = Shown {
@@ -58,7 +67,10 @@ pub(super) fn show(pane: &mut Recombine, ui: &mut Ui, seen: &Seen<'_>) -> bool {
             focus: focus == Some(card.id),
             fresh: fresh == Some(card.id),
             note: live.notes.get(&card.id).filter(|_| live.trouble.is_none()),
-            trouble: live.trouble.as_ref().filter(|it| it.card == Some(card.id)),
+            trouble: live
+                .trouble
+                .as_ref()
+                .filter(|it| it.card == Some(card.id) && !typing),
         };
         let indent = if card.what.is_source() { 0 } else { 10 };
         let margin = eframe::egui::Margin {

@@ -500,8 +500,8 @@ pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut 
         }
         let mut changed = typed.changed;
         if let Some((token, gloss)) = selected_token(seen) {
-            let button = ui.button(seen.say(words::TAKE_SELECTED));
-            let tip = crate::words::fill(seen.say(words::TAKE_SELECTED_TIP), &[("gloss", &gloss)]);
+            let tip = crate::words::fill(seen.say(words::TAKE_SELECTED), &[("gloss", &gloss)]);
+            let button = ui.add(eframe::egui::Button::new(tip.as_str()).truncate());
             if button.on_hover_text(tip).clicked() {
                 *text = address(&seen.snapshot.overview, token, &gloss);
                 changed = true;

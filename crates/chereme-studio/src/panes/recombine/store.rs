@@ -64,16 +64,19 @@ impl Recombine {
             }
         });
         self.storing_again(ui, seen, out, made);
-        if let Some((gloss, recording)) = &self.stored {
+        let stored = self.stored.as_ref();
+        // One that was taken back is not there any more.
+        let stored = stored.filter(|it| seen.snapshot.recording(it.1).is_some());
+        if let Some((gloss, recording)) = stored {
             ui.horizontal_wrapped(|ui| {
                 let text = fill(
                     seen.say(crate::words::shell::NOTICE_STORED),
                     &[("gloss", gloss)],
                 );
                 ui.label(RichText::new(text).color(seen.colours().good));
-                let there = seen.snapshot.recording(*recording).is_some();
-                if there && ui.small_button(seen.say(words::SHOW_STORED)).clicked() {
+                if ui.small_button(seen.say(words::SHOW_STORED)).clicked() {
                     out.send(Command::Recording(*recording));
+                    out.send(Command::Look);
                 }
             });
         }

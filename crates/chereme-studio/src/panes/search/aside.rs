@@ -8,6 +8,7 @@ use eframe::egui::{Label, Popup, PopupCloseBehavior, RichText, Role, ScrollArea,
 
 use super::builder;
 use super::kept::{Kept, only_counted};
+use super::meant;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::{Text, fill, search as words};
@@ -159,6 +160,14 @@ impl Aside {
         query: &str,
     ) -> Option<String> {
         ui.strong(seen.say(words::NOTHING));
+        let mut chosen = None;
+        let inventories = &seen.snapshot.overview.inventories;
+        if let Some(meant) = meant::guessed(query, inventories) {
+            let text = fill(seen.say(words::MEANT), &[("query", &meant)]);
+            if ui.button(text).clicked() {
+                chosen = Some(meant);
+            }
+        }
         if self.without.as_ref().is_none_or(|it| it.query != query) {
             self.leaving.clear();
             let parts = parts(query);
@@ -174,13 +183,16 @@ impl Aside {
                     .collect(),
             });
         }
-        let without = self.without.as_ref()?;
-        if without.parts.is_empty() {
-            return None;
+        let Some(without) = self.without.as_ref().filter(|it| !it.parts.is_empty()) else {
+            return chosen;
+        };
+        if without.parts.iter().all(|(_, _, total)| *total == Some(0)) {
+            ui.weak(seen.say(words::WITHOUT_NONE));
+            return chosen;
         }
-        let mut chosen = None;
         ui.label(seen.say(words::WITHOUT));
-        for (part, rest, total) in &without.parts {
+        let helps = without.parts.iter().filter(|it| it.2 != Some(0));
+        for (part, rest, total) in helps {
             let total = total.map_or("…".to_owned(), |it| it.to_string());
             let text = fill(
                 seen.say(words::WITHOUT_ONE),
@@ -189,9 +201,6 @@ impl Aside {
             if ui.link(text).clicked() {
                 chosen = Some(rest.clone());
             }
-        }
-        if without.parts.iter().all(|(_, _, total)| *total == Some(0)) {
-            ui.weak(seen.say(words::WITHOUT_NONE));
         }
         chosen
     }

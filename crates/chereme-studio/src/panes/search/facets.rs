@@ -9,7 +9,7 @@ use eframe::egui::{
 };
 
 use super::builder::with_value;
-use super::rows::component_text;
+use super::rows::{component_text, feature_text};
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::inspector::Thing;
@@ -104,7 +104,7 @@ fn facet_name(field: &str, seen: &Seen<'_>) -> String {
     };
     let mut name = seen.say(component_text(known.component)).to_owned();
     for part in known.feature.iter() {
-        name.push_str(&format!(" · {part}"));
+        name.push_str(&format!(" · {}", feature_text(part, seen)));
     }
     let hand = known.hand.map(|hand| hand.to_string());
     let phase = known.phase.map(|phase| phase.to_string());

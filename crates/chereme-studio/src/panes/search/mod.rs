@@ -5,6 +5,7 @@
 //! | `builder`, `rows` | the query as conditions: the data, and the rows |
 //! | `symbols` | what a notation asks for |
 //! | `suggest`, `field` | the query as text: what could be written next, and the field |
+//! | `meant` | what everyday words ask for |
 //! | `hits`, `results` | what was found: pages and order, and the grid and the table |
 //! | `page` | the pane from top to bottom |
 //! | `facets` | how often each value occurs |
@@ -16,6 +17,7 @@ mod facets;
 mod field;
 mod hits;
 mod kept;
+mod meant;
 mod page;
 mod results;
 mod rows;
@@ -41,11 +43,12 @@ pub(crate) use builder::with_value;
 use field::Field;
 use hits::{Found, NEIGHBOURS, PAGE, Sort};
 use rows::Rows;
+pub(crate) use rows::feature_text;
 
 /// How long nothing is typed before what was typed is searched for, in seconds.
 const PAUSE: f64 = 0.35;
-/// How high the pane is at least for its hits to have room below the query; in a lower one all is scrolled.
-const LOW: f32 = 330.0;
+/// How high hits are at least below the query; where they have less, all is scrolled.
+const LOW: f32 = 170.0;
 /// The most hits of which all neighbours are asked for at once.
 const MOST_AROUND: usize = 64;
 
@@ -70,8 +73,12 @@ pub(crate) struct Search {
     /// Figures loop without being pointed at, and show the hand from near.
     playing: bool,
     close: bool,
-    /// Facets are shown.
-    counted: bool,
+    /// Whether facets are shown; as there is room where nobody said so.
+    counted: Option<bool>,
+    /// How high the query was drawn last, with what stands below it.
+    head: f32,
+    /// Whether that left too little for the hits.
+    low: bool,
     /// When the text changed that is not searched for yet.
     changed: Option<f64>,
     asked: Option<WorkId>,
@@ -112,7 +119,9 @@ impl Default for Search {
             built: true,
             symbols: String::new(),
             playing: true,
-            counted: true,
+            counted: None,
+            head: 0.0,
+            low: false,
             field: Field::default(),
             rows: Rows::default(),
             view: View::default(),
@@ -223,6 +232,7 @@ impl Search {
             Some((recording, span)) => {
                 out.send(Command::Made(None));
                 out.send(Command::Place(recording, span));
+                out.send(Command::Look);
                 match found.around(hit.token).cloned() {
                     Some(around) => select(&around, out),
                     None => {
@@ -232,13 +242,20 @@ impl Search {
                 }
             }
             None => {
-                out.send(Command::Inspect(Thing::Token(hit.token)));
                 out.send(Command::Made(None));
                 if seen.snapshot.is_notated(&hit.gloss) {
+                    out.send(Command::Note(Thing::Token(hit.token)));
                     self.notated.open(hit.token, &hit.gloss, out);
+                } else {
+                    out.send(Command::Inspect(Thing::Token(hit.token)));
                 }
             }
         }
+    }
+
+    /// Shows on the stage what was opened and is made now, also where another pane is before this one.
+    pub(crate) fn show_made(&mut self, out: &mut Outbox) {
+        self.notated.show(out);
     }
 
     /// Returns the hit that the keys are at, to be taken elsewhere.
@@ -326,9 +343,6 @@ fn select(around: &chereme_corpus::Around, out: &mut Outbox) {
 impl Pane for Search {
     fn ui(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         self.follow(seen, out);
-        if let Some(made) = self.notated.wanted(out) {
-            out.send(Command::Made(Some(made)));
-        }
         if let Some(around) = self.aside.opened.take() {
             select(&around, out);
         }
@@ -339,9 +353,11 @@ impl Pane for Search {
             }
             return;
         }
-        if ui.available_height() < LOW {
+        let room = ui.available_height();
+        self.low = room - self.head < LOW;
+        if self.low {
             let area = ScrollArea::vertical().id_salt("low").auto_shrink(false);
-            area.show(ui, |ui| self.page(ui, seen, out, Some(LOW)));
+            area.show(ui, |ui| self.page(ui, seen, out, Some(room.max(LOW))));
         } else {
             self.page(ui, seen, out, None);
         }

@@ -3,11 +3,14 @@
 use chereme_sign::query::Query;
 use eframe::egui::{RichText, Ui, vec2};
 
-use super::{PAUSE, Search, View, aside, facets, results, rows, suggest, symbols};
+use super::{PAUSE, Search, View, aside, facets, meant, results, rows, suggest, symbols};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::{Language, fill, search as words};
+
+/// A pane wider than this has room for facets beside its hits.
+const WIDE: f32 = 520.0;
 
 impl Search {
     /// Draws all of it; the hits are as high as there is room, or `high`.
@@ -18,6 +21,7 @@ impl Search {
         out: &mut Outbox,
         high: Option<f32>,
     ) {
+        let top = ui.cursor().top();
         self.question(ui, seen, out);
         if self.found.is_none() && self.asked.is_none() {
             if let Some(query) = aside::examples(ui, seen) {
@@ -26,6 +30,7 @@ impl Search {
             return;
         }
         self.status(ui, seen, out);
+        self.head = ui.cursor().top() - top;
         let room = ui.available_size();
         let size = vec2(room.x, high.unwrap_or(room.y));
         ui.allocate_ui(size, |ui| {
@@ -52,7 +57,15 @@ impl Search {
             if let Some(query) = suggest::kept_query(&self.field.text, seen.snapshot) {
                 self.field.set(query.to_owned());
                 self.rows = rows::Rows::default();
+            } else if let Some(query) =
+                meant::meant(&self.field.text, &seen.snapshot.overview.inventories)
+            {
+                self.field.set(query);
+                self.rows = rows::Rows::default();
             }
+            self.field.take_focus();
+            // Who types needs no rows where there is room for them or for hits only.
+            self.built &= !self.low;
             self.aside.remember(&self.field.text, seen, out);
             self.ask(out);
         }
@@ -104,6 +117,7 @@ impl Search {
 
     /// Draws how many were found, and how they are shown.
     fn status(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let mut counted = self.counts(ui);
         ui.horizontal_wrapped(|ui| {
             if let Some(running) = self.asked.filter(|id| seen.is_running(Some(*id))) {
                 ui.spinner();
@@ -135,8 +149,16 @@ impl Search {
                 ui.checkbox(&mut self.playing, seen.say(words::LOOPING));
                 ui.checkbox(&mut self.close, seen.say(words::CLOSE_UP));
             }
-            ui.checkbox(&mut self.counted, seen.say(words::FACETS));
+            let facets = ui.checkbox(&mut counted, seen.say(words::FACETS));
+            if facets.on_hover_text(seen.say(words::FACETS_TIP)).changed() {
+                self.counted = Some(counted);
+            }
         });
+    }
+
+    /// Returns whether facets are shown: beside the hits as usual, above them only where that is wished.
+    fn counts(&self, ui: &Ui) -> bool {
+        self.counted.unwrap_or(ui.available_width() > WIDE)
     }
 
     fn answer(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
@@ -150,10 +172,10 @@ impl Search {
             }
             return;
         }
-        if !self.counted {
+        if !self.counts(ui) {
             return results::show(self, ui, seen, out);
         }
-        let wide = ui.available_width() > 520.0;
+        let wide = ui.available_width() > WIDE;
         let facets = found.facets.clone();
         let query = self.field.text.clone();
         let mut wanted = None;

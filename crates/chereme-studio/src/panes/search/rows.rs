@@ -40,6 +40,9 @@ pub(crate) fn show(ui: &mut Ui, rows: &mut Rows, seen: &Seen<'_>, text: &mut Str
     let stated = all.len();
     let drafted = rows.draft.take();
     all.extend(drafted);
+    // It stands behind the last row, so that hits have the room.
+    let (last, mut added) = (all.len().checked_sub(1), None);
+    let offers = all.len() == stated;
     for (at, condition) in all.iter_mut().enumerate() {
         ui.push_id(at, |ui| {
             ui.horizontal_wrapped(|ui| {
@@ -53,8 +56,14 @@ pub(crate) fn show(ui: &mut Ui, rows: &mut Rows, seen: &Seen<'_>, text: &mut Str
                 if remove.clicked() {
                     removed = Some(at);
                 }
+                if offers && Some(at) == last {
+                    added = add(ui, seen);
+                }
             });
         });
+    }
+    if last.is_none() {
+        added = add(ui, seen);
     }
     if let Some(at) = removed {
         all.remove(at);
@@ -63,21 +72,17 @@ pub(crate) fn show(ui: &mut Ui, rows: &mut Rows, seen: &Seen<'_>, text: &mut Str
     if all.len() > stated && !all.last().is_some_and(is_complete) {
         rows.draft = all.pop();
     }
-    if rows.draft.is_none() && removed != Some(stated) {
-        rows.draft = add(ui, seen);
-        if let Some(row) = &rows.draft {
-            // What it is that is looked for comes next.
-            let pictures = match row {
-                Condition::Values(Subject::Component(field), ..) => {
-                    inventory(seen, field).is_some()
-                }
-                _ => false,
-            };
-            if pictures {
-                rows.pickers.insert((all.len(), 0), Picker::opening());
-            }
-            rows.begun = Some(all.len());
+    if let Some(row) = added {
+        // What it is that is looked for comes next.
+        let pictures = match &row {
+            Condition::Values(Subject::Component(field), ..) => inventory(seen, field).is_some(),
+            _ => false,
+        };
+        if pictures {
+            rows.pickers.insert((all.len(), 0), Picker::opening());
         }
+        rows.begun = Some(all.len());
+        rows.draft = Some(row);
     }
     if all == before {
         return false;
@@ -179,11 +184,39 @@ pub(crate) fn component_text(component: Component) -> Text {
     }
 }
 
+/// Features of components that have a name in words.
+const FEATURES: [(&str, Text); 18] = [
+    ("body", words::FEATURE_BODY),
+    ("brows", words::FEATURE_BROWS),
+    ("direction", words::FEATURE_DIRECTION),
+    ("fingers", words::FEATURE_FINGERS),
+    ("gaze", words::FEATURE_GAZE),
+    ("head", words::FEATURE_HEAD),
+    ("letter", words::FEATURE_LETTER),
+    ("lids", words::FEATURE_LIDS),
+    ("manner", words::FEATURE_MANNER),
+    ("mouth", words::FEATURE_MOUTH),
+    ("mouthing", words::FEATURE_MOUTHING),
+    ("nose", words::FEATURE_NOSE),
+    ("palm", words::FEATURE_PALM),
+    ("phase", words::FEATURE_PHASE),
+    ("repeated", words::FEATURE_REPEATED),
+    ("repetition", words::FEATURE_REPETITION),
+    ("shoulders", words::FEATURE_SHOULDERS),
+    ("size", words::FEATURE_SIZE),
+];
+
+/// Returns what a feature of a component is called; as it is written where there is no word for it.
+pub(crate) fn feature_text<'a>(feature: &'a str, seen: &Seen<'_>) -> &'a str {
+    let known = FEATURES.iter().find(|(it, _)| *it == feature);
+    known.map_or(feature, |(_, text)| seen.say(*text))
+}
+
 /// Returns what a field is called, its hand and phase left out.
 pub(crate) fn field_text(field: &Field, seen: &Seen<'_>) -> String {
     let component = seen.say(component_text(field.component));
     match &field.feature {
-        Some(feature) => format!("{component} · {feature}"),
+        Some(feature) => format!("{component} · {}", feature_text(feature, seen)),
         None => component.to_owned(),
     }
 }

@@ -50,11 +50,17 @@ pub(super) fn show(
             ui.label(RichText::new(format!("/ {all}")).monospace().weak());
         }
         if let Some(rate) = rate.filter(|_| !low) {
-            let (frame, frames) = frames(player.playhead(), player.whole, rate);
-            let text = fill(
-                seen.say(words::FRAME_OF),
-                &[("n", &frame), ("all", &frames)],
-            );
+            let text = match movement_end(seen).filter(|end| player.playhead() >= *end) {
+                Some(end) => fill(seen.say(words::NO_MORE), &[("time", &time_text(end))]),
+                None => {
+                    let moving = movement_end(seen).map(|end| Span::between(Instant::ZERO, end));
+                    let whole = moving.unwrap_or(player.whole);
+                    let (frame, frames) = frames(player.playhead(), whole, rate);
+                    let values: [(&str, &dyn std::fmt::Display); 2] =
+                        [("n", &frame), ("all", &frames)];
+                    fill(seen.say(words::FRAME_OF), &values)
+                }
+            };
             ui.label(RichText::new(text).small().weak());
         }
         more(ui, out);
@@ -79,6 +85,18 @@ fn go_to(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, now: &str) {
 fn rate(seen: &Seen<'_>) -> Option<Rate> {
     let made = seen.shown.made.as_ref().map(|it| it.made.clip.rate());
     made.or_else(|| seen.reel.rate())
+}
+
+/// Returns where the recorded movement ends, where annotations go on beyond it.
+fn movement_end(seen: &Seen<'_>) -> Option<Instant> {
+    if seen.shown.made.is_some() {
+        return None;
+    }
+    let (frames, rate) = (seen.reel.frames(), seen.reel.rate()?);
+    let end = Instant::from_micros((frames as f64 / rate.per_second() * 1e6) as i64);
+    let whole = seen.shown.player.whole.end();
+    let frame = (1e6 / rate.per_second()) as i64;
+    (frames > 0 && end.shifted(2 * frame) < whole).then_some(end)
 }
 
 /// Returns the frame at the playhead, counted from 1, and how many there are.
@@ -128,6 +146,11 @@ fn bar(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
     let painter = ui.painter_at(rect);
     let visuals = ui.visuals();
     painter.rect_filled(track, 4.0, visuals.widgets.inactive.bg_fill);
+    if let Some(end) = movement_end(seen) {
+        // Nothing moves there any more.
+        let still = Rect::from_x_y_ranges(x(end)..=track.right(), track.y_range());
+        painter.rect_filled(still, 4.0, visuals.extreme_bg_color);
+    }
     if seen.shown.made.is_none() {
         if let Some(span) = seen.shown.span {
             let chosen = Rect::from_x_y_ranges(x(span.start())..=x(span.end()), track.y_range());
@@ -154,7 +177,8 @@ fn bar(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         painter.rect_stroke(rect, 4.0, stroke, StrokeKind::Inside);
         keys(ui, &response, out);
     }
-    if let Some(at) = response.hover_pos().filter(|_| !response.dragged()) {
+    let hovered = response.hover_pos().filter(|_| !response.dragged());
+    if let Some(at) = hovered.filter(|_| player.whole.micros() > 0) {
         painter.vline(
             at.x,
             track.y_range(),

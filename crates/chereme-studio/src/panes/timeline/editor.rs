@@ -176,7 +176,7 @@ pub(super) fn show(
             ui,
             scene,
             (&mut editing, stored),
-            (&choices, below),
+            (&choices, &digits, below),
         );
         timeline.picker.inspect(scene.seen, out);
         return done(timeline, (editing, tier), said, out);
@@ -300,14 +300,16 @@ fn pictures(
     ui: &mut Ui,
     scene: &Scene<'_>,
     (editing, stored): (&mut Editing, &StoredInventory),
-    (choices, below): (&Choices, Rect),
+    (choices, digits, below): (&Choices, &[String], Rect),
 ) -> Said {
     if ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
         return Said::Drop;
     }
     let opened = std::mem::replace(&mut editing.pictured, true);
     if !opened {
+        // A digit means the same value among the pictures as in the list.
         timeline.picker = Picker::fresh();
+        timeline.picker.digits = digits.to_vec();
     }
     let inventory = &stored.inventory;
     let screen = ui.ctx().content_rect();

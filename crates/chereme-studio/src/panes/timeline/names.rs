@@ -2,8 +2,8 @@
 
 use chereme_corpus::Contents;
 use eframe::egui::{
-    Align2, CursorIcon, Id, Key, Modifiers, PointerButton, Rect, Response, Role, Sense, Stroke,
-    StrokeKind, TextStyle, Ui, WidgetInfo, pos2, vec2,
+    CursorIcon, Id, Key, Modifiers, PointerButton, Rect, Response, RichText, Role, Sense, Stroke,
+    StrokeKind, TextStyle, TextWrapMode, Ui, WidgetInfo, WidgetText, pos2, vec2,
 };
 
 use super::edit::Scene;
@@ -64,15 +64,15 @@ impl Drawing<'_, '_> {
             );
         }
         let from = pos2(left + 15.0, name.center().y);
-        let font = TextStyle::Body.resolve(ui.style());
-        let text = ui.painter_at(name.shrink2(vec2(2.0, 0.0))).text(
-            from,
-            Align2::LEFT_CENTER,
-            &tier.row.name,
-            font,
-            text,
-        );
-        if text.right() > name.right() - 2.0 {
+        let room = name.right() - 2.0 - from.x;
+        let cut = Some(TextWrapMode::Truncate);
+        let said = RichText::new(&tier.row.name).color(text);
+        let said = WidgetText::from(said).into_galley(ui, cut, room, TextStyle::Body);
+        let elided = said.elided;
+        let at = pos2(from.x, from.y - said.size().y / 2.0);
+        ui.painter_at(name.shrink2(vec2(2.0, 0.0)))
+            .galley(at, said, text);
+        if elided {
             response.on_hover_text(&tier.row.name);
         }
     }

@@ -22,6 +22,8 @@ use crate::words::{fill, timeline as words};
 /// The least width of the names of tiers; at most they take this share of the pane.
 const NAMES: f32 = 96.0;
 const NAMES_SHARE: f32 = 0.35;
+/// How long the rows lie still before the column of names grows for what came into sight, in seconds.
+const RESTS: f64 = 0.25;
 pub(super) const INDENT: f32 = 12.0;
 const ROW: f32 = 26.0;
 const RULER: f32 = 22.0;
@@ -36,7 +38,10 @@ pub(super) struct Layout {
     /// The rows that there are, for a snapshot and the names that are folded and hidden.
     all: Vec<Row>,
     of: Option<(usize, BTreeSet<String>, BTreeSet<String>)>,
+    /// How wide the column of names is, how wide each tier's name would like it, and when that was more last.
     names: f32,
+    widths: Vec<f32>,
+    rests: Option<(f32, f64)>,
     /// How far the rows are scrolled.
     pub(super) top: f32,
     /// Whether there are other rows since the last frame.
@@ -72,16 +77,49 @@ impl Layout {
         let before = std::mem::replace(&mut self.all, select::shown_rows(contents, seen));
         self.of = Some((now, ways.folded.clone(), ways.hidden.clone()));
         let font = TextStyle::Body.resolve(ui.style());
-        let widths = self.all.iter().map(|row| {
+        self.widths = vec![0.0; contents.tiers.len()];
+        for row in &self.all {
             let name = contents.tiers[row.tier].row.name.clone();
             let text = ui
                 .painter()
                 .layout_no_wrap(name, font.clone(), Color32::WHITE);
-            text.size().x + 34.0 + INDENT * row.depth as f32
-        });
-        self.names = widths.fold(NAMES, f32::max);
-        before != self.all
+            self.widths[row.tier] = text.size().x + 34.0 + INDENT * row.depth as f32;
+        }
+        if before != self.all {
+            let (from, room) = ((self.top / ROW) as usize, ui.available_height() / ROW);
+            let in_sight = self.all.iter().skip(from).take(room.ceil() as usize);
+            self.names = fitting(in_sight.map(|row| self.widths[row.tier]));
+            self.rows.clear();
+            return true;
+        }
+        false
     }
+
+    /// Makes room for names that were scrolled into sight, once the scrolling rests: a column that changes all the
+    /// time would move every annotation.
+    fn widen(&mut self, ui: &Ui) {
+        let widths = self.rows.iter().map(|(tier, _)| self.widths.get(*tier));
+        let wanted = fitting(widths.flatten().copied());
+        let now = ui.input(|input| input.time);
+        if wanted <= self.names {
+            self.rests = None;
+            return;
+        }
+        let since = match self.rests {
+            Some((top, since)) if top == self.top => since,
+            _ => now,
+        };
+        self.rests = Some((self.top, since));
+        if now - since >= RESTS {
+            (self.names, self.rests) = (wanted, None);
+        }
+        ui.ctx().request_repaint();
+    }
+}
+
+/// Returns how wide the column of names is that holds names of those widths.
+fn fitting(widths: impl Iterator<Item = f32>) -> f32 {
+    widths.fold(NAMES, f32::max)
 }
 
 pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
@@ -108,6 +146,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, seen: &Seen<'_>, out: &
         timeline.layout.grown = true;
         ui.ctx().request_repaint();
     }
+    timeline.layout.widen(ui);
     let most = (ui.available_width() * NAMES_SHARE).max(NAMES);
     let names = timeline.layout.names.min(most);
     let width = (ui.available_width() - names).max(40.0);

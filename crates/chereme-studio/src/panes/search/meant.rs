@@ -1,0 +1,206 @@
+//! What is meant by a query in everyday words: "handshape U", "main droite configuration plate", "chin".
+
+use chereme_corpus::StoredInventory;
+use chereme_sign::query::Query;
+use chereme_sign::text::fold;
+use chereme_sign::{Component, HandRef};
+
+use super::builder::with_value;
+use super::rows::component_text;
+use crate::words::Language;
+
+/// Signs of the language of queries: a text with one of them is written in it.
+const WRITTEN: &[char] = &[
+    '=', ':', '<', '>', '(', ')', '"', '[', ']', '~', ',', '!', '@', '*',
+];
+/// Of how many words the name of a value consists at most.
+const MOST: usize = 3;
+/// Words between a component and its value that add nothing.
+const BETWEEN: [&str; 8] = ["is", "est", "at", "à", "of", "de", "la", "le"];
+
+/// Returns the query that is meant by words that name components before their values.
+pub(super) fn meant(text: &str, inventories: &[StoredInventory]) -> Option<String> {
+    read(text, |words| named(words, inventories))
+}
+
+/// Returns the same where values stand without what they are values of, too.
+pub(super) fn guessed(text: &str, inventories: &[StoredInventory]) -> Option<String> {
+    read(text, |words| {
+        named(words, inventories).or_else(|| bare(words, inventories))
+    })
+}
+
+/// A field with a value, and how many words said so.
+type Found = (String, String, usize);
+
+fn read(text: &str, find: impl Fn(&[String]) -> Option<Found>) -> Option<String> {
+    if text.contains(WRITTEN) {
+        return None;
+    }
+    let whole: Vec<&str> = text.split_whitespace().collect();
+    let folded: Vec<String> = whole.iter().map(|it| fold(it)).collect();
+    let (mut query, mut at, mut understood) = (String::new(), 0, false);
+    while at < whole.len() {
+        match find(&folded[at..]) {
+            Some((field, value, words)) => {
+                query = with_value(&query, &field, &value);
+                (at, understood) = (at + words, true);
+            }
+            None => {
+                if !query.is_empty() {
+                    query.push(' ');
+                }
+                query.push_str(whole[at]);
+                at += 1;
+            }
+        }
+    }
+    (understood && Query::parse(&query).is_ok()).then_some(query)
+}
+
+/// Finds a component with a value at the start, and the hand before them.
+fn named(words: &[String], inventories: &[StoredInventory]) -> Option<Found> {
+    let (hand, mut at) = hand(words);
+    let component = component(words.get(at)?)?;
+    at += 1;
+    while words.get(at).is_some_and(|it| is_one_of(it, &BETWEEN)) {
+        at += 1;
+    }
+    let (hand, at) = match hand {
+        Some(hand) => (Some(hand), at),
+        None => {
+            let (hand, more) = self::hand(&words[at..]);
+            (hand, at + more)
+        }
+    };
+    let (field, value, more) = value(&words[at..], inventories, Some(component))?;
+    let field = match hand {
+        Some(hand) => format!("{}.{field}", hand.names()[0]),
+        None => field,
+    };
+    Some((field, value, at + more))
+}
+
+fn bare(words: &[String], inventories: &[StoredInventory]) -> Option<Found> {
+    value(words, inventories, None)
+}
+
+/// Finds the value that most words name; its field, its id, and how many they are.
+fn value(
+    words: &[String],
+    inventories: &[StoredInventory],
+    component: Option<Component>,
+) -> Option<Found> {
+    let ordered = Component::ALL
+        .into_iter()
+        .filter(|it| component.is_none_or(|wanted| wanted == *it));
+    let most = words.len().min(MOST);
+    (1..=most).rev().find_map(|count| {
+        let texts = [" ", "-"].map(|between| fold(&words[..count].join(between)));
+        ordered.clone().find_map(|component| {
+            let fits = inventories
+                .iter()
+                .map(|it| &it.inventory)
+                .filter(|it| it.component == component);
+            let mut all = fits.flat_map(|it| it.values.iter().map(move |value| (it, value)));
+            let (inventory, value) = all.find(|(_, value)| {
+                let mut spelt = value.spellings();
+                spelt.any(|it| texts.contains(&fold(it)))
+            })?;
+            let field = match &inventory.feature {
+                Some(feature) => format!("{}.{feature}", component.name()),
+                None => component.name().to_owned(),
+            };
+            Some((field, value.id.clone(), count))
+        })
+    })
+}
+
+fn component(word: &str) -> Option<Component> {
+    Component::ALL.into_iter().find(|component| {
+        let said = [Language::English, Language::French]
+            .map(|language| component_text(*component).of(language));
+        is_one_of(word, component.names()) || is_one_of(word, &said)
+    })
+}
+
+/// Returns the hand that is named at the start, and how many words that took.
+fn hand(words: &[String]) -> (Option<HandRef>, usize) {
+    const FRENCH: [(HandRef, &str); 4] = [
+        (HandRef::Right, "droite"),
+        (HandRef::Left, "gauche"),
+        (HandRef::Dominant, "dominante"),
+        (HandRef::Weak, "faible"),
+    ];
+    let of = |word: &String| {
+        let french = FRENCH.into_iter().find(|(_, it)| fold(it) == *word);
+        let english = || {
+            let mut all = HandRef::ALL.into_iter();
+            all.find(|it| is_one_of(word, it.names()))
+        };
+        french.map(|(hand, _)| hand).or_else(english)
+    };
+    let is_hand = |word: &String| is_one_of(word, &["hand", "main"]);
+    match words {
+        [first, second, ..] if is_hand(first) && of(second).is_some() => (of(second), 2),
+        [first, second, ..] if of(first).is_some() && is_hand(second) => (of(first), 2),
+        [first, ..] if of(first).is_some() => (of(first), 1),
+        _ => (None, 0),
+    }
+}
+
+fn is_one_of(word: &str, all: &[&str]) -> bool {
+    all.iter().any(|it| fold(it) == word)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn inventories() -> Vec<StoredInventory> {
+        let all = chereme_sign::inventory::builtin().iter();
+        all.map(|it| StoredInventory {
+            id: 1,
+            inventory: it.clone(),
+        })
+        .collect()
+    }
+
+    #[test]
+    fn components_are_understood_in_everyday_words() {
+        let all = inventories();
+        for (text, wanted) in [
+            ("handshape U", Some("configuration=U")),
+            ("Handshape is u", Some("configuration=U")),
+            ("configuration U", Some("configuration=U")),
+            ("right hand handshape U", Some("right.configuration=U")),
+            ("configuration main gauche U", Some("left.configuration=U")),
+            ("emplacement menton gloss", Some("placement=chin gloss")),
+            (
+                "handshape U placement upper chest",
+                Some("configuration=U placement=upper-chest"),
+            ),
+            ("handshape", None),
+            ("chat", None),
+            ("U", None),
+            ("handshape=U", None),
+            ("", None),
+        ] {
+            assert_eq!(meant(text, &all).as_deref(), wanted, "{text}");
+        }
+    }
+
+    #[test]
+    fn values_alone_are_guessed() {
+        let all = inventories();
+        for (text, wanted) in [
+            ("U", Some("configuration=U")),
+            ("chin", Some("placement=chin")),
+            ("menton", Some("placement=chin")),
+            ("U menton", Some("configuration=U placement=chin")),
+            ("ESCARGOT", None),
+        ] {
+            assert_eq!(guessed(text, &all).as_deref(), wanted, "{text}");
+        }
+    }
+}

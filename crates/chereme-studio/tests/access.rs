@@ -1,0 +1,148 @@
+//! What assistive technology is told: every widget that can be used has a name, in every pane, at every size.
+
+mod common;
+
+use std::collections::BTreeSet;
+
+use chereme_studio::{Language, Options};
+use common::*;
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers, vec2};
+use egui_kittest::kittest::NodeT;
+
+/// What a person can act on.
+const USED: [Role; 14] = [
+    Role::Button,
+    Role::DefaultButton,
+    Role::CheckBox,
+    Role::RadioButton,
+    Role::ComboBox,
+    Role::Link,
+    Role::ListItem,
+    Role::MenuItem,
+    Role::Slider,
+    Role::SpinButton,
+    Role::Tab,
+    Role::TextInput,
+    Role::MultilineTextInput,
+    Role::ColorWell,
+];
+
+/// Returns the widgets that say nothing of themselves, and how many there are in all.
+fn nameless(window: &Window<'_>) -> (BTreeSet<String>, usize) {
+    let mut all = 0;
+    let mut found = BTreeSet::new();
+    for node in window.root().children_recursive() {
+        let kit = node.accesskit_node();
+        if kit.is_hidden() || !USED.contains(&kit.role()) {
+            continue;
+        }
+        all += 1;
+        let label = kit.label().unwrap_or_default();
+        let value = kit.value().unwrap_or_default();
+        // What stands in a field is no name for it; what stands on a list says what is chosen.
+        let typed = matches!(kit.role(), Role::TextInput | Role::MultilineTextInput);
+        let said = if typed || !label.trim().is_empty() {
+            label
+        } else {
+            value
+        };
+        let symbol = said.trim().chars().all(|letter| !letter.is_alphanumeric());
+        if symbol && said.trim() != "?" {
+            let within = node.parent().and_then(|it| it.accesskit_node().label());
+            found.insert(format!("{:?} {said:?} in {within:?}", kit.role()));
+        }
+    }
+    (found, all)
+}
+
+/// Goes through every pane in every layout.
+fn walk(window: &mut Window<'_>, told: &str) {
+    const LAYOUTS: [Key; 3] = [Key::F1, Key::F2, Key::F3];
+    const PANES: [(Modifiers, Key); 8] = [
+        (Modifiers::SHIFT, Key::F1),
+        (Modifiers::SHIFT, Key::F2),
+        (Modifiers::SHIFT, Key::F3),
+        (Modifiers::SHIFT, Key::F4),
+        (Modifiers::COMMAND, Key::F),
+        (Modifiers::COMMAND, Key::R),
+        (Modifiers::COMMAND, Key::H),
+        (Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::I),
+    ];
+    for layout in LAYOUTS {
+        window.key_press_modifiers(Modifiers::COMMAND, layout);
+        window.run_steps(2);
+        for (modifiers, pane) in PANES {
+            window.key_press_modifiers(modifiers, pane);
+            window.run_steps(3);
+            let (found, all) = nameless(window);
+            assert!(found.is_empty(), "{told}, {layout:?} {pane:?}: {found:#?}");
+            assert!(all > 20, "{told}, {layout:?} {pane:?}: only {all}");
+        }
+    }
+    for (modifiers, overlay) in [
+        (Modifiers::NONE, Key::F1),
+        (Modifiers::COMMAND, Key::Comma),
+        (Modifiers::COMMAND | Modifiers::SHIFT, Key::P),
+        (Modifiers::COMMAND | Modifiers::SHIFT, Key::E),
+    ] {
+        window.key_press_modifiers(modifiers, overlay);
+        window.run_steps(3);
+        let (found, _) = nameless(window);
+        assert!(found.is_empty(), "{told}, {overlay:?}: {found:#?}");
+        window.key_press(Key::Escape);
+        window.run_steps(3);
+    }
+}
+
+#[test]
+fn every_widget_has_a_name_in_a_window_large_and_small() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    click(&mut window, "Tier Gloss");
+    walk(&mut window, "large");
+    window.set_size(vec2(800.0, 600.0));
+    window.run_steps(3);
+    walk(&mut window, "small");
+}
+
+#[test]
+fn every_widget_has_a_name_where_something_is_found_and_made() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F2);
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    window.run_steps(3);
+    let text = "handshape Y";
+    window.event(eframe::egui::Event::Text(text.to_owned()));
+    window.run_steps(3);
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    idle(&mut window);
+    window.key_press(Key::ArrowDown);
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::ALT, Key::R);
+    window.run_steps(2);
+    idle(&mut window);
+    for action in ["Change…", "Then…"] {
+        click(&mut window, action);
+        let (found, _) = nameless(&window);
+        assert!(found.is_empty(), "{action}: {found:#?}");
+        window.key_press(Key::Escape);
+        window.run_steps(2);
+    }
+    walk(&mut window, "made");
+}
+
+#[test]
+fn the_start_page_has_names_in_french() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window(Options {
+        language: Language::French,
+        ..options(folder.path())
+    });
+    window.run_steps(3);
+    let (found, all) = nameless(&window);
+    assert!(found.is_empty() && all > 8, "{all}: {found:#?}");
+}
