@@ -23,7 +23,7 @@ use chereme_corpus::{Corpus, ImportOptions, Progress, unheard, unpack_starter};
 use chereme_studio::{Folders, Options, Studio};
 use eframe::egui::{
     Context, Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2,
-    RawInput, TouchPhase, Ui, ViewportBuilder, ViewportCommand, vec2,
+    RawInput, TouchPhase, Ui, ViewportBuilder, ViewportCommand, Visuals, vec2,
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -383,6 +383,10 @@ impl eframe::App for Meter {
                 ui.ctx().send_viewport_cmd(ViewportCommand::Close);
             }
         }
+    }
+
+    fn clear_color(&self, visuals: &Visuals) -> [f32; 4] {
+        eframe::App::clear_color(&self.studio, visuals)
     }
 
     fn raw_input_hook(&mut self, _ctx: &Context, input: &mut RawInput) {

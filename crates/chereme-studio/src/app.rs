@@ -353,8 +353,7 @@ impl Studio {
     }
 
     fn workbench(&mut self, ui: &mut Ui) {
-        let frame = Frame::new().fill(ui.visuals().extreme_bg_color);
-        CentralPanel::default().frame(frame).show(ui, |ui| {
+        CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
             let Self {
                 tree,
                 panes,
@@ -501,6 +500,12 @@ impl eframe::App for Studio {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         Self::ui(self, ui);
     }
+
+    /// The ground of all panes, which then need none of their own: where windows are drawn in software
+    /// each layer that fills the window takes milliseconds of every frame.
+    fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
+        visuals.panel_fill.to_normalized_gamma_f32()
+    }
 }
 
 /// The panes as the layout asks for them.
@@ -515,8 +520,7 @@ struct Workbench<'a> {
 
 impl Behavior<PaneKind> for Workbench<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, kind: &mut PaneKind) -> UiResponse {
-        let fill = ui.visuals().panel_fill;
-        Frame::new().fill(fill).inner_margin(8).show(ui, |ui| {
+        Frame::new().inner_margin(8).show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
             let pressed = ui.input(|input| {
                 input.pointer.any_pressed()
