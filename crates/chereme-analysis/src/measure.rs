@@ -89,7 +89,7 @@ pub fn measure(
                 ..Measured::default()
             })
         }
-        Kind::Round => match way::fit(&path()).way {
+        Kind::Round => match way::fit(&path(), way::EXACT).way {
             Way::Circle {
                 turns,
                 long,
@@ -103,7 +103,7 @@ pub fn measure(
             }),
             _ => None,
         },
-        Kind::Wave => match way::fit(&path()).way {
+        Kind::Wave => match way::fit(&path(), way::EXACT).way {
             Way::Wave { chord, width, .. } => Some(Measured {
                 seconds: whole,
                 length: chord.length(),

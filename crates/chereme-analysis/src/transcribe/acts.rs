@@ -1,5 +1,6 @@
 //! What a hand does, act after act: cut at minima of speed, named, repetitions folded.
 
+mod cuts;
 mod fold;
 mod sway;
 
@@ -12,36 +13,19 @@ use chereme_sign::hamnosys::Repeat;
 use glam::DVec3;
 
 use super::scene::{Scene, Track, length};
-use super::way::{Fitted, ROUND, Way, fit};
-use crate::strokes::{between_minima, smoothed};
+use super::way::{EXACT, Fitted, ROUND, Way, fit};
+use cuts::{LEAST, cut, is_brief, joined, sure, ways};
 use fold::folded;
 use sway::{play, wrist};
 
+pub(super) use cuts::{LAP, signing};
 pub(super) use sway::{Sway, wrist_name};
 
-/// The least peak of speed of a way in arm lengths a second, and of a turn in radians a second.
-const LEAST: (f64, f64) = (0.12, 0.35);
-/// The least length of a way in arm lengths: a third of a small movement.
-const SHORT: f64 = 0.035;
-/// A small way that takes less time than this is none, in seconds: the fastest ones take twice as long.
-const BRIEF: f64 = 0.11;
 /// A hand that turns by this, or whose angles change by that, ends in another posture; in radians.
 const TURNED: f64 = 0.3;
 const RESHAPED: f64 = 0.07;
 /// What is done again and again may be smaller, by this share.
 const AGAIN: f64 = 1.0 / 3.0;
-/// A hand stops where it is slower than this share of its speed before and after.
-const STOPS: f64 = 0.2;
-/// It goes on round a corner above this share, where it comes back to where it began by another way: a circle
-/// that the body flattens. So near to whole turns, and so wide against its length, that is a loop.
-const CORNERS: f64 = 0.12;
-const CLOSED: f64 = 0.08;
-const ROUNDISH: f64 = 0.5;
-const FLATTENED: f64 = 0.22;
-/// The height of hands that rest before the belly against the shoulders, and how far they come up from
-/// there, in arm lengths.
-pub(super) const LAP: f64 = -0.65;
-const RISE: f64 = 0.4;
 /// A hand that goes to and fro turns about a point at most so far off, in metres.
 const LEVER: f64 = 0.1;
 /// However wide it sways, its point goes no farther about that than this, in metres.
@@ -105,6 +89,8 @@ pub(super) struct Seeing<'a> {
     pub(super) others: &'a dyn Fn(usize, usize) -> Vec<(DVec3, f64)>,
     /// In how many frames a part of the hand lets go of what it was at.
     pub(super) lets_go: usize,
+    /// How loosely hands do what is meant, against made ones.
+    pub(super) loose: f64,
 }
 
 /// A hand with the points of it whose ways are looked at: those that may be meant, and others that the
@@ -153,9 +139,9 @@ impl<'a> Mover<'a> {
     fn fit(&self, first: usize, last: usize) -> Fitted {
         let fits = self.points[..self.meant]
             .iter()
-            .map(|way| fit(&way[first..=last]));
-        fits.min_by(|a, b| score(a).total_cmp(&score(b)))
-            .unwrap_or_else(|| fit(&self.track.palm[first..=last]))
+            .map(|way| fit(&way[first..=last], self.exact()));
+        fits.min_by(|a, b| self.score(a).total_cmp(&self.score(b)))
+            .unwrap_or_else(|| fit(&self.track.palm[first..=last], self.exact()))
     }
 
     /// As [`fit`](Self::fit); where the hand turns or takes another shape on the way, another part of it may be
@@ -166,7 +152,8 @@ impl<'a> Mover<'a> {
         let track = self.track;
         let turns = track.turn(first, last).length();
         let changes = track.reshaped(first, last);
-        if matches!(plain.way, Way::Straight { .. }) || (turns < TURNED && changes < RESHAPED) {
+        let reshaped = RESHAPED * self.seen.loose;
+        if matches!(plain.way, Way::Straight { .. }) || (turns < TURNED && changes < reshaped) {
             return plain;
         }
         let done = |n: usize| {
@@ -183,12 +170,12 @@ impl<'a> Mover<'a> {
         let from = self.own_parts(first, first);
         let mut to: Vec<(DVec3, f64)> = Vec::new();
         to.extend(self.own_parts(last, last).into_iter().map(|at| (at, 0.0)));
-        if changes > RESHAPED {
+        if changes > reshaped {
             to.extend(self.own_parts(first, last).into_iter().map(|at| (at, 0.0)));
         }
         let told = to.len();
         to.extend(self.other_parts(last, last));
-        if changes > RESHAPED {
+        if changes > reshaped {
             to.extend(self.other_parts(last, first));
         }
         let mut best = plain;
@@ -199,14 +186,14 @@ impl<'a> Mover<'a> {
                 }
                 let weight = (less / PER).exp();
                 let mut take = |way: Vec<DVec3>| {
-                    let found = fit(&way);
+                    let found = fit(&way, self.exact());
                     // Nobody goes round by one part after the other; and parts that are guessed at only make it plainer.
                     let taken = match found.way {
                         Way::Straight { .. } => true,
                         Way::Circle { .. } => false,
                         _ => n < told,
                     };
-                    if taken && weight * score(&found) < score(&best) {
+                    if taken && weight * self.score(&found) < self.score(&best) {
                         best = found;
                     }
                 };
@@ -232,6 +219,16 @@ impl<'a> Mover<'a> {
             }
         }
         best
+    }
+
+    /// Returns how far off a way may be, in metres, before what it takes to say it counts.
+    fn exact(&self) -> f64 {
+        EXACT * self.seen.loose * self.seen.loose
+    }
+
+    /// Returns how far off a way is, with what it takes to say it counted against it.
+    fn score(&self, fitted: &Fitted) -> f64 {
+        (fitted.residual + self.exact()) * plain(&fitted.way)
     }
 
     /// Returns parts that may be meant in one frame besides, where they are in another in the hand's own space, and
@@ -268,14 +265,6 @@ fn own(track: &Track, at: &[DVec3], frame: usize) -> Vec<DVec3> {
     at.iter().map(|at| back * (*at - from)).collect()
 }
 
-/// Returns how far off a way is, with what it takes to say it counted against it.
-fn score(fitted: &Fitted) -> f64 {
-    (fitted.residual + EXACT) * plain(&fitted.way)
-}
-
-/// A way is taken to be off by so much more, in metres, before what it takes to say it counts.
-const EXACT: f64 = 0.002;
-
 /// How much a residual counts more for a way that takes more to say.
 fn plain(way: &Way) -> f64 {
     match way {
@@ -285,34 +274,6 @@ fn plain(way: &Way) -> f64 {
         Way::Circle { .. } => 1.2,
         Way::Wave { .. } => 1.8,
     }
-}
-
-/// The frames in which a hand signs, ways from and to rest cut off.
-pub(super) fn signing(scene: &Scene<'_>, track: &Track) -> RangeInclusive<usize> {
-    let last = track.palm.len() - 1;
-    let nothing = Seeing {
-        parts: &|_, _| Vec::new(),
-        others: &|_, _| Vec::new(),
-        lets_go: 1,
-    };
-    let (ways, _) = ways(scene, &Mover::new(track, [0, last], nothing, &[]), 0, last);
-    let mut first = 0;
-    let mut end = last;
-    // Hands that lie in the lap or are folded before the belly rest, if they come up far from there.
-    let lies = |low: usize, high: usize| {
-        let (low, high) = (track.palm[low].y, track.palm[high].y);
-        low < LAP * scene.arm && high - low > RISE * scene.arm
-    };
-    let rests = |low: usize, high: usize| track.rests[low] || lies(low, high);
-    if let Some(way) = ways.first().filter(|way| rests(*way.start(), *way.end())) {
-        first = *way.end();
-    }
-    if let Some(way) = ways.last().filter(|way| rests(*way.end(), *way.start()))
-        && *way.start() >= first
-    {
-        end = *way.start();
-    }
-    first..=end.max(first)
 }
 
 /// Returns what a hand does in a stretch of frames, in order of time.
@@ -332,10 +293,11 @@ pub(super) fn acts(
     let mut found = Vec::new();
     let mut from = first;
     let (mut ways, speeds) = ways(scene, mover, first, last);
-    if sways(mover, first, last) {
+    if sways(scene, mover, first, last) {
         ways.clear();
     }
     let ways = joined(scene, mover, &ways, |n| speeds[n - first]);
+    let ways = sure(scene, mover, ways);
     let left = ways.first().map(|way| *way.start());
     let several = ways.len() > 1;
     let mut begun = None;
@@ -376,15 +338,9 @@ fn lulls(scene: &Scene<'_>, way: &Act, beside: &[Act], frames: usize) -> bool {
     scene.seconds(frames) < LULL && beside.iter().all(same)
 }
 
-/// Tells whether a way is too brief and short to be meant: the hand comes into its posture, or leaves it.
-fn is_brief(scene: &Scene<'_>, mover: &Mover<'_>, first: usize, last: usize) -> bool {
-    scene.seconds(last - first) < BRIEF
-        && mover.shortest(first, last) < scene.language.move_small * scene.arm
-}
-
 /// Tells whether all that the hand does is to go to and fro about the wrist, or a point near it.
-fn sways(mover: &Mover<'_>, first: usize, last: usize) -> bool {
-    let Some(Sway::Wrist { angle, cycles, .. }) = wrist(mover.track, first, last) else {
+fn sways(scene: &Scene<'_>, mover: &Mover<'_>, first: usize, last: usize) -> bool {
+    let Some(Sway::Wrist { angle, cycles, .. }) = wrist(scene, mover.track, first, last) else {
         return false;
     };
     let extent = |way: &Vec<DVec3>| {
@@ -393,96 +349,6 @@ fn sways(mover: &Mover<'_>, first: usize, last: usize) -> bool {
     };
     let least = mover.points.iter().map(extent).fold(f64::MAX, f64::min);
     cycles >= 1.4 && least < (LEVER * angle).min(SWAYS)
-}
-
-/// Returns the stretches in which the hand goes somewhere, between minima of its speed, and the speeds.
-fn ways(
-    scene: &Scene<'_>,
-    mover: &Mover<'_>,
-    first: usize,
-    last: usize,
-) -> (Vec<RangeInclusive<usize>>, Vec<f64>) {
-    let speed = |points: &[DVec3], n: usize| {
-        let (a, b) = (n.saturating_sub(1).max(first), (n + 1).min(last));
-        points[a].distance(points[b]) / scene.seconds((b - a).max(1))
-    };
-    let slowest = |n: usize| {
-        let speeds = mover.points.iter().map(|points| speed(points, n));
-        speeds.fold(f64::MAX, f64::min)
-    };
-    let speeds: Vec<f64> = (first..=last).map(slowest).collect();
-    let mut found = cut(scene, &speeds, LEAST.0 * scene.arm, first);
-    found.retain(|way| mover.shortest(*way.start(), *way.end()) > SHORT * scene.arm);
-    (found, speeds)
-}
-
-/// Cuts at minima of speed; speeds before and after are taken for zero.
-fn cut(scene: &Scene<'_>, speeds: &[f64], least: f64, first: usize) -> Vec<RangeInclusive<usize>> {
-    const PAD: usize = 2;
-    let mut padded = vec![0.0; PAD];
-    padded.extend(smoothed(speeds, scene.clip));
-    padded.extend([0.0; PAD]);
-    let most = speeds.len() - 1;
-    between_minima(&padded, least)
-        .into_iter()
-        .map(|range| {
-            let at = |n: usize| first + n.saturating_sub(PAD).min(most);
-            at(range.start)..=at(range.end - 1)
-        })
-        .filter(|range| range.end() > range.start())
-        .collect()
-}
-
-/// Joins stretches that together are a circle or a wave, and between which the hand does not stop.
-fn joined(
-    scene: &Scene<'_>,
-    mover: &Mover<'_>,
-    ways: &[RangeInclusive<usize>],
-    speed: impl Fn(usize) -> f64,
-) -> Vec<RangeInclusive<usize>> {
-    let near = scene.frames(GAP);
-    let fastest = |way: &RangeInclusive<usize>| way.clone().map(&speed).fold(0.0, f64::max);
-    let mut left = ways;
-    let mut found = Vec::new();
-    while let Some((first, rest)) = left.split_first() {
-        let follow = |stops: f64| {
-            let pairs = rest.iter().zip(left);
-            let goes_on = pairs.take_while(|(next, before)| {
-                let slowest = speed(*before.end()).min(speed(*next.start()));
-                next.start() <= &(before.end() + near)
-                    && slowest > stops * fastest(before).min(fastest(next))
-            });
-            goes_on.count()
-        };
-        let (on, round) = (follow(STOPS), follow(CORNERS));
-        let whole = (1..=round).rev().find(|&more| {
-            let way = mover.fit(*first.start(), *left[more].end());
-            match way.way {
-                Way::Circle {
-                    turns,
-                    long,
-                    narrow,
-                    ..
-                } => {
-                    let whole = turns.round().max(1.0);
-                    let corner = *first.end();
-                    let closed = (turns - whole).abs() < CLOSED
-                        && narrow > ROUNDISH
-                        && mover.track.turn(*first.start(), corner).length() < TURNED;
-                    let most = if closed { FLATTENED } else { 0.15 };
-                    (more <= on || closed)
-                        && turns / ((more + 1) as f64) < 1.2
-                        && way.residual < most * long.length()
-                }
-                Way::Wave { .. } => more >= 2 && more <= on,
-                _ => false,
-            }
-        });
-        let joined = whole.unwrap_or(0);
-        found.push(*first.start()..=*left[joined].end());
-        left = &left[joined + 1..];
-    }
-    found
 }
 
 fn going(
@@ -494,10 +360,10 @@ fn going(
 ) -> Act {
     let track = mover.track;
     let often = |sway: &Sway| matches!(sway, Sway::Wrist { cycles, .. } if *cycles >= 1.4);
-    let wrist = wrist(track, first, last).filter(often);
+    let wrist = wrist(scene, track, first, last).filter(often);
     // A hand that sways as it goes is carried by its wrist.
     let fitted = match &wrist {
-        Some(_) => fit(&track.wrist[first..=last]),
+        Some(_) => fit(&track.wrist[first..=last], mover.exact()),
         None => mover.fit_passing(first, last),
     };
     let with = plays.cloned().or(wrist);
@@ -509,7 +375,7 @@ fn going(
     Act {
         frames: first..=last,
         turned: track.turn(first, last).length() > least,
-        reshaped: plays.is_none() && track.reshaped(first, last) > RESHAPED,
+        reshaped: plays.is_none() && track.reshaped(first, last) > RESHAPED * scene.loose,
         kind: Kind::Way(Box::new(fitted)),
         with,
         repeat: None,
@@ -535,7 +401,7 @@ fn on_the_spot(
         let change = matches!(kind, Kind::Change);
         Act {
             turned: change && track.turn(first, last).length() > TURNED,
-            reshaped: change && track.reshaped(first, last) > RESHAPED,
+            reshaped: change && track.reshaped(first, last) > RESHAPED * scene.loose,
             until: last,
             frames,
             kind,
@@ -556,7 +422,7 @@ fn on_the_spot(
         })
         .collect();
     let often = |sway: &Sway| matches!(sway, Sway::Wrist { cycles, .. } if *cycles >= 1.0);
-    if let Some(sway) = wrist(track, first, last).filter(often) {
+    if let Some(sway) = wrist(scene, track, first, last).filter(often) {
         return vec![act(first..=last, Kind::Sway(sway))];
     }
     let changes = cut(scene, &speeds, LEAST.1, first);
@@ -594,7 +460,7 @@ fn to_and_fro(
             let [turn, shape] = changed(*frames.start(), *frames.end());
             Act {
                 turned: turn > TURNED * AGAIN,
-                reshaped: shape > RESHAPED * AGAIN,
+                reshaped: shape > RESHAPED * scene.loose * AGAIN,
                 ..act(frames, Kind::Change)
             }
         })

@@ -23,6 +23,8 @@ const CORNER: f64 = 5.0;
 /// How far hands are from what is meant, in degrees: shares of normal distributions in three dimensions. Most
 /// hold it, some nearly, and of the others anything may be expected.
 const SPREAD: [(f64, f64); 3] = [(0.75, 1.0), (0.12, 4.0), (0.13, 15.0)];
+/// The narrower of them are the wider the looser hands are, by so many powers of that.
+const WIDER: [i32; 3] = [2, 1, 0];
 /// Directions farther from what is measured than this are not looked at, in radians.
 const LOOKED_AT: f64 = 1.3;
 /// What is beyond the end of wrist and forearm is the less likely meant by a neper for so many degrees.
@@ -154,6 +156,15 @@ pub(super) fn nearest(direction: DVec3, between: bool) -> Found<Aim<Direction>> 
     Found::of(found.collect()).degrees()
 }
 
+/// How directions are told.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct How {
+    /// Whether half-way between two may be said.
+    pub(super) between: bool,
+    /// How loosely hands are turned, against made ones.
+    pub(super) loose: f64,
+}
+
 /// How a hand is turned.
 #[derive(Debug, Clone)]
 pub(super) struct Turned {
@@ -178,21 +189,21 @@ struct Meant {
 ///
 /// A hand that stops where its wrist or forearm ends may be meant to be turned farther: it is then as near to
 /// what would stop there as to what it shows.
-pub(super) fn turned(along: DVec3, normal: DVec3, wrist: Option<&Wrist>, between: bool) -> Turned {
+pub(super) fn turned(along: DVec3, normal: DVec3, wrist: Option<&Wrist>, how: How) -> Turned {
     let facing = normal.reject_from_normalized(along);
     let own = [along, facing.normalize_or(along.any_orthonormal_vector())];
-    let palms = palms(between);
+    let palms = palms(how.between);
     let mut all: Vec<Meant> = Vec::new();
     let far = |it: &&Pointing| it.at.angle_between(along) > LOOKED_AT;
-    for pointing in told(between).filter(|it| !far(it)) {
+    for pointing in told(how.between).filter(|it| !far(it)) {
         all.extend(palms.iter().map(|&(palm, angle, cost)| {
             let facing = orientation::palm(pointing.at.to_array(), angle);
-            let (likely, beyond) = likely(own, [pointing.at, facing.into()], wrist);
+            let (likely, beyond) = likely(own, [pointing.at, facing.into()], wrist, how.loose);
             Meant {
                 pointing,
                 palm: (palm, angle),
                 beyond,
-                score: pointing.cost + cost - likely,
+                score: how.loose.sqrt() * (pointing.cost + cost) - likely,
             }
         }));
     }
@@ -224,10 +235,11 @@ pub(super) fn turned(along: DVec3, normal: DVec3, wrist: Option<&Wrist>, between
 
 /// Returns how likely a hand is turned as it is that was meant to be turned otherwise, as a logarithm, and by
 /// how many degrees it stopped before.
-fn likely(own: [DVec3; 2], meant: [DVec3; 2], wrist: Option<&Wrist>) -> (f64, f64) {
+fn likely(own: [DVec3; 2], meant: [DVec3; 2], wrist: Option<&Wrist>, loose: f64) -> (f64, f64) {
     let of = |off: f64| {
-        let parts = SPREAD.iter();
-        let density = |(share, spread): &(f64, f64)| {
+        let parts = SPREAD.iter().zip(WIDER);
+        let density = |((share, spread), wider): (&(f64, f64), i32)| {
+            let spread = spread * loose.powi(wider);
             share * (-0.5 * (off / spread).powi(2)).exp() / spread.powi(3)
         };
         parts.map(density).sum::<f64>().max(f64::MIN_POSITIVE).ln()
@@ -254,6 +266,15 @@ fn apart([a, p]: [DVec3; 2], [b, q]: [DVec3; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const EXACTLY: How = How {
+        between: true,
+        loose: 1.0,
+    };
+    const PLAINLY: How = How {
+        between: false,
+        loose: 1.0,
+    };
 
     #[test]
     fn every_direction_with_a_symbol_and_its_neighbours_are_found_again() {
@@ -285,13 +306,13 @@ mod tests {
                 let along = DVec3::from(direction.vector());
                 let normal = orientation::palm(along.to_array(), palm_of.angle());
                 let aim = Aim::at(direction);
-                let found = turned(tilt * along, tilt * DVec3::from(normal), None, false);
+                let found = turned(tilt * along, tilt * DVec3::from(normal), None, PLAINLY);
                 if direction.has_symbol() {
                     assert_eq!(found.extended.best, aim, "{direction} {palm_of}");
                     assert_eq!(found.palm.best, Aim::at(palm_of), "{direction} {palm_of}");
                 }
                 assert!(found.palm.residual < 8.0);
-                let exact = turned(along, normal.into(), None, true);
+                let exact = turned(along, normal.into(), None, EXACTLY);
                 assert_eq!(
                     (exact.extended.best, exact.palm.best),
                     (aim, Aim::at(palm_of))
@@ -299,7 +320,7 @@ mod tests {
             }
         }
         // The palm of a hand that points up with `d` faces away from the signer.
-        let out = turned(DVec3::Y, DVec3::Z, None, true);
+        let out = turned(DVec3::Y, DVec3::Z, None, EXACTLY);
         assert_eq!(out.palm.best, Aim::at(Compass::D));
     }
 
@@ -316,9 +337,9 @@ mod tests {
         // Thumb up, it does not bend so far.
         let [along, normal] = stopped[0];
         assert!(along.angle_between(DVec3::Y) > 0.2);
-        let found = turned(along, normal, wrist.as_ref(), true);
+        let found = turned(along, normal, wrist.as_ref(), EXACTLY);
         assert_eq!(found.extended.best, Aim::at(Direction::UP));
         assert!(found.beyond > 10.0 && found.extended.residual > 10.0);
-        assert!(turned(along, normal, None, true).extended.best != Aim::at(Direction::UP));
+        assert!(turned(along, normal, None, EXACTLY).extended.best != Aim::at(Direction::UP));
     }
 }

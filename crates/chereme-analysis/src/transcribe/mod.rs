@@ -72,11 +72,14 @@ impl Options {
     #[must_use]
     pub fn made() -> Self {
         Self {
-            slack: 0.004,
+            slack: MADE,
             ..Self::default()
         }
     }
 }
+
+/// How near made hands come to their places, in metres.
+const MADE: f64 = 0.004;
 
 /// Why a token cannot be transcribed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

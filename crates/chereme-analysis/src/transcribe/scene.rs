@@ -5,7 +5,7 @@ use chereme_sign::hamnosys::BodyLanguage;
 use glam::{DMat3, DQuat, DVec3};
 
 use super::shape::Known;
-use super::{Options, TranscribeError};
+use super::{MADE, Options, TranscribeError};
 
 /// The signer, with the dominant hand first.
 ///
@@ -19,6 +19,9 @@ pub(super) struct Scene<'a> {
     pub(super) dominant: Side,
     /// How near hands come to what is meant, in metres.
     pub(super) slack: f64,
+    /// How much less what hands do is exactly what is meant than in made movement: the root of the ratio of
+    /// slacks, 1 for that.
+    pub(super) loose: f64,
     /// The arm's length, the shoulders' width and the hand's length in metres.
     pub(super) arm: f64,
     pub(super) shoulders: f64,
@@ -127,6 +130,7 @@ impl<'a> Scene<'a> {
             language: &options.language,
             dominant: options.dominant,
             slack: options.slack.max(1e-4),
+            loose: (options.slack.max(1e-4) / MADE).sqrt(),
             arm: measures.arm,
             shoulders: measures.shoulder_width,
             hand: measures.hand,

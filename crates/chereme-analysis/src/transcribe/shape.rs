@@ -128,8 +128,13 @@ impl Forms {
     /// Returns the form nearest to a hand's angles, the runner-up being the next best that does not
     /// share a form with it; residuals are weighted roots of mean squares in degrees.
     ///
-    /// Nothing where no angle is known.
-    pub(super) fn nearest(&self, hand: &HandAngles, known: &Known) -> Option<Found<Handshape>> {
+    /// What is said counts the more against it, the more `loose` hands are. Nothing where no angle is known.
+    pub(super) fn nearest(
+        &self,
+        hand: &HandAngles,
+        known: &Known,
+        loose: f64,
+    ) -> Option<Found<Handshape>> {
         let total: f64 = known.0.iter().sum();
         if total <= 0.0 {
             return None;
@@ -140,7 +145,7 @@ impl Forms {
             let sum: f64 = squares.map(|((a, b), w)| w * (a - b) * (a - b)).sum();
             (sum / total).sqrt()
         };
-        let scored = |residual: f64, cost: f64| (residual + FLOOR) * (1.0 + cost);
+        let scored = |residual: f64, cost: f64| (residual + FLOOR) * (1.0 + loose * cost);
         let residuals: Vec<f64> = self
             .entries
             .iter()
@@ -416,7 +421,7 @@ mod tests {
         for form in plain().step_by(7) {
             let shape = bare(form);
             let hand = hand_angles(&shape, language);
-            let found = forms.nearest(&hand, &known).expect("found");
+            let found = forms.nearest(&hand, &known, 1.0).expect("found");
             assert!(
                 is_same(&found.best, &shape, language),
                 "{shape:?}\n{:?} {}",
@@ -454,7 +459,7 @@ mod tests {
         ];
         for shape in cases {
             let hand = hand_angles(&shape, language);
-            let found = forms.nearest(&hand, &known).expect("found");
+            let found = forms.nearest(&hand, &known, 1.0).expect("found");
             assert!(
                 is_same(&found.best, &shape, language),
                 "{shape:?}\n{:?} {}",
@@ -479,11 +484,11 @@ mod tests {
             for (n, angle) in all.iter_mut().enumerate() {
                 *angle += 0.09 * ((n * 7 + 3) as f64).sin();
             }
-            let found = forms.nearest(&HandAngles::from_array(all), &known);
+            let found = forms.nearest(&HandAngles::from_array(all), &known, 1.0);
             assert_eq!(found.expect("found").best.form.class, class);
         }
         known.0.fill(0.0);
-        assert!(forms.nearest(&HandAngles::default(), &known).is_none());
+        assert!(forms.nearest(&HandAngles::default(), &known, 1.0).is_none());
     }
 
     fn of_class(class: HandClass) -> Form {

@@ -457,6 +457,31 @@ fn ways_from_and_to_rest_are_left_out() {
 }
 
 #[test]
+fn what_captured_hands_do_besides_is_no_way_of_its_own() {
+    let own = before_chest(HandClass::Flat);
+    let way = |by: &dyn Fn(f64) -> DVec3| {
+        let (made, anatomy) = clip(0.9, |time| [Some(own.moved(by(time))), None]);
+        let found = transcribe(&made, &anatomy, &Options::default()).expect("a sign");
+        let mut parts = found.sign.parts.into_iter();
+        parts.next().expect("one part").actions
+    };
+    // A drift of 2.5 cm while it is held.
+    assert!(way(&|time| DVec3::Y * (0.025 * ease(time))).is_empty());
+    // It slows down half-way, and its way is bent by 7 mm.
+    let slowing = way(&|time| {
+        let gone = time - 0.03 * (2.0 * TAU * time).sin();
+        DVec3::new(0.3 * gone, 0.007 * (TAU / 2.0 * gone).sin(), 0.0)
+    });
+    let [motion] = slowing.as_slice() else {
+        panic!("{slowing:?}");
+    };
+    assert!(matches!(
+        motion.kind,
+        MotionKind::Directed(Directed { curve: None, .. })
+    ));
+}
+
+#[test]
 fn hands_that_only_rest_are_said_to() {
     let (clip, anatomy) = clip(0.4, |_| [None, None]);
     for clip in [clip.slice(0..1), clip] {

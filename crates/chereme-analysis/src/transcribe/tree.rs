@@ -211,6 +211,7 @@ impl<'a> Writer<'a> {
             parts: &parts,
             others: &others,
             lets_go: self.scene.frames(LETS_GO),
+            loose: self.scene.loose,
         };
         let mover = Mover::new(track, ends, seen, &pivots);
         acts(self.scene, &mover, frames)
@@ -231,7 +232,9 @@ impl<'a> Writer<'a> {
         if let Some(known) = self.shapes.borrow().get(&key) {
             return known.clone();
         }
-        let found = self.forms.nearest(&track.angles[frame], &track.known);
+        let found = self
+            .forms
+            .nearest(&track.angles[frame], &track.known, self.scene.loose);
         self.shapes.borrow_mut().insert(key, found.clone());
         found
     }
@@ -304,7 +307,11 @@ impl<'a> Writer<'a> {
         let [shoulder, elbow] = track.arm[frame];
         let arm = [shoulder, elbow, track.wrist[frame]];
         let wrist = aim::Wrist::of(arm, left, self.scene.language);
-        let turned = aim::turned(along, track.normal[frame], wrist.as_ref(), between);
+        let how = aim::How {
+            between,
+            loose: self.scene.loose,
+        };
+        let turned = aim::turned(along, track.normal[frame], wrist.as_ref(), how);
         Seen {
             shape,
             extended: turned.extended,

@@ -6,6 +6,8 @@ use glam::{DMat3, DVec3};
 
 use super::scene::length;
 
+/// A way is taken to be off by so much in made movement, in metres.
+pub(crate) const EXACT: f64 = 0.002;
 /// Ways are looked at through so many points, evenly along them.
 const POINTS: usize = 48;
 /// An arc at least so deep against its chord is one: half of the shallowest that is notated.
@@ -105,21 +107,22 @@ impl Way {
     }
 }
 
-/// Fits every kind of way to points in order of time and returns the best.
-pub(crate) fn fit(points: &[DVec3]) -> Fitted {
+/// Fits every kind of way to points in order of time and returns the best, of a hand that may be off by
+/// `exact` metres: smaller bows and waves are none.
+pub(crate) fn fit(points: &[DVec3], exact: f64) -> Fitted {
     let points = evenly(points, POINTS);
     let (first, last) = (points[0], points[points.len() - 1]);
     let chord = last - first;
     let straight = Way::Straight { chord };
     let off_straight = off(&points, |s| first + chord * s);
-    if let Some((circle, residual)) = circle(&points) {
+    if let Some((circle, residual)) = circle(&points, exact) {
         return Fitted {
             way: circle,
             residual,
             runner_up: Some((straight, off_straight)),
         };
     }
-    if let Some((wave, residual)) = wave(&points) {
+    if let Some((wave, residual)) = wave(&points, exact) {
         return Fitted {
             way: wave,
             residual,
@@ -131,9 +134,9 @@ pub(crate) fn fit(points: &[DVec3]) -> Fitted {
     let arc = Way::Arc { chord, bow };
     let off_arc = off(&points, |s| first + along_arc(chord, bow, s));
     let (deep, wide) = (bow.length(), chord.length());
-    let exact = deep > SHALLOW.0 && deep > SHALLOW.1 * wide && off_arc < SHALLOW.2 * off_straight;
-    let curved = exact || (deep > CURVED * wide && off_arc < off_straight);
-    let (way, residual, other) = if curved {
+    let sure = deep > SHALLOW.0 && deep > SHALLOW.1 * wide && off_arc < SHALLOW.2 * off_straight;
+    let curved = sure || (deep > CURVED * wide && off_arc < off_straight);
+    let (way, residual, other) = if curved && deep > exact {
         (arc, off_arc, (straight, off_straight))
     } else {
         (straight, off_straight, (arc, off_arc))
@@ -193,7 +196,7 @@ fn along_arc(chord: DVec3, bow: DVec3, s: f64) -> DVec3 {
 }
 
 /// Fits a circle or ellipse; nothing where the way does not go round.
-fn circle(points: &[DVec3]) -> Option<(Way, f64)> {
+fn circle(points: &[DVec3], exact: f64) -> Option<(Way, f64)> {
     let mean = points.iter().sum::<DVec3>() / points.len() as f64;
     let area: DVec3 = points
         .windows(2)
@@ -232,7 +235,7 @@ fn circle(points: &[DVec3]) -> Option<(Way, f64)> {
     };
     let (long, short) = (most(|p| p.0), most(|p| p.1));
     let narrow = if swept < ROUND { WIDE } else { NARROW };
-    if short < narrow * long || short <= 0.0 {
+    if short < narrow * long || short <= exact {
         return None;
     }
     let squares = flat.iter().map(|point| {
@@ -278,7 +281,7 @@ fn centred(points: &[DVec3], axis: DVec3) -> Option<DVec3> {
 }
 
 /// Fits a way to and fro; nothing where it does not go on along its chord or crosses it too rarely.
-fn wave(points: &[DVec3]) -> Option<(Way, f64)> {
+fn wave(points: &[DVec3], exact: f64) -> Option<(Way, f64)> {
     let first = points[0];
     let chord = points[points.len() - 1] - first;
     let line = chord.try_normalize()?;
@@ -306,7 +309,11 @@ fn wave(points: &[DVec3]) -> Option<(Way, f64)> {
         .windows(2)
         .map(|pair| (pair[0] - pair[1]).max(0.0))
         .sum::<f64>();
-    if crossings < 2 || width < 0.06 * chord.length() || back > 0.2 * chord.length() {
+    if crossings < 2
+        || width < exact
+        || width < 0.06 * chord.length()
+        || back > 0.2 * chord.length()
+    {
         return None;
     }
     let lift = aside
@@ -332,22 +339,26 @@ mod tests {
     #[test]
     fn each_kind_is_told_whatever_its_speed() {
         let ease = |s: f64| s * s * (3.0 - 2.0 * s);
-        let line = fit(&along(30, |s| DVec3::new(0.2, 0.1, 0.0) * ease(s)));
+        let line = fit(&along(30, |s| DVec3::new(0.2, 0.1, 0.0) * ease(s)), EXACT);
         assert_eq!(line.way.kind(), "straight");
         assert!(line.residual < 1e-9);
-        let arc = fit(&along(30, |s| {
-            along_arc(DVec3::X * 0.2, DVec3::Z * 0.06, ease(s))
-        }));
+        let arc = fit(
+            &along(30, |s| along_arc(DVec3::X * 0.2, DVec3::Z * 0.06, ease(s))),
+            EXACT,
+        );
         let Way::Arc { bow, .. } = arc.way else {
             panic!("{arc:?}");
         };
         assert!(bow.distance(DVec3::Z * 0.06) < 1e-3, "{bow}");
         let wave = |wavy: bool| {
-            fit(&along(120, |s| {
-                let turn = (TAU * 2.0 * s).sin();
-                let side = if wavy { turn } else { turn.asin() / 1.571 };
-                DVec3::new(0.2 * s, 0.04 * side, 0.0)
-            }))
+            fit(
+                &along(120, |s| {
+                    let turn = (TAU * 2.0 * s).sin();
+                    let side = if wavy { turn } else { turn.asin() / 1.571 };
+                    DVec3::new(0.2 * s, 0.04 * side, 0.0)
+                }),
+                EXACT,
+            )
         };
         for wavy in [true, false] {
             let Way::Wave {
@@ -363,10 +374,13 @@ mod tests {
     #[test]
     fn circles_and_ellipses_tell_axis_turns_and_size() {
         for (turns, narrow) in [(1.0, 1.0), (2.0, 1.0), (1.0, 0.5), (3.0, 0.75)] {
-            let found = fit(&along(60 * turns as usize, |s| {
-                let (sin, cos) = (TAU * turns * s).sin_cos();
-                DVec3::new(0.1 * cos, 0.1 * narrow * sin, 0.3)
-            }));
+            let found = fit(
+                &along(60 * turns as usize, |s| {
+                    let (sin, cos) = (TAU * turns * s).sin_cos();
+                    DVec3::new(0.1 * cos, 0.1 * narrow * sin, 0.3)
+                }),
+                EXACT,
+            );
             let Way::Circle {
                 axis,
                 turns: is,
@@ -387,10 +401,13 @@ mod tests {
     #[test]
     fn most_of_a_circle_is_part_of_one_and_half_of_it_an_arc() {
         let turn = |share: f64| {
-            fit(&along(40, |s| {
-                let (sin, cos) = (TAU * share * s).sin_cos();
-                DVec3::new(0.1 * cos, 0.1 * sin, 0.3)
-            }))
+            fit(
+                &along(40, |s| {
+                    let (sin, cos) = (TAU * share * s).sin_cos();
+                    DVec3::new(0.1 * cos, 0.1 * sin, 0.3)
+                }),
+                EXACT,
+            )
         };
         assert_eq!(turn(0.5).way.kind(), "arc");
         let Way::Circle { end, turns, .. } = turn(0.79).way else {
@@ -408,7 +425,7 @@ mod tests {
             vec![DVec3::ONE; 9],
             vec![DVec3::ZERO, DVec3::X],
         ] {
-            assert!(fit(&points).residual.is_finite());
+            assert!(fit(&points, EXACT).residual.is_finite());
         }
     }
 }

@@ -45,7 +45,7 @@ pub(in crate::transcribe) fn wrist_name(motion: WristMotion) -> &'static str {
 }
 
 /// Returns how the hand sways about the wrist, from the middle of its range.
-pub(super) fn wrist(track: &Track, first: usize, last: usize) -> Option<Sway> {
+pub(super) fn wrist(scene: &Scene<'_>, track: &Track, first: usize, last: usize) -> Option<Sway> {
     let start = track.turned[first].inverse();
     let turns: Vec<DVec3> = (first..=last)
         .map(|n| scaled(start * track.turned[n]))
@@ -55,7 +55,7 @@ pub(super) fn wrist(track: &Track, first: usize, last: usize) -> Option<Sway> {
     let widest = swings.iter().map(|swing| swing.range).fold(0.0, f64::max);
     // A hand may turn to another posture while it sways about another axis.
     let sways = |swing: &Swing| {
-        swing.range >= SWAY.max(BESIDES * widest)
+        swing.range >= (SWAY * scene.loose).max(BESIDES * widest)
             && swing.turning >= 2
             && swing.net < 0.45 * swing.range
     };
@@ -115,7 +115,7 @@ pub(super) fn play(scene: &Scene<'_>, track: &Track, first: usize, last: usize) 
     let columns: [Vec<f64>; 5] = std::array::from_fn(column);
     let swings = columns.each_ref().map(|column| Swing::of(column));
     let playing: Vec<usize> = (0..5)
-        .filter(|&digit| swings[digit].turning >= 3 && swings[digit].range > SWAY)
+        .filter(|&digit| swings[digit].turning >= 3 && swings[digit].range > SWAY * scene.loose)
         .collect();
     if playing.len() < 2 {
         return None;
