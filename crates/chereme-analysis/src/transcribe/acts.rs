@@ -6,12 +6,13 @@ mod sway;
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 use std::ops::RangeInclusive;
 
 use chereme_sign::hamnosys::Repeat;
 use glam::DVec3;
 
+use super::aim;
 use super::scene::{Scene, Track, length};
 use super::way::{EXACT, Fitted, ROUND, Way, fit};
 use cuts::{LEAST, cut, is_brief, joined, sure, ways};
@@ -39,6 +40,9 @@ const GAP: f64 = 0.1;
 const LULL: f64 = 0.3;
 /// A part of the hand that is less likely meant by so many nepers must have a way that is nearer by a factor of e.
 const PER: f64 = 10.0;
+/// What a made way is off the nearest course of notation counts by this share; what is captured goes on courses of its
+/// own.
+const ASIDE: f64 = 0.5;
 
 /// Something a hand does.
 #[derive(Debug, Clone)]
@@ -228,7 +232,8 @@ impl<'a> Mover<'a> {
 
     /// Returns how far off a way is, with what it takes to say it counted against it.
     fn score(&self, fitted: &Fitted) -> f64 {
-        (fitted.residual + self.exact()) * plain(&fitted.way)
+        let aside = ASIDE * aside(&fitted.way) / self.seen.loose.powi(4);
+        (fitted.residual.hypot(aside) + self.exact()) * plain(&fitted.way)
     }
 
     /// Returns parts that may be meant in one frame besides, where they are in another in the hand's own space, and
@@ -263,6 +268,17 @@ fn own(track: &Track, at: &[DVec3], frame: usize) -> Vec<DVec3> {
     let back = track.turned[frame].inverse();
     let from = track.wrist[frame];
     at.iter().map(|at| back * (*at - from)).collect()
+}
+
+/// Returns how far a way is from the same one whose course is one that notation has: the root of the mean square
+/// of the distance, in metres.
+fn aside(way: &Way) -> f64 {
+    let course = way.line().normalize_or(DVec3::Z);
+    let off = aim::nearest(course, false).residual.to_radians().sin();
+    match way {
+        Way::Circle { long, .. } => off * long.length() * FRAC_1_SQRT_2,
+        _ => off * way.chord().length() / 3f64.sqrt(),
+    }
 }
 
 /// How much a residual counts more for a way that takes more to say.
