@@ -461,6 +461,22 @@ fn what_was_done_can_be_undone_and_is_signed() {
 }
 
 #[test]
+fn everyday_words_that_find_nothing_are_offered_as_a_query() {
+    let desk = Desk::new();
+    let corpus = desk.corpus();
+    let said = desk.json(&format!(
+        "search {} handshape flat placement menton",
+        corpus.display()
+    ));
+    assert_eq!(said["total"], 0);
+    let note = said["notes"][0].as_str();
+    assert_eq!(
+        note,
+        Some("did you mean configuration=flat placement=chin?")
+    );
+}
+
+#[test]
 fn a_search_is_kept_asked_again_and_forgotten() {
     let desk = Desk::new();
     let corpus = desk.corpus();

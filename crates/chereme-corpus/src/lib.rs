@@ -86,7 +86,7 @@ pub use paths::paths_like;
 pub use picture::{Moving, Performance, Picture, PictureOptions, built_in_body, draw_clip};
 pub use progress::{Progress, Step, Unit, unheard};
 pub use recombine::{MadePart, NotationFinding, Recombination, TimedNote};
-pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions};
+pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions, guessed, meant};
 pub use starter::{starter_files, unpack_starter};
 pub use suggest::{Partner, Suggestions};
 pub use transcribe::{Transcribed, TranscribedFeature, TranscribedStage, TranscribedValue};

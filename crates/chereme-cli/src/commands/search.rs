@@ -82,6 +82,11 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     };
     let query = args.query.join(" ");
     let mut answer = corpus.search(&query, &options)?;
+    if answer.total == 0
+        && let Some(meant) = corpus.guess(&query)?
+    {
+        answer.notes.push(format!("did you mean {meant}?"));
+    }
     if let Some(name) = &args.keep {
         answer.notes.push(keep(&mut corpus, name, query)?);
     }

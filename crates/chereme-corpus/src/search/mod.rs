@@ -14,6 +14,7 @@ mod docs;
 pub(crate) mod index;
 mod known;
 mod like;
+mod meant;
 mod plan;
 pub(crate) mod terms;
 #[cfg(test)]
@@ -38,6 +39,7 @@ pub use answer::{Answer, FACET_VALUES, Hit, Order};
 use compile::{Ask, Asked, Failure};
 use index::SearchIndex;
 use like::Scores;
+pub use meant::{guessed, meant};
 
 /// What of an answer is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

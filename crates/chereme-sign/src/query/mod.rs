@@ -47,6 +47,7 @@ mod compare;
 mod complete;
 mod error;
 mod lex;
+mod meant;
 mod parse;
 mod pattern;
 mod print;
@@ -59,6 +60,7 @@ mod words;
 
 pub use complete::{Completion, Expected, complete};
 pub use error::{QueryError, unknown_value};
+pub use meant::{guessed, meant};
 pub use pattern::Pattern;
 pub use tree::{
     At, Comparison, Example, Expr, Feature, Like, Missing, Operator, Property, Query, Related,

@@ -2,13 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use chereme_corpus::Around;
+use chereme_corpus::{Around, guessed};
 use chereme_sign::query::Query;
 use eframe::egui::{Label, Popup, PopupCloseBehavior, RichText, Role, ScrollArea, Ui, WidgetInfo};
 
 use super::builder;
 use super::kept::{Kept, only_counted};
-use super::meant;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::{Text, fill, search as words};
@@ -161,8 +160,7 @@ impl Aside {
     ) -> Option<String> {
         ui.strong(seen.say(words::NOTHING));
         let mut chosen = None;
-        let inventories = &seen.snapshot.overview.inventories;
-        if let Some(meant) = meant::guessed(query, inventories) {
+        if let Some(meant) = guessed(query, &seen.snapshot.overview.inventories) {
             let text = fill(seen.say(words::MEANT), &[("query", &meant)]);
             if ui.button(text).clicked() {
                 chosen = Some(meant);

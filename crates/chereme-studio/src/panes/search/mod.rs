@@ -5,7 +5,6 @@
 //! | `builder`, `rows` | the query as conditions: the data, and the rows |
 //! | `symbols` | what a notation asks for |
 //! | `suggest`, `field` | the query as text: what could be written next, and the field |
-//! | `meant` | what everyday words ask for |
 //! | `hits`, `results` | what was found: pages and order, and the grid and the table |
 //! | `page` | the pane from top to bottom |
 //! | `facets` | how often each value occurs |
@@ -17,7 +16,6 @@ mod facets;
 mod field;
 mod hits;
 mod kept;
-mod meant;
 mod page;
 mod results;
 mod rows;

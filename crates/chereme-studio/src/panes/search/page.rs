@@ -1,9 +1,10 @@
 //! The page: the query, how many were found and how they are shown, what answers, and facets.
 
+use chereme_corpus::meant;
 use chereme_sign::query::Query;
 use eframe::egui::{RichText, Ui, vec2};
 
-use super::{PAUSE, Search, View, aside, facets, meant, results, rows, suggest, symbols};
+use super::{PAUSE, Search, View, aside, facets, results, rows, suggest, symbols};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
@@ -57,8 +58,7 @@ impl Search {
             if let Some(query) = suggest::kept_query(&self.field.text, seen.snapshot) {
                 self.field.set(query.to_owned());
                 self.rows = rows::Rows::default();
-            } else if let Some(query) =
-                meant::meant(&self.field.text, &seen.snapshot.overview.inventories)
+            } else if let Some(query) = meant(&self.field.text, &seen.snapshot.overview.inventories)
             {
                 self.field.set(query);
                 self.rows = rows::Rows::default();

@@ -1,13 +1,9 @@
 //! What is meant by a query in everyday words: "handshape U", "main droite configuration plate", "chin".
 
-use chereme_corpus::StoredInventory;
-use chereme_sign::query::Query;
-use chereme_sign::text::fold;
-use chereme_sign::{Component, HandRef};
-
-use super::builder::with_value;
-use super::rows::component_text;
-use crate::words::Language;
+use super::{Pattern, Query, words};
+use crate::component::{Component, HandRef};
+use crate::inventory::Inventory;
+use crate::text::fold;
 
 /// Signs of the language of queries: a text with one of them is written in it.
 const WRITTEN: &[char] = &[
@@ -18,13 +14,18 @@ const MOST: usize = 3;
 /// Words between a component and its value that add nothing.
 const BETWEEN: [&str; 8] = ["is", "est", "at", "à", "of", "de", "la", "le"];
 
-/// Returns the query that is meant by words that name components before their values.
-pub(super) fn meant(text: &str, inventories: &[StoredInventory]) -> Option<String> {
+/// Returns the query that is meant by words that name components before their values, of these inventories.
+///
+/// Words that name nothing stay as they are; none where nothing is named, or the text is written in the
+/// language of queries already.
+#[must_use]
+pub fn meant(text: &str, inventories: &[&Inventory]) -> Option<String> {
     read(text, |words| named(words, inventories))
 }
 
-/// Returns the same where values stand without what they are values of, too.
-pub(super) fn guessed(text: &str, inventories: &[StoredInventory]) -> Option<String> {
+/// Returns what [`meant`] does, where values stand without what they are values of, too.
+#[must_use]
+pub fn guessed(text: &str, inventories: &[&Inventory]) -> Option<String> {
     read(text, |words| {
         named(words, inventories).or_else(|| bare(words, inventories))
     })
@@ -39,27 +40,25 @@ fn read(text: &str, find: impl Fn(&[String]) -> Option<Found>) -> Option<String>
     }
     let whole: Vec<&str> = text.split_whitespace().collect();
     let folded: Vec<String> = whole.iter().map(|it| fold(it)).collect();
-    let (mut query, mut at, mut understood) = (String::new(), 0, false);
+    let (mut terms, mut at, mut understood) = (Vec::new(), 0, false);
     while at < whole.len() {
         match find(&folded[at..]) {
             Some((field, value, words)) => {
-                query = with_value(&query, &field, &value);
+                terms.push(format!("{field}={}", Pattern::literal(value)));
                 (at, understood) = (at + words, true);
             }
             None => {
-                if !query.is_empty() {
-                    query.push(' ');
-                }
-                query.push_str(whole[at]);
+                terms.push(whole[at].to_owned());
                 at += 1;
             }
         }
     }
+    let query = terms.join(" ");
     (understood && Query::parse(&query).is_ok()).then_some(query)
 }
 
 /// Finds a component with a value at the start, and the hand before them.
-fn named(words: &[String], inventories: &[StoredInventory]) -> Option<Found> {
+fn named(words: &[String], inventories: &[&Inventory]) -> Option<Found> {
     let (hand, mut at) = hand(words);
     let component = component(words.get(at)?)?;
     at += 1;
@@ -81,14 +80,14 @@ fn named(words: &[String], inventories: &[StoredInventory]) -> Option<Found> {
     Some((field, value, at + more))
 }
 
-fn bare(words: &[String], inventories: &[StoredInventory]) -> Option<Found> {
+fn bare(words: &[String], inventories: &[&Inventory]) -> Option<Found> {
     value(words, inventories, None)
 }
 
 /// Finds the value that most words name; its field, its id, and how many they are.
 fn value(
     words: &[String],
-    inventories: &[StoredInventory],
+    inventories: &[&Inventory],
     component: Option<Component>,
 ) -> Option<Found> {
     let ordered = Component::ALL
@@ -98,10 +97,7 @@ fn value(
     (1..=most).rev().find_map(|count| {
         let texts = [" ", "-"].map(|between| fold(&words[..count].join(between)));
         ordered.clone().find_map(|component| {
-            let fits = inventories
-                .iter()
-                .map(|it| &it.inventory)
-                .filter(|it| it.component == component);
+            let fits = inventories.iter().filter(|it| it.component == component);
             let mut all = fits.flat_map(|it| it.values.iter().map(move |value| (it, value)));
             let (inventory, value) = all.find(|(_, value)| {
                 let mut spelt = value.spellings();
@@ -117,28 +113,15 @@ fn value(
 }
 
 fn component(word: &str) -> Option<Component> {
-    Component::ALL.into_iter().find(|component| {
-        let said = [Language::English, Language::French]
-            .map(|language| component_text(*component).of(language));
-        is_one_of(word, component.names()) || is_one_of(word, &said)
-    })
+    let mut all = Component::ALL.into_iter();
+    all.find(|it| says(word, it.names()))
 }
 
 /// Returns the hand that is named at the start, and how many words that took.
 fn hand(words: &[String]) -> (Option<HandRef>, usize) {
-    const FRENCH: [(HandRef, &str); 4] = [
-        (HandRef::Right, "droite"),
-        (HandRef::Left, "gauche"),
-        (HandRef::Dominant, "dominante"),
-        (HandRef::Weak, "faible"),
-    ];
     let of = |word: &String| {
-        let french = FRENCH.into_iter().find(|(_, it)| fold(it) == *word);
-        let english = || {
-            let mut all = HandRef::ALL.into_iter();
-            all.find(|it| is_one_of(word, it.names()))
-        };
-        french.map(|(hand, _)| hand).or_else(english)
+        let mut all = HandRef::ALL.into_iter();
+        all.find(|it| says(word, it.names()))
     };
     let is_hand = |word: &String| is_one_of(word, &["hand", "main"]);
     match words {
@@ -149,6 +132,11 @@ fn hand(words: &[String]) -> (Option<HandRef>, usize) {
     }
 }
 
+/// Tells whether a word is one of these names, or French for one.
+fn says(word: &str, names: &[&str]) -> bool {
+    is_one_of(word, names) || names.contains(&words::part(word).as_str())
+}
+
 fn is_one_of(word: &str, all: &[&str]) -> bool {
     all.iter().any(|it| fold(it) == word)
 }
@@ -157,13 +145,8 @@ fn is_one_of(word: &str, all: &[&str]) -> bool {
 mod tests {
     use super::*;
 
-    fn inventories() -> Vec<StoredInventory> {
-        let all = chereme_sign::inventory::builtin().iter();
-        all.map(|it| StoredInventory {
-            id: 1,
-            inventory: it.clone(),
-        })
-        .collect()
+    fn inventories() -> Vec<&'static Inventory> {
+        crate::inventory::builtin().iter().collect()
     }
 
     #[test]
@@ -180,6 +163,7 @@ mod tests {
                 "handshape U placement upper chest",
                 Some("configuration=U placement=upper-chest"),
             ),
+            ("la main", None),
             ("handshape", None),
             ("chat", None),
             ("U", None),
