@@ -270,6 +270,7 @@ actions! {
     LayoutRecombine "layout.recombine" LAYOUT_RECOMBINE Panes Corpus;
     Palette "help.palette" PALETTE Help Everywhere;
     Keys "help.keys" KEYS Help Everywhere;
+    FirstSteps "help.first-steps" FIRST_STEPS Help Everywhere;
 }
 
 impl Action {

@@ -108,7 +108,13 @@ impl Studio {
         let language = self.settings.language;
         ui.horizontal(|ui| {
             let (Some(desk), Some(snapshot)) = (&self.desk, &self.snapshot) else {
-                ui.weak(words::NOTHING_OPEN.of(language));
+                let reading = self.desk.is_some() || self.beginning.is_some();
+                let text = if reading {
+                    words::READING
+                } else {
+                    words::NOTHING_OPEN
+                };
+                ui.weak(text.of(language));
                 self.overlays.notices.line(ui);
                 return;
             };

@@ -155,7 +155,7 @@ impl Studio {
                 self.keys = Keys::new(self.settings.keymap, &self.settings.keys);
             }
             Command::Hint(text) => {
-                let text = text.of(self.settings.language);
+                let text = self.keys.named(text.of(self.settings.language));
                 self.overlays.notices.hint(text);
             }
             Command::Say(text) => self.overlays.notices.hint(text),
@@ -233,7 +233,13 @@ impl Studio {
             let (token, gloss) = recombine::selected_token(&self.seen(ctx)?)?;
             Some(Carried { token, gloss })
         };
-        match carried.or_else(selected) {
+        // A notated sign that was opened stands on the stage, whatever pane is before the hits.
+        let notated = || {
+            let made = &self.shown.made.as_ref()?.made;
+            let (token, gloss) = (made.token?, made.name.clone());
+            Some(Carried { token, gloss })
+        };
+        match carried.or_else(notated).or_else(selected) {
             Some(carried) => self.out.send(Command::Use(carried)),
             None => self.out.send(Command::Hint(words::NEEDS_SIGN)),
         }
@@ -270,6 +276,7 @@ impl Studio {
             Action::Quit => ctx.send_viewport_cmd(ViewportCommand::Close),
             Action::Settings => self.overlays.settings.toggle(),
             Action::Keys => self.overlays.keys.toggle(),
+            Action::FirstSteps => self.overlays.steps.toggle(),
             Action::Palette => self.overlays.palette.toggle(),
             Action::Theme => {
                 let dark = theme::is_dark(ctx);

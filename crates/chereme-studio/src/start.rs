@@ -13,7 +13,7 @@ use crate::app::Studio;
 use crate::choose::Choose;
 use crate::command::Command;
 use crate::panes::list_row;
-use crate::words::{Text, shell as words};
+use crate::words::{Language, Text, shell as words};
 use crate::work::begin::Begin;
 
 /// What is typed on the page.
@@ -47,6 +47,8 @@ type Offer = (Text, Text, Command);
 /// What it is called, and what it begins with a path.
 type Typed = (Text, fn(PathBuf) -> Begin);
 
+/// What brings the keyboard to the page where it is nowhere.
+const KEYS: [Key; 4] = [Key::ArrowDown, Key::ArrowUp, Key::Enter, Key::Space];
 const WIDE: f32 = 620.0;
 /// How many recent corpora are on the page; the others are in the menu.
 const RECENT: usize = 4;
@@ -56,6 +58,11 @@ const LOW: f32 = 680.0;
 impl Studio {
     pub(crate) fn start_page(&mut self, ui: &mut Ui) {
         let language = self.settings.language;
+        // A key that would go nowhere goes to what one most likely wants.
+        let lost = ui.memory(|memory| memory.focused().is_none());
+        if lost && ui.input(|input| KEYS.into_iter().any(|key| input.key_pressed(key))) {
+            self.start.come = false;
+        }
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             let width = ui.available_width().min(WIDE);
             let left = (ui.available_width() - width) / 2.0;
@@ -165,6 +172,16 @@ impl Studio {
             }
         });
         ui.weak(words::START_DROP.of(language));
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            for (it, name) in Language::ALL {
+                ui.selectable_value(&mut self.settings.language, it, name);
+            }
+            let steps = ui.button(Action::FirstSteps.row().name.of(language));
+            if steps.clicked() {
+                self.out.send(Command::Do(Action::FirstSteps));
+            }
+        });
     }
 
     fn recent_part(&mut self, ui: &mut Ui) {

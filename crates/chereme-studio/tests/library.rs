@@ -73,6 +73,39 @@ fn signs_without_recordings_are_listed_animated_and_taken_into_a_recipe() {
 }
 
 #[test]
+fn in_a_small_window_a_notated_sign_that_was_opened_is_seen_and_used() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_notated(folder.path());
+    window.set_size(eframe::egui::vec2(800.0, 600.0));
+    window.run_steps(3);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    window.run_steps(3);
+    // What is typed into goes on being typed into, however much stands below it.
+    for word in ["gloss", "=", "HOCHER"] {
+        window.event(Event::Text(word.to_owned()));
+        window.run_steps(40);
+        idle(&mut window);
+    }
+    window.key_press(Key::Enter);
+    window.run_steps(2);
+    idle(&mut window);
+    window.run_steps(2);
+    assert!(says(&window, "Found: 1"));
+    assert!(!has(&window, "Pause"), "the stage is behind the search");
+    window.key_press(Key::ArrowDown);
+    window.run_steps(3);
+    window.key_press(Key::Enter);
+    until(&mut window, "the stage in front", |window| {
+        has(window, "Pause")
+    });
+    idle(&mut window);
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::ALT, Key::R);
+    window.run_steps(4);
+    idle(&mut window);
+    until(&mut window, "the card", |window| says(window, "Store"));
+}
+
+#[test]
 fn a_coded_sign_says_what_can_be_done() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_notated(folder.path());

@@ -151,3 +151,22 @@ fn a_small_window_has_stage_and_timeline_and_goes_back() {
     window.run_steps(3);
     assert!(has(&window, "Trails") && has(&window, "Recordings (1)"));
 }
+
+#[test]
+fn the_first_steps_name_the_keys_and_the_start_page_speaks_either_language() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window(options(folder.path()));
+    window.run_steps(3);
+    click(&mut window, "Français");
+    window.run_steps(2);
+    assert!(has(&window, "Ouvrir le corpus de départ"));
+    click(&mut window, "English");
+    window.run_steps(2);
+    window.key_press(Key::F12);
+    window.run_steps(3);
+    assert!(has(&window, "3. Annotate"));
+    assert!(window.query_by_label_contains("Ctrl+Alt+N").is_some());
+    window.key_press(Key::Escape);
+    window.run_steps(3);
+    assert!(!has(&window, "3. Annotate"));
+}

@@ -188,6 +188,7 @@ pub(crate) const DEFAULTS: &[(Action, [&str; 3])] = &[
     (Action::LayoutRecombine, ["Ctrl+F3", "=", "="]),
     (Action::Palette, ["Ctrl+Shift+P", "=", "="]),
     (Action::Keys, ["F1", "=", "="]),
+    (Action::FirstSteps, ["F12", "=", "="]),
 ];
 
 /// Returns the keys that a keymap gives an action.

@@ -5,6 +5,7 @@ pub(crate) mod keys;
 pub(crate) mod notices;
 pub(crate) mod palette;
 pub(crate) mod settings;
+pub(crate) mod steps;
 pub(crate) mod trouble;
 
 use eframe::egui::{Context, Key, Modifiers};
@@ -18,6 +19,7 @@ pub(crate) struct Overlays {
     pub(crate) palette: palette::Palette,
     pub(crate) keys: keys::KeysHelp,
     pub(crate) settings: settings::SettingsWindow,
+    pub(crate) steps: steps::FirstSteps,
     pub(crate) export: export::Export,
 }
 
@@ -54,6 +56,7 @@ impl Studio {
             .ui(ctx, keys, settings.language, place, out);
         overlays.keys.ui(ctx, keys, settings, out);
         overlays.settings.ui(ctx, settings, out);
+        overlays.steps.ui(ctx, keys, settings.language);
         self.exporting(ctx);
     }
 }

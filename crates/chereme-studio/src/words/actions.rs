@@ -177,5 +177,6 @@ texts! {
     EXPORT: "Export…", "Exporter…";
     PALETTE: "Command palette", "Palette de commandes";
     KEYS: "Keys", "Touches";
+    FIRST_STEPS: "First steps", "Premiers pas";
     SETTINGS: "Settings", "Réglages";
 }

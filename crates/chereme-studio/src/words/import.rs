@@ -21,7 +21,7 @@ texts! {
     SKIPPED: "left alone", "ignoré";
     REFUSED: "refused", "refusé";
     LINE: "line {n}", "ligne {n}";
-    KNOWN_BETTER: "What you know better", "Ce que vous savez mieux";
+    KNOWN_BETTER: "Say more about these files", "Préciser ces fichiers";
     SIGNER: "Signer", "Signeur";
     HANDEDNESS: "Dominant hand", "Main dominante";
     RIGHT: "right", "droite";

@@ -29,6 +29,7 @@ pub(crate) mod recombine;
 pub(crate) mod search;
 pub(crate) mod shell;
 pub(crate) mod stage;
+pub(crate) mod steps;
 pub(crate) mod timeline;
 pub(crate) mod trouble;
 
@@ -98,7 +99,7 @@ pub(crate) fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 15] = [
+    const TABLES: [&[(&str, Text)]; 16] = [
         actions::ALL,
         export::ALL,
         hamnosys::ALL,
@@ -111,6 +112,7 @@ mod tests {
         search::ALL,
         shell::ALL,
         stage::ALL,
+        steps::ALL,
         timeline::ALL,
         gestures::ALL,
         trouble::ALL,

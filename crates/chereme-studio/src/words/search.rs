@@ -3,7 +3,7 @@
 texts! {
     TITLE: "Search", "Recherche";
     QUERY: "Query", "Requête";
-    HINT: "right.configuration=U placement=chin", "right.configuration=U placement=chin";
+    HINT: "handshape U placement chin", "configuration U emplacement menton";
     OFFERS: "What could be written", "Ce qui peut s’écrire";
     OFFER: "Write {text}", "Écrire {text}";
     OFFER_KEYS: "Tab or arrow keys and Enter", "Tab ou flèches et Entrée";

@@ -55,7 +55,7 @@ texts! {
     STEP_REST: "rest between", "pause entre deux";
     STEP_TIMES: "each played", "chacun joué";
     CHOOSE_MEDIA: "Choose a media file", "Choisir un média";
-    NEEDS_SELECTION: "Select a span first: drag on the timeline, or {timing.extend-frame-forward}; or {annotation.begin-end} at its begin and end.", "Sélectionnez d’abord un intervalle : glissez sur la ligne de temps, ou {timing.extend-frame-forward} ; ou {annotation.begin-end} au début et à la fin.";
+    NEEDS_SELECTION: "Select a span first: drag on the timeline, or {timing.extend-frame-forward}; or {annotation.begin-end} at its begin and end. Alt and a drag make an annotation at once.", "Sélectionnez d’abord un intervalle : glissez sur la ligne de temps, ou {timing.extend-frame-forward} ; ou {annotation.begin-end} au début et à la fin. Alt et un glissement créent une annotation d’un coup.";
     NEEDS_SIGN: "Choose a sign first: a hit, a sign of the library, or its gloss.", "Choisissez d’abord un signe : un résultat, un signe du fonds ou sa glose.";
     BACK_TO_HITS: "{edit.search} goes back to what was found; {layout.search} shows both beside each other.", "{edit.search} revient aux résultats ; {layout.search} montre les deux côte à côte.";
     NEEDS_ANNOTATION: "Select an annotation first.", "Sélectionnez d’abord une annotation.";

@@ -18,6 +18,7 @@ texts! {
     NORMAL: "Normal", "Normal";
     BULLDOZER: "Bulldozer", "Bulldozer";
     SHIFT: "Shift", "Décaler";
+    SNAPS_TO: "Snap to:", "Caler sur :";
     SNAP: "Snap", "Caler";
     FRAMES: "Frames", "Images";
     BOUNDARIES: "Boundaries", "Limites";

@@ -58,6 +58,7 @@ pub(crate) fn origin_text(origin: &str) -> Option<Text> {
         "captured" => Some(words::CAPTURED),
         "made" => Some(words::MADE),
         "generated" => Some(words::GENERATED),
+        "lexicon" => Some(words::IN_LEXICON),
         _ => None,
     }
 }

@@ -5,7 +5,8 @@ pub(crate) mod data;
 use std::sync::Arc;
 
 use eframe::egui::{
-    EventFilter, Id, Key, Modifiers, Rect, Response, RichText, ScrollArea, TextEdit, Ui, Vec2, vec2,
+    EventFilter, Id, Key, Modifiers, Rect, Response, ScrollArea, TextEdit, Ui, Vec2, WidgetInfo,
+    vec2,
 };
 
 use super::bare::{self, Bare};
@@ -105,11 +106,16 @@ impl Library {
                 }
             }
         });
-        let label = ui.label(RichText::new(seen.say(words::FILTER)).small());
+        let before = self.filter.clone();
         let filter = TextEdit::singleline(&mut self.filter)
             .hint_text(seen.say(words::FILTER))
             .desired_width(f32::INFINITY);
-        let response = ui.add(filter).labelled_by(label.id);
+        let response = ui.add(filter);
+        let (name, text) = (seen.say(words::FILTER), self.filter.clone());
+        response.widget_info(|| WidgetInfo {
+            label: Some(name.to_owned()),
+            ..WidgetInfo::text_edit(true, &before, &text, name)
+        });
         if response.changed() {
             (self.at, self.scrolled) = (0, 0.0);
         }

@@ -352,13 +352,12 @@ impl Pane for Search {
             return;
         }
         let room = ui.available_height();
-        self.low = room - self.head < LOW;
-        if self.low {
-            let area = ScrollArea::vertical().id_salt("low").auto_shrink(false);
-            area.show(ui, |ui| self.page(ui, seen, out, Some(room.max(LOW))));
-        } else {
-            self.page(ui, seen, out, None);
-        }
+        let left = room - self.head - 1.0;
+        self.low = left < LOW;
+        // All of it is always scrolled, as what is typed into must not become another widget.
+        let area = ScrollArea::vertical().id_salt("page").auto_shrink(false);
+        let high = if self.low { room.max(LOW) } else { left };
+        area.show(ui, |ui| self.page(ui, seen, out, high));
     }
 
     fn act(&mut self, action: Action, seen: &Seen<'_>, out: &mut Outbox) -> Acted {

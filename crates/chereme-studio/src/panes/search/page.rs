@@ -14,16 +14,11 @@ use crate::words::{Language, fill, search as words};
 const WIDE: f32 = 520.0;
 
 impl Search {
-    /// Draws all of it; the hits are as high as there is room, or `high`.
-    pub(super) fn page(
-        &mut self,
-        ui: &mut Ui,
-        seen: &Seen<'_>,
-        out: &mut Outbox,
-        high: Option<f32>,
-    ) {
+    /// Draws all of it, the hits as high as `high`.
+    pub(super) fn page(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, high: f32) {
         let top = ui.cursor().top();
         self.question(ui, seen, out);
+        self.head = ui.cursor().top() - top + ui.spacing().interact_size.y;
         if self.found.is_none() && self.asked.is_none() {
             if let Some(query) = aside::examples(ui, seen) {
                 self.turn_to(query, out);
@@ -32,10 +27,10 @@ impl Search {
         }
         self.status(ui, seen, out);
         self.head = ui.cursor().top() - top;
-        let room = ui.available_size();
-        let size = vec2(room.x, high.unwrap_or(room.y));
+        let size = vec2(ui.available_width(), high);
         ui.allocate_ui(size, |ui| {
-            ui.set_width(room.x);
+            ui.set_width(size.x);
+            ui.set_max_height(size.y);
             self.hint(ui, seen, out);
             self.answer(ui, seen, out);
         });

@@ -125,7 +125,7 @@ fn figure(
     painter.text(name, Align2::LEFT_CENTER, &hit.gloss, body, text);
     let weak = ui.visuals().weak_text_color();
     let place = pos2(left, picture.bottom() + 26.0);
-    let where_to = hits::place_text(&hit, seen.say(words::LEXICON));
+    let where_to = hits::place_text(&hit, lexicon(seen, &hit));
     painter.text(place, Align2::LEFT_CENTER, where_to, small, weak);
     if let Some(score) = hit.score {
         let at = picture.right_top() + vec2(-5.0, 4.0);
@@ -375,6 +375,16 @@ fn put(ui: &Ui, rect: Rect, text: &str, font: FontId, colour: eframe::egui::Colo
     painter.text(at, align, text, font, colour);
 }
 
+/// Returns what a hit is that lies in no recording.
+fn lexicon(seen: &Seen<'_>, hit: &Hit) -> &'static str {
+    let notated = seen.snapshot.is_notated(&hit.gloss);
+    seen.say(if notated {
+        crate::words::library::NOTATED
+    } else {
+        words::LEXICON
+    })
+}
+
 /// Makes a hit something that can be clicked, and that the keys can be at.
 fn cell(
     search: &mut Search,
@@ -386,7 +396,7 @@ fn cell(
 ) -> Response {
     let id = Id::unique("hits").with(at);
     let response = ui.interact(rect, id, Sense::click_and_drag());
-    let place = hits::place_text(hit, seen.say(words::LEXICON));
+    let place = hits::place_text(hit, lexicon(seen, hit));
     let name = format!("{}, {place}", hit.gloss);
     let chosen = search.at == at;
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, chosen, &name));

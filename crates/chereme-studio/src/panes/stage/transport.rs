@@ -187,7 +187,9 @@ fn bar(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         // Above, for the time of the playhead stands below.
         let layer = egui::LayerId::new(egui::Order::Tooltip, response.id);
         let above = ui.ctx().layer_painter(layer);
-        let place = pos2(at.x, rect.top() - 3.0);
+        let edge = 34.0_f32.min(rect.width() / 2.0);
+        let x = at.x.clamp(rect.left() + edge, rect.right() - edge);
+        let place = pos2(x, rect.top() - 3.0);
         let text = time_text(time(at.x));
         super::ui::chip_on(&above, ui, place, egui::Align2::CENTER_BOTTOM, &text);
     }

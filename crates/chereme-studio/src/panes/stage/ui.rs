@@ -61,8 +61,15 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
     match why_nothing(stage, seen) {
         Some(text) => {
             little::empty(ui, whole, seen.say(text));
-            if text == words::ONLY_SIGNS {
-                to_signs(ui, seen, out, whole);
+            let next = match text {
+                words::ONLY_SIGNS => Some((words::TO_SIGNS, Action::Search)),
+                words::NO_MOVEMENT if seen.shown.made.is_none() => {
+                    Some((crate::words::library::IMPORT, Action::Import))
+                }
+                _ => None,
+            };
+            if let Some(next) = next {
+                lead_on(ui, seen, out, whole, next);
             }
         }
         None => panes(stage, ui, seen, out, whole),
@@ -93,17 +100,19 @@ fn why_nothing(stage: &Stage, seen: &Seen<'_>) -> Option<Text> {
     }
 }
 
-/// Leads on to the signs of a corpus that has no recordings.
-fn to_signs(ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, whole: Rect) {
+/// Leads on where there is nothing to be seen: to the signs of a corpus without recordings, or to the import.
+fn lead_on(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    whole: Rect,
+    (text, action): (Text, Action),
+) {
     let size = vec2(whole.width().min(200.0), 26.0);
     let place = Rect::from_center_size(whole.center_bottom() - vec2(0.0, 28.0), size);
-    let button = Button::new(seen.say(words::TO_SIGNS));
-    let response = ui.put(place, button);
-    if response
-        .on_hover_text(seen.keys.text(Action::Search))
-        .clicked()
-    {
-        out.send(Command::Do(Action::Search));
+    let response = ui.put(place, Button::new(seen.say(text)));
+    if response.on_hover_text(seen.keys.text(action)).clicked() {
+        out.send(Command::Do(action));
     }
 }
 
@@ -376,6 +385,9 @@ fn camera(subject: &Subject, eye: Eye, size: [usize; 2], pose: &ModelPose) -> Ca
     eye.camera(preset)
 }
 
+/// In a picture narrower than this, texts would cover the signer.
+const NARROW: f32 = 300.0;
+
 /// The view's name, which is a menu of the views, and who is seen.
 fn labels(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, part: &Part) {
     let place = Rect::from_min_size(
@@ -393,8 +405,14 @@ fn labels(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, part: &Part) {
     let mut chosen = None;
     let builder = UiBuilder::new().max_rect(place).id_salt(("view", part.eye));
     ui.scope_builder(builder, |ui| {
-        let text = RichText::new(eye_name(stage, seen, part)).small();
-        let combo = ComboBox::from_id_salt(("view", part.eye)).selected_text(text);
+        let text = eye_name(stage, seen, part);
+        let combo = ComboBox::from_id_salt(("view", part.eye));
+        // Beside a narrow picture its name would cover the face.
+        let combo = if part.rect.width() < NARROW {
+            combo.selected_text("").width(0.0)
+        } else {
+            combo.selected_text(RichText::new(text).small())
+        };
         let inner = combo.show_ui(ui, |ui| {
             for (view, action) in VIEWS {
                 let name = seen.say(action.row().name);
@@ -411,6 +429,7 @@ fn labels(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, part: &Part) {
         inner
             .response
             .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, name));
+        inner.response.on_hover_text(text);
     });
     if let Some(view) = chosen {
         stage.eyes[part.eye] = Eye::of(view);
@@ -430,6 +449,9 @@ fn who(stage: &Stage, ui: &Ui, seen: &Seen<'_>, part: &Part) {
     }
     let at = seen.shown.on_stage().playhead();
     let text = match stage.original.piece(at) {
+        Some(piece) if piece.shown.is_some() && part.rect.width() < NARROW => {
+            seen.say(words::ORIGINAL).to_owned()
+        }
         Some(piece) if piece.shown.is_some() => {
             format!("{}: {}", seen.say(words::ORIGINAL), piece.part.gloss)
         }
@@ -437,7 +459,7 @@ fn who(stage: &Stage, ui: &Ui, seen: &Seen<'_>, part: &Part) {
         None => return,
     };
     // Above there is the choice of the view.
-    let (at, anchor) = if part.rect.width() < 300.0 {
+    let (at, anchor) = if part.rect.width() < NARROW {
         (
             part.rect.left_bottom() + vec2(8.0, -8.0),
             Align2::LEFT_BOTTOM,

@@ -19,6 +19,8 @@ const LIKE: f32 = 300.0;
 
 /// From this width on every switch is a button of its own.
 const WIDE: f32 = 560.0;
+/// And with so much left there is room to say what the switches are.
+const SPACIOUS: f32 = 560.0;
 
 const MODES: [(Action, Text); 3] = [
     (Action::ModeNormal, words::NORMAL),
@@ -46,6 +48,9 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
                 switch(ui, seen, (action, text), out);
             }
             ui.separator();
+            if ui.available_width() >= SPACIOUS {
+                ui.weak(seen.say(words::SNAPS_TO));
+            }
             for (action, text) in SNAPS {
                 switch(ui, seen, (action, text), out);
             }

@@ -291,7 +291,7 @@ impl Drawing<'_, '_> {
             return;
         }
         let Some(span) = self.seen.shown.span.filter(|span| span.contains(here)) else {
-            return;
+            return self.hint(crate::words::shell::NEEDS_SELECTION);
         };
         let wanted = (span.start().micros(), span.end().micros());
         match hold::room(contents, tier, wanted) {
