@@ -130,14 +130,10 @@ fn tempo(scene: &Scene<'_>, track: &Track, act: &Act, into_contact: bool) -> Opt
     let l = scene.language;
     let (first, last) = (*act.frames.start(), *act.frames.end());
     if let Kind::Sway(sway) = &act.kind {
-        let (cycles, usual) = match sway {
-            Sway::Wrist { cycles, .. } => (cycles, l.time_wrist),
-            Sway::Play { cycles, .. } => (cycles, l.time_play),
-        };
-        let each = scene.seconds(last - first) / cycles.max(1.0);
+        let (time, whole) = (scene.seconds(last - first), swayed(l, sway));
         let tempi = [Tempo::Usual, Tempo::Fast, Tempo::Slow];
         return Some(nearest(&tempi, l, |_, factor| {
-            let off = (each / (usual * factor)).ln().abs();
+            let off = (time / (whole * factor)).ln().abs();
             (off, off)
         }));
     }
@@ -192,6 +188,14 @@ fn nearest(
     Found::of(scored.collect())
 }
 
+/// Returns how long a hand or fingers go to and fro as usual, as often as they do, in seconds.
+fn swayed(l: &BodyLanguage, sway: &Sway) -> f64 {
+    match sway {
+        Sway::Wrist { cycles, .. } => l.time_wrist * cycles.max(1.0),
+        Sway::Play { cycles, .. } => l.time_play * cycles.max(1.0),
+    }
+}
+
 /// Returns how long such an act takes as usual, each with the least it can take, in seconds; and whether it
 /// goes round.
 fn usual(scene: &Scene<'_>, track: &Track, act: &Act) -> Option<(Vec<(f64, f64)>, bool)> {
@@ -203,21 +207,25 @@ fn usual(scene: &Scene<'_>, track: &Track, act: &Act) -> Option<(Vec<(f64, f64)>
     let taken = 0.6 * (l.time_transition + l.time_transition_arm * gone + l.time_turn * turn);
     // The fastest moment of what is meant is 2.6 times its mean.
     let least = 2.6 * length(&track.palm[first..=last]) / (l.speed_most * scene.arm);
-    Some(match &act.kind {
+    let with_turn = |usual: f64| {
+        let turned = (act.turned || act.reshaped).then_some((usual, taken));
+        [Some((usual, least)), turned]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+    };
+    let (mut all, round) = match &act.kind {
         Kind::Way(fitted) => match fitted.way {
-            Way::Straight { .. } => {
-                let mut all = vec![(l.time_straight, least)];
-                if act.turned || act.reshaped {
-                    all.push((l.time_straight, taken));
-                }
-                (all, false)
-            }
-            Way::Arc { .. } | Way::Wave { .. } => (vec![(l.time_arc, least)], false),
+            Way::Straight { .. } => (with_turn(l.time_straight), false),
+            Way::Arc { .. } | Way::Wave { .. } => (with_turn(l.time_arc), false),
             Way::Circle { turns, .. } => (vec![(l.time_circle * turns.max(0.4), least)], true),
         },
         Kind::Change => (vec![(l.time_replace, 0.0), (l.time_replace, taken)], false),
         Kind::Sway(_) => return None,
-    })
+    };
+    // What sways or plays besides takes its own time.
+    all.extend(act.with.iter().map(|sway| (swayed(l, sway), least)));
+    Some((all, round))
 }
 
 /// Returns how an act ran by the way that was done, the turning and the fingers, whichever it does.
