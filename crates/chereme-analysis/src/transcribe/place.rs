@@ -7,7 +7,9 @@ mod together;
 use std::cell::OnceCell;
 
 use chereme_motion::{ModelPose, Side as Half};
-use chereme_sign::hamnosys::sites::{Face, HandPoint, Region, body_site, hand_points};
+use chereme_sign::hamnosys::sites::{
+    Face, HandPoint, Region, TOUCHED_BESIDE, body_site, hand_points,
+};
 use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Digit, Handshape, Side, Site};
 use glam::DVec3;
 
@@ -464,6 +466,9 @@ impl<'a> Body<'a> {
             None if trunk => l.medium_trunk,
             None => l.medium_face,
             _ if !spot.beside => return spot.at,
+            Some(Contact::Touch) if spot.region == Region::Face => {
+                return spot.at - spot.out * (TOUCHED_BESIDE * self.scene.shoulders);
+            }
             _ if trunk => l.medium_trunk,
             _ => l.medium_face,
         };
@@ -643,9 +648,8 @@ fn contacts(choice: &Choice) -> &'static [Option<Contact>] {
     match choice.spot.region {
         Region::Arm(_) => &[Some(Contact::Close), Some(Contact::Touch)],
         // Small places of the head are not meant from afar, and below the chin is the chest.
-        _ if choice.near && choice.spot.beside => &ALL[..1],
         _ if choice.near => &[Some(Contact::Close), Some(Contact::Touch)],
-        _ if choice.spot.beside => &ALL[..3],
+        _ if choice.spot.beside && choice.spot.region == Region::Trunk => &ALL[..3],
         _ => &ALL,
     }
 }

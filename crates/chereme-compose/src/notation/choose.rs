@@ -24,7 +24,7 @@ const ELBOW: f64 = 4.5;
 /// eighth, so that no elbow is thrown out for a few degrees.
 const TURNED: f64 = 75.0;
 /// What it costs to have an elbow an arm's length above the shoulder; grows with the square.
-const RAISED: f64 = 200.0;
+const RAISED: f64 = 800.0;
 /// What it costs to be an arm's length off the place, and in the trunk; both grow with the square.
 const MISSED: f64 = 1.2e4;
 const WITHIN: f64 = 9e4;
@@ -322,7 +322,7 @@ fn cheapest<K>(lists: &[(K, Vec<Choice>)], of: &[usize], dt: f64) -> Vec<Choice>
 /// goes inwards, before the trunk.
 fn off_rule(degrees: f64) -> f64 {
     let near = degrees.abs().min(60.0);
-    let outwards = 2.0 * (near / 36.0).powi(2) + 0.1 * (degrees.abs() - near);
+    let outwards = 0.7 * (near / 36.0).powi(2) + 0.05 * (degrees.abs() - near);
     if degrees < 0.0 {
         INWARDS * outwards
     } else {
@@ -336,7 +336,7 @@ fn change(from: &Choice, to: &Choice, dt: f64, most: f64) -> Option<f64> {
     let over = |speed: f64| (speed - 1.0).max(0.0).powi(2);
     let swivel = (to.bearing.plane - from.bearing.plane).abs() / (SWIVEL * dt);
     let shrug = (to.bearing.shrug - from.bearing.shrug).abs() / (SHRUGGING * dt);
-    let own = 2.0 * (swivel * swivel + shrug * shrug) + 60.0 * over(swivel);
+    let own = 0.6 * (swivel * swivel + shrug * shrug) + 60.0 * over(swivel);
     if own > most * (1.0 + 1e-9) + 1e-9 {
         return None;
     }

@@ -66,6 +66,11 @@ use warp::{Fastest, Warp};
 /// The most frames that are made at once: ten minutes at 120 Hz.
 const MOST_FRAMES: usize = 72_000;
 
+/// How fast arms are planned to go at most, against what they may.
+const EASY: f64 = 0.9;
+/// How often time is stretched again for what is finished.
+const AGAIN: usize = 4;
+
 /// How notation is animated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
@@ -147,14 +152,31 @@ pub fn animate(
     let moved: Vec<_> = arms.iter().map(|made| made.moved()).collect();
     let fastest = fastest(&settings.language, &body);
     let warp = Warp::of(&moved, rate, &fastest, |arm, n| arms[arm].hasty(n));
-    let total = frames(warp.at(plan.end), rate)?.max(warp.frames().len());
+    let mut tracks = made.map(|made| made.map(|made| made.track(&warp)));
+    let most = Fastest {
+        joint: fastest.joint / EASY,
+        wrist: fastest.wrist / EASY,
+    };
+    let mut warp = warp;
+    for _ in 0..AGAIN {
+        let arms = hands.iter().zip(&tracks);
+        let arms = arms.filter_map(|(hand, track)| Some(track.as_ref()?.moved((*hand)?)));
+        let again = Warp::again(&arms.collect::<Vec<_>>(), rate, &most);
+        if again.is_none() {
+            break;
+        }
+        tracks = tracks.map(|track| track.map(|track| track.stretched(&again)));
+        warp = warp.then(&again);
+    }
+    let least = frames(warp.at(plan.end), rate)?;
+    let total = tracks.iter().flatten().map(|track| track.arm[0].len());
+    let total = total.max().unwrap_or(least);
     let mut channels = standing(&body, total);
     let mut fits = [None; 2];
-    for (n, made) in made.into_iter().enumerate() {
-        let (Some(hand), Some(made)) = (hands[n], made) else {
+    for (n, track) in tracks.into_iter().enumerate() {
+        let (Some(hand), Some(track)) = (hands[n], track) else {
             continue;
         };
-        let track = made.track(&warp);
         fits[n] = Some(track.fit);
         lay(&mut channels, hand, track);
     }
@@ -196,8 +218,8 @@ fn frames(seconds: f64, rate: f64) -> Result<usize, NotationError> {
 /// Returns how fast arms may go; a little less, so that what is measured between frames stays within.
 fn fastest(language: &BodyLanguage, body: &Stage) -> Fastest {
     Fastest {
-        joint: 0.9 * language.speed_joint,
-        wrist: 0.9 * language.speed_wrist * body.arm,
+        joint: EASY * language.speed_joint,
+        wrist: EASY * language.speed_wrist * body.arm,
     }
 }
 

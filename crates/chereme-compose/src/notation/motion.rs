@@ -1,5 +1,6 @@
 //! Motions as events: ways, turns of wrists, playing fingers; in sequence, at once, and again.
 
+mod relative;
 mod repeat;
 mod size;
 mod target;
@@ -150,6 +151,7 @@ impl Planner<'_> {
             let own = path.map(|v| stage.direction(v * frame.axes * sign));
             self.state[n].point += own.end();
             self.state[n].used = true;
+            self.follow(n, &own, [from, to], pace);
             self.plan.events[n].push(Event {
                 from,
                 to,

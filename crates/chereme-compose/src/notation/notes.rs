@@ -208,7 +208,7 @@ fn held(plan: &Plan, n: usize, component: Component, own: &SignSpan, warp: &Warp
         for event in &plan.events[n] {
             let what = match (&event.act, component) {
                 (Act::Shape(shape), Component::Configuration) => *shape,
-                (Act::Turn(to), Component::Orientation) => {
+                (Act::Turn(to) | Act::Follow { to, .. }, Component::Orientation) => {
                     let same = |known: &chereme_motion::glam::DQuat| known.angle_between(*to) < 0.2;
                     turns.iter().position(same).unwrap_or_else(|| {
                         turns.push(*to);

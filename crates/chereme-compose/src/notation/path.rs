@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use chereme_motion::glam::DVec3;
+use chereme_motion::glam::{DQuat, DVec3};
 
 /// A way, from nothing; lengths in metres.
 #[derive(Debug, Clone, PartialEq)]
@@ -79,6 +79,28 @@ impl Path {
     pub(crate) fn length(&self) -> f64 {
         let at = |n: i32| self.at(f64::from(n) / 16.0);
         (0..16).map(|n| at(n).distance(at(n + 1))).sum()
+    }
+
+    /// Returns the unit vector along it when the share `s` is done; none where it goes nowhere.
+    pub(crate) fn heading(&self, s: f64) -> Option<DVec3> {
+        let by = 1e-4;
+        let from = s.clamp(0.0, 1.0 - by);
+        (self.at(from + by) - self.at(from)).try_normalize()
+    }
+
+    /// Returns how what goes along it is turned when the share `s` is done: as it bends, and not about itself.
+    pub(crate) fn turned(&self, s: f64) -> DQuat {
+        const STEPS: i32 = 32;
+        let mut turned = DQuat::IDENTITY;
+        let mut before = self.heading(0.0);
+        for n in 1..=STEPS {
+            let now = self.heading(s * f64::from(n) / f64::from(STEPS));
+            if let (Some(before), Some(now)) = (before, now) {
+                turned = DQuat::from_rotation_arc(before, now) * turned;
+            }
+            before = now.or(before);
+        }
+        turned.normalize()
     }
 
     /// Returns the same way with every vector passed through `f`, which is linear.
@@ -171,6 +193,17 @@ mod tests {
             steps.iter().all(|step| (step - steps[0]).abs() < 1e-12),
             "even speed"
         );
+    }
+
+    #[test]
+    fn what_goes_along_a_way_turns_as_it_bends() {
+        let (chord, bow) = (DVec3::X * 0.2, DVec3::Y * 0.1);
+        let half = Path::Arc { chord, bow };
+        assert!((half.turned(1.0) * DVec3::Y).distance(DVec3::NEG_Y) < 1e-3);
+        assert!((half.turned(0.5) * DVec3::Y).distance(DVec3::X) < 1e-3);
+        assert!(half.turned(1.0).mul_vec3(DVec3::Z).distance(DVec3::Z) < 1e-9);
+        let straight = Path::Line(chord);
+        assert!(straight.turned(1.0).angle_between(DQuat::IDENTITY) < 1e-9);
     }
 
     #[test]

@@ -6,7 +6,7 @@
 use chereme_motion::Side;
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::hamnosys::sites::{
-    BodySite, Face, HandPoint, Region, body_site, coming_first, hand_points,
+    BodySite, Face, HandPoint, Region, TOUCHED_BESIDE, body_site, coming_first, hand_points,
 };
 use chereme_sign::hamnosys::{
     BodyLocation, BodyPlace, Constellation, Contact, Digit, HandSite, Place, Site,
@@ -116,7 +116,8 @@ impl Planner<'_> {
             contact,
             Some(Contact::Touch | Contact::Interlock | Contact::Cross | Contact::Brushing)
         ) && !site.site.beside;
-        let near = touching || contact == Some(Contact::Close);
+        let aside = contact == Some(Contact::Touch) && site.site.region == Region::Face;
+        let near = touching || aside || contact == Some(Contact::Close);
         let facing = site.out * if place.behind { -1.0 } else { 1.0 };
         let points = match &place.by {
             Some(by) => hand_points(by, side, frame.mirrored),
@@ -229,6 +230,9 @@ impl Planner<'_> {
         }
         if touching {
             return site.at;
+        }
+        if site.site.beside && site.site.region == Region::Face && contact == Some(Contact::Touch) {
+            return site.at - site.out * (TOUCHED_BESIDE * stage.shoulders);
         }
         let face = matches!(site.site.region, Region::Face | Region::Arm(_));
         let far = match contact {

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use chereme_motion::Side;
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::Handedness;
+use chereme_sign::hamnosys::Frame::Relative;
 use chereme_sign::hamnosys::angles::hand_angles;
 use chereme_sign::hamnosys::orientation;
 use chereme_sign::hamnosys::sites::HandPoint;
@@ -39,6 +40,12 @@ pub(crate) enum Act {
     Move(Path),
     /// It turns to an orientation in model space.
     Turn(DQuat),
+    /// It turns as a way does that it goes along, and before at once round the corner that leads to it; where to.
+    Follow {
+        path: Path,
+        corner: DQuat,
+        to: DQuat,
+    },
     /// Another of its points is what is placed: where that is in the hand's space.
     Point(DVec3),
     /// It takes a posture, by its number among the plan's.
@@ -89,6 +96,9 @@ pub(crate) struct HandState {
     pub(crate) palm: f64,
     /// The axes in which direction and palm were said.
     pub(crate) axes: [DVec3; 2],
+    /// Whether its direction or its palm was said relative to its movement, and where that went last.
+    pub(crate) follows: bool,
+    pub(crate) heading: Option<DVec3>,
     /// Whether it takes part in the sign.
     pub(crate) used: bool,
 }
@@ -464,6 +474,9 @@ impl<'a> Planner<'a> {
                 self.state[n].axes[1] = self.axes(&posture.palm, n, frame);
             }
             if extended.is_some() || palm.is_some() {
+                let relative = [extended.map(|aim| aim.frame), palm.map(|aim| aim.frame)];
+                self.state[n].follows = relative.contains(&Some(Relative));
+                self.state[n].heading = None;
                 self.turn(n);
             }
         }

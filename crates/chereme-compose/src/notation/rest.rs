@@ -20,6 +20,8 @@ pub(crate) fn resting(stage: &Stage, side: Side) -> (HandState, Shape) {
         direction: DVec3::Z,
         palm: 0.0,
         axes: [DVec3::ONE; 2],
+        follows: false,
+        heading: None,
         used: false,
     };
     let Some(hand) = stage.hand(side) else {

@@ -4,9 +4,9 @@ use chereme_motion::glam::DVec3;
 use chereme_motion::{Anatomy, Clip, ModelPose, Side};
 use chereme_sign::Handedness;
 use chereme_sign::hamnosys::{
-    Aim, BodyLocation, BodyPlace, Constellation, Contact, Directed, Each, HandClass, HandLocation,
-    HandSite, HandsUsed, Handshape, Manual, Motion, MotionKind, Place, Posture, Repeat, Repetition,
-    Sign, Site, Size, Symmetry,
+    Aim, BodyLocation, BodyPlace, Constellation, Contact, Directed, Each, Frame, HandClass,
+    HandLocation, HandSite, HandsUsed, Handshape, Manual, Motion, MotionKind, Place, Posture,
+    Repeat, Repetition, Sign, Site, Size, Symmetry,
 };
 
 use chereme_sign::hamnosys::sites::{Face, HandPoint};
@@ -608,4 +608,62 @@ fn hands_that_would_go_through_each_other_make_way_and_it_is_told() {
     });
     let nearest = nearest.fold(f64::INFINITY, f64::min);
     assert!(nearest > 0.02, "{nearest}");
+}
+
+#[test]
+fn what_is_relative_turns_as_the_way_does() {
+    let chest = Some(at(BodyLocation::Chest, None));
+    let mut begun = posture(HandClass::Flat, "o", "l", chest);
+    let small = |direction: &str| {
+        let mut motion = directed(direction);
+        if let MotionKind::Directed(directed) = &mut motion.kind {
+            directed.size.first = Some(Size::Small);
+        }
+        motion
+    };
+    let way = vec![small("r"), small("or"), small("il")];
+    for frame in [Frame::Plain, Frame::Relative] {
+        if let Each::Shared(aim) = &mut begun.extended {
+            aim.frame = frame;
+        }
+        let made = made(
+            &notated(HandsUsed::Dominant, begun.clone(), way.clone()),
+            Axes::Odd,
+        );
+        let along = |share: f64| {
+            let model = model(&made, share);
+            let along = made.anatomy.hand_direction(Side::Right, &model);
+            along.expect("a hand")
+        };
+        let half = 0.5f64.sqrt();
+        let turned = match frame {
+            Frame::Relative => DVec3::new(half, 0.0, half),
+            _ => DVec3::Z,
+        };
+        assert!(along(0.0).distance(DVec3::Z) < 0.05);
+        // It goes back as it came: the hand is not turned round.
+        assert!(
+            along(1.0).distance(turned) < 0.1,
+            "{frame:?} {}",
+            along(1.0)
+        );
+    }
+}
+
+#[test]
+fn what_touches_beside_the_head_is_at_the_head() {
+    let far = [Contact::Touch, Contact::Close].map(|contact| {
+        let mut place = at(BodyLocation::Forehead, Some(contact));
+        if let Place::Body(BodyPlace {
+            site: Some(site), ..
+        }) = &mut place
+        {
+            site.side = Some(chereme_sign::hamnosys::Side::RightBeside);
+        }
+        let begun = posture(HandClass::Finger2, "ul", "d", Some(place));
+        let made = made(&notated(HandsUsed::Dominant, begun, vec![]), Axes::Odd);
+        let tip = landmark(&made, 0.5, "right-index-tip");
+        tip.distance(landmark(&made, 0.5, "right-temple"))
+    });
+    assert!(far[0] < 0.06 && far[0] + 0.05 < far[1], "{far:?}");
 }

@@ -22,6 +22,51 @@ pub(crate) struct Track {
     pub(crate) fit: Fit,
 }
 
+impl Track {
+    /// Returns what of an arm has a speed, a value a frame.
+    pub(crate) fn moved(&self, hand: &Hand) -> Vec<Moved> {
+        let frames = 0..self.arm[0].len();
+        let each = frames.map(|n| {
+            let local = [0, 1, 2, 3].map(|joint| self.arm[joint][n]);
+            let (posed, turned) = hand.rig.posed(local);
+            Moved {
+                wrist: posed.wrist,
+                elbow: posed.elbow,
+                turned: hand.rig.turned(&posed, turned),
+                local,
+            }
+        });
+        each.collect()
+    }
+
+    /// Returns the same in a stretched time, each joint by its own way between two frames.
+    pub(crate) fn stretched(self, warp: &Warp) -> Self {
+        let frames = warp.frames();
+        Self {
+            arm: self.arm.map(|column| stretched(&column, &frames)),
+            fingers: self
+                .fingers
+                .iter()
+                .map(|column| stretched(column, &frames))
+                .collect(),
+            fit: self.fit,
+        }
+    }
+}
+
+/// Returns rotations at times between those that there are.
+fn stretched(column: &[DQuat], frames: &[(usize, f64)]) -> Vec<DQuat> {
+    let at = |&(n, share): &(usize, f64)| {
+        let next = column[(n + 1).min(column.len() - 1)];
+        if share == 0.0 || next == column[n] {
+            column[n]
+        } else {
+            column[n].slerp(next, share).normalize()
+        }
+    };
+    frames.iter().map(at).collect()
+}
+
 /// From which angle on it is told that a hand is turned otherwise than written, in radians.
 pub(crate) const TOLD: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
@@ -163,17 +208,6 @@ impl<'a> Made<'a> {
             };
         }
         let frames = warp.frames();
-        let stretched = |column: Vec<DQuat>| -> Vec<DQuat> {
-            let at = |&(n, share): &(usize, f64)| {
-                let next = column[(n + 1).min(column.len() - 1)];
-                if share == 0.0 || next == column[n] {
-                    column[n]
-                } else {
-                    column[n].slerp(next, share).normalize()
-                }
-            };
-            frames.iter().map(at).collect()
-        };
         let mut solved: Option<(usize, bool)> = None;
         let arm = frames.iter().map(|&(n, share)| {
             let carried = match solved {
@@ -188,7 +222,11 @@ impl<'a> Made<'a> {
         self.solver.clear(&mut arm, outlines, warp.rate());
         Track {
             arm: [0, 1, 2, 3].map(|joint| arm.iter().map(|turned| turned[joint]).collect()),
-            fingers: self.fingers.into_iter().map(stretched).collect(),
+            fingers: self
+                .fingers
+                .iter()
+                .map(|column| stretched(column, &frames))
+                .collect(),
             fit: self.fit,
         }
     }
@@ -329,6 +367,15 @@ pub(crate) fn wanted<'a>(
                 ways.push((span.clone(), span.clone().map(at).collect()));
                 turns.go(span, *to, |from, to, s| from.slerp(to, s), at);
             }
+            Act::Follow { path, corner, to } => turns.go(
+                span,
+                *to,
+                |from, _, s| {
+                    let round = DQuat::IDENTITY.slerp(*corner, (4.0 * s).min(1.0));
+                    (path.turned(s) * round * from).normalize()
+                },
+                |frame| paces.share(event.pace, share(event, frame, rate)),
+            ),
             Act::Point(to) => offsets.go(
                 span,
                 *to,

@@ -75,6 +75,30 @@ impl Warp {
         for arm in arms {
             slow(arm, rate, &mut lasts);
         }
+        Self::lasting(&lasts, rate, fastest)
+    }
+
+    /// Returns the time in which frames that are finished stay within what is allowed, where between them a joint
+    /// went faster than the ends of the way told.
+    pub(crate) fn again(arms: &[Vec<Moved>], rate: f64, fastest: &Fastest) -> Self {
+        let total = arms.iter().map(Vec::len).max().unwrap_or(0);
+        let mut lasts = vec![1.0_f64; total.saturating_sub(1)];
+        for arm in arms {
+            for (last, pair) in lasts.iter_mut().zip(arm.windows(2)) {
+                let way = pair[0].wrist.distance(pair[1].wrist) * rate / fastest.wrist;
+                let turns = pair[0].turned.iter().zip(pair[1].turned);
+                let turns = turns.map(|(a, b)| a.angle_between(b));
+                let turn = turns.fold(0.0, f64::max) * rate / fastest.joint;
+                if way.max(turn) > 1.0 {
+                    *last = last.max(1.2 * way.max(turn));
+                }
+            }
+        }
+        Self::lasting(&lasts, rate, fastest)
+    }
+
+    /// Returns the time in which each step lasts so many times longer, those near to it somewhat, too.
+    fn lasting(lasts: &[f64], rate: f64, fastest: &Fastest) -> Self {
         let around = ((0.025 * rate).ceil() as usize).max(1);
         let eased: Vec<f64> = (0..lasts.len())
             .map(|n| {
@@ -97,6 +121,14 @@ impl Warp {
             rate,
             fastest: *fastest,
         }
+    }
+
+    /// Returns the time that runs as this does and then as another does with what came of it.
+    pub(crate) fn then(mut self, next: &Self) -> Self {
+        for time in &mut self.times {
+            *time = next.at(*time);
+        }
+        self
     }
 
     /// Returns the frames a second.
@@ -225,5 +257,22 @@ mod tests {
         for n in 1..40 {
             assert!(warp.at(f64::from(n) / 100.0) > warp.at(f64::from(n - 1) / 100.0));
         }
+    }
+
+    #[test]
+    fn finished_frames_that_go_too_fast_are_stretched_again_and_others_are_not() {
+        let mut places: Vec<f64> = (0..20).map(|n| 0.04 * f64::from(n)).collect();
+        assert!(Warp::again(&[along(&places)], 100.0, &FASTEST).is_none());
+        places.extend((0..20).map(|n| 1.0 + 0.04 * f64::from(n)));
+        let warp = Warp::again(&[along(&places)], 100.0, &FASTEST);
+        let at = |&(n, share): &(usize, f64)| {
+            let next = places[(n + 1).min(places.len() - 1)];
+            places[n] + (next - places[n]) * share
+        };
+        for pair in warp.frames().windows(2) {
+            assert!((at(&pair[1]) - at(&pair[0])) * 100.0 <= 5.0 + 1e-9);
+        }
+        let both = warp.clone().then(&warp);
+        assert!((both.at(0.3) - warp.at(warp.at(0.3))).abs() < 0.02);
     }
 }

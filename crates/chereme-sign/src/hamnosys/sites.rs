@@ -38,7 +38,8 @@ pub struct BodySite {
     /// How far to the left of the middle a hand is that is not at the body but before it at this
     /// place, in shoulder widths.
     pub lateral: f64,
-    /// Whether it is a place beside the body, which nothing touches.
+    /// Whether it is a place beside the body; of these only those beside the head are touched, nearer by
+    /// [`TOUCHED_BESIDE`].
     pub beside: bool,
 }
 
@@ -48,6 +49,10 @@ const AT: f64 = 0.30;
 const BEFORE: f64 = 0.45;
 /// How far from the middle a hand is beside the body.
 const BESIDE: f64 = 0.80;
+
+/// How far inwards of a place beside the head a hand is that touches there, in shoulder widths: at the temple,
+/// the cheek, the jaw.
+pub const TOUCHED_BESIDE: f64 = 0.22;
 
 /// Returns the place that a location of the body means for a hand.
 ///
