@@ -59,30 +59,30 @@ pub(in crate::transcribe) fn signing(scene: &Scene<'_>, track: &Track) -> RangeI
         low < LAP * scene.arm && high - low > RISE * scene.arm
     };
     let rests = |low: usize, high: usize| track.rests[low] || lies(low, high);
-    // A hand may stir while it rests.
+    // A hand may stir while it rests, before it comes up or after it went down.
     let stirs = |way: &&RangeInclusive<usize>| {
-        [*way.start(), *way.end()]
-            .iter()
-            .all(|&n| track.rests[n] || track.palm[n].y < LAP * scene.arm)
+        let mut ends = [*way.start(), *way.end()].into_iter();
+        ends.all(|n| track.rests[n] || track.palm[n].y < LAP * scene.arm)
     };
-    let mut rising = ways.iter().skip_while(stirs).peekable();
-    if let Some(mut way) = rising.next()
-        && rests(*way.start(), *way.end())
-    {
-        while let Some(next) = rising.next_if(|next| on(way, next)) {
-            way = next;
+    let rises = |n: &usize| ways.get(*n).is_some_and(|it| rests(*it.start(), *it.end()));
+    let stirring = ways.iter().take_while(stirs).count();
+    if let Some(mut n) = [stirring, 0].into_iter().find(rises) {
+        while n + 1 < ways.len() && on(&ways[n], &ways[n + 1]) {
+            n += 1;
         }
-        first = *way.end();
+        first = *ways[n].end();
     }
-    let mut sinking = ways.iter().rev().skip_while(stirs).peekable();
-    if let Some(mut way) = sinking.next()
-        && rests(*way.end(), *way.start())
-        && *way.start() >= first
-    {
-        while let Some(before) = sinking.next_if(|it| *it.start() >= first && on(it, way)) {
-            way = before;
+    let sinks = |n: &usize| {
+        let way = ways.get(*n);
+        way.is_some_and(|it| rests(*it.end(), *it.start()) && *it.start() >= first)
+    };
+    let stirring = ways.iter().rev().take_while(stirs).count();
+    let from = |stirring: usize| ways.len().wrapping_sub(stirring + 1);
+    if let Some(mut n) = [from(stirring), from(0)].into_iter().find(sinks) {
+        while n > 0 && *ways[n - 1].start() >= first && on(&ways[n - 1], &ways[n]) {
+            n -= 1;
         }
-        end = *way.start();
+        end = *ways[n].start();
     }
     first..=end.max(first)
 }
