@@ -94,7 +94,7 @@ fn value(
         .into_iter()
         .filter(|it| component.is_none_or(|wanted| wanted == *it));
     let most = words.len().min(MOST);
-    (1..=most).rev().find_map(|count| {
+    let spelt = (1..=most).rev().find_map(|count| {
         let texts = [" ", "-"].map(|between| fold(&words[..count].join(between)));
         ordered.clone().find_map(|component| {
             let fits = inventories.iter().filter(|it| it.component == component);
@@ -109,7 +109,22 @@ fn value(
             };
             Some((field, value.id.clone(), count))
         })
-    })
+    });
+    spelt.or_else(|| described(words.first()?, inventories, component?))
+}
+
+/// Finds the first value of a component in whose name a word stands: "plate" in "main plate, pouce le long".
+fn described(word: &str, inventories: &[&Inventory], component: Component) -> Option<Found> {
+    let mut fits = inventories.iter();
+    let plain = fits.find(|it| it.component == component && it.feature.is_none())?;
+    let value = plain.values.iter().find(|value| {
+        value.spellings().any(|name| {
+            let name = fold(name);
+            let mut words = name.split(|letter: char| !letter.is_alphanumeric());
+            word.chars().count() > 3 && words.any(|it| it == word)
+        })
+    })?;
+    Some((component.name().to_owned(), value.id.clone(), 1))
 }
 
 fn component(word: &str) -> Option<Component> {
@@ -164,6 +179,8 @@ mod tests {
                 Some("configuration=U placement=upper-chest"),
             ),
             ("la main", None),
+            ("configuration plate", Some("configuration=flat")),
+            ("handshape nonsense", None),
             ("handshape", None),
             ("chat", None),
             ("U", None),

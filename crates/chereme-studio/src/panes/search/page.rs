@@ -98,6 +98,11 @@ impl Search {
 
     fn tools(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         ui.horizontal_wrapped(|ui| {
+            if ui.available_width() < WIDE {
+                // All of them stand in one line where the pane is narrow.
+                ui.spacing_mut().item_spacing.x = 3.0;
+                ui.spacing_mut().button_padding.x = 5.0;
+            }
             let rows = ui.selectable_label(self.built, seen.say(words::ROWS));
             if rows.clicked() {
                 self.built = !self.built;

@@ -60,7 +60,6 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
     super::note_place(ui, whole);
     match why_nothing(stage, seen) {
         Some(text) => {
-            little::empty(ui, whole, seen.say(text));
             let next = match text {
                 words::ONLY_SIGNS => Some((words::TO_SIGNS, Action::Search)),
                 words::NO_MOVEMENT if seen.shown.made.is_none() => {
@@ -68,6 +67,10 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
                 }
                 _ => None,
             };
+            // A button below has room of its own.
+            let foot = if next.is_some() { 44.0 } else { 0.0 };
+            let above = whole.with_max_y(whole.bottom() - foot);
+            little::empty(ui, above, seen.say(text));
             if let Some(next) = next {
                 lead_on(ui, seen, out, whole, next);
             }
