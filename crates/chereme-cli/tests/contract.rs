@@ -4,12 +4,13 @@
 //! words `@c` is a corpus of two signs and a small lexicon, `@in` the folder of files that it
 //! was made of, `@more` a folder with another recording and one that is none, and `@d` an empty folder.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+mod desk;
 
-use chereme_tests::files;
-use serde_json::Value;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use desk::{Desk, text};
 
 /// Words, exit code, and pointers into the JSON document that must lead somewhere.
 type Case = (&'static str, i32, &'static [&'static str]);
@@ -512,169 +513,6 @@ fn a_dry_run_leaves_nothing_behind() {
     assert_eq!(report["dry_run"], true);
     assert_eq!(report["created"]["recordings"], 1);
     assert!(!absent.exists());
-}
-
-/// A folder with a corpus and files to try commands on.
-struct Desk {
-    folder: tempfile::TempDir,
-}
-
-impl Desk {
-    fn new() -> Self {
-        let folder = tempfile::tempdir().expect("a folder");
-        let desk = Self { folder };
-        let inbox = desk.inbox();
-        fs::create_dir_all(&inbox).expect("a folder");
-        fs::create_dir_all(desk.more()).expect("a folder");
-        for (name, text) in [
-            ("bowl.bvh", files::bvh(200, 1)),
-            ("bowl.eaf", files::two_signs()),
-            ("words.tsv", files::lexicon().to_owned()),
-            ("notated.sigml", files::sigml().to_owned()),
-            ("notes.txt", "no joint is named here\n".to_owned()),
-        ] {
-            fs::write(inbox.join(name), text).expect("written");
-        }
-        let made = desk.folder.path().join("template");
-        let line = format!(
-            "import {} {} --author maker",
-            made.display(),
-            inbox.display()
-        );
-        let done = desk.run(&line);
-        assert!(done.status.success(), "{}", text(&done.stderr));
-        for (name, text) in [
-            ("broken.bvh", "a skeleton should be here\n".to_owned()),
-            ("broken.sigml", "<sigml>\n<hns_sign>\n".to_owned()),
-            ("other.bvh", files::bvh(40, 2)),
-            (
-                "language.json",
-                r#"{"version": 1, "values": {"move.normal": [0.3, "arm", "mine"]}}"#.to_owned(),
-            ),
-            (
-                "changes.csv",
-                "recording,tier,start,end,value\nbowl,Gloss,1.6,1.8,JOUR\n".to_owned(),
-            ),
-        ] {
-            fs::write(desk.more().join(name), text).expect("written");
-        }
-        desk
-    }
-
-    fn inbox(&self) -> PathBuf {
-        self.folder.path().join("inbox")
-    }
-
-    fn more(&self) -> PathBuf {
-        self.folder.path().join("more")
-    }
-
-    /// Returns a fresh copy of the corpus.
-    fn corpus(&self) -> PathBuf {
-        let path = self.folder.path().join("small.chereme");
-        for end in ["-wal", "-shm"] {
-            let _ = fs::remove_file(self.folder.path().join(format!("small.chereme{end}")));
-        }
-        fs::copy(self.folder.path().join("template"), &path).expect("copied");
-        path
-    }
-
-    /// Writes the words of a case out, with a fresh corpus and a fresh folder.
-    fn words(&self, line: &str) -> String {
-        let empty = self.folder.path().join("empty");
-        let _ = fs::remove_dir_all(&empty);
-        fs::create_dir(&empty).expect("a folder");
-        line.replace("@c", &self.corpus().display().to_string())
-            .replace("@in", &self.inbox().display().to_string())
-            .replace("@more", &self.more().display().to_string())
-            .replace("@d", &empty.display().to_string())
-    }
-
-    /// Runs the program with words parted by blanks; words with blanks stand in single quotes.
-    fn run(&self, line: &str) -> Output {
-        let mut words = Vec::new();
-        for (at, part) in line.split('\'').enumerate() {
-            if at % 2 == 1 {
-                words.push(part);
-            } else {
-                words.extend(part.split_whitespace());
-            }
-        }
-        Command::new(env!("CARGO_BIN_EXE_chereme"))
-            .args(words)
-            .stdin(Stdio::null())
-            .env_remove("CHEREME_AUTHOR")
-            .current_dir(self.folder.path())
-            .output()
-            .expect("the program runs")
-    }
-
-    fn json(&self, line: &str) -> Value {
-        let done = self.run(&format!("{line} --json"));
-        serde_json::from_slice(&done.stdout).expect("JSON")
-    }
-
-    fn try_json(&self, (line, code, keys): &Case) -> Result<(), String> {
-        let done = self.run(&format!("{} --json", self.words(line)));
-        expect_code(&done, *code)?;
-        let out = text(&done.stdout);
-        let document: Value = serde_json::from_str(&out)
-            .map_err(|error| format!("not one JSON document ({error}): {out}"))?;
-        for key in *keys {
-            if document.pointer(key).is_none() {
-                return Err(format!("lacks {key}: {document}"));
-            }
-        }
-        if *keys == ERROR {
-            let error = &document["error"];
-            let message = error["message"].as_str().unwrap_or_default();
-            if message.is_empty() || (*code == 1 && message.ends_with('.')) {
-                return Err(format!("the message is no phrase: {message:?}"));
-            }
-            let advises = message.contains("; ") || message.contains("did you mean");
-            if error["remedy"].is_null() && !advises {
-                return Err(format!("no word of what would be right: {document}"));
-            }
-        } else if document.get("error").is_some() {
-            return Err(format!("an error that none should be: {document}"));
-        }
-        Ok(())
-    }
-
-    fn try_text(&self, (line, code, keys): &Case) -> Result<(), String> {
-        let done = self.run(&self.words(line));
-        expect_code(&done, *code)?;
-        let (out, err) = (text(&done.stdout), text(&done.stderr));
-        if *keys == ERROR {
-            if out.contains("error") {
-                return Err(format!("an error is told on standard output: {out}"));
-            }
-            if !err.starts_with("error: ") {
-                return Err(format!("the error does not say so: {err}"));
-            }
-        } else if out.trim().is_empty() || out.trim_start().starts_with('{') {
-            return Err(format!("no words for people: {out}"));
-        }
-        if err.contains("panicked") {
-            return Err(err);
-        }
-        Ok(())
-    }
-}
-
-fn expect_code(done: &Output, code: i32) -> Result<(), String> {
-    match done.status.code() {
-        Some(found) if found == code => Ok(()),
-        found => Err(format!(
-            "exit code {found:?} and not {code}: {}{}",
-            text(&done.stdout),
-            text(&done.stderr)
-        )),
-    }
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
 }
 
 /// Returns the commands that the help lists, with what it says of them.
