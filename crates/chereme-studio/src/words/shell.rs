@@ -21,7 +21,7 @@ texts! {
     START_OPEN_HINT: "A file ending in .chereme.", "Un fichier en .chereme.";
     START_NEW: "New empty corpus…", "Nouveau corpus vide…";
     START_IMPORT: "Import a folder…", "Importer un dossier…";
-    START_IMPORT_HINT: "A folder with .bvh and .eaf files; a corpus is made beside it.", "Un dossier avec des fichiers .bvh et .eaf ; un corpus est créé à côté.";
+    START_IMPORT_HINT: "A folder with .bvh, .eaf or .sigml files; a corpus is made beside it.", "Un dossier avec des fichiers .bvh, .eaf ou .sigml ; un corpus est créé à côté.";
     START_NEW_HINT: "A file is made; take recordings in afterwards.", "Un fichier est créé ; importez-y ensuite des enregistrements.";
     START_TYPED: "Or type a path", "Ou écrivez un chemin";
     START_TYPED_OPEN: "Open", "Ouvrir";
