@@ -44,14 +44,15 @@ impl Track {
         let frames = warp.frames();
         Self {
             arm: self.arm.map(|column| stretched(&column, &frames)),
-            fingers: self
-                .fingers
-                .iter()
-                .map(|column| stretched(column, &frames))
-                .collect(),
+            fingers: all_stretched(&self.fingers, &frames),
             fit: self.fit,
         }
     }
+}
+
+fn all_stretched(columns: &[Vec<DQuat>], frames: &[(usize, f64)]) -> Vec<Vec<DQuat>> {
+    let each = columns.iter().map(|column| stretched(column, frames));
+    each.collect()
 }
 
 /// Returns rotations at times between those that there are.
@@ -222,11 +223,7 @@ impl<'a> Made<'a> {
         self.solver.clear(&mut arm, outlines, warp.rate());
         Track {
             arm: [0, 1, 2, 3].map(|joint| arm.iter().map(|turned| turned[joint]).collect()),
-            fingers: self
-                .fingers
-                .iter()
-                .map(|column| stretched(column, &frames))
-                .collect(),
+            fingers: all_stretched(&self.fingers, &frames),
             fit: self.fit,
         }
     }
