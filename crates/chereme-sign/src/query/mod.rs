@@ -122,6 +122,9 @@ Beside another annotation of the recording
 
 By example
   like token:41   like CHAT on configuration:2, placement
+
+Everyday words that find nothing, such as handshape U placement chin,
+are offered as the query that they may mean.
 "#;
 
 impl Query {
