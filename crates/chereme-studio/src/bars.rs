@@ -70,11 +70,12 @@ impl Studio {
             let counts = open || row.context == Context::Everywhere;
             let name = row.name.of(self.settings.language);
             let button = Button::new(name).shortcut_text(self.keys.text(row.action));
-            let response = ui.add_enabled(counts, button);
-            let response = match self.steps(row.action) {
-                Some(what) => response.on_hover_text(what),
-                None => response,
-            };
+            let mut response = ui.add_enabled(counts, button);
+            if response.hovered()
+                && let Some(what) = self.steps(row.action)
+            {
+                response = response.on_hover_text(what);
+            }
             if response.clicked() {
                 self.out.send(Command::Do(row.action));
             }

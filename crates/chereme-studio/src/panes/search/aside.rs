@@ -45,6 +45,8 @@ pub(super) struct Aside {
 #[derive(Debug, Clone, PartialEq)]
 struct Without {
     query: String,
+    /// What its words may mean instead.
+    meant: Option<String>,
     /// The condition, the query without it, and how many that finds.
     parts: Vec<(String, String, Option<usize>)>,
 }
@@ -159,13 +161,6 @@ impl Aside {
         query: &str,
     ) -> Option<String> {
         ui.strong(seen.say(words::NOTHING));
-        let mut chosen = None;
-        if let Some(meant) = guessed(query, &seen.snapshot.overview.inventories) {
-            let text = fill(seen.say(words::MEANT), &[("query", &meant)]);
-            if ui.button(text).clicked() {
-                chosen = Some(meant);
-            }
-        }
         if self.without.as_ref().is_none_or(|it| it.query != query) {
             self.leaving.clear();
             let parts = parts(query);
@@ -175,15 +170,24 @@ impl Aside {
             }
             self.without = Some(Without {
                 query: query.to_owned(),
+                meant: guessed(query, &seen.snapshot.overview.inventories),
                 parts: parts
                     .into_iter()
                     .map(|(part, rest)| (part, rest, None))
                     .collect(),
             });
         }
-        let Some(without) = self.without.as_ref().filter(|it| !it.parts.is_empty()) else {
+        let without = self.without.as_ref()?;
+        let mut chosen = None;
+        if let Some(meant) = &without.meant {
+            let text = fill(seen.say(words::MEANT), &[("query", meant)]);
+            if ui.button(text).clicked() {
+                chosen = Some(meant.clone());
+            }
+        }
+        if without.parts.is_empty() {
             return chosen;
-        };
+        }
         if without.parts.iter().all(|(_, _, total)| *total == Some(0)) {
             ui.weak(seen.say(words::WITHOUT_NONE));
             return chosen;
