@@ -445,15 +445,21 @@ fn an_annotation_is_copied_to_another_tier_by_keys() {
     assert_eq!(values(&window, "Gloss"), ["a", "b", "c"]);
 }
 
-#[test]
-fn a_handshape_is_chosen_by_its_picture() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened(folder.path());
+/// Returns a window in which a handshape is to be chosen by its picture, and how much was done before.
+fn among_pictures<'a>(folder: &std::path::Path) -> (Window<'a>, usize) {
+    let mut window = opened(folder);
     click(&mut window, "Tier Configuration RH");
     press(&mut window, ALT, Key::ArrowRight);
     let before = operations(&window);
     press(&mut window, NONE, Key::F3);
     window.run_steps(3);
+    (window, before)
+}
+
+#[test]
+fn a_handshape_is_chosen_by_its_picture() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut window, before) = among_pictures(folder.path());
     assert!(has(&window, "U, index and middle finger together"));
     window.event(Event::Text("u".to_owned()));
     window.run_steps(3);
@@ -465,12 +471,7 @@ fn a_handshape_is_chosen_by_its_picture() {
 #[test]
 fn a_digit_means_the_same_value_in_the_list_and_among_the_pictures() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened(folder.path());
-    click(&mut window, "Tier Configuration RH");
-    press(&mut window, ALT, Key::ArrowRight);
-    let before = operations(&window);
-    press(&mut window, NONE, Key::F3);
-    window.run_steps(3);
+    let (mut window, before) = among_pictures(folder.path());
     press(&mut window, CTRL, Key::Num2);
     stored(&mut window, before);
     let pictured = values(&window, "Configuration RH")[0].clone();
