@@ -163,6 +163,7 @@ fn an_edge_is_dragged_and_escape_lets_it_be() {
     click(&mut window, "Gloss: b");
     let b = rect(&window, "Gloss: b");
     let edge = pos2(b.right() - 2.0, b.center().y);
+    let here = window.state().playhead();
     pointer(&mut window, edge, Some(true), NONE);
     pointer(
         &mut window,
@@ -174,6 +175,7 @@ fn an_edge_is_dragged_and_escape_lets_it_be() {
     pointer(&mut window, edge, Some(false), NONE);
     idle(&mut window);
     assert_eq!(spans(&window), old);
+    assert_eq!(window.state().playhead(), here, "Escape brings it back");
     let before = operations(&window);
     drag(
         &mut window,
@@ -185,6 +187,8 @@ fn an_edge_is_dragged_and_escape_lets_it_be() {
     let new = spans(&window);
     assert_eq!(new["b"].0, old["b"].0);
     assert!(new["b"].1 > old["b"].1);
+    // The stage shows the moment at which the edge is.
+    assert_eq!(window.state().playhead().micros() / 1000, new["b"].1);
 }
 
 #[test]

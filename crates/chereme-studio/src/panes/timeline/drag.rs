@@ -46,6 +46,7 @@ impl Drawing<'_, '_> {
             if let Gesture::Select { .. } = gesture {
                 self.out.send(Command::Span(None));
             }
+            self.follow_with(self.timeline.mark);
             gesture = Gesture::Off;
         }
         let Some(pointer) = pointer else {
@@ -102,6 +103,8 @@ impl Drawing<'_, '_> {
             contents,
             seen: self.seen,
         };
+        // The playhead goes along with what is dragged, and would hold it back.
+        let marks = [self.timeline.mark];
         let snaps = self.seen.settings.timeline.snaps;
         let reach = (REACH * self.window.scale) as i64;
         let minima = if snaps.minima {
@@ -115,12 +118,20 @@ impl Drawing<'_, '_> {
             snaps,
             tiers: &contents.tiers,
             except,
-            marks: &[scene.playhead()],
+            marks: &marks,
             minima: &minima,
             frames: scene.frames(),
             reach,
         };
         guides.settle(time)
+    }
+
+    /// Has the stage show the moment at which a boundary is, as in ELAN; what plays goes on.
+    fn follow_with(&mut self, at: i64) {
+        let player = &self.seen.shown.player;
+        if !player.is_playing() && player.playhead().micros() != at {
+            self.out.seek(Instant::from_micros(at));
+        }
     }
 
     fn within(&self, time: i64) -> i64 {
@@ -136,6 +147,7 @@ impl Drawing<'_, '_> {
         let micros = Instant::from_micros;
         let span = Some(Span::between(micros(from), micros(to))).filter(|it| !it.is_empty());
         self.out.send(Command::Span(span));
+        self.follow_with(to);
         Sight {
             told: span.map(|_| (from.min(to), from.max(to))),
             caught: caught.map(|why| (to, why)),
@@ -144,7 +156,7 @@ impl Drawing<'_, '_> {
     }
 
     fn create_on(
-        &self,
+        &mut self,
         contents: &Contents,
         tier: i64,
         from: i64,
@@ -154,6 +166,7 @@ impl Drawing<'_, '_> {
         let (from, _) = self.settle(contents, &none, from);
         let (to, caught) = self.settle(contents, &none, time);
         let (from, to) = (self.within(from), self.within(to));
+        self.follow_with(to);
         let wanted = (from.min(to), from.max(to));
         let found = contents.tiers.iter().find(|it| it.row.id == tier);
         let room = found.and_then(|tier| hold::room(contents, tier, wanted));
@@ -231,6 +244,11 @@ impl Drawing<'_, '_> {
             })
             .collect();
         let own = ghosts.iter().find(|ghost| ghost.id == Some(it.id));
+        match (own, it.grip) {
+            (Some(own), Grip::Start) => self.follow_with(own.start),
+            (Some(own), Grip::End) => self.follow_with(own.end),
+            _ => {}
+        }
         let there = own.is_some_and(|own| own.start == at || own.end == at);
         Sight {
             told: own.map(|own| (own.start, own.end)),

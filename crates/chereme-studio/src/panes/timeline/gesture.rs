@@ -161,6 +161,7 @@ impl Drawing<'_, '_> {
     ) {
         let tier = &contents.tiers[at];
         let from = self.instant(origin.x - lane.left()).micros();
+        self.timeline.mark = self.seen.shown.player.playhead().micros();
         let found = self.under(contents, at, lane, origin.x);
         let id = found.map(|(found, _)| tier.annotations.ids[found]);
         let is_chosen = id.is_some_and(|id| self.seen.shown.annotations.contains(&id));

@@ -85,8 +85,9 @@ pub(crate) struct Timeline {
     reveal: bool,
     /// Whether it was in sight in this frame, or the last.
     drawn: bool,
-    /// What the mouse is doing.
+    /// What the mouse is doing, and where the playhead was when it began.
     gesture: Option<gesture::Gesture>,
+    mark: i64,
     /// What was asked for and is not in the snapshot yet.
     pending: BTreeMap<WorkId, Then>,
     /// Annotations as they will be, until the snapshot has them.
@@ -201,8 +202,10 @@ impl Timeline {
         if self.of == Some(recording) {
             return false;
         }
-        if let Some(before) = self.of.replace(recording) {
-            self.windows.insert(before, self.window);
+        match self.of.replace(recording) {
+            Some(before) => drop(self.windows.insert(before, self.window)),
+            // How far the tiers of another corpus were scrolled says nothing about these.
+            None => self.layout.scroll_to = Some(0.0),
         }
         self.gesture = None;
         let known = self.windows.remove(&recording);
