@@ -19,6 +19,8 @@ use crate::kept::{self, KeptSearch};
 pub struct Overview {
     /// The moment: [`Corpus::generation`].
     pub generation: i64,
+    /// Whether its file may only be read here, so that every change is refused.
+    pub read_only: bool,
     /// The recordings, in the order in which they were stored.
     pub recordings: Vec<RecordingGlance>,
     /// The signs, by gloss.
@@ -170,6 +172,7 @@ impl Corpus {
         let inventories = inventory_rows(&reading, None)?;
         Ok(Overview {
             generation: rows::generation(&reading)?,
+            read_only: rows::is_read_only(&reading)?,
             recordings: rows::recordings(&reading)?,
             signs: rows::signs(&reading)?,
             signers: recordings::signers(&reading)?,

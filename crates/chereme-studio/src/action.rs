@@ -275,6 +275,62 @@ actions! {
 
 impl Action {
     /// Returns the row of the table.
+    /// Returns whether it changes the corpus, or begins to.
+    pub(crate) fn changes(self) -> bool {
+        use Action::{
+            AddTier, BeginEndAnnotation, ChangeTier, CopyTier, CopyToTier, Cut, DeleteAnnotation,
+            Duplicate, EndEarlier, EndHere, EndLater, EndToNeighbour, Import, ImportFiles,
+            ImportFolder, MergeAnnotation, MergePrevious, MoveToTier, NewAfter, NewAnnotation,
+            NewBefore, NewBelow, Paste, PasteHere, Redo, RemoveTier, ShiftEarlier, ShiftLater,
+            SplitAnnotation, StartEarlier, StartHere, StartLater, StartToNeighbour, StoreSign,
+            TierDown, TierUp, TiersByKind, TiersByName, ToSelection, Undo, UsualTiers,
+        };
+        self.row().menu == Menu::Value
+            || matches!(
+                self,
+                Undo | Redo
+                    | Cut
+                    | Paste
+                    | PasteHere
+                    | Import
+                    | ImportFiles
+                    | ImportFolder
+                    | StoreSign
+                    | NewAnnotation
+                    | NewBefore
+                    | NewAfter
+                    | NewBelow
+                    | Duplicate
+                    | BeginEndAnnotation
+                    | SplitAnnotation
+                    | MergeAnnotation
+                    | MergePrevious
+                    | DeleteAnnotation
+                    | CopyToTier
+                    | MoveToTier
+                    | StartHere
+                    | EndHere
+                    | StartToNeighbour
+                    | EndToNeighbour
+                    | ToSelection
+                    | StartEarlier
+                    | StartLater
+                    | EndEarlier
+                    | EndLater
+                    | ShiftEarlier
+                    | ShiftLater
+                    | AddTier
+                    | UsualTiers
+                    | ChangeTier
+                    | CopyTier
+                    | RemoveTier
+                    | TierUp
+                    | TierDown
+                    | TiersByName
+                    | TiersByKind
+            )
+    }
+
     pub(crate) fn row(self) -> &'static ActionRow {
         &ACTIONS[self as usize]
     }

@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use chereme_motion::Instant;
-use eframe::egui::{self, CentralPanel, Context, Frame, Panel, Response, Ui};
+use eframe::egui::{self, CentralPanel, Context, Frame, Panel, Response, Ui, ViewportCommand};
 use egui_tiles::{Behavior, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse};
 
 use crate::Options;
@@ -61,6 +61,8 @@ pub struct Studio {
     pub(crate) view: Option<String>,
     pub(crate) wake: Wake,
     ctx: Arc<OnceLock<Context>>,
+    /// What the window is called.
+    title: String,
     /// When the last frame was, in seconds of the window's clock.
     clock: Option<f64>,
 }
@@ -118,6 +120,7 @@ impl Studio {
             view: None,
             wake,
             ctx,
+            title: String::new(),
             clock: None,
         }
     }
@@ -131,6 +134,7 @@ impl Studio {
         theme::apply(&ctx, &self.settings);
         self.fit(ctx.content_rect().size());
         self.listen();
+        self.name_window(&ctx);
         self.panes.search.show_made(&mut self.out);
         self.panes.library.show_made(&mut self.out);
         if self.panes.recombine.has_news() {
@@ -433,6 +437,15 @@ impl Studio {
             self.overlays
                 .notices
                 .unsaved(&error, self.settings.language);
+        }
+    }
+
+    /// Has the window called by the open corpus, so that one tells two of them apart.
+    fn name_window(&mut self, ctx: &Context) {
+        let title = self.title();
+        if title != self.title {
+            self.title.clone_from(&title);
+            ctx.send_viewport_cmd(ViewportCommand::Title(title));
         }
     }
 

@@ -67,10 +67,15 @@ impl Studio {
     fn menu(&mut self, ui: &mut Ui, menu: Menu) {
         let open = self.snapshot.is_some();
         for row in ACTIONS.iter().filter(|row| row.menu == menu) {
-            let counts = open || row.context == Context::Everywhere;
+            let locked = row.action.changes() && self.is_read_only();
+            let counts = (open || row.context == Context::Everywhere) && !locked;
             let name = row.name.of(self.settings.language);
             let button = Button::new(name).shortcut_text(self.keys.text(row.action));
             let mut response = ui.add_enabled(counts, button);
+            if locked {
+                let why = words::READ_ONLY_WHY.of(self.settings.language);
+                response = response.on_disabled_hover_text(why);
+            }
             if response.hovered()
                 && let Some(what) = self.steps(row.action)
             {
@@ -105,6 +110,20 @@ impl Studio {
         });
     }
 
+    /// Returns what the window is called: the program, the corpus, and that it may only be read.
+    pub(crate) fn title(&self) -> String {
+        let name = words::START_TITLE.of(self.settings.language);
+        let Some(stem) = self.desk.as_ref().and_then(|desk| desk.path.file_stem()) else {
+            return name.to_owned();
+        };
+        let mut title = format!("{name} · {}", stem.to_string_lossy());
+        if self.is_read_only() {
+            let locked = words::READ_ONLY.of(self.settings.language);
+            title.push_str(&format!(" ({locked})"));
+        }
+        title
+    }
+
     pub(crate) fn status(&mut self, ui: &mut Ui) {
         let language = self.settings.language;
         ui.horizontal(|ui| {
@@ -122,6 +141,10 @@ impl Studio {
             let name = desk.path.file_name().unwrap_or_default().to_string_lossy();
             ui.label(name)
                 .on_hover_text(desk.path.display().to_string());
+            if snapshot.is_read_only() {
+                ui.strong(words::READ_ONLY.of(language))
+                    .on_hover_text(words::READ_ONLY_WHY.of(language));
+            }
             let overview = &snapshot.overview;
             let counts: [(&str, &dyn std::fmt::Display); 2] = [
                 ("recordings", &overview.recordings.len()),
@@ -149,5 +172,60 @@ impl Studio {
             }
             self.overlays.notices.line(ui);
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use chereme_corpus::Corpus;
+    use eframe::egui::{Key, Modifiers};
+    use egui_kittest::Harness;
+    use egui_kittest::kittest::{NodeT, Queryable};
+
+    use super::*;
+    use crate::Options;
+
+    #[test]
+    fn what_may_only_be_read_says_so_and_why_nothing_can_be_changed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("locked.chereme");
+        drop(Corpus::create(&path, "A").expect("made"));
+        let studio = Studio::new(Options {
+            corpus: Some(path),
+            ..Options::default()
+        });
+        let mut window = Harness::builder()
+            .with_size([1280.0, 900.0])
+            .build_ui_state(|ui, studio: &mut Studio| studio.ui(ui), studio);
+        for _ in 0..12_000 {
+            window.step();
+            if window.state().is_idle() && window.state().desk.is_some() {
+                break;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        assert!(window.query_by_label("read only").is_none());
+        assert_eq!(window.state().title(), "Chereme · locked");
+        let snapshot = window.state_mut().snapshot.take();
+        let mut locked = snapshot.expect("a snapshot");
+        Arc::make_mut(&mut locked.overview).read_only = true;
+        window.state_mut().take_snapshot(locked, true);
+        window.run_steps(2);
+        assert!(window.query_by_label("read only").is_some());
+        assert_eq!(window.state().title(), "Chereme · locked (read only)");
+        let opened = words::READ_ONLY_OPENED.of(crate::Language::English);
+        assert!(window.query_by_label_contains(opened).is_some());
+        window.get_by_label("Tier").click();
+        window.run_steps(3);
+        let adding = window.get_by_label_contains("Add the usual tiers");
+        assert!(adding.accesskit_node().is_disabled());
+        window.key_press(Key::Escape);
+        window.run_steps(2);
+        window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        window.run_steps(3);
+        let why = words::READ_ONLY_WHY.of(crate::Language::English);
+        assert!(window.query_by_label_contains(why).is_some());
     }
 }

@@ -168,8 +168,17 @@ impl Studio {
         }
     }
 
+    /// Returns whether a corpus is open that may only be read.
+    pub(crate) fn is_read_only(&self) -> bool {
+        self.snapshot.as_ref().is_some_and(Snapshot::is_read_only)
+    }
+
     fn act(&mut self, action: Action, ctx: &Context) {
         if self.act_on_window(action, ctx) || self.act_on_player(action) || self.desk.is_none() {
+            return;
+        }
+        if action.changes() && self.is_read_only() {
+            self.out.send(Command::Hint(words::READ_ONLY_WHY));
             return;
         }
         match action {
@@ -569,6 +578,10 @@ impl Studio {
         if let (None, Some(first)) = (self.shown.recording, first) {
             // What is being made stays on the stage while its sign is stored.
             let made = self.shown.made.take();
+        if self.snapshot.is_none() && snapshot.is_read_only() {
+            let words = words::READ_ONLY_OPENED.of(self.settings.language);
+            self.overlays.notices.hint(words);
+        }
             self.turn_to(first);
             self.shown.made = made;
         }

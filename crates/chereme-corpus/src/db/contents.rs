@@ -17,6 +17,11 @@ pub(crate) fn generation(connection: &Connection) -> Result<i64> {
         .query_row([], |row| row.get(0))?)
 }
 
+/// Returns whether the database was opened to be read only, as where the file may not be written.
+pub(crate) fn is_read_only(connection: &Connection) -> Result<bool> {
+    Ok(connection.is_readonly("main")?)
+}
+
 /// Returns all recordings in the order in which they were stored.
 pub(crate) fn recordings(connection: &Connection) -> Result<Vec<RecordingGlance>> {
     let mut statement = connection.prepare_cached(

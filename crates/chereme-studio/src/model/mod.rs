@@ -44,6 +44,11 @@ pub(crate) struct Found<'a> {
 }
 
 impl Snapshot {
+    /// Returns whether the corpus may only be read here.
+    pub(crate) fn is_read_only(&self) -> bool {
+        self.overview.read_only
+    }
+
     /// Returns the recording of that row at a glance.
     pub(crate) fn recording(&self, id: i64) -> Option<&RecordingGlance> {
         self.overview.recordings.iter().find(|it| it.row.id == id)

@@ -42,6 +42,9 @@ texts! {
     REMEDY: "What helps: {remedy}", "Ce qui aide : {remedy}";
     NOTHING_OPEN: "No corpus is open.", "Aucun corpus n’est ouvert.";
     STATUS_COUNTS: "Recordings: {recordings} · Signs: {signs}", "Enregistrements : {recordings} · Signes : {signs}";
+    READ_ONLY: "read only", "lecture seule";
+    READ_ONLY_OPENED: "This corpus can be looked at, searched and exported from, but not changed: its file or folder may not be written.", "Ce corpus peut être vu, interrogé et exporté, mais pas modifié : son fichier ou son dossier ne peut pas être écrit.";
+    READ_ONLY_WHY: "The corpus may only be read here: its file or folder may not be written. A copy of it elsewhere can be changed.", "Le corpus ne peut être que lu ici : son fichier ou son dossier ne peut pas être écrit. Une copie ailleurs peut être modifiée.";
     ANNOTATING: "Annotating", "Annoter";
     SEARCHING: "Searching", "Rechercher";
     RECOMBINING: "Recombining", "Recombiner";

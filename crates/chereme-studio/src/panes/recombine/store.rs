@@ -51,8 +51,11 @@ impl Recombine {
             let entered = response.lost_focus()
                 && ui.input(|input| input.key_pressed(eframe::egui::Key::Enter));
             let named = !self.gloss.trim().is_empty();
-            let ready = made && named && !seen.is_running(self.storing);
-            let why = if named {
+            let locked = seen.snapshot.is_read_only();
+            let ready = made && named && !locked && !seen.is_running(self.storing);
+            let why = if locked {
+                crate::words::shell::READ_ONLY_WHY
+            } else if named {
                 words::NEEDS_RECIPE
             } else {
                 words::NEEDS_GLOSS
@@ -92,8 +95,11 @@ impl Recombine {
         let text = fill(seen.say(words::REPLACE), &[("name", &glance.row.name)]);
         let recipe = self.stack.text();
         let same = glance.recipe.as_ref() == Some(&recipe);
-        let ready = made && !same && !seen.is_running(self.storing);
-        let why = if same {
+        let locked = seen.snapshot.is_read_only();
+        let ready = made && !same && !locked && !seen.is_running(self.storing);
+        let why = if locked {
+            crate::words::shell::READ_ONLY_WHY
+        } else if same {
             words::REPLACE_SAME
         } else {
             words::NEEDS_RECIPE

@@ -175,7 +175,10 @@ pub(super) fn actions(ui: &mut Ui, seen: &Seen<'_>, all: &[Action], out: &mut Ou
     for action in all {
         let button =
             Button::new(seen.say(action.row().name)).shortcut_text(seen.keys.text(*action));
-        if ui.add(button).clicked() {
+        let locked = action.changes() && seen.snapshot.is_read_only();
+        let button = ui.add_enabled(!locked, button);
+        let why = seen.say(crate::words::shell::READ_ONLY_WHY);
+        if button.on_disabled_hover_text(why).clicked() {
             out.send(Command::Do(*action));
             ui.close();
         }

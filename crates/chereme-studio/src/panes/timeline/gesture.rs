@@ -174,6 +174,12 @@ impl Drawing<'_, '_> {
             return;
         }
         let tier = tier.row.id;
+        let changes = modifiers.alt || (found.is_some() && is_chosen);
+        if changes && self.seen.snapshot.is_read_only() {
+            self.hint(crate::words::shell::READ_ONLY_WHY);
+            self.timeline.gesture = Some(Gesture::Off);
+            return;
+        }
         match (found, id) {
             (Some((found, grip)), Some(id)) if is_chosen || modifiers.alt => {
                 self.take_hold(contents, at, found, (id, grip, from));
@@ -286,6 +292,9 @@ impl Drawing<'_, '_> {
             contents,
             seen: self.seen,
         };
+        if self.seen.snapshot.is_read_only() {
+            return self.hint(crate::words::shell::READ_ONLY_WHY);
+        }
         if let Some(under) = data::at(&tier.annotations, here.micros()) {
             self.timeline
                 .edit(&scene, BTreeSet::from([tier.annotations.ids[under]]));
