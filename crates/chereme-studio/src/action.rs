@@ -101,6 +101,7 @@ actions! {
     ImportFolder "file.import-folder" IMPORT_FOLDER File Corpus;
     Export "file.export" EXPORT File Corpus;
     Close "file.close" CLOSE File Corpus;
+    Check "file.check" CHECK File Corpus;
     Settings "file.settings" SETTINGS File Everywhere;
     Quit "file.quit" QUIT File Everywhere;
     Undo "edit.undo" UNDO Edit Corpus repeats;

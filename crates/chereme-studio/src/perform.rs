@@ -187,6 +187,10 @@ impl Studio {
                 self.shown.span = None;
                 self.shown.annotations.clear();
             }
+            Action::Check => {
+                let mend = !self.is_read_only();
+                self.out.work(Work::Check { mend });
+            }
             Action::UseInRecipe => self.use_in_recipe(ctx),
             Action::Paste | Action::PasteHere => {
                 if let Some(text) = self.clipboard.given(ctx, action) {
@@ -574,14 +578,14 @@ impl Studio {
             self.overlays.notices.hint(words);
             self.bring(PaneKind::Import);
         }
-        self.snapshot = Some(snapshot);
-        if let (None, Some(first)) = (self.shown.recording, first) {
-            // What is being made stays on the stage while its sign is stored.
-            let made = self.shown.made.take();
         if self.snapshot.is_none() && snapshot.is_read_only() {
             let words = words::READ_ONLY_OPENED.of(self.settings.language);
             self.overlays.notices.hint(words);
         }
+        self.snapshot = Some(snapshot);
+        if let (None, Some(first)) = (self.shown.recording, first) {
+            // What is being made stays on the stage while its sign is stored.
+            let made = self.shown.made.take();
             self.turn_to(first);
             self.shown.made = made;
         }

@@ -52,6 +52,38 @@ fn the_start_page_says_what_is_wrong_and_what_helps() {
 }
 
 #[test]
+fn a_corpus_is_checked_from_the_menu() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    click(&mut window, "File");
+    window.run_steps(2);
+    window.get_by_label_contains("Check the corpus").click();
+    until(&mut window, "what was found", |window| {
+        has(window, "Checked: nothing is wrong.")
+    });
+}
+
+#[test]
+fn a_path_that_was_used_is_not_typed_on() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = small_corpus(folder.path());
+    let mut window = window(options(folder.path()));
+    window.run_steps(2);
+    let typed = path.display().to_string();
+    let field = window.get_by_role_and_label(Role::TextInput, "Or type a path");
+    field.focus();
+    field.type_text(&typed);
+    window.run_steps(2);
+    click(&mut window, "Open");
+    until(&mut window, "the corpus", |window| has(window, "escargot"));
+    idle(&mut window);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::W);
+    window.run_steps(3);
+    let field = window.get_by_role_and_label(Role::TextInput, "Or type a path");
+    assert_eq!(field.value().unwrap_or_default(), "");
+}
+
+#[test]
 fn the_start_page_is_walked_by_keys_and_goes_on_with_what_was_open() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = small_corpus(folder.path());

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use chereme_corpus::{Cause, Error};
+use chereme_corpus::{Cause, CheckReport, Error};
 use eframe::egui::text::{LayoutJob, TextFormat};
 use eframe::egui::{
     Align, Align2, Area, Context, Frame, Id, Label, Layout, Order, RichText, Role, ScrollArea,
@@ -110,6 +110,7 @@ impl Notices {
                 };
                 fill(text.of(language), &[("n", steps)])
             }
+            Outcome::Checked(report) => return self.checked(report, language),
             Outcome::Redone(row) => {
                 fill(words::NOTICE_REDONE.of(language), &[("what", &row.summary)])
             }
@@ -120,6 +121,25 @@ impl Notices {
             _ => return,
         };
         self.hint(text);
+    }
+
+    /// Tells what a check found: faults with their places and what helps, which stay until they are put away.
+    fn checked(&mut self, report: &CheckReport, language: Language) {
+        if report.ok && report.mended.is_empty() {
+            return self.hint(words::CHECKED_WELL.of(language));
+        }
+        let (text, n) = if report.ok {
+            (words::CHECKED_MENDED, report.mended.len())
+        } else {
+            (words::CHECKED_FAULTS, report.faults.len())
+        };
+        self.say(&fill(text.of(language), &[("n", &n)]), None);
+        let faults = report.faults.iter();
+        let faults = faults.map(|it| format!("{}: {} ({})", it.place, it.message, it.remedy));
+        let lines: Vec<String> = report.mended.iter().cloned().chain(faults).collect();
+        if let Some(notice) = self.all.last_mut() {
+            notice.detail = Some(lines.join("\n"));
+        }
     }
 
     pub(crate) fn dismiss(&mut self, id: u64) {
@@ -248,6 +268,32 @@ fn with_code(style: &Style, text: &str, weak: bool) -> LayoutJob {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_a_check_found_stays_with_its_places() {
+        let mut notices = Notices::default();
+        let well = CheckReport {
+            ok: true,
+            ..CheckReport::default()
+        };
+        notices.of(&Outcome::Checked(well.clone()), Language::English);
+        assert!(!notices.all[0].stays);
+        let faulty = CheckReport {
+            ok: false,
+            faults: vec![chereme_corpus::Fault {
+                kind: "block",
+                place: "block 7".into(),
+                message: "it is another".into(),
+                remedy: "import again".into(),
+            }],
+            ..well
+        };
+        notices.of(&Outcome::Checked(faulty), Language::English);
+        let told = notices.all.last().expect("a notice");
+        assert!(told.stays && told.text == "Checked, and faults found: 1");
+        let detail = told.detail.as_deref();
+        assert_eq!(detail, Some("block 7: it is another (import again)"));
+    }
 
     #[test]
     fn trouble_comes_with_what_helps_and_is_told_once() {

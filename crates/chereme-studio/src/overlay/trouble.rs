@@ -23,9 +23,10 @@ pub(crate) fn told(error: &Error, task: Option<Text>, language: Language) -> Tol
         fill(text, &[("remedy", &remedy)])
     };
     if language == Language::English {
+        let own = remedy_here(error).map(|it| it.of(language).to_owned());
         return Told {
             text: error.to_string(),
-            remedy: error.remedy().map(|it| helps(&it)),
+            remedy: own.or_else(|| error.remedy()).map(|it| helps(&it)),
             detail: None,
         };
     }
@@ -40,6 +41,17 @@ pub(crate) fn told(error: &Error, task: Option<Text>, language: Language) -> Tol
         text,
         remedy: remedy.map(|it| helps(it.of(language))),
         detail: (!whole).then_some(said),
+    }
+}
+
+/// Returns what helps in the window, where the corpus names commands that are not known here.
+fn remedy_here(error: &Error) -> Option<Text> {
+    match error {
+        Error::NotACorpus { remedy, .. } if remedy.contains("`chereme ") => {
+            Some(words::OTHER_CORPUS)
+        }
+        Error::Index(_) | Error::Damaged { .. } => Some(words::CHECK_HERE),
+        _ => None,
     }
 }
 
@@ -59,7 +71,8 @@ fn sentence(error: &Error, task: Option<Text>, language: Language) -> (String, O
         }
         Error::NotACorpus { path, .. } => {
             let text = say(words::NOT_A_CORPUS);
-            (fill(&text, &[("path", &path.display())]), None)
+            let text = fill(&text, &[("path", &path.display())]);
+            (text, remedy_here(error))
         }
         Error::Database(_) => match error.cause() {
             Some(Cause::Busy) => (say(words::BUSY), Some(words::TRY_AGAIN)),
@@ -68,8 +81,8 @@ fn sentence(error: &Error, task: Option<Text>, language: Language) -> (String, O
             Some(Cause::Damaged) => (say(words::DAMAGED), Some(words::CHECK)),
             None => (say(words::DATABASE), None),
         },
-        Error::Index(_) => (say(words::INDEX), Some(words::MEND_INDEX)),
-        Error::Damaged { .. } => (say(words::DAMAGED), Some(words::CHECK)),
+        Error::Index(_) => (say(words::INDEX), remedy_here(error)),
+        Error::Damaged { .. } => (say(words::DAMAGED), remedy_here(error)),
         Error::Several { errors } => {
             let text = say(words::SEVERAL);
             (fill(&text, &[("n", &errors.len())]), None)
@@ -99,6 +112,15 @@ mod tests {
         let french = told(&error, Some(shell::TASK_IMPORT), Language::French);
         assert_eq!(french.text, "Importation : cela n’a pas été possible.");
         assert_eq!(french.detail.as_deref(), Some("no such tier\n(add it)"));
+        let rubbish = Error::NotACorpus {
+            path: "a.chereme".into(),
+            reason: "it is no database".into(),
+            remedy: "choose a file that `chereme new` made".into(),
+        };
+        for language in [Language::English, Language::French] {
+            let remedy = told(&rubbish, None, language).remedy.expect("a remedy");
+            assert!(!remedy.contains('`'), "{remedy}");
+        }
         let gone = Error::file("a.bvh", ErrorKind::NotFound.into());
         let french = told(&gone, None, Language::French);
         assert_eq!(french.text, "a.bvh : rien ne porte ce nom.");

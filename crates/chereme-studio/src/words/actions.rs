@@ -6,6 +6,7 @@ texts! {
     IMPORT_FILES: "Choose files to import…", "Choisir des fichiers à importer…";
     IMPORT_FOLDER: "Choose a folder to import…", "Choisir un dossier à importer…";
     NEW: "New empty corpus…", "Nouveau corpus vide…";
+    CHECK: "Check the corpus", "Vérifier le corpus";
     CLOSE: "Close the corpus", "Fermer le corpus";
     QUIT: "Quit", "Quitter";
     UNDO: "Undo", "Annuler";

@@ -87,6 +87,10 @@ texts! {
     TASK_SEARCH: "Searching", "Recherche";
     TASK_RECOMBINE: "Recombining", "Recombinaison";
     TASK_EXPORT: "Exporting", "Exportation";
+    TASK_CHECK: "Checking", "Vérification";
+    CHECKED_WELL: "Checked: nothing is wrong.", "Vérifié : tout est en ordre.";
+    CHECKED_MENDED: "Checked, and mended: {n}", "Vérifié, et réparé : {n}";
+    CHECKED_FAULTS: "Checked, and faults found: {n}", "Vérifié, fautes trouvées : {n}";
     TASK_EDIT: "Saving", "Enregistrement";
     TASK_MOVEMENT: "Loading movement", "Chargement du mouvement";
     SETTINGS_UNSAVED: "The settings could not be saved.", "Les réglages n’ont pas pu être enregistrés.";

@@ -12,11 +12,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use chereme_corpus::{
-    Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, Copied, Curves,
-    Details, Error, ExportOptions, ExportReport, ExportWhat, ImportOptions, ImportReport,
-    KeptSearch, MadePart, MediaChange, Moving, Name, NewTier, OperationRow, Recombination,
-    RecordingChange, Scheme, SearchOptions, SignChange, SignerChange, Suggestions, TierChange,
-    TierName, Unit,
+    Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, CheckReport,
+    Copied, Curves, Details, Error, ExportOptions, ExportReport, ExportWhat, ImportOptions,
+    ImportReport, KeptSearch, MadePart, MediaChange, Moving, Name, NewTier, OperationRow,
+    Recombination, RecordingChange, Scheme, SearchOptions, SignChange, SignerChange, Suggestions,
+    TierChange, TierName, Unit,
 };
 use chereme_motion::Span;
 
@@ -88,6 +88,11 @@ pub(crate) enum Work {
     RenameSearch(String, String),
     /// Keeps a search no longer.
     ForgetSearch(String),
+    /// Looks the whole corpus through; what is derived and wrong is made anew where that is wished.
+    Check {
+        /// Whether it is.
+        mend: bool,
+    },
     /// Says all that is known of something.
     Look(Thing),
     /// Finds tokens.
@@ -160,6 +165,8 @@ pub(crate) enum Outcome {
         /// How many.
         steps: usize,
     },
+    /// The corpus was looked through.
+    Checked(CheckReport),
     /// All that is known of something.
     Looked(Details),
     /// Tokens were found.
@@ -254,6 +261,7 @@ impl Work {
             | Self::KeepSearches(_)
             | Self::RenameSearch(..)
             | Self::ForgetSearch(_)
+            | Self::Check { .. }
             | Self::Undo
             | Self::Redo => Lane::Edit,
             Self::Search(..)
@@ -275,6 +283,7 @@ impl Work {
         match self {
             Self::Import(_, options) if options.dry_run => shell::TASK_LOOKING,
             Self::Import(..) => shell::TASK_IMPORT,
+            Self::Check { .. } => shell::TASK_CHECK,
             Self::Search(..)
             | Self::Around(..)
             | Self::Suggest(_)
@@ -313,7 +322,7 @@ impl Work {
 
     /// Returns whether it may be stopped when the window closes: what a person has typed may not.
     pub(crate) fn may_stop(&self) -> bool {
-        self.lane() != Lane::Edit || matches!(self, Self::Import(..))
+        self.lane() != Lane::Edit || matches!(self, Self::Import(..) | Self::Check { .. })
     }
 }
 
