@@ -275,7 +275,6 @@ actions! {
 }
 
 impl Action {
-    /// Returns the row of the table.
     /// Returns whether it changes the corpus, or begins to.
     pub(crate) fn changes(self) -> bool {
         use Action::{
@@ -332,6 +331,7 @@ impl Action {
             )
     }
 
+    /// Returns the row of the table.
     pub(crate) fn row(self) -> &'static ActionRow {
         &ACTIONS[self as usize]
     }

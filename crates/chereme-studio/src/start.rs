@@ -25,9 +25,9 @@ pub(crate) struct Start {
 }
 
 impl Start {
-    /// Has the keyboard given anew when the page is seen again.
+    /// Begins anew when the page is seen again: the keyboard is given, and the path was used.
     pub(crate) fn leave(&mut self) {
-        self.come = false;
+        *self = Self::default();
     }
 }
 

@@ -56,6 +56,24 @@ fn nameless(window: &Window<'_>) -> (BTreeSet<String>, usize) {
     (found, all)
 }
 
+/// A button that is lower or narrower than this, in points, is missed by a hand in a hurry.
+const LEAST: f32 = 14.0;
+
+/// Returns the buttons that are smaller; what lies on a tier is as wide as its time.
+fn tiny(window: &Window<'_>) -> BTreeSet<String> {
+    let all = window.root().children_recursive();
+    let small = all.filter(|node| {
+        let kit = node.accesskit_node();
+        let is_button = kit.role() == Role::Button && !kit.is_hidden();
+        is_button && node.rect().size().min_elem() < LEAST
+    });
+    let named = small.filter_map(|node| {
+        let label = node.accesskit_node().label()?;
+        (!label.contains(": ")).then(|| format!("{label:?} {}", node.rect().size()))
+    });
+    named.collect()
+}
+
 /// Goes through every pane in every layout.
 fn walk(window: &mut Window<'_>, told: &str) {
     const LAYOUTS: [Key; 3] = [Key::F1, Key::F2, Key::F3];
@@ -77,6 +95,8 @@ fn walk(window: &mut Window<'_>, told: &str) {
             window.run_steps(3);
             let (found, all) = nameless(window);
             assert!(found.is_empty(), "{told}, {layout:?} {pane:?}: {found:#?}");
+            let tiny = tiny(window);
+            assert!(tiny.is_empty(), "{told}, {layout:?} {pane:?}: {tiny:#?}");
             assert!(all > 20, "{told}, {layout:?} {pane:?}: only {all}");
         }
     }

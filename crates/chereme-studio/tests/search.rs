@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use eframe::egui::accesskit::Role;
+use eframe::egui::accesskit::{Role, Toggled};
 use eframe::egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 
@@ -325,4 +325,23 @@ fn the_kept_search_that_was_meant_is_offered() {
         (query(&window).as_str(), hits(&window)),
         ("gloss=ESCARGOT", 1)
     );
+}
+
+#[test]
+fn in_a_narrow_pane_one_line_says_how_hits_are_shown() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    window.run_steps(3);
+    type_query(&mut window, "gloss:ESCARGOT");
+    enter(&mut window);
+    assert_eq!(hits(&window), 1);
+    assert!(has(&window, "Display") && !has(&window, "Looping"));
+    click(&mut window, "Display");
+    click(&mut window, "Hand close up");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F2);
+    window.run_steps(3);
+    assert!(!has(&window, "Display") && has(&window, "Looping"));
+    let close = window.get_by_label("Hand close up");
+    assert_eq!(close.accesskit_node().toggled(), Some(Toggled::True));
 }

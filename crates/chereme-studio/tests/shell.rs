@@ -5,7 +5,7 @@ mod common;
 use chereme_corpus::Corpus;
 use chereme_studio::Options;
 use common::*;
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::Queryable;
 
 #[test]

@@ -225,3 +225,25 @@ fn a_component_is_described_by_keys_and_proposes_where_it_belongs() {
     let (gloss, added) = (tier("Gloss").expect("a tier"), tier("placement"));
     assert_eq!(added.expect("added").row.parent_id, Some(gloss.row.id));
 }
+
+#[test]
+fn a_tier_is_described_in_words() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = three(folder.path());
+    click(&mut window, "Tier Gloss");
+    press(&mut window, CTRL, Key::T);
+    let list = |window: &Window<'_>, label: &str| {
+        let combo = window.get_by_role_and_label(Role::ComboBox, label);
+        combo.value().unwrap_or_default()
+    };
+    window
+        .get_by_role_and_label(Role::ComboBox, "What it says")
+        .click();
+    window.run_steps(3);
+    window.get_by_label("non-manual · brows").click_accesskit();
+    window.run_steps(3);
+    assert_eq!(list(&window, "What it says"), "non-manual · brows");
+    assert_eq!(list(&window, "How"), "within its time (Included In)");
+    let name = window.get_by_role_and_label(Role::TextInput, "Name of the tier");
+    assert_eq!(name.value().as_deref(), Some("non-manual · brows"));
+}

@@ -237,11 +237,7 @@ impl Export {
         }
         ui.add_space(4.0);
         let label = ui.label(RichText::new(seen.say(words::WHERE)).small());
-        let line = Line {
-            name: "",
-            hint: "",
-            width: f32::INFINITY,
-        };
+        let line = Line::default();
         let typed = self
             .paths
             .show(ui, Id::unique("export path"), line, &mut self.to, out);

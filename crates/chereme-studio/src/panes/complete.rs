@@ -2,20 +2,39 @@
 
 use chereme_sign::text::fold;
 use eframe::egui::{
-    Button, Id, Key, Modifiers, Popup, PopupCloseBehavior, Rect, Response, Role, ScrollArea,
-    TextEdit, Ui, WidgetInfo, text::CCursor, text::CCursorRange, vec2,
+    Button, Id, Key, Modifiers, Popup, PopupCloseBehavior, Rect, Response, RichText, Role,
+    ScrollArea, TextEdit, Ui, WidgetInfo, text::CCursor, text::CCursorRange, vec2,
 };
 
 /// How many candidates are offered at once.
 pub(crate) const OFFERED: usize = 40;
 
+/// How wide the list is at least where it tells more than names.
+const TOLD: f32 = 320.0;
+
+/// What is told beside a candidate, where something is.
+type About<'a> = dyn Fn(&str) -> Option<String> + 'a;
+
 /// How a line of text with completion looks.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct Line<'a> {
     /// Its name for people who do not see it; blank where a label beside it says so.
     pub(crate) name: &'a str,
     pub(crate) hint: &'a str,
     pub(crate) width: f32,
+    /// What is told beside each candidate.
+    pub(crate) about: Option<&'a About<'a>>,
+}
+
+impl Default for Line<'_> {
+    fn default() -> Self {
+        Self {
+            name: "",
+            hint: "",
+            width: f32::INFINITY,
+            about: None,
+        }
+    }
 }
 
 /// What became of the line in this frame.
@@ -116,7 +135,8 @@ pub(crate) fn complete(
     }
     listed.rect = None;
     if open && taken.is_none() && (response.has_focus() || held) {
-        let width = response.rect.width().max(180.0);
+        let least = if line.about.is_some() { TOLD } else { 180.0 };
+        let width = response.rect.width().max(least);
         let popup = Popup::from_response(&response)
             .id(id.with("list"))
             .open(true)
@@ -129,10 +149,16 @@ pub(crate) fn complete(
                 ui.spacing_mut().item_spacing.y = 1.0;
                 for (at, candidate) in offered.iter().enumerate() {
                     let chosen = listed.chosen == Some(at);
-                    let button = Button::selectable(chosen, candidate)
+                    let mut button = Button::selectable(chosen, candidate)
                         .truncate()
                         .min_size(vec2(ui.available_width(), 0.0));
+                    if let Some(about) = line.about.and_then(|about| about(candidate)) {
+                        button = button.right_text(RichText::new(about).small().weak());
+                    }
                     let response = ui.add(button);
+                    response.widget_info(|| {
+                        WidgetInfo::selected(Role::Button, true, chosen, candidate)
+                    });
                     if chosen && listed.chosen != before.chosen {
                         response.scroll_to_me(None);
                     }

@@ -39,7 +39,7 @@ texts! {
     BY_TEXT: "By typing", "Au clavier";
     NO_PICTURES: "The values of this tier have no pictures.", "Les valeurs de cet acteur n’ont pas d’images.";
     NO_SUCH_VALUE: "The tier has no such value.", "L’acteur n’a pas cette valeur.";
-    NEW_VALUE: "Enter keeps what you typed.", "Entrée garde ce que vous avez écrit.";
+    NEW_VALUE: "Enter, or a click elsewhere, keeps what you typed.", "Entrée, ou un clic ailleurs, garde ce que vous avez écrit.";
     COPY_TITLE: "Copy to which tier?", "Copier vers quel acteur ?";
     MOVE_TITLE: "Move to which tier?", "Déplacer vers quel acteur ?";
     FILTER_TIERS: "Name of a tier", "Nom d’un acteur";
@@ -90,6 +90,10 @@ texts! {
     TIER_HAND: "Hand", "Main";
     TIER_PARENT: "Below", "Dépend de";
     TIER_HOW: "How", "Comment";
+    HOW_FILLED: "fills it without gaps", "la remplit sans trous";
+    HOW_WITHIN: "within its time", "dans son temps";
+    HOW_LISTED: "in order, without times", "en ordre, sans temps";
+    HOW_ONE: "one for each, its time", "une pour chacune, son temps";
     ROLE_GLOSS: "gloss", "glose";
     ROLE_TRANSLATION: "translation", "traduction";
     ROLE_COMMENT: "comment", "commentaire";

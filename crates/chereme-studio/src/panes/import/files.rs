@@ -166,6 +166,7 @@ fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport) {
                         name: &label,
                         hint: seen.say(words::NO_JOINT),
                         width: 130.0,
+                        ..Line::default()
                     };
                     let id = Id::unique(("joint", &file.path, part));
                     if complete(ui, id, line, &mut text, &candidates).changed {

@@ -56,9 +56,9 @@ pub(super) fn show(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>) {
                 let candidates =
                     |typed: &str| fitting(signers.iter().map(|it| it.name.as_str()), typed);
                 let line = Line {
-                    name: "",
                     hint: seen.say(words::AS_FILES_SAY),
                     width: 150.0,
+                    ..Line::default()
                 };
                 let typed = complete(
                     ui,
@@ -87,9 +87,8 @@ pub(super) fn show(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>) {
                 let label = ui.label(seen.say(words::LICENCE));
                 let none = |_: &str| Vec::new();
                 let line = Line {
-                    name: "",
-                    hint: "",
                     width: 150.0,
+                    ..Line::default()
                 };
                 let typed = complete(
                     ui,

@@ -76,9 +76,8 @@ impl Import {
         let label = ui.label(RichText::new(seen.say(words::PATH)).small());
         let id = Id::unique("import path");
         let line = Line {
-            name: "",
             hint: seen.say(words::PATH_HINT),
-            width: f32::INFINITY,
+            ..Line::default()
         };
         if std::mem::take(&mut self.come) {
             ui.memory_mut(|memory| memory.request_focus(id));

@@ -64,9 +64,8 @@ pub(super) fn field(
     let focused = ui.memory(|memory| memory.has_focus(id));
     let away = focused && ui.input(|input| input.key_pressed(Key::Escape));
     let line = Line {
-        name: "",
-        hint: "",
         width: (ui.available_width() - 4.0).max(60.0),
+        ..Line::default()
     };
     let typed = complete(ui, id, line, &mut text, candidates);
     let response = typed.response.labelled_by(label);

@@ -89,30 +89,36 @@ pub(crate) struct SignRow {
 pub(crate) fn signs(signs: &[SignGlance], filter: &str, language: Language) -> Vec<SignRow> {
     let wanted = fold(filter.trim());
     let fits = |it: &&SignGlance| wanted.is_empty() || fold(&it.gloss).contains(&wanted);
-    let row = |it: &SignGlance| {
-        let moves = match it.place {
-            Some((recording, span)) => Moves::Recorded(recording, span),
-            None if it.notated => Moves::Notated,
-            None => Moves::Not,
-        };
-        let what = match moves {
-            Moves::Recorded(..) => words::RECORDED,
-            Moves::Notated => words::NOTATED,
-            Moves::Not => words::IN_LEXICON,
-        };
-        let mut about = what.of(language).to_owned();
-        if it.tokens > 1 {
-            let count = crate::words::fill(words::TOKENS.of(language), &[("n", &it.tokens)]);
-            about = format!("{about} · {count}");
-        }
-        SignRow {
-            gloss: it.gloss.clone(),
-            about,
-            token: it.citation,
-            moves,
-        }
+    let row = |it: &SignGlance| SignRow {
+        gloss: it.gloss.clone(),
+        about: about(it, language),
+        token: it.citation,
+        moves: moves(it),
     };
     signs.iter().filter(fits).map(row).collect()
+}
+
+fn moves(sign: &SignGlance) -> Moves {
+    match sign.place {
+        Some((recording, span)) => Moves::Recorded(recording, span),
+        None if sign.notated => Moves::Notated,
+        None => Moves::Not,
+    }
+}
+
+/// Returns where a sign comes from, and how many tokens it has.
+pub(crate) fn about(sign: &SignGlance, language: Language) -> String {
+    let what = match moves(sign) {
+        Moves::Recorded(..) => words::RECORDED,
+        Moves::Notated => words::NOTATED,
+        Moves::Not => words::IN_LEXICON,
+    };
+    let what = what.of(language);
+    if sign.tokens < 2 {
+        return what.to_owned();
+    }
+    let count = crate::words::fill(words::TOKENS.of(language), &[("n", &sign.tokens)]);
+    format!("{what} · {count}")
 }
 
 #[cfg(test)]

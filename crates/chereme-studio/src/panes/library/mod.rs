@@ -5,8 +5,8 @@ pub(crate) mod data;
 use std::sync::Arc;
 
 use eframe::egui::{
-    EventFilter, Id, Key, Modifiers, Rect, Response, ScrollArea, TextEdit, Ui, Vec2, WidgetInfo,
-    vec2,
+    EventFilter, Id, Key, Modifiers, Rect, RectAlign, Response, ScrollArea, Sense, TextEdit,
+    Tooltip, Ui, Vec2, WidgetInfo, vec2,
 };
 
 use super::bare::{self, Bare};
@@ -21,6 +21,11 @@ use crate::words::{Language, fill, library as words};
 use crate::work::{Ended, WorkId};
 pub(crate) use data::origin_text;
 use data::{Moves, Row, SignRow};
+
+/// How high a row is, in heights of a button.
+const ROW: f32 = 2.1;
+/// How large a picture is beside the row that is pointed at.
+const LARGE: f32 = 220.0;
 
 /// What is listed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -219,7 +224,7 @@ impl Library {
 
     fn recordings(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let rows = std::mem::take(&mut self.rows.recordings);
-        let height = ui.spacing().interact_size.y * 2.1;
+        let height = ui.spacing().interact_size.y * ROW;
         self.keys(ui, rows.len());
         let area = self.scroll(ui, height + ui.spacing().item_spacing.y);
         let shown = area.show_rows(ui, height, rows.len(), |ui, range| {
@@ -249,7 +254,7 @@ impl Library {
 
     fn signs(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         let rows = std::mem::take(&mut self.rows.signs);
-        let height = ui.spacing().interact_size.y * 2.1;
+        let height = ui.spacing().interact_size.y * ROW;
         self.keys(ui, rows.len());
         let area = self.scroll(ui, height + ui.spacing().item_spacing.y);
         let shown = area.show_rows(ui, height, rows.len(), |ui, range| {
@@ -317,12 +322,20 @@ fn figure(
     lead: f32,
 ) {
     let at = response.rect.left_center() + vec2(4.0 + lead / 2.0, 0.0);
-    let mut cell = Cell::new(motion, Vec2::splat(lead));
+    let mut cell = Cell::new(motion.clone(), Vec2::splat(lead));
     if response.hovered() || response.has_focus() {
         cell = cell.playing(little::clock(ui));
     }
     let rect = Rect::from_center_size(at, cell.size);
     seen.little.paint(ui, seen, out, &cell, rect);
+    let mut beside = Tooltip::for_enabled(response);
+    beside.popup = beside.popup.align(RectAlign::RIGHT_START);
+    beside.show(|ui| {
+        let size = Vec2::splat(LARGE);
+        let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+        let large = Cell::new(motion, size).playing(little::clock(ui));
+        seen.little.paint(ui, seen, out, &large, rect);
+    });
 }
 
 fn inspect(ui: &mut Ui, seen: &Seen<'_>, thing: Thing, out: &mut Outbox) {

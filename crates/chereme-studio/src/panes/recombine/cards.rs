@@ -171,7 +171,7 @@ fn header(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &
         if response.on_hover_text(tip).changed() {
             did.push(Did::Act(card.id, Action::CardSwitch));
         }
-        let buttons = 56.0;
+        let buttons = 62.0;
         let width = (ui.available_width() - buttons).max(40.0);
         let handle = handle(ui, seen, shown, title, width);
         if handle.clicked() || handle.gained_focus() || handle.drag_started() {
@@ -185,7 +185,7 @@ fn header(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &
         menu.response
             .widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
         let name = fill(seen.say(words::REMOVE_CARD), &[("card", &title)]);
-        let remove = ui.add(Button::new("×").frame(false));
+        let remove = ui.add(Button::new("×").frame(false).min_size(vec2(24.0, 24.0)));
         remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
         let tip = self::tip(seen, words::REMOVE, Action::CardRemove);
         if remove.on_hover_text(tip).clicked() {

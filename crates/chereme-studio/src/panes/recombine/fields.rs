@@ -17,6 +17,7 @@ use crate::context::Seen;
 use crate::panes::Carried;
 use crate::panes::complete::{Line, complete, fitting};
 use crate::panes::inspector::Thing;
+use crate::panes::library::data;
 use crate::pickers::{self, Picker};
 use crate::words::{Text, recombine as words};
 
@@ -361,10 +362,12 @@ pub(super) fn of_inventory(
         .collect();
     let values = all.iter().flat_map(|it| &it.values);
     let candidates = |typed: &str| fitting(values.clone().map(|it| it.id.as_str()), typed);
+    let about = |id: &str| called(values.clone().find(|it| it.id == id)?, seen);
     let line = Line {
         name: seen.say(name),
         hint: seen.say(hint),
         width: (ui.available_width() - 110.0).clamp(60.0, 100.0),
+        about: Some(&about),
     };
     let typed = complete(ui, id, line, text, &candidates);
     let held = all.iter().find(|it| it.find(text).is_some());
@@ -489,21 +492,30 @@ pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut 
     let inner = ui.horizontal_wrapped(|ui| {
         let signs = &seen.snapshot.overview.signs;
         let candidates = |typed: &str| fitting(signs.iter().map(|it| it.gloss.as_str()), typed);
+        let about = |gloss: &str| {
+            let at = signs.binary_search_by(|it| it.gloss.as_str().cmp(gloss));
+            Some(data::about(&signs[at.ok()?], seen.language))
+        };
         let line = Line {
             name,
             hint: seen.say(words::SIGN_HINT),
             width: (ui.available_width() - 84.0).clamp(80.0, 200.0),
+            about: Some(&about),
         };
         let typed = complete(ui, id, line, text, &candidates);
         if takes_focus(ui) {
             typed.response.request_focus();
         }
         let mut changed = typed.changed;
-        if let Some((token, gloss)) = selected_token(seen) {
+        let selected = selected_token(seen).map(|(token, gloss)| {
+            let address = address(&seen.snapshot.overview, token, &gloss);
+            (address, gloss)
+        });
+        if let Some((address, gloss)) = selected.filter(|it| it.0 != *text) {
             let tip = crate::words::fill(seen.say(words::TAKE_SELECTED), &[("gloss", &gloss)]);
             let button = ui.add(eframe::egui::Button::new(tip.as_str()).truncate());
             if button.on_hover_text(tip).clicked() {
-                *text = address(&seen.snapshot.overview, token, &gloss);
+                *text = address;
                 changed = true;
             }
         }

@@ -41,7 +41,7 @@ pub(crate) use builder::with_value;
 use field::Field;
 use hits::{Found, NEIGHBOURS, PAGE, Sort};
 use rows::Rows;
-pub(crate) use rows::feature_text;
+pub(crate) use rows::{feature_text, field_text};
 
 /// How long nothing is typed before what was typed is searched for, in seconds.
 const PAUSE: f64 = 0.35;

@@ -12,6 +12,8 @@ use crate::words::{Language, fill, search as words};
 
 /// A pane wider than this has room for facets beside its hits.
 const WIDE: f32 = 520.0;
+/// With so much left of its line there is room for every switch beside how many were found.
+const SPACIOUS: f32 = 340.0;
 
 impl Search {
     /// Draws all of it, the hits as high as `high`.
@@ -145,15 +147,28 @@ impl Search {
                     self.view = view;
                 }
             }
-            if self.view == View::Grid {
-                ui.checkbox(&mut self.playing, seen.say(words::LOOPING));
-                ui.checkbox(&mut self.close, seen.say(words::CLOSE_UP));
-            }
-            let facets = ui.checkbox(&mut counted, seen.say(words::FACETS));
-            if facets.on_hover_text(seen.say(words::FACETS_TIP)).changed() {
-                self.counted = Some(counted);
+            let wide = ui.available_size_before_wrap().x > SPACIOUS;
+            if wide {
+                self.ways(ui, seen, &mut counted);
+            } else {
+                // A second line would take its height from the hits.
+                ui.menu_button(seen.say(words::WAYS), |ui| {
+                    self.ways(ui, seen, &mut counted)
+                });
             }
         });
+    }
+
+    /// Draws the switches for how hits are shown.
+    fn ways(&mut self, ui: &mut Ui, seen: &Seen<'_>, counted: &mut bool) {
+        if self.view == View::Grid {
+            ui.checkbox(&mut self.playing, seen.say(words::LOOPING));
+            ui.checkbox(&mut self.close, seen.say(words::CLOSE_UP));
+        }
+        let facets = ui.checkbox(counted, seen.say(words::FACETS));
+        if facets.on_hover_text(seen.say(words::FACETS_TIP)).changed() {
+            self.counted = Some(*counted);
+        }
     }
 
     /// Returns whether facets are shown: beside the hits as usual, above them only where that is wished.

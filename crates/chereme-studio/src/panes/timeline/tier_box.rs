@@ -12,6 +12,7 @@ use super::Timeline;
 use super::edit::Scene;
 use crate::context::{Outbox, Seen};
 use crate::panes::combo;
+use crate::panes::search::field_text;
 use crate::words::{Text, fill, shell, timeline as words};
 use crate::work::Work;
 
@@ -203,12 +204,25 @@ fn roles(seen: &Seen<'_>) -> Vec<(String, String)> {
         .map(|(id, text)| ((*id).to_owned(), seen.say(*text).to_owned()))
         .collect();
     for stored in &seen.snapshot.overview.inventories {
-        let field = stored.inventory.field().to_string();
-        if all.iter().all(|(id, _)| *id != field) {
-            all.push((field.clone(), field));
+        let field = stored.inventory.field();
+        let id = field.to_string();
+        if all.iter().all(|(it, _)| *it != id) {
+            all.push((id, field_text(&field, seen)));
         }
     }
     all
+}
+
+/// Returns how one tier hangs below another in words, with the name by which ELAN knows it.
+pub(crate) fn how_text(how: Stereotype, seen: &Seen<'_>) -> String {
+    let text = match how {
+        Stereotype::TimeSubdivision => words::HOW_FILLED,
+        Stereotype::IncludedIn => words::HOW_WITHIN,
+        Stereotype::SymbolicSubdivision => words::HOW_LISTED,
+        Stereotype::SymbolicAssociation => words::HOW_ONE,
+    };
+    let elan = how.elan_name().replace('_', " ");
+    format!("{} ({elan})", seen.say(text))
 }
 
 /// Returns the names of the tiers that one can hang below: not itself, nor what hangs below it.
@@ -353,8 +367,8 @@ fn form(ui: &mut Ui, scene: &Scene<'_>, tier: &mut TierBox) {
                 tier.parent = name.clone().map(|name| (name, how));
             });
             if let Some((_, how)) = &mut tier.parent {
-                let all = Stereotype::ALL.map(|it| (it, it.elan_name().to_owned()));
-                let now = how.elan_name().to_owned();
+                let all = Stereotype::ALL.map(|it| (it, how_text(it, seen)));
+                let now = how_text(*how, seen);
                 choice(ui, seen.say(words::TIER_HOW), &now, &all, |it| *how = *it);
             }
         });
