@@ -6,14 +6,15 @@
 //! sign made from another instead, and only plays the two signers side by side; `grid` imports the starter
 //! corpus, and shows all its signs as at least 24 looping little figures. Prints for each scene how long
 //! a frame took to compute on the window's thread, how far apart frames were, and how long pictures of the stage
-//! took on the thread that draws them. At last the window is empty: frames are as far apart then as the
-//! machine has them.
+//! took on the thread that draws them; and on Linux how much processor time a frame cost, all threads together and
+//! each by its name, which other programs on the machine change less. At last the window is empty: frames are as far
+//! apart then as the machine has them.
 //!
 //! `change` imports the starter corpus and changes a placement of recipes again and again, each time when what the
 //! last change made has been drawn. Prints how long the recipe took to be made without a window, how long after the
 //! change its picture was on the stage, and in which frame: 1 is the one after that in which the change was typed.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 use std::error::Error;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -83,6 +84,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         frame: 0,
         computed: Vec::new(),
         apart: Vec::new(),
+        worked: BTreeMap::new(),
     };
     eframe::run_native("window_frames", native, Box::new(|_| Ok(Box::new(meter))))?;
     Ok(())
@@ -341,8 +343,37 @@ struct Meter {
     computed: Vec<Duration>,
     apart: Vec<Duration>,
     drawn: Vec<Duration>,
+    /// The processor time that threads had taken when frames of the scene began to be measured.
+    worked: BTreeMap<String, u64>,
     change: Change,
 }
+
+/// Returns the processor time that the program has taken so far, and its threads by their names without numbers, in
+/// hundredths of a second; nothing where the system does not tell. Threads that ended count only for the program.
+fn worked() -> BTreeMap<String, u64> {
+    const PROGRAM: &str = "/proc/self/stat";
+    let mut all = BTreeMap::new();
+    let threads = std::fs::read_dir("/proc/self/task").into_iter().flatten();
+    let threads = threads.flatten().map(|it| it.path().join("stat"));
+    for path in threads.chain([PROGRAM.into()]) {
+        let text = std::fs::read_to_string(&path).unwrap_or_default();
+        let Some((start, rest)) = text.rsplit_once(')') else {
+            continue;
+        };
+        let name = match start.split_once('(') {
+            Some((_, name)) if !path.ends_with(PROGRAM) => {
+                name.trim_end_matches(|it: char| it.is_ascii_digit())
+            }
+            _ => ALL,
+        };
+        let parts = rest.split_whitespace().skip(11).take(2);
+        *all.entry(name.to_owned()).or_default() += parts.flat_map(str::parse::<u64>).sum::<u64>();
+    }
+    all
+}
+
+/// What the program's threads took together.
+const ALL: &str = "all";
 
 impl eframe::App for Meter {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
@@ -362,7 +393,10 @@ impl eframe::App for Meter {
         if let Some(Scene::Change(nth)) = self.scenes.front().copied() {
             self.follow(RECIPES[nth]);
         }
-        let begun = *self.begun.get_or_insert(now);
+        let begun = *self.begun.get_or_insert_with(|| {
+            self.worked = worked();
+            now
+        });
         if let Some(last) = self.last.replace(now) {
             self.apart.push(now - last);
             self.computed.push(now.elapsed());
@@ -432,6 +466,16 @@ impl Meter {
     #[expect(clippy::print_stdout, reason = "it tells what it measured")]
     fn tell(&mut self) {
         let scene = self.scenes.front();
+        let frames = self.apart.len() as f64;
+        let each = worked().into_iter().map(|(name, now)| {
+            let before = self.worked.get(&name).copied().unwrap_or_default();
+            (name, now.saturating_sub(before) as f64 * 10.0 / frames)
+        });
+        let each = each.filter(|(_, millis)| *millis >= 0.1);
+        let each: Vec<String> = each.map(|it| format!("{} {:.1} ms", it.0, it.1)).collect();
+        if !each.is_empty() {
+            println!("{scene:?} processor time a frame: {}", each.join(", "));
+        }
         let all = [
             ("computed", &mut self.computed),
             ("apart", &mut self.apart),
