@@ -38,6 +38,7 @@ mod overlay;
 mod panes;
 mod perform;
 mod pickers;
+mod plain;
 mod player;
 mod settings;
 mod start;

@@ -1,0 +1,309 @@
+//! Shapes as rectangles of whole pixels, where they are nothing else.
+//!
+//! What draws a window in software pays for each triangle, and takes two that are a rectangle along the screen's
+//! axes as one where all that it draws at once is such pairs. Shapes come with soft edges of many triangles from egui,
+//! also where an edge lies between two pixels and nothing of its softness is seen. Here rectangles, also those with
+//! round corners, and level and upright lines become the same pixels without them.
+
+mod surface;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+use eframe::egui::emath::GuiRounding;
+use eframe::egui::epaint::{ClippedShape, CornerRadiusF32, PathShape, RectShape, Vertex, WHITE_UV};
+use eframe::egui::{
+    Color32, Context, FullOutput, Mesh, Plugin, Pos2, Rect, Shape, Stroke, StrokeKind, TextureId,
+    pos2,
+};
+
+use surface::{Runs, Surface};
+
+/// How many triangles are drawn at once: of more only parts are looked at as rectangles.
+const AT_ONCE: usize = 340;
+/// How much rounder corners become than they are asked to be, in points, as egui has it.
+const ROUNDER: f32 = 0.4;
+
+/// Makes plain what a frame paints, after all of it was painted.
+pub(crate) struct Plain;
+
+impl Plugin for Plain {
+    fn debug_name(&self) -> &'static str {
+        "plain shapes"
+    }
+
+    fn output_hook(&mut self, _ctx: &Context, output: &mut FullOutput) {
+        let shapes = std::mem::take(&mut output.shapes);
+        output.shapes = plain(shapes, output.pixels_per_point);
+    }
+}
+
+/// Returns the same picture in rectangles, as far as it consists of some; `scale` is the pixels of a point.
+fn plain(shapes: Vec<ClippedShape>, scale: f32) -> Vec<ClippedShape> {
+    let mut sheet = Sheet {
+        scale,
+        done: Vec::with_capacity(shapes.len()),
+        mesh: Mesh::default(),
+        clip: Rect::NOTHING,
+        texture: TextureId::default(),
+        count: 0,
+        aside: false,
+    };
+    for clipped in shapes {
+        if clipped.transform_after_tessellation == Default::default() {
+            sheet.add(clipped.clip_rect, clipped.shape);
+        } else {
+            sheet.flush();
+            sheet.done.push(clipped);
+        }
+    }
+    sheet.flush();
+    sheet.done
+}
+
+struct Sheet {
+    scale: f32,
+    done: Vec<ClippedShape>,
+    /// Rectangles that are not among those done yet.
+    mesh: Mesh,
+    /// Where what is drawn at once is seen, what it shows, and of how many triangles it is.
+    clip: Rect,
+    texture: TextureId,
+    count: usize,
+    /// What has another place to be seen is drawn by itself: every other time it is wider by nothing.
+    aside: bool,
+}
+
+impl Sheet {
+    fn add(&mut self, clip: Rect, shape: Shape) {
+        match shape {
+            Shape::Noop => {}
+            Shape::Vec(shapes) => {
+                for shape in shapes {
+                    self.add(clip, shape);
+                }
+            }
+            Shape::Rect(rect) => match self.rectangle(clip, &rect) {
+                true => {}
+                false => self.keep(clip, Shape::Rect(rect), 150),
+            },
+            Shape::LineSegment { points, stroke } => match self.line(clip, points, stroke) {
+                true => {}
+                false => self.keep(clip, Shape::LineSegment { points, stroke }, 20),
+            },
+            Shape::Mesh(mesh) if mesh.indices.len() <= AT_ONCE * 3 => {
+                let count = mesh.indices.len() / 3;
+                self.keep(clip, Shape::Mesh(mesh), count);
+                self.pair(clip, count);
+            }
+            Shape::Mesh(mesh) => {
+                for indices in mesh.indices.chunks(AT_ONCE * 3) {
+                    let part = part(&mesh, indices);
+                    self.keep(clip, Shape::mesh(part), indices.len() / 3);
+                }
+                self.pair(clip, mesh.indices.len() / 3);
+            }
+            Shape::Text(text) => {
+                let count = text.galley.num_indices / 3;
+                self.keep(clip, Shape::Text(text), count);
+            }
+            Shape::Path(path) => {
+                let odd = odd(&path);
+                let count = path.points.len() * 7;
+                self.keep(clip, Shape::Path(path), count);
+                self.pair(clip, usize::from(odd));
+            }
+            shape => self.keep(clip, shape, 100),
+        }
+    }
+
+    /// Adds a shape as it is.
+    fn keep(&mut self, clip: Rect, shape: Shape, count: usize) {
+        self.turn_to(clip, shape.texture_id(), count);
+        self.flush();
+        self.done.push(ClippedShape::new(self.place(), shape));
+    }
+
+    /// Adds a triangle of no size after an odd number of them, so that the two of a rectangle stay a pair.
+    fn pair(&mut self, clip: Rect, count: usize) {
+        if count % 2 == 1 {
+            let texture = self.texture;
+            let mesh = self.on(clip, texture, 1);
+            let at = mesh.vertices.len() as u32;
+            mesh.vertices.push(Vertex::default());
+            mesh.indices.extend([at; 3]);
+        }
+    }
+
+    /// Begins with what is drawn at once, where this is not drawn with the last.
+    fn turn_to(&mut self, clip: Rect, texture: TextureId, count: usize) {
+        let same = clip == self.clip && texture == self.texture;
+        if !same || self.count + count > AT_ONCE {
+            self.flush();
+            self.aside = same && !self.aside;
+            (self.clip, self.texture, self.count) = (clip, texture, 0);
+        }
+        self.count += count;
+    }
+
+    fn place(&self) -> Rect {
+        if self.aside {
+            self.clip.expand(1e-3)
+        } else {
+            self.clip
+        }
+    }
+
+    fn flush(&mut self) {
+        if !self.mesh.indices.is_empty() {
+            let mesh = std::mem::take(&mut self.mesh);
+            let shape = Shape::Mesh(Arc::new(mesh));
+            self.done.push(ClippedShape::new(self.place(), shape));
+        }
+    }
+
+    /// Returns the rectangles to add to.
+    fn on(&mut self, clip: Rect, texture: TextureId, count: usize) -> &mut Mesh {
+        self.turn_to(clip, texture, count);
+        self.mesh.texture_id = texture;
+        &mut self.mesh
+    }
+}
+
+impl Sheet {
+    /// Adds a line where it is level or upright; returns whether it is.
+    fn line(&mut self, clip: Rect, [from, to]: [Pos2; 2], stroke: Stroke) -> bool {
+        let upright = from.x == to.x;
+        let width = stroke.width * self.scale;
+        if upright == (from.y == to.y) || width < 0.95 {
+            return false;
+        }
+        let turned = |at: Pos2| if upright { at } else { pos2(at.y, at.x) };
+        let (from, to) = (turned(from), turned(to));
+        let mut middle = from.x;
+        stroke.round_center_to_pixel(self.scale, &mut middle);
+        let middle = middle * self.scale;
+        let end = |at: f32| (at * self.scale - 0.5).round() + 0.5;
+        let (low, high) = (from.y.min(to.y), from.y.max(to.y));
+        let quarter = 0.25 / self.scale;
+        let (low, high) = (end(low + quarter) - 0.5, end(high - quarter) + 0.5);
+        let reach = (width + 1.0) / 2.0;
+        let mut runs = Runs::default();
+        for at in (middle - reach).floor() as i32..(middle + reach).ceil() as i32 {
+            let share = reach - (at as f32 + 0.5 - middle).abs();
+            runs.add(
+                at,
+                at + 1,
+                stroke.color.gamma_multiply(share.clamp(0.0, 1.0)),
+            );
+        }
+        for (left, right, colour) in runs.0 {
+            let corners = [(left, low), (right, high)];
+            let [min, max] = corners.map(|(x, y)| turned(pos2(x as f32, y) / self.scale));
+            let mesh = self.on(clip, TextureId::default(), 2);
+            mesh.add_colored_rect(Rect::from_min_max(min, max), colour);
+        }
+        true
+    }
+
+    /// Adds a rectangle where its edges can lie between pixels; returns whether they can.
+    fn rectangle(&mut self, clip: Rect, shape: &RectShape) -> bool {
+        let (mut stroke, mut fill, mut rect) = (shape.stroke, shape.fill, shape.rect);
+        if shape.angle != 0.0 || shape.blur_width > 0.0 || shape.round_to_pixels == Some(false) {
+            return false;
+        }
+        if stroke.width == 0.0 {
+            stroke = Stroke::NONE;
+        }
+        let pixel = 1.0 / self.scale;
+        if !stroke.is_empty() {
+            let whole = match shape.stroke_kind {
+                StrokeKind::Inside => rect,
+                StrokeKind::Middle => rect.expand(stroke.width / 2.0),
+                StrokeKind::Outside => rect.expand(stroke.width),
+            };
+            if whole.size().min_elem() <= 2.0 * stroke.width + 0.5 * pixel {
+                (rect, fill, stroke) = (whole, stroke.color, Stroke::NONE);
+            }
+        }
+        if stroke.is_empty() && stroke.width > 0.0 || shape.brush.is_some() && !stroke.is_empty() {
+            return false;
+        }
+        if stroke.is_empty() && shape.brush.is_none() && rect.size().min_elem() <= 2.0 * pixel {
+            let (ends, width) = if rect.width() <= 2.0 * pixel {
+                ([rect.center_top(), rect.center_bottom()], rect.width())
+            } else {
+                ([rect.left_center(), rect.right_center()], rect.height())
+            };
+            return self.line(clip, ends, Stroke::new(width, fill));
+        }
+        let rounded = match shape.stroke_kind {
+            StrokeKind::Middle if is_odd(stroke.width * self.scale) => {
+                rect.round_to_pixel_center(self.scale)
+            }
+            _ => rect.round_to_pixels(self.scale),
+        };
+        let beyond = match shape.stroke_kind {
+            StrokeKind::Inside => 0.0,
+            StrokeKind::Middle => stroke.width / 2.0,
+            StrokeKind::Outside => stroke.width,
+        };
+        let outer = rounded.expand(beyond) * self.scale;
+        let whole = outer.round();
+        if (outer.min - whole.min).abs().max_elem() > 0.01 || !whole.is_positive() {
+            return false;
+        }
+        let least = stroke.width + 0.1;
+        let radius = CornerRadiusF32::from(shape.corner_radius);
+        let radius = [radius.nw, radius.ne, radius.sw, radius.se].map(|it| match it {
+            0.0 => 0.0,
+            it => (it + beyond + ROUNDER).max(least) * self.scale,
+        });
+        let surface = Surface {
+            size: [whole.width(), whole.height()],
+            radius: radius.map(|it| it.min(whole.size().min_elem() / 2.0)),
+            width: stroke.width * self.scale,
+            fill,
+            edge: stroke.color,
+        };
+        let texture = shape.brush.as_ref().map(|it| (it.fill_texture_id, it.uv));
+        let area = rounded.expand(beyond);
+        for (place, colour) in surface.pieces() {
+            let place = place.translate(whole.min.to_vec2()) / self.scale;
+            let (texture, uv) = match texture {
+                None => (TextureId::default(), Rect::from_min_max(WHITE_UV, WHITE_UV)),
+                Some((texture, uv)) => {
+                    let at = |at: Pos2| uv.lerp_inside((at - area.min) / area.size());
+                    let uv = Rect::from_min_max(at(place.min), at(place.max));
+                    (texture, uv)
+                }
+            };
+            let mesh = self.on(clip, texture, 2);
+            mesh.add_rect_with_uv(place, uv, colour);
+        }
+        true
+    }
+}
+
+fn is_odd(pixels: f32) -> bool {
+    pixels.round() as i64 % 2 == 1
+}
+
+/// Returns whether egui makes an odd number of triangles of a path: those of an inner surface with an odd number of
+/// corners; all others come in pairs.
+fn odd(path: &PathShape) -> bool {
+    path.fill != Color32::TRANSPARENT && path.points.len() % 2 == 1
+}
+
+/// Returns some triangles of a mesh as one of their own.
+fn part(mesh: &Mesh, indices: &[u32]) -> Mesh {
+    let first = indices.iter().copied().min().unwrap_or_default();
+    let last = indices.iter().copied().max().unwrap_or_default();
+    let vertices = mesh.vertices.get(first as usize..=last as usize);
+    Mesh {
+        indices: indices.iter().map(|index| index - first).collect(),
+        vertices: vertices.unwrap_or_default().to_vec(),
+        texture_id: mesh.texture_id,
+    }
+}

@@ -1,0 +1,118 @@
+//! A rectangle as rectangles of one colour each, in whole pixels.
+
+use eframe::egui::{Color32, Pos2, Rect};
+
+/// The part of a pixel that is not worth a rectangle of its own.
+const SLIGHT: f32 = 0.15;
+
+/// A rectangle in pixels.
+pub(super) struct Surface {
+    pub(super) size: [f32; 2],
+    /// Of its corners: above on the left and on the right, below in the same way.
+    pub(super) radius: [f32; 4],
+    /// How wide its edge is.
+    pub(super) width: f32,
+    pub(super) fill: Color32,
+    pub(super) edge: Color32,
+}
+
+impl Surface {
+    /// Returns the rectangles that it consists of, each of one colour.
+    pub(super) fn pieces(&self) -> Vec<(Rect, Color32)> {
+        let [across, down] = self.size.map(|it| it as i32);
+        let rounded = self.radius.iter().fold(0.0_f32, |most, it| most.max(*it));
+        let rim = rounded.max(self.width + 0.5).ceil() as i32;
+        let rim = if self.width == 0.0 && rounded == 0.0 {
+            0
+        } else {
+            rim
+        };
+        let mut open: Vec<(Rect, Color32)> = Vec::new();
+        let mut done = Vec::new();
+        for [top, bottom] in stretches(down, rim) {
+            let mut runs = Runs::default();
+            for [left, right] in stretches(across, rim) {
+                runs.add(left, right, self.colour([left, top]));
+            }
+            let mut row = Vec::with_capacity(runs.0.len());
+            for (left, right, colour) in runs.0 {
+                let same = |it: &(Rect, Color32)| {
+                    it.1 == colour && it.0.x_range() == (left as f32..=right as f32)
+                };
+                let above = open.iter().position(same).map(|at| open.swap_remove(at).0);
+                let from = above.map_or(top as f32, |it| it.top());
+                let corners = [(left as f32, from), (right as f32, bottom as f32)];
+                let [min, max] = corners.map(Pos2::from);
+                row.push((Rect::from_min_max(min, max), colour));
+            }
+            done.append(&mut open);
+            open = row;
+        }
+        done.append(&mut open);
+        done
+    }
+
+    /// Returns the colour of the pixel in that column and row.
+    fn colour(&self, [x, y]: [i32; 2]) -> Color32 {
+        let inside = self.inside([x as f32 + 0.5, y as f32 + 0.5]);
+        let all = slightly(inside + 0.5);
+        let edge = match self.width {
+            0.0 => 0.0,
+            width => 1.0 - slightly(inside - width + 0.5),
+        };
+        let [fill, edge_colour] = [self.fill, self.edge].map(|it| it.to_array());
+        let part = |at: usize| {
+            let (fill, own) = (f32::from(fill[at]), f32::from(edge_colour[at]));
+            (all * (fill + (own - fill) * edge) + 0.5) as u8
+        };
+        Color32::from_rgba_premultiplied(part(0), part(1), part(2), part(3))
+    }
+
+    /// Returns how far within the rectangle a place is.
+    fn inside(&self, at: [f32; 2]) -> f32 {
+        let beyond = [0, 1].map(|axis| self.size[axis] - at[axis]);
+        let (right, below) = (at[0] > beyond[0], at[1] > beyond[1]);
+        let away = [0, 1].map(|axis| at[axis].min(beyond[axis]));
+        let radius = self.radius[usize::from(right) + 2 * usize::from(below)];
+        if away[0] < radius && away[1] < radius {
+            radius - (radius - away[0]).hypot(radius - away[1])
+        } else {
+            away[0].min(away[1])
+        }
+    }
+}
+
+/// Returns a share of a pixel, all or nothing where it is nearly that.
+fn slightly(share: f32) -> f32 {
+    match share {
+        it if it < SLIGHT => 0.0,
+        it if it > 1.0 - SLIGHT => 1.0,
+        it => it,
+    }
+}
+
+/// Returns the pixels of a side one by one, those farther than `rim` from its ends at once.
+fn stretches(side: i32, rim: i32) -> impl Iterator<Item = [i32; 2]> {
+    let (from, to) = if side > 2 * rim {
+        (rim, side - rim)
+    } else {
+        (side, side)
+    };
+    let middle = (from < to).then_some([from, to]);
+    let ones = |range: std::ops::Range<i32>| range.map(|at| [at, at + 1]);
+    ones(0..from).chain(middle).chain(ones(to..side))
+}
+
+/// Neighbours of one colour, from and to where, without those of none.
+#[derive(Default)]
+pub(super) struct Runs(pub(super) Vec<(i32, i32, Color32)>);
+
+impl Runs {
+    pub(super) fn add(&mut self, from: i32, to: i32, colour: Color32) {
+        match self.0.last_mut() {
+            _ if colour == Color32::TRANSPARENT => {}
+            Some(last) if last.1 == from && last.2 == colour => last.1 = to,
+            _ => self.0.push((from, to, colour)),
+        }
+    }
+}
