@@ -4,6 +4,7 @@ use chereme_figure::Theme;
 use chereme_figure::camera::{Camera, Projection};
 use chereme_figure::raster::Style;
 use chereme_motion::ModelPose;
+use eframe::egui::emath::GuiRounding;
 use eframe::egui::{
     self, Align2, Button, Color32, ComboBox, PointerButton, Rect, Response, RichText, Role, Sense,
     Stroke, StrokeKind, TextStyle, TextureOptions, Ui, UiBuilder, WidgetInfo, pos2, vec2,
@@ -225,7 +226,8 @@ fn pictures(
         parts: parts
             .iter()
             .map(|it| {
-                let size = [it.rect.width(), it.rect.height()].map(pixels);
+                let rect = it.rect.round_to_pixels(scale);
+                let size = [rect.width(), rect.height()].map(pixels);
                 (it.eye, it.who, size)
             })
             .collect(),
@@ -250,7 +252,13 @@ fn pictures(
             artist.await_newest(stage.wished, AT_ONCE);
         }
     }
-    take_drawn(stage, ui);
+    // A pixel of the picture is one of the window, where it is not too large.
+    let options = if shrink < 1.0 {
+        TextureOptions::LINEAR
+    } else {
+        TextureOptions::NEAREST
+    };
+    take_drawn(stage, ui, options);
     let joints = signer_joints(stage);
     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     for (part, texture) in parts.iter().zip(&stage.textures) {
@@ -263,16 +271,18 @@ fn pictures(
 }
 
 /// Shows the newest pictures that are ready.
-fn take_drawn(stage: &mut Stage, ui: &Ui) {
+fn take_drawn(stage: &mut Stage, ui: &Ui, options: TextureOptions) {
     let Some(drawn) = stage.artist.as_ref().and_then(Artist::take) else {
         return;
     };
     stage.took = drawn.took;
     (stage.drawn, stage.shown) = (drawn.posture, drawn.number);
-    let options = TextureOptions::LINEAR;
     stage.textures.truncate(drawn.images.len());
     for (index, image) in drawn.images.into_iter().enumerate() {
         match stage.textures.get_mut(index) {
+            Some(texture) if texture.size() == image.size => {
+                texture.set_partial([0, 0], image, options);
+            }
             Some(texture) => texture.set(image, options),
             None => {
                 let texture = ui.ctx().load_texture("stage", image, options);

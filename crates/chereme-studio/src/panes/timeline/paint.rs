@@ -114,16 +114,16 @@ pub(super) fn bar(
 
 /// Paints text into a bar, at its start or where the bar comes into sight.
 fn inside(painter: &Painter, rect: Rect, text: String, font: &FontId, ink: Color32) {
-    let clip = rect.shrink2(vec2(2.0, 0.0)).intersect(painter.clip_rect());
+    let room = rect.shrink2(vec2(2.0, 0.0)).intersect(painter.clip_rect());
     let left = rect.left().max(painter.clip_rect().left()) + 5.0;
-    let painter = painter.with_clip_rect(clip);
-    painter.text(
-        pos2(left, rect.center().y),
-        Align2::LEFT_CENTER,
-        text,
-        font.clone(),
-        ink,
-    );
+    let galley = painter.layout_no_wrap(text, font.clone(), ink);
+    let at = pos2(left, rect.center().y - galley.size().y / 2.0);
+    // What has an edge of its own to be cut off at is drawn by itself.
+    if left + galley.size().x <= room.right() {
+        painter.galley(at, galley, ink);
+    } else {
+        painter.with_clip_rect(room).galley(at, galley, ink);
+    }
 }
 
 /// Paints where the edges of a selected annotation are taken hold of.
