@@ -13,6 +13,10 @@ const WRITTEN: &[char] = &[
 const MOST: usize = 3;
 /// Words between a component and its value that add nothing.
 const BETWEEN: [&str; 8] = ["is", "est", "at", "à", "of", "de", "la", "le"];
+/// Further words that add nothing beside values.
+const BESIDE: [&str; 12] = [
+    "a", "an", "the", "on", "in", "with", "un", "une", "au", "sur", "dans", "avec",
+];
 
 /// Returns the query that is meant by words that name components before their values, of these inventories.
 ///
@@ -20,13 +24,14 @@ const BETWEEN: [&str; 8] = ["is", "est", "at", "à", "of", "de", "la", "le"];
 /// language of queries already.
 #[must_use]
 pub fn meant(text: &str, inventories: &[&Inventory]) -> Option<String> {
-    read(text, |words| named(words, inventories))
+    read(text, &[], |words| named(words, inventories))
 }
 
 /// Returns what [`meant`] does, where values stand without what they are values of, too.
 #[must_use]
 pub fn guessed(text: &str, inventories: &[&Inventory]) -> Option<String> {
-    read(text, |words| {
+    let idle = [&BETWEEN[..], &BESIDE[..]].concat();
+    read(text, &idle, |words| {
         named(words, inventories).or_else(|| bare(words, inventories))
     })
 }
@@ -34,7 +39,8 @@ pub fn guessed(text: &str, inventories: &[&Inventory]) -> Option<String> {
 /// A field with a value, and how many words said so.
 type Found = (String, String, usize);
 
-fn read(text: &str, find: impl Fn(&[String]) -> Option<Found>) -> Option<String> {
+/// Reads a text word by word; those that are `idle` are left out where they name nothing.
+fn read(text: &str, idle: &[&str], find: impl Fn(&[String]) -> Option<Found>) -> Option<String> {
     if text.contains(WRITTEN) {
         return None;
     }
@@ -48,7 +54,9 @@ fn read(text: &str, find: impl Fn(&[String]) -> Option<Found>) -> Option<String>
                 (at, understood) = (at + words, true);
             }
             None => {
-                terms.push(whole[at].to_owned());
+                if !is_one_of(&folded[at], idle) {
+                    terms.push(whole[at].to_owned());
+                }
                 at += 1;
             }
         }
@@ -80,8 +88,17 @@ fn named(words: &[String], inventories: &[&Inventory]) -> Option<Found> {
     Some((field, value, at + more))
 }
 
+/// Finds a value at the start that stands without its component; a hand may be named before one of a hand.
 fn bare(words: &[String], inventories: &[&Inventory]) -> Option<Found> {
-    value(words, inventories, None)
+    let (hand, before) = hand(words);
+    let of_hand = hand.and_then(|hand| {
+        let manual = Component::ALL.into_iter().filter(|it| it.is_manual());
+        let rest = &words[before..];
+        let mut found = manual.filter_map(|it| value(rest, inventories, Some(it)));
+        let (field, value, more) = found.next()?;
+        Some((format!("{}.{field}", hand.names()[0]), value, before + more))
+    });
+    of_hand.or_else(|| value(words, inventories, None))
 }
 
 /// Finds the value that most words name; its field, its id, and how many they are.
@@ -99,10 +116,11 @@ fn value(
         ordered.clone().find_map(|component| {
             let fits = inventories.iter().filter(|it| it.component == component);
             let mut all = fits.flat_map(|it| it.values.iter().map(move |value| (it, value)));
-            let (inventory, value) = all.find(|(_, value)| {
-                let mut spelt = value.spellings();
-                spelt.any(|it| texts.contains(&fold(it)))
-            })?;
+            let is = |it: &str| texts.contains(&fold(it));
+            let mut exact = all.clone();
+            let (inventory, value) = exact
+                .find(|(_, value)| value.spellings().any(is))
+                .or_else(|| all.find(|(_, value)| value.spellings().any(|it| is(head(it)))))?;
             let field = match &inventory.feature {
                 Some(feature) => format!("{}.{feature}", component.name()),
                 None => component.name().to_owned(),
@@ -113,7 +131,12 @@ fn value(
     spelt.or_else(|| described(words.first()?, inventories, component?))
 }
 
-/// Finds the first value of a component in whose name a word stands: "plate" in "main plate, pouce le long".
+/// Returns what a name says before it goes into detail: "main plate" of "main plate, pouce le long".
+fn head(name: &str) -> &str {
+    name.split([',', ':']).next().unwrap_or(name)
+}
+
+/// Finds the first value of a component in whose name a word begins so: "plat" in "main plate, pouce le long".
 fn described(word: &str, inventories: &[&Inventory], component: Component) -> Option<Found> {
     let mut fits = inventories.iter();
     let plain = fits.find(|it| it.component == component && it.feature.is_none())?;
@@ -121,7 +144,7 @@ fn described(word: &str, inventories: &[&Inventory], component: Component) -> Op
         value.spellings().any(|name| {
             let name = fold(name);
             let mut words = name.split(|letter: char| !letter.is_alphanumeric());
-            word.chars().count() > 3 && words.any(|it| it == word)
+            word.chars().count() > 3 && words.any(|it| it.starts_with(word))
         })
     })?;
     Some((component.name().to_owned(), value.id.clone(), 1))
@@ -180,6 +203,11 @@ mod tests {
             ),
             ("la main", None),
             ("configuration plate", Some("configuration=flat")),
+            ("configuration plat", Some("configuration=flat")),
+            (
+                "configuration main plate emplacement menton",
+                Some("configuration=flat placement=chin"),
+            ),
             ("handshape nonsense", None),
             ("handshape", None),
             ("chat", None),
@@ -199,6 +227,17 @@ mod tests {
             ("chin", Some("placement=chin")),
             ("menton", Some("placement=chin")),
             ("U menton", Some("configuration=U placement=chin")),
+            ("fist chin", Some("configuration=A placement=chin")),
+            ("poing au menton", Some("configuration=A placement=chin")),
+            (
+                "main plate sur la poitrine",
+                Some("configuration=flat placement=chest"),
+            ),
+            (
+                "right hand flat chin",
+                Some("right.configuration=flat placement=chin"),
+            ),
+            ("la main", None),
             ("ESCARGOT", None),
         ] {
             assert_eq!(guessed(text, &all).as_deref(), wanted, "{text}");
