@@ -2,7 +2,7 @@
 
 mod common;
 
-use chereme_studio::Options;
+use chereme_studio::{Language, Options};
 use common::tiers::*;
 use common::{Window, click, has, idle, until};
 use eframe::egui::{Key, Modifiers, Role, pos2, vec2};
@@ -246,4 +246,23 @@ fn a_tier_is_described_in_words() {
     assert_eq!(list(&window, "How"), "within its time (Included In)");
     let name = window.get_by_role_and_label(Role::TextInput, "Name of the tier");
     assert_eq!(name.value().as_deref(), Some("non-manual · brows"));
+}
+
+#[test]
+fn the_tools_fit_a_narrow_pane_in_longer_words_too() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = common::window(Options {
+        corpus: Some(common::small_corpus(folder.path())),
+        language: Language::French,
+        ..common::options(folder.path())
+    });
+    until(&mut window, "the corpus", |it| has(it, "escargot"));
+    idle(&mut window);
+    for (layout, narrow) in [(Key::F1, false), (Key::F2, true)] {
+        press(&mut window, CTRL, layout);
+        window.run_steps(3);
+        let tiers = window.get_by_role_and_label(Role::Button, "Acteurs").rect();
+        assert!(tiers.right() <= 1280.0, "{layout:?}: {tiers}");
+        assert_eq!(has(&window, "Caler"), narrow, "{layout:?}");
+    }
 }

@@ -10,7 +10,8 @@ use chereme_corpus::recipe::{
 use chereme_corpus::{MadePart, Overview, SignGlance, TokenRow};
 use chereme_sign::{Component, Inventory, InventoryValue};
 use eframe::egui::{
-    Button, ComboBox, DragValue, Id, Response, Role, Slider, SliderClamping, Ui, WidgetInfo,
+    Button, ComboBox, DragValue, Id, Label, Response, RichText, Role, Slider, SliderClamping, Ui,
+    WidgetInfo,
 };
 
 use crate::context::Seen;
@@ -397,7 +398,9 @@ pub(super) fn of_inventory(
         && let Some(name) = called(value, seen)
         && name != *text
     {
-        ui.weak(name);
+        // A second line would push the card's other settings out of sight.
+        let called = RichText::new(&name).weak();
+        ui.add(Label::new(called).truncate()).on_hover_text(&name);
     }
     let changed = picked.is_some();
     if let Some(picked) = picked {

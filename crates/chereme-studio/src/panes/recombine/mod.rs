@@ -467,7 +467,9 @@ impl Pane for Recombine {
             {
                 report::show(ui, seen, &made.report);
             }
-            if let Some(source) = self.source().map(str::to_owned) {
+            // A name that is half typed means nothing yet.
+            let known = self.live.trouble.is_none();
+            if let Some(source) = self.source().filter(|_| known).map(str::to_owned) {
                 let name = match fields::gloss_of(seen, &source) {
                     Some(gloss) => gloss,
                     None => source.clone(),

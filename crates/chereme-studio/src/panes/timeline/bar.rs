@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use chereme_corpus::{Name, Scheme};
-use eframe::egui::{Button, ScrollArea, Ui};
+use eframe::egui::{Button, Color32, ScrollArea, TextStyle, Ui};
 
 use super::edit::Scene;
 use super::rows::{hidden_count, rows};
@@ -17,10 +17,8 @@ use crate::work::Work;
 /// How high the list of recordings is at most.
 const LIKE: f32 = 300.0;
 
-/// From this width on every switch is a button of its own.
-const WIDE: f32 = 560.0;
-/// And with so much left there is room to say what the switches are.
-const SPACIOUS: f32 = 560.0;
+/// How far the tools stand apart.
+const GAP: f32 = 3.0;
 
 const MODES: [(Action, Text); 3] = [
     (Action::ModeNormal, words::NORMAL),
@@ -42,13 +40,15 @@ pub(crate) fn mode_name(ways: &Ways) -> Text {
 pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
     let seen = scene.seen;
     ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 3.0;
-        if ui.available_width() >= WIDE {
+        ui.spacing_mut().item_spacing.x = GAP;
+        let tiers_title = tiers_title(scene);
+        let spare = ui.available_width() - wanted(ui, seen, &tiers_title);
+        if spare >= 0.0 {
             for (action, text) in MODES {
                 switch(ui, seen, (action, text), out);
             }
             ui.separator();
-            if ui.available_width() >= SPACIOUS {
+            if spare >= width(ui, seen.say(words::SNAPS_TO)) {
                 ui.weak(seen.say(words::SNAPS_TO));
             }
             for (action, text) in SNAPS {
@@ -68,13 +68,31 @@ pub(super) fn show(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
         let mut lanes = vec![(Action::Overview, words::LANES)];
         lanes.extend(super::lanes::Lane::ALL.map(|(_, action, text)| (action, text)));
         menu(ui, seen, seen.say(words::LANES), &lanes, out);
-        tiers(ui, scene, out);
+        tiers(ui, scene, tiers_title, out);
         ui.spacing_mut().item_spacing.x = 8.0;
         let chosen = seen.shown.annotations.len();
         if chosen > 1 {
             ui.weak(fill(seen.say(words::SELECTED_COUNT), &[("n", &chosen)]));
         }
     });
+}
+
+/// Returns how much room the tools want with a button for every switch.
+fn wanted(ui: &Ui, seen: &Seen<'_>, tiers_title: &str) -> f32 {
+    let switches = MODES.iter().chain(&SNAPS).map(|(_, text)| seen.say(*text));
+    let all = switches.chain([seen.say(words::LANES), tiers_title]);
+    let buttons = all.map(|text| width(ui, text)).sum::<f32>();
+    // Two lines stand between them.
+    buttons + 2.0 * (6.0 + GAP)
+}
+
+/// Returns how wide a button of that text is, with the gap beside it.
+fn width(ui: &Ui, text: &str) -> f32 {
+    let font = TextStyle::Button.resolve(ui.style());
+    let galley = ui
+        .painter()
+        .layout_no_wrap(text.to_owned(), font, Color32::WHITE);
+    galley.size().x + 2.0 * ui.spacing().button_padding.x + GAP
 }
 
 fn switch(ui: &mut Ui, seen: &Seen<'_>, (action, text): (Action, Text), out: &mut Outbox) {
@@ -100,14 +118,22 @@ fn menu(ui: &mut Ui, seen: &Seen<'_>, title: &str, rows: &[(Action, Text)], out:
     });
 }
 
-fn tiers(ui: &mut Ui, scene: &Scene<'_>, out: &mut Outbox) {
+/// Returns how many tiers are hidden.
+fn hidden(scene: &Scene<'_>) -> usize {
+    let ways = &scene.seen.settings.timeline;
+    hidden_count(&scene.contents.tiers, &ways.hidden)
+}
+
+fn tiers_title(scene: &Scene<'_>) -> String {
+    match hidden(scene) {
+        0 => scene.seen.say(words::TIERS).to_owned(),
+        n => fill(scene.seen.say(words::TIERS_HIDDEN), &[("n", &n)]),
+    }
+}
+
+fn tiers(ui: &mut Ui, scene: &Scene<'_>, title: String, out: &mut Outbox) {
     let seen = scene.seen;
-    let hidden = hidden_count(&scene.contents.tiers, &seen.settings.timeline.hidden);
-    let title = if hidden == 0 {
-        seen.say(words::TIERS).to_owned()
-    } else {
-        fill(seen.say(words::TIERS_HIDDEN), &[("n", &hidden)])
-    };
+    let hidden = hidden(scene);
     ui.menu_button(title, |ui| {
         actions(ui, seen, &[Action::AddTier, Action::UsualTiers], out);
         like(ui, scene, out);
