@@ -65,6 +65,16 @@ fn signs_without_recordings_are_listed_animated_and_taken_into_a_recipe() {
     until(&mut window, "the stage", |window| {
         says(window, "Made: HOCHER")
     });
+    // In a lower pane that stands in the line of what can be done, and the list keeps its room.
+    let beside = |window: &Window<'_>| {
+        let said = window.get_by_label_contains("HOCHER is animated from its notation");
+        let button = window.get_by_label("Take it into a recipe");
+        said.rect().left() > button.rect().right()
+    };
+    assert!(!beside(&window));
+    window.set_size(eframe::egui::vec2(1280.0, 760.0));
+    window.run_steps(4);
+    assert!(beside(&window));
     window.key_press_modifiers(Modifiers::COMMAND | Modifiers::ALT, Key::R);
     window.run_steps(4);
     idle(&mut window);

@@ -1,6 +1,6 @@
 //! A sign that nothing moves of yet: what can be done about it.
 
-use eframe::egui::{Frame, Margin, Panel, RichText, Ui};
+use eframe::egui::{Frame, Label, Margin, Panel, RichText, Ui};
 
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
@@ -20,6 +20,9 @@ pub(crate) enum Bare {
     Animated,
 }
 
+/// A list lower than this keeps its room: what is said stands in one line then.
+const LOW: f32 = 300.0;
+
 /// Says what there is of a sign, and offers what can be done.
 pub(crate) fn show(
     ui: &mut Ui,
@@ -31,6 +34,7 @@ pub(crate) fn show(
     // Below what is listed, which stays where it is.
     let frame = Frame::new().inner_margin(Margin::symmetric(0, 6));
     let id = ui.scope_id().with("bare");
+    let low = ui.available_height() < LOW;
     Panel::bottom(id).frame(frame).show(ui, |ui| {
         let text = match bare {
             Bare::Coded => words::ONLY_CODED,
@@ -38,27 +42,50 @@ pub(crate) fn show(
             Bare::Failed(_) => words::NOT_ANIMATED,
             Bare::Animated => words::ANIMATED,
         };
-        ui.label(fill(seen.say(text), &[("gloss", &gloss)]));
-        if let Bare::Failed(why) = bare {
+        let text = fill(seen.say(text), &[("gloss", &gloss)]);
+        let why = match bare {
+            Bare::Failed(why) => why.as_str(),
+            _ => "",
+        };
+        if low {
+            ui.horizontal(|ui| {
+                offers(ui, seen, out, (token, gloss), bare);
+                let whole = format!("{text}\n{why}");
+                ui.add(Label::new(&text).truncate())
+                    .on_hover_text(whole.trim_end());
+            });
+            return;
+        }
+        ui.label(text);
+        if !why.is_empty() {
             ui.label(RichText::new(why).small().weak());
         }
-        ui.horizontal_wrapped(|ui| {
-            let (name, recipe) = match bare {
-                Bare::Making => return,
-                Bare::Animated => {
-                    let recipe = recipe_of(&seen.snapshot.overview, token, gloss);
-                    (words::TO_RECIPE, recipe)
-                }
-                Bare::Coded | Bare::Failed(_) => (words::MAKE, String::new()),
-            };
-            if ui.button(seen.say(name)).clicked() {
-                let gloss = gloss.to_owned();
-                out.send(Command::Make { recipe, gloss });
-            }
-            if *bare != Bare::Animated && ui.button(seen.say(words::ALIKE)).clicked() {
-                let query = format!("like token:{token} not origin=lexicon");
-                out.send(Command::Find(query));
-            }
-        });
+        ui.horizontal_wrapped(|ui| offers(ui, seen, out, (token, gloss), bare));
     });
+}
+
+/// Offers what can be done.
+fn offers(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    (token, gloss): (i64, &str),
+    bare: &Bare,
+) {
+    let (name, recipe) = match bare {
+        Bare::Making => return,
+        Bare::Animated => {
+            let recipe = recipe_of(&seen.snapshot.overview, token, gloss);
+            (words::TO_RECIPE, recipe)
+        }
+        Bare::Coded | Bare::Failed(_) => (words::MAKE, String::new()),
+    };
+    if ui.button(seen.say(name)).clicked() {
+        let gloss = gloss.to_owned();
+        out.send(Command::Make { recipe, gloss });
+    }
+    if *bare != Bare::Animated && ui.button(seen.say(words::ALIKE)).clicked() {
+        let query = format!("like token:{token} not origin=lexicon");
+        out.send(Command::Find(query));
+    }
 }
