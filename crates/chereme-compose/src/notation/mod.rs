@@ -9,6 +9,7 @@
 //! | `plan` | from the tree to events: postures, transitions, who acts in which frame |
 //! | `transit` | the ways of hands from one state to another |
 //! | `place` | where hands are: on the body, in space, by each other |
+//! | `touch` | how a hand lies where it touches the trunk |
 //! | `ease` | where in its place a hand is, so that its arm is at ease |
 //! | `motion` | motions, repetitions, sequences |
 //! | `path`, `pace` | ways through space; how they run in time |
@@ -44,6 +45,7 @@ mod stage;
 #[cfg(test)]
 mod tests;
 mod thumb;
+mod touch;
 mod track;
 mod transit;
 mod warp;

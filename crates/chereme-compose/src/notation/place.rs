@@ -4,7 +4,7 @@
 //! palm in free space, at a place on the body what comes to it first as the hand is turned.
 
 use chereme_motion::Side;
-use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::glam::DVec3;
 use chereme_sign::hamnosys::sites::{
     BodySite, Face, HandPoint, Region, TOUCHED_BESIDE, body_site, coming_first, hand_points,
 };
@@ -16,16 +16,15 @@ use super::lift::inside;
 use super::plan::{Frame, Planner, Who, acting};
 use super::solve::Arm;
 
-/// How far a hand turns off what is written to lie on the skin, in radians: it still reads as written.
-const LAID: f64 = 0.17;
-
 /// Where a point of a hand should be.
 #[derive(Debug, Clone)]
-struct Goal {
-    at: DVec3,
-    points: Vec<HandPoint>,
+pub(super) struct Goal {
+    pub(super) at: DVec3,
+    pub(super) points: Vec<HandPoint>,
     /// Whether nothing of the hand stands out farther than a face of it that touches.
-    flat: bool,
+    pub(super) flat: bool,
+    /// The way out of the skin where it is touched.
+    pub(super) skin: Option<DVec3>,
 }
 
 impl Planner<'_> {
@@ -84,27 +83,9 @@ impl Planner<'_> {
             self.state[n].offset += self.stands_out(n, &goal.points);
         }
         self.state[n].point = goal.at;
-    }
-
-    /// Returns the way from a face of a hand to the plane before it that nothing of the hand is beyond,
-    /// in the hand's space: fingers of a fist stand out farther than the palm.
-    fn stands_out(&self, n: usize, points: &[HandPoint]) -> DVec3 {
-        let (Some(hand), [point]) = (self.stage.hand(self.sides[n]), points) else {
-            return DVec3::ZERO;
-        };
-        let face = matches!(
-            point,
-            HandPoint::Palm | HandPoint::Back | HandPoint::Radial | HandPoint::Ulnar
-        );
-        if !face {
-            return DVec3::ZERO;
+        if let Some(skin) = goal.skin {
+            self.lie(n, skin, &goal.points);
         }
-        let shape = &self.plan.shapes[n][self.state[n].shape];
-        let out = self.stage.outward(hand, shape, *point);
-        let own = self.stage.point(hand, shape, *point).dot(out);
-        let far = shape.outline.iter().map(|at| at.dot(out));
-        let far = far.fold(own, f64::max);
-        out * (far - own)
     }
 
     /// Returns where a hand is for a place on the body or in space.
@@ -127,7 +108,14 @@ impl Planner<'_> {
             None => vec![HandPoint::Palm],
         };
         let at = self.before(&site, contact, touching, place.behind);
-        if touching && site.site.region == Region::Trunk && !place.behind {
+        let skin = match site.site.region {
+            _ if !touching || place.behind => None,
+            Region::Trunk => self.stage.torso.normal(at),
+            // What touches below the chin or at the neck is out of it forward.
+            Region::Face => Some(self.stage.forward),
+            Region::Arm(_) => None,
+        };
+        if site.site.region == Region::Trunk && skin.is_some() {
             self.lay(n, &points, at);
         }
         let at = if apart && self.symmetric && !touching && site.site.lateral == 0.0 {
@@ -139,6 +127,7 @@ impl Planner<'_> {
             at,
             points,
             flat: touching,
+            skin,
         }
     }
 
@@ -172,40 +161,6 @@ impl Planner<'_> {
         };
         let local = DVec3::new(out.dot(stage.left), out.y, out.dot(stage.forward));
         Some(local * frame.axes)
-    }
-
-    /// Turns a hand that touches the trunk with a face of it so that it lies on the skin, as far as it
-    /// is still turned as written.
-    fn lay(&mut self, n: usize, points: &[HandPoint], at: DVec3) {
-        let flat = |point: &HandPoint| {
-            matches!(
-                point,
-                HandPoint::Palm
-                    | HandPoint::Back
-                    | HandPoint::Radial
-                    | HandPoint::Ulnar
-                    | HandPoint::Tip(_, Face::Palmar | Face::Dorsal)
-                    | HandPoint::Middle(_, Face::Palmar | Face::Dorsal)
-                    | HandPoint::Base(_, Face::Palmar | Face::Dorsal)
-            )
-        };
-        let Some(normal) = self
-            .stage
-            .torso
-            .normal(at)
-            .filter(|_| points.iter().all(flat))
-        else {
-            return;
-        };
-        let (_, out) = self.at_hand(n, points);
-        let turn = DQuat::from_rotation_arc(out, -normal);
-        let angle = turn.angle_between(DQuat::IDENTITY);
-        if !(1e-6..1.2).contains(&angle) {
-            return;
-        }
-        let share = (LAID / angle).min(1.0);
-        let turn = DQuat::IDENTITY.slerp(turn, share);
-        self.state[n].rotation = (turn * self.state[n].rotation).normalize();
     }
 
     /// Moves a place in the middle to before a hand's own shoulder.
@@ -326,7 +281,7 @@ impl Planner<'_> {
     }
 
     /// Returns where points of a hand are, as planned, and the unit vector out of it there.
-    fn at_hand(&self, n: usize, points: &[HandPoint]) -> (DVec3, DVec3) {
+    pub(super) fn at_hand(&self, n: usize, points: &[HandPoint]) -> (DVec3, DVec3) {
         let state = &self.state[n];
         let offset = self.offset(n, points);
         let at = state.wrist() + state.rotation * offset;
@@ -363,6 +318,7 @@ impl Planner<'_> {
             at: at + out * far,
             points,
             flat: false,
+            skin: None,
         };
         self.settle(acting, &goal);
         self.define(site.define, acting);
@@ -439,6 +395,7 @@ impl Planner<'_> {
             at: centre,
             points,
             flat: false,
+            skin: None,
         });
         let [mut first, mut second] = goals;
         first.at += way * (apart / 2.0);
@@ -451,6 +408,9 @@ impl Planner<'_> {
         }
         self.settle(0, &first);
         self.settle(1, &second);
+        if hands.at.as_ref().is_some_and(|at| !at.behind) {
+            self.both_out();
+        }
         for n in 0..2 {
             self.define(hands.define, n);
         }

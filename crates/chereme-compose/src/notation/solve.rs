@@ -21,7 +21,7 @@ const PUSHING: f64 = 5.0;
 /// The time before and after what changes at once over which it is spread, in seconds.
 pub(super) const AROUND: f64 = 0.09;
 /// How near to the trunk's surface points of a hand come, in metres.
-const MARGIN: f64 = 0.006;
+pub(super) const MARGIN: f64 = 0.006;
 /// How far a hand turns about its point to leave the trunk or come within reach, in radians.
 const MOST_TURNED: f64 = 0.7;
 /// The same where it touches nothing.

@@ -667,3 +667,21 @@ fn what_touches_beside_the_head_is_at_the_head() {
     });
     assert!(far[0] < 0.06 && far[0] + 0.05 < far[1], "{far:?}");
 }
+
+#[test]
+fn a_hand_touches_with_what_stands_before_a_part_that_looks_away() {
+    let mut place = at(BodyLocation::Chest, Some(Contact::Touch));
+    if let Place::Body(body) = &mut place {
+        body.by = Some(HandSite {
+            at: Some(HandLocation::MidJoint),
+            digits: chereme_sign::hamnosys::Digits(vec![chereme_sign::hamnosys::Digit::Middle]),
+            side: Some(chereme_sign::hamnosys::Side::Dorsal),
+            ..HandSite::default()
+        });
+    }
+    let begun = posture(HandClass::Flat, "l", "d", Some(place));
+    let made = made(&notated(HandsUsed::Dominant, begun, vec![]), Axes::Odd);
+    let said = made.report.warnings.join("; ");
+    assert!(said.contains("stands before the part"), "{said}");
+    assert!(!said.contains("short of"), "{said}");
+}

@@ -1,0 +1,126 @@
+//! How a hand lies where it touches the trunk.
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_sign::hamnosys::sites::{Face, HandPoint};
+
+use super::plan::Planner;
+use super::solve::MARGIN;
+
+/// How far a hand turns off what is written to lie on the skin, in radians: it still reads as written.
+const LAID: f64 = 0.17;
+/// How far at most what touches lies behind what stands before it, in lengths of the hand.
+const BEHIND: f64 = 0.5;
+/// From which cosine on between a part's way out of the hand and the skin's out of the body the part does not
+/// look at the skin: 60 degrees.
+const AWAY: f64 = -0.5;
+/// From how far behind on it is told, in metres.
+const TOLD: f64 = 2e-3;
+/// Steps by which it is found how far, in metres.
+const STEP: f64 = 1e-3;
+
+impl Planner<'_> {
+    /// Returns the way from a face of a hand to the plane before it that nothing of the hand is beyond,
+    /// in the hand's space: fingers of a fist stand out farther than the palm.
+    pub(super) fn stands_out(&self, n: usize, points: &[HandPoint]) -> DVec3 {
+        let (Some(hand), [point]) = (self.stage.hand(self.sides[n]), points) else {
+            return DVec3::ZERO;
+        };
+        let face = matches!(
+            point,
+            HandPoint::Palm | HandPoint::Back | HandPoint::Radial | HandPoint::Ulnar
+        );
+        if !face {
+            return DVec3::ZERO;
+        }
+        let shape = &self.plan.shapes[n][self.state[n].shape];
+        let out = self.stage.outward(hand, shape, *point);
+        let own = self.stage.point(hand, shape, *point).dot(out);
+        let far = shape.outline.iter().map(|at| at.dot(out));
+        let far = far.fold(own, f64::max);
+        out * (far - own)
+    }
+
+    /// Turns a hand that touches the trunk with a face of it so that it lies on the skin, as far as it
+    /// is still turned as written.
+    pub(super) fn lay(&mut self, n: usize, points: &[HandPoint], at: DVec3) {
+        let flat = |point: &HandPoint| {
+            matches!(
+                point,
+                HandPoint::Palm
+                    | HandPoint::Back
+                    | HandPoint::Radial
+                    | HandPoint::Ulnar
+                    | HandPoint::Tip(_, Face::Palmar | Face::Dorsal)
+                    | HandPoint::Middle(_, Face::Palmar | Face::Dorsal)
+                    | HandPoint::Base(_, Face::Palmar | Face::Dorsal)
+            )
+        };
+        let Some(normal) = self
+            .stage
+            .torso
+            .normal(at)
+            .filter(|_| points.iter().all(flat))
+        else {
+            return;
+        };
+        let (_, out) = self.at_hand(n, points);
+        let turn = DQuat::from_rotation_arc(out, -normal);
+        let angle = turn.angle_between(DQuat::IDENTITY);
+        if !(1e-6..1.2).contains(&angle) {
+            return;
+        }
+        let share = (LAID / angle).min(1.0);
+        let turn = DQuat::IDENTITY.slerp(turn, share);
+        self.state[n].rotation = (turn * self.state[n].rotation).normalize();
+    }
+
+    /// Lets a hand touch with what of it stands before the part that is named, where that part looks away from the
+    /// skin or along it and would be in the trunk: the hand is at its place all the same, and turned as written.
+    pub(super) fn lie(&mut self, n: usize, skin: DVec3, points: &[HandPoint]) {
+        let (_, out) = self.at_hand(n, points);
+        if out.dot(skin) < AWAY {
+            return;
+        }
+        let by = self.stands_in(n, skin);
+        let turned = self.state[n].rotation;
+        self.state[n].offset -= turned.inverse() * (skin * by);
+        if by > TOLD {
+            let side = self.sides[n].name();
+            self.remark(&format!(
+                "the {side} hand touches with what stands before the part that is named"
+            ));
+        }
+    }
+
+    /// Brings hands that are together out of the trunk, the two by as much.
+    pub(super) fn both_out(&mut self) {
+        let middle = (self.state[0].point + self.state[1].point) / 2.0;
+        let Some(skin) = self.stage.torso.normal(middle) else {
+            return;
+        };
+        let by = [0, 1].map(|n| self.stands_in(n, skin));
+        let by = by[0].max(by[1]);
+        for state in &mut self.state {
+            state.point += skin * by;
+        }
+    }
+
+    /// Returns how far a hand goes out of the skin for all of it to be out of the trunk, in metres; nothing where
+    /// that is too far.
+    fn stands_in(&self, n: usize, skin: DVec3) -> f64 {
+        let Some(hand) = self.stage.hand(self.sides[n]) else {
+            return 0.0;
+        };
+        let state = &self.state[n];
+        let shape = &self.plan.shapes[n][state.shape];
+        let torso = &self.stage.torso;
+        let inside = |by: f64| {
+            let wrist = state.wrist() + skin * by;
+            let mut points = shape.outline.iter();
+            points.any(|&at| torso.way_out(wrist + state.rotation * at, MARGIN) != DVec3::ZERO)
+        };
+        let most = (BEHIND * hand.length() / STEP) as u32;
+        let mut tried = (0..=most).map(|n| STEP * f64::from(n));
+        tried.find(|by| !inside(*by)).unwrap_or(0.0)
+    }
+}
