@@ -8,6 +8,7 @@
 # at-spi2-core libglib2.0-bin python3-gi gir1.2-atspi-2.0: what is clicked is found by the name that assistive
 # technology is told.
 set -euo pipefail
+shopt -s inherit_errexit
 tools="$(dirname "${BASH_SOURCE[0]}")"
 mkdir -p "$1"
 folder="$(cd "$1" && pwd)"
