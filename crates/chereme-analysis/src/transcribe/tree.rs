@@ -1,6 +1,8 @@
 //! The sign's tree, and its features in words.
 
 mod manner;
+mod posture;
+mod sight;
 mod tell;
 mod way;
 
@@ -25,6 +27,8 @@ use super::shape::Forms;
 use super::way::Way;
 use super::words;
 use super::{Feature, FeatureKind, Found, Options, RunnerUp, Stage, Transcription, Unit};
+use posture::behind;
+use sight::Sight;
 
 /// However far a hand is from every place, that counts no more against telling one for each, in nepers.
 const MOST_APART: f64 = 12.0;
@@ -47,7 +51,7 @@ pub(super) struct Seen {
 
 /// Writes down what the hands of a scene do.
 pub(super) fn written(scene: &Scene<'_>, options: &Options) -> Transcription {
-    Writer::new(scene, options).written()
+    Writer::new(&Sight::new(scene, options)).written()
 }
 
 /// Returns how far the hand that signs is from a place, and that place from another.
@@ -58,44 +62,36 @@ pub(super) fn off_place(
     (place, other): (&BodyPlace, Option<&BodyPlace>),
     symmetric: bool,
 ) -> Option<(f64, f64)> {
-    let writer = Writer::new(scene, options);
-    let (body, n) = (writer.body(frame)?, writer.lead);
+    let sight = Sight::new(scene, options);
+    let (body, n) = (sight.body(frame)?, sight.lead);
     let own = body.goal_of(n, place, symmetric)?;
     let apart = other.and_then(|other| body.goal_of(n, other, symmetric));
     let apart = apart.map_or(f64::INFINITY, |at| at.distance(own));
     Some((body.off(n, place, symmetric)?, apart))
 }
 
-/// The handshapes of hands in frames.
-type Shapes = BTreeMap<(chereme_motion::Side, usize), Option<Found<Handshape>>>;
-
 struct Writer<'a> {
     scene: &'a Scene<'a>,
+    sight: &'a Sight<'a>,
     /// The hand that signs where only one does.
     lead: usize,
-    options: &'a Options,
-    forms: std::sync::Arc<Forms>,
     features: Vec<Feature>,
     stages: Vec<Stage>,
     findings: Vec<String>,
-    /// The handshapes that were told.
-    shapes: RefCell<Shapes>,
     /// The number of the action that is written, and the frames of what is written.
     action: Option<usize>,
     frames: (usize, usize),
 }
 
 impl<'a> Writer<'a> {
-    fn new(scene: &'a Scene<'a>, options: &'a Options) -> Self {
+    fn new(sight: &'a Sight<'a>) -> Self {
         Self {
-            scene,
-            lead: lead(scene),
-            options,
-            forms: Forms::of(&options.language),
+            scene: sight.scene,
+            sight,
+            lead: sight.lead,
             features: Vec::new(),
             stages: Vec::new(),
             findings: Vec::new(),
-            shapes: RefCell::default(),
             action: None,
             frames: (0, 0),
         }
@@ -111,12 +107,12 @@ impl<'a> Writer<'a> {
         self.rests();
         let frames = signing(scene, track);
         let (first, last) = (*frames.start(), *frames.end());
-        let (all, left) = self.acts(lead, track, &frames);
+        let (all, left) = self.sight.acts(lead, track, &frames);
         let start = left.unwrap_or(first + (last - first) / 2);
         let relation = relation(scene, &frames);
         self.begins(None, (first, all.first().map_or(last + 1, |_| start + 1)));
         self.told_hands(&relation, start);
-        let mut body = self.body(start);
+        let mut body = self.sight.look(start);
         if let (Some(body), Some(by)) = (&mut body, behind(&relation, all.first())) {
             body.shift(1, by);
         }
@@ -127,7 +123,7 @@ impl<'a> Writer<'a> {
         let other = scene.hands[1].as_ref().filter(|_| lead == 0);
         let unlike = relation.kind == RelationKind::Unlike { moves: true };
         let others = other.filter(|_| unlike).map(|other| {
-            let (others, _) = self.acts(1, other, &frames);
+            let (others, _) = self.sight.acts(1, other, &frames);
             (other, others)
         });
         if let Some((other, others)) = others.filter(|(_, others)| !others.is_empty()) {
@@ -181,64 +177,6 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Returns what a hand does, and the frame in which it leaves its first posture.
-    fn acts(
-        &self,
-        hand: usize,
-        track: &Track,
-        frames: &RangeInclusive<usize>,
-    ) -> (Vec<Act>, Option<usize>) {
-        let ends = [*frames.start(), *frames.end()];
-        let parts = |meant: usize, frame: usize| {
-            let (Some(body), Some(at)) = (self.body(meant), self.body(frame)) else {
-                return Vec::new();
-            };
-            at.where_are(hand, &body.meant_parts(hand))
-        };
-        let others = |meant: usize, frame: usize| {
-            let (Some(body), Some(at)) = (self.body(meant), self.body(frame)) else {
-                return Vec::new();
-            };
-            let (parts, less): (Vec<_>, Vec<_>) = body.other_parts(hand).into_iter().unzip();
-            at.where_are(hand, &parts).into_iter().zip(less).collect()
-        };
-        let mut pivots = Vec::new();
-        for frame in ends {
-            let tips = self.body(frame).map(|body| body.tips(hand));
-            pivots.extend(tips.into_iter().flatten().map(|at| (at, frame)));
-        }
-        let seen = Seeing {
-            parts: &parts,
-            others: &others,
-            lets_go: self.scene.frames(LETS_GO),
-            loose: self.scene.loose,
-        };
-        let mover = Mover::new(track, ends, seen, &pivots);
-        acts(self.scene, &mover, frames)
-    }
-
-    /// Looks at the body in a frame.
-    fn body(&self, frame: usize) -> Option<Body<'a>> {
-        let shapes = [0, 1].map(|n| {
-            let track = self.scene.hands[n].as_ref()?;
-            Some(self.shape(track, frame)?.best)
-        });
-        Body::of(self.scene, frame, shapes.each_ref().map(Option::as_ref))
-    }
-
-    /// Returns the handshape in a frame; each is looked up once.
-    fn shape(&self, track: &Track, frame: usize) -> Option<Found<Handshape>> {
-        let key = (track.side, frame);
-        if let Some(known) = self.shapes.borrow().get(&key) {
-            return known.clone();
-        }
-        let found = self
-            .forms
-            .nearest(&track.angles[frame], &track.known, self.scene.loose);
-        self.shapes.borrow_mut().insert(key, found.clone());
-        found
-    }
-
     /// Says what the skeleton does not show.
     fn lacks(&mut self) {
         for track in self.scene.hands.iter().flatten() {
@@ -287,158 +225,6 @@ impl<'a> Writer<'a> {
                     .to_owned(),
             );
         }
-    }
-
-    /// Tells shape, direction and palm of a hand in a frame.
-    fn see(&self, track: &Track, frame: usize) -> Seen {
-        let between = self.options.between;
-        let along = track.along[frame];
-        let shape = self.shape(track, frame);
-        if !track.faces {
-            return Seen {
-                shape,
-                extended: aim::nearest(along, between),
-                palm: None,
-                beyond: 0.0,
-            };
-        }
-        // The scene shows the dominant hand as a right one.
-        let left = track.side != self.scene.dominant;
-        let [shoulder, elbow] = track.arm[frame];
-        let arm = [shoulder, elbow, track.wrist[frame]];
-        let wrist = aim::Wrist::of(arm, left, self.scene.language);
-        let how = aim::How {
-            between,
-            loose: self.scene.loose,
-        };
-        let turned = aim::turned(along, track.normal[frame], wrist.as_ref(), how);
-        Seen {
-            shape,
-            extended: turned.extended,
-            palm: Some(turned.palm),
-            beyond: turned.beyond,
-        }
-    }
-
-    /// Writes the posture that the sign begins with.
-    fn posture(&mut self, frame: usize, relation: &Relation, body: Option<&Body<'_>>) -> Posture {
-        let scene = self.scene;
-        let seen = [0, 1].map(|n| {
-            let track = scene.hands[n].as_ref()?;
-            Some(self.see(track, frame))
-        });
-        let acts = [
-            self.lead == 0,
-            self.lead == 1 || relation.kind != RelationKind::Alone,
-        ];
-        let alike = self.alike(frame, relation, &seen);
-        for (n, seen) in seen.iter().enumerate() {
-            let (Some(track), Some(seen)) = (&scene.hands[n], seen) else {
-                continue;
-            };
-            let own = if n == 0 {
-                [true; 3]
-            } else {
-                alike.map(|alike| !alike)
-            };
-            if acts[n] {
-                self.told_seen(track, frame, seen, own);
-            }
-        }
-        let posture = Posture {
-            shape: each(&seen, acts, alike[0], |seen| {
-                seen.shape.as_ref().map(|found| found.best.clone())
-            }),
-            extended: each(&seen, acts, alike[1], |seen| Some(seen.extended.best)),
-            palm: each(&seen, acts, alike[2], |seen| {
-                seen.palm.as_ref().map(|found| found.best)
-            }),
-            place: None,
-        };
-        let place = body.and_then(|body| self.place(frame, relation, body));
-        Posture { place, ..posture }
-    }
-
-    /// Tells which of shape, direction and palm the other hand takes from the dominant one.
-    fn alike(&self, frame: usize, relation: &Relation, seen: &[Option<Seen>; 2]) -> [bool; 3] {
-        let RelationKind::Alike(symmetry) = relation.kind else {
-            return [false; 3];
-        };
-        let ([Some(a), Some(b)], [Some(one), Some(other)]) = (&self.scene.hands, seen) else {
-            return [true; 3];
-        };
-        let signs = signs(&symmetry);
-        let angle = |x: &[DVec3], y: &[DVec3]| (x[frame] * signs).angle_between(y[frame]);
-        let turned = angle(&a.along, &b.along) < 0.45 && angle(&a.normal, &b.normal) < 0.6;
-        let turned = turned && !otherwise(one, other, signs);
-        let shaped = match (&one.shape, &other.shape) {
-            (Some(x), Some(y)) if x.best != y.best => {
-                let sure = x.residual.max(y.residual) < SURE;
-                !sure && a.known.apart(&a.angles[frame], &b.angles[frame]) < 0.22
-            }
-            _ => true,
-        };
-        [shaped, turned, turned]
-    }
-
-    /// Tells the place of the hands.
-    fn place(&mut self, frame: usize, relation: &Relation, body: &Body<'_>) -> Option<Place> {
-        let scene = self.scene;
-        if relation.kind == RelationKind::Alone {
-            let placed = body.place(self.lead, false)?;
-            self.told_place(scene.hands[self.lead].as_ref(), frame, &placed);
-            return Some(Place::Body(placed.place));
-        }
-        if let RelationKind::Alike(_) = relation.kind {
-            let [placed, other] = [0, 1].map(|n| body.place(n, true));
-            // What is said of the one is said of the other.
-            let own = placed.as_ref().map_or(f64::INFINITY, |it| it.score);
-            let apart = own + other.map_or(0.0, |it| it.unlikely);
-            if let Some((together, at)) = body.constellation(apart) {
-                return Some(Place::Hands(self.constellation(frame, at, &together)));
-            }
-            let placed = placed?;
-            self.told_place(scene.hands[0].as_ref(), frame, &placed);
-            return Some(Place::Body(placed.place));
-        }
-        let placed = [0, 1].map(|n| body.place(n, false));
-        let apart = placed
-            .iter()
-            .flatten()
-            .map(|placed| placed.score.min(MOST_APART))
-            .sum();
-        if let Some((together, at)) = body.constellation(apart) {
-            return Some(Place::Hands(self.constellation(frame, at, &together)));
-        }
-        let mut n = 0;
-        let [a, b] = placed.map(|placed| {
-            let placed = placed?;
-            self.told_place(scene.hands[n].as_ref(), frame, &placed);
-            n += 1;
-            Some(Box::new(Place::Body(placed.place)))
-        });
-        Some(Place::Split(a, b))
-    }
-
-    /// Writes the two hands by each other.
-    fn constellation(&mut self, frame: usize, at: Placed, together: &Together) -> Constellation {
-        self.told(
-            FeatureKind::Location,
-            None,
-            frame,
-            &at.found(),
-            words::place,
-        );
-        let [dominant, other] = together.parts.map(named);
-        let hands = Constellation {
-            dominant: Some(dominant),
-            other: Some(other),
-            contact: Some(together.contact),
-            at: at.place.site.is_some().then_some(at.place),
-            ..Constellation::default()
-        };
-        self.told_together(frame, &hands, together.distance);
-        hands
     }
 
     /// Writes what each hand does where they move for themselves.
@@ -572,57 +358,6 @@ fn joints(side: Side) -> impl Iterator<Item = Part> {
     let thumb = (0..3).map(move |n| Part::Thumb(side, n));
     let fingers = Finger::ALL.into_iter();
     thumb.chain(fingers.flat_map(move |finger| (1..4).map(move |n| Part::Finger(side, finger, n))))
-}
-
-/// Returns from where a hand that goes round half a turn behind the other is to where it is told to be: as
-/// if both began together.
-fn behind(relation: &Relation, first: Option<&Act>) -> Option<DVec3> {
-    let RelationKind::Alike(symmetry) = relation.kind else {
-        return None;
-    };
-    let Kind::Way(fitted) = &first?.kind else {
-        return None;
-    };
-    match fitted.way {
-        Way::Circle { long, start, .. } if symmetry.out_of_phase => {
-            Some(start * (2.0 * long.length()) * signs(&symmetry))
-        }
-        _ => None,
-    }
-}
-
-/// Tells whether it is sure that a hand is turned otherwise than the mirror image of the other.
-fn otherwise(one: &Seen, other: &Seen, signs: DVec3) -> bool {
-    let told = |seen: &Seen| {
-        let along = aim::vector(&seen.extended.best);
-        let palm = seen.palm.as_ref()?;
-        let sure = seen.extended.residual.max(palm.residual) < SURE;
-        let angle = aim::palm_angle(&palm.best);
-        let normal = orientation::palm(along.to_array(), angle);
-        sure.then_some([along, normal.into()])
-    };
-    let (Some(one), Some(other)) = (told(one), told(other)) else {
-        return false;
-    };
-    one.iter()
-        .zip(other)
-        .any(|(own, other): (&DVec3, DVec3)| (*own * signs).angle_between(other) > 0.1)
-}
-
-fn each<T: Clone + PartialEq>(
-    seen: &[Option<Seen>; 2],
-    acts: [bool; 2],
-    alike: bool,
-    pick: impl Fn(&Seen) -> Option<T>,
-) -> Each<T> {
-    let [a, b] = [0, 1].map(|n| seen[n].as_ref().filter(|_| acts[n]).and_then(&pick));
-    match (a, b) {
-        (None, None) => Each::Unset,
-        (Some(a), None) => Each::Shared(a),
-        (Some(a), Some(_)) if alike => Each::Shared(a),
-        (None, Some(b)) if !acts[0] => Each::Shared(b),
-        (a, b) => Each::Split(a, b),
-    }
 }
 
 fn circular(

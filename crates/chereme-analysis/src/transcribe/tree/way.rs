@@ -113,7 +113,7 @@ impl Writer<'_> {
         if !act.turned && !act.reshaped {
             return posture;
         }
-        let (before, after) = (self.see(track, first), self.see(track, last));
+        let (before, after) = (self.sight.see(track, first), self.sight.see(track, last));
         let best = |seen: &Seen| seen.shape.as_ref().map(|found| found.best.clone());
         let mut which = [false; 3];
         if let Some(shape) = best(&after).filter(|_| act.reshaped && best(&before) != best(&after))
@@ -148,7 +148,7 @@ impl Writer<'_> {
         if !matches!(act.kind, Kind::Way(_)) {
             return None;
         }
-        let (before, after) = (self.body(first)?, self.body(last)?);
+        let (before, after) = (self.sight.body(first)?, self.sight.body(last)?);
         let touching = |body: &Body<'_>| {
             let together = body.together()?;
             (together.contact == Contact::Touch).then_some(together)
@@ -175,7 +175,8 @@ impl Writer<'_> {
         let was = touched(&before).map(|placed| placed.place.site);
         let Some(placed) = touched(&after) else {
             let middle = first + (last - first) / 2;
-            let mut placed = touched(&self.body(middle)?).filter(|_| was.is_none())?;
+            let between = self.sight.body(middle)?;
+            let mut placed = touched(&between).filter(|_| was.is_none())?;
             placed.place.contact = Some(Contact::Brushing);
             self.told_place(self.scene.hands[hand].as_ref(), middle, &placed);
             return Some(Place::Body(placed.place));

@@ -1,0 +1,182 @@
+//! The posture that a sign begins with: shape, direction, palm and place of the hands.
+
+use super::*;
+
+impl Writer<'_> {
+    /// Writes the posture that the sign begins with.
+    pub(super) fn posture(
+        &mut self,
+        frame: usize,
+        relation: &Relation,
+        body: Option<&Body<'_>>,
+    ) -> Posture {
+        let scene = self.scene;
+        let seen = [0, 1].map(|n| {
+            let track = scene.hands[n].as_ref()?;
+            Some(self.sight.see(track, frame))
+        });
+        let acts = [
+            self.lead == 0,
+            self.lead == 1 || relation.kind != RelationKind::Alone,
+        ];
+        let alike = self.alike(frame, relation, &seen);
+        for (n, seen) in seen.iter().enumerate() {
+            let (Some(track), Some(seen)) = (&scene.hands[n], seen) else {
+                continue;
+            };
+            let own = if n == 0 {
+                [true; 3]
+            } else {
+                alike.map(|alike| !alike)
+            };
+            if acts[n] {
+                self.told_seen(track, frame, seen, own);
+            }
+        }
+        let posture = Posture {
+            shape: each(&seen, acts, alike[0], |seen| {
+                seen.shape.as_ref().map(|found| found.best.clone())
+            }),
+            extended: each(&seen, acts, alike[1], |seen| Some(seen.extended.best)),
+            palm: each(&seen, acts, alike[2], |seen| {
+                seen.palm.as_ref().map(|found| found.best)
+            }),
+            place: None,
+        };
+        let place = body.and_then(|body| self.place(frame, relation, body));
+        Posture { place, ..posture }
+    }
+
+    /// Tells which of shape, direction and palm the other hand takes from the dominant one.
+    fn alike(&self, frame: usize, relation: &Relation, seen: &[Option<Seen>; 2]) -> [bool; 3] {
+        let RelationKind::Alike(symmetry) = relation.kind else {
+            return [false; 3];
+        };
+        let ([Some(a), Some(b)], [Some(one), Some(other)]) = (&self.scene.hands, seen) else {
+            return [true; 3];
+        };
+        let signs = signs(&symmetry);
+        let angle = |x: &[DVec3], y: &[DVec3]| (x[frame] * signs).angle_between(y[frame]);
+        let turned = angle(&a.along, &b.along) < 0.45 && angle(&a.normal, &b.normal) < 0.6;
+        let turned = turned && !otherwise(one, other, signs);
+        let shaped = match (&one.shape, &other.shape) {
+            (Some(x), Some(y)) if x.best != y.best => {
+                let sure = x.residual.max(y.residual) < SURE;
+                !sure && a.known.apart(&a.angles[frame], &b.angles[frame]) < 0.22
+            }
+            _ => true,
+        };
+        [shaped, turned, turned]
+    }
+
+    /// Tells the place of the hands.
+    fn place(&mut self, frame: usize, relation: &Relation, body: &Body<'_>) -> Option<Place> {
+        let scene = self.scene;
+        if relation.kind == RelationKind::Alone {
+            let placed = body.place(self.lead, false)?;
+            self.told_place(scene.hands[self.lead].as_ref(), frame, &placed);
+            return Some(Place::Body(placed.place));
+        }
+        if let RelationKind::Alike(_) = relation.kind {
+            let [placed, other] = [0, 1].map(|n| body.place(n, true));
+            // What is said of the one is said of the other.
+            let own = placed.as_ref().map_or(f64::INFINITY, |it| it.score);
+            let apart = own + other.map_or(0.0, |it| it.unlikely);
+            if let Some((together, at)) = body.constellation(apart) {
+                return Some(Place::Hands(self.constellation(frame, at, &together)));
+            }
+            let placed = placed?;
+            self.told_place(scene.hands[0].as_ref(), frame, &placed);
+            return Some(Place::Body(placed.place));
+        }
+        let placed = [0, 1].map(|n| body.place(n, false));
+        let apart = placed
+            .iter()
+            .flatten()
+            .map(|placed| placed.score.min(MOST_APART))
+            .sum();
+        if let Some((together, at)) = body.constellation(apart) {
+            return Some(Place::Hands(self.constellation(frame, at, &together)));
+        }
+        let mut n = 0;
+        let [a, b] = placed.map(|placed| {
+            let placed = placed?;
+            self.told_place(scene.hands[n].as_ref(), frame, &placed);
+            n += 1;
+            Some(Box::new(Place::Body(placed.place)))
+        });
+        Some(Place::Split(a, b))
+    }
+
+    /// Writes the two hands by each other.
+    fn constellation(&mut self, frame: usize, at: Placed, together: &Together) -> Constellation {
+        self.told(
+            FeatureKind::Location,
+            None,
+            frame,
+            &at.found(),
+            words::place,
+        );
+        let [dominant, other] = together.parts.map(named);
+        let hands = Constellation {
+            dominant: Some(dominant),
+            other: Some(other),
+            contact: Some(together.contact),
+            at: at.place.site.is_some().then_some(at.place),
+            ..Constellation::default()
+        };
+        self.told_together(frame, &hands, together.distance);
+        hands
+    }
+}
+
+/// Returns from where a hand that goes round half a turn behind the other is to where it is told to be: as
+/// if both began together.
+pub(super) fn behind(relation: &Relation, first: Option<&Act>) -> Option<DVec3> {
+    let RelationKind::Alike(symmetry) = relation.kind else {
+        return None;
+    };
+    let Kind::Way(fitted) = &first?.kind else {
+        return None;
+    };
+    match fitted.way {
+        Way::Circle { long, start, .. } if symmetry.out_of_phase => {
+            Some(start * (2.0 * long.length()) * signs(&symmetry))
+        }
+        _ => None,
+    }
+}
+
+/// Tells whether it is sure that a hand is turned otherwise than the mirror image of the other.
+fn otherwise(one: &Seen, other: &Seen, signs: DVec3) -> bool {
+    let told = |seen: &Seen| {
+        let along = aim::vector(&seen.extended.best);
+        let palm = seen.palm.as_ref()?;
+        let sure = seen.extended.residual.max(palm.residual) < SURE;
+        let angle = aim::palm_angle(&palm.best);
+        let normal = orientation::palm(along.to_array(), angle);
+        sure.then_some([along, normal.into()])
+    };
+    let (Some(one), Some(other)) = (told(one), told(other)) else {
+        return false;
+    };
+    one.iter()
+        .zip(other)
+        .any(|(own, other): (&DVec3, DVec3)| (*own * signs).angle_between(other) > 0.1)
+}
+
+fn each<T: Clone + PartialEq>(
+    seen: &[Option<Seen>; 2],
+    acts: [bool; 2],
+    alike: bool,
+    pick: impl Fn(&Seen) -> Option<T>,
+) -> Each<T> {
+    let [a, b] = [0, 1].map(|n| seen[n].as_ref().filter(|_| acts[n]).and_then(&pick));
+    match (a, b) {
+        (None, None) => Each::Unset,
+        (Some(a), None) => Each::Shared(a),
+        (Some(a), Some(_)) if alike => Each::Shared(a),
+        (None, Some(b)) if !acts[0] => Each::Shared(b),
+        (a, b) => Each::Split(a, b),
+    }
+}

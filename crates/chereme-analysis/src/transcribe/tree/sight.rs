@@ -1,0 +1,131 @@
+//! What is seen of the hands, frame by frame: each thing is looked at once.
+
+use std::rc::Rc;
+
+use super::*;
+
+/// The handshapes of hands in frames.
+type Shapes = BTreeMap<(Side, usize), Option<Found<Handshape>>>;
+
+/// A scene with what was seen of it.
+pub(super) struct Sight<'a> {
+    pub(super) scene: &'a Scene<'a>,
+    /// The hand that signs where only one does.
+    pub(super) lead: usize,
+    pub(super) options: &'a Options,
+    forms: std::sync::Arc<Forms>,
+    shapes: RefCell<Shapes>,
+    bodies: RefCell<BTreeMap<usize, Option<Rc<Body<'a>>>>>,
+}
+
+impl<'a> Sight<'a> {
+    pub(super) fn new(scene: &'a Scene<'a>, options: &'a Options) -> Self {
+        Self {
+            scene,
+            lead: lead(scene),
+            options,
+            forms: Forms::of(&options.language),
+            shapes: RefCell::default(),
+            bodies: RefCell::default(),
+        }
+    }
+
+    /// Returns what a hand does, and the frame in which it leaves its first posture.
+    pub(super) fn acts(
+        &self,
+        hand: usize,
+        track: &Track,
+        frames: &RangeInclusive<usize>,
+    ) -> (Vec<Act>, Option<usize>) {
+        let ends = [*frames.start(), *frames.end()];
+        let parts = |meant: usize, frame: usize| {
+            let (Some(body), Some(at)) = (self.body(meant), self.body(frame)) else {
+                return Vec::new();
+            };
+            at.where_are(hand, &body.meant_parts(hand))
+        };
+        let others = |meant: usize, frame: usize| {
+            let (Some(body), Some(at)) = (self.body(meant), self.body(frame)) else {
+                return Vec::new();
+            };
+            let (parts, less): (Vec<_>, Vec<_>) = body.other_parts(hand).into_iter().unzip();
+            at.where_are(hand, &parts).into_iter().zip(less).collect()
+        };
+        let mut pivots = Vec::new();
+        for frame in ends {
+            let tips = self.body(frame).map(|body| body.tips(hand));
+            pivots.extend(tips.into_iter().flatten().map(|at| (at, frame)));
+        }
+        let seen = Seeing {
+            parts: &parts,
+            others: &others,
+            lets_go: self.scene.frames(LETS_GO),
+            loose: self.scene.loose,
+        };
+        let mover = Mover::new(track, ends, seen, &pivots);
+        acts(self.scene, &mover, frames)
+    }
+
+    /// Looks at the body in a frame.
+    pub(super) fn body(&self, frame: usize) -> Option<Rc<Body<'a>>> {
+        if let Some(known) = self.bodies.borrow().get(&frame) {
+            return known.clone();
+        }
+        let body = self.look(frame).map(Rc::new);
+        self.bodies.borrow_mut().insert(frame, body.clone());
+        body
+    }
+
+    /// As [`body`](Self::body), to be moved about.
+    pub(super) fn look(&self, frame: usize) -> Option<Body<'a>> {
+        let shapes = [0, 1].map(|n| {
+            let track = self.scene.hands[n].as_ref()?;
+            Some(self.shape(track, frame)?.best)
+        });
+        Body::of(self.scene, frame, shapes.each_ref().map(Option::as_ref))
+    }
+
+    /// Returns the handshape in a frame; each is looked up once.
+    fn shape(&self, track: &Track, frame: usize) -> Option<Found<Handshape>> {
+        let key = (track.side, frame);
+        if let Some(known) = self.shapes.borrow().get(&key) {
+            return known.clone();
+        }
+        let found = self
+            .forms
+            .nearest(&track.angles[frame], &track.known, self.scene.loose);
+        self.shapes.borrow_mut().insert(key, found.clone());
+        found
+    }
+
+    /// Tells shape, direction and palm of a hand in a frame.
+    pub(super) fn see(&self, track: &Track, frame: usize) -> Seen {
+        let between = self.options.between;
+        let along = track.along[frame];
+        let shape = self.shape(track, frame);
+        if !track.faces {
+            return Seen {
+                shape,
+                extended: aim::nearest(along, between),
+                palm: None,
+                beyond: 0.0,
+            };
+        }
+        // The scene shows the dominant hand as a right one.
+        let left = track.side != self.scene.dominant;
+        let [shoulder, elbow] = track.arm[frame];
+        let arm = [shoulder, elbow, track.wrist[frame]];
+        let wrist = aim::Wrist::of(arm, left, self.scene.language);
+        let how = aim::How {
+            between,
+            loose: self.scene.loose,
+        };
+        let turned = aim::turned(along, track.normal[frame], wrist.as_ref(), how);
+        Seen {
+            shape,
+            extended: turned.extended,
+            palm: Some(turned.palm),
+            beyond: turned.beyond,
+        }
+    }
+}
