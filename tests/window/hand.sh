@@ -104,11 +104,6 @@ click() {
     at="$(middle "$@")"
     press $at
 }
-double_click() {
-    local at
-    at="$(middle "$@")"
-    press $at 1 2
-}
 other_click() {
     local at
     at="$(middle "$@")"
@@ -165,11 +160,22 @@ look() {
     picture=$((picture + 1))
     import -window root "$folder/$(printf '%02d' "$picture")-$1.png"
 }
-# What the command line finds, as the evidence that a step took place.
-holds() {
+# What the command line tells of the corpus.
+tells() {
     local found
     found="$("$program" --json "$@" | jq -c .)"
     printf '%s\n    %s\n' "chereme $*" "$(printf '%s' "$found" | cut -c -300)"
+}
+# That it finds so many, as the evidence that a step took place: the run ends where it does not.
+holds() {
+    local wanted="$1" total
+    shift
+    tells "$@"
+    total="$("$program" --json "$@" | jq .total)"
+    if [ "$total" != "$wanted" ]; then
+        echo "$wanted were to be found, not $total: chereme $*" >&2
+        exit 1
+    fi
 }
 
 # A signer that was captured, and annotations of the same name with glosses of either hand on tiers of their own.
