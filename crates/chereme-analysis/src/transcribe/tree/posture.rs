@@ -43,7 +43,11 @@ impl Writer<'_> {
             }),
             place: None,
         };
-        let place = body.and_then(|body| self.place(frame, relation, body));
+        let stand = body.and_then(|body| self.stand(relation, body));
+        let place = stand.map(|stand| {
+            self.told_stand(frame, &stand);
+            stand.place()
+        });
         Posture { place, ..posture }
     }
 
@@ -69,64 +73,93 @@ impl Writer<'_> {
         [shaped, turned, turned]
     }
 
-    /// Tells the place of the hands.
-    fn place(&mut self, frame: usize, relation: &Relation, body: &Body<'_>) -> Option<Place> {
-        let scene = self.scene;
-        if relation.kind == RelationKind::Alone {
-            let placed = body.place(self.lead, false)?;
-            self.told_place(scene.hands[self.lead].as_ref(), frame, &placed);
-            return Some(Place::Body(placed.place));
-        }
-        if let RelationKind::Alike(_) = relation.kind {
-            let [placed, other] = [0, 1].map(|n| body.place(n, true));
-            // What is said of the one is said of the other.
-            let own = placed.as_ref().map_or(f64::INFINITY, |it| it.score);
-            let apart = own + other.map_or(0.0, |it| it.unlikely);
-            if let Some((together, at)) = body.constellation(apart) {
-                return Some(Place::Hands(self.constellation(frame, at, &together)));
+    /// Chooses how it is told where hands are: the likeliest.
+    fn stand(&self, relation: &Relation, body: &Body<'_>) -> Option<Stand> {
+        let alone = match relation.kind {
+            RelationKind::Alone => {
+                return Some(Stand::One(self.lead, body.place(self.lead, false)?));
             }
-            let placed = placed?;
-            self.told_place(scene.hands[0].as_ref(), frame, &placed);
-            return Some(Place::Body(placed.place));
-        }
-        let placed = [0, 1].map(|n| body.place(n, false));
-        let apart = placed
-            .iter()
-            .flatten()
-            .map(|placed| placed.score.min(MOST_APART))
-            .sum();
+            RelationKind::Alike(_) => false,
+            RelationKind::Unlike { .. } => true,
+        };
+        let placed = [0, 1].map(|n| body.place(n, !alone));
+        let apart = if alone {
+            let each = placed.iter().flatten();
+            each.map(|placed| placed.score.min(MOST_APART)).sum()
+        } else {
+            // What is said of the one is said of the other.
+            let [own, other] = &placed;
+            let own = own.as_ref().map_or(f64::INFINITY, |it| it.score);
+            own + other.as_ref().map_or(0.0, |it| it.unlikely)
+        };
         if let Some((together, at)) = body.constellation(apart) {
-            return Some(Place::Hands(self.constellation(frame, at, &together)));
+            return Some(Stand::Together(together, at));
         }
-        let mut n = 0;
-        let [a, b] = placed.map(|placed| {
-            let placed = placed?;
-            self.told_place(scene.hands[n].as_ref(), frame, &placed);
-            n += 1;
-            Some(Box::new(Place::Body(placed.place)))
-        });
-        Some(Place::Split(a, b))
+        let [own, other] = placed;
+        match alone {
+            true => Some(Stand::Each([own, other])),
+            false => Some(Stand::One(0, own?)),
+        }
     }
 
-    /// Writes the two hands by each other.
-    fn constellation(&mut self, frame: usize, at: Placed, together: &Together) -> Constellation {
-        self.told(
-            FeatureKind::Location,
-            None,
-            frame,
-            &at.found(),
-            words::place,
-        );
-        let [dominant, other] = together.parts.map(named);
-        let hands = Constellation {
-            dominant: Some(dominant),
-            other: Some(other),
-            contact: Some(together.contact),
-            at: at.place.site.is_some().then_some(at.place),
-            ..Constellation::default()
-        };
-        self.told_together(frame, &hands, together.distance);
-        hands
+    /// Tells where hands are.
+    fn told_stand(&mut self, frame: usize, stand: &Stand) {
+        let scene = self.scene;
+        match stand {
+            Stand::One(n, placed) => self.told_place(scene.hands[*n].as_ref(), frame, placed),
+            Stand::Each(both) => {
+                for (n, placed) in both.iter().enumerate() {
+                    if let Some(placed) = placed {
+                        self.told_place(scene.hands[n].as_ref(), frame, placed);
+                    }
+                }
+            }
+            Stand::Together(together, at) => {
+                let location = FeatureKind::Location;
+                self.told(location, None, frame, &at.found(), words::place);
+                let hands = constellation(together, at);
+                self.told_together(frame, &hands, together.distance);
+            }
+        }
+    }
+}
+
+/// How it is told where hands are.
+#[derive(Debug, Clone)]
+enum Stand {
+    /// One hand, or both alike, at a place.
+    One(usize, Placed),
+    /// Each at its own.
+    Each([Option<Placed>; 2]),
+    /// The two by each other, at a place.
+    Together(Together, Placed),
+}
+
+impl Stand {
+    fn place(&self) -> Place {
+        match self {
+            Self::One(_, placed) => Place::Body(placed.place.clone()),
+            Self::Each(both) => {
+                let [a, b] = both.each_ref().map(|placed| {
+                    let place = placed.as_ref()?.place.clone();
+                    Some(Box::new(Place::Body(place)))
+                });
+                Place::Split(a, b)
+            }
+            Self::Together(together, at) => Place::Hands(constellation(together, at)),
+        }
+    }
+}
+
+/// Returns the two hands by each other.
+fn constellation(together: &Together, at: &Placed) -> Constellation {
+    let [dominant, other] = together.parts.map(named);
+    Constellation {
+        dominant: Some(dominant),
+        other: Some(other),
+        contact: Some(together.contact),
+        at: at.place.site.is_some().then_some(at.place.clone()),
+        ..Constellation::default()
     }
 }
 
