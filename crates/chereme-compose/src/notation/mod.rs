@@ -21,6 +21,7 @@
 //! | `choose` | over time: the arm's plane and its shoulder |
 //! | `solve`, `settle` | from that to postures of an arm, without jumps |
 //! | `mend` | what is left in the trunk is led out of it |
+//! | `perform` | one sign after another on the same body, or their first postures alone |
 //! | `warp` | time stretched where an arm would go too fast |
 //! | `nonmanual` | head, trunk, shoulders; the curves of all non-manuals |
 //! | `notes` | what is said about the movement |
@@ -36,6 +37,7 @@ mod notes;
 mod pace;
 mod part;
 mod path;
+mod perform;
 mod place;
 mod plan;
 mod rest;
@@ -60,6 +62,7 @@ use crate::sources::Material;
 use crate::work::Group;
 
 use pace::Paces;
+pub use perform::Performer;
 use plan::{Plan, Planner};
 use stage::Stage;
 use track::{Fit, Track};

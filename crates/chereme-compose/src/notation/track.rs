@@ -105,6 +105,31 @@ pub(crate) struct Wanted<'a> {
 }
 
 impl Wanted<'_> {
+    /// Keeps some frames.
+    pub(crate) fn cut(mut self, span: Range<usize>) -> Self {
+        fn kept<T>(column: Vec<T>, span: &Range<usize>) -> Vec<T> {
+            let some = column.into_iter().skip(span.start);
+            some.take(span.len()).collect()
+        }
+        let within = |frame: usize| frame.clamp(span.start, span.end) - span.start;
+        let ways = self.ways.into_iter().map(|(way, shares)| {
+            let cut = within(way.start)..within(way.end);
+            let skipped = span.start.saturating_sub(way.start).min(shares.len());
+            let shares = shares.into_iter().skip(skipped).take(cut.len()).collect();
+            (cut, shares)
+        });
+        self.outlines.first = span.start;
+        Self {
+            ways: ways.filter(|(way, _)| !way.is_empty()).collect(),
+            points: kept(self.points, &span),
+            turns: kept(self.turns, &span),
+            offsets: kept(self.offsets, &span),
+            wrist: kept(self.wrist, &span),
+            touch: kept(self.touch, &span),
+            outlines: self.outlines,
+        }
+    }
+
     /// Tells of each frame whether the hand is on its way between orientations: where it sets out it is still
     /// turned as written.
     pub(crate) fn free(&self) -> Vec<bool> {
@@ -485,7 +510,7 @@ fn early(event: &Event, frame: usize, timing: &Timing<'_>) -> f64 {
     timing.paces.share(event.pace, time)
 }
 
-fn fingers(
+pub(crate) fn fingers(
     stage: &Stage,
     hand: &Hand,
     plan: &Plan,
@@ -566,6 +591,8 @@ fn play(
 
 /// The outlines of a hand, and from which frame on which two hold: while it changes its shape, those on the way.
 pub(crate) struct Outlines<'a> {
+    /// The frame that is counted from.
+    first: usize,
     from: Vec<(usize, [Outline<'a>; 2])>,
     between: Vec<Vec<DVec3>>,
 }
@@ -607,12 +634,18 @@ fn outlines<'a>(stage: &Stage, plan: &'a Plan, n: usize, timing: &Timing<'_>) ->
         from.push((span.end, [of(shape); 2]));
         now = shape;
     }
-    Outlines { from, between }
+    Outlines {
+        first: 0,
+        from,
+        between,
+    }
 }
 
 impl Outlines<'_> {
     pub(crate) fn at(&self, frame: usize) -> [&[DVec3]; 2] {
-        let n = self.from.partition_point(|&(from, ..)| from <= frame);
+        let n = self
+            .from
+            .partition_point(|&(from, ..)| from <= self.first + frame);
         self.from[n.saturating_sub(1)]
             .1
             .map(|outline| match outline {

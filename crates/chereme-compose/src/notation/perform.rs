@@ -1,0 +1,197 @@
+//! One sign after another on the same body: whole, or the posture that it begins with alone.
+
+use std::sync::Arc;
+
+use chereme_motion::Clip;
+use chereme_sign::hamnosys::{Notated, Sign};
+
+use super::pace::Paces;
+use super::plan::Planner;
+use super::solve::Arm;
+use super::stage::Stage;
+use super::{NotationError, Settings, animate, frames, lay, part, standing, track};
+use crate::made::About;
+use crate::sources::Material;
+
+/// What is worked out before and after a first posture, in seconds: what changes at once is spread over the time
+/// around it.
+const AROUND: f64 = 0.15;
+
+/// A body that performs many signs, each alone.
+pub struct Performer {
+    stage: Material,
+    body: Stage,
+    settings: Settings,
+    paces: Paces,
+}
+
+impl Performer {
+    /// Puts a body on the stage: the first frame of its material.
+    ///
+    /// # Errors
+    /// [`NotationError::NoArm`].
+    pub fn new(stage: Material, settings: Settings) -> Result<Self, NotationError> {
+        let body = Stage::of(&stage).ok_or_else(|| NotationError::NoArm(stage.address.clone()))?;
+        Ok(Self {
+            paces: Paces::of(&settings.language),
+            stage,
+            body,
+            settings,
+        })
+    }
+
+    /// Returns how it is performed.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Returns the movement of a sign as [`animate`] makes it, without the ways from and to rest.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn performs(&self, sign: &Sign) -> Result<Clip, NotationError> {
+        let made = animate(&[&notated(sign)], &self.stage, &self.settings)?;
+        let clip = made.clip;
+        let mut glosses = made.notes.iter().filter(|note| note.about == About::Gloss);
+        Ok(match glosses.next() {
+            Some(note) => {
+                let [first, last] =
+                    [note.span.start(), note.span.end()].map(|at| clip.rate().frame_at(at));
+                clip.slice(first..last + 1)
+            }
+            None => clip,
+        })
+    }
+
+    /// Returns the body when the first posture of a sign is reached, as a clip of one frame.
+    ///
+    /// That is worked out alone, at about a tenth of the cost of the whole. It is the first frame of that but for what
+    /// depends on how the arm is held long before and after, or on how far time is stretched: to 2 mm for four
+    /// signs of five.
+    ///
+    /// # Errors
+    /// [`NotationError`] where the movement would be too long.
+    pub fn begins(&self, sign: &Sign) -> Result<Clip, NotationError> {
+        let (body, rate) = (&self.body, self.settings.rate.per_second());
+        let planner = Planner::new(body, &self.settings.language, self.stage.handedness);
+        let (limits, sides) = (planner.limits, planner.sides);
+        let plan = planner.signs(&[&notated(sign)]);
+        let total = frames(plan.end, rate)?;
+        let reached = plan.signs.first().map_or(0.0, |sign| sign.from);
+        let frame = ((reached * rate + 1e-6) as usize).min(total - 1);
+        let near = (AROUND * rate).ceil() as usize;
+        let span = frame.saturating_sub(near)..(frame + near + 1).min(total);
+        let timing = track::Timing {
+            paces: &self.paces,
+            rate,
+            total,
+        };
+        let mut channels = standing(body, 1);
+        let hands = sides.map(|side| body.hand(side));
+        let [mut first, mut second] = [0, 1].map(|n| track::wanted(body, &plan, n, &timing));
+        if let [Some(a), Some(b)] = hands {
+            part::part(body, [a, b], [&mut first, &mut second], rate);
+        }
+        for (n, (hand, wanted)) in hands.into_iter().zip([first, second]).enumerate() {
+            let Some(hand) = hand else { continue };
+            let solver = Arm::of(body, hand, &limits);
+            let (_, got) = solver.over_time(&wanted.cut(span.clone()), rate);
+            let got = &got[frame - span.start];
+            let fingers = track::fingers(body, hand, &plan, n, &timing).into_iter();
+            let track = track::Track {
+                arm: hand
+                    .rig
+                    .rotations(&got.posed, got.rotation)
+                    .map(|at| vec![at]),
+                fingers: fingers.map(|column| vec![column[frame]]).collect(),
+                fit: track::Fit::default(),
+            };
+            lay(&mut channels, hand, track);
+        }
+        let (skeleton, rate) = (Arc::clone(&body.skeleton), self.settings.rate);
+        Ok(Clip::new(skeleton, rate, channels)?)
+    }
+}
+
+fn notated(sign: &Sign) -> Notated {
+    Notated {
+        sign: sign.clone(),
+        ..Notated::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use chereme_motion::{Anatomy, Rate, Side};
+    use chereme_sign::Handedness;
+    use chereme_sign::hamnosys::{from_names, parse};
+
+    use super::*;
+    use crate::testing::{Axes, skeleton};
+
+    const SIGNS: [&str; 5] = [
+        "hamflathand hamextfingerul hampalmd hamchest",
+        "hamfinger2 hamextfingeru hampalml hamchin hamtouch hammoveo",
+        "hamfist hamextfingerol hampalmd hamshoulders hamlrat hamclose hammoved",
+        "hamsymmlr hamflathand hamextfingeruo hampalml hamstomach hammoveu hamrepeatfromstart",
+        "hampinch12 hamextfingeru hampalml hamforehead hamclose hamcirclel",
+    ];
+
+    fn performer() -> Performer {
+        let skeleton = Arc::new(skeleton(Axes::Plain, 1.0));
+        let stage = Material {
+            address: "stage".into(),
+            hash: String::new(),
+            gloss: String::new(),
+            signer: None,
+            handedness: Handedness::Right,
+            anatomy: Arc::new(Anatomy::detect(&skeleton)),
+            clip: Clip::still(skeleton, Rate::new(60, 1).expect("a rate"), 1),
+            curves: Vec::new(),
+            held: Vec::new(),
+        };
+        Performer::new(stage, Settings::default()).expect("a body")
+    }
+
+    fn sign(names: &str) -> Sign {
+        let text = from_names(names.split(' ')).expect("names of symbols");
+        parse(&text).expect("HamNoSys").sign
+    }
+
+    #[test]
+    fn the_posture_that_a_sign_begins_with_is_the_first_of_its_movement() {
+        let performer = performer();
+        for names in SIGNS {
+            let sign = sign(names);
+            let (begun, whole) = (performer.begins(&sign), performer.performs(&sign));
+            let (begun, whole) = (begun.expect("a posture"), whole.expect("movement"));
+            assert_eq!(begun.frames(), 1);
+            assert!(whole.frames() > 1, "{names}");
+            let [one, first] = [&begun, &whole].map(|clip| clip.model_pose(0));
+            for side in Side::BOTH {
+                let hand = performer.stage.anatomy.arm(side).expect("an arm").hand;
+                let off = one.position(hand).distance(first.position(hand));
+                let turned = one.rotation(hand).angle_between(first.rotation(hand));
+                assert!(off < 2e-3 && turned < 0.05, "{names}: {off} {turned}");
+            }
+            for &joint in &performer.body.hand(Side::Right).expect("a hand").fingers {
+                let [a, b] = [&begun, &whole].map(|clip| clip.pose(0).rotations[joint]);
+                assert!(a.angle_between(b) < 0.01, "{names}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_performed_is_the_sign_alone() {
+        let performer = performer();
+        let still = performer.performs(&sign(SIGNS[0])).expect("movement");
+        let hold = performer.settings().language.time_hold;
+        let frames = still.frames() as f64;
+        assert!((frames / 60.0 - hold).abs() < 0.05, "{frames} frames");
+        let mut body = performer.stage.clone();
+        body.clip = body.clip.slice(0..0);
+        let nobody = Performer::new(body, Settings::default());
+        assert!(matches!(nobody, Err(NotationError::NoArm(_))));
+    }
+}
