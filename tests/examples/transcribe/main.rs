@@ -3,6 +3,7 @@
 //! `cargo run --release -p chereme-tests --example transcribe -- notation FOLDER BODY.bvh` animates every
 //! `.sigml` file of a folder on a body, transcribes what came of it, and prints how often each feature
 //! is what was written, also of the half of the signs on which thresholds are tuned and of the other half;
+//! `... -- plain FOLDER BODY.bvh` does so without proving where hands are;
 //! `... -- why FEATURE FOLDER BODY.bvh` prints where it is not, `... -- confusions FEATURE ...` counts what
 //! is taken for what, both in the half that is tuned on. In place of the folder a text file with a sign a line in
 //! HamNoSys characters will do. `... -- movement FILE.bvh...` transcribes captured movement, animates what was written, and prints their distance.
@@ -27,11 +28,12 @@ fn main() -> Result<()> {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words.as_slice() {
         ["notation", folder, body] => closed(folder, body, More::Nothing),
+        ["plain", folder, body] => closed(folder, body, More::Plain),
         ["why", feature, folder, body] => closed(folder, body, More::Why(feature)),
         ["confusions", feature, folder, body] => closed(folder, body, More::Confusions(feature)),
         ["movement", files @ ..] if !files.is_empty() => movement::table(files),
         _ => Err(
-            "say `notation FOLDER BODY.bvh`, `why FEATURE FOLDER BODY.bvh`, `confusions FEATURE \
+            "say `notation FOLDER BODY.bvh`, `plain FOLDER BODY.bvh`, `why FEATURE FOLDER BODY.bvh`, `confusions FEATURE \
              FOLDER BODY.bvh` or `movement FILE.bvh...`"
                 .into(),
         ),

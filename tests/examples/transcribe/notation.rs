@@ -5,9 +5,9 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant as Clock;
 
-use chereme_analysis::transcribe::{Options, Transcription, transcribe};
+use chereme_analysis::transcribe::{Options, Transcription, transcribe, transcribe_proven};
 use chereme_compose::Material;
-use chereme_compose::notation::{Settings, animate};
+use chereme_compose::notation::{Performer, Settings, animate};
 use chereme_motion::{Anatomy, Clip, Span};
 use chereme_sign::hamnosys::{Manual, Notated, Sign, parse};
 
@@ -19,6 +19,8 @@ use crate::compare::{Verdict, compare};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum More<'a> {
     Nothing,
+    /// Nothing, of what is told without being proven.
+    Plain,
     /// Every disagreement about a feature, or `all`, or `show` with each; only the half that is tuned on.
     Why(&'a str),
     /// What is taken for what how often, in the half that is tuned on.
@@ -56,7 +58,7 @@ pub(crate) fn table(folder: &Path, body: &Path, more: More<'_>) -> Result<()> {
     };
     let todo: Vec<(&str, &Notated, &Manual)> = signs
         .iter()
-        .filter(|(name, _)| more == More::Nothing || is_tuned_on(name))
+        .filter(|(name, _)| matches!(more, More::Nothing | More::Plain) || is_tuned_on(name))
         .flat_map(|(name, entry)| {
             entry
                 .sign
@@ -66,7 +68,7 @@ pub(crate) fn table(folder: &Path, body: &Path, more: More<'_>) -> Result<()> {
         })
         .collect();
     let seen = seen(&todo, |(name, entry, part)| {
-        let again = again(part, entry, &stage, &settings, &options)?;
+        let again = again(part, entry, &stage, (&settings, &options), more)?;
         Some(Seen {
             short: again.short,
             seconds: again.seconds,
@@ -202,8 +204,8 @@ fn again(
     part: &Manual,
     entry: &Notated,
     stage: &Material,
-    settings: &Settings,
-    options: &Options,
+    (settings, options): (&Settings, &Options),
+    more: More<'_>,
 ) -> Option<Again> {
     let mut alone = entry.clone();
     alone.sign = Sign {
@@ -222,7 +224,11 @@ fn again(
     let (first, last) = (rate.frame_at(span.start()), rate.frame_at(span.end()));
     let clip = made.clip.slice(first..last + 1);
     let began = Clock::now();
-    let found = transcribe(&clip, &made.anatomy, options).ok()?;
+    let performs = bodies::Performs(Performer::new(stage.clone(), settings.clone()).ok()?);
+    let found = match more {
+        More::Plain => transcribe(&clip, &made.anatomy, options).ok()?,
+        _ => transcribe_proven(&clip, &made.anatomy, options, &performs).ok()?,
+    };
     let seconds = began.elapsed().as_secs_f64();
     let short = made.report.warnings.iter().any(|warning| {
         [

@@ -172,6 +172,8 @@ pub(super) struct Turned {
     pub(super) palm: Found<Aim<Compass>>,
     /// By how many degrees what is told is beyond the end of wrist or forearm, where the hand stopped there.
     pub(super) beyond: f64,
+    /// How much less likely it is than the likeliest, in nepers.
+    pub(super) less: f64,
 }
 
 /// A direction and palm that may be meant.
@@ -183,13 +185,20 @@ struct Meant {
     score: f64,
 }
 
-/// Returns the direction and palm that a hand is most likely meant to have, the two together; the palm is the
+/// Returns the directions and palms that a hand may be meant to have, the two together, the likeliest first, `most`
+/// of them; the palm is the
 /// angle about the hand's axis, as [`orientation`](chereme_sign::hamnosys::orientation) counts it. Residuals
 /// are how far the hand is from them, in degrees.
 ///
 /// A hand that stops where its wrist or forearm ends may be meant to be turned farther: it is then as near to
 /// what would stop there as to what it shows.
-pub(super) fn turned(along: DVec3, normal: DVec3, wrist: Option<&Wrist>, how: How) -> Turned {
+pub(super) fn turned(
+    along: DVec3,
+    normal: DVec3,
+    wrist: Option<&Wrist>,
+    how: How,
+    most: usize,
+) -> Vec<Turned> {
     let facing = normal.reject_from_normalized(along);
     let own = [along, facing.normalize_or(along.any_orthonormal_vector())];
     let palms = palms(how.between);
@@ -208,29 +217,34 @@ pub(super) fn turned(along: DVec3, normal: DVec3, wrist: Option<&Wrist>, how: Ho
         }));
     }
     all.sort_by(|a, b| a.score.total_cmp(&b.score));
-    let best = all[0];
-    let is_best = |it: &Meant| std::ptr::eq(it.pointing, best.pointing);
-    let to = |it: &Meant| {
-        let off = it.pointing.at.angle_between(along).to_degrees();
-        (nearer_first(&it.pointing.aim, along), off)
+    let as_told = |best: &Meant| {
+        let is_best = |it: &&Meant| std::ptr::eq(it.pointing, best.pointing);
+        let is_same = |it: &&Meant| std::ptr::eq(*it, best);
+        let to = |it: &Meant| {
+            let off = it.pointing.at.angle_between(along).to_degrees();
+            (nearer_first(&it.pointing.aim, along), off)
+        };
+        let onto = DQuat::from_rotation_arc(along, best.pointing.at);
+        let shown =
+            orientation::palm_angle(best.pointing.at.to_array(), (onto * own[1]).to_array());
+        let about = |it: &Meant| (it.palm.0, wrapped(shown - it.palm.1).abs().to_degrees());
+        let (extended, palm) = (to(best), about(best));
+        Turned {
+            extended: Found {
+                best: extended.0,
+                residual: extended.1,
+                runner_up: all.iter().find(|it| !is_best(it)).map(to),
+            },
+            palm: Found {
+                best: palm.0,
+                residual: palm.1,
+                runner_up: all.iter().find(|it| is_best(it) && !is_same(it)).map(about),
+            },
+            beyond: best.beyond,
+            less: best.score - all[0].score,
+        }
     };
-    let onto = DQuat::from_rotation_arc(along, best.pointing.at);
-    let shown = orientation::palm_angle(best.pointing.at.to_array(), (onto * own[1]).to_array());
-    let about = |it: &Meant| (it.palm.0, wrapped(shown - it.palm.1).abs().to_degrees());
-    let (extended, palm) = (to(&best), about(&best));
-    Turned {
-        extended: Found {
-            best: extended.0,
-            residual: extended.1,
-            runner_up: all.iter().find(|it| !is_best(it)).map(to),
-        },
-        palm: Found {
-            best: palm.0,
-            residual: palm.1,
-            runner_up: all[1..].iter().find(|it| is_best(it)).map(about),
-        },
-        beyond: best.beyond,
-    }
+    all.iter().take(most).map(as_told).collect()
 }
 
 /// Returns how likely a hand is turned as it is that was meant to be turned otherwise, as a logarithm, and by
@@ -266,6 +280,10 @@ fn apart([a, p]: [DVec3; 2], [b, q]: [DVec3; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn likeliest(along: DVec3, normal: DVec3, wrist: Option<&Wrist>, how: How) -> Turned {
+        turned(along, normal, wrist, how, 1).swap_remove(0)
+    }
 
     const EXACTLY: How = How {
         between: true,
@@ -306,13 +324,13 @@ mod tests {
                 let along = DVec3::from(direction.vector());
                 let normal = orientation::palm(along.to_array(), palm_of.angle());
                 let aim = Aim::at(direction);
-                let found = turned(tilt * along, tilt * DVec3::from(normal), None, PLAINLY);
+                let found = likeliest(tilt * along, tilt * DVec3::from(normal), None, PLAINLY);
                 if direction.has_symbol() {
                     assert_eq!(found.extended.best, aim, "{direction} {palm_of}");
                     assert_eq!(found.palm.best, Aim::at(palm_of), "{direction} {palm_of}");
                 }
                 assert!(found.palm.residual < 8.0);
-                let exact = turned(along, normal.into(), None, EXACTLY);
+                let exact = likeliest(along, normal.into(), None, EXACTLY);
                 assert_eq!(
                     (exact.extended.best, exact.palm.best),
                     (aim, Aim::at(palm_of))
@@ -320,7 +338,7 @@ mod tests {
             }
         }
         // The palm of a hand that points up with `d` faces away from the signer.
-        let out = turned(DVec3::Y, DVec3::Z, None, EXACTLY);
+        let out = likeliest(DVec3::Y, DVec3::Z, None, EXACTLY);
         assert_eq!(out.palm.best, Aim::at(Compass::D));
     }
 
@@ -337,9 +355,9 @@ mod tests {
         // Thumb up, it does not bend so far.
         let [along, normal] = stopped[0];
         assert!(along.angle_between(DVec3::Y) > 0.2);
-        let found = turned(along, normal, wrist.as_ref(), EXACTLY);
+        let found = likeliest(along, normal, wrist.as_ref(), EXACTLY);
         assert_eq!(found.extended.best, Aim::at(Direction::UP));
         assert!(found.beyond > 10.0 && found.extended.residual > 10.0);
-        assert!(turned(along, normal, None, EXACTLY).extended.best != Aim::at(Direction::UP));
+        assert!(likeliest(along, normal, None, EXACTLY).extended.best != Aim::at(Direction::UP));
     }
 }

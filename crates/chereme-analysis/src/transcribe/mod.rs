@@ -17,11 +17,13 @@
 //! | `way`, `acts` | ways through space; what a hand does, act after act |
 //! | `hands` | symmetry of the two |
 //! | `tree` | the sign's tree and its features |
+//! | `proof` | where hands are told to be, proven by performing it |
 
 mod acts;
 mod aim;
 mod hands;
 mod place;
+mod proof;
 mod scene;
 mod shape;
 mod steady;
@@ -260,10 +262,50 @@ pub fn transcribe(
     anatomy: &Anatomy,
     options: &Options,
 ) -> Result<Transcription, TranscribeError> {
+    looked_at(clip, anatomy, options, None)
+}
+
+/// Makes movement of notation on the body that is transcribed.
+pub trait Performs {
+    /// Returns the body as it is when the first posture of a sign is reached, as a clip of one frame; nothing where
+    /// that cannot be made.
+    fn begins(&self, sign: &Sign) -> Option<Clip>;
+
+    /// Returns the movement of a sign without the ways from and to rest, likewise.
+    fn performs(&self, sign: &Sign) -> Option<Clip>;
+}
+
+/// As [`transcribe`], of movement that was made from notation: where hands are told to be is proven by performing
+/// it.
+///
+/// A hand that should touch the trunk is moved out of it, one that is turned too far stops, one that has room
+/// gives way to its arm: it is not at its place then, but where performing what is meant brings it. Where what is
+/// told would bring it elsewhere, what may be meant instead is performed, some hundred postures, and told if it brings
+/// the hand to within millimetres of where it is. Nobody else's movement comes back so exactly: captured signs are for
+/// [`transcribe`].
+///
+/// # Errors
+/// As there.
+pub fn transcribe_proven(
+    clip: &Clip,
+    anatomy: &Anatomy,
+    options: &Options,
+    performs: &dyn Performs,
+) -> Result<Transcription, TranscribeError> {
+    looked_at(clip, anatomy, options, Some(performs))
+}
+
+fn looked_at(
+    clip: &Clip,
+    anatomy: &Anatomy,
+    options: &Options,
+    performs: Option<&dyn Performs>,
+) -> Result<Transcription, TranscribeError> {
     let steadied = steady::steadied(clip);
     let clip = steadied.as_ref().map_or(clip, |steadied| &steadied.clip);
     let scene = scene::Scene::of(clip, anatomy, options)?;
-    let mut found = tree::written(&scene, options);
+    let sight = tree::Sight::new(&scene, options);
+    let mut found = proof::written(&sight, performs);
     if let Some(steady::Steadied { most, joints, .. }) = steadied {
         found.findings.push(format!(
             "{joints} joints tremble from frame to frame, by {most:.1}° at most: they were smoothed"

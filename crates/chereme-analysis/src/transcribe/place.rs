@@ -87,7 +87,30 @@ struct Candidate<'c> {
     meant: HandPoint,
 }
 
+/// Whether places are thought of that are rarely meant, or that a hand was pushed out of, by any part of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Wide {
+    No,
+    Yes,
+}
+
 impl Candidate<'_> {
+    fn placed(&self) -> Placed {
+        Placed {
+            place: self.place(),
+            residual: self.residual,
+            runner_up: None,
+            score: self.score,
+            unlikely: self.unlikely,
+            distance: self.distance,
+            small: self.small,
+            parts: match self.said {
+                Some(parts) => parts.to_vec(),
+                None => vec![self.meant],
+            },
+        }
+    }
+
     fn sites(&self) -> [Option<Site<BodyLocation>>; 2] {
         [Some(self.choice.spot.site), self.choice.second]
     }
@@ -179,7 +202,7 @@ impl<'a> Body<'a> {
     }
 
     fn placed(&self, n: usize, hand: &Hand, symmetric: bool) -> Option<Placed> {
-        let all = self.candidates(n, hand, symmetric);
+        let all = self.candidates(n, hand, symmetric, Wide::No);
         let lower = |a: &&Candidate<'_>, b: &&Candidate<'_>| a.score.total_cmp(&b.score);
         let best = all.iter().min_by(lower)?;
         let of = best.sites();
@@ -191,23 +214,35 @@ impl<'a> Body<'a> {
             runner_up: others
                 .min_by(lower)
                 .map(|other| (other.place(), other.residual)),
-            place: best.place(),
-            residual: best.residual,
-            score: best.score,
-            unlikely: best.unlikely,
-            distance: best.distance,
-            small: best.small,
-            parts: match best.said {
-                Some(parts) => parts.to_vec(),
-                None => vec![best.meant],
-            },
+            ..best.placed()
         })
     }
 
-    fn candidates<'c>(&'c self, n: usize, hand: &'c Hand, symmetric: bool) -> Vec<Candidate<'c>> {
+    /// Returns the places where hand `n` may be meant to be, the likeliest first, `most` of them: also those that
+    /// it was pushed out of, by any of its parts.
+    pub(super) fn likeliest(&self, n: usize, symmetric: bool, most: usize) -> Vec<Placed> {
+        let hand = self.hands[n].as_ref();
+        hand.map_or_else(Vec::new, |hand| self.likeliest_of(n, hand, symmetric, most))
+    }
+
+    fn likeliest_of(&self, n: usize, hand: &Hand, symmetric: bool, most: usize) -> Vec<Placed> {
+        let mut all = self.candidates(n, hand, symmetric, Wide::Yes);
+        all.sort_by(|a, b| a.score.total_cmp(&b.score));
+        all.truncate(most);
+        all.iter().map(Candidate::placed).collect()
+    }
+
+    fn candidates<'c>(
+        &'c self,
+        n: usize,
+        hand: &'c Hand,
+        symmetric: bool,
+        wide: Wide,
+    ) -> Vec<Candidate<'c>> {
         let mut all = Vec::new();
-        for choice in self.choices(n) {
-            self.weigh(n, hand, choice, symmetric, &mut all);
+        let choices = self.choices(n).iter();
+        for choice in choices.filter(|it| wide == Wide::Yes || !it.far) {
+            self.weigh(n, hand, (choice, wide), symmetric, &mut all);
         }
         all
     }
@@ -217,7 +252,7 @@ impl<'a> Body<'a> {
         &self,
         n: usize,
         hand: &'c Hand,
-        choice: &'c Choice,
+        (choice, wide): (&'c Choice, Wide),
         symmetric: bool,
         all: &mut Vec<Candidate<'c>>,
     ) {
@@ -251,7 +286,8 @@ impl<'a> Body<'a> {
             let own = if small { meant } else { hand.middle() };
             let mut add = |at: DVec3, said: Option<&'c [HandPoint]>, cost: f64| {
                 let distance = at.distance(spot.at);
-                if touching && distance > TOUCH[usize::from(trunk)] * scene.arm {
+                let far = distance > TOUCH[usize::from(trunk)] * scene.arm;
+                if touching && far && wide == Wide::No {
                     return;
                 }
                 let off = at - goal;
@@ -276,7 +312,11 @@ impl<'a> Body<'a> {
             if (small || near) && within {
                 let pushed = (touching && trunk).then_some(spot.out);
                 let said = SAID[if touching { 2 } else { usize::from(!trunk) }];
-                if let Some((at, parts, steps)) = hand.nearest(goal, pushed) {
+                if wide == Wide::Yes {
+                    for (at, parts, steps) in hand.nameable() {
+                        add(*at, Some(parts), cost + said + STEP * steps);
+                    }
+                } else if let Some((at, parts, steps)) = hand.nearest(goal, pushed) {
                     add(at, Some(parts), cost + said + STEP * steps);
                 }
             }
@@ -389,7 +429,7 @@ impl<'a> Body<'a> {
             Some((_, known)) => *known = known.min(less),
             None => found.push((parts, less)),
         };
-        let all = self.candidates(n, hand, false);
+        let all = self.candidates(n, hand, false, Wide::No);
         let best = all.iter().map(|it| it.score).fold(f64::INFINITY, f64::min);
         let near = all.iter().filter(|it| it.small);
         for it in near.filter(|it| it.score < best + RATHER_NOT) {

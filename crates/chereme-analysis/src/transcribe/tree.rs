@@ -9,6 +9,7 @@ mod way;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
+use std::rc::Rc;
 
 use chereme_motion::{Finger, Part, Side};
 use chereme_sign::hamnosys::{
@@ -27,8 +28,9 @@ use super::shape::Forms;
 use super::way::Way;
 use super::words;
 use super::{Feature, FeatureKind, Found, Options, RunnerUp, Stage, Transcription, Unit};
+pub(super) use posture::Stand;
 use posture::behind;
-use sight::Sight;
+pub(super) use sight::Sight;
 
 /// However far a hand is from every place, that counts no more against telling one for each, in nepers.
 const MOST_APART: f64 = 12.0;
@@ -49,9 +51,42 @@ pub(super) struct Seen {
     beyond: f64,
 }
 
-/// Writes down what the hands of a scene do.
-pub(super) fn written(scene: &Scene<'_>, options: &Options) -> Transcription {
-    Writer::new(&Sight::new(scene, options)).written()
+/// Writes down what the hands of a scene do, and how that begins; what is picked is told.
+pub(super) fn written<'a>(sight: &'a Sight<'a>, picked: Picked) -> (Transcription, Option<Begun>) {
+    Writer::new(sight, picked).written()
+}
+
+/// What is told whatever else is likelier.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Picked {
+    pub(super) stand: Option<Stand>,
+    /// How either hand is turned.
+    pub(super) turned: [Option<aim::Turned>; 2],
+}
+
+/// How a sign begins.
+#[derive(Debug, Clone)]
+pub(super) struct Begun {
+    /// The frame in which its posture is seen, and the first of the sign.
+    pub(super) frame: usize,
+    pub(super) first: usize,
+    pub(super) stand: Stand,
+    pub(super) symmetric: bool,
+    pub(super) alone: bool,
+    /// By how much the other hand is elsewhere than where it began.
+    pub(super) behind: Option<DVec3>,
+}
+
+impl Seen {
+    fn turned(self, turned: aim::Turned) -> Self {
+        let palm = self.palm.as_ref().map(|_| turned.palm);
+        Self {
+            extended: turned.extended,
+            palm,
+            beyond: turned.beyond,
+            ..self
+        }
+    }
 }
 
 /// Returns how far the hand that signs is from a place, and that place from another.
@@ -81,10 +116,15 @@ struct Writer<'a> {
     /// The number of the action that is written, and the frames of what is written.
     action: Option<usize>,
     frames: (usize, usize),
+    picked: Picked,
+    /// By how much the other hand is elsewhere than where it began, the first frame of the sign, and how it begins.
+    behind: Option<DVec3>,
+    first: usize,
+    begun: Option<Begun>,
 }
 
 impl<'a> Writer<'a> {
-    fn new(sight: &'a Sight<'a>) -> Self {
+    fn new(sight: &'a Sight<'a>, picked: Picked) -> Self {
         Self {
             scene: sight.scene,
             sight,
@@ -94,10 +134,14 @@ impl<'a> Writer<'a> {
             findings: Vec::new(),
             action: None,
             frames: (0, 0),
+            picked,
+            behind: None,
+            first: 0,
+            begun: None,
         }
     }
 
-    fn written(mut self) -> Transcription {
+    fn written(mut self) -> (Transcription, Option<Begun>) {
         let scene = self.scene;
         let lead = self.lead;
         let Some(track) = scene.hands[lead].as_ref() else {
@@ -113,9 +157,12 @@ impl<'a> Writer<'a> {
         self.begins(None, (first, all.first().map_or(last + 1, |_| start + 1)));
         self.told_hands(&relation, start);
         let mut body = self.sight.look(start);
-        if let (Some(body), Some(by)) = (&mut body, behind(&relation, all.first())) {
+        let shift = behind(&relation, all.first());
+        if let (Some(body), Some(by)) = (&mut body, shift) {
             body.shift(1, by);
         }
+        self.behind = shift;
+        self.first = first;
         let posture = self.posture(start, &relation, body.as_ref());
         let hands = self.used(&relation.kind);
         self.ends(None, words::begun(hands, posture.clone()));
@@ -165,8 +212,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn done(self, manual: Manual, first: usize, end: usize) -> Transcription {
-        Transcription {
+    fn done(self, manual: Manual, first: usize, end: usize) -> (Transcription, Option<Begun>) {
+        let told = Transcription {
             sign: Sign {
                 parts: vec![manual],
             },
@@ -174,7 +221,8 @@ impl<'a> Writer<'a> {
             stages: self.stages,
             frames: (first, end),
             findings: self.findings,
-        }
+        };
+        (told, self.begun)
     }
 
     /// Says what the skeleton does not show.

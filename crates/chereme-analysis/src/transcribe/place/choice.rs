@@ -53,6 +53,8 @@ const WIDE: f64 = 0.6;
 const REGIONS: f64 = 2.0;
 /// Half-way between places that another one lies between costs this besides: that one would be said.
 const SKIPS: f64 = 2.0;
+/// Half-way between two that are farther from each other, or to either side, costs this besides.
+const DISTANT: f64 = 1.5;
 /// What lies nearer to the middle of two places than this share of the way to either lies between.
 const BETWEEN_THEM: f64 = 0.6;
 /// Half-way between two places may be meant that are nearer to each other than this, in metres.
@@ -85,6 +87,8 @@ pub(super) struct Choice {
     pub(super) top: bool,
     /// Whether it is meant from near only.
     near: bool,
+    /// Whether the two are farther from each other than such as are mostly said.
+    pub(super) far: bool,
 }
 
 /// Returns every place that is told apart; `spot` tells where one is.
@@ -97,15 +101,21 @@ pub(super) fn all(spot: impl Fn(&Site<BodyLocation>) -> Option<Spot>) -> Vec<Cho
         .collect();
     for (k, first) in spots.iter().enumerate() {
         all.push(choice(first, None));
-        for second in spots[k + 1..].iter().filter(|it| neighbours(first, it)) {
+        for second in &spots[k + 1..] {
+            let far = !neighbours(first, second);
+            if far && !distant(first, second) {
+                continue;
+            }
             let more = if !(is_top(first) && is_top(second)) && skips(first, second, &plain) {
                 SKIPS
             } else {
                 0.0
             };
+            let more = more + if far { DISTANT } else { 0.0 };
             let mut add = |a: &Spot, b: &Spot| {
                 let mut both = choice(a, Some(b));
                 both.cost += more;
+                both.far = far;
                 all.push(both);
             };
             add(first, second);
@@ -158,6 +168,14 @@ fn neighbours(a: &Spot, b: &Spot) -> bool {
     apart > 1e-3 && apart < most && !opposite && !arms
 }
 
+/// Whether a place half-way between two that are farther from each other may be meant: of one region, also to
+/// either side of the middle.
+fn distant(a: &Spot, b: &Spot) -> bool {
+    let apart = a.at.distance(b.at);
+    let arms = matches!(a.region, Region::Arm(_));
+    apart > 1e-3 && apart < ASIDE && a.region == b.region && !arms
+}
+
 /// Whether a plain place lies between two.
 fn skips(a: &Spot, b: &Spot, plain: &[&Spot]) -> bool {
     let middle = a.at.midpoint(b.at);
@@ -205,6 +223,7 @@ fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
             + if across { REGIONS } else { 0.0 },
         top: both().any(is_top) && !both().all(is_top),
         near: both().any(|spot| is_rare(spot) || spot.site.at == BodyLocation::UnderChin),
+        far: false,
     }
 }
 

@@ -112,6 +112,12 @@ impl Hand {
         nearest.map(|(at, parts, steps)| (*at, parts.as_slice(), *steps))
     }
 
+    /// Returns the parts that may be named: where they are, which they are, and how many steps less likely they
+    /// are meant than others.
+    pub(super) fn nameable(&self) -> &[(DVec3, Vec<HandPoint>, f64)] {
+        &self.named
+    }
+
     /// Returns where several points are, taken together.
     pub(super) fn mean(&self, points: &[HandPoint]) -> DVec3 {
         let known: Vec<DVec3> = self
@@ -145,8 +151,13 @@ fn nameable(points: &[Spotted]) -> Vec<(DVec3, Vec<HandPoint>, f64)> {
         .collect();
     let at = |point: HandPoint| Some(points.iter().find(|it| it.point == point)?.at);
     for face in [Face::Middle, Face::Palmar] {
-        for finger in [Digit::Index, Digit::Middle] {
-            let both = [Digit::Thumb, finger].map(|digit| HandPoint::Tip(digit, face));
+        let pairs = [
+            [Digit::Thumb, Digit::Index],
+            [Digit::Thumb, Digit::Middle],
+            [Digit::Index, Digit::Middle],
+        ];
+        for pair in pairs {
+            let both = pair.map(|digit| HandPoint::Tip(digit, face));
             if let [Some(a), Some(b)] = both.map(at)
                 && a.distance(b) < PINCHED
             {

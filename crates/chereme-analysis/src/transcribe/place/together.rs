@@ -18,6 +18,8 @@ const RATHER: [f64; 2] = [2.0, 1.0];
 /// meant than others.
 const PARTS: f64 = 1.5;
 const STEP: f64 = 0.7;
+/// How much less likely it is that nothing is said of the parts.
+const UNNAMED: f64 = 2.5;
 /// Hands of which parts are nearer to each other than this, in arm lengths, touch: it is so much less likely, in
 /// nepers, that they are meant to be close.
 const CONTACT: f64 = 0.025;
@@ -42,8 +44,20 @@ pub(in crate::transcribe) struct Together {
     /// than exactly there.
     off: f64,
     unlikely: f64,
-    /// Whether the parts must be said.
+    /// Whether the parts must be said, and whether they are.
     said: bool,
+    pub(in crate::transcribe) named: bool,
+}
+
+impl Together {
+    /// Returns how much less likely it is meant than what is plain, in nepers.
+    pub(in crate::transcribe) fn cost(&self) -> f64 {
+        match (self.named, self.said) {
+            (false, _) => UNNAMED,
+            (true, true) => PARTS + STEP * ranks(self),
+            (true, false) => 0.0,
+        }
+    }
 }
 
 impl Body<'_> {
@@ -114,6 +128,7 @@ impl Body<'_> {
             off: if touching { distance } else { off },
             unlikely: if touching { touch } else { close },
             said: true,
+            named: true,
         }
     }
 
@@ -169,6 +184,34 @@ impl Body<'_> {
             .min_by(|a, b| a.0.total_cmp(&b.0))?;
         let rather = RATHER[usize::from(together.contact != Contact::Touch)];
         (score < rather + apart).then_some((together, placed))
+    }
+
+    /// Returns how the two hands may be meant to be by each other, the likeliest first.
+    pub(in crate::transcribe) fn likeliest_pairs(&self) -> Vec<Together> {
+        let mut all = self.meant_pairs();
+        let unnamed = |it: &Together| Together {
+            named: false,
+            ..it.clone()
+        };
+        all.extend(all.iter().map(unnamed).collect::<Vec<_>>());
+        all.extend(self.pairs(PAIRS, |it| it.unlikely + STEP * ranks(it)));
+        all.sort_by(|a, b| (a.cost() + a.unlikely).total_cmp(&(b.cost() + b.unlikely)));
+        all
+    }
+
+    /// Returns the places where the two hands may be meant to be, the likeliest first, `most` of them.
+    pub(in crate::transcribe) fn likeliest_shared(
+        &self,
+        together: &Together,
+        most: usize,
+    ) -> Vec<Placed> {
+        let hand = Hand::only(together.at[0].midpoint(together.at[1]));
+        let mut all = self.likeliest_of(0, &hand, false, most);
+        all.extend(self.shared(hand.palm));
+        for placed in &mut all {
+            placed.place.by = None;
+        }
+        all
     }
 
     /// Returns the place nearest to a point that both hands share; no place where that is neutral space.

@@ -13,7 +13,11 @@ impl Writer<'_> {
         let scene = self.scene;
         let seen = [0, 1].map(|n| {
             let track = scene.hands[n].as_ref()?;
-            Some(self.sight.see(track, frame))
+            let seen = self.sight.see(track, frame);
+            Some(match &self.picked.turned[n] {
+                Some(turned) => seen.turned(turned.clone()),
+                None => seen,
+            })
         });
         let acts = [
             self.lead == 0,
@@ -43,10 +47,22 @@ impl Writer<'_> {
             }),
             place: None,
         };
-        let stand = body.and_then(|body| self.stand(relation, body));
-        let place = stand.map(|stand| {
-            self.told_stand(frame, &stand);
-            stand.place()
+        let own = body.and_then(|body| self.stand(relation, body));
+        let stand = match (self.picked.stand.clone(), own) {
+            (Some(picked), Some(own)) => Some(picked.rather_than(&own)),
+            (picked, own) => picked.or(own),
+        };
+        if let Some(stand) = &stand {
+            self.told_stand(frame, stand);
+        }
+        let place = stand.as_ref().map(Stand::place);
+        self.begun = stand.map(|stand| Begun {
+            frame,
+            first: self.first,
+            stand,
+            symmetric: matches!(relation.kind, RelationKind::Alike(_)),
+            alone: relation.kind == RelationKind::Alone,
+            behind: self.behind,
         });
         Posture { place, ..posture }
     }
@@ -126,7 +142,7 @@ impl Writer<'_> {
 
 /// How it is told where hands are.
 #[derive(Debug, Clone)]
-enum Stand {
+pub(in crate::transcribe) enum Stand {
     /// One hand, or both alike, at a place.
     One(usize, Placed),
     /// Each at its own.
@@ -136,7 +152,27 @@ enum Stand {
 }
 
 impl Stand {
-    fn place(&self) -> Place {
+    /// Takes what was likelier for what would have come next.
+    fn rather_than(mut self, likelier: &Self) -> Self {
+        let next = |placed: &mut Placed, other: &Placed| {
+            if placed.place != other.place {
+                placed.runner_up = Some((other.place.clone(), other.residual));
+            }
+        };
+        match (&mut self, likelier) {
+            (Self::One(_, own), Self::One(_, other)) => next(own, other),
+            (Self::Together(_, own), Self::Together(_, other)) => next(own, other),
+            (Self::Each(own), Self::Each(other)) => {
+                for (own, other) in own.iter_mut().flatten().zip(other.iter().flatten()) {
+                    next(own, other);
+                }
+            }
+            _ => {}
+        }
+        self
+    }
+
+    pub(in crate::transcribe) fn place(&self) -> Place {
         match self {
             Self::One(_, placed) => Place::Body(placed.place.clone()),
             Self::Each(both) => {
@@ -153,10 +189,12 @@ impl Stand {
 
 /// Returns the two hands by each other.
 fn constellation(together: &Together, at: &Placed) -> Constellation {
-    let [dominant, other] = together.parts.map(named);
+    let [dominant, other] = together
+        .parts
+        .map(|part| together.named.then(|| named(part)));
     Constellation {
-        dominant: Some(dominant),
-        other: Some(other),
+        dominant,
+        other,
         contact: Some(together.contact),
         at: at.place.site.is_some().then_some(at.place.clone()),
         ..Constellation::default()

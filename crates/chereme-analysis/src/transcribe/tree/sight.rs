@@ -1,25 +1,23 @@
 //! What is seen of the hands, frame by frame: each thing is looked at once.
 
-use std::rc::Rc;
-
 use super::*;
 
 /// The handshapes of hands in frames.
 type Shapes = BTreeMap<(Side, usize), Option<Found<Handshape>>>;
 
 /// A scene with what was seen of it.
-pub(super) struct Sight<'a> {
-    pub(super) scene: &'a Scene<'a>,
+pub(in crate::transcribe) struct Sight<'a> {
+    pub(in crate::transcribe) scene: &'a Scene<'a>,
     /// The hand that signs where only one does.
-    pub(super) lead: usize,
-    pub(super) options: &'a Options,
+    pub(in crate::transcribe) lead: usize,
+    pub(in crate::transcribe) options: &'a Options,
     forms: std::sync::Arc<Forms>,
     shapes: RefCell<Shapes>,
     bodies: RefCell<BTreeMap<usize, Option<Rc<Body<'a>>>>>,
 }
 
 impl<'a> Sight<'a> {
-    pub(super) fn new(scene: &'a Scene<'a>, options: &'a Options) -> Self {
+    pub(in crate::transcribe) fn new(scene: &'a Scene<'a>, options: &'a Options) -> Self {
         Self {
             scene,
             lead: lead(scene),
@@ -31,7 +29,7 @@ impl<'a> Sight<'a> {
     }
 
     /// Returns what a hand does, and the frame in which it leaves its first posture.
-    pub(super) fn acts(
+    pub(in crate::transcribe) fn acts(
         &self,
         hand: usize,
         track: &Track,
@@ -67,7 +65,7 @@ impl<'a> Sight<'a> {
     }
 
     /// Looks at the body in a frame.
-    pub(super) fn body(&self, frame: usize) -> Option<Rc<Body<'a>>> {
+    pub(in crate::transcribe) fn body(&self, frame: usize) -> Option<Rc<Body<'a>>> {
         if let Some(known) = self.bodies.borrow().get(&frame) {
             return known.clone();
         }
@@ -77,7 +75,7 @@ impl<'a> Sight<'a> {
     }
 
     /// As [`body`](Self::body), to be moved about.
-    pub(super) fn look(&self, frame: usize) -> Option<Body<'a>> {
+    pub(in crate::transcribe) fn look(&self, frame: usize) -> Option<Body<'a>> {
         let shapes = [0, 1].map(|n| {
             let track = self.scene.hands[n].as_ref()?;
             Some(self.shape(track, frame)?.best)
@@ -99,7 +97,7 @@ impl<'a> Sight<'a> {
     }
 
     /// Tells shape, direction and palm of a hand in a frame.
-    pub(super) fn see(&self, track: &Track, frame: usize) -> Seen {
+    pub(in crate::transcribe) fn see(&self, track: &Track, frame: usize) -> Seen {
         let between = self.options.between;
         let along = track.along[frame];
         let shape = self.shape(track, frame);
@@ -111,21 +109,32 @@ impl<'a> Sight<'a> {
                 beyond: 0.0,
             };
         }
-        // The scene shows the dominant hand as a right one.
-        let left = track.side != self.scene.dominant;
-        let [shoulder, elbow] = track.arm[frame];
-        let arm = [shoulder, elbow, track.wrist[frame]];
-        let wrist = aim::Wrist::of(arm, left, self.scene.language);
-        let how = aim::How {
-            between,
-            loose: self.scene.loose,
-        };
-        let turned = aim::turned(along, track.normal[frame], wrist.as_ref(), how);
+        let turned = self.turned(track, frame, 1).swap_remove(0);
         Seen {
             shape,
             extended: turned.extended,
             palm: Some(turned.palm),
             beyond: turned.beyond,
         }
+    }
+
+    /// Tells how a hand is turned in a frame: the likeliest first, `most` of them.
+    pub(in crate::transcribe) fn turned(
+        &self,
+        track: &Track,
+        frame: usize,
+        most: usize,
+    ) -> Vec<aim::Turned> {
+        // The scene shows the dominant hand as a right one.
+        let left = track.side != self.scene.dominant;
+        let [shoulder, elbow] = track.arm[frame];
+        let arm = [shoulder, elbow, track.wrist[frame]];
+        let wrist = aim::Wrist::of(arm, left, self.scene.language);
+        let how = aim::How {
+            between: self.options.between,
+            loose: self.scene.loose,
+        };
+        let (along, normal) = (track.along[frame], track.normal[frame]);
+        aim::turned(along, normal, wrist.as_ref(), how, most)
     }
 }
