@@ -499,7 +499,7 @@ fn tier_name(note: &Note) -> String {
         None => "",
     };
     match &note.about {
-        About::Gloss => "Source".to_owned(),
+        About::Gloss => SOURCE.to_owned(),
         About::Transition => format!("Transition{hand}"),
         About::Component(component, feature) => {
             let name = feature.as_deref().unwrap_or(component.name());
@@ -574,8 +574,16 @@ fn recipe_row(
         text: recipe.to_string(),
         document: document.to_string(),
         report: serde_json::to_string(&made.report).map_err(fault)?,
-        engine: format!("{}+{ENGINE}", env!("CARGO_PKG_VERSION")),
+        engine: engine(),
     })
+}
+
+/// The tier that says of which source each stretch of a made sign is.
+pub(crate) const SOURCE: &str = "Source";
+
+/// Returns the version of the program and of what makes movement in it.
+pub(crate) fn engine() -> String {
+    format!("{}+{ENGINE}", env!("CARGO_PKG_VERSION"))
 }
 
 fn store_inputs(connection: &Connection, recipe: i64, resolved: &Resolved) -> Result<()> {

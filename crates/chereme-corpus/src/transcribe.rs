@@ -1,6 +1,10 @@
 //! The notation of stored movement.
 
-use chereme_analysis::transcribe::{Feature, FeatureKind, Options, Stage, transcribe};
+mod again;
+
+use chereme_analysis::transcribe::{
+    Feature, FeatureKind, Options, Stage, transcribe, transcribe_proven,
+};
 use chereme_motion::{Side, Span};
 use chereme_sign::hamnosys::{Notated, Sign, print, to_names};
 use serde::Serialize;
@@ -11,6 +15,7 @@ use crate::db::notations::{self, NotationRow};
 use crate::db::recordings;
 use crate::error::{Error, Result};
 use crate::movement::{ChannelGroup, Track};
+use again::Again;
 
 /// The longest stretch in seconds that is taken for one sign.
 const LONGEST: f64 = 60.0;
@@ -100,7 +105,8 @@ pub struct TranscribedValue {
 impl Corpus {
     /// Writes a token, or another short piece of movement, in HamNoSys.
     ///
-    /// Only the frames of the token are read, so a long recording costs no more than a short one.
+    /// Only the frames of the token are read, so a long recording costs no more than a short one. What was made of
+    /// notation alone, by this version of the animator, is proven by making it again.
     ///
     /// # Errors
     /// Where the address names no movement, one longer than a minute, or a skeleton without arms.
@@ -116,20 +122,28 @@ impl Corpus {
             .advise("name a token in it: token:41"));
         }
         let track = Track::of(connection, stretch.recording.id)?;
-        let frames = track.frames_in(stretch.span);
+        let frames = again::signed(connection, &track, &stretch)?;
+        let frames = frames.unwrap_or_else(|| track.frames_in(stretch.span));
         let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
         let anatomy = track.anatomy(connection)?;
         let usual = match stretch.recording.origin.as_str() {
             "made" => Options::made(),
             _ => Options::default(),
         };
+        let dominant = self.dominant(&stretch)?;
+        let again = Again::of(connection, &track, &stretch, dominant)?;
         let options = Options {
-            dominant: self.dominant(&stretch)?,
+            dominant,
             longest: LONGEST + 1.0,
+            language: again.as_ref().map_or(usual.language, Again::language),
             ..usual
         };
-        let written = transcribe(&clip, &anatomy, &options)
-            .map_err(|error| Error::wrong(error.to_string()).at(address.to_string()))?;
+        let written = match &again {
+            Some(again) => transcribe_proven(&clip, &anatomy, &options, again),
+            None => transcribe(&clip, &anatomy, &options),
+        };
+        let written =
+            written.map_err(|error| Error::wrong(error.to_string()).at(address.to_string()))?;
         let printed = print(&written.sign);
         let mut findings = written.findings;
         findings.extend(printed.losses.iter().map(|loss| loss.message.clone()));

@@ -1,9 +1,9 @@
 //! A token's movement in HamNoSys: told, kept as its notation, and taken back.
 
 use chereme_corpus::{
-    Address, Corpus, ImportOptions, PictureOptions, Progress, starter_files, unheard,
+    Address, Corpus, ImportOptions, PictureOptions, Progress, Staging, starter_files, unheard,
 };
-use chereme_sign::hamnosys::parse;
+use chereme_sign::hamnosys::{Place, Sign, from_names, parse};
 
 #[test]
 fn what_is_transcribed_can_be_kept_and_taken_back() {
@@ -56,4 +56,38 @@ fn what_is_transcribed_can_be_kept_and_taken_back() {
     assert_eq!(corpus.log(1).expect("a log")[0].name, "transcribe");
     corpus.undo().expect("taken back");
     assert!(corpus.notation(&sign).is_err());
+}
+
+/// Signs whose hands are not where they are meant to be: led out of the trunk, or by a part that looks away from it.
+const LED_AWAY: [&str; 3] = [
+    "hamfist hamextfingerul hampalmr hamneck hamtouch",
+    "hamfinger2 hamextfingerul hampalmd hamneck hamtouch",
+    "hamflathand hamthumboutmod hamextfingerul hampalmul hamchest hamlrat hambetween hamshoulders hamtouch",
+];
+
+#[test]
+fn what_was_made_of_notation_is_told_to_be_where_it_was_written_to_be() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    for (n, names) in LED_AWAY.into_iter().enumerate() {
+        let text = from_names(names.split(' ')).expect("names of symbols");
+        let written = parse(&text).expect("HamNoSys").sign;
+        let gloss = format!("S{n}");
+        let done = corpus.animate(&[names], &Staging::default(), Some(&gloss));
+        done.expect("made");
+        let told = corpus.transcribe(&gloss.parse().expect("an address"));
+        let told = told.expect("told");
+        let sites = |sign: &Sign| match &sign.parts[0].posture.place {
+            Some(Place::Body(place)) => (place.site, place.second, place.contact),
+            other => panic!("{names}: {other:?}"),
+        };
+        assert_eq!(sites(&told.sign), sites(&written), "{names}");
+        // The ways from and to rest are known, and left out.
+        let nothing = told.sign.parts[0].actions.is_empty();
+        assert!(
+            nothing && told.start_us > 300_000,
+            "{names}: {:?}",
+            told.symbols
+        );
+    }
 }

@@ -14,6 +14,9 @@ use crate::output::Output;
 /// next. The characters are shown by a HamNoSys font only; their names stand below them, `--names` writes
 /// nothing else, and `render TOKEN --to it.svg` draws what was stored.
 ///
+/// Of a sign that was made of notation alone, what is written is performed again: where that brings the hands
+/// elsewhere, other postures are tried, some hundred of them at most. That takes up to some seconds.
+///
 /// `--json` gives "gloss", "token", "recording", "start_us", "end_us", the whole as "hamnosys" and "symbols" and as
 /// the tree "sign"; "stages", the posture at the beginning and each action with "action", "hand", "start_us",
 /// "end_us", "hamnosys", "symbols"; "features", each with "feature", "hand", "action" (null for the posture), "at_us",

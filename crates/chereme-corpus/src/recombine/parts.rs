@@ -4,7 +4,7 @@ use chereme_compose::{About, Note};
 use chereme_motion::{Instant, Span};
 use serde_json::Value;
 
-use super::tier_name;
+use super::{SOURCE, tier_name};
 use crate::Corpus;
 use crate::address::Address;
 use crate::db::tiers;
@@ -60,9 +60,6 @@ impl Corpus {
         Ok(parts)
     }
 }
-
-/// The tier that says from which sign each stretch is.
-const SOURCE: &str = "Source";
 
 /// Returns the pieces that notes tell of.
 pub(super) fn of(notes: &[Note]) -> Vec<MadePart> {
