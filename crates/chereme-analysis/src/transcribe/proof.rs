@@ -23,15 +23,17 @@ const PLACES: [Range<usize>; 3] = [0..40, 40..120, 120..300];
 const SHARED: usize = 100;
 const PAIRS: usize = 8;
 /// So many ways to be turned are tried at so many places.
-const TURNS: usize = 8;
-const TURNED_AT: usize = 12;
+const TURNS: usize = 12;
+const TURNED_AT: usize = 24;
 /// More postures than this are not tried.
-const MOST: usize = 600;
+const MOST: usize = 1000;
 /// Of those that come nearest so many are performed to the end.
-const FINALISTS: usize = 8;
+const FINALISTS: usize = 12;
 /// Hands are where they are performed that are so near to there, in metres; and when only the posture is taken up.
 const EXACT: f64 = 0.001;
 const NEARLY: f64 = 0.0025;
+/// How near to there what is told otherwise brings them at least.
+const ALMOST: f64 = 0.0035;
 /// How much less likely it is that a hand is not where what is told of it would bring it, in nepers.
 const INEXACT: f64 = 6.0;
 
@@ -209,7 +211,8 @@ impl Proof<'_, '_> {
                 best = still;
             }
         }
-        if self.open(best.off).len() >= self.open(told).len() {
+        let off = |off: [f64; 2]| off.iter().filter(|off| **off > ALMOST).count();
+        if self.open(best.off).len() >= self.open(told).len() && off(best.off) >= off(told) {
             return Some((None, told));
         }
         let picked = Picked {
