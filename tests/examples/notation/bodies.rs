@@ -5,28 +5,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use chereme_compose::Material;
-use chereme_compose::notation::Performer;
 use chereme_formats::bvh::convert::{self, ClipBuilder};
 use chereme_formats::bvh::raw::{Block, ChannelFix, Reader};
 use chereme_motion::{Anatomy, Clip};
 use chereme_sign::Handedness;
-use chereme_sign::hamnosys::{Notated, Sign};
+use chereme_sign::hamnosys::Notated;
 
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
-
-/// Performs notation for the transcriber.
-#[allow(dead_code, reason = "one of two examples transcribes")]
-pub(crate) struct Performs(pub(crate) Performer);
-
-impl chereme_analysis::transcribe::Performs for Performs {
-    fn begins(&self, sign: &Sign) -> Option<Clip> {
-        self.0.begins(sign).ok()
-    }
-
-    fn performs(&self, sign: &Sign) -> Option<Clip> {
-        self.0.performs(sign).ok()
-    }
-}
 
 /// Reads the body of a BVH file as a stage: its first frame.
 pub(crate) fn stage(path: &Path) -> Result<Material> {

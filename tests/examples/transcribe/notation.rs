@@ -5,7 +5,9 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant as Clock;
 
-use chereme_analysis::transcribe::{Options, Transcription, transcribe, transcribe_proven};
+use chereme_analysis::transcribe::{
+    Options, Performs, Transcription, transcribe, transcribe_proven,
+};
 use chereme_compose::Material;
 use chereme_compose::notation::{Performer, Settings, animate};
 use chereme_motion::{Anatomy, Clip, Span};
@@ -187,6 +189,19 @@ fn seen<T: Sync, R: Send>(all: &[T], does: impl Fn(&T) -> R + Sync) -> Vec<R> {
     })
 }
 
+/// Performs notation for the transcriber.
+struct Performed(Performer);
+
+impl Performs for Performed {
+    fn begins(&self, sign: &Sign) -> Option<Clip> {
+        self.0.begins(sign).ok()
+    }
+
+    fn performs(&self, sign: &Sign) -> Option<Clip> {
+        self.0.performs(sign).ok()
+    }
+}
+
 /// What came of a part of a sign.
 pub(crate) struct Again {
     pub(crate) found: Transcription,
@@ -224,7 +239,7 @@ fn again(
     let (first, last) = (rate.frame_at(span.start()), rate.frame_at(span.end()));
     let clip = made.clip.slice(first..last + 1);
     let began = Clock::now();
-    let performs = bodies::Performs(Performer::new(stage.clone(), settings.clone()).ok()?);
+    let performs = Performed(Performer::new(stage.clone(), settings.clone()).ok()?);
     let found = match more {
         More::Plain => transcribe(&clip, &made.anatomy, options).ok()?,
         _ => transcribe_proven(&clip, &made.anatomy, options, &performs).ok()?,

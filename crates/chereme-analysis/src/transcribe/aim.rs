@@ -186,9 +186,10 @@ struct Meant {
 }
 
 /// Returns the directions and palms that a hand may be meant to have, the two together, the likeliest first, `most`
-/// of them; the palm is the
-/// angle about the hand's axis, as [`orientation`](chereme_sign::hamnosys::orientation) counts it. Residuals
-/// are how far the hand is from them, in degrees.
+/// of them.
+///
+/// The palm is the angle about the hand's axis, as [`orientation`](chereme_sign::hamnosys::orientation) counts it.
+/// Residuals are how far the hand is from them, in degrees.
 ///
 /// A hand that stops where its wrist or forearm ends may be meant to be turned farther: it is then as near to
 /// what would stop there as to what it shows.

@@ -280,8 +280,8 @@ pub trait Performs {
 ///
 /// A hand that should touch the trunk is moved out of it, one that is turned too far stops, one that has room
 /// gives way to its arm: it is not at its place then, but where performing what is meant brings it. Where what is
-/// told would bring it elsewhere, what may be meant instead is performed, some hundred postures, and told if it brings
-/// the hand to within millimetres of where it is. Nobody else's movement comes back so exactly: captured signs are for
+/// told would bring it elsewhere, what may be meant instead is performed, a thousand postures at most, and told if it
+/// brings the hand to within millimetres of where it is. Nobody else's movement comes back so exactly: captured signs are for
 /// [`transcribe`].
 ///
 /// # Errors

@@ -39,6 +39,7 @@ const UNSAID: f64 = 1.5;
 const OWN_SIDES: f64 = 1.0;
 /// Parts of the hand are thought of as meant that are no less likely than by this, in nepers.
 const RATHER_NOT: f64 = 8.0;
+
 /// A place that was found, with the distance to it.
 #[derive(Debug, Clone)]
 pub(super) struct Placed {

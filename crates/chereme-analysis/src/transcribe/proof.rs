@@ -182,9 +182,10 @@ impl Proof<'_, '_> {
             let Some(mut other) = self.begun_as(other) else {
                 continue;
             };
-            let far = match other.trial.stand {
-                Stand::Together(..) => 1,
-                _ => 2,
+            let far = if matches!(other.trial.stand, Stand::Together(..)) {
+                1
+            } else {
+                2
             };
             self.moved(&mut other, &PLACES[..far]);
             // The other hand alone may be there by chance.
@@ -211,8 +212,11 @@ impl Proof<'_, '_> {
                 best = still;
             }
         }
-        let off = |off: [f64; 2]| off.iter().filter(|off| **off > ALMOST).count();
-        if self.open(best.off).len() >= self.open(told).len() && off(best.off) >= off(told) {
+        let fewer = |within: f64| {
+            let [best, told] = [best.off, told].map(|off| self.beyond(off, within).len());
+            best < told
+        };
+        if !fewer(NEARLY) && !fewer(ALMOST) {
             return Some((None, told));
         }
         let picked = Picked {
@@ -248,11 +252,16 @@ impl Proof<'_, '_> {
 
     /// Returns the hands that are not where they are performed.
     fn open(&self, off: [f64; 2]) -> Vec<usize> {
+        self.beyond(off, NEARLY)
+    }
+
+    /// Returns the hands that are farther off than so many metres, of those of which it is told where they are.
+    fn beyond(&self, off: [f64; 2], within: f64) -> Vec<usize> {
         let told = |n: &usize| match &self.begun.stand {
             Stand::One(own, _) if self.begun.alone => own == n,
             _ => true,
         };
-        (0..2).filter(told).filter(|&n| off[n] > NEARLY).collect()
+        (0..2).filter(told).filter(|&n| off[n] > within).collect()
     }
 
     /// Returns what hand `n` may be meant at, or both, the likeliest first, all else as it is.

@@ -9,7 +9,6 @@ mod way;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
-use std::rc::Rc;
 
 use chereme_motion::{Finger, Part, Side};
 use chereme_sign::hamnosys::{

@@ -166,17 +166,13 @@ impl Body<'_> {
             .into_iter()
             .filter_map(|together| {
                 let mut placed = self.shared(together.at[0].midpoint(together.at[1]))?;
-                let said = match together.said {
-                    true => PARTS + STEP * ranks(&together),
-                    false => 0.0,
-                };
                 let apart = match together.contact {
                     Contact::Close if touch => TOUCHES,
                     _ => 0.0,
                 };
                 placed.residual = placed.residual.max(together.off);
                 Some((
-                    placed.score + together.unlikely + said + apart,
+                    placed.score + together.unlikely + together.cost() + apart,
                     together,
                     placed,
                 ))

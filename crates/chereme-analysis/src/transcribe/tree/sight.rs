@@ -1,5 +1,7 @@
 //! What is seen of the hands, frame by frame: each thing is looked at once.
 
+use std::rc::Rc;
+
 use super::*;
 
 /// The handshapes of hands in frames.
