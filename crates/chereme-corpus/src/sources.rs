@@ -84,57 +84,10 @@ impl<'a> CorpusSources<'a> {
             .advise("name a token in it"));
         }
         let track = Track::of(self.connection, stretch.recording.id)?;
-        let frames = track.frames_in(stretch.span);
-        let clip = track.clip(self.connection, frames.clone(), &ChannelGroup::ALL)?;
-        let name = format!(
-            "{} {:?} {:?}",
-            motion::content_hash(self.connection, track.row.id)?,
-            frames,
-            track.row
-        );
-        let signer = match stretch.recording.signer_id {
-            Some(id) => recordings::signer(self.connection, id)?,
-            None => None,
-        };
-        let left = signer
-            .as_ref()
-            .is_some_and(|it| it.handedness.as_deref() == Some("left"));
-        let handedness = if left {
-            Handedness::Left
-        } else {
-            Handedness::Right
-        };
-        let (address, gloss) = match &stretch.token {
-            Some(token) => (format!("token:{}", token.id), token.gloss.clone()),
-            None => (
-                format!("recording:{}", stretch.recording.id),
-                stretch.recording.name.clone(),
-            ),
-        };
-        Ok(Material {
-            address,
-            hash: motion::hex(&Sha256::digest(name.as_bytes())),
-            gloss,
-            signer: signer.map(|it| Address::Signer(Name::Text(it.name)).to_string()),
-            handedness,
-            clip,
-            anatomy: Arc::new(track.anatomy(self.connection)?),
-            held: self.held(stretch, handedness)?,
-            curves: curves::of_track(self.connection, &track, frames)?,
-        })
-    }
-
-    /// The body of a recording as it stands in the first frame.
-    fn standing(&self, recording: RecordingRow) -> Result<Material> {
-        let rate = Track::of(self.connection, recording.id)?.rate;
-        let stretch = Stretch {
-            span: rate.span(0..1),
-            recording,
-            token: None,
-        };
-        let mut material = self.load(&stretch)?;
-        material.held.clear();
-        material.curves.clear();
+        let mut material = movement(self.connection, &track, stretch)?;
+        material.held = self.held(stretch, material.handedness)?;
+        material.curves =
+            curves::of_track(self.connection, &track, track.frames_in(stretch.span))?;
         Ok(material)
     }
 
@@ -217,6 +170,59 @@ impl<'a> CorpusSources<'a> {
     }
 }
 
+/// The body of a recording as it stands in the first frame.
+pub(crate) fn standing(connection: &Connection, recording: RecordingRow) -> Result<Material> {
+    let track = Track::of(connection, recording.id)?;
+    let stretch = Stretch {
+        span: track.rate.span(0..1),
+        recording,
+        token: None,
+    };
+    movement(connection, &track, &stretch)
+}
+
+/// The movement of a stretch, without what is said about it.
+fn movement(connection: &Connection, track: &Track, stretch: &Stretch) -> Result<Material> {
+    let frames = track.frames_in(stretch.span);
+    let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
+    let name = format!(
+        "{} {:?} {:?}",
+        motion::content_hash(connection, track.row.id)?,
+        frames,
+        track.row
+    );
+    let signer = match stretch.recording.signer_id {
+        Some(id) => recordings::signer(connection, id)?,
+        None => None,
+    };
+    let left = signer
+        .as_ref()
+        .is_some_and(|it| it.handedness.as_deref() == Some("left"));
+    let handedness = if left {
+        Handedness::Left
+    } else {
+        Handedness::Right
+    };
+    let (address, gloss) = match &stretch.token {
+        Some(token) => (format!("token:{}", token.id), token.gloss.clone()),
+        None => (
+            format!("recording:{}", stretch.recording.id),
+            stretch.recording.name.clone(),
+        ),
+    };
+    Ok(Material {
+        address,
+        hash: motion::hex(&Sha256::digest(name.as_bytes())),
+        gloss,
+        signer: signer.map(|it| Address::Signer(Name::Text(it.name)).to_string()),
+        handedness,
+        clip,
+        anatomy: Arc::new(track.anatomy(connection)?),
+        held: Vec::new(),
+        curves: Vec::new(),
+    })
+}
+
 impl Sources for CorpusSources<'_> {
     fn material(&self, address: &str) -> std::result::Result<Material, SourceError> {
         if address == notation::OWN_BODY {
@@ -242,7 +248,7 @@ impl Sources for CorpusSources<'_> {
             Some(Ok(Address::Recording(name))) => {
                 let recording = address::recording(self.connection, &name)
                     .map_err(|error| missing(self, signer.unwrap_or_default(), &error))?;
-                return self.standing(recording).map_err(|error| unreadable(&error));
+                return standing(self.connection, recording).map_err(|error| unreadable(&error));
             }
             Some(Ok(Address::Signer(name))) => {
                 let row = address::signer(self.connection, &name);
@@ -271,7 +277,7 @@ impl Sources for CorpusSources<'_> {
                 if recordings::motion_track(self.connection, recording.id)?.is_none() {
                     continue;
                 }
-                let material = self.standing(recording)?;
+                let material = standing(self.connection, recording)?;
                 if Side::BOTH
                     .iter()
                     .all(|&side| material.anatomy.has_fingers(side))
