@@ -12,6 +12,7 @@ use rusqlite::Connection;
 use crate::codec;
 use crate::db::damaged;
 use crate::db::motion::{self, BlockRow};
+use crate::db::recipes;
 use crate::db::recordings::{self, MotionTrackRow};
 use crate::error::{Error, Result};
 
@@ -239,7 +240,8 @@ impl Track {
         Ok(self.convention.clip(&clip))
     }
 
-    /// Returns what the skeleton's joints are, measured where the recording begins.
+    /// Returns what the skeleton's joints are, measured where the recording begins; made movement has the body of
+    /// what it was made from, measured there.
     pub(crate) fn anatomy(&self, connection: &Connection) -> Result<Anatomy> {
         let first = self.clip(connection, 0..1, &ChannelGroup::ALL)?;
         let roles = self.row.roles.as_deref().map(str::parse::<Roles>);
@@ -250,7 +252,17 @@ impl Track {
             .unwrap_or_default();
         let anatomy = Anatomy::with_roles(first.skeleton(), &roles)
             .map_err(|error| damaged(place, error.to_string()))?;
-        Ok(anatomy.with_clip(&first))
+        if anatomy.is_posed() {
+            return Ok(anatomy);
+        }
+        let own = self.row.recording_id;
+        let body = recipes::body_of(connection, own, self.row.skeleton_id)?;
+        let Some(body) = body.filter(|body| *body != own) else {
+            return Ok(anatomy.with_clip(&first));
+        };
+        let body = Self::of(connection, body)?.clip(connection, 0..1, &ChannelGroup::ALL)?;
+        let same = body.skeleton() == first.skeleton();
+        Ok(anatomy.with_clip(if same { &body } else { &first }))
     }
 }
 

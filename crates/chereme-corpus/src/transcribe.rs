@@ -131,7 +131,7 @@ impl Corpus {
             _ => Options::default(),
         };
         let dominant = self.dominant(&stretch)?;
-        let again = Again::of(connection, &track, &stretch, dominant)?;
+        let again = Again::of(connection, &stretch)?;
         let options = Options {
             dominant,
             longest: LONGEST + 1.0,

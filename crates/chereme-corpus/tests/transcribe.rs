@@ -68,7 +68,29 @@ const LED_AWAY: [&str; 3] = [
 #[test]
 fn what_was_made_of_notation_is_told_to_be_where_it_was_written_to_be() {
     let folder = tempfile::tempdir().expect("a folder");
+    let corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    told_where_they_are_led_away(corpus);
+}
+
+#[test]
+fn so_it_is_on_a_body_whose_rest_pose_nobody_takes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("bol.bvh");
+    let mut files = starter_files();
+    let bol = files.find(|(name, _)| name.ends_with("bol.bvh"));
+    let (_, bytes) = bol.expect("a recording");
+    let text = std::str::from_utf8(bytes).expect("text");
+    std::fs::write(&path, arm_turned_round(text)).expect("written");
     let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let (options, mut unheard) = (ImportOptions::default(), unheard);
+    let mut progress = Progress::new(&mut unheard);
+    let done = corpus.import(&[path], &options, &mut progress);
+    done.expect("taken in");
+    told_where_they_are_led_away(corpus);
+}
+
+/// Makes each of those signs on the body that the corpus chooses, and looks at what is told of it.
+fn told_where_they_are_led_away(mut corpus: Corpus) {
     for (n, names) in LED_AWAY.into_iter().enumerate() {
         let text = from_names(names.split(' ')).expect("names of symbols");
         let written = parse(&text).expect("HamNoSys").sign;
@@ -90,4 +112,44 @@ fn what_was_made_of_notation_is_told_to_be_where_it_was_written_to_be() {
             told.symbols
         );
     }
+}
+
+/// Turns the axes of the left arm's joints half round about up, so that in the rest pose both arms stick out to the
+/// right; the movement stays the same.
+fn arm_turned_round(bvh: &str) -> String {
+    let turned = |text: &str, by: f64| text.parse::<f64>().expect("a number") * by;
+    let (mut depth, mut arm, mut lines) = (0, None, Vec::new());
+    // For each channel what it is multiplied by, and what is added.
+    let mut channels = Vec::new();
+    for line in bvh.lines() {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let below = arm.is_some_and(|arm| depth > arm + 1);
+        match words.as_slice() {
+            ["JOINT", "LeftArm"] => arm = Some(depth),
+            ["{"] => depth += 1,
+            ["}"] => {
+                depth -= 1;
+                arm = arm.filter(|arm| depth > *arm);
+            }
+            ["OFFSET", x, y, z] if below => {
+                let [x, z] = [x, z].map(|text| turned(text, -1.0));
+                lines.push(format!("OFFSET {x} {y} {z}"));
+                continue;
+            }
+            ["CHANNELS", _, all @ ..] => channels.extend(all.iter().map(|name| match *name {
+                "Xrotation" | "Zrotation" if below => (-1.0, 0.0),
+                "Yrotation" if arm.is_some() && !below => (1.0, 180.0),
+                _ => (1.0, 0.0),
+            })),
+            row if row.len() == channels.len() => {
+                let row = row.iter().zip(&channels);
+                let row = row.map(|(text, (by, more))| (turned(text, *by) + more).to_string());
+                lines.push(row.collect::<Vec<_>>().join(" "));
+                continue;
+            }
+            _ => {}
+        }
+        lines.push(line.to_owned());
+    }
+    lines.join("\n")
 }

@@ -124,6 +124,33 @@ pub(crate) fn of_recording(connection: &Connection, recording: i64) -> Result<Op
         .optional()?)
 }
 
+/// Returns the recording of the body that a recording was made on: of what it was made from the first that is not made
+/// itself and has that skeleton.
+pub(crate) fn body_of(
+    connection: &Connection,
+    recording: i64,
+    skeleton: i64,
+) -> Result<Option<i64>> {
+    Ok(connection
+        .prepare_cached(
+            "WITH RECURSIVE source (recording_id, input) AS (
+                 VALUES (?1, 0)
+                 UNION
+                 SELECT i.recording_id, i.id FROM source
+                 JOIN recipe r ON r.recording_id = source.recording_id
+                 JOIN recipe_input i ON i.recipe_id = r.id
+                 WHERE i.recording_id IS NOT NULL
+             )
+             SELECT source.recording_id FROM source
+             JOIN recording ON recording.id = source.recording_id
+             JOIN track ON track.recording_id = source.recording_id
+             WHERE recording.origin <> 'made' AND track.skeleton_id = ?2
+             ORDER BY source.input LIMIT 1",
+        )?
+        .query_row(params![recording, skeleton], |row| row.get(0))
+        .optional()?)
+}
+
 /// Returns the addresses of what a recipe was made from, in their order, each once.
 pub(crate) fn inputs(connection: &Connection, recipe: i64) -> Result<Vec<String>> {
     let mut statement = connection.prepare_cached(

@@ -2,23 +2,23 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
-use std::sync::Arc;
 
 use chereme_analysis::transcribe::Performs;
 use chereme_compose::notation::{Performer, Settings};
 use chereme_compose::recipe::Node;
-use chereme_compose::{Input, Material, Recipe};
-use chereme_motion::{Clip, Instant, Side};
-use chereme_sign::Handedness;
+use chereme_compose::{Input, MaterialInput, Recipe};
+use chereme_motion::{Clip, Instant};
 use chereme_sign::hamnosys::{BodyLanguage, Sign};
 use rusqlite::Connection;
 use serde::Deserialize;
 
-use crate::address::Stretch;
+use crate::address::{self, Address, Stretch};
 use crate::db::{recipes, tiers};
 use crate::error::Result;
-use crate::movement::{ChannelGroup, Track};
+use crate::movement::Track;
 use crate::recombine::{SOURCE, engine};
+use crate::sources::notation::{OWN_BODY, own_body};
+use crate::sources::standing;
 
 /// Makes notation again as it was made.
 pub(super) struct Again(Performer);
@@ -34,35 +34,32 @@ impl Performs for Again {
 }
 
 impl Again {
-    /// Puts the body of a recording that was made of notation alone, by this animator, on the stage as it stands in
-    /// the first frame; nothing for other recordings.
-    pub(super) fn of(
-        connection: &Connection,
-        track: &Track,
-        stretch: &Stretch,
-        dominant: Side,
-    ) -> Result<Option<Self>> {
-        let Some(language) = of_notation(connection, stretch)? else {
+    /// Puts the body that a recording was made on upon the stage, where it was made of notation alone, by this
+    /// animator, and its body is what it was then; nothing for other recordings.
+    pub(super) fn of(connection: &Connection, stretch: &Stretch) -> Result<Option<Self>> {
+        let made = recipes::of_recording(connection, stretch.recording.id)?;
+        let made = made.filter(|row| row.engine == engine());
+        let made = made.and_then(|row| serde_json::from_str::<Document>(&row.document).ok());
+        let Some((language, body)) = made.as_ref().and_then(Document::notation) else {
             return Ok(None);
         };
-        let clip = track.clip(connection, 0..1, &ChannelGroup::ALL)?;
-        let settings = Settings {
-            rate: clip.rate(),
-            language,
+        let stage = if body.address == OWN_BODY {
+            own_body()?
+        } else {
+            let Ok(Address::Recording(name)) = body.address.parse() else {
+                return Ok(None);
+            };
+            let Ok(recording) = address::recording(connection, &name) else {
+                return Ok(None);
+            };
+            standing(connection, recording)?
         };
-        let stage = Material {
-            address: format!("recording:{}", stretch.recording.id),
-            hash: String::new(),
-            gloss: String::new(),
-            signer: None,
-            handedness: match dominant {
-                Side::Left => Handedness::Left,
-                Side::Right => Handedness::Right,
-            },
-            anatomy: Arc::new(track.anatomy(connection)?),
-            clip,
-            held: Vec::new(),
-            curves: Vec::new(),
+        if stage.hash != body.hash {
+            return Ok(None);
+        }
+        let settings = Settings {
+            rate: stage.clip.rate(),
+            language,
         };
         Ok(Performer::new(stage, settings).ok().map(Self))
     }
@@ -73,25 +70,29 @@ impl Again {
     }
 }
 
-/// Returns the body language of movement that was made of notation alone, by this animator.
-fn of_notation(connection: &Connection, stretch: &Stretch) -> Result<Option<BodyLanguage>> {
-    /// What was made, and of what.
-    #[derive(Deserialize)]
-    struct Document {
-        recipe: Recipe,
-        inputs: BTreeMap<String, Input>,
-    }
-    let made = recipes::of_recording(connection, stretch.recording.id)?;
-    let made = made.filter(|row| row.engine == engine());
-    let made = made.and_then(|row| serde_json::from_str::<Document>(&row.document).ok());
-    let made = made.filter(|made| matches!(made.recipe.root(), Node::Hamnosys(_) | Node::Sigml(_)));
-    Ok(made.and_then(|made| {
-        let own = made.inputs.values().find_map(|input| match input {
+/// What was made, and of what.
+#[derive(Deserialize)]
+struct Document {
+    recipe: Recipe,
+    inputs: BTreeMap<String, Input>,
+}
+
+impl Document {
+    /// Returns the body language and the body of movement that was made of notation alone.
+    fn notation(&self) -> Option<(BodyLanguage, &MaterialInput)> {
+        let (Node::Hamnosys(_) | Node::Sigml(_)) = self.recipe.root() else {
+            return None;
+        };
+        let body = self.inputs.values().find_map(|input| match input {
+            Input::Material(body) => Some(body),
+            _ => None,
+        });
+        let own = self.inputs.values().find_map(|input| match input {
             Input::Language(language) => Some(language.whole().ok()),
             _ => None,
         });
-        own.unwrap_or_else(|| Some(BodyLanguage::usual().clone()))
-    }))
+        Some((own.unwrap_or_else(|| Some(BodyLanguage::usual().clone()))?, body?))
+    }
 }
 
 /// Returns the frames of the one sign that a made stretch holds, the ways from and to rest left out; nothing where it
