@@ -195,7 +195,7 @@ impl Corpus {
     ) -> Result<Picture> {
         let connection = self.store.read();
         if extension(to) == "svg" {
-            return self.draw_symbols(address, to, options.force);
+            return self.draw_symbols(address, to, options.force, progress);
         }
         let stretch = match address::stretch(connection, address) {
             Ok(stretch) => stretch,
@@ -214,14 +214,21 @@ impl Corpus {
     }
 
     /// Draws the symbols of a notation to an SVG: what is stored, or else what the movement is transcribed as.
-    fn draw_symbols(&self, address: &Address, to: &Path, force: bool) -> Result<Picture> {
+    fn draw_symbols(
+        &self,
+        address: &Address,
+        to: &Path,
+        force: bool,
+        progress: &mut Progress<'_>,
+    ) -> Result<Picture> {
         let (title, text, transcribed) = match notation::find(self.store.read(), address) {
             Ok(Notation { text, document, .. }) => {
                 let text = text.unwrap_or_else(|| document.hamnosys().text);
                 (document.gloss, text, false)
             }
-            Err(error) => match self.transcribe(address) {
+            Err(error) => match self.transcribe(address, progress) {
                 Ok(written) => (written.gloss, written.hamnosys, true),
+                Err(Error::Stopped) => return Err(Error::Stopped),
                 Err(_) => return Err(error),
             },
         };

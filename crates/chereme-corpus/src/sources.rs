@@ -86,8 +86,7 @@ impl<'a> CorpusSources<'a> {
         let track = Track::of(self.connection, stretch.recording.id)?;
         let mut material = movement(self.connection, &track, stretch)?;
         material.held = self.held(stretch, material.handedness)?;
-        material.curves =
-            curves::of_track(self.connection, &track, track.frames_in(stretch.span))?;
+        material.curves = curves::of_track(self.connection, &track, track.frames_in(stretch.span))?;
         Ok(material)
     }
 

@@ -15,6 +15,7 @@ use crate::db::notations::{self, NotationRow};
 use crate::db::recordings;
 use crate::error::{Error, Result};
 use crate::movement::{ChannelGroup, Track};
+use crate::progress::Progress;
 use again::Again;
 
 /// The longest stretch in seconds that is taken for one sign.
@@ -109,8 +110,13 @@ impl Corpus {
     /// notation alone, by this version of the animator, is proven by making it again.
     ///
     /// # Errors
-    /// Where the address names no movement, one longer than a minute, or a skeleton without arms.
-    pub fn transcribe(&self, address: &Address) -> Result<Transcribed> {
+    /// Where the address names no movement, one longer than a minute, or a skeleton without arms; where `progress`
+    /// says to stop.
+    pub fn transcribe(
+        &self,
+        address: &Address,
+        progress: &mut Progress<'_>,
+    ) -> Result<Transcribed> {
         let connection = self.store.read();
         let stretch = crate::address::stretch(connection, address)?;
         let seconds = stretch.span.seconds();
@@ -139,7 +145,14 @@ impl Corpus {
             ..usual
         };
         let written = match &again {
-            Some(again) => transcribe_proven(&clip, &anatomy, &options, again),
+            Some(again) => {
+                let proving = again.proving(progress);
+                let written = transcribe_proven(&clip, &anatomy, &options, &proving);
+                if proving.stopped() {
+                    return Err(Error::Stopped);
+                }
+                written
+            }
             None => transcribe(&clip, &anatomy, &options),
         };
         let written =
@@ -180,8 +193,13 @@ impl Corpus {
     /// # Errors
     /// As there; where the address names no token; and, unless `force`, where the token has another
     /// notation already.
-    pub fn store_transcription(&mut self, address: &Address, force: bool) -> Result<Transcribed> {
-        let written = self.transcribe(address)?;
+    pub fn store_transcription(
+        &mut self,
+        address: &Address,
+        force: bool,
+        progress: &mut Progress<'_>,
+    ) -> Result<Transcribed> {
+        let written = self.transcribe(address, progress)?;
         let Some(token) = written.token else {
             return Err(Error::wrong(format!("{address} is no token"))
                 .at(address.to_string())

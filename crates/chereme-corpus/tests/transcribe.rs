@@ -1,7 +1,10 @@
 //! A token's movement in HamNoSys: told, kept as its notation, and taken back.
 
+use std::ops::ControlFlow::Break;
+
 use chereme_corpus::{
-    Address, Corpus, ImportOptions, PictureOptions, Progress, Staging, starter_files, unheard,
+    Address, Corpus, Error, ImportOptions, PictureOptions, Progress, Staging, starter_files,
+    unheard,
 };
 use chereme_sign::hamnosys::{Place, Sign, from_names, parse};
 
@@ -24,7 +27,7 @@ fn what_is_transcribed_can_be_kept_and_taken_back() {
         .expect("taken in");
 
     let sign: Address = "BOL".parse().expect("an address");
-    let told = corpus.transcribe(&sign).expect("told");
+    let told = corpus.transcribe(&sign, &mut progress).expect("told");
     assert!(!told.features.is_empty() && told.start_us < told.end_us);
     let text: String = told.stages.iter().map(|it| it.hamnosys.as_str()).collect();
     if told.stages.iter().all(|stage| stage.hand.is_none()) {
@@ -46,12 +49,14 @@ fn what_is_transcribed_can_be_kept_and_taken_back() {
     let drawn = corpus.draw(&sign, &picture, &PictureOptions::default(), &mut progress);
     let drawn = drawn.expect("drawn");
     assert!(drawn.transcribed && drawn.frames == told.symbols.len());
-    corpus.store_transcription(&sign, false).expect("kept");
+    corpus
+        .store_transcription(&sign, false, &mut progress)
+        .expect("kept");
     let kept = corpus.notation(&sign).expect("a notation");
     assert_eq!(kept.text.as_ref(), Some(&told.hamnosys));
     assert_eq!(kept.document.sign, told.sign);
     corpus
-        .store_transcription(&sign, false)
+        .store_transcription(&sign, false, &mut progress)
         .expect("the same again");
     assert_eq!(corpus.log(1).expect("a log")[0].name, "transcribe");
     corpus.undo().expect("taken back");
@@ -97,8 +102,11 @@ fn told_where_they_are_led_away(mut corpus: Corpus) {
         let gloss = format!("S{n}");
         let done = corpus.animate(&[names], &Staging::default(), Some(&gloss));
         done.expect("made");
-        let told = corpus.transcribe(&gloss.parse().expect("an address"));
+        let address = gloss.parse().expect("an address");
+        let told = corpus.transcribe(&address, &mut Progress::new(&mut { unheard }));
         let told = told.expect("told");
+        let stopped = corpus.transcribe(&address, &mut Progress::new(&mut |_| Break(())));
+        assert!(matches!(stopped, Err(Error::Stopped)), "{names}");
         let sites = |sign: &Sign| match &sign.parts[0].posture.place {
             Some(Place::Body(place)) => (place.site, place.second, place.contact),
             other => panic!("{names}: {other:?}"),

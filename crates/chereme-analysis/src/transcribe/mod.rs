@@ -38,6 +38,8 @@ use chereme_motion::{Anatomy, Clip, Side};
 use chereme_sign::hamnosys::{BodyLanguage, BodyPlace, Sign};
 use serde::Serialize;
 
+pub use proof::MOST_POSTURES;
+
 /// How a token is transcribed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
@@ -271,6 +273,11 @@ pub trait Performs {
     /// that cannot be made.
     fn begins(&self, sign: &Sign) -> Option<Clip>;
 
+    /// As [`begins`](Self::begins), of each of many signs; others may be made at the same time.
+    fn begin_all(&self, signs: &[Sign]) -> Vec<Option<Clip>> {
+        signs.iter().map(|sign| self.begins(sign)).collect()
+    }
+
     /// Returns the movement of a sign without the ways from and to rest, likewise.
     fn performs(&self, sign: &Sign) -> Option<Clip>;
 }
@@ -280,9 +287,9 @@ pub trait Performs {
 ///
 /// A hand that should touch the trunk is moved out of it, one that is turned too far stops, one that has room
 /// gives way to its arm: it is not at its place then, but where performing what is meant brings it. Where what is
-/// told would bring it elsewhere, what may be meant instead is performed, a thousand postures at most, and told if it
-/// brings the hand to within millimetres of where it is. Nobody else's movement comes back so exactly: captured signs are for
-/// [`transcribe`].
+/// told would bring it elsewhere, what may be meant instead is performed, [`MOST_POSTURES`] at most, and told if it
+/// brings the hand to within millimetres of where it is. Nobody else's movement comes back so exactly: captured signs
+/// are for [`transcribe`].
 ///
 /// # Errors
 /// As there.

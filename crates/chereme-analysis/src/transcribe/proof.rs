@@ -25,8 +25,8 @@ const PAIRS: usize = 8;
 /// So many ways to be turned are tried at so many places.
 const TURNS: usize = 12;
 const TURNED_AT: usize = 24;
-/// More postures than this are not tried.
-const MOST: usize = 1000;
+/// More postures than this are not tried of a sign.
+pub const MOST_POSTURES: usize = 1000;
 /// Of those that come nearest so many are performed to the end.
 const FINALISTS: usize = 12;
 /// Hands are where they are performed that are so near to there, in metres; and when only the posture is taken up.
@@ -55,7 +55,7 @@ pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>)
         begun: &begun,
         told: &told.sign,
         body,
-        left: Cell::new(MOST),
+        left: Cell::new(MOST_POSTURES),
     };
     let Some((picked, off)) = proof.best() else {
         return told;
@@ -346,7 +346,12 @@ impl Proof<'_, '_> {
             self.left.set(left.saturating_sub(1));
             left > 0
         });
-        let mut all: Vec<Tried> = likely.filter_map(|trial| self.begun_as(trial)).collect();
+        let trials: Vec<Trial> = likely.collect();
+        let signs: Vec<Sign> = trials.iter().map(|trial| trial.sign(self.told)).collect();
+        let clips = self.performs.begin_all(&signs).into_iter();
+        let begun = trials.into_iter().zip(clips);
+        let begun = begun.filter_map(|(trial, clip)| self.tried(trial, &clip?, NEARLY));
+        let mut all: Vec<Tried> = begun.collect();
         all.sort_by(|a, b| a.total.total_cmp(&b.total));
         for nearest in all.iter().take(FINALISTS) {
             if nearest.trial.cost() >= best.total {

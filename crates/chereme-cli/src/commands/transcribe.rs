@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{Address, TranscribedFeature};
+use chereme_corpus::{Address, Progress, Step, TranscribedFeature};
 
 use crate::args::Cli;
-use crate::output::Output;
+use crate::output::{Bar, Output};
 
 /// Write a captured or made sign in HamNoSys, and tell how sure each feature is
 ///
@@ -15,7 +15,7 @@ use crate::output::Output;
 /// nothing else, and `render TOKEN --to it.svg` draws what was stored.
 ///
 /// Of a sign that was made of notation alone, what is written is performed again: where that brings the hands
-/// elsewhere, other postures are tried, some hundred of them at most. That takes up to some seconds.
+/// elsewhere, other postures are tried, a thousand of them at most. That takes up to some seconds; Ctrl-C ends it.
 ///
 /// `--json` gives "gloss", "token", "recording", "start_us", "end_us", the whole as "hamnosys" and "symbols" and as
 /// the tree "sign"; "stages", the posture at the beginning and each action with "action", "hand", "start_us",
@@ -48,11 +48,15 @@ pub(crate) struct Args {
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
     let address: Address = args.token.parse()?;
+    let mut bar = Bar::new();
+    let mut hear = |step: Step<'_>| bar.show(step);
+    let progress = &mut Progress::new(&mut hear);
     let written = if args.store {
-        corpus.store_transcription(&address, args.force)?
+        corpus.store_transcription(&address, args.force, progress)?
     } else {
-        corpus.transcribe(&address)?
+        corpus.transcribe(&address, progress)?
     };
+    drop(bar);
     if args.names {
         output.line(written.symbols.join(" "))?;
     } else {

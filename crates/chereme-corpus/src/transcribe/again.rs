@@ -1,9 +1,12 @@
 //! Notation made again on the body of a recording that was made of notation.
 
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
+use std::num::NonZero;
 use std::ops::Range;
+use std::thread::{available_parallelism, scope};
 
-use chereme_analysis::transcribe::Performs;
+use chereme_analysis::transcribe::{MOST_POSTURES, Performs};
 use chereme_compose::notation::{Performer, Settings};
 use chereme_compose::recipe::Node;
 use chereme_compose::{Input, MaterialInput, Recipe};
@@ -16,20 +19,78 @@ use crate::address::{self, Address, Stretch};
 use crate::db::{recipes, tiers};
 use crate::error::Result;
 use crate::movement::Track;
+use crate::progress::{Progress, Step, Unit};
 use crate::recombine::{SOURCE, engine};
 use crate::sources::notation::{OWN_BODY, own_body};
 use crate::sources::standing;
 
-/// Makes notation again as it was made.
+/// So many postures are made on each processor before it is told how far that is.
+const AT_ONCE: usize = 8;
+
+/// A body that makes notation again as it was made.
 pub(super) struct Again(Performer);
 
-impl Performs for Again {
+/// Notation made again on all processors, with word of how far it is.
+pub(super) struct Proving<'a, 'p> {
+    body: &'a Performer,
+    progress: RefCell<&'a mut Progress<'p>>,
+    done: Cell<usize>,
+    stopped: Cell<bool>,
+}
+
+impl Proving<'_, '_> {
+    /// Tells that so many more were made, and returns whether to go on.
+    fn goes_on(&self, more: usize) -> bool {
+        self.done.set(self.done.get() + more);
+        let step = Step {
+            task: "performing",
+            done: self.done.get() as u64,
+            total: Some(MOST_POSTURES.max(self.done.get()) as u64),
+            unit: Unit::Items,
+        };
+        let stopped = self.stopped.get() || self.progress.borrow_mut().tell(step).is_err();
+        self.stopped.set(stopped);
+        !stopped
+    }
+
+    /// Returns whether it was told to stop, and nothing was made since.
+    pub(super) fn stopped(&self) -> bool {
+        self.stopped.get()
+    }
+}
+
+impl Performs for Proving<'_, '_> {
     fn begins(&self, sign: &Sign) -> Option<Clip> {
-        self.0.begins(sign).ok()
+        let goes_on = self.goes_on(1);
+        goes_on.then(|| self.body.begins(sign).ok()).flatten()
+    }
+
+    fn begin_all(&self, signs: &[Sign]) -> Vec<Option<Clip>> {
+        let threads = available_parallelism().map_or(1, NonZero::get);
+        let most = AT_ONCE * threads;
+        let body = self.body;
+        let mut all = vec![None; signs.len()];
+        for (signs, clips) in signs.chunks(most).zip(all.chunks_mut(most)) {
+            if !self.goes_on(signs.len()) {
+                break;
+            }
+            let share = signs.len().div_ceil(threads);
+            scope(|scope| {
+                for (signs, clips) in signs.chunks(share).zip(clips.chunks_mut(share)) {
+                    scope.spawn(move || {
+                        for (sign, clip) in signs.iter().zip(clips) {
+                            *clip = body.begins(sign).ok();
+                        }
+                    });
+                }
+            });
+        }
+        all
     }
 
     fn performs(&self, sign: &Sign) -> Option<Clip> {
-        self.0.performs(sign).ok()
+        let goes_on = self.goes_on(0);
+        goes_on.then(|| self.body.performs(sign).ok()).flatten()
     }
 }
 
@@ -64,6 +125,16 @@ impl Again {
         Ok(Performer::new(stage, settings).ok().map(Self))
     }
 
+    /// Makes what is asked for, and tells `progress` of it.
+    pub(super) fn proving<'a, 'p>(&'a self, progress: &'a mut Progress<'p>) -> Proving<'a, 'p> {
+        Proving {
+            body: &self.0,
+            progress: RefCell::new(progress),
+            done: Cell::new(0),
+            stopped: Cell::new(false),
+        }
+    }
+
     /// Returns the body language it was made in.
     pub(super) fn language(&self) -> BodyLanguage {
         self.0.settings().language.clone()
@@ -91,7 +162,10 @@ impl Document {
             Input::Language(language) => Some(language.whole().ok()),
             _ => None,
         });
-        Some((own.unwrap_or_else(|| Some(BodyLanguage::usual().clone()))?, body?))
+        Some((
+            own.unwrap_or_else(|| Some(BodyLanguage::usual().clone()))?,
+            body?,
+        ))
     }
 }
 
