@@ -22,7 +22,7 @@ use crate::work::{Group, Work};
 
 /// The version of the evaluator; it rises whenever the same resolved recipe gives other movement, so
 /// that a made sign stored with it can be told from one that would be made today.
-pub const ENGINE: u32 = 8;
+pub const ENGINE: u32 = 9;
 
 /// Makes the movement of a recipe.
 ///

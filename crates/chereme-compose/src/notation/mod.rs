@@ -129,11 +129,11 @@ pub fn animate(
     settings: &Settings,
 ) -> Result<Made, NotationError> {
     let body = Stage::of(stage).ok_or_else(|| NotationError::NoArm(stage.address.clone()))?;
-    let planner = Planner::new(&body, &settings.language, stage.handedness);
+    let rate = settings.rate.per_second();
+    let planner = Planner::new(&body, &settings.language, stage.handedness, rate);
     let limits = planner.limits;
     let sides = planner.sides;
     let mut plan = planner.signs(signs);
-    let rate = settings.rate.per_second();
     let total = frames(plan.end, rate)?;
     let paces = Paces::of(&settings.language);
     let timing = track::Timing {

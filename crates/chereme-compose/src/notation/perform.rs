@@ -74,7 +74,7 @@ impl Performer {
     /// [`NotationError`] where the movement would be too long.
     pub fn begins(&self, sign: &Sign) -> Result<Clip, NotationError> {
         let (body, rate) = (&self.body, self.settings.rate.per_second());
-        let planner = Planner::new(body, &self.settings.language, self.stage.handedness);
+        let planner = Planner::new(body, &self.settings.language, self.stage.handedness, rate);
         let (limits, sides) = (planner.limits, planner.sides);
         let plan = planner.signs(&[&notated(sign)]);
         let total = frames(plan.end, rate)?;
@@ -138,7 +138,8 @@ mod tests {
         "hampinch12 hamextfingeru hampalml hamforehead hamclose hamcirclel",
     ];
 
-    fn performer() -> Performer {
+    fn performer(rate: u32) -> Performer {
+        let rate = Rate::new(rate, 1).expect("a rate");
         let skeleton = Arc::new(skeleton(Axes::Plain, 1.0));
         let stage = Material {
             address: "stage".into(),
@@ -147,11 +148,15 @@ mod tests {
             signer: None,
             handedness: Handedness::Right,
             anatomy: Arc::new(Anatomy::detect(&skeleton)),
-            clip: Clip::still(skeleton, Rate::new(60, 1).expect("a rate"), 1),
+            clip: Clip::still(skeleton, rate, 1),
             curves: Vec::new(),
             held: Vec::new(),
         };
-        Performer::new(stage, Settings::default()).expect("a body")
+        let settings = Settings {
+            rate,
+            ..Settings::default()
+        };
+        Performer::new(stage, settings).expect("a body")
     }
 
     fn sign(names: &str) -> Sign {
@@ -161,7 +166,7 @@ mod tests {
 
     #[test]
     fn the_posture_that_a_sign_begins_with_is_the_first_of_its_movement() {
-        let performer = performer();
+        let performer = performer(60);
         for names in SIGNS {
             let sign = sign(names);
             let (begun, whole) = (performer.begins(&sign), performer.performs(&sign));
@@ -183,8 +188,27 @@ mod tests {
     }
 
     #[test]
+    fn first_postures_are_reached_in_a_frame_at_any_rate() {
+        for rate in [24, 25, 30, 50, 60, 120] {
+            let performer = performer(rate);
+            let rate = performer.settings().rate;
+            // Where time is not stretched.
+            for names in [SIGNS[0], SIGNS[2], SIGNS[3]] {
+                let sign = notated(&sign(names));
+                let made = animate(&[&sign], &performer.stage, performer.settings());
+                let made = made.expect("movement");
+                let gloss = made.notes.iter().find(|note| note.about == About::Gloss);
+                let reached = gloss.expect("a gloss").span.start();
+                let frame = rate.instant(rate.frame_at(reached));
+                let off = (reached.micros() - frame.micros()).abs();
+                assert!(off <= 1, "{names}: {off} microseconds from a frame");
+            }
+        }
+    }
+
+    #[test]
     fn what_is_performed_is_the_sign_alone() {
-        let performer = performer();
+        let performer = performer(60);
         let still = performer.performs(&sign(SIGNS[0])).expect("movement");
         let hold = performer.settings().language.time_hold;
         let frames = still.frames() as f64;

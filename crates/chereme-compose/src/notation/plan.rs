@@ -197,6 +197,8 @@ pub(crate) struct Planner<'a> {
     /// The postures that handshapes have.
     shaped: [Vec<(Handshape, usize)>; 2],
     speed: f64,
+    /// Frames a second.
+    rate: f64,
     pub(crate) plan: Plan,
 }
 
@@ -211,6 +213,7 @@ impl<'a> Planner<'a> {
         stage: &'a Stage,
         language: &'a BodyLanguage,
         handedness: Handedness,
+        rate: f64,
     ) -> Self {
         let dominant = handedness.dominant();
         let sides = [dominant, dominant.other()];
@@ -237,6 +240,7 @@ impl<'a> Planner<'a> {
             at_body: [None, None],
             shaped: [Vec::new(), Vec::new()],
             speed: 1.0,
+            rate,
             plan: Plan {
                 sides,
                 start,
@@ -317,7 +321,7 @@ impl<'a> Planner<'a> {
             .map(|n| self.length_between(&before[n], &goal[n], n))
             .fold(0.0, f64::max);
         self.state = before;
-        let reached = time + length;
+        let reached = self.on_frame(time + length);
         let touching = touches(&posture);
         let pace = match (moves, touching) {
             (true, _) => Pace::Lax,
@@ -362,6 +366,11 @@ impl<'a> Planner<'a> {
             }
         }
         (reached, now + hold)
+    }
+
+    /// Returns when the frame begins that comes next.
+    fn on_frame(&self, time: f64) -> f64 {
+        (time * self.rate - 1e-6).ceil() / self.rate
     }
 
     /// Tells whether a hand that has nothing to do stays where it is: the part that follows uses it, and it
