@@ -6,7 +6,8 @@
 //! `... -- plain FOLDER BODY.bvh` does so without proving where hands are;
 //! `... -- why FEATURE FOLDER BODY.bvh` prints where it is not, `... -- confusions FEATURE ...` counts what
 //! is taken for what, both in the half that is tuned on. In place of the folder a text file with a sign a line in
-//! HamNoSys characters will do. `... -- movement FILE.bvh...` transcribes captured movement, animates what was written, and prints their distance.
+//! HamNoSys characters will do. All are animated at the body's own frames a second, or at as many as stand behind it.
+//! `... -- movement FILE.bvh...` transcribes captured movement, animates what was written, and prints their distance.
 
 #![allow(clippy::print_stdout)]
 
@@ -27,10 +28,14 @@ fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words.as_slice() {
-        ["notation", folder, body] => closed(folder, body, More::Nothing),
-        ["plain", folder, body] => closed(folder, body, More::Plain),
-        ["why", feature, folder, body] => closed(folder, body, More::Why(feature)),
-        ["confusions", feature, folder, body] => closed(folder, body, More::Confusions(feature)),
+        ["notation", folder, body, rate @ ..] => closed(folder, body, rate, More::Nothing),
+        ["plain", folder, body, rate @ ..] => closed(folder, body, rate, More::Plain),
+        ["why", feature, folder, body, rate @ ..] => {
+            closed(folder, body, rate, More::Why(feature))
+        }
+        ["confusions", feature, folder, body, rate @ ..] => {
+            closed(folder, body, rate, More::Confusions(feature))
+        }
         ["movement", files @ ..] if !files.is_empty() => movement::table(files),
         _ => Err(
             "say `notation FOLDER BODY.bvh`, `plain FOLDER BODY.bvh`, `why FEATURE FOLDER BODY.bvh`, `confusions FEATURE \
@@ -40,6 +45,11 @@ fn main() -> Result<()> {
     }
 }
 
-fn closed(folder: &str, body: &str, more: More<'_>) -> Result<()> {
-    notation::table(Path::new(folder), Path::new(body), more)
+fn closed(folder: &str, body: &str, rate: &[&str], more: More<'_>) -> Result<()> {
+    let rate = match rate {
+        [] => None,
+        [rate] => Some(rate.parse()?),
+        [_, more @ ..] => return Err(format!("{more:?} is too much").into()),
+    };
+    notation::table(Path::new(folder), Path::new(body), rate, more)
 }

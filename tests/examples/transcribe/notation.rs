@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant as Clock;
 
 use chereme_analysis::transcribe::{
@@ -10,7 +11,7 @@ use chereme_analysis::transcribe::{
 };
 use chereme_compose::Material;
 use chereme_compose::notation::{Performer, Settings, animate};
-use chereme_motion::{Anatomy, Clip, Span};
+use chereme_motion::{Anatomy, Clip, Rate, Span};
 use chereme_sign::hamnosys::{Manual, Notated, Sign, parse};
 
 use crate::Result;
@@ -47,9 +48,16 @@ impl Counts {
 }
 
 /// Prints how often each feature is found again.
-pub(crate) fn table(folder: &Path, body: &Path, more: More<'_>) -> Result<()> {
+pub(crate) fn table(folder: &Path, body: &Path, rate: Option<u32>, more: More<'_>) -> Result<()> {
     let stage = bodies::stage(body)?;
-    let (settings, options) = (Settings::default(), Options::made());
+    let settings = Settings {
+        rate: match rate {
+            Some(rate) => Rate::new(rate, 1)?,
+            None => stage.clip.rate(),
+        },
+        ..Settings::default()
+    };
+    let options = Options::made();
     let mut counts: BTreeMap<&'static str, Counts> = BTreeMap::new();
     let mut confusions: BTreeMap<(String, String), usize> = BTreeMap::new();
     let (mut parts, mut whole, mut failed, mut slow) = (0, 0, 0, 0.0_f64);
@@ -176,17 +184,19 @@ struct Seen {
 /// Does something with each of many, on as many threads as the machine has; results are in their order.
 fn seen<T: Sync, R: Send>(all: &[T], does: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    let share = all.len().div_ceil(threads).max(1);
-    let does = &does;
-    std::thread::scope(|scope| {
-        let work: Vec<_> = all
-            .chunks(share)
-            .map(|some| scope.spawn(move || some.iter().map(does).collect::<Vec<R>>()))
-            .collect();
-        work.into_iter()
-            .flat_map(|done| done.join().expect("no panic"))
-            .collect()
-    })
+    let (next, does) = (&AtomicUsize::new(0), &does);
+    let mut seen: Vec<(usize, R)> = std::thread::scope(|scope| {
+        let work = move || {
+            let own = std::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
+            let own = own.take_while(|n| *n < all.len());
+            own.map(|n| (n, does(&all[n]))).collect::<Vec<_>>()
+        };
+        let work: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        let done = work.into_iter().map(|work| work.join().expect("no panic"));
+        done.flatten().collect()
+    });
+    seen.sort_by_key(|(n, _)| *n);
+    seen.into_iter().map(|(_, seen)| seen).collect()
 }
 
 /// Performs notation for the transcriber.
