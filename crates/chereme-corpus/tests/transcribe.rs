@@ -122,6 +122,33 @@ fn told_where_they_are_led_away(mut corpus: Corpus) {
     }
 }
 
+/// Signs of which the places alone tell something else: one is written at no place, of two hands one is held.
+const BEGINNINGS: [&str; 2] = [
+    "hamflathand hamextfingero hampalmd hammovel",
+    "hamsymmlr hamfinger2 hamthumbacrossmod hamextfingeruo hampalml hamchest hamparbegin hammovel hamsmallmod hamplus \
+     hamnomotion hamparend",
+];
+
+#[test]
+fn how_signs_begin_is_told_as_it_was_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    for (n, names) in BEGINNINGS.into_iter().enumerate() {
+        let text = from_names(names.split_whitespace()).expect("names of symbols");
+        let written = parse(&text).expect("HamNoSys").sign;
+        let gloss = format!("S{n}");
+        let done = corpus.animate(&[names], &Staging::default(), Some(&gloss));
+        done.expect("made");
+        let address = gloss.parse().expect("an address");
+        let told = corpus.transcribe(&address, &mut Progress::new(&mut { unheard }));
+        let told = told.expect("told");
+        let [told, written] = [told.sign, written].map(|mut sign| sign.parts.remove(0));
+        assert_eq!(told.hands, written.hands, "{names}");
+        assert_eq!(told.posture.place, written.posture.place, "{names}");
+        assert_eq!(told.actions, written.actions, "{names}");
+    }
+}
+
 /// Turns the axes of the left arm's joints half round about up, so that in the rest pose both arms stick out to the
 /// right; the movement stays the same.
 fn arm_turned_round(bvh: &str) -> String {

@@ -80,6 +80,8 @@ pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>)
 struct Trial {
     stand: Stand,
     turned: [Option<Turned>; 2],
+    /// Whether the hands mirror each other to begin with, and each does for itself what is done after.
+    mirrored: bool,
     /// Whether what is done after counts for nothing.
     still: bool,
 }
@@ -108,6 +110,7 @@ impl Trial {
             Stand::One(_, placed) => own(placed),
             Stand::Each(both) => both.iter().flatten().map(own).sum(),
             Stand::Together(together, at) => together.cost() + own(at),
+            Stand::Unsaid => 0.0,
         };
         let turned = self.turned.iter().flatten().map(|turned| turned.less);
         stand + turned.sum::<f64>()
@@ -120,6 +123,7 @@ impl Trial {
             Stand::Each(both) => both
                 .each_ref()
                 .map(|placed| placed.as_ref().map_or(0.0, |placed| placed.unlikely)),
+            Stand::Unsaid => [0.0; 2],
         }
     }
 
@@ -134,9 +138,12 @@ impl Trial {
         }
         let mut sign = told.clone();
         for part in &mut sign.parts {
-            part.posture.place = Some(self.stand.place());
+            part.posture.place = self.stand.place();
             if self.still {
                 part.actions.clear();
+            }
+            if self.mirrored {
+                tree::mirror(part);
             }
             for (n, turned) in self.turned.iter().enumerate() {
                 if let Some(turned) = turned {
@@ -146,6 +153,30 @@ impl Trial {
             }
         }
         sign
+    }
+}
+
+impl Tried {
+    /// Returns what is told of it, and how far either hand is then from where it is performed.
+    fn told(self) -> (Option<Picked>, [f64; 2]) {
+        let middle = |placed: &Placed| {
+            let mut sites = placed.place.site.iter().chain(&placed.place.second);
+            sites.all(|site| site.side.is_none())
+        };
+        let stand = match self.trial.stand {
+            Stand::Each([Some(own), Some(other)])
+                if self.trial.mirrored && own.place == other.place && middle(&own) =>
+            {
+                Stand::One(0, own)
+            }
+            stand => stand,
+        };
+        let picked = Picked {
+            stand: Some(stand),
+            turned: self.trial.turned,
+            mirrored: self.trial.mirrored,
+        };
+        (Some(picked), self.off)
     }
 }
 
@@ -166,11 +197,15 @@ impl Proof<'_, '_> {
         let first = Trial {
             stand: self.begun.stand.clone(),
             turned: [None, None],
+            mirrored: false,
             still: false,
         };
         let begun = self.off(&self.performs.begins(self.told)?)?;
         if self.open(begun).is_empty() {
             return None;
+        }
+        if let Some(unsaid) = self.unsaid(&first) {
+            return Some(unsaid);
         }
         let mut best = self.tried(first, &self.performs.performs(self.told)?, EXACT)?;
         let told = best.off;
@@ -196,7 +231,7 @@ impl Proof<'_, '_> {
             }
         }
         for (n, near) in near.into_iter().enumerate() {
-            if self.open(best.off).contains(&n) {
+            if self.amiss(&best).contains(&n) {
                 self.try_all(self.turned(near, n), &mut best);
             }
         }
@@ -219,11 +254,20 @@ impl Proof<'_, '_> {
         if !fewer(NEARLY) && !fewer(ALMOST) {
             return Some((None, told));
         }
-        let picked = Picked {
-            stand: Some(best.trial.stand),
-            turned: best.trial.turned,
-        };
-        Some((Some(picked), best.off))
+        Some(best.told())
+    }
+
+    /// Returns what is told without a word of where hands are, where that brings them to where they are.
+    fn unsaid(&self, first: &Trial) -> Option<(Option<Picked>, [f64; 2])> {
+        let begun = self.begun_as(first.with(Stand::Unsaid))?;
+        if !self.open(begun.off).is_empty() {
+            return None;
+        }
+        let whole = self.performs.performs(&begun.trial.sign(self.told))?;
+        let whole = self.tried(begun.trial, &whole, EXACT)?;
+        self.beyond(whole.off, EXACT)
+            .is_empty()
+            .then(|| whole.told())
     }
 
     fn begun_as(&self, trial: Trial) -> Option<Tried> {
@@ -235,14 +279,14 @@ impl Proof<'_, '_> {
     fn moved(&self, best: &mut Tried, places: &[Range<usize>]) -> [Vec<Tried>; 2] {
         let mut near: [Vec<Tried>; 2] = Default::default();
         for (n, near) in near.iter_mut().enumerate() {
-            if !self.open(best.off).contains(&n) {
+            if !self.amiss(best).contains(&n) {
                 continue;
             }
             let all = self.places(&best.trial, n);
             let some = places.iter();
             let some = some.map(|some| all.get(some.start..some.end.min(all.len())));
             for some in some.flatten() {
-                if self.open(best.off).contains(&n) {
+                if self.amiss(best).contains(&n) {
                     near.extend(self.try_all(some.to_vec(), best));
                 }
             }
@@ -253,6 +297,18 @@ impl Proof<'_, '_> {
     /// Returns the hands that are not where they are performed.
     fn open(&self, off: [f64; 2]) -> Vec<usize> {
         self.beyond(off, NEARLY)
+    }
+
+    /// Returns the hands whose place is told and does not bring all to where they are that go with them.
+    fn amiss(&self, tried: &Tried) -> Vec<usize> {
+        let open = self.open(tried.off);
+        match &tried.trial.stand {
+            Stand::Each(_) => open,
+            _ if open.is_empty() => open,
+            Stand::Unsaid => Vec::new(),
+            Stand::One(own, _) => vec![*own],
+            Stand::Together(..) => vec![0],
+        }
     }
 
     /// Returns the hands that are farther off than so many metres, of those of which it is told where they are.
@@ -267,14 +323,15 @@ impl Proof<'_, '_> {
     /// Returns what hand `n` may be meant at, or both, the likeliest first, all else as it is.
     fn places(&self, from: &Trial, n: usize) -> Vec<Trial> {
         let [.., last] = PLACES;
+        let symmetric = self.begun.symmetric || from.mirrored;
         match &from.stand {
             Stand::One(own, _) if *own == n => {
-                let all = self.body.likeliest(n, self.begun.symmetric, last.end);
+                let all = self.body.likeliest(n, symmetric, last.end);
                 let one = |placed| from.with(Stand::One(n, placed));
                 all.into_iter().map(one).collect()
             }
             Stand::Each(both) => {
-                let all = self.body.likeliest(n, false, last.end);
+                let all = self.body.likeliest(n, symmetric, last.end);
                 let each = |placed| {
                     let mut both = both.clone();
                     both[n] = Some(placed);
@@ -287,7 +344,7 @@ impl Proof<'_, '_> {
                 let both = |at| from.with(Stand::Together(together.clone(), at));
                 all.into_iter().map(both).collect()
             }
-            Stand::One(..) | Stand::Together(..) => Vec::new(),
+            Stand::One(..) | Stand::Together(..) | Stand::Unsaid => Vec::new(),
         }
     }
 
@@ -297,6 +354,12 @@ impl Proof<'_, '_> {
             return Vec::new();
         }
         let likeliest = |n: usize| self.body.likeliest(n, self.begun.symmetric, 1).pop();
+        let mirrored = [0, 1].map(|n| self.body.likeliest(n, true, 1).pop());
+        let mirrored = Trial {
+            mirrored: true,
+            ..from.with(Stand::Each(mirrored))
+        };
+        let mirrored = Some(mirrored).filter(|_| !self.begun.symmetric);
         let apart = match &from.stand {
             Stand::Together(..) if self.begun.symmetric => {
                 likeliest(0).map(|placed| Stand::One(0, placed))
@@ -310,7 +373,8 @@ impl Proof<'_, '_> {
             Some(Stand::Together(together, at))
         });
         let all = apart.into_iter().chain(together);
-        all.map(|stand| from.with(stand)).collect()
+        let all = all.map(|stand| from.with(stand));
+        mirrored.into_iter().chain(all).collect()
     }
 
     /// Returns other ways in which hand `n` may be turned where it came nearest.
@@ -373,7 +437,8 @@ impl Proof<'_, '_> {
         let unlikely = match &trial.stand {
             Stand::One(n, _) if self.begun.alone => of(*n),
             Stand::Each(_) => of(0) + of(1),
-            Stand::One(..) | Stand::Together(..) => of(0).max(of(1)),
+            Stand::Unsaid if self.begun.alone => of(self.sight.lead),
+            Stand::One(..) | Stand::Together(..) | Stand::Unsaid => of(0).max(of(1)),
         };
         Some(Tried {
             total: trial.cost() + unlikely,

@@ -14,7 +14,7 @@ use chereme_motion::{Finger, Part, Side};
 use chereme_sign::hamnosys::{
     Aim, Amount, BodyPlace, Circular, Clock, Compass, Constellation, Contact, Curve, Directed,
     Direction, Each, Ellipse, Growth, HandsUsed, Handshape, Manual, Motion, MotionKind, Place,
-    Posture, Repetition, Sign, Size, WristMotion, Zigzag, orientation,
+    Posture, Repetition, Sign, Size, Symmetry, WristMotion, Zigzag, orientation,
 };
 use glam::DVec3;
 
@@ -36,6 +36,15 @@ const MOST_APART: f64 = 12.0;
 
 /// What is told of a hand is sure where it is no farther from it than this, in degrees.
 const SURE: f64 = 4.0;
+
+/// The symmetry of hands that mirror each other.
+const MIRRORED: Symmetry = Symmetry {
+    left_right: true,
+    up_down: false,
+    out_in: false,
+    out_of_phase: false,
+    real_space: false,
+};
 
 /// More actions than this are hardly one sign.
 const MOST: usize = 12;
@@ -61,6 +70,8 @@ pub(super) struct Picked {
     pub(super) stand: Option<Stand>,
     /// How either hand is turned.
     pub(super) turned: [Option<aim::Turned>; 2],
+    /// Whether hands that do not go together are told to mirror each other to begin with.
+    pub(super) mirrored: bool,
 }
 
 /// How a sign begins.
@@ -154,7 +165,11 @@ impl<'a> Writer<'a> {
         let start = left.unwrap_or(first + (last - first) / 2);
         let relation = relation(scene, &frames);
         self.begins(None, (first, all.first().map_or(last + 1, |_| start + 1)));
-        self.told_hands(&relation, start);
+        let beginning = match self.picked.mirrored {
+            true => mirrored(&relation),
+            false => relation,
+        };
+        self.told_hands(&beginning, start);
         let mut body = self.sight.look(start);
         let shift = behind(&relation, all.first());
         if let (Some(body), Some(by)) = (&mut body, shift) {
@@ -162,8 +177,8 @@ impl<'a> Writer<'a> {
         }
         self.behind = shift;
         self.first = first;
-        let posture = self.posture(start, &relation, body.as_ref());
-        let hands = self.used(&relation.kind);
+        let posture = self.posture(start, &beginning, body.as_ref());
+        let hands = self.used(&beginning.kind);
         self.ends(None, words::begun(hands, posture.clone()));
         let mut actions: Vec<Motion> = Vec::new();
         let other = scene.hands[1].as_ref().filter(|_| lead == 0);
@@ -191,12 +206,15 @@ impl<'a> Writer<'a> {
                 "{done} actions are many for one sign: give the span of a single token"
             ));
         }
-        let manual = Manual {
+        let mut manual = Manual {
             hands,
             posture,
             actions,
             ..Manual::default()
         };
+        if self.picked.mirrored {
+            mirror(&mut manual);
+        }
         self.done(manual, first, last + 1)
     }
 
@@ -397,6 +415,27 @@ impl<'a> Writer<'a> {
                 approx: false,
             },
         })
+    }
+}
+
+/// How two hands go together that mirror each other to begin with, and then do not.
+fn mirrored(relation: &Relation) -> Relation {
+    Relation {
+        kind: RelationKind::Alike(MIRRORED),
+        residual: relation.residual,
+        runner_up: Some((relation.kind, relation.residual)),
+    }
+}
+
+/// Lets two hands mirror each other to begin with; the other one does nothing of what the dominant one does alone.
+pub(super) fn mirror(part: &mut Manual) {
+    part.hands = HandsUsed::Both(MIRRORED);
+    for motion in &mut part.actions {
+        if !matches!(motion.kind, MotionKind::Split(..)) {
+            let own = std::mem::replace(motion, Motion::new(MotionKind::Still));
+            let nothing = Motion::new(MotionKind::Still);
+            motion.kind = MotionKind::Split(Some(Box::new(own)), Some(Box::new(nothing)));
+        }
     }
 }
 

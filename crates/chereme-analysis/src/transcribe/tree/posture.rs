@@ -55,7 +55,7 @@ impl Writer<'_> {
         if let Some(stand) = &stand {
             self.told_stand(frame, stand);
         }
-        let place = stand.as_ref().map(Stand::place);
+        let place = stand.as_ref().and_then(Stand::place);
         self.begun = stand.map(|stand| Begun {
             frame,
             first: self.first,
@@ -122,6 +122,7 @@ impl Writer<'_> {
     fn told_stand(&mut self, frame: usize, stand: &Stand) {
         let scene = self.scene;
         match stand {
+            Stand::Unsaid => {}
             Stand::One(n, placed) => self.told_place(scene.hands[*n].as_ref(), frame, placed),
             Stand::Each(both) => {
                 for (n, placed) in both.iter().enumerate() {
@@ -149,6 +150,8 @@ pub(in crate::transcribe) enum Stand {
     Each([Option<Placed>; 2]),
     /// The two by each other, at a place.
     Together(Together, Placed),
+    /// It is not: where they are at ease before the signer.
+    Unsaid,
 }
 
 impl Stand {
@@ -172,8 +175,9 @@ impl Stand {
         self
     }
 
-    pub(in crate::transcribe) fn place(&self) -> Place {
-        match self {
+    pub(in crate::transcribe) fn place(&self) -> Option<Place> {
+        Some(match self {
+            Self::Unsaid => return None,
             Self::One(_, placed) => Place::Body(placed.place.clone()),
             Self::Each(both) => {
                 let [a, b] = both.each_ref().map(|placed| {
@@ -183,7 +187,7 @@ impl Stand {
                 Place::Split(a, b)
             }
             Self::Together(together, at) => Place::Hands(constellation(together, at)),
-        }
+        })
     }
 }
 
