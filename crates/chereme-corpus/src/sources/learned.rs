@@ -212,7 +212,7 @@ mod tests {
         let told = made.report.steps[0].did.join("\n");
         for want in [
             "0.25 s, the median of 30",
-            "0.26 s, the median of 25",
+            "0.27 s, the median of 25",
             "transitions of arms",
         ] {
             assert!(told.contains(want), "{told}");
