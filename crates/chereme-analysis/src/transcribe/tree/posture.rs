@@ -82,7 +82,9 @@ impl Writer<'_> {
         let shaped = match (&one.shape, &other.shape) {
             (Some(x), Some(y)) if x.best != y.best => {
                 let sure = x.residual.max(y.residual) < SURE;
-                !sure && a.known.apart(&a.angles[frame], &b.angles[frame]) < 0.22
+                !sure
+                    && !self.picked.mirrored
+                    && a.known.apart(&a.angles[frame], &b.angles[frame]) < 0.22
             }
             _ => true,
         };
