@@ -273,7 +273,7 @@ pub trait Performs {
     /// that cannot be made.
     fn begins(&self, sign: &Sign) -> Option<Clip>;
 
-    /// As [`begins`](Self::begins), of each of many signs; others may be made at the same time.
+    /// As [`begins`](Self::begins), of each of many signs, some of them at the same time where that can be.
     fn begin_all(&self, signs: &[Sign]) -> Vec<Option<Clip>> {
         signs.iter().map(|sign| self.begins(sign)).collect()
     }

@@ -57,22 +57,28 @@ pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>)
         body,
         left: Cell::new(MOST_POSTURES),
     };
-    let Some((picked, off)) = proof.best() else {
+    let Some((picked, mut off)) = proof.best() else {
         return told;
     };
+    let mut found = told.clone();
+    if let Some(picked) = picked {
+        found = tree::written(sight, picked).0;
+        // What was tried may have left out what is done after, or said it in other words.
+        let whole = performs.performs(&found.sign);
+        off = whole.and_then(|clip| proof.off(&clip)).unwrap_or(off);
+    }
     let open = proof.open(off);
-    let mut told = picked.map_or(told.clone(), |picked| tree::written(sight, picked).0);
     let tracks = open
         .iter()
         .filter_map(|&n| Some((n, sight.scene.hands[n].as_ref()?)));
-    told.findings.extend(tracks.map(|(n, track)| {
+    found.findings.extend(tracks.map(|(n, track)| {
         format!(
             "performed as told, the {} hand begins {:.1} cm from where it is",
             track.side.name(),
             100.0 * off[n]
         )
     }));
-    told
+    found
 }
 
 /// Something that may be told.
