@@ -3,8 +3,8 @@
 use std::ops::ControlFlow::Break;
 
 use chereme_corpus::{
-    Address, Corpus, Error, ImportOptions, PictureOptions, Progress, Staging, starter_files,
-    unheard,
+    Address, Corpus, Error, ImportOptions, PictureOptions, Progress, Staging, Transcribed,
+    starter_files, unheard,
 };
 use chereme_sign::hamnosys::{Place, Sign, from_names, parse};
 
@@ -94,17 +94,23 @@ fn so_it_is_on_a_body_whose_rest_pose_nobody_takes() {
     told_where_they_are_led_away(corpus);
 }
 
+/// Makes a sign, stored as S and its number, and returns what was written and what is told of it.
+fn there_and_back(corpus: &mut Corpus, n: usize, names: &str) -> (Sign, Transcribed) {
+    let text = from_names(names.split(' ')).expect("names of symbols");
+    let written = parse(&text).expect("HamNoSys").sign;
+    let gloss = format!("S{n}");
+    let done = corpus.animate(&[names], &Staging::default(), Some(&gloss));
+    done.expect("made");
+    let address = gloss.parse().expect("an address");
+    let told = corpus.transcribe(&address, &mut Progress::new(&mut { unheard }));
+    (written, told.expect("told"))
+}
+
 /// Makes each of those signs on the body that the corpus chooses, and looks at what is told of it.
 fn told_where_they_are_led_away(mut corpus: Corpus) {
     for (n, names) in LED_AWAY.into_iter().enumerate() {
-        let text = from_names(names.split(' ')).expect("names of symbols");
-        let written = parse(&text).expect("HamNoSys").sign;
-        let gloss = format!("S{n}");
-        let done = corpus.animate(&[names], &Staging::default(), Some(&gloss));
-        done.expect("made");
-        let address = gloss.parse().expect("an address");
-        let told = corpus.transcribe(&address, &mut Progress::new(&mut { unheard }));
-        let told = told.expect("told");
+        let (written, told) = there_and_back(&mut corpus, n, names);
+        let address = format!("S{n}").parse().expect("an address");
         let stopped = corpus.transcribe(&address, &mut Progress::new(&mut |_| Break(())));
         assert!(matches!(stopped, Err(Error::Stopped)), "{names}");
         let sites = |sign: &Sign| match &sign.parts[0].posture.place {
@@ -134,14 +140,7 @@ fn how_signs_begin_is_told_as_it_was_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
     for (n, names) in BEGINNINGS.into_iter().enumerate() {
-        let text = from_names(names.split_whitespace()).expect("names of symbols");
-        let written = parse(&text).expect("HamNoSys").sign;
-        let gloss = format!("S{n}");
-        let done = corpus.animate(&[names], &Staging::default(), Some(&gloss));
-        done.expect("made");
-        let address = gloss.parse().expect("an address");
-        let told = corpus.transcribe(&address, &mut Progress::new(&mut { unheard }));
-        let told = told.expect("told");
+        let (written, told) = there_and_back(&mut corpus, n, names);
         let [told, written] = [told.sign, written].map(|mut sign| sign.parts.remove(0));
         assert_eq!(told.hands, written.hands, "{names}");
         assert_eq!(told.posture.place, written.posture.place, "{names}");

@@ -38,8 +38,8 @@ fn main() -> Result<()> {
         }
         ["movement", files @ ..] if !files.is_empty() => movement::table(files),
         _ => Err(
-            "say `notation FOLDER BODY.bvh`, `plain FOLDER BODY.bvh`, `why FEATURE FOLDER BODY.bvh`, `confusions FEATURE \
-             FOLDER BODY.bvh` or `movement FILE.bvh...`"
+            "say `notation FOLDER BODY.bvh`, `plain FOLDER BODY.bvh`, `why FEATURE FOLDER BODY.bvh` or `confusions FEATURE \
+             FOLDER BODY.bvh`, the frames a second behind it where they are others than the body's; or `movement FILE.bvh...`"
                 .into(),
         ),
     }
