@@ -37,6 +37,7 @@ mod starter;
 mod suggest;
 mod tokens;
 mod transcribe;
+pub mod words;
 
 use std::cell::RefCell;
 use std::path::Path;
@@ -51,6 +52,7 @@ pub use chereme_sign::{Stereotype, TierRole};
 
 pub use address::{Address, Name, Stretch};
 pub use animate::Staging;
+pub use annotate::hold;
 pub use annotate::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
     AnnotationOrigin, Copied, NewTier, RemovedTiers, Scheme, TierChange, TierName, Values,

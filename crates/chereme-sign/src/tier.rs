@@ -23,6 +23,7 @@ mod check;
 mod error;
 mod merge;
 mod plan;
+pub mod spans;
 #[cfg(test)]
 mod tests;
 

@@ -6,6 +6,7 @@
 mod arrange;
 mod bulk;
 mod copies;
+pub mod hold;
 mod names;
 mod scheme;
 mod scope;

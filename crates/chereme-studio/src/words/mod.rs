@@ -1,11 +1,10 @@
 //! Every word the window says, in English and French; one file for each part of it.
 //!
-//! A text is a constant of its table; `{name}` in it is filled by [`fill`]. To add one, write a line
+//! What the command line says too is in [`chereme_corpus::words`]. A text is a constant of its table; `{name}` in it is filled by [`fill`]. To add one, write a line
 //! into the table of its part; to add a table, name it in `TABLES` of the tests below.
 
-use std::fmt::Display;
-
-use serde::{Deserialize, Serialize};
+pub use chereme_corpus::words::Language;
+pub(crate) use chereme_corpus::words::{Text, fill, history, trouble};
 
 /// Declares the texts of one part of the window.
 macro_rules! texts {
@@ -20,7 +19,6 @@ pub(crate) mod actions;
 pub(crate) mod export;
 pub(crate) mod gestures;
 pub(crate) mod hamnosys;
-pub(crate) mod history;
 pub(crate) mod import;
 pub(crate) mod inspector;
 pub(crate) mod library;
@@ -31,79 +29,15 @@ pub(crate) mod shell;
 pub(crate) mod stage;
 pub(crate) mod steps;
 pub(crate) mod timeline;
-pub(crate) mod trouble;
-
-/// A language of the window.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Language {
-    /// English.
-    #[default]
-    English,
-    /// French.
-    French,
-}
-
-impl Language {
-    /// Every language with its own name for itself.
-    pub const ALL: [(Self, &'static str); 2] =
-        [(Self::English, "English"), (Self::French, "Français")];
-
-    /// Returns its code, as inventories give names by it.
-    #[must_use]
-    pub fn code(self) -> &'static str {
-        match self {
-            Self::English => "en",
-            Self::French => "fr",
-        }
-    }
-
-    /// Returns the language that a locale such as `fr_FR.UTF-8` asks for.
-    #[must_use]
-    pub fn of_locale(locale: &str) -> Self {
-        if locale.to_lowercase().starts_with("fr") {
-            Self::French
-        } else {
-            Self::English
-        }
-    }
-}
-
-/// Words in every language of the window.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Text {
-    pub(crate) en: &'static str,
-    pub(crate) fr: &'static str,
-}
-
-impl Text {
-    /// Returns the words in `language`.
-    pub(crate) const fn of(self, language: Language) -> &'static str {
-        match language {
-            Language::English => self.en,
-            Language::French => self.fr,
-        }
-    }
-}
-
-/// Returns `text` with every `{name}` of `values` filled in.
-pub(crate) fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
-    let mut filled = text.to_owned();
-    for (name, value) in values {
-        filled = filled.replace(&format!("{{{name}}}"), &value.to_string());
-    }
-    filled
-}
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 16] = [
+    const TABLES: [&[(&str, Text)]; 14] = [
         actions::ALL,
         export::ALL,
         hamnosys::ALL,
-        history::ALL,
         import::ALL,
         inspector::ALL,
         library::ALL,
@@ -115,7 +49,6 @@ mod tests {
         steps::ALL,
         timeline::ALL,
         gestures::ALL,
-        trouble::ALL,
     ];
 
     fn blanks(text: &str) -> Vec<&str> {
@@ -137,12 +70,5 @@ mod tests {
             );
             assert_eq!(blanks(text.en), blanks(text.fr), "{name}");
         }
-    }
-
-    #[test]
-    fn blanks_are_filled() {
-        assert_eq!(fill("{n} of {all}", &[("n", &2), ("all", &"x")]), "2 of x");
-        assert_eq!(Language::of_locale("fr_CH"), Language::French);
-        assert_eq!(Language::of_locale("C"), Language::English);
     }
 }

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use chereme_corpus::{OperationKind, OperationRow};
 use chereme_sign::text::fold;
 
-use crate::words::{Language, Text, fill, history as words};
+use crate::words::Language;
+use crate::words::history::sentence;
 
 /// Whether an operation stands, and how it is reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -100,67 +101,6 @@ pub(crate) fn standing(operations: &[OperationRow]) -> usize {
         .count()
 }
 
-/// Returns what an operation did, as a sentence.
-pub(crate) fn sentence(it: &OperationRow, language: Language) -> String {
-    let say =
-        |text: Text, values: &[(&str, &dyn std::fmt::Display)]| fill(text.of(language), values);
-    let summary = it.summary.as_str();
-    let parted = |word: &str| summary.rsplit_once(word);
-    let known = match it.name.as_str() {
-        "import" => Some(say(words::DID_IMPORT, &[("what", &summary)])),
-        "recombine" | "recombine again" => summary.split_once(" = ").map(|(gloss, recipe)| {
-            let text = if it.name == "recombine" {
-                words::DID_RECOMBINE
-            } else {
-                words::DID_RECOMBINE_AGAIN
-            };
-            say(text, &[("gloss", &gloss), ("recipe", &recipe)])
-        }),
-        "annotate" => annotated(summary, language),
-        "add tier" => parted(" to ").map(|(tier, place)| {
-            let tier = tier.trim_matches('"');
-            say(words::DID_ADD_TIER, &[("tier", &tier), ("place", &place)])
-        }),
-        "change tier" => parted(" of ").map(|(tier, place)| {
-            let tier = tier.trim_matches('"');
-            say(
-                words::DID_CHANGE_TIER,
-                &[("tier", &tier), ("place", &place)],
-            )
-        }),
-        "remove tier" => Some(say(words::DID_REMOVE_TIER, &[("what", &summary)])),
-        "change recording" => Some(say(words::DID_CHANGE_RECORDING, &[("what", &summary)])),
-        "change signer" => Some(say(words::DID_CHANGE_SIGNER, &[("what", &summary)])),
-        "change sign" => Some(say(words::DID_CHANGE_SIGN, &[("what", &summary)])),
-        "set citation" => Some(say(words::DID_CITE, &[("what", &summary)])),
-        "transcribe" => Some(say(words::DID_TRANSCRIBE, &[("what", &summary)])),
-        _ => None,
-    };
-    known.unwrap_or_else(|| format!("{}: {summary}", it.name))
-}
-
-/// Returns `2 added, 1 changed in X` as a sentence.
-fn annotated(summary: &str, language: Language) -> Option<String> {
-    let (counts, place) = summary.rsplit_once(" in ")?;
-    let mut said = Vec::new();
-    for part in counts.split(", ") {
-        let (count, what) = part.split_once(' ')?;
-        let text = match (what, count == "1") {
-            ("added", true) => words::ONE_ADDED,
-            ("added", false) => words::ADDED,
-            ("changed", true) => words::ONE_CHANGED,
-            ("changed", false) => words::CHANGED,
-            ("removed", true) => words::ONE_REMOVED,
-            ("removed", false) => words::REMOVED,
-            _ => return None,
-        };
-        said.push(fill(text.of(language), &[("n", &count)]));
-    }
-    let said = said.join(", ");
-    let values: [(&str, &dyn std::fmt::Display); 2] = [("what", &said), ("place", &place)];
-    Some(fill(words::DID_ANNOTATE.of(language), &values))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -182,30 +122,6 @@ mod tests {
             summary: summary.into(),
             changes: 1,
             stands: true,
-        }
-    }
-
-    #[test]
-    fn operations_are_sentences_in_both_languages() {
-        for (name, summary, english, french) in [
-            (
-                "annotate",
-                "2 added, 1 removed in Un",
-                "2 annotations added, 1 annotation removed in Un",
-                "2 annotations ajoutées, 1 annotation supprimée dans Un",
-            ),
-            (
-                "recombine",
-                "LIMACE = ESCARGOT | swap",
-                "LIMACE made: ESCARGOT | swap",
-                "LIMACE composé : ESCARGOT | swap",
-            ),
-            ("import", "a.bvh", "Imported: a.bvh", "Importé : a.bvh"),
-            ("novel", "x", "novel: x", "novel: x"),
-        ] {
-            let row = row(1, OperationKind::Do, None, name, summary);
-            assert_eq!(sentence(&row, Language::English), english);
-            assert_eq!(sentence(&row, Language::French), french);
         }
     }
 

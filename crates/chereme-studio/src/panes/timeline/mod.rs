@@ -41,7 +41,6 @@ mod paste_box;
 mod rows;
 mod select;
 mod snap;
-mod spans;
 mod tier_box;
 mod tiers;
 mod ui;
@@ -63,10 +62,10 @@ use crate::model::Opened;
 use crate::panes::{Acted, Pane};
 use crate::pickers::Picker;
 use crate::work::{Ended, Outcome, Work, WorkId};
+use chereme_sign::tier::spans::{self, Item};
 use data::Window;
 use edit::Scene;
 use editor::{Editing, Target};
-use spans::Item;
 pub(crate) use ways::Ways;
 
 /// The pane.

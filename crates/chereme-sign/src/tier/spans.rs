@@ -9,16 +9,19 @@ use serde::{Deserialize, Serialize};
 
 /// An annotation in time, in microseconds; those of a tier do not overlap and come in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Item {
-    pub(crate) id: i64,
-    pub(crate) start: i64,
-    pub(crate) end: i64,
+pub struct Item {
+    /// Its number.
+    pub id: i64,
+    /// Where it starts.
+    pub start: i64,
+    /// Where it ends; this moment is no part of it.
+    pub end: i64,
 }
 
 /// What becomes of the neighbours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum Mode {
+pub enum Mode {
     /// They stay: what is moved takes the nearest place that is free, what is resized stops at them.
     #[default]
     Normal,
@@ -30,23 +33,30 @@ pub(crate) enum Mode {
 
 /// By what an annotation is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Grip {
+pub enum Grip {
+    /// By its start.
     Start,
+    /// By its end.
     End,
+    /// As a whole.
     Whole,
 }
 
 /// What holds every annotation: from when to when, and how short one may get.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Limits {
-    pub(crate) from: i64,
-    pub(crate) to: i64,
-    pub(crate) least: i64,
+pub struct Limits {
+    /// The earliest start, in microseconds.
+    pub from: i64,
+    /// The latest end, in microseconds.
+    pub to: i64,
+    /// The shortest that an annotation can become, in microseconds.
+    pub least: i64,
 }
 
 /// Returns the annotations that change, as they are then, when the `chosen` ones are moved by `by`
 /// microseconds, or the boundary of the first of them.
-pub(crate) fn dragged(
+#[must_use]
+pub fn dragged(
     items: &[Item],
     chosen: &BTreeSet<i64>,
     (grip, by): (Grip, i64),
@@ -78,7 +88,8 @@ pub(crate) fn dragged(
 
 /// Returns the annotations that change where they lie end to end and keep doing so: the neighbour's
 /// boundary goes along. None where the first or last boundary of all, or a whole one, is dragged.
-pub(crate) fn tiled(
+#[must_use]
+pub fn tiled(
     items: &[Item],
     chosen: &BTreeSet<i64>,
     (grip, by): (Grip, i64),
@@ -114,7 +125,8 @@ pub(crate) fn tiled(
 
 /// Returns changed annotations in an order in which they can be changed one after the other without
 /// ever overlapping: what goes to the right from the last on, what goes to the left from the first on.
-pub(crate) fn in_order(items: &[Item], changed: &[Item]) -> Vec<Item> {
+#[must_use]
+pub fn in_order(items: &[Item], changed: &[Item]) -> Vec<Item> {
     let right = |new: &Item| {
         let old = items.iter().find(|old| old.id == new.id);
         old.is_some_and(|old| new.start > old.start || new.end > old.end)
@@ -128,7 +140,8 @@ pub(crate) fn in_order(items: &[Item], changed: &[Item]) -> Vec<Item> {
 }
 
 /// Returns the longest part of `from..to` in which no annotation lies.
-pub(crate) fn room(items: &[Item], (from, to): (i64, i64)) -> Option<(i64, i64)> {
+#[must_use]
+pub fn room(items: &[Item], (from, to): (i64, i64)) -> Option<(i64, i64)> {
     let first = items.partition_point(|item| item.end <= from);
     let inside = items[first..].iter().take_while(|item| item.start < to);
     let mut begin = from;

@@ -1,0 +1,235 @@
+//! What is held when annotations are dragged: those of their tier that count, and what limits them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use chereme_sign::Stereotype;
+use chereme_sign::tier::spans::{self, Grip, Item, Limits, Mode};
+
+use crate::contents::{Contents, TierContents};
+use crate::db::tiers::TierRow;
+
+/// How long an annotation is at least, where frames do not say: a hundredth of a second.
+pub const LEAST: i64 = 10_000;
+/// Where a recording without movement ends: annotations make it longer.
+const FAR: i64 = 1 << 50;
+
+/// What times the annotations of a tier have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// Their own.
+    Root,
+    /// Their own, inside those of the annotation above.
+    Inside,
+    /// They share the time of the annotation above without gaps.
+    Tiled,
+    /// None of their own.
+    Listed,
+}
+
+impl Kind {
+    /// Returns the kind of a tier.
+    #[must_use]
+    pub fn of(row: &TierRow) -> Self {
+        if row.parent_id.is_none() {
+            return Self::Root;
+        }
+        let stereotype = row
+            .stereotype
+            .as_deref()
+            .and_then(Stereotype::from_elan_name);
+        match stereotype {
+            Some(Stereotype::TimeSubdivision) => Self::Tiled,
+            Some(Stereotype::IncludedIn) | None => Self::Inside,
+            Some(_) => Self::Listed,
+        }
+    }
+}
+
+/// Annotations of one tier that are held, with those that may be in their way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Held {
+    /// The tier.
+    pub tier: i64,
+    /// What times its annotations have.
+    pub kind: Kind,
+    /// The annotations that may be in the way, the held ones among them, in order of time.
+    pub items: Vec<Item>,
+    /// Those that are held.
+    pub chosen: BTreeSet<i64>,
+    /// The time in which they must stay.
+    pub limits: Limits,
+}
+
+impl Held {
+    /// Returns those that change when they are dragged.
+    #[must_use]
+    pub fn dragged(&self, grip: Grip, by: i64, mode: Mode) -> Vec<Item> {
+        match self.kind {
+            Kind::Listed => Vec::new(),
+            Kind::Tiled => spans::tiled(&self.items, &self.chosen, (grip, by), self.limits),
+            _ => spans::dragged(&self.items, &self.chosen, (grip, by), mode, self.limits),
+        }
+    }
+
+    /// Returns what of the changed ones has to be asked for, in an order that never overlaps.
+    #[must_use]
+    pub fn asked(&self, changed: &[Item]) -> Vec<Item> {
+        if self.kind == Kind::Tiled {
+            // The neighbours' shared boundaries follow by themselves.
+            let own = changed.iter().filter(|item| self.chosen.contains(&item.id));
+            return own.copied().collect();
+        }
+        spans::in_order(&self.items, changed)
+    }
+}
+
+/// Returns the time within which annotations of a recording lie; `frames` tells whether it has movement.
+#[must_use]
+pub fn limits(contents: &Contents, frames: bool) -> Limits {
+    let to = if frames {
+        contents.recording.duration_us
+    } else {
+        FAR
+    };
+    Limits {
+        from: 0,
+        to,
+        least: LEAST,
+    }
+}
+
+/// Returns what is held when `chosen` are dragged, tier by tier. Annotations whose parent is held too go
+/// along with it and are left out.
+#[must_use]
+pub fn held(contents: &Contents, chosen: &BTreeSet<i64>, frames: bool) -> Vec<Held> {
+    let limits = limits(contents, frames);
+    let mut all = Vec::new();
+    for tier in &contents.tiers {
+        let columns = &tier.annotations;
+        let mut families: BTreeMap<Option<i64>, BTreeSet<i64>> = BTreeMap::new();
+        let kind = Kind::of(&tier.row);
+        for at in places(tier, chosen) {
+            let parent = columns.parents.get(at).copied().flatten();
+            if parent.is_some_and(|parent| chosen.contains(&parent)) {
+                continue;
+            }
+            let family = parent.filter(|_| kind != Kind::Root);
+            families.entry(family).or_default().insert(columns.ids[at]);
+        }
+        for (parent, chosen) in families {
+            let above = parent.and_then(|parent| span_of(contents, parent));
+            let limits = match above {
+                Some((from, to)) => Limits { from, to, ..limits },
+                None => limits,
+            };
+            all.push(Held {
+                tier: tier.row.id,
+                kind,
+                items: items(tier, parent),
+                chosen,
+                limits,
+            });
+        }
+    }
+    all
+}
+
+/// Returns annotations with all that hang below them.
+#[must_use]
+pub fn with_below(contents: &Contents, mut all: BTreeSet<i64>) -> BTreeSet<i64> {
+    loop {
+        let before = all.len();
+        for columns in contents.tiers.iter().map(|tier| &tier.annotations) {
+            let pairs = columns.ids.iter().zip(&columns.parents);
+            let below = pairs.filter(|(_, parent)| parent.is_some_and(|it| all.contains(&it)));
+            let below: Vec<i64> = below.map(|(id, _)| *id).collect();
+            all.extend(below);
+        }
+        if all.len() == before {
+            return all;
+        }
+    }
+}
+
+/// Returns the places of the annotations of a tier that are in `chosen`.
+pub fn places<'a>(
+    tier: &'a TierContents,
+    chosen: &'a BTreeSet<i64>,
+) -> impl Iterator<Item = usize> + 'a {
+    let ids = tier.annotations.ids.iter().enumerate();
+    let none = chosen.is_empty();
+    ids.filter(move |(_, id)| !none && chosen.contains(id))
+        .map(|(at, _)| at)
+}
+
+/// Returns the annotations of a tier in time, only those below `parent` where one is given.
+#[must_use]
+pub fn items(tier: &TierContents, parent: Option<i64>) -> Vec<Item> {
+    let columns = &tier.annotations;
+    (0..columns.len())
+        .filter(|at| parent.is_none() || columns.parents.get(*at).copied().flatten() == parent)
+        .map(|at| Item {
+            id: columns.ids[at],
+            start: columns.starts[at],
+            end: columns.ends[at],
+        })
+        .collect()
+}
+
+/// Returns the time of an annotation of the recording.
+fn span_of(contents: &Contents, id: i64) -> Option<(i64, i64)> {
+    contents.tiers.iter().find_map(|tier| {
+        let columns = &tier.annotations;
+        let at = columns.ids.iter().position(|it| *it == id)?;
+        Some((columns.starts[at], columns.ends[at]))
+    })
+}
+
+/// Returns where a new annotation of a tier can be within `wanted`: what is free of it, and where the tier
+/// hangs below another what lies inside one annotation there.
+#[must_use]
+pub fn room(contents: &Contents, tier: &TierContents, wanted: (i64, i64)) -> Option<(i64, i64)> {
+    let own = items(tier, None);
+    let kind = Kind::of(&tier.row);
+    let parent = contents
+        .tiers
+        .iter()
+        .find(|it| Some(it.row.id) == tier.row.parent_id);
+    let Some(parent) = parent.filter(|_| kind != Kind::Root) else {
+        return spans::room(&own, wanted);
+    };
+    let mut best: Option<(i64, i64)> = None;
+    for above in items(parent, None) {
+        let inside = (above.start.max(wanted.0), above.end.min(wanted.1));
+        if inside.0 >= inside.1 {
+            continue;
+        }
+        let found = match kind {
+            Kind::Inside => spans::room(&own, inside),
+            Kind::Listed => Some((above.start, above.end)),
+            _ => tiled_room(&own, above, inside),
+        };
+        let length = |span: (i64, i64)| span.1.min(wanted.1) - span.0.max(wanted.0);
+        if let Some(found) = found.filter(|it| best.is_none_or(|best| length(*it) > length(best))) {
+            best = Some(found);
+        }
+    }
+    best
+}
+
+/// Returns the whole parent where it has no child yet, else the tail of the child that `wanted` begins in,
+/// or its head where it begins there.
+fn tiled_room(own: &[Item], above: Item, wanted: (i64, i64)) -> Option<(i64, i64)> {
+    let mut below = own
+        .iter()
+        .filter(|item| item.start >= above.start && item.end <= above.end)
+        .peekable();
+    if below.peek().is_none() {
+        return Some((above.start, above.end));
+    }
+    let sibling = below.find(|item| item.start <= wanted.0 && wanted.0 < item.end)?;
+    if wanted.0 > sibling.start {
+        return Some((wanted.0, sibling.end));
+    }
+    (wanted.1 < sibling.end).then_some((sibling.start, wanted.1))
+}

@@ -1,0 +1,150 @@
+//! The history: what operations did, as sentences.
+
+use std::fmt::Display;
+
+use super::{Language, Text, fill};
+use crate::OperationRow;
+
+texts! {
+    TITLE: "History", "Historique";
+    EMPTY: "Nothing was done yet.", "Rien n’a encore été fait.";
+    FILTER: "Who or what", "Qui ou quoi";
+    NONE_FIT: "Nothing like that was done.", "Rien de tel n’a été fait.";
+    NOW: "now", "maintenant";
+    UNDONE: "undone", "annulé";
+    GONE: "undone, and not to be done again", "annulé, et ne peut être rétabli";
+    BEGINNING: "The empty corpus", "Le corpus vide";
+    TIP_BACK: "Click to go back to just after this", "Cliquez pour revenir juste après ceci";
+    TIP_FORWARD: "Click to do it again, up to here", "Cliquez pour rétablir jusqu’ici";
+    WALK_BACK: "Undo {n} steps?", "Annuler {n} étapes ?";
+    WALK_FORWARD: "Do {n} steps again?", "Rétablir {n} étapes ?";
+    WALK_GO: "Yes", "Oui";
+    WALKED_BACK: "{n} steps undone.", "{n} étapes annulées.";
+    WALKED_FORWARD: "{n} steps done again.", "{n} étapes rétablies.";
+    DID_IMPORT: "Imported: {what}", "Importé : {what}";
+    DID_RECOMBINE: "{gloss} made: {recipe}", "{gloss} composé : {recipe}";
+    DID_RECOMBINE_AGAIN: "{gloss} made anew: {recipe}", "{gloss} refait : {recipe}";
+    DID_ANNOTATE: "{what} in {place}", "{what} dans {place}";
+    ADDED: "{n} annotations added", "{n} annotations ajoutées";
+    ONE_ADDED: "{n} annotation added", "{n} annotation ajoutée";
+    CHANGED: "{n} changed", "{n} modifiées";
+    ONE_CHANGED: "{n} annotation changed", "{n} annotation modifiée";
+    REMOVED: "{n} removed", "{n} supprimées";
+    ONE_REMOVED: "{n} annotation removed", "{n} annotation supprimée";
+    DID_ADD_TIER: "Tier {tier} added to {place}", "Acteur {tier} ajouté à {place}";
+    DID_CHANGE_TIER: "Tier {tier} of {place} changed", "Acteur {tier} de {place} modifié";
+    DID_REMOVE_TIER: "Tier removed: {what}", "Acteur supprimé : {what}";
+    DID_CHANGE_RECORDING: "Recording changed: {what}", "Enregistrement modifié : {what}";
+    DID_CHANGE_SIGNER: "Signer changed: {what}", "Signeur modifié : {what}";
+    DID_CHANGE_SIGN: "Sign changed: {what}", "Signe modifié : {what}";
+    DID_CITE: "Citation form: {what}", "Forme de citation : {what}";
+    DID_TRANSCRIBE: "Transcribed: {what}", "Transcrit : {what}";
+}
+
+/// Returns what an operation did, as a sentence.
+#[must_use]
+pub fn sentence(it: &OperationRow, language: Language) -> String {
+    let say = |text: Text, values: &[(&str, &dyn Display)]| fill(text.of(language), values);
+    let summary = it.summary.as_str();
+    let parted = |word: &str| summary.rsplit_once(word);
+    let known = match it.name.as_str() {
+        "import" => Some(say(DID_IMPORT, &[("what", &summary)])),
+        "recombine" | "recombine again" => summary.split_once(" = ").map(|(gloss, recipe)| {
+            let text = if it.name == "recombine" {
+                DID_RECOMBINE
+            } else {
+                DID_RECOMBINE_AGAIN
+            };
+            say(text, &[("gloss", &gloss), ("recipe", &recipe)])
+        }),
+        "annotate" => annotated(summary, language),
+        "add tier" => parted(" to ").map(|(tier, place)| {
+            let tier = tier.trim_matches('"');
+            say(DID_ADD_TIER, &[("tier", &tier), ("place", &place)])
+        }),
+        "change tier" => parted(" of ").map(|(tier, place)| {
+            let tier = tier.trim_matches('"');
+            say(DID_CHANGE_TIER, &[("tier", &tier), ("place", &place)])
+        }),
+        "remove tier" => Some(say(DID_REMOVE_TIER, &[("what", &summary)])),
+        "change recording" => Some(say(DID_CHANGE_RECORDING, &[("what", &summary)])),
+        "change signer" => Some(say(DID_CHANGE_SIGNER, &[("what", &summary)])),
+        "change sign" => Some(say(DID_CHANGE_SIGN, &[("what", &summary)])),
+        "set citation" => Some(say(DID_CITE, &[("what", &summary)])),
+        "transcribe" => Some(say(DID_TRANSCRIBE, &[("what", &summary)])),
+        _ => None,
+    };
+    known.unwrap_or_else(|| format!("{}: {summary}", it.name))
+}
+
+/// Returns `2 added, 1 changed in X` as a sentence.
+fn annotated(summary: &str, language: Language) -> Option<String> {
+    let (counts, place) = summary.rsplit_once(" in ")?;
+    let mut said = Vec::new();
+    for part in counts.split(", ") {
+        let (count, what) = part.split_once(' ')?;
+        let text = match (what, count == "1") {
+            ("added", true) => ONE_ADDED,
+            ("added", false) => ADDED,
+            ("changed", true) => ONE_CHANGED,
+            ("changed", false) => CHANGED,
+            ("removed", true) => ONE_REMOVED,
+            ("removed", false) => REMOVED,
+            _ => return None,
+        };
+        said.push(fill(text.of(language), &[("n", &count)]));
+    }
+    let said = said.join(", ");
+    let values: [(&str, &dyn Display); 2] = [("what", &said), ("place", &place)];
+    Some(fill(DID_ANNOTATE.of(language), &values))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::OperationKind;
+
+    fn row(
+        id: i64,
+        kind: OperationKind,
+        target: Option<i64>,
+        name: &str,
+        summary: &str,
+    ) -> OperationRow {
+        OperationRow {
+            id,
+            at: "2026-01-02T03:04:05Z".into(),
+            author: "Zoé".into(),
+            kind,
+            target,
+            name: name.into(),
+            summary: summary.into(),
+            changes: 1,
+            stands: true,
+        }
+    }
+
+    #[test]
+    fn operations_are_sentences_in_both_languages() {
+        for (name, summary, english, french) in [
+            (
+                "annotate",
+                "2 added, 1 removed in Un",
+                "2 annotations added, 1 annotation removed in Un",
+                "2 annotations ajoutées, 1 annotation supprimée dans Un",
+            ),
+            (
+                "recombine",
+                "LIMACE = ESCARGOT | swap",
+                "LIMACE made: ESCARGOT | swap",
+                "LIMACE composé : ESCARGOT | swap",
+            ),
+            ("import", "a.bvh", "Imported: a.bvh", "Importé : a.bvh"),
+            ("novel", "x", "novel: x", "novel: x"),
+        ] {
+            let row = row(1, OperationKind::Do, None, name, summary);
+            assert_eq!(sentence(&row, Language::English), english);
+            assert_eq!(sentence(&row, Language::French), french);
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Words that the command line and the window share, in English and French.
+//!
+//! A text is a constant of its table; `{name}` in it is filled by [`fill`]. To add one, write a line
+//! into the table of its part; to add a table, name it in `TABLES` of the tests below.
+
+use std::fmt::Display;
+
+use serde::{Deserialize, Serialize};
+
+/// Declares the texts of one part.
+macro_rules! texts {
+    ($($name:ident: $en:literal, $fr:literal;)*) => {
+        $(
+            #[doc = concat!("“", $en, "”")]
+            pub const $name: crate::words::Text = crate::words::Text { en: $en, fr: $fr };
+        )*
+        #[cfg(test)]
+        pub(super) const ALL: &[(&str, crate::words::Text)] = &[$((stringify!($name), $name)),*];
+    };
+}
+
+pub mod history;
+pub mod trouble;
+
+/// A language that the program speaks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Language {
+    /// English.
+    #[default]
+    English,
+    /// French.
+    French,
+}
+
+impl Language {
+    /// Every language with its own name for itself.
+    pub const ALL: [(Self, &'static str); 2] =
+        [(Self::English, "English"), (Self::French, "Français")];
+
+    /// Returns its code, as inventories give names by it.
+    #[must_use]
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::English => "en",
+            Self::French => "fr",
+        }
+    }
+
+    /// Returns the language that a locale such as `fr_FR.UTF-8` asks for.
+    #[must_use]
+    pub fn of_locale(locale: &str) -> Self {
+        if locale.to_lowercase().starts_with("fr") {
+            Self::French
+        } else {
+            Self::English
+        }
+    }
+}
+
+/// Words in every language.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Text {
+    /// In English.
+    pub en: &'static str,
+    /// In French.
+    pub fr: &'static str,
+}
+
+impl Text {
+    /// Returns the words in `language`.
+    #[must_use]
+    pub const fn of(self, language: Language) -> &'static str {
+        match language {
+            Language::English => self.en,
+            Language::French => self.fr,
+        }
+    }
+}
+
+/// Returns `text` with every `{name}` of `values` filled in.
+#[must_use]
+pub fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
+    let mut filled = text.to_owned();
+    for (name, value) in values {
+        filled = filled.replace(&format!("{{{name}}}"), &value.to_string());
+    }
+    filled
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TABLES: [&[(&str, Text)]; 2] = [history::ALL, trouble::ALL];
+
+    fn blanks(text: &str) -> Vec<&str> {
+        let mut names: Vec<&str> = text
+            .split('{')
+            .skip(1)
+            .filter_map(|rest| rest.split_once('}').map(|(name, _)| name))
+            .collect();
+        names.sort_unstable();
+        names
+    }
+
+    #[test]
+    fn every_text_is_there_in_both_languages_with_the_same_blanks() {
+        for (name, text) in TABLES.into_iter().flatten() {
+            assert!(
+                !text.en.trim().is_empty() && !text.fr.trim().is_empty(),
+                "{name}"
+            );
+            assert_eq!(blanks(text.en), blanks(text.fr), "{name}");
+        }
+    }
+
+    #[test]
+    fn blanks_are_filled() {
+        assert_eq!(fill("{n} of {all}", &[("n", &2), ("all", &"x")]), "2 of x");
+        assert_eq!(Language::of_locale("fr_CH"), Language::French);
+        assert_eq!(Language::of_locale("C"), Language::English);
+    }
+}
