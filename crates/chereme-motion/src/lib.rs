@@ -23,6 +23,10 @@
 //! | [`skeleton`] | joints, parents first, checked once |
 //! | [`pose`] | local and model-space postures, forward kinematics |
 //! | [`clip`] | movement: a skeleton's rotations over frames; slicing, sampling, resampling |
+//! | [`markers`] | named points: optical markers, points estimated from film |
+//! | [`curves`] | named scalar channels: face parameters, analog signals |
+//! | [`column`] | the numbers of a channel exactly as a file gives them, gaps as gaps |
+//! | [`times`] | when the frames of a track are: at an even rate or each at its own time |
 //! | [`euler`] | rotation orders and angles, as files write them |
 //! | [`axes`] | units and axes of a file, and the way to model space and back |
 //! | [`interpolation`] | the ways from one posture to another |
@@ -36,22 +40,30 @@ pub use glam;
 pub mod anatomy;
 pub mod axes;
 pub mod clip;
+pub mod column;
+pub mod curves;
 pub mod euler;
 pub mod face;
 pub mod hand;
 pub mod ik;
 pub mod interpolation;
+pub mod markers;
 pub mod pose;
 pub mod skeleton;
 pub mod time;
+pub mod times;
 
 pub use anatomy::{Anatomy, ArmChain, Evidence, Part, Roles, RolesError};
 pub use axes::{Axes, Axis, Convention, Direction};
 pub use clip::{Channel, Clip, ClipError};
+pub use column::Column;
+pub use curves::{Curve, Curves, TrackError};
 pub use euler::RotationOrder;
 pub use face::Face;
 pub use hand::{Finger, FingerAngles, HandAngles, Side, ThumbAngles};
 pub use interpolation::Interpolation;
+pub use markers::{Capture, Marker, Markers, Quality, Space};
 pub use pose::{ModelPose, Pose};
 pub use skeleton::{Joint, Skeleton, SkeletonError};
 pub use time::{Instant, Rate, RateError, Span, SpanError};
+pub use times::{Times, TimesError};

@@ -1,6 +1,6 @@
 //! The fast road for numbers such as `-12.345678`: eight digits at a time.
 
-use super::number::{MANTISSA_LIMIT, POW10};
+use chereme_motion::column::{MANTISSA_LIMIT, POW10};
 
 /// How many bytes from the start of a token must be there; the last tokens of a piece take the slow road.
 const REACH: usize = 48;
@@ -252,7 +252,7 @@ fn is_end(byte: u8) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::number::{Decimal, Number, parse_number};
+    use super::super::{Decimal, Number};
     use super::*;
     use proptest::prelude::*;
 
@@ -288,7 +288,7 @@ mod tests {
             let (mantissa, scale, length) = number_at(&padded(token)).expect(token);
             assert_eq!(length, token.len());
             let fast = Number::Decimal(Decimal { mantissa, scale });
-            assert_eq!(Ok(fast), parse_number(token.as_bytes()), "{token:?}");
+            assert_eq!(Ok(fast), Number::parse(token.as_bytes()), "{token:?}");
         }
     }
 
@@ -299,7 +299,7 @@ mod tests {
         fn both_roads_agree(token in "-?[0-9]{0,9}(\\.[0-9]{0,18})?([eEx,.-][0-9]?)?") {
             let fast = number_at(&padded(&token)).map(|(mantissa, scale, _)| Number::from(Decimal { mantissa, scale }));
             if let Some(fast) = fast {
-                prop_assert_eq!(Ok(fast), parse_number(token.as_bytes()));
+                prop_assert_eq!(Ok(fast), Number::parse(token.as_bytes()));
             }
         }
     }

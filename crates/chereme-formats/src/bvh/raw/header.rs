@@ -2,10 +2,9 @@
 
 use std::io::Read;
 
-use super::number::{NotANumber, parse_number};
 use super::oddity::{Oddities, Oddity};
 use super::source::{Source, is_blank, shown};
-use super::{BvhError, BvhErrorKind, Number};
+use super::{BvhError, BvhErrorKind, NotANumber, Number};
 
 /// What the header of the MOTION section says.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -141,7 +140,7 @@ fn read_count(value: &[u8], line: u64, header: &mut Header, oddities: &mut Oddit
 }
 
 fn number(value: &[u8], line: u64) -> Result<Number, BvhError> {
-    parse_number(value).map_err(|why: NotANumber| {
+    Number::parse(value).map_err(|why: NotANumber| {
         BvhErrorKind::BadNumber {
             place: "Frame Time".to_owned(),
             found: shown(value),

@@ -26,7 +26,6 @@ mod digits;
 mod error;
 mod header;
 mod hierarchy;
-mod number;
 mod oddity;
 mod parse;
 mod reader;
@@ -34,11 +33,12 @@ mod root_order;
 mod source;
 mod writer;
 
-pub use block::{Block, Column};
+pub use block::Block;
 pub use error::{BvhError, BvhErrorKind};
 pub use header::Header;
 pub use hierarchy::{Channel, Hierarchy, RawJoint};
-pub use number::{Decimal, NotANumber, Number};
 pub use reader::{Options, Reader, Summary};
 pub use root_order::ChannelFix;
 pub use writer::{WriteError, Writer};
+
+pub use chereme_motion::column::{Decimal, Decimals as Column, NotANumber, Number};

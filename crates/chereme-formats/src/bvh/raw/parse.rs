@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 use std::io::Read;
 
 use super::header::{Header, read_header};
-use super::number::parse_number;
 use super::oddity::{Oddities, Oddity};
 use super::source::{Source, is_blank, shown};
 use super::{BvhError, BvhErrorKind, Channel, Hierarchy, Number, RawJoint};
@@ -247,7 +246,7 @@ impl<R: Read> Parser<'_, R> {
                 Token::Word(word) => word,
                 other => other.shown(),
             };
-            *number = parse_number(found.as_bytes()).map_err(|why| {
+            *number = Number::parse(found.as_bytes()).map_err(|why| {
                 let place = format!("OFFSET of joint {:?}", self.hierarchy.joints[joint].name);
                 BvhErrorKind::BadNumber {
                     place,

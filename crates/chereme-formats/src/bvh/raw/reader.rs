@@ -2,8 +2,8 @@
 
 use std::io::Read;
 
+use super::block::{raise, settle};
 use super::digits::{ColumnState, TILE, read_numbers};
-use super::number::parse_number;
 use super::oddity::{Oddities, Oddity};
 use super::parse::read_head;
 use super::root_order::RootOrder;
@@ -138,7 +138,7 @@ impl<R: Read> Reader<R> {
         }
         self.spread_tile(block);
         for (column, state) in block.columns.iter_mut().zip(&mut self.columns) {
-            *state = ColumnState::new(column.settle(*state));
+            *state = ColumnState::new(settle(column, *state));
         }
         self.root_order.watch(block);
         Ok(block.frames > 0)
@@ -219,7 +219,7 @@ impl<R: Read> Reader<R> {
     fn slow_number(&mut self, block: &mut Block) -> Result<(), BvhError> {
         let line = self.source.line();
         let token = self.source.take_until(is_blank)?.to_vec();
-        let number = match parse_number(&token) {
+        let number = match Number::parse(&token) {
             Err(why) => return self.no_number(&token, why, line),
             Ok(number) => number,
         };
@@ -261,7 +261,7 @@ impl<R: Read> Reader<R> {
         if let Some((line, found)) = self.short {
             return Err(self.width_error(line, found));
         }
-        if self.source.peek()?.is_none() && parse_number(&[token, b"0"].concat()).is_ok() {
+        if self.source.peek()?.is_none() && Number::parse(&[token, b"0"].concat()).is_ok() {
             self.column_cut(line);
             return Ok(());
         }
@@ -300,7 +300,7 @@ impl<R: Read> Reader<R> {
                 *slot = fitted;
                 return;
             }
-            if decimal.scale > state.scale() && column.raise(decimal.scale, above) {
+            if decimal.scale > state.scale() && raise(column, decimal.scale, above) {
                 state.set_scale(decimal.scale);
                 *slot = decimal.mantissa;
                 return;

@@ -2,8 +2,7 @@
 
 use std::io::{self, Write};
 
-use super::number::{Decimal, push_decimal};
-use super::{Block, Hierarchy, Number};
+use super::{Block, Decimal, Hierarchy, Number};
 
 /// Columns of up to this many digits after the point are written with all of them, as exporters do; finer ones, which
 /// come from scientific notation or full precision, without zeros at the end.
@@ -134,10 +133,8 @@ impl<W: Write> Writer<W> {
                         scale: column.scale,
                     };
                     let is_fixed = column.scale <= FIXED_DIGITS;
-                    push_decimal(
-                        &mut self.text,
-                        if is_fixed { decimal } else { decimal.trimmed() },
-                    );
+                    let shown = if is_fixed { decimal } else { decimal.trimmed() };
+                    shown.push_to(&mut self.text);
                 }
             }
             self.text.push(b' ');

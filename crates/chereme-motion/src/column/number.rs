@@ -5,11 +5,11 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// The largest mantissa kept as an integer: eighteen digits.
-pub(super) const MANTISSA_LIMIT: i64 = 1_000_000_000_000_000_000;
+/// The bound of a [`Decimal`]'s mantissa, which has at most eighteen digits: |mantissa| < 10^18.
+pub const MANTISSA_LIMIT: i64 = 1_000_000_000_000_000_000;
 
 /// Powers of ten that an `i64` holds.
-pub(super) const POW10: [i64; 19] = {
+pub const POW10: [i64; 19] = {
     let mut table = [1i64; 19];
     let mut i = 1;
     while i < 19 {
@@ -63,7 +63,8 @@ impl Decimal {
     }
 
     /// Returns the same value with the scale given, `None` where digits would be lost or added beyond eighteen.
-    pub(super) fn at_scale(self, scale: u8) -> Option<i64> {
+    #[must_use]
+    pub fn at_scale(self, scale: u8) -> Option<i64> {
         if scale >= self.scale {
             let factor = *POW10.get(usize::from(scale - self.scale))?;
             self.mantissa
@@ -76,12 +77,18 @@ impl Decimal {
     }
 
     /// Returns the same value without zeros at the end.
-    pub(super) fn trimmed(mut self) -> Self {
+    #[must_use]
+    pub fn trimmed(mut self) -> Self {
         while self.scale > 0 && self.mantissa % 10 == 0 {
             self.mantissa /= 10;
             self.scale -= 1;
         }
         self
+    }
+
+    /// Appends the decimal to the text, with exactly `scale` digits after the point.
+    pub fn push_to(self, text: &mut Vec<u8>) {
+        push_decimal(text, self);
     }
 }
 
@@ -103,7 +110,7 @@ impl fmt::Display for Decimal {
 }
 
 /// Appends the decimal to the text, with exactly `scale` digits after the point.
-pub(super) fn push_decimal(text: &mut Vec<u8>, Decimal { mantissa, scale }: Decimal) {
+fn push_decimal(text: &mut Vec<u8>, Decimal { mantissa, scale }: Decimal) {
     const PAIRS: &[u8; 200] = b"0001020304050607080910111213141516171819\
 2021222324252627282930313233343536373839\
 4041424344454647484950515253545556575859\
@@ -138,7 +145,7 @@ pub(super) fn push_decimal(text: &mut Vec<u8>, Decimal { mantissa, scale }: Deci
     }
 }
 
-/// A number as a file gives it: a [`Decimal`], or the original text where that has too many digits.
+/// A number as a file gives it: a [`Decimal`], or the original text if it has too many digits.
 ///
 /// Equality is that of decimals whatever the form: `1e-3 == 0.001`, `-0 == 0`.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -157,6 +164,14 @@ impl Number {
         scale: 0,
     });
 
+    /// Returns the number that a token of a file says, such as `-1.50` or `3e-3`.
+    ///
+    /// # Errors
+    /// [`NotANumber`] for text that is no finite decimal number.
+    pub fn parse(token: &[u8]) -> Result<Self, NotANumber> {
+        parse_number(token)
+    }
+
     /// Returns the correctly rounded `f64` of the number.
     #[must_use]
     pub fn to_f64(&self) -> f64 {
@@ -167,9 +182,9 @@ impl Number {
     }
 
     /// Appends the number's text.
-    pub(super) fn push_to(&self, text: &mut Vec<u8>) {
+    pub fn push_to(&self, text: &mut Vec<u8>) {
         match self {
-            Self::Decimal(decimal) => push_decimal(text, *decimal),
+            Self::Decimal(decimal) => decimal.push_to(text),
             Self::Text(original) => text.extend_from_slice(original.as_bytes()),
         }
     }
@@ -270,7 +285,7 @@ pub enum NotANumber {
 }
 
 /// Returns the number that the token says.
-pub(super) fn parse_number(token: &[u8]) -> Result<Number, NotANumber> {
+fn parse_number(token: &[u8]) -> Result<Number, NotANumber> {
     let parts = Parts::of(token).ok_or_else(|| why_not(token))?;
     if let Some(decimal) = parts.decimal() {
         return Ok(Number::Decimal(decimal));

@@ -1,0 +1,273 @@
+//! Named scalar channels over time: face parameters, analog signals, forces, any number that is not a place.
+
+use std::collections::BTreeSet;
+
+use crate::column::Column;
+use crate::time::{Instant, Span};
+use crate::times::Times;
+
+/// One scalar channel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// The name as the file has it; unique among the curves of a track.
+    pub name: String,
+    /// The unit of the numbers, such as `rad`, `N` or `mV`; empty for a plain number or an unknown unit.
+    pub unit: String,
+    /// One number a frame.
+    pub values: Column,
+}
+
+impl Curve {
+    /// Returns a curve of plain numbers.
+    #[must_use]
+    pub fn new(name: impl Into<String>, values: Column) -> Self {
+        Self {
+            name: name.into(),
+            unit: String::new(),
+            values,
+        }
+    }
+}
+
+/// Curves with the same times: one track of scalar channels.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curves {
+    times: Times,
+    frames: usize,
+    curves: Vec<Curve>,
+}
+
+/// A reason why channels are no track.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum TrackError {
+    /// There is no channel.
+    #[error("there is no channel")]
+    Empty,
+    /// A channel has no name.
+    #[error("channel {0} has no name")]
+    Nameless(usize),
+    /// Two channels have one name.
+    #[error("two channels have the name {0:?}")]
+    Twice(String),
+    /// A channel is longer or shorter than the first.
+    #[error("the channel {name:?} has {found} frames, and {expected} were expected")]
+    Length {
+        /// The channel's name.
+        name: String,
+        /// Its frames.
+        found: usize,
+        /// The frames of the first channel.
+        expected: usize,
+    },
+    /// There are more or fewer times than frames.
+    #[error("{times} times were given for {frames} frames")]
+    Times {
+        /// The times given.
+        times: usize,
+        /// The frames of the channels.
+        frames: usize,
+    },
+    /// A point has more or fewer coordinates than its space.
+    #[error("the point {name:?} has {found} coordinates, and its space has {expected}")]
+    Coordinates {
+        /// The point's name.
+        name: String,
+        /// Its coordinates.
+        found: usize,
+        /// The coordinates of its space.
+        expected: usize,
+    },
+    /// A limb joins points that do not exist, or a point with itself.
+    #[error("a limb joins the points {from} and {to} of {points}")]
+    Limb {
+        /// Its first point.
+        from: usize,
+        /// Its second point.
+        to: usize,
+        /// The points there are.
+        points: usize,
+    },
+    /// The unit of places is not a positive number.
+    #[error("{0} is no length for a unit of places")]
+    Unit(String),
+}
+
+/// Checks the lengths of channels, and returns their frames.
+pub(crate) fn frames_of<'a>(
+    times: &Times,
+    mut channels: impl Iterator<Item = (&'a str, &'a Column)>,
+) -> Result<usize, TrackError> {
+    let (_, first) = channels.next().ok_or(TrackError::Empty)?;
+    let frames = first.len();
+    if let Some((name, odd)) = channels.find(|(_, column)| column.len() != frames) {
+        return Err(TrackError::Length {
+            name: name.to_owned(),
+            found: odd.len(),
+            expected: frames,
+        });
+    }
+    match times.frames() {
+        Some(times) if times != frames => Err(TrackError::Times { times, frames }),
+        _ => Ok(frames),
+    }
+}
+
+/// Checks that every channel has a name of its own.
+pub(crate) fn check_names<'a>(
+    names: impl Iterator<Item = (&'a str, &'a str)>,
+) -> Result<(), TrackError> {
+    let mut seen = BTreeSet::new();
+    for (at, (group, name)) in names.enumerate() {
+        if name.is_empty() {
+            return Err(TrackError::Nameless(at));
+        }
+        if !seen.insert((group, name)) {
+            return Err(TrackError::Twice(name.to_owned()));
+        }
+    }
+    Ok(())
+}
+
+impl Curves {
+    /// Returns the track of `curves`.
+    ///
+    /// # Errors
+    /// [`TrackError`] if there is no curve, names are missing or equal, or lengths differ.
+    pub fn new(times: Times, curves: Vec<Curve>) -> Result<Self, TrackError> {
+        check_names(curves.iter().map(|curve| ("", curve.name.as_str())))?;
+        let channels = curves
+            .iter()
+            .map(|curve| (curve.name.as_str(), &curve.values));
+        let frames = frames_of(&times, channels)?;
+        Ok(Self {
+            times,
+            frames,
+            curves,
+        })
+    }
+
+    /// Returns when the frames are.
+    #[must_use]
+    pub fn times(&self) -> &Times {
+        &self.times
+    }
+
+    /// Returns how many frames there are.
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        self.frames
+    }
+
+    /// Returns the time the track takes, from its own start on.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        self.times.span(self.frames)
+    }
+
+    /// Returns the curves in the order of the file.
+    #[must_use]
+    pub fn curves(&self) -> &[Curve] {
+        &self.curves
+    }
+
+    /// Returns the curve of this name; letters may be large or small if no other name fits so.
+    #[must_use]
+    pub fn curve(&self, name: &str) -> Option<&Curve> {
+        let exact = self.curves.iter().find(|curve| curve.name == name);
+        let mut alike = self
+            .curves
+            .iter()
+            .filter(|curve| curve.name.eq_ignore_ascii_case(name));
+        exact.or_else(|| alike.next().filter(|_| alike.next().is_none()))
+    }
+
+    /// Returns every curve's number at `instant`: blended between the two frames around it, that of the nearest
+    /// frame outside the track; `None` in a gap.
+    #[must_use]
+    pub fn sample(&self, instant: Instant) -> Vec<Option<f64>> {
+        let Some(last) = self.frames.checked_sub(1) else {
+            return vec![None; self.curves.len()];
+        };
+        let first = match &self.times {
+            Times::Even(rate) => {
+                let at = instant.seconds().max(0.0) * rate.per_second();
+                (at.floor() as usize).min(last)
+            }
+            Times::Listed(_) => self.times.frame_at(instant, self.frames).unwrap_or(last),
+        };
+        let second = (first + 1).min(last);
+        let (a, b) = (
+            self.times.instant(first).seconds(),
+            self.times.instant(second).seconds(),
+        );
+        let share = ((instant.seconds() - a) / (b - a)).clamp(0.0, 1.0);
+        let share = if share.is_nan() { 0.0 } else { share };
+        let blend = |curve: &Curve| {
+            let from = curve.values.value(first)?;
+            if share == 0.0 {
+                return Some(from);
+            }
+            Some(from + (curve.values.value(second)? - from) * share)
+        };
+        self.curves.iter().map(blend).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::time::Rate;
+
+    fn rate() -> Times {
+        Times::Even(Rate::new(10, 1).expect("a rate"))
+    }
+
+    #[test]
+    fn curves_are_blended_between_frames_and_stop_at_gaps() {
+        let jaw = Column::singles(vec![0.0, 1.0, f32::NAN, 0.5]);
+        let curves = Curves::new(rate(), vec![Curve::new("JawOpen", jaw)]).expect("a track");
+        let at = |seconds| curves.sample(Instant::from_seconds(seconds))[0];
+        assert_eq!(at(-1.0), Some(0.0));
+        assert!((at(0.05).expect("a number") - 0.5).abs() < 1e-12);
+        assert_eq!(
+            [at(0.1), at(0.15), at(0.2), at(0.3), at(9.0)],
+            [Some(1.0), None, None, Some(0.5), Some(0.5)]
+        );
+        assert_eq!(curves.span().seconds(), 0.4);
+        assert_eq!(
+            curves.curve("jawopen").map(|curve| curve.name.as_str()),
+            Some("JawOpen")
+        );
+        assert_eq!(curves.curve("jaw"), None);
+    }
+
+    #[test]
+    fn channels_that_are_no_track_are_refused() {
+        let curve = |name: &str, frames| Curve::new(name, Column::doubles(vec![0.0; frames]));
+        let cases = [
+            (vec![], TrackError::Empty),
+            (vec![curve("", 1)], TrackError::Nameless(0)),
+            (
+                vec![curve("a", 1), curve("a", 1)],
+                TrackError::Twice("a".into()),
+            ),
+            (
+                vec![curve("a", 2), curve("b", 1)],
+                TrackError::Length {
+                    name: "b".into(),
+                    found: 1,
+                    expected: 2,
+                },
+            ),
+        ];
+        for (curves, fault) in cases {
+            assert_eq!(Curves::new(rate(), curves), Err(fault));
+        }
+        let times = Times::listed(Column::doubles(vec![0.0, 0.5])).expect("times");
+        let fault = TrackError::Times {
+            times: 2,
+            frames: 3,
+        };
+        assert_eq!(Curves::new(times, vec![curve("a", 3)]), Err(fault));
+    }
+}

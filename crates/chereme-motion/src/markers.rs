@@ -1,0 +1,397 @@
+//! Named points over time: optical markers, and points estimated from film.
+
+use glam::{DVec2, DVec3};
+
+use crate::axes::Convention;
+use crate::column::Column;
+use crate::curves::{TrackError, check_names, frames_of};
+use crate::time::{Instant, Span};
+use crate::times::Times;
+
+/// The space in which a file gives places.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Space {
+    /// Three coordinates in a room; the convention takes them to metres in model space.
+    World(Convention),
+    /// Two coordinates on a picture: pixels to the right and *down* from its upper left corner.
+    Image(Frame),
+    /// Two coordinates on a picture, and a depth of roughly the same scale, negative toward the camera. Depths
+    /// are relative: they compare points of one frame, and are no distances in a room.
+    Depth(Frame),
+}
+
+/// The size of the picture on which points lie, in its pixels; 1 by 1 if coordinates are shares of its size.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Frame {
+    /// Pixels from left to right.
+    pub width: f64,
+    /// Pixels from top to bottom.
+    pub height: f64,
+}
+
+impl Space {
+    /// Returns how many coordinates a place has: two or three.
+    #[must_use]
+    pub fn coordinates(&self) -> usize {
+        match self {
+            Self::World(_) | Self::Depth(_) => 3,
+            Self::Image(_) => 2,
+        }
+    }
+
+    /// Returns the name of the kind of space: `world-3d`, `image-2d` or `image-2.5d`.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::World(_) => "world-3d",
+            Self::Image(_) => "image-2d",
+            Self::Depth(_) => "image-2.5d",
+        }
+    }
+
+    /// Returns a place for a picture of the points: metres in model space for a room. A picture of points stands
+    /// upright on the floor, two metres high, facing the viewer as the person in it does.
+    #[must_use]
+    pub fn shown(&self, at: DVec3) -> DVec3 {
+        let (frame, depth) = match self {
+            Self::World(convention) => return convention.point(at),
+            Self::Image(frame) => (frame, 0.0),
+            Self::Depth(frame) => (frame, at.z),
+        };
+        let scale = 2.0 / frame.height.max(f64::MIN_POSITIVE);
+        let from_centre = DVec2::new(at.x - frame.width / 2.0, frame.height - at.y) * scale;
+        DVec3::new(from_centre.x, from_centre.y, -depth * scale)
+    }
+
+    fn check(&self) -> Result<(), TrackError> {
+        let sound = |size: f64| size.is_finite() && size > 0.0;
+        let odd = match self {
+            Self::World(convention) => {
+                Some(convention.metres_per_unit).filter(|unit| !sound(*unit))
+            }
+            Self::Image(frame) | Self::Depth(frame) => [frame.width, frame.height]
+                .into_iter()
+                .find(|size| !sound(*size)),
+        };
+        odd.map_or(Ok(()), |unit| Err(TrackError::Unit(unit.to_string())))
+    }
+}
+
+/// How places came about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Capture {
+    /// Measured by cameras or sensors that see the points themselves.
+    #[default]
+    Measured,
+    /// Estimated from film by a model.
+    Estimated,
+}
+
+impl Capture {
+    /// Returns `measured` or `estimated`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Measured => "measured",
+            Self::Estimated => "estimated",
+        }
+    }
+}
+
+/// The meaning of the number that goes with a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Quality {
+    /// How far the cameras' rays miss each other, in the unit of the places; smaller is better.
+    Residual,
+    /// How sure the estimate is, from 0 to 1.
+    Confidence,
+}
+
+impl Quality {
+    /// Returns `residual` or `confidence`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Residual => "residual",
+            Self::Confidence => "confidence",
+        }
+    }
+}
+
+/// One named point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Marker {
+    /// The part of the file that it belongs to, such as the subject's prefix or `LEFT_HAND_LANDMARKS`; may be empty.
+    pub group: String,
+    /// The name as the file has it; unique within its group.
+    pub name: String,
+    /// The coordinates in the file's own numbers, two or three as the track's [`Space`] has. At a frame with a
+    /// gap in any of them the point has no place.
+    pub place: Vec<Column>,
+    /// Residual or confidence for each frame, if the file gives it.
+    pub quality: Option<Column>,
+}
+
+impl Marker {
+    /// Returns a point without a group and without quality.
+    #[must_use]
+    pub fn new(name: impl Into<String>, place: Vec<Column>) -> Self {
+        Self {
+            group: String::new(),
+            name: name.into(),
+            place,
+            quality: None,
+        }
+    }
+
+    /// Returns the place at `frame` in the file's unit and axes (the third coordinate of two is 0), `None` in a gap.
+    #[must_use]
+    pub fn at(&self, frame: usize) -> Option<DVec3> {
+        let mut at = DVec3::ZERO;
+        for (axis, column) in self.place.iter().enumerate().take(3) {
+            at[axis] = column.value(frame)?;
+        }
+        Some(at)
+    }
+}
+
+/// Points with the same times and space: one track of markers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Markers {
+    times: Times,
+    frames: usize,
+    space: Space,
+    capture: Capture,
+    quality: Option<Quality>,
+    points: Vec<Marker>,
+    limbs: Vec<[usize; 2]>,
+}
+
+impl Markers {
+    /// Returns the track of `points`, measured and without quality and limbs.
+    ///
+    /// # Errors
+    /// [`TrackError`] if there is no point, names are missing or equal, lengths differ, a point has more or fewer
+    /// coordinates than the space, or the space's unit or size is not a positive number.
+    pub fn new(times: Times, space: Space, points: Vec<Marker>) -> Result<Self, TrackError> {
+        space.check()?;
+        let names = points.iter();
+        check_names(names.map(|point| (point.group.as_str(), point.name.as_str())))?;
+        let expected = space.coordinates();
+        if let Some(odd) = points.iter().find(|point| point.place.len() != expected) {
+            return Err(TrackError::Coordinates {
+                name: odd.name.clone(),
+                found: odd.place.len(),
+                expected,
+            });
+        }
+        let channels = points.iter().flat_map(|point| {
+            let columns = point.place.iter().chain(&point.quality);
+            columns.map(|column| (point.name.as_str(), column))
+        });
+        let frames = frames_of(&times, channels)?;
+        Ok(Self {
+            times,
+            frames,
+            space,
+            capture: Capture::Measured,
+            quality: None,
+            points,
+            limbs: Vec::new(),
+        })
+    }
+
+    /// Returns the track with a note of how its places came about.
+    #[must_use]
+    pub fn captured(self, capture: Capture) -> Self {
+        Self { capture, ..self }
+    }
+
+    /// Returns the track with a note of what the points' `quality` columns say.
+    #[must_use]
+    pub fn rated(self, quality: Quality) -> Self {
+        Self {
+            quality: Some(quality),
+            ..self
+        }
+    }
+
+    /// Returns the track with limbs, pairs of numbers of points that are drawn as lines.
+    ///
+    /// # Errors
+    /// [`TrackError::Limb`] if a limb joins a point that does not exist, or a point with itself.
+    pub fn joined(self, limbs: Vec<[usize; 2]>) -> Result<Self, TrackError> {
+        let points = self.points.len();
+        let odd = limbs
+            .iter()
+            .find(|[from, to]| from == to || *from >= points || *to >= points);
+        match odd {
+            Some(&[from, to]) => Err(TrackError::Limb { from, to, points }),
+            None => Ok(Self { limbs, ..self }),
+        }
+    }
+
+    /// Returns when the frames are.
+    #[must_use]
+    pub fn times(&self) -> &Times {
+        &self.times
+    }
+
+    /// Returns how many frames there are.
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        self.frames
+    }
+
+    /// Returns the time the track takes, from its own start on.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        self.times.span(self.frames)
+    }
+
+    /// Returns the space of the places.
+    #[must_use]
+    pub fn space(&self) -> &Space {
+        &self.space
+    }
+
+    /// Returns how the places came about.
+    #[must_use]
+    pub fn capture(&self) -> Capture {
+        self.capture
+    }
+
+    /// Returns what the points' quality columns say, `None` if the file says nothing.
+    #[must_use]
+    pub fn quality(&self) -> Option<Quality> {
+        self.quality
+    }
+
+    /// Returns the points in the order of the file.
+    #[must_use]
+    pub fn points(&self) -> &[Marker] {
+        &self.points
+    }
+
+    /// Returns the pairs of points that lines join.
+    #[must_use]
+    pub fn limbs(&self) -> &[[usize; 2]] {
+        &self.limbs
+    }
+
+    /// Returns where the points are for a picture at `frame`, see [`Space::shown`]; `None` in gaps.
+    #[must_use]
+    pub fn shown(&self, frame: usize) -> Vec<Option<DVec3>> {
+        let shown = |point: &Marker| point.at(frame).map(|at| self.space.shown(at));
+        self.points.iter().map(shown).collect()
+    }
+
+    /// Returns where the points are for a picture at the frame that `instant` shows.
+    #[must_use]
+    pub fn shown_at(&self, instant: Instant) -> Vec<Option<DVec3>> {
+        match self.times.frame_at(instant, self.frames) {
+            Some(frame) => self.shown(frame),
+            None => vec![None; self.points.len()],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::time::Rate;
+
+    fn times() -> Times {
+        Times::Even(Rate::new(50, 1).expect("a rate"))
+    }
+
+    fn point(name: &str, frames: usize) -> Marker {
+        Marker::new(name, vec![Column::singles(vec![1.0; frames]); 3])
+    }
+
+    #[test]
+    fn a_point_with_a_gap_in_one_coordinate_has_no_place() {
+        let mut wrist = point("LWRA", 3);
+        wrist.place[1] = Column::singles(vec![1000.0, f32::NAN, 900.0]);
+        let convention = Convention {
+            metres_per_unit: 0.001,
+            axes: "+Y,+X".parse().expect("axes"),
+        };
+        let markers = Markers::new(
+            times(),
+            Space::World(convention),
+            vec![wrist, point("LELB", 3)],
+        )
+        .and_then(|markers| markers.joined(vec![[0, 1]]))
+        .expect("a track");
+        let places = |frame: usize| markers.shown(frame)[0].map(|at| at.y);
+        assert_eq!(
+            [places(0), places(1), places(2)],
+            [Some(1.0), None, Some(0.9)]
+        );
+        assert_eq!(
+            markers.shown_at(Instant::from_seconds(9.0)),
+            markers.shown(2)
+        );
+        assert_eq!(markers.span().micros(), 60_000);
+    }
+
+    #[test]
+    fn a_picture_stands_upright_on_the_floor() {
+        let space = Space::Depth(Frame {
+            width: 640.0,
+            height: 480.0,
+        });
+        assert_eq!(space.shown(DVec3::new(320.0, 480.0, 0.0)), DVec3::ZERO);
+        assert_eq!(
+            space.shown(DVec3::new(320.0, 0.0, -240.0)),
+            DVec3::new(0.0, 2.0, 1.0)
+        );
+        assert!(space.shown(DVec3::new(640.0, 0.0, 0.0)).x > 1.0);
+    }
+
+    #[test]
+    fn points_that_are_no_track_are_refused() {
+        let room = Space::World(Convention::MODEL);
+        let hand = |group: &str| Marker {
+            group: group.into(),
+            ..point("WRIST", 2)
+        };
+        assert!(Markers::new(times(), room, vec![hand("LEFT"), hand("RIGHT")]).is_ok());
+        assert_eq!(
+            Markers::new(times(), room, vec![hand("LEFT"), hand("LEFT")]),
+            Err(TrackError::Twice("WRIST".into()))
+        );
+        let flat = Space::Image(Frame {
+            width: 1.0,
+            height: 1.0,
+        });
+        let fault = TrackError::Coordinates {
+            name: "A".into(),
+            found: 3,
+            expected: 2,
+        };
+        assert_eq!(Markers::new(times(), flat, vec![point("A", 1)]), Err(fault));
+        let one = Markers::new(times(), room, vec![point("A", 1)]).expect("a track");
+        let fault = TrackError::Limb {
+            from: 0,
+            to: 0,
+            points: 1,
+        };
+        assert_eq!(one.joined(vec![[0, 0]]), Err(fault));
+        let mut longer = point("B", 2);
+        longer.quality = Some(Column::singles(vec![0.0; 3]));
+        assert!(matches!(
+            Markers::new(times(), room, vec![longer]),
+            Err(TrackError::Length { .. })
+        ));
+        let none = Space::World(Convention {
+            metres_per_unit: 0.0,
+            ..Convention::MODEL
+        });
+        assert!(matches!(
+            Markers::new(times(), none, vec![point("A", 1)]),
+            Err(TrackError::Unit(_))
+        ));
+    }
+}

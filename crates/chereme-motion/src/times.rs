@@ -1,0 +1,248 @@
+//! When the frames of a track are: at an even rate, or each at a time of its own.
+
+use crate::column::Column;
+use crate::time::{Instant, Rate, Span};
+
+/// The times of frames, counted from the start of their track.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Times {
+    /// Frame `n` is `n` frame times after the start.
+    Even(Rate),
+    /// Each frame has its own time.
+    Listed(Listed),
+}
+
+/// Times in seconds, exactly as the file gives them: no gaps, each later than the one before.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Listed(Column);
+
+/// A reason why numbers are no times.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TimesError {
+    /// A frame has no time.
+    #[error("frame {0} has no time")]
+    Gap(usize),
+    /// A time is not later than the one before it.
+    #[error("the time of frame {frame}, {seconds} s, is not later than that of the frame before")]
+    Order {
+        /// The frame, from 0.
+        frame: usize,
+        /// Its time.
+        seconds: f64,
+    },
+    /// A time lies more than a hundred years from the start.
+    #[error("the time of frame {frame}, {seconds} s, is out of range")]
+    Range {
+        /// The frame, from 0.
+        frame: usize,
+        /// Its time.
+        seconds: f64,
+    },
+}
+
+/// A hundred years in seconds.
+const LONGEST: f64 = 3.2e9;
+
+impl Listed {
+    /// Returns the times of a column of seconds.
+    ///
+    /// # Errors
+    /// [`TimesError`] if a frame has no time, or a time is not later than the one before.
+    pub fn new(seconds: Column) -> Result<Self, TimesError> {
+        let mut before = f64::NEG_INFINITY;
+        for (frame, time) in seconds.values().enumerate() {
+            let seconds = time.ok_or(TimesError::Gap(frame))?;
+            if seconds.abs() > LONGEST {
+                return Err(TimesError::Range { frame, seconds });
+            }
+            if seconds <= before {
+                return Err(TimesError::Order { frame, seconds });
+            }
+            before = seconds;
+        }
+        Ok(Self(seconds))
+    }
+
+    /// Returns the seconds as the file gives them.
+    #[must_use]
+    pub fn seconds(&self) -> &Column {
+        &self.0
+    }
+
+    /// Returns the even rate whose frames lie within `tolerance` seconds of the times counted from the first one,
+    /// `None` if there is no such rate or there are fewer than two times.
+    #[must_use]
+    pub fn even(&self, tolerance: f64) -> Option<Rate> {
+        let times: Vec<f64> = self.0.values().flatten().collect();
+        let (first, last) = (*times.first()?, *times.last()?);
+        let step = (last - first) / (times.len() - 1).max(1) as f64;
+        let rate = Rate::from_frame_time(step, 6).ok()?;
+        let near = |(frame, time): (usize, &f64)| {
+            (time - first - frame as f64 * rate.frame_time()).abs() <= tolerance
+        };
+        (times.len() > 1 && times.iter().enumerate().all(near)).then_some(rate)
+    }
+}
+
+impl Times {
+    /// Returns the times of a column of seconds.
+    ///
+    /// # Errors
+    /// Those of [`Listed::new`].
+    pub fn listed(seconds: Column) -> Result<Self, TimesError> {
+        Listed::new(seconds).map(Self::Listed)
+    }
+
+    /// Returns the even rate, `None` if frames have times of their own.
+    #[must_use]
+    pub fn rate(&self) -> Option<Rate> {
+        match self {
+            Self::Even(rate) => Some(*rate),
+            Self::Listed(_) => None,
+        }
+    }
+
+    /// Returns the number of frames that have a time, `None` if any number does.
+    #[must_use]
+    pub fn frames(&self) -> Option<usize> {
+        match self {
+            Self::Even(_) => None,
+            Self::Listed(listed) => Some(listed.0.len()),
+        }
+    }
+
+    /// Returns when `frame` is, rounded to the microsecond; after the last listed time that one's.
+    #[must_use]
+    pub fn instant(&self, frame: usize) -> Instant {
+        match self {
+            Self::Even(rate) => rate.instant(frame),
+            Self::Listed(Listed(seconds)) => {
+                let frame = frame.min(seconds.len().saturating_sub(1));
+                Instant::from_seconds(seconds.value(frame).unwrap_or_default())
+            }
+        }
+    }
+
+    /// Returns the frame of `frames` that `instant` shows: the last one that is not after it, else the first.
+    /// At an even rate it is the nearest one, as for a clip.
+    #[must_use]
+    pub fn frame_at(&self, instant: Instant, frames: usize) -> Option<usize> {
+        let last = frames.checked_sub(1)?;
+        Some(match self {
+            Self::Even(rate) => rate.frame_at(instant).min(last),
+            Self::Listed(_) => self.first_after(instant, frames).saturating_sub(1),
+        })
+    }
+
+    /// Returns the span that `frames` frames take: from the first to the end of the last. The last of listed
+    /// frames takes as long as the median of the others, a single one no time.
+    #[must_use]
+    pub fn span(&self, frames: usize) -> Span {
+        let Self::Listed(Listed(seconds)) = self else {
+            let Self::Even(rate) = self else {
+                return Span::default();
+            };
+            return rate.span(0..frames);
+        };
+        let Some(last) = frames.min(seconds.len()).checked_sub(1) else {
+            return Span::default();
+        };
+        let mut steps: Vec<i64> = (0..last)
+            .map(|frame| self.instant(frame + 1).micros() - self.instant(frame).micros())
+            .collect();
+        steps.sort_unstable();
+        let step = steps.get(steps.len() / 2).copied().unwrap_or_default();
+        Span::between(self.instant(0), self.instant(last).shifted(step))
+    }
+
+    /// Returns the frames of `frames` whose times lie in `span`.
+    #[must_use]
+    pub fn frames_in(&self, span: Span, frames: usize) -> std::ops::Range<usize> {
+        match self {
+            Self::Even(rate) => {
+                let range = rate.frames_in(span);
+                range.start.min(frames)..range.end.min(frames)
+            }
+            Self::Listed(_) => {
+                let before = |at: Instant| self.first_after(at.shifted(-1), frames);
+                before(span.start())..before(span.end())
+            }
+        }
+    }
+
+    /// Returns the first of `frames` that is after `instant`, `frames` if none of them is.
+    fn first_after(&self, instant: Instant, frames: usize) -> usize {
+        let (mut low, mut high) = (0, frames);
+        while low < high {
+            let middle = usize::midpoint(low, high);
+            if self.instant(middle) <= instant {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn listed(seconds: &[f64]) -> Times {
+        Times::listed(Column::doubles(seconds.to_vec())).expect("times")
+    }
+
+    #[test]
+    fn listed_times_show_the_frame_that_began_last() {
+        let times = listed(&[0.5, 0.53, 0.6, 0.63]);
+        let at = |seconds| times.frame_at(Instant::from_seconds(seconds), 4);
+        assert_eq!(
+            [at(0.0), at(0.5), at(0.52), at(0.6), at(0.62), at(9.0)],
+            [Some(0), Some(0), Some(0), Some(2), Some(2), Some(3)]
+        );
+        assert_eq!(
+            times.span(4),
+            Span::between(Instant::from_seconds(0.5), Instant::from_seconds(0.66))
+        );
+        let span = |a, b| Span::between(Instant::from_seconds(a), Instant::from_seconds(b));
+        assert_eq!(times.frames_in(span(0.5, 0.6), 4), 0..2);
+        assert_eq!(times.frames_in(span(0.51, 9.0), 4), 1..4);
+        assert_eq!(times.frame_at(Instant::ZERO, 0), None);
+        assert_eq!(listed(&[2.0]).span(1).micros(), 0);
+    }
+
+    #[test]
+    fn an_even_rate_is_found_in_times_that_keep_it() {
+        let even = |seconds: &[f64], tolerance| match listed(seconds) {
+            Times::Listed(times) => times.even(tolerance).map(Rate::frames),
+            Times::Even(_) => None,
+        };
+        let at_thirty: Vec<f64> = (0..50).map(|n| 4.0 + f64::from(n) / 30.0).collect();
+        assert_eq!(even(&at_thirty, 1e-6), Some(30));
+        let mut gap = at_thirty;
+        gap.remove(20);
+        assert_eq!(even(&gap, 1e-3), None);
+        assert_eq!(even(&[1.0], 1.0), None);
+    }
+
+    #[test]
+    fn times_out_of_order_are_refused_with_their_frame() {
+        let fault = |seconds: &[f64]| Times::listed(Column::doubles(seconds.to_vec())).err();
+        assert_eq!(fault(&[0.0, f64::NAN]), Some(TimesError::Gap(1)));
+        assert_eq!(
+            fault(&[0.0, 1.0, 1.0]),
+            Some(TimesError::Order {
+                frame: 2,
+                seconds: 1.0
+            })
+        );
+        assert_eq!(
+            fault(&[1e12]),
+            Some(TimesError::Range {
+                frame: 0,
+                seconds: 1e12
+            })
+        );
+    }
+}
