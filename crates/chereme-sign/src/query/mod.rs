@@ -48,6 +48,7 @@ mod complete;
 mod error;
 mod lex;
 mod meant;
+mod narrow;
 mod parse;
 mod pattern;
 mod print;
@@ -61,6 +62,7 @@ mod words;
 pub use complete::{Completion, Expected, complete};
 pub use error::{QueryError, unknown_value};
 pub use meant::{guessed, meant};
+pub use narrow::{facet_condition, narrow, wants, without};
 pub use pattern::Pattern;
 pub use tree::{
     At, Comparison, Example, Expr, Feature, Like, Missing, Operator, Property, Query, Related,

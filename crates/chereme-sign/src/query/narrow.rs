@@ -1,0 +1,309 @@
+//! Adding a condition to the text of a query, and taking it out again.
+
+use super::print::write_value;
+use super::tree::{Expr, Query};
+use super::{Pattern, Property, TextField};
+use crate::component::Field;
+
+/// Returns the query that wants a condition too: the written text, in parentheses if it says `or`,
+/// and the condition after it.
+///
+/// The text stays as it is written. A query that wants the condition already stays whole; a text
+/// that is no query yet gets the condition at its end, so that nothing that was typed is lost.
+///
+/// ```
+/// use chereme_sign::query::{narrow, without};
+///
+/// let narrowed = narrow("gloss=A or gloss=B", "placement==chin");
+/// assert_eq!(narrowed, "(gloss=A or gloss=B) placement==chin");
+/// assert_eq!(without(&narrowed, "placement==chin"), "gloss=A or gloss=B");
+/// ```
+#[must_use]
+pub fn narrow(query: &str, condition: &str) -> String {
+    let (query, condition) = (query.trim(), condition.trim());
+    let (Ok(whole), Ok(added)) = (Query::parse(query), Query::parse(condition)) else {
+        return format!("{query} {condition}").trim().to_owned();
+    };
+    if includes(&whole.root, &added.root) {
+        return query.to_owned();
+    }
+    let wanted = Query {
+        root: Expr::all([whole.root.clone(), added.root.clone()]),
+    };
+    let text = format!(
+        "{} {}",
+        bracketed(query, &whole.root),
+        bracketed(condition, &added.root)
+    );
+    kept(text.trim(), &wanted)
+}
+
+/// Returns the query that wants a condition no longer; the query as it is if it does not want it.
+///
+/// Only terms that must hold are taken out: the condition inside an `or` or after `not` stays.
+#[must_use]
+pub fn without(query: &str, condition: &str) -> String {
+    let query = query.trim();
+    let (Ok(whole), Ok(removed)) = (Query::parse(query), Query::parse(condition)) else {
+        return query.to_owned();
+    };
+    let removed = joined(&removed.root);
+    if removed.is_empty() || !includes(&whole.root, &Expr::And(removed.to_vec())) {
+        return query.to_owned();
+    }
+    let chars: Vec<char> = query.chars().collect();
+    let (mut left, mut gaps) = (Vec::new(), Vec::new());
+    for term in joined(&whole.root) {
+        if removed.contains(term) {
+            gaps.push(term.at());
+        } else {
+            left.push(term.clone());
+        }
+    }
+    let wanted = Query {
+        root: Expr::all(left),
+    };
+    let mut text = String::new();
+    let mut from = 0;
+    for gap in gaps {
+        let until = gap.start.clamp(from, chars.len());
+        let before: String = chars[from..until].iter().collect();
+        text.push_str(before.trim_end());
+        text.push(' ');
+        from = gap.end.clamp(until, chars.len());
+    }
+    let rest: String = chars[from..].iter().collect();
+    text.push_str(rest.trim_start());
+    let text = text.trim();
+    let opened = text
+        .strip_prefix('(')
+        .and_then(|text| text.strip_suffix(')'));
+    match opened.map(|text| (text.trim(), Query::parse(text))) {
+        Some((inner, Ok(query))) if query == wanted => inner.to_owned(),
+        _ => kept(text, &wanted),
+    }
+}
+
+/// Returns whether a query wants a condition: whether every term of it must hold.
+#[must_use]
+pub fn wants(query: &str, condition: &str) -> bool {
+    match (Query::parse(query), Query::parse(condition)) {
+        (Ok(whole), Ok(condition)) => {
+            !joined(&condition.root).is_empty() && includes(&whole.root, &condition.root)
+        }
+        _ => false,
+    }
+}
+
+/// Returns the condition that a value of a facet stands for: exactly this value of this field.
+///
+/// `both.configuration`, which a query does not name, becomes a term for each hand. A field that no
+/// query can name gives nothing.
+#[must_use]
+pub fn facet_condition(field: &str, value: &str) -> Option<String> {
+    let mut written = String::new();
+    write_value(&mut written, &Pattern::literal(value)).ok()?;
+    let (before, hand_and_after) = match field.split_once("both.") {
+        Some((before, after)) if before.is_empty() || before.ends_with('.') => {
+            (before, Some(after))
+        }
+        _ => (field, None),
+    };
+    let fields = match hand_and_after {
+        Some(after) => ["right", "left"]
+            .map(|hand| format!("{before}{hand}.{after}"))
+            .to_vec(),
+        None => vec![field.to_owned()],
+    };
+    let terms: Vec<String> = fields
+        .iter()
+        .map(|field| format!("{field}=={written}"))
+        .collect();
+    let text = terms.join(" ");
+    let simple = |name: &str| {
+        Property::ALL.iter().any(|it| it.name() == name)
+            || TextField::ALL.iter().any(|it| it.name() == name)
+    };
+    let known = fields
+        .iter()
+        .all(|field| simple(field) || field.parse::<Field>().is_ok());
+    (known && Query::parse(&text).is_ok()).then_some(text)
+}
+
+/// Returns the terms that must all hold.
+fn joined(root: &Expr) -> &[Expr] {
+    match root {
+        Expr::And(terms) => terms,
+        one => std::slice::from_ref(one),
+    }
+}
+
+fn includes(whole: &Expr, part: &Expr) -> bool {
+    let whole = joined(whole);
+    joined(part).iter().all(|term| whole.contains(term))
+}
+
+fn bracketed(text: &str, root: &Expr) -> String {
+    match root {
+        Expr::Or(_) => format!("({text})"),
+        _ => text.to_owned(),
+    }
+}
+
+/// Returns the text if it asks what is wanted, else the canonical text of that.
+fn kept(text: &str, wanted: &Query) -> String {
+    match Query::parse(text) {
+        Ok(query) if query == *wanted => text.to_owned(),
+        _ => wanted.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_condition_narrows_the_whole_query_and_leaves_it_again() {
+        for (query, condition, narrowed) in [
+            ("", "placement==chin", "placement==chin"),
+            (
+                "handshape=U",
+                "placement==chin",
+                "handshape=U placement==chin",
+            ),
+            (
+                "gloss=A or gloss=B",
+                "placement==chin",
+                "(gloss=A or gloss=B) placement==chin",
+            ),
+            ("a (b or c)", "gloss==\"X Y\"", "a (b or c) gloss==\"X Y\""),
+            (
+                "not a",
+                "right.configuration==B left.configuration==B",
+                "not a right.configuration==B left.configuration==B",
+            ),
+            (
+                "like CHAT on configuration, placement",
+                "hand==both",
+                "like CHAT on configuration, placement hand==both",
+            ),
+            ("snail", "gloss=A or gloss=B", "snail (gloss=A or gloss=B)"),
+        ] {
+            assert_eq!(narrow(query, condition), narrowed, "{query}");
+            assert!(wants(narrowed, condition), "{narrowed}");
+            // Wanted once, it is not wanted twice.
+            assert_eq!(narrow(narrowed, condition), narrowed);
+            if !condition.contains(" or ") {
+                assert_eq!(without(narrowed, condition), query, "{narrowed}");
+            }
+        }
+    }
+
+    #[test]
+    fn only_what_must_hold_is_taken_out() {
+        for (query, condition, left) in [
+            ("a placement=chin b", "placement=chin", "a b"),
+            ("a and placement=chin and b", "placement=chin", "a b"),
+            ("placement=chin", "placement=chin", ""),
+            (
+                "placement=chin or a",
+                "placement=chin",
+                "placement=chin or a",
+            ),
+            ("not placement=chin", "placement=chin", "not placement=chin"),
+            ("a not placement=chin b", "not placement=chin", "a b"),
+            ("a b", "placement=chin", "a b"),
+            ("(a placement=chin) b", "placement=chin", "(a) b"),
+            ("gloss=(", "a", "gloss=("),
+            ("é placement=chin", "placement=chin", "é"),
+        ] {
+            let text = without(query, condition);
+            let same = match (Query::parse(&text), Query::parse(left)) {
+                (Ok(found), Ok(wanted)) => found == wanted,
+                _ => text == left,
+            };
+            assert!(same, "{query} without {condition}: {text}");
+        }
+        assert!(!wants("a or b", "a") && !wants("a", "") && wants("a b", "b"));
+    }
+
+    #[test]
+    fn a_facet_is_a_condition() {
+        for (field, value, condition) in [
+            (
+                "placement",
+                "neutral space",
+                r#"placement=="neutral space""#,
+            ),
+            (
+                "initial.right.placement",
+                "chin",
+                "initial.right.placement==chin",
+            ),
+            (
+                "both.configuration",
+                "B",
+                "right.configuration==B left.configuration==B",
+            ),
+            (
+                "initial.both.placement",
+                "chin",
+                "initial.right.placement==chin initial.left.placement==chin",
+            ),
+            ("gloss", "CHAT", "gloss==CHAT"),
+            ("signer", "A*", r#"signer=="A\*""#),
+            ("hand", "both", "hand==both"),
+        ] {
+            assert_eq!(facet_condition(field, value).as_deref(), Some(condition));
+        }
+        for (field, value) in [("nothing", "x"), ("placement", ""), ("movement.a b", "x")] {
+            assert_eq!(facet_condition(field, value), None, "{field}={value}");
+        }
+    }
+
+    fn query() -> impl Strategy<Value = String> {
+        let term = prop::sample::select(vec![
+            "a",
+            "not b",
+            "placement=chin",
+            "(a or gloss=B)",
+            "handshape=U,V",
+            "overlaps gloss=C",
+            "\"x y\"",
+            "duration<1s",
+        ]);
+        let joint = prop::sample::select(vec![" ", " or ", " and "]);
+        prop::collection::vec((term, joint), 0..5).prop_map(|parts| {
+            let mut text = String::new();
+            for (at, (term, joint)) in parts.iter().enumerate() {
+                if at > 0 {
+                    text.push_str(joint);
+                }
+                text.push_str(term);
+            }
+            text
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_added_can_be_taken_out(query in query()) {
+            let narrowed = narrow(&query, "hand==weak");
+            let parsed = Query::parse(&narrowed).expect("a query");
+            let own = Query::parse(&query).expect("a query");
+            let added = Query::parse("hand==weak").expect("a query");
+            prop_assert_eq!(parsed.root, Expr::all([own.root.clone(), added.root]));
+            let again = without(&narrowed, "hand==weak");
+            prop_assert_eq!(Query::parse(&again).expect("a query"), own, "{}", narrowed);
+        }
+
+        #[test]
+        fn any_text_is_survived(query in ".{0,40}", condition in ".{0,20}") {
+            let narrowed = narrow(&query, &condition);
+            let _ = without(&narrowed, &condition);
+            let _ = wants(&query, &condition);
+            let _ = facet_condition(&query, &condition);
+        }
+    }
+}
