@@ -240,10 +240,12 @@ pub(crate) struct SourceFileRow {
     pub id: i64,
     /// The recording that it is about.
     pub recording_id: Option<i64>,
-    /// `bvh`, `eaf`, `lexicon`, `inventory` or `sigml`.
+    /// What kind of file it is, such as `bvh`, `eaf`, `lexicon`, `inventory` or `sigml`.
     pub kind: String,
     /// The file's name, without its folder.
     pub name: String,
+    /// Where it lay, seen from the folder of the corpus; nothing in corpora of earlier versions.
+    pub path: Option<String>,
     /// The SHA-256 of the file, in hexadecimal.
     pub hash: String,
 }
@@ -258,13 +260,14 @@ pub(crate) fn insert_source_file(
     let data = data.map_err(|error| Error::file(&row.name, error))?;
     connection
         .prepare_cached(
-            "INSERT INTO source_file (recording_id, kind, name, hash, data)
-             VALUES (?1, ?2, ?3, ?4, ?5)",
+            "INSERT INTO source_file (recording_id, kind, name, path, hash, data)
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6)",
         )?
         .execute(params![
             row.recording_id,
             row.kind,
             row.name,
+            row.path,
             row.hash,
             data
         ])?;
@@ -273,28 +276,32 @@ pub(crate) fn insert_source_file(
 
 /// Returns the files of a recording, oldest first.
 pub(crate) fn source_files(connection: &Connection, recording: i64) -> Result<Vec<SourceFileRow>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT id, recording_id, kind, name, hash FROM source_file
-         WHERE recording_id = ?1 ORDER BY id",
-    )?;
-    let rows = statement
-        .query_map([recording], source_file_row)?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
+    source_files_where(connection, "recording_id = ?1", recording)
 }
 
-/// Returns the file with this hash that was imported before.
+/// Returns the file with this hash that was imported first.
 pub(crate) fn source_file_hashed(
     connection: &Connection,
     hash: &str,
 ) -> Result<Option<SourceFileRow>> {
-    Ok(connection
-        .prepare_cached(
-            "SELECT id, recording_id, kind, name, hash FROM source_file
-             WHERE hash = ?1 ORDER BY id LIMIT 1",
-        )?
-        .query_row([hash], source_file_row)
-        .optional()?)
+    let rows = source_files_where(connection, "hash = ?1", hash)?;
+    Ok(rows.into_iter().next())
+}
+
+fn source_files_where(
+    connection: &Connection,
+    condition: &str,
+    value: impl rusqlite::ToSql,
+) -> Result<Vec<SourceFileRow>> {
+    let sql = format!(
+        "SELECT id, recording_id, kind, name, path, hash FROM source_file
+         WHERE {condition} ORDER BY id"
+    );
+    let mut statement = connection.prepare_cached(&sql)?;
+    let rows = statement
+        .query_map([value], source_file_row)?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
 }
 
 fn source_file_row(row: &Row<'_>) -> rusqlite::Result<SourceFileRow> {
@@ -303,7 +310,8 @@ fn source_file_row(row: &Row<'_>) -> rusqlite::Result<SourceFileRow> {
         recording_id: row.get(1)?,
         kind: row.get(2)?,
         name: row.get(3)?,
-        hash: row.get(4)?,
+        path: row.get(4)?,
+        hash: row.get(5)?,
     })
 }
 

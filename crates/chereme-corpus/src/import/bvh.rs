@@ -14,7 +14,7 @@ use sha2::{Digest, Sha256};
 use super::report::ReportFinding;
 use super::{FileReport, FileStatus, Job};
 use crate::db::motion::hex;
-use crate::db::recordings::{self, MotionTrackRow, RecordingRow, SourceFileRow};
+use crate::db::recordings::{self, MotionTrackRow, RecordingRow};
 use crate::error::{Error, Result};
 use crate::movement::{self, BLOCK_FRAMES, ChannelGroup};
 use crate::progress::{Progress, Step, Unit};
@@ -339,14 +339,7 @@ fn finish(job: &mut Job<'_>, recording: i64, track: i64, frames: u64, rate: Rate
     recordings::set_frames(job.connection, track, count)?;
     let end = rate.instant(usize::try_from(frames).unwrap_or(usize::MAX));
     recordings::lengthen(job.connection, recording, end.micros())?;
-    let row = SourceFileRow {
-        id: 0,
-        recording_id: Some(recording),
-        kind: "bvh".into(),
-        name: job.file_name.clone(),
-        hash: job.hash.clone(),
-    };
-    recordings::insert_source_file(job.connection, &row, None)?;
+    job.keep(Some(recording), None)?;
     Ok(())
 }
 

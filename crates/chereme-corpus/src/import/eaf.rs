@@ -14,10 +14,11 @@ use serde_json::json;
 
 use super::report::ReportFinding;
 use super::{FileReport, FileStatus, Job};
-use crate::db::recordings::{self, MediaTrackRow, RecordingRow, SourceFileRow};
+use crate::db::recordings::{self, MediaTrackRow, RecordingRow};
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
 use crate::inventories::{self, StoredInventory};
+use crate::progress::Progress;
 use crate::tokens;
 
 /// The properties by which a file says what its recording is.
@@ -31,7 +32,7 @@ pub(crate) const TIERS: &str = "chereme.tiers";
 /// How long after the end of the movement annotations may end without a word.
 const BEYOND: i64 = 1_000_000;
 
-pub(super) fn import(job: &mut Job<'_>) -> Result<FileReport> {
+pub(super) fn import(job: &mut Job<'_>, _progress: &mut Progress<'_>) -> Result<FileReport> {
     if is_newest(job)? {
         return Ok(FileReport::unchanged(job.path));
     }
@@ -61,14 +62,7 @@ pub(super) fn import(job: &mut Job<'_>) -> Result<FileReport> {
     tokens::derive(job.connection, recording, None, &job.inventories)?;
     let derived = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
     job.count("tokens", derived.saturating_sub(before));
-    let row = SourceFileRow {
-        id: 0,
-        recording_id: Some(recording),
-        kind: "eaf".into(),
-        name: job.file_name.clone(),
-        hash: job.hash.clone(),
-    };
-    recordings::insert_source_file(job.connection, &row, Some(&bytes))?;
+    job.keep(Some(recording), Some(&bytes))?;
     if !guesses
         .iter()
         .any(|guess| guess.role == Some(TierRole::Gloss))

@@ -4,7 +4,7 @@ use chereme_formats::lexicon;
 use chereme_sign::Inventory;
 
 use super::{FileReport, FileStatus, Job};
-use crate::db::recordings::{self, SourceFileRow};
+use crate::db::recordings;
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::progress::Progress;
@@ -23,7 +23,10 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     let text = std::str::from_utf8(&bytes).map_err(|_| wrong("the file is not UTF-8".into()))?;
     let all = match Inventory::all_from_json(text) {
         Ok(all) => all,
-        Err(_) if holds_signs(job, &bytes) => return super::lexicon::import(job, progress),
+        Err(_) if holds_signs(job, &bytes) => {
+            job.kind = "lexicon";
+            return super::lexicon::import(job, progress);
+        }
         Err(error) => return Err(wrong(error.to_string())),
     };
     let mut report = FileReport::new(job.path, FileStatus::Imported);
@@ -52,14 +55,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         "inventories",
         all.iter().map(|it| &it.id).collect::<Vec<_>>(),
     );
-    let row = SourceFileRow {
-        id: 0,
-        recording_id: None,
-        kind: "inventory".into(),
-        name: job.file_name.clone(),
-        hash: job.hash.clone(),
-    };
-    recordings::insert_source_file(job.connection, &row, Some(&bytes))?;
+    job.keep(None, Some(&bytes))?;
     Ok(report)
 }
 

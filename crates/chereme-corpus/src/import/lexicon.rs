@@ -11,7 +11,7 @@ use super::notation::{Text, Words};
 use super::report::ReportFinding;
 use super::{FileReport, FileStatus, Job};
 use crate::db::notations;
-use crate::db::recordings::{self, SourceFileRow};
+use crate::db::recordings;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::error::{Error, Result};
 use crate::inventories;
@@ -33,14 +33,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         .extend(findings.into_iter().map(ReportFinding::from));
     report.understand("columns", &table.columns);
     let inventories = store_inventories(job, &table)?;
-    let row = SourceFileRow {
-        id: 0,
-        recording_id: None,
-        kind: "lexicon".into(),
-        name: job.file_name.clone(),
-        hash: job.hash.clone(),
-    };
-    let file = recordings::insert_source_file(job.connection, &row, Some(&bytes))?;
+    let file = job.keep(None, Some(&bytes))?;
     let stored = job.inventories.clone();
     let words = Words::new(&stored);
     let total = Some(table.entries.len() as u64);

@@ -9,6 +9,7 @@ mod inventory;
 mod lexicon;
 mod notated;
 mod notation;
+mod readers;
 mod report;
 #[cfg(test)]
 mod tests;
@@ -26,11 +27,12 @@ use sha2::{Digest, Sha256};
 
 use crate::Corpus;
 use crate::db::motion::hex;
+use crate::db::recordings::{self, SourceFileRow};
 use crate::error::{Error, Result};
 use crate::inventories::{self, StoredInventory};
-use crate::notation::Form;
 use crate::progress::{Progress, Step, Unit};
 
+use readers::READERS;
 pub use report::{FileReport, FileStatus, ImportReport, ReportFinding};
 
 /// A text file larger than this is no annotation file, lexicon or inventory.
@@ -62,15 +64,6 @@ pub struct ImportOptions {
     pub dry_run: bool,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Kind {
-    Inventory,
-    Bvh,
-    Lexicon,
-    Notation(Form),
-    Eaf,
-}
-
 /// What every reader of a file needs.
 struct Job<'a> {
     connection: &'a Connection,
@@ -79,6 +72,10 @@ struct Job<'a> {
     /// The file's name without folder and extension.
     stem: String,
     file_name: String,
+    /// Where the file lies, seen from the folder of the corpus.
+    place: String,
+    /// The word for its kind in `source_file.kind`.
+    kind: &'static str,
     hash: String,
     inventories: Rc<Vec<StoredInventory>>,
     /// Recordings of this import, by folder and stem.
@@ -93,6 +90,19 @@ impl Job<'_> {
 
     fn pair_key(&self) -> PathBuf {
         self.path.with_extension("")
+    }
+
+    /// Writes down the file, with its bytes where they are kept, and returns its row.
+    fn keep(&self, recording_id: Option<i64>, bytes: Option<&[u8]>) -> Result<i64> {
+        let row = SourceFileRow {
+            id: 0,
+            recording_id,
+            kind: self.kind.to_owned(),
+            name: self.file_name.clone(),
+            path: Some(self.place.clone()),
+            hash: self.hash.clone(),
+        };
+        recordings::insert_source_file(self.connection, &row, bytes)
     }
 
     fn bytes(&self) -> Result<Vec<u8>> {
@@ -123,10 +133,18 @@ impl Corpus {
         options: &ImportOptions,
         progress: &mut Progress<'_>,
     ) -> Result<ImportReport> {
-        let files = gather(paths)?;
+        let files = gather(paths);
+        let base = absolute(self.store.path());
         let mut report = ImportReport::default();
         let run = |connection: &Connection| {
-            import_files(connection, &files, options, &mut report, progress)?;
+            let mut import = Import {
+                connection,
+                options,
+                base: base.parent().unwrap_or(Path::new("")),
+                recordings: BTreeMap::new(),
+                inventories: None,
+            };
+            import.files(&files, &mut report, progress)?;
             let summary = report.summary();
             if options.dry_run {
                 Err(Error::Stopped)
@@ -143,124 +161,139 @@ impl Corpus {
     }
 }
 
-fn import_files(
-    connection: &Connection,
-    files: &[(PathBuf, Option<Kind>)],
-    options: &ImportOptions,
-    report: &mut ImportReport,
-    progress: &mut Progress<'_>,
-) -> Result<()> {
-    let mut recordings = BTreeMap::new();
-    let mut inventories = None;
-    let mut small = 0;
-    for (path, kind) in files {
-        let Some(kind) = kind else {
-            report.files.push(FileReport::skipped(path));
-            continue;
-        };
-        let mut created = report.created.clone();
-        if matches!(kind, Kind::Notation(_)) {
-            tell_small(&mut small, files, progress)?;
-        }
-        connection.execute_batch("SAVEPOINT file")?;
-        let done = import_file(
-            connection,
-            path,
-            *kind,
-            options,
-            Known {
-                recordings: &mut recordings,
-                created: &mut created,
-                inventories: &mut inventories,
-            },
-            progress,
-        );
-        // Only files of notation add no inventory.
-        if !matches!(kind, Kind::Notation(_)) {
-            inventories = None;
-        }
-        match done {
-            Ok(file) => {
-                connection.execute_batch("RELEASE file")?;
-                report.created = created;
-                report.files.push(file);
-            }
-            Err(Error::Stopped) => return Err(Error::Stopped),
-            Err(error) => {
-                connection.execute_batch("ROLLBACK TO file; RELEASE file")?;
-                report.files.push(FileReport::refused(path, &error));
-            }
-        }
-    }
-    report.complete = true;
-    Ok(())
-}
-
-/// Tells how many of many small files are done.
-fn tell_small(
-    done: &mut u64,
-    files: &[(PathBuf, Option<Kind>)],
-    progress: &mut Progress<'_>,
-) -> Result<()> {
-    if done.is_multiple_of(64) {
-        let small = files
-            .iter()
-            .filter(|(_, kind)| matches!(kind, Some(Kind::Notation(_))));
-        progress.tell(Step {
-            task: "notation",
-            done: *done,
-            total: Some(small.count() as u64),
-            unit: Unit::Items,
-        })?;
-    }
-    *done += 1;
-    Ok(())
+/// A file to take in, or the reason why it is none.
+struct Candidate {
+    path: PathBuf,
+    /// Its place in [`READERS`], or why it is not read.
+    reader: std::result::Result<usize, Error>,
+    /// Whether the caller named it, instead of a folder that it lies in.
+    named: bool,
 }
 
 /// What the files of an import share.
-struct Known<'a> {
-    recordings: &'a mut BTreeMap<PathBuf, i64>,
-    created: &'a mut BTreeMap<&'static str, u64>,
-    inventories: &'a mut Option<Rc<Vec<StoredInventory>>>,
+struct Import<'a> {
+    connection: &'a Connection,
+    options: &'a ImportOptions,
+    /// The folder of the corpus.
+    base: &'a Path,
+    recordings: BTreeMap<PathBuf, i64>,
+    inventories: Option<Rc<Vec<StoredInventory>>>,
 }
 
-fn import_file(
-    connection: &Connection,
-    path: &Path,
-    kind: Kind,
-    options: &ImportOptions,
-    known: Known<'_>,
-    progress: &mut Progress<'_>,
-) -> Result<FileReport> {
-    let text = |part: Option<&std::ffi::OsStr>| {
-        part.map(|part| part.to_string_lossy().into_owned())
-            .unwrap_or_default()
-    };
-    let inventories = match known.inventories {
-        Some(loaded) => loaded.clone(),
-        None => known
-            .inventories
-            .insert(Rc::new(inventories::load(connection)?))
-            .clone(),
-    };
-    let mut job = Job {
-        connection,
-        options,
-        path,
-        stem: text(path.file_stem()),
-        file_name: text(path.file_name()),
-        hash: hash_file(path, progress)?,
-        inventories,
-        recordings: known.recordings,
-        created: known.created,
-    };
-    match kind {
-        Kind::Bvh => bvh::import(&mut job, progress),
-        Kind::Eaf => eaf::import(&mut job),
-        Kind::Lexicon => lexicon::import(&mut job, progress),
-        Kind::Notation(form) => notated::import(&mut job, form),
-        Kind::Inventory => inventory::import(&mut job, progress),
+impl Import<'_> {
+    fn files(
+        &mut self,
+        files: &[Candidate],
+        report: &mut ImportReport,
+        progress: &mut Progress<'_>,
+    ) -> Result<()> {
+        let connection = self.connection;
+        let mut before = [0; READERS.len()];
+        let total = |reader| {
+            files
+                .iter()
+                .filter(move |it| it.reader.as_ref().is_ok_and(|it| *it == reader))
+        };
+        for Candidate {
+            path,
+            reader,
+            named,
+        } in files
+        {
+            let reader = match reader {
+                Ok(reader) => *reader,
+                Err(error) if *named => {
+                    report.files.push(FileReport::refused(path, error));
+                    continue;
+                }
+                Err(error) => {
+                    report.files.push(FileReport::skipped(path, error));
+                    continue;
+                }
+            };
+            progress.tell(Step {
+                task: READERS[reader].holds,
+                done: before[reader],
+                total: Some(total(reader).count() as u64),
+                unit: Unit::Items,
+            })?;
+            before[reader] += 1;
+            let mut created = report.created.clone();
+            connection.execute_batch("SAVEPOINT file")?;
+            match self.file(path, reader, &mut created, progress) {
+                Ok(file) => {
+                    connection.execute_batch("RELEASE file")?;
+                    report.created = created;
+                    report.files.push(file);
+                }
+                Err(Error::Stopped) => return Err(Error::Stopped),
+                Err(error) => {
+                    connection.execute_batch("ROLLBACK TO file; RELEASE file")?;
+                    // What it had loaded or added is no more.
+                    self.inventories = None;
+                    report.files.push(FileReport::refused(path, &error));
+                }
+            }
+        }
+        report.complete = true;
+        Ok(())
     }
+
+    fn file(
+        &mut self,
+        path: &Path,
+        reader: usize,
+        created: &mut BTreeMap<&'static str, u64>,
+        progress: &mut Progress<'_>,
+    ) -> Result<FileReport> {
+        let text = |part: Option<&std::ffi::OsStr>| {
+            part.map(|part| part.to_string_lossy().into_owned())
+                .unwrap_or_default()
+        };
+        let inventories = match &self.inventories {
+            Some(loaded) => loaded.clone(),
+            None => inventories::load(self.connection)?.into(),
+        };
+        let mut job = Job {
+            connection: self.connection,
+            options: self.options,
+            path,
+            stem: text(path.file_stem()),
+            file_name: text(path.file_name()),
+            place: place(&absolute(path), self.base),
+            kind: READERS[reader].kind,
+            hash: hash_file(path, progress)?,
+            inventories: inventories.clone(),
+            recordings: &mut self.recordings,
+            created,
+        };
+        let done = (READERS[reader].read)(&mut job, progress)?;
+        // Files that add inventories make the next one load them again.
+        let same = Rc::ptr_eq(&job.inventories, &inventories) && READERS[reader].keeps_inventories;
+        self.inventories = same.then_some(inventories);
+        Ok(done)
+    }
+}
+
+/// Returns a path from the root, links and `..` resolved, where it is there.
+fn absolute(path: &Path) -> PathBuf {
+    fs::canonicalize(path)
+        .or_else(|_| std::path::absolute(path))
+        .unwrap_or_else(|_| path.to_owned())
+}
+
+/// Returns where a file lies, seen from a folder: `A/x.eaf`, or `../A/x.eaf`, with `/` on every system.
+/// On another drive it is the whole path.
+fn place(path: &Path, folder: &Path) -> String {
+    let (own, base): (Vec<_>, Vec<_>) =
+        (path.components().collect(), folder.components().collect());
+    let shared = own.iter().zip(&base).take_while(|(a, b)| a == b).count();
+    let up = if shared == 0 { 0 } else { base.len() - shared };
+    let names = own[shared..]
+        .iter()
+        .map(|it| it.as_os_str().to_string_lossy());
+    let parts: Vec<_> = std::iter::repeat_n("..".into(), up).chain(names).collect();
+    parts.join("/")
 }
 
 fn hash_file(path: &Path, progress: &mut Progress<'_>) -> Result<String> {
@@ -289,81 +322,72 @@ fn hash_file(path: &Path, progress: &mut Progress<'_>) -> Result<String> {
     }
 }
 
-/// Returns the files to read in the order to read them: inventories, movement, lexicons, notation,
-/// annotations.
-fn gather(paths: &[PathBuf]) -> Result<Vec<(PathBuf, Option<Kind>)>> {
+/// Returns the files in the order in which [`READERS`] reads them, those that are not read first.
+fn gather(paths: &[PathBuf]) -> Vec<Candidate> {
     let mut files = Vec::new();
     for path in paths {
-        let fault = |error| Error::file(path, error);
-        if fs::metadata(path).map_err(fault)?.is_dir() {
-            walk(path, 0, &mut files)?;
-        } else {
-            match kind(path) {
-                Some(kind) => files.push((path.clone(), Some(kind))),
-                None => return Err(unknown_kind(path)),
-            }
+        match fs::metadata(path) {
+            Ok(found) if found.is_dir() => walk(path, 0, &mut files),
+            Ok(_) => files.push(Candidate {
+                path: path.clone(),
+                reader: readers::reader(path).ok_or_else(|| readers::unread(path)),
+                named: true,
+            }),
+            Err(error) => files.push(Candidate::broken(path, error)),
         }
     }
-    files.sort();
-    files.dedup();
-    files.sort_by_key(|(_, kind)| *kind);
-    Ok(files)
+    files.sort_by(|a, b| (&a.path, b.named).cmp(&(&b.path, a.named)));
+    files.dedup_by(|a, b| a.path == b.path);
+    files.sort_by_key(|it| it.reader.as_ref().ok().copied());
+    files
 }
 
-/// Returns the refusal of a file that was named, with what can be done with one of its kind.
-fn unknown_kind(path: &Path) -> Error {
-    let extension = path.extension().unwrap_or_default().to_string_lossy();
-    let remedy = match extension.to_lowercase().as_str() {
-        "txt" => {
-            "a .txt holds HamNoSys, a sign a line: the gloss, a tab, and symbols or their names"
+impl Candidate {
+    /// Returns what cannot be read at all, which the import does not pass over in silence.
+    fn broken(path: &Path, error: std::io::Error) -> Self {
+        Self {
+            path: path.to_owned(),
+            reader: Err(Error::file(path, error)),
+            named: true,
         }
-        "xml" => "an .xml holds SiGML: its root is <sigml>",
-        "textgrid" => "open it in ELAN (File, Import, Praat TextGrid) and save it as .eaf",
-        "etf" => {
-            "a template holds no annotations; save it in ELAN as .eaf, then: annotate add-tiers --like"
-        }
-        "pfsx" | "ecv" => "import the .eaf beside it; this file goes with it",
-        "fbx" | "c3d" | "trc" | "glb" | "gltf" | "vrm" => {
-            "movement is read from .bvh, which Blender, MotionBuilder and most capture software export"
-        }
-        _ => {
-            "files end in .bvh (movement), .eaf (annotations), .csv, .tsv, .json (lexicons, inventories), .sigml, .hns or .txt (notation)"
-        }
-    };
-    Error::wrong("this kind of file is not known")
-        .at(path.display().to_string())
-        .advise(remedy)
+    }
 }
 
-fn walk(folder: &Path, depth: usize, files: &mut Vec<(PathBuf, Option<Kind>)>) -> Result<()> {
-    let fault = |error| Error::file(folder, error);
+fn walk(folder: &Path, depth: usize, files: &mut Vec<Candidate>) {
     if depth > DEEPEST_FOLDER {
-        return Ok(());
+        let deep = Error::wrong(format!("it lies {depth} folders deep"))
+            .at(folder.display().to_string())
+            .advise("import it by its own name");
+        files.push(Candidate {
+            path: folder.to_owned(),
+            reader: Err(deep),
+            named: true,
+        });
+        return;
     }
-    for entry in fs::read_dir(folder).map_err(fault)? {
-        let path = entry.map_err(fault)?.path();
+    let entries = match fs::read_dir(folder) {
+        Ok(entries) => entries,
+        Err(error) => return files.push(Candidate::broken(folder, error)),
+    };
+    for entry in entries {
+        let path = match entry {
+            Ok(entry) => entry.path(),
+            Err(error) => return files.push(Candidate::broken(folder, error)),
+        };
         let hidden = path
             .file_name()
             .is_some_and(|name| name.to_string_lossy().starts_with('.'));
         if path.is_dir() {
             if !hidden && !path.is_symlink() {
-                walk(&path, depth + 1, files)?;
+                walk(&path, depth + 1, files);
             }
         } else if !hidden {
-            let kind = kind(&path);
-            files.push((path, kind));
+            let reader = readers::reader(&path).ok_or_else(|| readers::unread(&path));
+            files.push(Candidate {
+                path,
+                reader,
+                named: false,
+            });
         }
-    }
-    Ok(())
-}
-
-fn kind(path: &Path) -> Option<Kind> {
-    let extension = path.extension()?.to_string_lossy().to_lowercase();
-    match extension.as_str() {
-        "bvh" => Some(Kind::Bvh),
-        "eaf" => Some(Kind::Eaf),
-        "csv" | "tsv" => Some(Kind::Lexicon),
-        "json" => Some(Kind::Inventory),
-        _ => Form::of(path).map(Kind::Notation),
     }
 }

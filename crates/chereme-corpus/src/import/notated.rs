@@ -10,12 +10,23 @@ use super::notation::{Words, document, lost};
 use super::report::ReportFinding;
 use super::{FileReport, FileStatus, Job};
 use crate::db::notations::{self, NotationRow};
-use crate::db::recordings::{self, SourceFileRow};
+use crate::db::recordings;
 use crate::db::signs::{self, TokenRow};
 use crate::error::Result;
 use crate::notation::{self, Form};
+use crate::progress::Progress;
 
-pub(super) fn import(job: &mut Job<'_>, form: Form) -> Result<FileReport> {
+/// Reads a file of SiGML.
+pub(super) fn import_sigml(job: &mut Job<'_>, _: &mut Progress<'_>) -> Result<FileReport> {
+    import(job, Form::Sigml)
+}
+
+/// Reads a file of lines of HamNoSys.
+pub(super) fn import_lines(job: &mut Job<'_>, _: &mut Progress<'_>) -> Result<FileReport> {
+    import(job, Form::Lines)
+}
+
+fn import(job: &mut Job<'_>, form: Form) -> Result<FileReport> {
     if recordings::source_file_hashed(job.connection, &job.hash)?.is_some() {
         return Ok(FileReport::unchanged(job.path));
     }
@@ -26,18 +37,7 @@ pub(super) fn import(job: &mut Job<'_>, form: Form) -> Result<FileReport> {
         .findings
         .extend(findings.into_iter().map(ReportFinding::from));
     let earlier = notations::of_file(job.connection, &job.file_name)?;
-    let row = SourceFileRow {
-        id: 0,
-        recording_id: None,
-        kind: match form {
-            Form::Sigml => "sigml",
-            Form::Lines => "lexicon",
-        }
-        .to_owned(),
-        name: job.file_name.clone(),
-        hash: job.hash.clone(),
-    };
-    let file = recordings::insert_source_file(job.connection, &row, Some(&bytes))?;
+    let file = job.keep(None, Some(&bytes))?;
     let inventories = job.inventories.clone();
     let words = Words::new(&inventories);
     let mut place = Place {

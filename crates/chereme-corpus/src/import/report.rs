@@ -121,8 +121,16 @@ impl FileReport {
         }
     }
 
-    pub(super) fn skipped(path: &Path) -> Self {
-        Self::new(path, FileStatus::Skipped)
+    /// Returns that a file was left alone, and why.
+    pub(super) fn skipped(path: &Path, why: &Error) -> Self {
+        let mut report = Self::new(path, FileStatus::Skipped);
+        report.findings.push(ReportFinding {
+            severity: "note",
+            line: None,
+            message: why.to_string(),
+            remedy: why.remedy(),
+        });
+        report
     }
 
     pub(super) fn unchanged(path: &Path) -> Self {

@@ -1,0 +1,224 @@
+//! The kinds of files that an import knows: those that it reads, and those that it can only name.
+//!
+//! Another format is a module with a reading function and a line in [`READERS`].
+
+use std::path::Path;
+
+use super::{FileReport, Job, bvh, eaf, inventory, lexicon, notated};
+use crate::error::{Error, Result};
+use crate::notation::Form;
+use crate::progress::Progress;
+
+/// A kind of file that the corpus takes in.
+pub(super) struct Reader {
+    /// The endings of such files' names, in lower case, without the dot.
+    pub(super) endings: &'static [&'static str],
+    /// The word for the kind in `source_file.kind`.
+    pub(super) kind: &'static str,
+    /// What such files hold, in the plural.
+    pub(super) holds: &'static str,
+    /// Whether a file with one of these endings is of this kind, where the ending alone does not decide.
+    looks: fn(&Path) -> bool,
+    /// Whether such files never add an inventory, so that the next one need not load them again.
+    pub(super) keeps_inventories: bool,
+    /// Reads a file into the corpus.
+    pub(super) read: fn(&mut Job<'_>, &mut Progress<'_>) -> Result<FileReport>,
+}
+
+/// The kinds in the order in which an import reads them: annotations come last, so that they find
+/// their recordings and the values that they use.
+pub(super) static READERS: [Reader; 6] = [
+    Reader {
+        endings: &["json"],
+        kind: "inventory",
+        holds: "inventories or signs",
+        looks: always,
+        keeps_inventories: false,
+        read: inventory::import,
+    },
+    Reader {
+        endings: &["bvh"],
+        kind: "bvh",
+        holds: "movement",
+        looks: always,
+        keeps_inventories: true,
+        read: bvh::import,
+    },
+    Reader {
+        endings: &["csv", "tsv"],
+        kind: "lexicon",
+        holds: "lexicons",
+        looks: always,
+        keeps_inventories: false,
+        read: lexicon::import,
+    },
+    Reader {
+        endings: &["sigml", "hsigml", "xml"],
+        kind: "sigml",
+        holds: "notation",
+        looks: |path| Form::of(path) == Some(Form::Sigml),
+        keeps_inventories: true,
+        read: notated::import_sigml,
+    },
+    Reader {
+        endings: &["hns", "txt"],
+        kind: "lexicon",
+        holds: "notation",
+        looks: |path| Form::of(path) == Some(Form::Lines),
+        keeps_inventories: true,
+        read: notated::import_lines,
+    },
+    Reader {
+        endings: &["eaf"],
+        kind: "eaf",
+        holds: "annotations",
+        looks: always,
+        keeps_inventories: false,
+        read: eaf::import,
+    },
+];
+
+fn always(_: &Path) -> bool {
+    true
+}
+
+/// A kind of file that people have next to those that are read.
+struct Unread {
+    endings: &'static [&'static str],
+    /// What such a file is.
+    what: &'static str,
+    /// What to do to have what is in it.
+    remedy: &'static str,
+}
+
+const MEDIA: &str = "import the .eaf that names it, or link it: chereme media";
+
+static UNREAD: [Unread; 10] = [
+    Unread {
+        endings: &["txt"],
+        what: "text without HamNoSys",
+        remedy: "a .txt holds HamNoSys, a sign a line: the gloss, a tab, and symbols or their names",
+    },
+    Unread {
+        endings: &["xml"],
+        what: "XML without SiGML",
+        remedy: "an .xml holds SiGML: its root is <sigml>",
+    },
+    Unread {
+        endings: &["textgrid"],
+        what: "annotations of Praat",
+        remedy: "open it in ELAN (File, Import, Praat TextGrid) and save it as .eaf",
+    },
+    Unread {
+        endings: &["etf"],
+        what: "a template of ELAN, without annotations",
+        remedy: "save it in ELAN as .eaf, then: annotate add-tiers --like",
+    },
+    Unread {
+        endings: &["pfsx", "ecv"],
+        what: "settings or vocabularies of ELAN",
+        remedy: "import the .eaf next to it; this file goes with it",
+    },
+    Unread {
+        endings: &["fbx", "c3d", "trc", "glb", "gltf", "vrm"],
+        what: "movement in a form that is not read",
+        remedy: "movement is read from .bvh, which Blender, MotionBuilder and most capture software export",
+    },
+    Unread {
+        endings: &["mp4", "mov", "avi", "mpg", "mpeg", "webm", "mkv"],
+        what: "film",
+        remedy: MEDIA,
+    },
+    Unread {
+        endings: &["wav", "mp3"],
+        what: "sound",
+        remedy: MEDIA,
+    },
+    Unread {
+        endings: &["png", "jpg", "jpeg", "gif"],
+        what: "pictures",
+        remedy: MEDIA,
+    },
+    Unread {
+        endings: &["chereme"],
+        what: "a corpus",
+        remedy: "export its files with `chereme export`, and import those",
+    },
+];
+
+/// Returns the place in [`READERS`] of the kind of a file, where it is one that is read.
+pub(super) fn reader(path: &Path) -> Option<usize> {
+    let ending = ending(path)?;
+    READERS
+        .iter()
+        .position(|it| it.endings.contains(&ending.as_str()) && (it.looks)(path))
+}
+
+/// Returns the ending of a file's name in lower case, without the dot.
+pub(super) fn ending(path: &Path) -> Option<String> {
+    Some(path.extension()?.to_string_lossy().to_lowercase())
+}
+
+/// Returns what a file of a kind that is not read is, and what to do to have what is in it.
+pub(super) fn unread(path: &Path) -> Error {
+    let ending = ending(path).unwrap_or_default();
+    let known = UNREAD
+        .iter()
+        .find(|it| it.endings.contains(&ending.as_str()));
+    let (message, remedy) = match known {
+        Some(known) => (format!("it holds {}", known.what), known.remedy.to_owned()),
+        None => ("this kind of file is not known".to_owned(), endings()),
+    };
+    Error::wrong(message)
+        .at(path.display().to_string())
+        .advise(remedy)
+}
+
+/// Lists the endings that are read, with what such files hold.
+fn endings() -> String {
+    let mut kinds: Vec<(&str, Vec<String>)> = Vec::new();
+    for reader in &READERS {
+        let dotted = reader.endings.iter().map(|it| format!(".{it}"));
+        match kinds.iter_mut().find(|(holds, _)| *holds == reader.holds) {
+            Some((_, all)) => all.extend(dotted),
+            None => kinds.push((reader.holds, dotted.collect())),
+        }
+    }
+    let kinds: Vec<String> = kinds
+        .into_iter()
+        .map(|(holds, all)| format!("{} ({holds})", all.join(", ")))
+        .collect();
+    format!("files that are read end in {}", kinds.join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_ending_is_of_one_kind_and_annotations_are_read_last() {
+        let mut all: Vec<&str> = READERS.iter().flat_map(|it| it.endings).copied().collect();
+        let many = all.len();
+        all.sort_unstable();
+        all.dedup();
+        assert_eq!(all.len(), many);
+        assert_eq!(READERS.last().map(|it| it.kind), Some("eaf"));
+        assert_eq!(reader(Path::new("A/TAKE.EAF")), Some(READERS.len() - 1));
+        assert_eq!(reader(Path::new("a.docx")), None);
+    }
+
+    #[test]
+    fn what_is_not_read_is_named_with_a_remedy() {
+        for (name, said) in [
+            ("a.etf", "template"),
+            ("a.GLB", "movement"),
+            ("a.docx", "not known"),
+            ("noending", "not known"),
+        ] {
+            let error = unread(Path::new(name));
+            assert!(error.to_string().contains(said), "{error}");
+            assert!(error.remedy().is_some(), "{name}");
+        }
+        assert!(endings().contains(".csv, .tsv (lexicons)"), "{}", endings());
+    }
+}
