@@ -10,6 +10,7 @@ mod around;
 mod check;
 pub(crate) mod codec;
 mod contents;
+mod cue;
 mod curves;
 pub(crate) mod db;
 mod details;
@@ -65,6 +66,7 @@ pub use chereme_compose::Curve;
 pub use contents::{
     AnnotationColumns, Contents, Overview, RecordingGlance, SignGlance, TierContents, ValueState,
 };
+pub use cue::{CueKey, CueKeys, KeysOptions, SpokenWord, cue_keys};
 pub use db::recordings::{MediaTrackRow, RecordingRow, SignerRow};
 pub use db::signs::TokenRow;
 pub use db::tiers::TierRow;

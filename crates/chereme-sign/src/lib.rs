@@ -36,9 +36,11 @@
 //! | [`token`] | what the tiers around a gloss say about it |
 //! | [`query`] | the query language |
 //! | [`hamnosys`] | signs as notation: the tree that HamNoSys and SiGML write down |
+//! | [`cue`] | cued speech: codes as data, phones to keys, French text to phones |
 //! | [`text`] | folding of case and accents, and what was probably meant |
 
 pub mod component;
+pub mod cue;
 pub mod hamnosys;
 pub mod inventory;
 pub mod query;

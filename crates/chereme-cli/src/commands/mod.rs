@@ -7,6 +7,7 @@ mod demo;
 mod export;
 mod history;
 mod import;
+mod keys;
 mod list;
 mod new;
 mod recombine;
@@ -45,6 +46,7 @@ pub(crate) enum Command {
     Score(score::Args),
     Suggest(suggest::Args),
     Transcribe(transcribe::Args),
+    Keys(keys::Args),
     Check(check::Args),
     Export(export::Args),
     Undo(history::UndoArgs),
@@ -68,6 +70,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Score(args) => score::run(cli, args, output).map_err(offer_force),
         Command::Suggest(args) => suggest::run(cli, args, output),
         Command::Transcribe(args) => transcribe::run(cli, args, output),
+        Command::Keys(args) => keys::run(cli, args, output),
         Command::Search(args) => search::run(cli, args, output),
         Command::Recombine(args) => recombine::run(cli, args, output),
         Command::Animate(args) => animate::run(cli, args, output),

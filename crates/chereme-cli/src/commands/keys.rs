@@ -1,0 +1,119 @@
+//! `chereme keys`.
+
+use anyhow::Result;
+use chereme_corpus::{CueKey, KeysOptions, cue_keys};
+use chereme_sign::cue::Alphabet;
+use chereme_sign::cue::french::{Options, Schwa};
+use clap::ValueEnum;
+
+use crate::args::Cli;
+use crate::output::Output;
+
+/// Print the keys of cued speech for a text or for phones
+///
+/// A key is a handshape and a placement: the shape stands for a consonant, the placement for a vowel.
+/// French text is read by rules of spelling; phones are separated by blanks, and `#` is a pause.
+///
+/// `--json` gives "code", "words" ("text", "phones"), "keys" ("shape", "placement", "or_placement" if the
+/// vowel is uncertain, "phones" in SAMPA, "start_us", "vowel_us", "end_us": null without --pace) and
+/// "findings".
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme keys 'le chat dort'
+  chereme keys 'b ɔ̃ ʒ u ʁ' --phones ipa
+  chereme keys 'bonjour à tous' --pace 1.6 --json
+  chereme keys 'h aU s' --phones sampa --code english-us")]
+pub(crate) struct Args {
+    /// The text, or the phones separated by blanks
+    text: String,
+    /// Read the input as phones in this alphabet
+    #[arg(long, value_enum, value_name = "ALPHABET")]
+    phones: Option<AlphabetWord>,
+    /// Read the input as text (the default)
+    #[arg(long = "text", conflicts_with = "phones")]
+    as_text: bool,
+    /// The code: french or english-us
+    #[arg(long, default_value = "french")]
+    code: String,
+    /// A habit of some cuers, such as schwa-as-eu; may be repeated
+    #[arg(long = "variant", value_name = "NAME")]
+    variants: Vec<String>,
+    /// Leave silent last consonants silent before a vowel
+    #[arg(long)]
+    no_liaison: bool,
+    /// When an e at the end of a word is said
+    #[arg(long, value_enum, default_value = "usual")]
+    schwa: SchwaWord,
+    /// Give keys times: phones last as usual times FACTOR, from 0.1 to 10; people who cue need about 1.6
+    #[arg(long, value_name = "FACTOR")]
+    pace: Option<f64>,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum AlphabetWord {
+    Sampa,
+    Ipa,
+    Mfa,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum SchwaWord {
+    Usual,
+    Dropped,
+    Said,
+}
+
+impl Args {
+    fn options(&self) -> KeysOptions {
+        KeysOptions {
+            code: self.code.clone(),
+            phones: self.phones.map(|word| match word {
+                AlphabetWord::Sampa => Alphabet::Sampa,
+                AlphabetWord::Ipa => Alphabet::Ipa,
+                AlphabetWord::Mfa => Alphabet::Mfa,
+            }),
+            variants: self.variants.clone(),
+            french: Options {
+                liaison: !self.no_liaison,
+                schwa: match self.schwa {
+                    SchwaWord::Usual => Schwa::Usual,
+                    SchwaWord::Dropped => Schwa::Dropped,
+                    SchwaWord::Said => Schwa::Said,
+                },
+            },
+            pace: self.pace,
+        }
+    }
+}
+
+pub(super) fn run(_: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let found = cue_keys(&args.text, &args.options())?;
+    for word in &found.words {
+        output.line(format!("{}: {}", word.text, word.phones.join(" ")))?;
+    }
+    let rows: Vec<Vec<String>> = found.keys.iter().map(row).collect();
+    output.table(&["shape", "placement", "phones", "seconds"], &rows)?;
+    for finding in &found.findings {
+        output.line(finding)?;
+    }
+    output.document(found)
+}
+
+fn row(key: &CueKey) -> Vec<String> {
+    let seconds = |micros: i64| micros as f64 / 1e6;
+    let times = key
+        .start_us
+        .zip(key.end_us)
+        .map(|(start, end)| format!("{:.2}-{:.2}", seconds(start), seconds(end)));
+    let place = match &key.or_placement {
+        Some(other) => format!("{} or {other}", key.placement),
+        None => key.placement.clone(),
+    };
+    vec![
+        key.shape.to_string(),
+        place,
+        key.phones.join(" "),
+        times.unwrap_or_default(),
+    ]
+}

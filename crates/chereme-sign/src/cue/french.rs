@@ -1,0 +1,397 @@
+//! French text to phones, by rules of spelling and a list of words (`schema/cues/french-spelling.json`).
+//!
+//! Liaison and the schwa between words are switches of [`Options`]; uncertain mid vowels are marked.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::LazyLock;
+
+use regex::Regex;
+use serde::Deserialize;
+
+use super::CueFinding;
+
+/// How to pronounce what spelling leaves open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Options {
+    /// Whether a silent last consonant is said before a vowel, as in *les amis*.
+    pub liaison: bool,
+    /// When an *e* at the end of a word is said.
+    pub schwa: Schwa,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            liaison: true,
+            schwa: Schwa::Usual,
+        }
+    }
+}
+
+/// When an *e* at the end of a word is said.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Schwa {
+    /// Never.
+    Dropped,
+    /// Between two consonants such as *tr* and a consonant of the next word, as in *maître corbeau*.
+    #[default]
+    Usual,
+    /// Before every consonant, as in verse.
+    Said,
+}
+
+/// The pronunciation of a text.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Spoken {
+    /// The words in the order of the text; pauses are words without letters.
+    pub words: Vec<Word>,
+    /// What could not be read.
+    pub findings: Vec<CueFinding>,
+}
+
+/// A word and how it is said.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Word {
+    /// The letters as written, in lower case; empty for a pause.
+    pub text: String,
+    /// The phones in SAMPA; `#` for a pause.
+    pub phones: Vec<String>,
+    /// The positions of phones in `phones` that speakers say in two ways: mid vowels before the last syllable.
+    pub doubtful: Vec<usize>,
+}
+
+impl Spoken {
+    /// Returns the phones of all words.
+    pub fn phones(&self) -> impl Iterator<Item = &str> {
+        self.words
+            .iter()
+            .flat_map(|word| word.phones.iter().map(String::as_str))
+    }
+}
+
+/// Returns how French `text` is said.
+#[must_use]
+pub fn phones(text: &str, options: Options) -> Spoken {
+    let rules = &*RULES;
+    let mut spoken = Spoken::default();
+    for written in split(text) {
+        match written {
+            Written::Pause => spoken.words.push(Word {
+                phones: vec!["#".to_owned()],
+                ..Word::default()
+            }),
+            Written::Word(text) => {
+                let word = rules.word(text, &mut spoken.findings);
+                spoken.words.push(word);
+            }
+            Written::Other(text) => spoken.findings.push(CueFinding::NotAWord { text }),
+        }
+    }
+    for at in 1..spoken.words.len() {
+        let (before, after) = spoken.words.split_at_mut(at);
+        let (word, next) = (&mut before[at - 1], &after[0]);
+        rules.join(word, next, options);
+    }
+    spoken
+}
+
+enum Written {
+    Word(String),
+    Pause,
+    Other(String),
+}
+
+/// Splits text at blanks, hyphens, apostrophes and punctuation; an apostrophe stays with its word.
+fn split(text: &str) -> Vec<Written> {
+    let mut parts = Vec::new();
+    let mut word = String::new();
+    let lower = text.to_lowercase();
+    for letter in lower.chars().chain([' ']) {
+        let letter = if letter == '’' { '\'' } else { letter };
+        if letter.is_alphabetic() || letter == '\'' {
+            word.push(letter);
+            if letter != '\'' || RULES.words.contains_key(whole_with(&word, &lower).as_str()) {
+                continue;
+            }
+        }
+        if word.trim_matches('\'') != "" {
+            parts.push(Written::Word(std::mem::take(&mut word)));
+        }
+        word.clear();
+        if letter.is_numeric() {
+            match parts.last_mut() {
+                Some(Written::Other(number)) => number.push(letter),
+                _ => parts.push(Written::Other(letter.to_string())),
+            }
+        } else if matches!(
+            letter,
+            ',' | '.' | ';' | ':' | '!' | '?' | '…' | '—' | '(' | ')' | '\n'
+        ) && !matches!(parts.last(), None | Some(Written::Pause))
+        {
+            parts.push(Written::Pause);
+        }
+    }
+    parts
+}
+
+/// Returns the known word with an apostrophe inside that `begun` may become, such as *aujourd'hui*.
+fn whole_with(begun: &str, text: &str) -> String {
+    let known = |word: &&String| {
+        word.contains('\'')
+            && word.starts_with(begun)
+            && text.replace('’', "'").contains(word.as_str())
+    };
+    RULES.words.keys().find(known).cloned().unwrap_or_default()
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(rename = "about")]
+    _about: String,
+    vowels: String,
+    consonants: String,
+    nasal_ent: String,
+    #[serde(rename = "er_is_ER")]
+    er_is_said: Vec<String>,
+    elided: BTreeMap<String, String>,
+    words: BTreeMap<String, String>,
+    liaison: BTreeMap<String, Vec<String>>,
+    loses_nasal: BTreeMap<String, String>,
+    aspirated_h: BTreeSet<String>,
+    rules: Vec<Vec<String>>,
+}
+
+struct Rule {
+    left: Regex,
+    letters: String,
+    right: Regex,
+    phones: Vec<String>,
+    verb_ending: bool,
+}
+
+struct Rules {
+    vowels: String,
+    nasal_ent: Option<Regex>,
+    er_is_said: BTreeSet<String>,
+    elided: BTreeMap<String, String>,
+    words: BTreeMap<String, String>,
+    liaison: BTreeMap<String, String>,
+    loses_nasal: BTreeMap<String, String>,
+    aspirated_h: BTreeSet<String>,
+    /// By their first letter, in the order of the file.
+    by_letter: BTreeMap<char, Vec<Rule>>,
+}
+
+static RULES: LazyLock<Rules> = LazyLock::new(|| {
+    let text = include_str!("../../../../schema/cues/french-spelling.json");
+    serde_json::from_str(text).map_or_else(|_| Rules::empty(), Rules::of)
+});
+
+impl Rules {
+    fn empty() -> Self {
+        Self {
+            vowels: String::new(),
+            nasal_ent: None,
+            er_is_said: BTreeSet::new(),
+            elided: BTreeMap::new(),
+            words: BTreeMap::new(),
+            liaison: BTreeMap::new(),
+            loses_nasal: BTreeMap::new(),
+            aspirated_h: BTreeSet::new(),
+            by_letter: BTreeMap::new(),
+        }
+    }
+
+    fn of(file: File) -> Self {
+        let mut rules = Self::empty();
+        for row in &file.rules {
+            let Some((rule, first)) = rule(row, &file) else {
+                continue;
+            };
+            rules.by_letter.entry(first).or_default().push(rule);
+        }
+        for (sound, words) in file.liaison {
+            for word in words {
+                rules.liaison.insert(word, sound.clone());
+            }
+        }
+        rules.nasal_ent = Regex::new(&file.nasal_ent).ok();
+        rules.er_is_said = file.er_is_said.into_iter().collect();
+        rules.vowels = file.vowels;
+        rules.elided = file.elided;
+        rules.words = file.words;
+        rules.loses_nasal = file.loses_nasal;
+        rules.aspirated_h = file.aspirated_h;
+        rules
+    }
+
+    fn word(&self, text: String, findings: &mut Vec<CueFinding>) -> Word {
+        let split = |phones: &str| phones.split_whitespace().map(str::to_owned).collect();
+        if let Some(phones) = self.words.get(&text) {
+            return Word {
+                phones: split(phones),
+                text,
+                doubtful: Vec::new(),
+            };
+        }
+        if let Some(phones) = text.strip_suffix('\'').and_then(|it| self.elided.get(it)) {
+            return Word {
+                phones: split(phones),
+                text,
+                doubtful: Vec::new(),
+            };
+        }
+        let phones = self.spell(&text, findings);
+        Word {
+            doubtful: doubtful(&phones),
+            phones,
+            text,
+        }
+    }
+
+    /// Applies the rules to a word from left to right.
+    fn spell(&self, word: &str, findings: &mut Vec<CueFinding>) -> Vec<String> {
+        let marked = format!("#{word}#");
+        let mut phones: Vec<String> = Vec::new();
+        let mut at = 1;
+        while let Some(letter) = marked[at..].chars().next() {
+            if at + 1 == marked.len() {
+                break;
+            }
+            let (left, rest) = marked.split_at(at);
+            let fits = |rule: &&Rule| {
+                rest.strip_prefix(rule.letters.as_str())
+                    .is_some_and(|right| rule.left.is_match(left) && rule.right.is_match(right))
+            };
+            let of_letter = self.by_letter.get(&letter);
+            let Some(rule) = of_letter.and_then(|rules| rules.iter().find(fits)) else {
+                if of_letter.is_none() && letter != '\'' {
+                    findings.push(CueFinding::UnknownLetter {
+                        letter,
+                        word: word.to_owned(),
+                    });
+                }
+                at += letter.len_utf8();
+                continue;
+            };
+            at += rule.letters.len();
+            let is_nasal = self.nasal_ent.as_ref().is_some_and(|it| it.is_match(word));
+            if rule.verb_ending && is_nasal {
+                phones.push("A~".to_owned());
+            } else {
+                phones.extend(rule.phones.iter().cloned());
+            }
+        }
+        if word.ends_with("er") && self.er_is_said.contains(word) {
+            phones.pop();
+            phones.extend(["E".to_owned(), "R".to_owned()]);
+        }
+        if let Some(last) = phones.last_mut().filter(|last| *last == "O") {
+            "o".clone_into(last);
+        }
+        phones
+    }
+
+    /// Adds to a word what the next one asks for: a linking consonant, or a schwa.
+    fn join(&self, word: &mut Word, next: &Word, options: Options) {
+        if next.text.is_empty() || word.text.is_empty() {
+            return;
+        }
+        if self.begins_with_vowel(next) {
+            if !options.liaison {
+                return;
+            }
+            if let Some(phones) = self.loses_nasal.get(&word.text) {
+                word.phones = phones.split(' ').map(str::to_owned).collect();
+            }
+            if let Some(sound) = self.liaison.get(&word.text) {
+                if sound == "z" && word.phones.last().is_some_and(|last| last == "s") {
+                    word.phones.pop();
+                }
+                if word.phones.last() != Some(sound) {
+                    word.phones.push(sound.clone());
+                }
+            }
+            return;
+        }
+        let silent_e = word.text.ends_with('e') || word.text.ends_with("es");
+        let mut last = word.phones.iter().rev();
+        let (Some(end), Some(before)) = (last.next(), last.next()) else {
+            return;
+        };
+        let is_vowel = |phone: &str| "aAeEiouOyYU29@".contains(&phone[..1]);
+        let cluster = ["l", "R"].contains(&end.as_str())
+            && ["p", "b", "t", "d", "k", "g", "f", "v"].contains(&before.as_str());
+        let says = match options.schwa {
+            Schwa::Dropped => false,
+            Schwa::Usual => cluster,
+            Schwa::Said => true,
+        };
+        if silent_e && says && !is_vowel(end) {
+            word.phones.push("@".to_owned());
+        }
+    }
+
+    fn begins_with_vowel(&self, word: &Word) -> bool {
+        if self.aspirated_h.contains(&word.text) {
+            return false;
+        }
+        let mut letters = word.text.chars();
+        match (letters.next(), letters.next()) {
+            (Some('h'), _) => true,
+            (Some('y'), Some(second)) => !self.vowels.contains(second) || word.text == "yeux",
+            (Some(first), _) => self.vowels.contains(first),
+            _ => false,
+        }
+    }
+}
+
+/// Reads a row of the file; V and C stand for the letters of the file.
+fn rule(row: &[String], file: &File) -> Option<(Rule, char)> {
+    let [left, letters, right, phones, ..] = row else {
+        return None;
+    };
+    let expand = |pattern: &str| {
+        let mut whole = String::new();
+        let mut inside = false;
+        for letter in pattern.chars() {
+            match letter {
+                '[' => inside = true,
+                ']' => inside = false,
+                _ => {}
+            }
+            match letter {
+                'V' if inside => whole.push_str(&file.vowels),
+                'C' if inside => whole.push_str(&file.consonants),
+                'V' => whole.push_str(&format!("[{}]", file.vowels)),
+                'C' => whole.push_str(&format!("[{}]", file.consonants)),
+                '#' => whole.push_str(r"\#"),
+                _ => whole.push(letter),
+            }
+        }
+        whole
+    };
+    let rule = Rule {
+        left: Regex::new(&format!("(?:{})$", expand(left))).ok()?,
+        right: Regex::new(&format!("^(?:{})", expand(right))).ok()?,
+        letters: letters.clone(),
+        phones: phones.split_whitespace().map(str::to_owned).collect(),
+        verb_ending: row.len() > 4,
+    };
+    let first = letters.chars().next()?;
+    Some((rule, first))
+}
+
+/// Returns the positions of mid vowels before the last vowel of a word.
+fn doubtful(phones: &[String]) -> Vec<usize> {
+    let is_vowel = |phone: &String| {
+        let nasal = phone.ends_with('~');
+        nasal
+            || ["a", "A", "e", "E", "i", "o", "O", "u", "y", "2", "9", "@"]
+                .contains(&phone.as_str())
+    };
+    let is_mid = |phone: &String| ["e", "E", "o", "O", "2", "9"].contains(&phone.as_str());
+    let last = phones.iter().rposition(is_vowel).unwrap_or(0);
+    (0..last).filter(|at| is_mid(&phones[*at])).collect()
+}

@@ -1,0 +1,252 @@
+//! Cued speech: the keys that a hand shows beside the face while a person speaks.
+//!
+//! A [`CueCode`] says which handshape stands for which consonants and which placement for which
+//! vowels. [`CueCode::keys`] turns phones into keys; [`french::phones`] turns French text into phones.
+//! Codes are data under `schema/cues`.
+//!
+//! Keys follow Gibert et al. (2004): from the left, a consonant and the vowel after it share one key;
+//! a vowel without a consonant takes the shape of [`CueCode::vowel_alone`], a consonant without a
+//! vowel the placement of [`CueCode::consonant_alone`]. A pause breaks such pairs; syllables and words
+//! do not.
+
+mod code;
+pub mod french;
+#[cfg(test)]
+mod tests;
+
+pub use code::{
+    Alphabet, CueCode, CuePlacement, CueShape, CueVariant, UnknownVariant, code, codes,
+};
+
+use std::ops::Range;
+
+use chereme_motion::Span;
+
+/// One phone of an utterance, as its source wrote it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Phone {
+    /// The symbol, in the alphabet of the source.
+    pub label: String,
+    /// When the phone sounds, if the source says so.
+    pub span: Option<Span>,
+}
+
+impl Phone {
+    /// Returns a phone without times.
+    #[must_use]
+    pub fn new(label: impl Into<String>) -> Self {
+        Self {
+            label: label.into(),
+            span: None,
+        }
+    }
+}
+
+/// One key: a handshape at a placement, for a consonant, a vowel, or both.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Key {
+    /// The number of the handshape.
+    pub shape: u8,
+    /// The name of the placement, such as `mouth`.
+    pub placement: String,
+    /// The phones of the key in the code's own symbols, a consonant before a vowel.
+    pub phones: Vec<String>,
+    /// The positions of those phones in the input.
+    pub from: Vec<usize>,
+    /// From the start of the first phone to the end of the last, if both are known.
+    pub span: Option<Span>,
+    /// When the vowel begins, for a key of a consonant and a vowel with times.
+    pub vowel: Option<Span>,
+    /// The placement that another pronunciation of an uncertain vowel would have.
+    pub or_at: Option<String>,
+}
+
+/// Something odd about phones that were read in spite of it.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum CueFinding {
+    /// A symbol that the code does not know; it has no key.
+    #[error("phone {position} {label:?} is not in the code {code:?}; it has no key")]
+    UnknownPhone {
+        /// The position in the input, from 1.
+        position: usize,
+        /// The symbol.
+        label: String,
+        /// The code.
+        code: String,
+    },
+    /// Two phones that overlap in time or stand in the wrong order.
+    #[error("phone {position} {label:?} begins before the phone before it ends")]
+    Overlap {
+        /// The position in the input, from 1.
+        position: usize,
+        /// The symbol.
+        label: String,
+    },
+    /// A letter that no rule of pronunciation knows.
+    #[error("{letter:?} in {word:?} is silent: no rule of pronunciation knows it")]
+    UnknownLetter {
+        /// The letter.
+        letter: char,
+        /// The word that holds it.
+        word: String,
+    },
+    /// A number or another sign that text to phones does not read.
+    #[error("{text:?} was left out; write it in words")]
+    NotAWord {
+        /// The sign.
+        text: String,
+    },
+}
+
+/// What a phone is to a code.
+enum Sound {
+    Consonant(u8),
+    /// The placements that a vowel passes; a diphthong has two.
+    Vowel(Vec<String>),
+    Pause,
+}
+
+/// A phone in the code's own symbols, with where it came from.
+struct Heard {
+    symbol: String,
+    at: usize,
+    sound: Sound,
+}
+
+impl CueCode {
+    /// Returns the keys of phones written in `alphabet`, and the phones that have no key.
+    #[must_use]
+    pub fn keys(&self, phones: &[Phone], alphabet: Alphabet) -> (Vec<Key>, Vec<CueFinding>) {
+        let (heard, findings) = self.hear(phones, alphabet);
+        let mut keys = Vec::new();
+        let mut at = 0;
+        while let Some(first) = heard.get(at) {
+            at += 1;
+            match &first.sound {
+                Sound::Pause => {}
+                Sound::Vowel(_) => self.vowel_keys(self.vowel_alone, &heard, at - 1..at, &mut keys),
+                Sound::Consonant(shape) => match heard.get(at) {
+                    Some(next) if matches!(next.sound, Sound::Vowel(_)) => {
+                        at += 1;
+                        self.vowel_keys(*shape, &heard, at - 2..at, &mut keys);
+                    }
+                    _ => keys.push(key(*shape, &self.consonant_alone, &heard[at - 1..at])),
+                },
+            }
+        }
+        for key in &mut keys {
+            self.set_times(key, phones);
+        }
+        (keys, findings)
+    }
+
+    /// Adds the keys of `sounds`, whose last one is a vowel: two keys for a diphthong.
+    fn vowel_keys(&self, shape: u8, heard: &[Heard], sounds: Range<usize>, keys: &mut Vec<Key>) {
+        let end = sounds.end;
+        let sounds = &heard[sounds];
+        let Some(Heard {
+            symbol,
+            sound: Sound::Vowel(path),
+            ..
+        }) = sounds.last()
+        else {
+            return;
+        };
+        let is_last = heard
+            .get(end)
+            .is_none_or(|next| matches!(next.sound, Sound::Pause));
+        let moved = self.final_placements.get(symbol).filter(|_| is_last);
+        let Some((first, rest)) = path.split_first() else {
+            return;
+        };
+        keys.push(key(shape, moved.unwrap_or(first), sounds));
+        for place in rest {
+            keys.push(key(self.vowel_alone, place, &sounds[sounds.len() - 1..]));
+        }
+    }
+
+    /// Translates phones into the code's symbols.
+    fn hear(&self, phones: &[Phone], alphabet: Alphabet) -> (Vec<Heard>, Vec<CueFinding>) {
+        let (mut heard, mut findings) = (Vec::with_capacity(phones.len()), Vec::new());
+        let mut end = None;
+        for (at, phone) in phones.iter().enumerate() {
+            if let Some(span) = phone.span {
+                if end.is_some_and(|end| span.start() < end) {
+                    findings.push(CueFinding::Overlap {
+                        position: at + 1,
+                        label: phone.label.clone(),
+                    });
+                }
+                end = Some(span.end());
+            }
+            match self.symbols(&phone.label, alphabet) {
+                Some(symbols) => {
+                    for symbol in symbols {
+                        if let Some(sound) = self.sound(&symbol) {
+                            heard.push(Heard { symbol, at, sound });
+                        }
+                    }
+                }
+                None => {
+                    findings.push(CueFinding::UnknownPhone {
+                        position: at + 1,
+                        label: phone.label.clone(),
+                        code: self.id.clone(),
+                    });
+                    heard.push(Heard {
+                        symbol: "#".to_owned(),
+                        at,
+                        sound: Sound::Pause,
+                    });
+                }
+            }
+        }
+        (heard, findings)
+    }
+
+    fn sound(&self, symbol: &str) -> Option<Sound> {
+        if self.is_pause(symbol) {
+            return Some(Sound::Pause);
+        }
+        if let Some(shape) = self.shape_of(symbol) {
+            return Some(Sound::Consonant(shape.number));
+        }
+        self.path_of(symbol).map(Sound::Vowel)
+    }
+
+    /// Gives a key its span, and the vowel's own.
+    fn set_times(&self, key: &mut Key, phones: &[Phone]) {
+        let spans: Vec<Span> = key
+            .from
+            .iter()
+            .filter_map(|at| phones.get(*at)?.span)
+            .collect();
+        if spans.len() != key.from.len() {
+            return;
+        }
+        let (Some(first), Some(last)) = (spans.first(), spans.last()) else {
+            return;
+        };
+        if first.start() > last.end() {
+            return;
+        }
+        key.span = Some(Span::between(first.start(), last.end()));
+        key.vowel = key
+            .phones
+            .last()
+            .is_some_and(|symbol| self.shape_of(symbol).is_none())
+            .then_some(*last);
+    }
+}
+
+fn key(shape: u8, placement: &str, heard: &[Heard]) -> Key {
+    Key {
+        shape,
+        placement: placement.to_owned(),
+        phones: heard.iter().map(|phone| phone.symbol.clone()).collect(),
+        from: heard.iter().map(|phone| phone.at).collect(),
+        span: None,
+        vowel: None,
+        or_at: None,
+    }
+}

@@ -1,0 +1,283 @@
+use super::*;
+
+/// Keys of phones in SAMPA as `shape-placement`, with findings as `!`.
+fn keys_of(code_name: &str, sampa: &str) -> String {
+    let code = code(code_name).expect("a code of the program");
+    let phones: Vec<Phone> = sampa.split_whitespace().map(Phone::new).collect();
+    let (keys, findings) = code.keys(&phones, Alphabet::Sampa);
+    let mut words: Vec<String> = keys
+        .iter()
+        .map(|key| format!("{}-{}", key.shape, key.placement))
+        .collect();
+    words.extend(findings.iter().map(|_| "!".to_owned()));
+    words.join(" ")
+}
+
+#[test]
+fn every_code_that_comes_with_the_program_is_read_whole() {
+    let ids: Vec<&str> = codes().iter().map(|code| code.id.as_str()).collect();
+    assert_eq!(ids, ["french", "english-us"]);
+    for code in codes() {
+        assert!(code.shape(code.vowel_alone).is_some());
+        assert!(code.placement(&code.consonant_alone).is_some());
+        for table in code.alphabets.values() {
+            for sounds in table.values() {
+                for sound in sounds.split(' ') {
+                    let known = code.shape_of(sound).is_some() || code.path_of(sound).is_some();
+                    assert!(known, "{}: {sound:?} has no key", code.id);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn consonants_and_vowels_share_keys_as_charts_print_them() {
+    let cases = [
+        ("french", "", ""),
+        ("french", "#", ""),
+        ("french", "p", "1-side"),
+        ("french", "a", "5-side"),
+        ("french", "p a", "1-side"),
+        ("french", "b O~", "4-mouth"),
+        ("french", "p # a", "1-side 5-side"),
+        ("french", "p p a", "1-side 1-side"),
+        ("french", "s p R a", "3-side 1-side 3-side"),
+        ("french", "p j e", "1-side 8-throat"),
+        ("french", "f i j", "5-mouth 8-side"),
+        ("french", "l H i", "6-side 4-mouth"),
+        ("french", "fp a", "5-side"),
+        ("french", "m a X a", "5-side 5-side !"),
+        ("french", "tS i", "5-side 6-mouth"),
+        (
+            "english-us",
+            "m aI h aU s",
+            "5-side 5-throat 3-side 5-throat 3-side",
+        ),
+        ("english-us", "j i: s t", "8-mouth 3-side 5-side"),
+        ("english-us", "dZ V dZ", "7-side-down 7-side"),
+        ("english-us", "k @U v", "2-side-forward 2-side"),
+    ];
+    for (code, sampa, expected) in cases {
+        assert_eq!(keys_of(code, sampa), expected, "{code}: {sampa}");
+    }
+}
+
+#[test]
+fn three_alphabets_say_the_same_keys() {
+    let french = code("fr").expect("French");
+    let say = |text: &str, alphabet| {
+        let phones: Vec<Phone> = text.split_whitespace().map(Phone::new).collect();
+        let (keys, findings) = french.keys(&phones, alphabet);
+        assert_eq!(findings, [], "{text}");
+        let plain: Vec<(u8, String)> = keys
+            .into_iter()
+            .map(|it| (it.shape, it.placement))
+            .collect();
+        plain
+    };
+    let sampa = say("k i l a m O~ t R e # tS E k", Alphabet::Sampa);
+    assert_eq!(sampa, say("k i l a m ɔ̃ t ʁ e | tʃ ɛ k", Alphabet::Ipa));
+    assert_eq!(sampa, say("c i l a mʲ ɔ̃ t ʁ e sil tʃ ɛː k", Alphabet::Mfa));
+}
+
+#[test]
+fn variants_move_what_they_name_and_nothing_else() {
+    let french = code("french").expect("French");
+    let usual = |code: &CueCode, phone: &str| {
+        let (keys, _) = code.keys(&[Phone::new(phone)], Alphabet::Sampa);
+        format!("{}-{}", keys[0].shape, keys[0].placement)
+    };
+    let other = french
+        .with_variants(&["schwa-as-eu", "closed-thumb-alone"])
+        .expect("variants of the code");
+    assert_eq!(usual(french, "@"), "5-side");
+    assert_eq!(usual(&other, "@"), "4-cheek");
+    assert_eq!(usual(&other, "9~"), "4-throat");
+    let error = french
+        .with_variants(&["nonsense"])
+        .expect_err("no such variant");
+    assert!(error.to_string().contains("un-as-in"), "{error}");
+    let english = code("english-us").expect("American");
+    let throat = english
+        .with_variants(&["final-ee-at-throat"])
+        .expect("a variant");
+    let phones: Vec<Phone> = "h { p i:".split(' ').map(Phone::new).collect();
+    let (keys, _) = throat.keys(&phones, Alphabet::Sampa);
+    assert_eq!(keys[1].placement, "throat");
+}
+
+#[test]
+fn keys_have_the_times_of_their_phones() {
+    use chereme_motion::Instant;
+    let at = |from, to| {
+        Some(Span::between(
+            Instant::from_millis(from),
+            Instant::from_millis(to),
+        ))
+    };
+    let phone = |label: &str, span| Phone {
+        label: label.to_owned(),
+        span,
+    };
+    let phones = [
+        phone("p", at(0, 80)),
+        phone("a", at(80, 200)),
+        phone("t", at(150, 300)),
+        phone("i", None),
+    ];
+    let french = code("french").expect("French");
+    let (keys, findings) = french.keys(&phones, Alphabet::Sampa);
+    assert_eq!(keys[0].span, at(0, 200));
+    assert_eq!(keys[0].vowel, at(80, 200));
+    assert_eq!(keys[1].span, None, "one phone has no time");
+    assert_eq!(
+        findings,
+        [CueFinding::Overlap {
+            position: 3,
+            label: "t".to_owned()
+        }]
+    );
+}
+
+fn said(text: &str, options: french::Options) -> String {
+    let spoken = french::phones(text, options);
+    let phones: Vec<&str> = spoken.phones().collect();
+    phones.join(" ")
+}
+
+#[test]
+fn french_spelling_is_read_by_rules_lists_and_neighbours() {
+    let usual = french::Options::default();
+    let cases = [
+        ("oiseau", "w a z o"),
+        ("parlent", "p a R l"),
+        ("content", "k O~ t A~"),
+        ("grenouille", "g R @ n u j"),
+        ("aujourd'hui", "o Z u R d H i"),
+        ("les amis", "l e z a m i"),
+        ("les héros", "l e e R o"),
+        ("bon ami", "b O n a m i"),
+        ("dix ans", "d i z A~"),
+        ("Maître corbeau", "m E t R @ k O R b o"),
+        ("quatre amis", "k a t R a m i"),
+        ("l’été", "l e t e"),
+        ("oui, non", "w i # n O~"),
+    ];
+    for (text, expected) in cases {
+        assert_eq!(said(text, usual), expected, "{text}");
+    }
+    let plain = french::Options {
+        liaison: false,
+        schwa: french::Schwa::Dropped,
+    };
+    assert_eq!(said("les amis", plain), "l e a m i");
+    assert_eq!(said("maître corbeau", plain), "m E t R k O R b o");
+}
+
+#[test]
+fn what_is_no_french_word_is_reported() {
+    let spoken = french::phones("12 чат", french::Options::default());
+    let reported: Vec<String> = spoken.findings.iter().map(ToString::to_string).collect();
+    assert_eq!(reported[0], "\"12\" was left out; write it in words");
+    assert!(reported[1].contains("'ч'"), "{reported:?}");
+}
+
+#[test]
+fn uncertain_mid_vowels_are_marked() {
+    let spoken = french::phones("maison", french::Options::default());
+    assert_eq!(spoken.words[0].doubtful, [1]);
+}
+
+/// Rows of a table of expected values, cell by cell.
+fn rows(table: &str) -> impl Iterator<Item = Vec<&str>> {
+    let lines = table.lines().filter(|line| !line.starts_with('#'));
+    lines.map(|line| line.split('\t').collect())
+}
+
+#[test]
+fn every_published_key_comes_out_exact_in_sampa_and_ipa() {
+    let mut wrong = Vec::new();
+    for row in rows(include_str!("vectors.tsv")) {
+        let [name, _, sampa, ipa, expected] = row[..] else {
+            panic!("a row of five cells: {row:?}");
+        };
+        let plain = |keys: Vec<Key>| {
+            let words = keys
+                .iter()
+                .map(|key| format!("{}-{}", key.shape, key.placement));
+            words.collect::<Vec<String>>().join(" ")
+        };
+        let code = code(name).expect("a code");
+        for (text, alphabet) in [(sampa, Alphabet::Sampa), (ipa, Alphabet::Ipa)] {
+            if alphabet == Alphabet::Ipa && name != "french" {
+                continue;
+            }
+            let phones: Vec<Phone> = text.split_whitespace().map(Phone::new).collect();
+            let found = plain(code.keys(&phones, alphabet).0);
+            if found != expected {
+                wrong.push(format!("{text}: {found}, not {expected}"));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn words_are_spelled_out_as_the_rules_say() {
+    let mut wrong = Vec::new();
+    for row in rows(include_str!("spelling.tsv")) {
+        let found = said(row[0], french::Options::default());
+        if found != row[1] {
+            wrong.push(format!("{}: {found}, not {}", row[0], row[1]));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn sentences_from_text_have_almost_the_keys_of_a_careful_hand() {
+    let french = code("french").expect("French");
+    let (mut errors, mut all, mut lines) = (0, 0, Vec::new());
+    for row in rows(include_str!("vectors.tsv")) {
+        if row[0] != "french" || !row[1].ends_with(['.', '?']) {
+            continue;
+        }
+        let spoken = french::phones(row[1], french::Options::default());
+        let phones: Vec<Phone> = spoken.phones().map(Phone::new).collect();
+        let (keys, _) = french.keys(&phones, Alphabet::Sampa);
+        let found: Vec<String> = keys
+            .iter()
+            .map(|key| format!("{}-{}", key.shape, key.placement))
+            .collect();
+        let expected: Vec<&str> = row[4].split(' ').collect();
+        let off = edits(&found, &expected);
+        errors += off;
+        all += expected.len();
+        if off > 0 {
+            lines.push(format!(
+                "{off}: {} -> {:?}",
+                row[1],
+                spoken.phones().collect::<Vec<_>>().join(" ")
+            ));
+        }
+    }
+    assert_eq!(all, 191, "the keys of twelve sentences");
+    assert!(errors <= 2, "{errors} of {all} keys\n{}", lines.join("\n"));
+}
+
+/// Returns how many insertions, deletions and substitutions lead from one list to the other.
+fn edits(a: &[String], b: &[&str]) -> usize {
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, left) in a.iter().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, right) in b.iter().enumerate() {
+            let above = row[j + 1];
+            let change = diagonal + usize::from(left != right);
+            row[j + 1] = change.min(above + 1).min(row[j] + 1);
+            diagonal = above;
+        }
+    }
+    row[b.len()]
+}
