@@ -7,7 +7,9 @@ pub mod hns;
 pub mod lexicon;
 pub mod roles;
 pub mod sigml;
+pub mod subtitles;
 pub mod table;
 mod tally;
+pub mod textgrid;
 
 pub use finding::{Finding, Severity};

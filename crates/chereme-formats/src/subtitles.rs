@@ -1,0 +1,319 @@
+//! Subtitles: SubRip (`.srt`) and WebVTT (`.vtt`).
+//!
+//! A file of either kind becomes one tier; the voices of WebVTT (`<v Anna>`) become tiers of their own with
+//! the voice as participant. Styles, notes and positions are left out and reported.
+
+#[cfg(test)]
+mod tests;
+
+use std::fmt::Write as _;
+
+use chereme_motion::{Instant, Span};
+
+use crate::eaf::convert::{Annotation, Tier, Timing, Transcript};
+use crate::finding::Finding;
+use crate::table::{TableError, decode};
+use crate::tally::Findings;
+
+/// The name of the tier of cues without a voice.
+pub const TIER: &str = "subtitles";
+
+/// Which of the two kinds to write.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// SubRip: numbered cues, commas in times.
+    Srt,
+    /// WebVTT: voices, points in times.
+    Vtt,
+}
+
+/// Why bytes could not be read as subtitles.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Error {
+    /// The file is not text.
+    #[error("line {line}: this is not text; save the subtitles as text in UTF-8")]
+    NotText {
+        /// The line, counted from 1.
+        line: u64,
+    },
+    /// No line holds the times of a cue.
+    #[error("no line holds times such as 00:00:01,000 --> 00:00:02,500")]
+    NoCues,
+}
+
+/// Reads subtitles of either kind.
+///
+/// # Errors
+/// If the bytes are no text, or no line holds the times of a cue.
+pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
+    let mut findings = Findings::default();
+    let text = decode(bytes, &mut findings).map_err(|error| match error {
+        TableError::NotText { line } => Error::NotText { line },
+        _ => Error::NoCues,
+    })?;
+    let is_vtt = text.trim_start_matches('\u{feff}').starts_with("WEBVTT");
+    let mut cues = Vec::new();
+    let mut lines = (1u64..).zip(text.lines()).peekable();
+    while let Some((line, text)) = lines.next() {
+        if is_vtt && is_block(text) {
+            findings.add("blocks of notes and styles", || {
+                Finding::note(line, format!("the block {:?} was left out", text.trim()))
+            });
+            while lines.next_if(|(_, text)| !text.trim().is_empty()).is_some() {}
+            continue;
+        }
+        let Some((span, settings)) = times(text) else {
+            if text.contains("-->") {
+                findings.add("cues without times", || {
+                    Finding::warning(
+                        line,
+                        format!("{:?} are no times; the cue was left out", text.trim()),
+                    )
+                    .with_remedy("write 00:00:01,000 --> 00:00:02,500")
+                });
+            }
+            continue;
+        };
+        if settings {
+            findings.add("positions of cues", || {
+                Finding::note(line, "the position of the cue was left out")
+            });
+        }
+        let mut said: Vec<&str> = Vec::new();
+        while let Some((_, text)) =
+            lines.next_if(|(_, text)| !text.trim().is_empty() && times(text).is_none())
+        {
+            said.push(text.trim_end());
+        }
+        // The number of the next cue stands directly before its times if a blank line is missing.
+        if lines.peek().is_some_and(|(_, text)| times(text).is_some())
+            && said
+                .last()
+                .is_some_and(|text| text.trim().parse::<u64>().is_ok())
+        {
+            said.pop();
+        }
+        cues.push((span, said.join("\n"), line));
+    }
+    if cues.is_empty() {
+        return Err(Error::NoCues);
+    }
+    Ok((transcript(cues, is_vtt, &mut findings), findings.finish()))
+}
+
+fn is_block(line: &str) -> bool {
+    ["NOTE", "STYLE", "REGION", "WEBVTT"].iter().any(|word| {
+        line.strip_prefix(word)
+            .is_some_and(|rest| rest.is_empty() || rest.starts_with([' ', '\t']))
+    })
+}
+
+/// Reads a line of times; the second value says whether settings follow.
+fn times(line: &str) -> Option<(Span, bool)> {
+    let (start, rest) = line.split_once("-->")?;
+    let mut words = rest.split_whitespace();
+    let start = instant(start.trim())?;
+    let end = instant(words.next()?)?;
+    let span = Span::new(start, end).ok()?;
+    Some((span, words.next().is_some()))
+}
+
+/// Reads `HH:MM:SS,mmm` or `MM:SS.mmm`; hours may have any number of digits.
+fn instant(text: &str) -> Option<Instant> {
+    let (whole, fraction) = text.split_once([',', '.']).unwrap_or((text, "0"));
+    let number = |text: &str| {
+        let digits =
+            !text.is_empty() && text.len() <= 6 && text.bytes().all(|byte| byte.is_ascii_digit());
+        if digits {
+            text.parse::<i64>().ok()
+        } else {
+            None
+        }
+    };
+    let mut seconds = 0;
+    let mut parts = 0;
+    for part in whole.split(':') {
+        seconds = seconds * 60 + number(part)?;
+        parts += 1;
+    }
+    if !(2..=3).contains(&parts) {
+        return None;
+    }
+    number(fraction)?;
+    let micros = number(&format!("{fraction:0<6}")[..6])?;
+    Some(Instant::from_micros(seconds * 1_000_000 + micros))
+}
+
+/// Puts cues on tiers, one for each voice, and clips cues of one tier that overlap.
+fn transcript(cues: Vec<(Span, String, u64)>, is_vtt: bool, findings: &mut Findings) -> Transcript {
+    let mut transcript = Transcript::default();
+    for (at, (span, text, line)) in cues.into_iter().enumerate() {
+        let (voice, value) = plain(&text, is_vtt);
+        if value.is_empty() {
+            findings.add("empty cues", || {
+                Finding::note(line, "an empty cue was left out")
+            });
+            continue;
+        }
+        let same = |tier: &Tier| tier.participant.as_deref() == voice.as_deref();
+        let tier = match transcript.tiers.iter().position(same) {
+            Some(tier) => tier,
+            None => {
+                let name = voice.as_deref().unwrap_or(TIER).to_owned();
+                transcript.tiers.push(Tier {
+                    name,
+                    kind: TIER.to_owned(),
+                    participant: voice,
+                    ..Tier::default()
+                });
+                transcript.tiers.len() - 1
+            }
+        };
+        let tier = &mut transcript.tiers[tier];
+        tier.annotations.push(Annotation {
+            id: format!("a{}", at + 1),
+            span,
+            timing: Timing::Own,
+            parent: None,
+            order: 0,
+            value,
+            entry: None,
+            language: None,
+            external_ref: None,
+            millis: None,
+        });
+    }
+    for tier in &mut transcript.tiers {
+        tier.annotations.sort_by_key(|cue| cue.span.start());
+        for at in 1..tier.annotations.len() {
+            let start = tier.annotations[at].span.start();
+            let before = &mut tier.annotations[at - 1];
+            if before.span.end() > start {
+                findings.add("overlapping cues", || {
+                    Finding::warning(
+                        None,
+                        format!(
+                            "the cue {:?} ends after the next begins; it ends at {start} now",
+                            before.value
+                        ),
+                    )
+                });
+                before.span = Span::between(before.span.start(), start);
+            }
+        }
+        let empty = tier
+            .annotations
+            .iter()
+            .filter(|cue| cue.span.is_empty())
+            .count();
+        if empty > 0 {
+            findings.push(Finding::warning(
+                None,
+                format!("{empty} cues begin together with the next one and were left out"),
+            ));
+            tier.annotations.retain(|cue| !cue.span.is_empty());
+        }
+    }
+    transcript
+}
+
+/// Returns the voice of a cue, and its text without tags.
+fn plain(text: &str, is_vtt: bool) -> (Option<String>, String) {
+    let (mut voice, mut value) = (None, String::new());
+    let mut rest = text;
+    while let Some(open) = rest.find(['<', '{']) {
+        value.push_str(&rest[..open]);
+        rest = &rest[open..];
+        let close = if rest.starts_with('<') { '>' } else { '}' };
+        let is_tag = match rest.strip_prefix("{") {
+            Some(inner) => inner.starts_with('\\'),
+            None => rest[1..].starts_with(|c: char| c.is_ascii_alphanumeric() || c == '/'),
+        };
+        let Some(end) = rest.find(close).filter(|_| is_tag) else {
+            value.push_str(&rest[..1]);
+            rest = &rest[1..];
+            continue;
+        };
+        let tag = &rest[1..end];
+        if let Some((_, name)) = tag.split_once(char::is_whitespace)
+            && (tag.starts_with("v ") || tag.starts_with("v."))
+        {
+            voice.get_or_insert_with(|| name.trim().to_owned());
+        }
+        rest = &rest[end + 1..];
+    }
+    value.push_str(rest);
+    if is_vtt {
+        for (entity, letter) in [
+            ("&lt;", "<"),
+            ("&gt;", ">"),
+            ("&nbsp;", "\u{a0}"),
+            ("&lrm;", ""),
+            ("&rlm;", ""),
+            ("&amp;", "&"),
+        ] {
+            value = value.replace(entity, letter);
+        }
+    }
+    (voice, value.trim().to_owned())
+}
+
+/// Writes tiers as subtitles, in the order of their times; WebVTT names the tier as voice if there are several.
+#[must_use]
+pub fn write(transcript: &Transcript, form: Form) -> String {
+    let mut cues: Vec<(&Tier, &Annotation)> = transcript
+        .tiers
+        .iter()
+        .flat_map(|tier| tier.annotations.iter().map(move |cue| (tier, cue)))
+        .filter(|(_, cue)| !cue.value.trim().is_empty())
+        .collect();
+    cues.sort_by_key(|(_, cue)| (cue.span.start(), cue.span.end()));
+    let several = transcript.tiers.len() > 1;
+    let mut out = String::new();
+    if form == Form::Vtt {
+        out.push_str("WEBVTT\n\n");
+    }
+    for (at, (tier, cue)) in (1..).zip(cues) {
+        // A blank line inside would end the cue.
+        let lines: Vec<&str> = cue
+            .value
+            .lines()
+            .filter(|line| !line.trim().is_empty())
+            .collect();
+        let text = lines.join("\n").replace("-->", "→");
+        let (start, end) = (stamp(cue.span.start(), form), stamp(cue.span.end(), form));
+        let _ = match form {
+            Form::Srt => write!(out, "{at}\n{start} --> {end}\n{text}\n\n"),
+            Form::Vtt => {
+                let text = text
+                    .replace('&', "&amp;")
+                    .replace('<', "&lt;")
+                    .replace('>', "&gt;");
+                let voice = tier
+                    .participant
+                    .as_deref()
+                    .unwrap_or(&tier.name)
+                    .replace(['<', '>'], " ");
+                let voice = if several {
+                    format!("<v {voice}>")
+                } else {
+                    String::new()
+                };
+                write!(out, "{start} --> {end}\n{voice}{text}\n\n")
+            }
+        };
+    }
+    out
+}
+
+fn stamp(instant: Instant, form: Form) -> String {
+    let millis = instant.millis().max(0);
+    let (seconds, millis) = (millis / 1000, millis % 1000);
+    let point = if form == Form::Srt { ',' } else { '.' };
+    format!(
+        "{:02}:{:02}:{:02}{point}{millis:03}",
+        seconds / 3600,
+        seconds / 60 % 60,
+        seconds % 60
+    )
+}

@@ -1,0 +1,97 @@
+use super::*;
+
+/// Cues as `voice|start-end|text`, in milliseconds.
+fn cues(transcript: &Transcript) -> Vec<String> {
+    let tiers = transcript.tiers.iter();
+    let all = tiers.flat_map(|tier| tier.annotations.iter().map(move |cue| (tier, cue)));
+    all.map(|(tier, cue)| {
+        format!(
+            "{}|{}-{}|{}",
+            tier.name,
+            cue.span.start().millis(),
+            cue.span.end().millis(),
+            cue.value
+        )
+    })
+    .collect()
+}
+
+#[test]
+fn both_kinds_and_their_dialects_are_read() {
+    let cases: [(&str, &[&str]); 7] = [
+        (
+            "1\n00:00:01,000 --> 00:00:02,500\nHallo\nWelt\n\n2\n00:00:03,000 --> 00:00:04,000\nja\n",
+            &["subtitles|1000-2500|Hallo\nWelt", "subtitles|3000-4000|ja"],
+        ),
+        (
+            "\u{feff}1\r\n00:00:01.000 --> 00:00:02.5\r\n<i>Hallo</i> {\\an8}\r\n\r\n",
+            &["subtitles|1000-2500|Hallo"],
+        ),
+        (
+            "00:01,000 --> 00:02,000\na\n00:02,000 --> 00:03,000\nb",
+            &["subtitles|1000-2000|a", "subtitles|2000-3000|b"],
+        ),
+        (
+            "1\n00:00:01,000 --> 00:00:02,000\na\n2\n00:00:02,000 --> 00:00:03,000\nb",
+            &["subtitles|1000-2000|a", "subtitles|2000-3000|b"],
+        ),
+        (
+            "WEBVTT - films\n\nNOTE a\nb\n\nSTYLE\n::cue{}\n\nx1\n00:01.000 --> 00:02.000 align:start\n<v Anna>R&amp;D &lt;3\n\n00:02.000 --> 01:00:03.000\n<v.loud Bo>x</v>\n",
+            &["Anna|1000-2000|R&D <3", "Bo|2000-3603000|x"],
+        ),
+        (
+            "WEBVTT\n\n00:00.000 --> 00:02.000\na\n\n00:01.000 --> 00:03.000\nb\n",
+            &["subtitles|0-1000|a", "subtitles|1000-3000|b"],
+        ),
+        (
+            "WEBVTT\n\n00:00.000 --> 00:02.000\n5 < 6 {x}\n",
+            &["subtitles|0-2000|5 < 6 {x}"],
+        ),
+    ];
+    for (text, expected) in cases {
+        let (transcript, _) = read(text.as_bytes()).expect("subtitles");
+        assert_eq!(cues(&transcript), expected, "{text}");
+    }
+}
+
+#[test]
+fn what_is_left_out_is_reported() {
+    let text = "WEBVTT\n\nNOTE\nx\n\n00:00.000 --> 00:01.000 line:0\na\n\nsoon --> later\nb\n";
+    let (_, findings) = read(text.as_bytes()).expect("subtitles");
+    let lines: Vec<Option<u64>> = findings.iter().map(|finding| finding.line).collect();
+    assert_eq!(lines, [Some(1), Some(3), Some(6), Some(9)], "{findings:?}");
+}
+
+#[test]
+fn files_without_a_cue_are_refused() {
+    for bytes in [
+        &b""[..],
+        b"WEBVTT\n",
+        b"hello",
+        b"\x00\x01",
+        b"1\n-1:00 --> x\n",
+    ] {
+        assert!(read(bytes).is_err(), "{bytes:?}");
+    }
+}
+
+#[test]
+fn subtitles_come_back_as_they_were() {
+    let text = "WEBVTT\n\n00:00:01.000 --> 00:00:02.000\n<v Anna>R&amp;D &lt;3\n\n00:00:02.000 --> 01:00:03.000\n<v Bo>x\ny\n\n";
+    let (transcript, _) = read(text.as_bytes()).expect("subtitles");
+    assert_eq!(write(&transcript, Form::Vtt), text);
+    let srt = "1\n00:00:01,000 --> 00:00:02,500\nHallo\n\n2\n00:00:03,000 --> 00:00:04,000\nja\n\n";
+    let (transcript, _) = read(srt.as_bytes()).expect("subtitles");
+    assert_eq!(write(&transcript, Form::Srt), srt);
+}
+
+#[test]
+fn no_cut_or_changed_byte_breaks_the_reader() {
+    let whole = "WEBVTT\n\n00:00:01.000 --> 00:00:02.000\n<v Ännä>é {\\a} <i\n\n1\n00:00:03,000 --> 00:00:04,000\nx\n".as_bytes();
+    for end in 0..whole.len() {
+        let _ = read(&whole[..end]);
+        let mut changed = whole.to_vec();
+        changed[end] ^= 0x5f;
+        let _ = read(&changed);
+    }
+}

@@ -1,0 +1,235 @@
+use super::*;
+
+const LONG: &str = include_str!("long.TextGrid");
+
+const SHORT: &str = "File type = \"ooTextFile\"\r\n\"TextGrid\"\r\n\r\n0\r\n2.5\r\n<exists>\r\n2 ! two tiers\r\n\
+\"IntervalTier\"\r\n\"phones\"\r\n0\r\n2.5\r\n3\r\n0\r\n1\r\n\"\"\r\n1\r\n1.25\r\n\"say \"\"a\"\"\r\nnow\"\r\n1.25\r\n2.5\r\n\"ə\"\r\n\
+\"TextTier\"\r\n\"clicks\"\r\n0\r\n2.5\r\n1\r\n0.5\r\n\"x\"\r\n";
+
+/// The long form in UTF-16, with its mark or without.
+fn utf16(big: bool, mark: bool) -> Vec<u8> {
+    let units = mark
+        .then_some(0xfeff)
+        .into_iter()
+        .chain(LONG.encode_utf16());
+    let bytes = units.flat_map(|unit| {
+        if big {
+            unit.to_be_bytes()
+        } else {
+            unit.to_le_bytes()
+        }
+    });
+    bytes.collect()
+}
+
+fn binary_form() -> Vec<u8> {
+    let mut bytes = b"ooBinaryFile\x08TextGrid".to_vec();
+    let label = |bytes: &mut Vec<u8>, text: &str| {
+        if text.is_ascii() {
+            bytes.extend((text.len() as i16).to_be_bytes());
+            bytes.extend(text.bytes());
+        } else {
+            bytes.extend((-1i16).to_be_bytes());
+            bytes.extend((text.encode_utf16().count() as u16).to_be_bytes());
+            bytes.extend(text.encode_utf16().flat_map(u16::to_be_bytes));
+        }
+    };
+    let numbers = |bytes: &mut Vec<u8>, values: &[f64]| {
+        bytes.extend(values.iter().flat_map(|value| value.to_be_bytes()));
+    };
+    numbers(&mut bytes, &[0.0, 2.5]);
+    bytes.push(1);
+    bytes.extend(2i32.to_be_bytes());
+    bytes.extend(b"\x0cIntervalTier");
+    label(&mut bytes, "phones");
+    numbers(&mut bytes, &[0.0, 2.5]);
+    bytes.extend(3i32.to_be_bytes());
+    for (start, end, text) in [
+        (0.0, 1.0, ""),
+        (1.0, 1.25, "say \"a\"\nnow"),
+        (1.25, 2.5, "ə"),
+    ] {
+        numbers(&mut bytes, &[start, end]);
+        label(&mut bytes, text);
+    }
+    bytes.extend(b"\x08TextTier");
+    label(&mut bytes, "clicks");
+    numbers(&mut bytes, &[0.0, 2.5]);
+    bytes.extend(1i32.to_be_bytes());
+    numbers(&mut bytes, &[0.5]);
+    label(&mut bytes, "x");
+    bytes
+}
+
+/// Tiers and annotations as lines of text.
+fn plain(transcript: &Transcript) -> String {
+    let mut out = String::new();
+    for tier in &transcript.tiers {
+        let _ = writeln!(out, "{} {}", tier.kind, tier.name);
+        for annotation in &tier.annotations {
+            let span = annotation.span;
+            let _ = writeln!(
+                out,
+                "  {} {} {:?}",
+                span.start().micros(),
+                span.end().micros(),
+                annotation.value
+            );
+        }
+    }
+    out
+}
+
+const EXPECTED: &str = "IntervalTier phones\n  1000000 1250000 \"say \\\"a\\\"\\nnow\"\n  1250000 2500000 \"ə\"\n\
+TextTier clicks\n  500000 540000 \"x\"\n";
+
+#[test]
+fn all_forms_and_encodings_say_the_same() {
+    let cases = [
+        LONG.as_bytes().to_vec(),
+        SHORT.as_bytes().to_vec(),
+        [b"\xef\xbb\xbf", LONG.as_bytes()].concat(),
+        utf16(true, true),
+        utf16(false, true),
+        utf16(true, false),
+        utf16(false, false),
+        binary_form(),
+    ];
+    for (at, bytes) in cases.iter().enumerate() {
+        let (transcript, _) = read(bytes).unwrap_or_else(|error| panic!("case {at}: {error}"));
+        assert_eq!(plain(&transcript), EXPECTED, "case {at}");
+    }
+}
+
+#[test]
+fn a_text_grid_comes_back_as_it_was() {
+    let (transcript, _) = read(LONG.as_bytes()).expect("a TextGrid");
+    let (long, findings) = write(&transcript, Form::Long, Instant::from_millis(2500));
+    assert_eq!(findings, []);
+    assert_eq!(long, LONG);
+    let (short, _) = write(&transcript, Form::Short, Instant::from_millis(2500));
+    let (again, _) = read(short.as_bytes()).expect("a TextGrid");
+    assert_eq!(plain(&again), EXPECTED);
+}
+
+#[test]
+fn tiers_without_a_name_of_their_own_get_one() {
+    let tier = "\"IntervalTier\"\n\"%\"\n0\n1\n1\n0\n1\n\"x\"\n";
+    let text = format!(
+        "\"ooTextFile\"\n\"TextGrid\"\n-0\n1\n<exists>\n3\n{}{}{}",
+        tier.replace('%', "a"),
+        tier.replace('%', "a"),
+        tier.replace('%', "")
+    );
+    let (transcript, findings) = read(text.as_bytes()).expect("a TextGrid");
+    let names: Vec<&str> = transcript
+        .tiers
+        .iter()
+        .map(|tier| tier.name.as_str())
+        .collect();
+    assert_eq!(names, ["a", "a (2)", "tier 3"]);
+    assert_eq!(findings.len(), 2);
+}
+
+#[test]
+fn intervals_that_overlap_or_have_no_time_are_reported() {
+    let text = "\"ooTextFile\" \"TextGrid\" 0 9 <exists> 1 \"IntervalTier\" \"a\" 0 9 3 0 2 \"x\" 1 3 \"y\" 5 4 \"z\"";
+    let (transcript, findings) = read(text.as_bytes()).expect("a TextGrid");
+    assert_eq!(
+        plain(&transcript),
+        "IntervalTier a\n  0 1000000 \"x\"\n  1000000 3000000 \"y\"\n"
+    );
+    let messages: Vec<&str> = findings
+        .iter()
+        .map(|finding| finding.message.as_str())
+        .collect();
+    assert!(
+        messages[0].contains("\"z\" on \"a\" lasts from 5 to 4 s"),
+        "{messages:?}"
+    );
+    assert!(
+        messages[1].contains("\"x\" on \"a\" ends after"),
+        "{messages:?}"
+    );
+}
+
+#[test]
+fn damaged_files_are_refused_with_the_place() {
+    let cases: [(&[u8], &str); 8] = [
+        (b"", "does not begin"),
+        (b"hello", "does not begin"),
+        (b"\"ooTextFile\" \"Pitch 1\"", "holds a \"Pitch 1\""),
+        (b"\"ooTextFile\"\n\"TextGrid\"\n0", "line 3: the end"),
+        (
+            b"\"ooTextFile\" \"TextGrid\" 0 1 <exists> 1e300",
+            "the number of tiers",
+        ),
+        (
+            b"\"ooTextFile\" \"TextGrid\" 0 1 <exists> 1 \"X\"",
+            "IntervalTier",
+        ),
+        (b"\x01\x02", "not text"),
+        (b"ooBinaryFile\x08TextGrid\0\0", "the beginning"),
+    ];
+    for (bytes, expected) in cases {
+        let error = read(bytes).expect_err("no TextGrid").to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+}
+
+#[test]
+fn no_cut_or_changed_byte_breaks_the_reader() {
+    for whole in [LONG.as_bytes().to_vec(), binary_form()] {
+        for end in 0..whole.len() {
+            let _ = read(&whole[..end]);
+            let mut changed = whole.clone();
+            changed[end] ^= 0xff;
+            let _ = read(&changed);
+        }
+    }
+}
+
+#[test]
+fn grids_of_others_are_read_whole() {
+    let Some(folder) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        eprintln!("skipped: CHEREME_SHARED_DATA names no folder");
+        return;
+    };
+    let folder = std::path::Path::new(&folder).join("annotation/textgrid");
+    let mut files = Vec::new();
+    let mut folders = vec![folder];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|end| end == "TextGrid") {
+                files.push(path);
+            }
+        }
+    }
+    assert!(files.len() >= 16, "{} files", files.len());
+    let counts = [
+        ("mary.TextGrid", vec![16, 6, 4]),
+        ("bobby_words_with_newlines.TextGrid", vec![6, 3, 4]),
+        ("damon_set_test.TextGrid", vec![18, 8, 7, 7, 6, 5]),
+        ("textgrid_to_merge.TextGrid", vec![8, 7, 7]),
+    ];
+    for path in files {
+        let bytes = std::fs::read(&path).expect("a file");
+        let (grid, _) = raw::read(&bytes).unwrap_or_else(|error| panic!("{path:?}: {error}"));
+        let name = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        if let Some((_, expected)) = counts.iter().find(|(file, _)| *file == name) {
+            let found: Vec<usize> = grid.tiers.iter().map(|tier| tier.items.len()).collect();
+            assert_eq!(&found, expected, "{name}");
+        }
+        let (transcript, _) = read(&bytes).expect("a TextGrid");
+        let (text, _) = write(&transcript, Form::Long, transcript.end());
+        let (again, _) = read(text.as_bytes()).expect("what was written");
+        assert_eq!(plain(&again), plain(&transcript), "{name}");
+    }
+}
