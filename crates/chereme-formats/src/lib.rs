@@ -1,15 +1,19 @@
 //! Foreign files to and from the movement and sign models.
 
 pub mod bvh;
+pub mod c3d;
 pub mod eaf;
 mod finding;
 pub mod hns;
 pub mod lexicon;
+pub mod pose;
 pub mod roles;
 pub mod sigml;
 pub mod subtitles;
 pub mod table;
 mod tally;
 pub mod textgrid;
+pub mod tracks;
+pub mod trc;
 
 pub use finding::{Finding, Severity};

@@ -114,7 +114,7 @@ fn split(text: &str) -> Vec<Written> {
                 continue;
             }
         }
-        if word.trim_matches('\'') != "" {
+        if !word.trim_matches('\'').is_empty() {
             parts.push(Written::Word(std::mem::take(&mut word)));
         }
         word.clear();

@@ -1,0 +1,451 @@
+//! A C3D file as it says itself: header, parameters, and frames of points and analog samples.
+//!
+//! Source: the C3D user guide (c3d.org), sections on the header, parameter and data sections.
+
+use std::collections::BTreeMap;
+
+/// The size of a block of the file, in bytes.
+const BLOCK: usize = 512;
+/// The key that the second byte of the header and words of its event table hold.
+const KEY: u8 = 0x50;
+const EVENTS_KEY: u16 = 12345;
+/// More parameters, points or channels than this are no capture.
+const MOST_PARAMETERS: usize = 10_000;
+
+/// Why bytes could not be read as C3D.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Error {
+    /// The bytes do not begin as a C3D file does.
+    #[error("this is no C3D file: its second byte is not 80")]
+    NoC3d,
+    /// The processor that wrote the file is not one of three known ones.
+    #[error("processor type {0} is not known; save the file again as C3D for Intel processors")]
+    Processor(u8),
+    /// The file ends before this part.
+    #[error("the file ends within its {0}; it is cut short")]
+    Short(&'static str),
+    /// The file says nothing that could be a frame rate.
+    #[error("the frame rate is {0}, not a positive number")]
+    Rate(String),
+    /// The file has neither points nor analog channels.
+    #[error("the file holds neither points nor analog channels")]
+    Empty,
+}
+
+/// How numbers are stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Processor {
+    /// Intel: little endian, IEEE floats.
+    Intel,
+    /// DEC: little endian integers, VAX floats.
+    Dec,
+    /// SGI and MIPS: big endian.
+    Mips,
+}
+
+impl Processor {
+    fn u16(self, bytes: [u8; 2]) -> u16 {
+        match self {
+            Self::Mips => u16::from_be_bytes(bytes),
+            _ => u16::from_le_bytes(bytes),
+        }
+    }
+
+    fn f32(self, [a, b, c, d]: [u8; 4]) -> f32 {
+        match self {
+            Self::Intel => f32::from_le_bytes([a, b, c, d]),
+            Self::Mips => f32::from_be_bytes([a, b, c, d]),
+            // VAX floats have their halves swapped and an exponent that is greater by two.
+            Self::Dec => f32::from_le_bytes([c, d, a, b]) / 4.0,
+        }
+    }
+}
+
+/// A parameter's value.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// Texts of a fixed width, blanks at their ends cut off.
+    Texts(Vec<String>),
+    /// Bytes or 16-bit integers, read as unsigned.
+    Integers(Vec<u16>),
+    /// Floats.
+    Reals(Vec<f32>),
+}
+
+/// The parameters by `GROUP:NAME` in capitals.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Parameters(BTreeMap<String, Value>);
+
+impl Parameters {
+    /// Returns the texts of a parameter, with those of its continuations `NAME2`, `NAME3` and so on.
+    #[must_use]
+    pub fn texts(&self, name: &str) -> Vec<&str> {
+        let mut texts = Vec::new();
+        for part in 1..=255 {
+            let key = if part == 1 {
+                name.to_owned()
+            } else {
+                format!("{name}{part}")
+            };
+            let Some(Value::Texts(more)) = self.0.get(&key) else {
+                break;
+            };
+            texts.extend(more.iter().map(String::as_str));
+        }
+        texts
+    }
+
+    /// Returns the first text of a parameter.
+    #[must_use]
+    pub fn text(&self, name: &str) -> Option<&str> {
+        self.texts(name).into_iter().find(|text| !text.is_empty())
+    }
+
+    /// Returns the numbers of a parameter; integers are unsigned.
+    #[must_use]
+    pub fn numbers(&self, name: &str) -> Vec<f64> {
+        match self.0.get(name) {
+            Some(Value::Integers(values)) => values.iter().map(|value| f64::from(*value)).collect(),
+            Some(Value::Reals(values)) => values.iter().map(|value| f64::from(*value)).collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Returns the numbers of a parameter; integers are signed.
+    #[must_use]
+    pub fn signed(&self, name: &str) -> Vec<f64> {
+        match self.0.get(name) {
+            Some(Value::Integers(values)) => values
+                .iter()
+                .map(|value| f64::from(*value as i16))
+                .collect(),
+            _ => self.numbers(name),
+        }
+    }
+
+    /// Returns the first number of a parameter.
+    #[must_use]
+    pub fn number(&self, name: &str) -> Option<f64> {
+        self.numbers(name).first().copied()
+    }
+}
+
+/// The file: header, parameters and where the data lies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Document {
+    /// How numbers are stored.
+    pub processor: Processor,
+    /// The parameters.
+    pub parameters: Parameters,
+    /// Points in each frame.
+    pub points: usize,
+    /// Analog channels.
+    pub channels: usize,
+    /// Analog samples of a channel in each frame.
+    pub samples: usize,
+    /// The number of the first frame, counted from 1.
+    pub first_frame: u32,
+    /// The frames that header and parameters promise.
+    pub promised_frames: usize,
+    /// The frames that the data has room for, at most those promised.
+    pub frames: usize,
+    /// Frames a second.
+    pub rate: f64,
+    /// The unit of integer points; negative if points are floats.
+    pub scale: f32,
+    /// The events of the header: seconds and label.
+    pub header_events: Vec<(f32, String)>,
+    /// Where the data begins, in bytes.
+    data_at: usize,
+}
+
+/// A point in one frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Point {
+    /// The coordinates: integers of the file, or floats.
+    pub at: [f32; 3],
+    /// The residual byte; nothing if the point was not seen.
+    pub residual: Option<u8>,
+}
+
+impl Document {
+    /// Returns whether points and samples are floats.
+    #[must_use]
+    pub fn is_real(&self) -> bool {
+        self.scale < 0.0
+    }
+
+    fn word(&self) -> usize {
+        if self.is_real() { 4 } else { 2 }
+    }
+
+    fn frame_bytes(&self) -> usize {
+        (self.points * 4 + self.channels * self.samples) * self.word()
+    }
+
+    fn number(&self, bytes: &[u8], at: usize) -> Option<f32> {
+        if self.is_real() {
+            let word = bytes.get(at..at + 4)?.try_into().ok()?;
+            Some(self.processor.f32(word))
+        } else {
+            let word = bytes.get(at..at + 2)?.try_into().ok()?;
+            Some(f32::from(self.processor.u16(word) as i16))
+        }
+    }
+
+    /// Returns a point of a frame.
+    #[must_use]
+    pub fn point(&self, bytes: &[u8], frame: usize, point: usize) -> Option<Point> {
+        let at = self.data_at + frame * self.frame_bytes() + point * 4 * self.word();
+        let coordinate = |axis: usize| self.number(bytes, at + axis * self.word());
+        let place = [coordinate(0)?, coordinate(1)?, coordinate(2)?];
+        let last = coordinate(3)?;
+        // The low byte is the residual, the high one the cameras; as one word it is negative for a gap.
+        let word = if last.is_finite() {
+            last.clamp(-32768.0, 32767.0) as i16
+        } else {
+            -1
+        };
+        let seen = word >= 0 && place.iter().all(|value| value.is_finite());
+        Some(Point {
+            at: place,
+            residual: seen.then_some((word & 0xff) as u8),
+        })
+    }
+
+    /// Returns a sample of an analog channel as the file stores it, `is_unsigned` for integers from 0 on.
+    #[must_use]
+    pub fn sample(
+        &self,
+        bytes: &[u8],
+        (frame, sample, channel): (usize, usize, usize),
+        is_unsigned: bool,
+    ) -> Option<f32> {
+        let words = self.points * 4 + sample * self.channels + channel;
+        let at = self.data_at + frame * self.frame_bytes() + words * self.word();
+        let value = self.number(bytes, at)?;
+        let turned = is_unsigned && !self.is_real() && value < 0.0;
+        Some(if turned { value + 65536.0 } else { value })
+    }
+}
+
+/// Reads header and parameters, and finds the data.
+///
+/// # Errors
+/// [`Error`] if the bytes are no C3D file or end before the data.
+pub fn read(bytes: &[u8]) -> Result<Document, Error> {
+    if bytes.get(1) != Some(&KEY) {
+        return Err(Error::NoC3d);
+    }
+    let header = bytes.get(..BLOCK).ok_or(Error::Short("header"))?;
+    let parameters_at = usize::from(header[0].max(1) - 1) * BLOCK;
+    let section = bytes
+        .get(parameters_at..)
+        .ok_or(Error::Short("parameters"))?;
+    let kind = *section.get(3).ok_or(Error::Short("parameters"))?;
+    let processor = match kind {
+        84 => Processor::Intel,
+        85 => Processor::Dec,
+        86 => Processor::Mips,
+        _ => return Err(Error::Processor(kind)),
+    };
+    let parameters = parameters(section, processor);
+    let word = |number: usize| {
+        let at = 2 * (number - 1);
+        processor.u16([header[at], header[at + 1]])
+    };
+    let real = |number: usize| {
+        let at = 2 * (number - 1);
+        processor.f32([header[at], header[at + 1], header[at + 2], header[at + 3]])
+    };
+    let points = parameters
+        .number("POINT:USED")
+        .unwrap_or(f64::from(word(2))) as usize;
+    let samples = usize::from(word(10));
+    let per_frame = usize::from(word(3));
+    let channels = per_frame.checked_div(samples).unwrap_or(0);
+    let (first, last) = frames(&parameters, word(4), word(5));
+    let rate = f64::from(real(11));
+    let rate = parameters
+        .number("POINT:RATE")
+        .filter(|rate| *rate > 0.0)
+        .unwrap_or(rate);
+    if !rate.is_finite() || rate <= 0.0 {
+        return Err(Error::Rate(rate.to_string()));
+    }
+    let scale = parameters
+        .number("POINT:SCALE")
+        .map_or(real(7), |scale| scale as f32);
+    let data_block = parameters
+        .number("POINT:DATA_START")
+        .filter(|block| *block >= 2.0)
+        .unwrap_or(f64::from(word(9)));
+    let mut document = Document {
+        processor,
+        points: points.min(MOST_PARAMETERS),
+        channels: channels.min(MOST_PARAMETERS),
+        samples,
+        first_frame: first,
+        promised_frames: (last + 1).saturating_sub(first) as usize,
+        frames: 0,
+        rate,
+        scale,
+        header_events: header_events(header, processor),
+        data_at: (data_block as usize).saturating_sub(1) * BLOCK,
+        parameters,
+    };
+    let size = document.frame_bytes();
+    if size == 0 {
+        return Err(Error::Empty);
+    }
+    let data = bytes
+        .len()
+        .checked_sub(document.data_at)
+        .ok_or(Error::Short("data"))?;
+    document.frames = document.promised_frames.min(data / size);
+    Ok(document)
+}
+
+/// Returns the numbers of the first and last frame; TRIAL holds them if 16 bits are too few.
+fn frames(parameters: &Parameters, first: u16, last: u16) -> (u32, u32) {
+    let trial = |name: &str| {
+        let words = parameters.numbers(name);
+        match words[..] {
+            [low, high, ..] => Some(low as u32 + ((high as u32) << 16)),
+            [one] => Some(one as u32),
+            [] => None,
+        }
+    };
+    let first = trial("TRIAL:ACTUAL_START_FIELD").unwrap_or(u32::from(first));
+    let header_last = u32::from(last);
+    let last = trial("TRIAL:ACTUAL_END_FIELD").unwrap_or(header_last);
+    let long = parameters
+        .number("POINT:LONG_FRAMES")
+        .filter(|count| *count >= 1.0);
+    match long {
+        Some(count) if last == header_last => (first, first.saturating_add(count as u32 - 1)),
+        _ => (first, last.min(u32::MAX - 1)),
+    }
+}
+
+fn header_events(header: &[u8], processor: Processor) -> Vec<(f32, String)> {
+    let word = |number: usize| {
+        let at = 2 * (number - 1);
+        processor.u16([header[at], header[at + 1]])
+    };
+    if word(150) != EVENTS_KEY {
+        return Vec::new();
+    }
+    let count = usize::from(word(151)).min(18);
+    let event = |at: usize| {
+        let time = 2 * (153 - 1) + 4 * at;
+        let label = 2 * (199 - 1) + 4 * at;
+        let bytes = [
+            header[time],
+            header[time + 1],
+            header[time + 2],
+            header[time + 3],
+        ];
+        let seconds = processor.f32(bytes);
+        let text = String::from_utf8_lossy(&header[label..label + 4]);
+        (seconds, text.trim_matches(['\0', ' ']).to_owned())
+    };
+    (0..count).map(event).collect()
+}
+
+/// Reads the chain of groups and parameters; it ends where a record says so or makes no sense.
+fn parameters(section: &[u8], processor: Processor) -> Parameters {
+    let mut groups: BTreeMap<i8, String> = BTreeMap::new();
+    let mut found = Vec::new();
+    let mut at = 4;
+    while found.len() < MOST_PARAMETERS {
+        let Some(record) = record(section, at, processor) else {
+            break;
+        };
+        if record.group < 0 {
+            groups.insert(-record.group, record.name);
+        } else if record.group > 0 {
+            found.push((record.group, record.name, record.body));
+        }
+        match record.next {
+            Some(next) => at = next,
+            None => break,
+        }
+    }
+    let mut parameters = Parameters::default();
+    for (group, name, body) in found {
+        let (Some(group), Some(value)) = (groups.get(&group), value(body, processor)) else {
+            continue;
+        };
+        parameters.0.insert(format!("{group}:{name}"), value);
+    }
+    parameters
+}
+
+struct Record<'b> {
+    group: i8,
+    name: String,
+    body: &'b [u8],
+    next: Option<usize>,
+}
+
+fn record(section: &[u8], at: usize, processor: Processor) -> Option<Record<'_>> {
+    let length = usize::from((*section.get(at)? as i8).unsigned_abs());
+    let group = *section.get(at + 1)? as i8;
+    if length == 0 {
+        return None;
+    }
+    let name_at = at + 2;
+    let name = String::from_utf8_lossy(section.get(name_at..name_at + length)?);
+    let offset_at = name_at + length;
+    let offset = section.get(offset_at..offset_at + 2)?;
+    let offset = usize::from(processor.u16([offset[0], offset[1]]));
+    Some(Record {
+        group,
+        name: name.trim().to_uppercase(),
+        body: &section[offset_at + 2..],
+        next: (offset > 2).then_some(offset_at + offset),
+    })
+}
+
+fn value(body: &[u8], processor: Processor) -> Option<Value> {
+    let kind = *body.first()? as i8;
+    let dimensions = usize::from(*body.get(1)?);
+    let sizes = body.get(2..2 + dimensions)?;
+    let sizes: Vec<usize> = sizes.iter().map(|size| usize::from(*size)).collect();
+    let count = sizes
+        .iter()
+        .try_fold(1usize, |all, size| all.checked_mul(*size))?;
+    let width = match kind {
+        -1 | 1 => 1,
+        2 => 2,
+        4 => 4,
+        _ => return None,
+    };
+    let data = body.get(2 + dimensions..)?;
+    let data = data.get(..count.checked_mul(width)?)?;
+    Some(match kind {
+        -1 => {
+            let width = sizes.first().copied().unwrap_or(1).max(1);
+            let text = |bytes: &[u8]| {
+                let text: String = bytes.iter().map(|byte| char::from(*byte)).collect();
+                text.trim_matches(['\0', ' ']).to_owned()
+            };
+            Value::Texts(data.chunks(width).map(text).collect())
+        }
+        1 => Value::Integers(data.iter().map(|byte| u16::from(*byte)).collect()),
+        2 => {
+            let words = data.chunks_exact(2);
+            Value::Integers(
+                words
+                    .map(|word| processor.u16([word[0], word[1]]))
+                    .collect(),
+            )
+        }
+        _ => {
+            let words = data.chunks_exact(4);
+            let real = |word: &[u8]| processor.f32([word[0], word[1], word[2], word[3]]);
+            Value::Reals(words.map(real).collect())
+        }
+    })
+}

@@ -1,0 +1,278 @@
+use super::*;
+
+/// A small file: two points, one channel of two samples, three frames at 50 a second.
+fn file(kind: u8, is_real: bool) -> Vec<u8> {
+    let u16s = |value: u16| {
+        if kind == 86 {
+            value.to_be_bytes()
+        } else {
+            value.to_le_bytes()
+        }
+    };
+    let f32s = |value: f32| match kind {
+        86 => value.to_be_bytes(),
+        85 => {
+            let [a, b, c, d] = (value * 4.0).to_le_bytes();
+            [c, d, a, b]
+        }
+        _ => value.to_le_bytes(),
+    };
+    let scale = if is_real { -0.5 } else { 0.5 };
+    let mut header = vec![0; 512];
+    let put = |header: &mut Vec<u8>, word: usize, bytes: &[u8]| {
+        header[2 * (word - 1)..2 * (word - 1) + bytes.len()].copy_from_slice(bytes);
+    };
+    header[0] = 2;
+    header[1] = 0x50;
+    for (word, value) in [
+        (2, 2),
+        (3, 2),
+        (4, 1),
+        (5, 3),
+        (9, 3),
+        (10, 2),
+        (150, 12345),
+        (151, 1),
+    ] {
+        put(&mut header, word, &u16s(value));
+    }
+    put(&mut header, 7, &f32s(scale));
+    put(&mut header, 11, &f32s(50.0));
+    put(&mut header, 153, &f32s(0.02));
+    put(&mut header, 199, b"CLAP");
+    let mut section = vec![1, 0x50, 1, kind];
+    let mut add = |id: i8, name: &str, body: &[u8]| {
+        section.push(name.len() as u8);
+        section.push(id as u8);
+        section.extend(name.bytes());
+        section.extend(u16s(2 + body.len() as u16));
+        section.extend(body);
+    };
+    add(-1, "POINT", &[0]);
+    add(-2, "ANALOG", &[0]);
+    let texts = |texts: &[&str]| {
+        let mut body = vec![0xff, 2, 4, texts.len() as u8];
+        body.extend(
+            texts
+                .iter()
+                .flat_map(|text| format!("{text:<4}").into_bytes()),
+        );
+        body.push(0);
+        body
+    };
+    add(1, "LABELS", &texts(&["LSHO", "RSHO", "MORE"]));
+    add(1, "UNITS", &[0xff, 1, 2, b'm', b'm', 0]);
+    add(2, "LABELS", &texts(&["Fz"]));
+    let real = |value: f32| [&[4, 1, 1][..], &f32s(value), &[0]].concat();
+    add(2, "SCALE", &real(0.25));
+    add(2, "GEN_SCALE", &real(2.0));
+    add(2, "OFFSET", &[&[2, 1, 1][..], &u16s(4), &[0]].concat());
+    section.resize(512, 0);
+    let mut bytes = [header, section].concat();
+    let number = |bytes: &mut Vec<u8>, value: i16| {
+        if is_real {
+            bytes.extend(f32s(f32::from(value)));
+        } else {
+            bytes.extend(u16s(value as u16));
+        }
+    };
+    for frame in 0..3i16 {
+        for value in [1000 + frame, 0, 2800, 0x0203] {
+            number(&mut bytes, value);
+        }
+        let seen = if frame == 1 { -1 } else { 0 };
+        for value in [-1000, 0, 2800, seen] {
+            number(&mut bytes, value);
+        }
+        for sample in 0..2 {
+            number(&mut bytes, 4 + 2 * frame + sample);
+        }
+    }
+    bytes
+}
+
+fn both(bytes: &[u8]) -> (Markers, Curves) {
+    let (tracks, _) = read(bytes).unwrap_or_else(|error| panic!("{error}"));
+    match &tracks.tracks[..] {
+        [
+            Track {
+                content: Content::Markers(markers),
+                ..
+            },
+            Track {
+                content: Content::Curves(curves),
+                ..
+            },
+        ] => (markers.clone(), curves.clone()),
+        other => panic!("markers and analog, not {other:?}"),
+    }
+}
+
+#[test]
+fn six_layouts_say_the_same() {
+    for kind in [84, 85, 86] {
+        for is_real in [false, true] {
+            let (markers, analog) = both(&file(kind, is_real));
+            let [left, right] = markers.points() else {
+                panic!("two points");
+            };
+            assert_eq!((left.name.as_str(), right.name.as_str()), ("LSHO", "RSHO"));
+            let scale = if is_real { 1.0 } else { 0.5 };
+            assert_eq!(left.at(2).map(|at| at.x), Some(1002.0 * scale));
+            let residual = left.quality.as_ref().and_then(|column| column.value(0));
+            assert_eq!(residual, Some(1.5), "the low byte times the scale");
+            assert_eq!(right.at(1), None, "no camera saw it");
+            assert_eq!(
+                right.quality.as_ref().and_then(|column| column.value(1)),
+                None
+            );
+            assert_eq!(analog.curves()[0].name, "Fz");
+            let values: Vec<f64> = analog.curves()[0].values.values().flatten().collect();
+            assert_eq!(values, [0.0, 0.5, 1.0, 1.5, 2.0, 2.5]);
+            assert_eq!(analog.times().rate().map(|rate| rate.frames()), Some(100));
+            let up = markers.shown(0)[0].expect("a place");
+            assert!(
+                up.y > 1.0 && up.x > 0.0,
+                "up is Z, and the left shoulder is left: {up}"
+            );
+        }
+    }
+}
+
+#[test]
+fn events_are_moments_of_a_tier() {
+    let (tracks, _) = read(&file(84, false)).expect("C3D");
+    let tier = &tracks.events.expect("events").tiers[0];
+    assert_eq!(tier.name, "events");
+    assert_eq!(tier.annotations[0].value, "CLAP");
+    assert_eq!(tier.annotations[0].span.start().micros(), 20_000);
+}
+
+#[test]
+fn damaged_files_are_refused_or_read_as_far_as_they_go() {
+    let whole = file(84, false);
+    assert_eq!(read(b""), Err(Error::NoC3d));
+    assert_eq!(read(&whole[..600]), Err(Error::Short("data")));
+    let (tracks, findings) = read(&whole[..whole.len() - 1]).expect("two frames");
+    assert!(
+        findings
+            .iter()
+            .any(|it| it.message.contains("promises 3 frames and holds 2"))
+    );
+    assert_eq!(tracks.tracks.len(), 2);
+    for at in 0..whole.len() {
+        let _ = read(&whole[..at]);
+        for flip in [0xff, 0x80, 0x01] {
+            let mut changed = whole.clone();
+            changed[at] ^= flip;
+            let _ = read(&changed);
+        }
+    }
+}
+
+#[test]
+fn files_of_others_hold_the_known_values() {
+    let Some(folder) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        eprintln!("skipped: CHEREME_SHARED_DATA names no folder");
+        return;
+    };
+    let (mut folders, mut files) = (
+        vec![std::path::Path::new(&folder).join("motion/c3d")],
+        Vec::new(),
+    );
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                files.push(path);
+            }
+        }
+    }
+    assert_eq!(files.len(), 15);
+    let sizes = [
+        ("EB015PI", 450, 26),
+        ("Eb015vi", 450, 26),
+        ("Eb015pr", 450, 26),
+        ("TESTDPI", 450, 26),
+        ("pc_real", 89, 36),
+        ("dec_int", 89, 36),
+        ("02_01", 343, 41),
+        ("walking2", 1249, 44),
+        ("my-looped-motion", 900, 26),
+    ];
+    let values: [(&str, &str, usize, [f64; 3]); 4] = [
+        ("02_01", "RELB", 100, [-806.7002, 286.8432, 1055.4526]),
+        ("walking2", "C7", 600, [-107.4673, 538.7004, 1528.9711]),
+        ("Eb015vi", "RFT3", 300, [231.0833, 1441.8334, 34.5833]),
+        ("pc_real", "RTH1", 40, [440.3308, 977.9506, 677.3671]),
+    ];
+    let mut same = Vec::new();
+    for path in files {
+        let bytes = std::fs::read(&path).expect("a file");
+        let (tracks, _) = read(&bytes).unwrap_or_else(|error| panic!("{path:?}: {error}"));
+        let stem = path
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        let Content::Markers(markers) = &tracks.tracks[0].content else {
+            panic!("markers");
+        };
+        for (name, frames, points) in sizes {
+            if stem == name {
+                let outputs = match tracks.tracks.get(1) {
+                    Some(Track {
+                        name,
+                        content: Content::Curves(curves),
+                        ..
+                    }) if name == "model outputs" => curves.curves().len() / 3,
+                    _ => 0,
+                };
+                assert_eq!(
+                    (markers.frames(), markers.points().len() + outputs),
+                    (frames, points),
+                    "{stem}"
+                );
+            }
+        }
+        for (name, label, frame, expected) in values {
+            if stem == name {
+                let point = markers
+                    .points()
+                    .iter()
+                    .find(|point| point.name == label)
+                    .expect(label);
+                let at = point.at(frame).expect("a place").to_array();
+                for (found, expected) in at.iter().zip(expected) {
+                    assert!((found - expected).abs() < 1e-3, "{stem} {label}: {at:?}");
+                }
+            }
+        }
+        if stem == "02_01" {
+            let first = markers
+                .points()
+                .iter()
+                .find(|point| point.name == "LBWT")
+                .expect("LBWT");
+            let residual = first
+                .quality
+                .as_ref()
+                .and_then(|column| column.value(0))
+                .expect("a residual");
+            assert!((residual - 8.5).abs() < 1e-3, "{residual}");
+        }
+        if ["EB015PI", "Eb015vi", "Eb015pr"].contains(&stem.as_str()) {
+            let point = &markers.points()[3];
+            let at = (0..450).find_map(|frame| point.at(frame)).expect("a place");
+            same.push(at);
+        }
+    }
+    for at in &same {
+        assert!(
+            (*at - same[0]).length() < 0.1,
+            "one capture in three layouts: {same:?}"
+        );
+    }
+}

@@ -1,0 +1,213 @@
+//! The document that files of points and numbers become: tracks on one clock, and events.
+
+use std::collections::BTreeSet;
+
+use chereme_motion::{
+    Axes, Column, Convention, Curves, Direction, Instant, Marker, Markers, Rate, Span,
+};
+use glam::DVec3;
+
+use crate::eaf::convert::{Annotation, Tier, Timing, Transcript};
+use crate::finding::Finding;
+use crate::tally::Findings;
+
+/// What a file of captured points or numbers holds.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Tracks {
+    /// The tracks in the order of the file.
+    pub tracks: Vec<Track>,
+    /// Named moments of the file as tiers, if it has any.
+    pub events: Option<Transcript>,
+}
+
+/// One track of a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Track {
+    /// The name, unique in its document.
+    pub name: String,
+    /// When its first frame is, from the start of the file.
+    pub offset: Instant,
+    /// Its frames.
+    pub content: Content,
+}
+
+/// The frames of a track.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Content {
+    /// Named points.
+    Markers(Markers),
+    /// Named numbers.
+    Curves(Curves),
+}
+
+impl Track {
+    /// Returns a track that begins with its file.
+    #[must_use]
+    pub fn new(name: impl Into<String>, content: Content) -> Self {
+        Self {
+            name: name.into(),
+            offset: Instant::ZERO,
+            content,
+        }
+    }
+}
+
+/// Returns the rate of so many frames a second as a fraction; films' 1000/1001 rates are recognised.
+pub(crate) fn rate_of(per_second: f64) -> Option<Rate> {
+    if !per_second.is_finite() || per_second <= 0.0 || per_second > 1e6 {
+        return None;
+    }
+    let near = |value: f64| (value - per_second).abs() <= 1e-5 * per_second;
+    let whole = per_second.round();
+    if whole >= 1.0 && near(whole) {
+        return Rate::new(whole as u32, 1).ok();
+    }
+    let film = (per_second * 1.001).round();
+    if film >= 1.0 && near(film / 1.001) && film <= 4e6 {
+        return Rate::new((film * 1000.0) as u32, 1001).ok();
+    }
+    let scaled = (per_second * 1000.0).round();
+    if scaled >= 1.0 && scaled <= 4e9 {
+        return Rate::new(scaled as u32, 1000).ok();
+    }
+    None
+}
+
+/// Returns moments as annotations of one frame each on a tier of this name.
+pub(crate) fn events(name: &str, moments: &[(Instant, String)], rate: Rate) -> Option<Transcript> {
+    if moments.is_empty() {
+        return None;
+    }
+    let mut moments = moments.to_vec();
+    moments.sort();
+    let frame = Instant::from_seconds(rate.frame_time()).micros().max(1);
+    let annotations = (1..).zip(&moments).map(|(number, (at, value))| {
+        let next = moments.get(number).map(|(next, _)| *next);
+        let end = at.shifted(frame);
+        let end = next
+            .filter(|next| *next > *at)
+            .map_or(end, |next| next.min(end));
+        Annotation {
+            id: format!("a{number}"),
+            span: Span::between(*at, end),
+            timing: Timing::Own,
+            parent: None,
+            order: 0,
+            value: value.clone(),
+            entry: None,
+            language: None,
+            external_ref: None,
+            millis: None,
+        }
+    });
+    let mut annotations: Vec<Annotation> = annotations.collect();
+    // Events at one moment share an annotation: a tier has one at a time.
+    annotations.dedup_by(|later, before| {
+        let same = later.span.start() == before.span.start();
+        if same {
+            before.value = format!("{}, {}", before.value, later.value);
+        }
+        same
+    });
+    let tier = Tier {
+        name: name.to_owned(),
+        kind: name.to_owned(),
+        annotations,
+        ..Tier::default()
+    };
+    Some(Transcript {
+        tiers: vec![tier],
+        ..Transcript::default()
+    })
+}
+
+/// Returns names without repetition; empty ones become `word 1` and so on.
+pub(crate) fn unique<'a>(names: impl Iterator<Item = &'a str>, word: &str) -> Vec<String> {
+    let mut seen = BTreeSet::new();
+    let named = (1..).zip(names).map(|(at, name)| {
+        let wanted = if name.is_empty() {
+            format!("{word} {at}")
+        } else {
+            name.to_owned()
+        };
+        let mut unique = wanted.clone();
+        let mut count = 1;
+        while !seen.insert(unique.clone()) {
+            count += 1;
+            unique = format!("{wanted} ({count})");
+        }
+        unique
+    });
+    named.collect()
+}
+
+/// Returns axes with that direction up, and left as pairs of markers such as LSHO and RSHO show it.
+pub(crate) fn axes_with_up(markers: &[Marker], up: Direction, findings: &mut Findings) -> Axes {
+    if let Some(axes) = left_of(markers, up).and_then(|left| Axes::new(up, left)) {
+        return axes;
+    }
+    findings.push(Finding::note(
+        None,
+        "no pair of markers such as LSHO and RSHO shows which side is left; the first axis that fits is taken",
+    ));
+    let all = ["+Z,+X", "+Y,+X", "+X,+Y", "-Z,+X", "-Y,+X", "-X,+Y"];
+    let fits = all
+        .iter()
+        .filter_map(|text| text.parse::<Axes>().ok())
+        .find(|axes| axes.up() == up);
+    fits.unwrap_or(Convention::MODEL.axes)
+}
+
+/// Returns the direction from the feet to head and shoulders, if markers have such names.
+pub(crate) fn up_of(markers: &[Marker]) -> Option<Direction> {
+    let high = [
+        "HEAD", "LFHD", "RFHD", "SHO", "C7", "CLAV", "ACR", "STRN", "ACROM",
+    ];
+    let low = ["HEE", "TOE", "ANK", "FOOT", "CALC", "MTP", "KNE"];
+    let mean = |words: &[&str]| {
+        let (mut sum, mut count) = (DVec3::ZERO, 0.0);
+        for marker in markers {
+            let name = marker.name.to_uppercase();
+            if !words.iter().any(|word| name.contains(word)) {
+                continue;
+            }
+            let frames = marker.place.first().map_or(0, Column::len);
+            if let Some(at) = (0..frames).find_map(|frame| marker.at(frame)) {
+                sum += at;
+                count += 1.0;
+            }
+        }
+        (count > 0.0).then(|| sum / count)
+    };
+    Some(Direction::nearest(mean(&high)? - mean(&low)?))
+}
+
+/// Returns the direction from right to left, from pairs of markers whose names differ by L and R.
+fn left_of(markers: &[Marker], up: Direction) -> Option<Direction> {
+    let mut sum = DVec3::ZERO;
+    let up = up.vector();
+    for left in markers {
+        for (from, to) in [
+            ("L", "R"),
+            ("l_", "r_"),
+            ("Left", "Right"),
+            ("left", "right"),
+        ] {
+            let Some(rest) = left.name.strip_prefix(from) else {
+                continue;
+            };
+            let other = format!("{to}{rest}");
+            let Some(right) = markers
+                .iter()
+                .find(|it| it.name == other && it.group == left.group)
+            else {
+                continue;
+            };
+            let frames = left.place.first().map_or(0, Column::len);
+            let both = (0..frames).find_map(|frame| Some(left.at(frame)? - right.at(frame)?));
+            sum += both.unwrap_or(DVec3::ZERO).normalize_or_zero();
+        }
+    }
+    let across = sum - up * sum.dot(up);
+    (across.length() > 0.5).then(|| Direction::nearest(across))
+}

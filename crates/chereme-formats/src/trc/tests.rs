@@ -1,0 +1,143 @@
+use super::*;
+
+const PLAIN: &str = "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n\
+100\t100\t2\t2\tmm\t100\t1\t2\nFrame#\tTime\tLSHO\t\t\tRSHO\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n\
+1\t0.000000\t1.50\t-2\t3e2\t4\t5\t6\n2\t0.010000\t1.6\t\t3\t4\t5\t6\n";
+
+fn markers(text: &str) -> (Markers, Vec<Finding>) {
+    let (tracks, findings) =
+        read(text.as_bytes()).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let Content::Markers(markers) = tracks.tracks[0].content.clone() else {
+        panic!("markers");
+    };
+    (markers, findings)
+}
+
+#[test]
+fn the_plain_form_is_read_with_its_exact_numbers_and_gaps() {
+    let (markers, findings) = markers(PLAIN);
+    assert_eq!(
+        findings.len(),
+        1,
+        "no feet show which axis is up: {findings:?}"
+    );
+    let left = &markers.points()[0];
+    assert_eq!(left.name, "LSHO");
+    assert_eq!(left.place[0].text(0).as_deref(), Some("1.50"));
+    assert_eq!(left.at(1), None, "an empty cell is a gap");
+    assert_eq!(markers.points()[1].at(1).map(|at| at.z), Some(6.0));
+    assert_eq!(markers.times().rate().map(|rate| rate.frames()), Some(100));
+}
+
+#[test]
+fn dialects_say_the_same() {
+    let shifted = PLAIN
+        .replace("Frame#\tTime\tLSHO", "Frame#\tTime\t\tLSHO")
+        .replace("\t\tX1", "\t\t\tX1");
+    let no_axes = PLAIN.replace("\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n", "");
+    let windows = PLAIN.replace('\n', "\r\n");
+    let padded = PLAIN
+        .replace("PathFileType\t4", "PathFileType  4\t")
+        .replace("6\n", "6\t\n");
+    let spelled = PLAIN.replace("1.6\t\t3", "1.6\t       NaN\t3");
+    let tabs = PLAIN.replace("Z2\n\n", "Z2\n\t\t\t\t\n");
+    let (expected, _) = markers(PLAIN);
+    for dialect in [shifted, no_axes, windows, padded, spelled, tabs] {
+        assert_eq!(markers(&dialect).0, expected, "{dialect}");
+    }
+}
+
+#[test]
+fn wrong_counts_and_uneven_times_are_reported() {
+    let (_, findings) = markers(&PLAIN.replace("\t2\t2\tmm", "\t9\t2\tmm"));
+    assert_eq!(
+        findings[0].message,
+        "NumFrames says 9, and the file holds 2"
+    );
+    let (uneven, findings) = markers(&PLAIN.replace("0.010000", "0.5"));
+    assert_eq!(uneven.times().instant(1).seconds(), 0.5);
+    assert!(findings[0].message.contains("do not follow DataRate"));
+}
+
+#[test]
+fn damaged_files_are_refused_with_the_line() {
+    let cases = [
+        (String::new(), "no TRC file"),
+        ("PathFileType\t4\n".to_owned(), "missing"),
+        (PLAIN.replace("LSHO\t\t\tRSHO", ""), "no markers"),
+        (
+            PLAIN.replace("3\t4\t5\t6\n", "3\t4\t5\t6\t7\n"),
+            "line 8: the row has 9 cells",
+        ),
+        (PLAIN.replace("1.50", "x"), "line 7: \"x\" is no number"),
+        (PLAIN.replace("1.50", "inf"), "no number"),
+    ];
+    for (text, expected) in cases {
+        let error = read(text.as_bytes()).expect_err(expected).to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+    for end in 0..PLAIN.len() {
+        let _ = read(&PLAIN.as_bytes()[..end]);
+    }
+}
+
+#[test]
+fn markers_come_back_as_they_were() {
+    let (expected, _) = markers(PLAIN);
+    let text = write("a.trc", &expected, Instant::ZERO).expect("TRC");
+    assert_eq!(markers(&text).0, expected);
+    let mut lines = text.lines();
+    assert_eq!(lines.nth(5), Some(""));
+    assert_eq!(lines.nth(1), Some("2\t0.010000\t1.60\t\t3\t4\t5\t6"));
+}
+
+#[test]
+fn files_of_others_are_read_whole() {
+    let Some(folder) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        eprintln!("skipped: CHEREME_SHARED_DATA names no folder");
+        return;
+    };
+    let folder = std::path::Path::new(&folder).join("motion/trc");
+    let expected = [
+        ("dataWithBlanks", 40, 464),
+        ("dataWithEformat", 14, 5),
+        ("init100", 22, 120),
+        ("subject01_static", 49, 300),
+        ("markers_walk", 41, 238),
+    ];
+    let (mut folders, mut seen) = (vec![folder], 0);
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let bytes = std::fs::read(&path).expect("a file");
+            let (tracks, _) = read(&bytes).unwrap_or_else(|error| panic!("{path:?}: {error}"));
+            let Content::Markers(markers) = &tracks.tracks[0].content else {
+                panic!("markers");
+            };
+            let stem = path
+                .file_stem()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned();
+            for (name, points, frames) in expected {
+                if stem == name {
+                    assert_eq!(
+                        (markers.points().len(), markers.frames()),
+                        (points, frames),
+                        "{stem}"
+                    );
+                }
+            }
+            if stem == "init100" {
+                let first = markers.points()[0].at(0).expect("a place");
+                assert_eq!(first.to_array(), [273.71817, 56.52052, 1296.20374]);
+            }
+            seen += 1;
+        }
+    }
+    assert_eq!(seen, 13);
+}
