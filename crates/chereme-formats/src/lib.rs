@@ -2,6 +2,7 @@
 
 pub mod bvh;
 pub mod c3d;
+pub mod curves;
 pub mod eaf;
 mod finding;
 pub mod hns;

@@ -1,0 +1,264 @@
+//! Tables of scalar channels: Live Link Face, OpenFace, MediaPipe blendshapes, FAP text, and plain CSV.
+//!
+//! Every column becomes a curve under its own name with its exact decimals. Times are those of the file:
+//! timecodes, timestamps, frame numbers or seconds.
+
+mod fap;
+mod mediapipe;
+mod table;
+#[cfg(test)]
+mod tests;
+mod timecode;
+
+use std::fmt::Write as _;
+
+use chereme_motion::column::{Column, Number};
+use chereme_motion::{Curve, Curves, Instant, Rate, Times};
+
+use crate::finding::Finding;
+use crate::table::{TableError, decode};
+use crate::tally::Findings;
+use crate::tracks::{Content, Track, Tracks, rate_of, unique};
+
+/// Times lie within this share of a frame of an even grid if their rate is even.
+const EVEN_SLACK: f64 = 0.1;
+
+/// The kinds of files of channels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    /// The CSV of Live Link Face: timecodes and the 52 shapes of ARKit.
+    LiveLink,
+    /// The CSV of OpenFace 2: gaze, head, landmarks and action units.
+    OpenFace,
+    /// JSON of MediaPipe's face landmarker: frames of named scores.
+    MediaPipe,
+    /// MPEG-4 facial animation parameters as text.
+    Fap,
+    /// A table whose first column is a time or a frame number.
+    Plain,
+}
+
+impl Kind {
+    /// Returns the kind of file that begins with these bytes, nothing if it holds no channels.
+    #[must_use]
+    pub fn of(bytes: &[u8]) -> Option<Self> {
+        let start = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 14)]);
+        let start = start.trim_start_matches('\u{feff}').trim_start();
+        if start.starts_with(['{', '[']) {
+            let is_scores =
+                start.contains("\"categoryName\"") || start.contains("\"faceBlendshapes\"");
+            return is_scores.then_some(Self::MediaPipe);
+        }
+        let head = start.lines().next()?.to_lowercase();
+        if fap::is_header(&head) {
+            return Some(Self::Fap);
+        }
+        let cells: Vec<&str> = head
+            .split([',', ';', '\t'])
+            .map(|cell| cell.trim().trim_matches('"'))
+            .collect();
+        match *cells.first()? {
+            "timecode" if cells.get(1) == Some(&"blendshapecount") => Some(Self::LiveLink),
+            "frame" if cells.contains(&"confidence") && cells.contains(&"success") => {
+                Some(Self::OpenFace)
+            }
+            first if cells.len() > 1 && table::unit_of_time(first).is_some() => Some(Self::Plain),
+            _ => None,
+        }
+    }
+}
+
+/// Why bytes could not be read as channels.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Error {
+    /// The file is not text.
+    #[error("line {line}: this is not text")]
+    NotText {
+        /// The line, counted from 1.
+        line: u64,
+    },
+    /// The file is not one of the known kinds.
+    #[error(
+        "this is no table of channels: its first column is neither a timecode, a time nor a frame number"
+    )]
+    Unknown,
+    /// A row has another number of cells than the header.
+    #[error("line {line}: the row has {found} cells, and the header has {expected}")]
+    Width {
+        /// The line, counted from 1.
+        line: u64,
+        /// The cells of the row.
+        found: usize,
+        /// The cells of the header.
+        expected: usize,
+    },
+    /// A cell is not what its column needs.
+    #[error("line {line}: {cell:?} is no {expected}")]
+    Cell {
+        /// The line, counted from 1.
+        line: u64,
+        /// The cell, cut to 40 characters.
+        cell: String,
+        /// What belongs there.
+        expected: &'static str,
+    },
+    /// The document is no JSON of scores.
+    #[error("{0}")]
+    Json(String),
+    /// There are no rows or no channels.
+    #[error("the file holds no numbers")]
+    Empty,
+    /// The rows cannot be a track.
+    #[error("{0}")]
+    Track(String),
+}
+
+impl Error {
+    fn cell(line: u64, cell: &str, expected: &'static str) -> Self {
+        Self::Cell {
+            line,
+            cell: cell.chars().take(40).collect(),
+            expected,
+        }
+    }
+}
+
+/// Reads a file of channels of any kind that [`Kind::of`] recognises.
+///
+/// # Errors
+/// [`Error`] if the file is of no known kind, or its rows do not fit their header.
+pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
+    let mut findings = Findings::default();
+    let kind = Kind::of(bytes).ok_or(Error::Unknown)?;
+    let text = decode(bytes, &mut findings).map_err(|error| match error {
+        TableError::NotText { line } => Error::NotText { line },
+        _ => Error::Unknown,
+    })?;
+    let channels = match kind {
+        Kind::LiveLink => table::live_link(&text, &mut findings)?,
+        Kind::OpenFace => table::open_face(&text, &mut findings)?,
+        Kind::Plain => table::plain(&text)?,
+        Kind::MediaPipe => mediapipe::read(&text, &mut findings)?,
+        Kind::Fap => fap::read(&text)?,
+    };
+    Ok((channels.tracks(kind, &mut findings)?, findings.finish()))
+}
+
+/// Channels and times as a reader of one kind found them.
+struct Channels {
+    names: Vec<String>,
+    units: Vec<&'static str>,
+    /// The numbers, channel by channel.
+    columns: Vec<Vec<Option<Number>>>,
+    clock: Clock,
+}
+
+/// How a file says when its rows are.
+enum Clock {
+    /// Seconds of each row.
+    Seconds(Vec<f64>),
+    /// An even rate from the first row on.
+    Rate(Rate),
+}
+
+impl Channels {
+    fn new(names: Vec<String>) -> Self {
+        Self {
+            columns: vec![Vec::new(); names.len()],
+            units: vec![""; names.len()],
+            names,
+            clock: Clock::Seconds(Vec::new()),
+        }
+    }
+
+    fn tracks(self, kind: Kind, findings: &mut Findings) -> Result<Tracks, Error> {
+        let rows = self.columns.first().map_or(0, Vec::len);
+        if rows == 0 {
+            return Err(Error::Empty);
+        }
+        let (times, offset) = times(self.clock, kind, findings)?;
+        let names = unique(self.names.iter().map(String::as_str), "column");
+        let curves = names.into_iter().zip(self.columns).zip(self.units);
+        let curves = curves.map(|((name, numbers), unit)| Curve {
+            name,
+            unit: unit.to_owned(),
+            values: Column::decimals(numbers),
+        });
+        let curves = Curves::new(times, curves.collect())
+            .map_err(|error| Error::Track(error.to_string()))?;
+        let name = if kind == Kind::Plain {
+            "curves"
+        } else {
+            "face"
+        };
+        let mut track = Track::new(name, Content::Curves(curves));
+        track.offset = offset;
+        Ok(Tracks {
+            tracks: vec![track],
+            events: None,
+        })
+    }
+}
+
+/// Returns an even rate if the rows are even, else their own times, and when the first row is.
+fn times(clock: Clock, kind: Kind, findings: &mut Findings) -> Result<(Times, Instant), Error> {
+    let seconds = match clock {
+        Clock::Rate(rate) => return Ok((Times::Even(rate), Instant::ZERO)),
+        Clock::Seconds(seconds) => seconds,
+    };
+    let first = seconds.first().copied().unwrap_or_default();
+    // A timecode is the time of day; the track begins with its first row.
+    let offset = match kind {
+        Kind::LiveLink => Instant::ZERO,
+        _ => Instant::from_seconds(first),
+    };
+    if kind == Kind::LiveLink {
+        findings.push(Finding::note(
+            None,
+            format!("its first row has the time {first:.3} s of the day; that is 0 s here"),
+        ));
+    }
+    let from_first: Vec<f64> = seconds.iter().map(|time| time - first).collect();
+    let count = from_first.len();
+    let last = from_first.last().copied().unwrap_or_default();
+    let even = rate_of((count.max(2) - 1) as f64 / last).filter(|rate| {
+        let near = |(frame, time): (usize, &f64)| {
+            (time - frame as f64 * rate.frame_time()).abs() <= EVEN_SLACK * rate.frame_time()
+        };
+        from_first.iter().enumerate().all(near)
+    });
+    if let Some(rate) = even.filter(|_| count > 1) {
+        return Ok((Times::Even(rate), offset));
+    }
+    let times = Times::listed(Column::doubles(from_first))
+        .map_err(|error| Error::Track(error.to_string()))?;
+    Ok((times, offset))
+}
+
+/// Writes a track of curves as CSV: a column of seconds, then one for each curve, `name [unit]`.
+#[must_use]
+pub fn write(curves: &Curves, offset: Instant) -> String {
+    let quoted = |name: &str| match name.contains([',', '"', '\n']) {
+        true => format!("\"{}\"", name.replace('"', "\"\"")),
+        false => name.to_owned(),
+    };
+    let mut out = String::from("time [s]");
+    for curve in curves.curves() {
+        let unit = if curve.unit.is_empty() {
+            String::new()
+        } else {
+            format!(" [{}]", curve.unit)
+        };
+        let _ = write!(out, ",{}", quoted(&format!("{}{unit}", curve.name)));
+    }
+    out.push('\n');
+    for frame in 0..curves.frames() {
+        let seconds = curves.times().instant(frame).seconds() + offset.seconds();
+        let _ = write!(out, "{seconds:.6}");
+        for curve in curves.curves() {
+            let _ = write!(out, ",{}", curve.values.text(frame).unwrap_or_default());
+        }
+        out.push('\n');
+    }
+    out
+}

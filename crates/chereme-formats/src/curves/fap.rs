@@ -1,0 +1,91 @@
+//! MPEG-4 facial animation parameters as text (`.fap`).
+//!
+//! Two lines a frame: 68 masks, then the frame's number and a value for every parameter that its mask names.
+//! Source: ISO/IEC 14496-2, table of facial animation parameters; the text form of the MPEG-4 tools.
+
+use chereme_motion::column::Number;
+
+use super::{Channels, Clock, Error};
+use crate::tracks::rate_of;
+
+/// The number of parameters.
+const PARAMETERS: usize = 68;
+
+/// Returns whether a first line, in small letters, is that of a `.fap` file: version, name, rate, frames.
+pub(super) fn is_header(line: &str) -> bool {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    words.len() == 4
+        && ["2.0", "2.1"].contains(&words[0])
+        && words[2].parse::<f64>().is_ok()
+        && words[3].parse::<u64>().is_ok()
+}
+
+pub(super) fn read(text: &str) -> Result<Channels, Error> {
+    let mut lines = (1u64..)
+        .zip(text.lines())
+        .filter(|(_, line)| !line.trim().is_empty());
+    let (_, head) = lines.next().ok_or(Error::Empty)?;
+    let rate = head
+        .split_whitespace()
+        .nth(2)
+        .and_then(|rate| rate.parse().ok());
+    let rate = rate
+        .and_then(rate_of)
+        .ok_or_else(|| Error::cell(1, head, "line of version, name, rate and frames"))?;
+    let mut channels = Channels::new(
+        (1..=PARAMETERS)
+            .map(|number| format!("FAP{number}"))
+            .collect(),
+    );
+    channels.clock = Clock::Rate(rate);
+    while let Some((line, masks)) = lines.next() {
+        let masks: Vec<&str> = masks.split_whitespace().collect();
+        if masks.len() != PARAMETERS || masks.iter().any(|mask| !["0", "1"].contains(mask)) {
+            return Err(Error::cell(
+                line,
+                &masks.join(" "),
+                "row of 68 masks 0 or 1",
+            ));
+        }
+        if masks[0] == "1" || masks[1] == "1" {
+            return Err(Error::cell(
+                line,
+                "FAP 1 or 2",
+                "single number; visemes and expressions are not read: write their low-level parameters",
+            ));
+        }
+        let (line, values) = lines
+            .next()
+            .ok_or_else(|| Error::cell(line, "", "line of values"))?;
+        let mut values = values.split_whitespace().skip(1);
+        for (mask, column) in masks.iter().zip(&mut channels.columns) {
+            if *mask == "0" {
+                column.push(None);
+                continue;
+            }
+            let cell = values.next().unwrap_or_default();
+            let number =
+                Number::parse(cell.as_bytes()).map_err(|_| Error::cell(line, cell, "number"))?;
+            column.push(Some(number));
+        }
+        if let Some(more) = values.next() {
+            return Err(Error::cell(
+                line,
+                more,
+                "value of a parameter that is masked",
+            ));
+        }
+    }
+    // Parameters that no frame names say nothing.
+    let named: Vec<bool> = channels
+        .columns
+        .iter()
+        .map(|column| column.iter().any(Option::is_some))
+        .collect();
+    let mut keep = named.iter();
+    channels.names.retain(|_| *keep.next().unwrap_or(&false));
+    let mut keep = named.iter();
+    channels.columns.retain(|_| *keep.next().unwrap_or(&false));
+    channels.units.truncate(channels.names.len());
+    Ok(channels)
+}

@@ -1,0 +1,99 @@
+//! JSON of MediaPipe's face landmarker: one object a frame with named scores.
+
+use chereme_motion::column::Number;
+use serde_json::Value;
+
+use super::{Channels, Clock, Error};
+use crate::finding::Finding;
+use crate::tally::Findings;
+use crate::tracks::rate_of;
+
+/// Frames a second if the file gives no times; MediaPipe's results hold none.
+const USUAL_RATE: f64 = 30.0;
+
+pub(super) fn read(text: &str, findings: &mut Findings) -> Result<Channels, Error> {
+    let document: Value = serde_json::from_str(text)
+        .map_err(|error| Error::Json(format!("line {}: {error}", error.line())))?;
+    let frames = match &document {
+        Value::Array(frames) => frames.iter().collect(),
+        Value::Object(object) => match object.get("frames") {
+            Some(Value::Array(frames)) => frames.iter().collect(),
+            _ => vec![&document],
+        },
+        _ => Vec::new(),
+    };
+    let mut channels = Channels::new(Vec::new());
+    let mut times = Vec::new();
+    for (row, frame) in frames.iter().enumerate() {
+        for column in &mut channels.columns {
+            column.push(None);
+        }
+        for (name, score) in scores(frame) {
+            let at = match channels.names.iter().position(|known| known == name) {
+                Some(at) => at,
+                None => {
+                    channels.names.push(name.to_owned());
+                    channels.units.push("");
+                    channels.columns.push(vec![None; row + 1]);
+                    channels.names.len() - 1
+                }
+            };
+            channels.columns[at][row] = Number::parse(score.as_bytes()).ok();
+        }
+        times.push(time(frame));
+    }
+    if channels.names.is_empty() {
+        return Err(Error::Json(
+            "no frame holds categories with a categoryName and a score".to_owned(),
+        ));
+    }
+    let known: Option<Vec<f64>> = times.into_iter().collect();
+    channels.clock = match known.filter(|times| times.windows(2).all(|pair| pair[1] > pair[0])) {
+        Some(times) => Clock::Seconds(times),
+        None => {
+            findings.push(
+                Finding::warning(
+                    None,
+                    format!("its frames have no times; {USUAL_RATE} a second are taken"),
+                )
+                .with_remedy("write \"timestampMs\" into each frame"),
+            );
+            Clock::Rate(rate_of(USUAL_RATE).ok_or(Error::Empty)?)
+        }
+    };
+    Ok(channels)
+}
+
+/// Returns the named scores of a frame, as the file writes the numbers.
+fn scores(frame: &Value) -> Vec<(&str, String)> {
+    let shapes = frame.get("faceBlendshapes").unwrap_or(frame);
+    let first = match shapes {
+        Value::Array(faces)
+            if faces
+                .first()
+                .is_some_and(|face| face.get("categories").is_some()) =>
+        {
+            &faces[0]
+        }
+        other => other,
+    };
+    let categories = first.get("categories").unwrap_or(first);
+    let Value::Array(categories) = categories else {
+        return Vec::new();
+    };
+    let pairs = categories.iter().filter_map(|category| {
+        let name = category
+            .get("categoryName")
+            .or(category.get("label"))?
+            .as_str()?;
+        Some((name, category.get("score")?.as_number()?.to_string()))
+    });
+    pairs.collect()
+}
+
+/// Returns the seconds that a frame names.
+fn time(frame: &Value) -> Option<f64> {
+    let named = |key: &str| frame.get(key).and_then(Value::as_f64);
+    let millis = named("timestampMs").or(named("timestamp_ms"));
+    millis.map(|millis| millis / 1000.0).or(named("time"))
+}
