@@ -68,6 +68,46 @@ fn every_query_of_the_readme_works() {
 }
 
 #[test]
+fn an_exported_folder_holds_the_dictionary_and_its_queries_run() {
+    let (folder, connection) = corpus();
+    drop(connection);
+    let corpus = Corpus::open(&folder.path().join("small.chereme"), "reader").expect("opened");
+    let to = folder.path().join("shared");
+    let mut hear = chereme_corpus::unheard;
+    corpus
+        .export(
+            &chereme_corpus::ExportWhat::All,
+            &to,
+            &chereme_corpus::ExportOptions::default(),
+            &mut chereme_corpus::Progress::new(&mut hear),
+        )
+        .expect("exported");
+    let page = fs::read_to_string(to.join("DICTIONARY.md")).expect("the dictionary");
+    assert_eq!(queries(&page), queries(&readme()));
+    let file = fs::read_to_string(to.join("queries.sql")).expect("the queries");
+    let connection = Connection::open(to.join("corpus.chereme")).expect("opened");
+    let all: Vec<&str> = file
+        .split(";\n")
+        .filter(|it| it.contains("SELECT"))
+        .collect();
+    assert_eq!(all.len(), queries(&page).len());
+    for sql in all {
+        let mut statement = connection
+            .prepare(sql)
+            .unwrap_or_else(|error| panic!("{sql}\n{error}"));
+        assert!(statement.readonly(), "{sql}");
+        let mut rows = statement.query([]).expect(sql);
+        while rows
+            .next()
+            .unwrap_or_else(|error| panic!("{sql}\n{error}"))
+            .is_some()
+        {}
+    }
+    let sums = fs::read_to_string(to.join("SHA256SUMS")).expect("checksums");
+    assert!(sums.contains("DICTIONARY.md") && sums.contains("queries.sql"));
+}
+
+#[test]
 fn every_table_and_column_is_described() {
     let (_folder, connection) = corpus();
     let readme = readme();

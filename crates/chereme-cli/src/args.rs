@@ -1,19 +1,22 @@
 //! The words of the command line.
 
+use std::ffi::OsString;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
+use chereme_corpus::words::Language;
 use chereme_corpus::{Corpus, Error};
 use chereme_motion::Side;
 use clap::{Parser, ValueEnum};
 
 use crate::commands::Command;
+use crate::streams;
 
 /// A corpus database for signed movement: import, search, recombine, look at and export signs.
 ///
-/// One file, NAME.chereme, holds recordings, what is said about them on tiers, and the new signs made
-/// from them. Start with `chereme demo`.
+/// One file, NAME.chereme, holds recordings, the annotations of their tiers, and the new signs made
+/// from them. Start with `chereme demo`, or import a folder of your own.
 #[derive(Debug, Parser)]
 #[command(
     name = "chereme",
@@ -25,9 +28,17 @@ pub(crate) struct Cli {
     /// Print one JSON document on standard output instead of tables
     #[arg(long, global = true)]
     pub(crate) json: bool,
-    /// Who does the work, for the history; else CHEREME_AUTHOR of the environment, or the user
+    /// Your name in the history; else CHEREME_AUTHOR of the environment, or the user of the machine
     #[arg(long, global = true, value_name = "NAME")]
     pub(crate) author: Option<String>,
+    /// How many letters wide tables are, 0 for as wide as they need; else as wide as the terminal, or
+    /// unshortened if the output goes to a file or another program
+    #[arg(long, global = true, value_name = "LETTERS")]
+    pub(crate) width: Option<usize>,
+    /// The language of help, tables and messages, en or fr, also after the command; else that of the locale.
+    /// JSON is always in English
+    #[arg(long, value_name = "LANGUAGE", value_parser = ["en", "fr"])]
+    pub(crate) language: Option<String>,
     #[command(subcommand)]
     pub(crate) command: Command,
 }
@@ -69,8 +80,46 @@ impl SideWord {
     }
 }
 
-/// Reads a small text file that the user named.
+/// Takes `--language en` or `fr`, wherever it stands, out of the words of the command line; else the
+/// language is that of the locale. Other values of an option of this name belong to the commands.
+pub(crate) fn language(words: &mut Vec<OsString>) -> Language {
+    let code = |word: &OsString| {
+        word.to_str()
+            .filter(|word| ["en", "fr"].contains(word))
+            .map(str::to_owned)
+    };
+    let mut asked = None;
+    let mut at = 1;
+    while at < words.len() {
+        let joined = words[at]
+            .to_str()
+            .and_then(|word| word.strip_prefix("--language="));
+        let taken = match (joined, words[at] == "--language") {
+            (Some(value), _) => code(&value.into()).map(|code| (code, 1)),
+            (None, true) => words.get(at + 1).and_then(code).map(|code| (code, 2)),
+            _ => None,
+        };
+        match taken {
+            Some((code, length)) => {
+                words.drain(at..at + length);
+                asked = Some(code);
+            }
+            None => at += 1,
+        }
+    }
+    let variable = |name: &str| std::env::var(name).ok();
+    let locale = ["LC_ALL", "LC_MESSAGES", "LANG"]
+        .into_iter()
+        .filter_map(variable)
+        .find(|locale| !locale.is_empty());
+    Language::of_locale(&asked.or(locale).unwrap_or_default())
+}
+
+/// Reads a small text file that the user named; `-` is standard input.
 pub(crate) fn read_text(path: &PathBuf) -> Result<String> {
+    if streams::is_standard(path) {
+        return streams::read_text();
+    }
     Ok(std::fs::read_to_string(path).map_err(|error| Error::file(path, error))?)
 }
 

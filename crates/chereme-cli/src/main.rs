@@ -6,20 +6,31 @@
 mod args;
 mod commands;
 mod output;
+#[cfg(test)]
+mod remedies;
+mod streams;
+mod table;
+mod words;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches};
 
 use args::Cli;
 use output::Output;
 
 fn main() -> ExitCode {
-    let cli = match Cli::try_parse() {
+    let mut words: Vec<_> = std::env::args_os().collect();
+    let json = words.iter().any(|word| word == "--json");
+    let language = args::language(&mut words);
+    let parsed = words::spoken(Cli::command(), language)
+        .try_get_matches_from(words)
+        .and_then(|matches| Cli::from_arg_matches(&matches));
+    let cli = match parsed {
         Ok(cli) => cli,
-        Err(error) => return output::usage(&error, std::env::args().any(|arg| arg == "--json")),
+        Err(error) => return output::usage(&error, json, language),
     };
-    let mut output = Output::new(cli.json);
+    let mut output = Output::new(cli.json, cli.width, language);
     chereme_corpus::on_waiting(output::waiting);
     let done = commands::run(&cli, &mut output).and_then(|code| output.finish().map(|()| code));
     match done {

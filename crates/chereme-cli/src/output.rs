@@ -8,25 +8,37 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
 use anyhow::Result;
+use chereme_corpus::words::{Language, Text, counted_in, fill, message, trouble};
 use chereme_corpus::{Step, Unit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-/// How many characters wide the rule below a table's titles is at most, unless they are wider.
-const RULE: usize = 100;
+use crate::{table, words};
 
 /// Where a command writes; a reader that goes away early ends the program quietly.
 pub(crate) struct Output {
     json: bool,
+    /// How wide tables may be; nothing for as wide as they are.
+    width: Option<usize>,
+    language: Language,
     document: Option<Value>,
     text: io::BufWriter<io::Stdout>,
 }
 
 impl Output {
-    pub(crate) fn new(json: bool) -> Self {
+    /// Tables are `width` letters wide, 0 for as wide as they are; without it as wide as the terminal.
+    pub(crate) fn new(json: bool, width: Option<usize>, language: Language) -> Self {
+        let terminal = || {
+            let terminal = io::stdout()
+                .is_terminal()
+                .then(terminal_size::terminal_size);
+            terminal.flatten().map(|(width, _)| usize::from(width.0))
+        };
         Self {
             json,
+            width: width.or_else(terminal).filter(|width| *width > 0),
+            language,
             document: None,
             text: io::BufWriter::new(io::stdout()),
         }
@@ -43,6 +55,12 @@ impl Output {
         Ok(())
     }
 
+    /// Writes nothing more: standard output belongs to a document.
+    pub(crate) fn silence(&mut self) {
+        self.json = false;
+        self.document = None;
+    }
+
     /// Writes a line for people.
     pub(crate) fn line(&mut self, text: impl AsRef<str>) -> Result<()> {
         if !self.json {
@@ -51,47 +69,30 @@ impl Output {
         Ok(())
     }
 
-    /// Writes a table for people: columns as wide as their widest cell, numbers to the right.
+    /// Writes a table for people, as wide as may be.
     pub(crate) fn table(&mut self, header: &[&str], rows: &[Vec<String>]) -> Result<()> {
         if self.json {
             return Ok(());
         }
-        let width = |column: usize| {
-            let cells = rows.iter().filter_map(|row| row.get(column));
-            let widest = cells.map(|cell| cell.chars().count()).max().unwrap_or(0);
-            widest.max(header[column].chars().count())
-        };
-        let widths: Vec<usize> = (0..header.len()).map(width).collect();
-        let numeric: Vec<bool> = (0..header.len())
-            .map(|column| {
-                let mut cells = rows.iter().filter_map(|row| row.get(column)).peekable();
-                cells.peek().is_some()
-                    && cells.all(|cell| cell.is_empty() || cell.parse::<f64>().is_ok())
-            })
-            .collect();
-        let print = |cells: &mut dyn Iterator<Item = &str>| {
-            let padded = cells
-                .zip(&widths)
-                .zip(&numeric)
-                .map(|((cell, width), numeric)| {
-                    let gap = " ".repeat(width.saturating_sub(cell.chars().count()));
-                    if *numeric {
-                        format!("{gap}{cell}")
-                    } else {
-                        format!("{cell}{gap}")
-                    }
-                });
-            padded.collect::<Vec<_>>().join("  ").trim_end().to_owned()
-        };
-        let head = print(&mut header.iter().copied());
-        self.line(&head)?;
-        let rule = widths.iter().sum::<usize>() + 2 * widths.len().saturating_sub(1);
-        self.line("-".repeat(rule.min(RULE.max(head.chars().count()))))?;
-        for row in rows {
-            let text = print(&mut row.iter().map(String::as_str));
-            self.line(text)?;
+        for line in table::lines(header, rows, self.width) {
+            self.line(line)?;
         }
         Ok(())
+    }
+
+    /// Returns how many of something there are, in the language of the output.
+    pub(crate) fn counted(&self, count: u64, noun: &str) -> String {
+        counted_in(count, noun, self.language)
+    }
+
+    /// Returns a text of the shared table in the language of the output.
+    pub(crate) fn say(&self, text: Text) -> &'static str {
+        text.of(self.language)
+    }
+
+    /// Returns the language of the output.
+    pub(crate) fn language(&self) -> Language {
+        self.language
     }
 
     /// Writes out what is left.
@@ -109,20 +110,23 @@ impl Output {
         let known = error.downcast_ref::<chereme_corpus::Error>();
         let place = known.and_then(chereme_corpus::Error::place);
         let remedy = known.and_then(chereme_corpus::Error::remedy);
-        let message = known.map_or_else(|| format!("{error:#}"), ToString::to_string);
+        let told = known.map_or_else(|| format!("{error:#}"), ToString::to_string);
         if self.json {
             self.document = Some(json!({
-                "error": { "message": message, "where": place, "remedy": remedy }
+                "error": { "message": told, "where": place, "remedy": remedy }
             }));
             let _ = self.finish();
         } else {
             let _ = self.text.flush();
-            tell(&format!("error: {}", drawn_below(&message)));
-            if let Some(place) = place.filter(|place| !message.contains(place.as_str())) {
-                tell(&format!("  where: {place}"));
+            let spoken =
+                |text: &str| message(text, self.language).unwrap_or_else(|| text.to_owned());
+            let label = |text: Text, value: String| fill(self.say(text), &[("what", &value)]);
+            tell(&label(trouble::ERROR, drawn_below(&spoken(&told))));
+            if let Some(place) = place.filter(|place| !told.contains(place.as_str())) {
+                tell(&label(trouble::WHERE, place));
             }
             if let Some(remedy) = remedy {
-                tell(&format!("  what to do: {remedy}"));
+                tell(&label(trouble::WHAT_TO_DO, spoken(&remedy)));
             }
         }
         ExitCode::FAILURE
@@ -154,13 +158,15 @@ pub(crate) fn tell(text: &str) {
 }
 
 /// Tells of wrong usage, or shows the help that was asked for.
-pub(crate) fn usage(error: &clap::Error, json: bool) -> ExitCode {
+pub(crate) fn usage(error: &clap::Error, json: bool, language: Language) -> ExitCode {
     if json && error.use_stderr() {
         let text = error.to_string();
         let (message, remedy) = text.split_once("\n\n").unwrap_or((&text, ""));
         let message = message.trim_start_matches("error: ").trim();
         let document = json!({ "error": { "message": message, "where": Value::Null, "remedy": remedy.trim() } });
         let _ = writeln!(io::stdout(), "{document}");
+    } else if language == Language::French && error.use_stderr() {
+        note(&words::usage(&error.render().to_string()));
     } else {
         let _ = error.print();
     }
@@ -216,9 +222,9 @@ impl Bar {
     }
 }
 
-/// Tells that another program writes to the corpus.
+/// Says that another program writes to the corpus.
 pub(crate) fn waiting() {
-    note("waiting for another program that is writing to the corpus ...");
+    note("waiting up to 20 seconds for another program that is writing to the corpus ...");
 }
 
 /// Says something beside the output.

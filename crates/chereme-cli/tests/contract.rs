@@ -114,7 +114,8 @@ const CASES: &[Case] = &[
             "/operations/0/target",
         ],
     ),
-    ("undo @c --times 2", 1, ERROR),
+    ("undo @c --times 2", 0, &["/operations/0", "/left"]),
+    ("redo @c --times 2", 1, ERROR),
     ("undo @c --times 0", 2, ERROR),
     ("undo @d/none.chereme", 1, ERROR),
     ("undo @in/notes.txt", 1, ERROR),
@@ -131,6 +132,28 @@ const CASES: &[Case] = &[
         ],
     ),
     ("log @c --limit 0", 0, LOG),
+    (
+        "log @c 1",
+        0,
+        &[
+            "/operation/id",
+            "/total",
+            "/tables/annotation",
+            "/changes/0/what",
+            "/changes/0/kind",
+            "/changes/0/name",
+            "/changes/0/fields/0/field",
+            "/changes/0/fields/0/from",
+            "/changes/0/fields/0/to",
+        ],
+    ),
+    ("log @c --changes", 0, &["/rows/0/id", "/details/0/changes"]),
+    ("log @c 99", 1, ERROR),
+    ("log @c many", 2, ERROR),
+    ("completions bash", 0, &["/script"]),
+    ("completions tcsh", 2, ERROR),
+    ("man", 0, &["/page"]),
+    ("man --to @d/man", 0, &["/files/0"]),
     ("log @c --limit many", 2, ERROR),
     ("log @d/none.chereme", 1, ERROR),
     ("log @in", 1, ERROR),
@@ -205,6 +228,27 @@ const CASES: &[Case] = &[
     ("annotate @c --in bowl set a99 --value X", 1, ERROR),
     ("annotate @c --in cup set a1 --value X", 1, ERROR),
     ("annotate @c from @more/none.csv", 1, ERROR),
+    (
+        "annotate @c replace BOL TASSE --tier Gloss --dry-run",
+        0,
+        &["/dry_run", "/changed", "/values/0/from", "/values/0/to"],
+    ),
+    (
+        "annotate @c replace '^(.)O' '$1A' --regex",
+        0,
+        &["/values/0/to"],
+    ),
+    ("annotate @c replace '(' x --regex", 1, ERROR),
+    ("annotate @c replace a b --tier nosuch", 1, ERROR),
+    ("annotate @c --in bowl shift --by 1ms --dry-run", 0, CHANGED),
+    ("annotate @c --in bowl shift --by -9s", 1, ERROR),
+    ("annotate @c shift --by 1ms", 1, ERROR),
+    ("annotate @c --in bowl shift --by far", 2, ERROR),
+    (
+        "annotate @c --in bowl add Gloss JOUR --start 0.2 --end 0.4 --mode sideways",
+        2,
+        ERROR,
+    ),
     ("annotate @c", 2, ERROR),
     (
         "annotate @c --in bowl add-tiers",
@@ -339,6 +383,16 @@ const CASES: &[Case] = &[
         0,
         WRITTEN,
     ),
+    (
+        "export @c recording:1 BOL --to @d/takes --format bvh",
+        0,
+        &["/files/0/path", "/files/1/path"],
+    ),
+    ("export @c recording:1 BOL --to @d/takes", 1, ERROR),
+    ("export @c recording:1 BOL --to @d/takes.bvh", 1, ERROR),
+    ("export @c BOL --to @d/bowl.glb", 1, ERROR),
+    ("export @c BOL --to -", 1, ERROR),
+    ("import @c -", 1, ERROR),
     ("export @c BOL --to @d/bowl.sigml", 1, ERROR),
     ("export @c all --to @d/all.docx", 1, ERROR),
     ("export @c recording:9 --to @d/nine.bvh", 1, ERROR),
@@ -513,6 +567,198 @@ fn a_dry_run_leaves_nothing_behind() {
     assert_eq!(report["dry_run"], true);
     assert_eq!(report["created"]["recordings"], 1);
     assert!(!absent.exists());
+}
+
+#[test]
+fn documents_go_through_standard_input_and_output() {
+    let desk = Desk::new();
+    let corpus = desk.corpus().display().to_string();
+    let pipe = |line: &str, input: &[u8]| desk.pipe(&line.replace("@c", &corpus), input);
+    let eaf = pipe("export @c recording:1 --to - --format eaf", b"");
+    assert!(eaf.status.success(), "{}", text(&eaf.stderr));
+    assert!(text(&eaf.stdout).starts_with("<?xml"));
+    assert!(!desk.folder.path().join("-").exists());
+    let csv = pipe("export @c all --to - --format csv", b"");
+    assert!(text(&csv.stdout).starts_with("token,gloss,"));
+    let both = pipe("export @c all --to - --format csv --json", b"");
+    assert_eq!(both.status.code(), Some(1));
+    let done = pipe("import @c - --format eaf --name again", &eaf.stdout);
+    assert!(
+        done.status.success(),
+        "{}{}",
+        text(&done.stdout),
+        text(&done.stderr)
+    );
+    assert!(text(&pipe("list @c recordings", b"").stdout).contains("again"));
+    let done = pipe(
+        "annotate @c from -",
+        b"recording,tier,start,end,value\nbowl,Gloss,1.6,1.8,JOUR\n",
+    );
+    assert!(
+        text(&done.stdout).starts_with("1 added"),
+        "{}",
+        text(&done.stderr)
+    );
+    let done = pipe(
+        "animate @c -",
+        b"hamflathand hamextfingeru hampalml hammoveo\n",
+    );
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let sigml = fs::read(desk.inbox().join("notated.sigml")).expect("a file");
+    let done = pipe("animate @c -", &sigml);
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let done = pipe("recombine @c - --as LOB", b"BOL | reverse\n");
+    assert!(done.status.success(), "{}", text(&done.stderr));
+    let picture = pipe("render @c BOL --to - --height 40 --frames 2", b"");
+    assert!(
+        picture.stdout.starts_with(b"\x89PNG"),
+        "{}",
+        text(&picture.stderr)
+    );
+}
+
+#[test]
+fn undoing_more_than_there_is_undoes_all_and_says_so() {
+    let desk = Desk::new();
+    let corpus = desk.corpus();
+    let path = corpus.display();
+    let done = desk.run(&format!("undo {path} --times 99"));
+    assert_eq!(done.status.code(), Some(0));
+    let said = text(&done.stdout);
+    assert!(
+        said.contains("1 operation undone, and nothing is left to undo (99 were asked for)"),
+        "{said}"
+    );
+    assert_eq!(
+        desk.run(&format!("undo {path} --times 99")).status.code(),
+        Some(1)
+    );
+    let json = desk.json(&format!("redo {path} --times 3"));
+    assert_eq!(
+        (json["operations"].as_array().map(Vec::len), &json["left"]),
+        (Some(1), &0.into())
+    );
+}
+
+#[test]
+fn a_table_of_many_rows_names_no_thousand_ids() {
+    let desk = Desk::new();
+    let corpus = desk.corpus();
+    let path = corpus.display();
+    let mut table = String::from("recording,tier,start,end,value\n");
+    for n in 0..300 {
+        let at = 1.6 + f64::from(n) * 0.001;
+        table.push_str(&format!("bowl,Gloss,{at:.3},{:.3},N{n}\n", at + 0.001));
+    }
+    let done = desk.pipe(&format!("annotate {path} from -"), table.as_bytes());
+    let said = text(&done.stdout);
+    assert!(
+        said.starts_with("300 added") && said.len() < 200,
+        "{said}{}",
+        text(&done.stderr)
+    );
+    assert!(desk.run(&format!("undo {path}")).status.success());
+    let count = |line: String| {
+        let done = desk.pipe(&line, table.as_bytes());
+        let json: serde_json::Value = serde_json::from_slice(&done.stdout).expect("JSON");
+        assert_eq!(json["annotations_total"], 300);
+        json["annotations"].as_array().map(Vec::len)
+    };
+    assert_eq!(count(format!("annotate {path} from - --json")), Some(100));
+    assert!(desk.run(&format!("undo {path}")).status.success());
+    assert_eq!(
+        count(format!("annotate {path} from - --json --ids")),
+        Some(300)
+    );
+}
+
+#[test]
+fn a_change_says_from_what_to_what_and_pushes_others_where_asked() {
+    let desk = Desk::new();
+    let corpus = desk.corpus();
+    let path = corpus.display();
+    let over = desk.run(&format!(
+        "annotate {path} --in bowl add Gloss JOUR --start 0.2 --end 0.4"
+    ));
+    let said = text(&over.stderr);
+    assert!(
+        said.contains("overlaps \"BOL\"") && said.contains("on the tier \"Gloss\""),
+        "{said}"
+    );
+    assert!(said.contains("free next to it: "), "{said}");
+    let done = desk.run(&format!("annotate {path} replace BOL TASSE --tier Gloss"));
+    assert!(
+        text(&done.stdout).contains("\"BOL\" -> \"TASSE\""),
+        "{}",
+        text(&done.stdout)
+    );
+    let log = desk.run(&format!("log {path} --changes --limit 1"));
+    let said = text(&log.stdout);
+    assert!(
+        said.contains("annotation \"BOL\" on Gloss of bowl: "),
+        "{said}"
+    );
+    assert!(said.contains("value from \"BOL\" to \"TASSE\""), "{said}");
+}
+
+#[test]
+fn the_command_line_speaks_french_where_it_is_asked_to() {
+    let desk = Desk::new();
+    let corpus = desk.corpus();
+    let path = corpus.display();
+    for line in [
+        format!("--language fr search {path} @none"),
+        format!("undo {path} --times 0 --language=fr"),
+    ] {
+        let done = desk.run(&line);
+        assert!(
+            text(&done.stderr).starts_with("erreur : "),
+            "{}",
+            text(&done.stderr)
+        );
+    }
+    let done = desk.run(&format!("undo {path} --language fr"));
+    assert!(
+        text(&done.stdout).starts_with("annulé : opération 1, Importé : "),
+        "{}",
+        text(&done.stdout)
+    );
+    let none = desk.run(&format!("undo {path} --language fr"));
+    assert_eq!(
+        text(&none.stderr).lines().next(),
+        Some("erreur : il n’y a rien à annuler")
+    );
+    let json = desk.run(&format!("undo {path} --language fr --json"));
+    assert!(
+        text(&json.stdout).contains("there is nothing to undo"),
+        "JSON stays"
+    );
+    let help = desk.run("undo --help --language fr");
+    assert!(
+        text(&help.stdout).contains("Annuler la dernière modification"),
+        "{}",
+        text(&help.stdout)
+    );
+}
+
+#[test]
+fn tables_are_as_wide_as_asked_for() {
+    let desk = Desk::new();
+    let corpus = desk.corpus();
+    let path = corpus.display();
+    let widest = |width: &str| {
+        let done = desk.run(&format!("list {path} tokens {width}"));
+        text(&done.stdout)
+            .lines()
+            .map(|line| line.chars().count())
+            .max()
+    };
+    assert!(widest("--width 100") <= Some(100), "shortened");
+    assert!(
+        widest("") > Some(110),
+        "whole, as it goes to another program"
+    );
+    assert_eq!(widest("--width 0"), widest(""));
 }
 
 /// Returns the commands that the help lists, with what it says of them.

@@ -11,6 +11,7 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::Corpus;
+use crate::annotate::told;
 use crate::curves;
 use crate::db::check as rows;
 use crate::db::motion::hex;
@@ -51,7 +52,7 @@ pub struct Fault {
 }
 
 const BACKUP: &str = "take the file from a backup, or import the recording again";
-const MEND: &str = "`chereme check --mend` puts it right";
+const MEND: &str = "`chereme check CORPUS --mend` puts it right";
 
 impl Corpus {
     /// Looks at everything that can be wrong: the database, references, blocks and their hashes,
@@ -92,7 +93,8 @@ impl Corpus {
                 kind: "index",
                 place: "search index".into(),
                 message: "the rows were changed without it".into(),
-                remedy: "the next search makes it anew; so does `chereme check --mend`".into(),
+                remedy: "the next search makes it anew; so does `chereme check CORPUS --mend`"
+                    .into(),
             });
             return Ok(());
         }
@@ -292,8 +294,9 @@ impl Looking<'_, '_> {
             let set = tier_set(connection, recording.id)?;
             for violation in tier::check(&set) {
                 let place = format!("recording {:?}", recording.name);
-                let remedy = "correct the annotation with `chereme annotate`";
-                self.fault("tier", place, violation.to_string(), remedy);
+                let remedy = "correct the annotation: `chereme annotate CORPUS set ANNOTATION --value TEXT`, or --start and --end";
+                let message = told::named(connection, &violation.to_string());
+                self.fault("tier", place, message, remedy);
             }
             let derived = rows::tried(connection, || {
                 let before = rows::changes(connection)?;

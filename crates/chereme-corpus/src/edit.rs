@@ -11,6 +11,7 @@ use crate::db::signs::{self, TokenRow};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::tokens;
+use crate::words::counted;
 
 /// What shall be different about a recording; nothing leaves it as it is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -186,7 +187,7 @@ impl Corpus {
             }
             let summary = match renamed {
                 0 => gloss.clone(),
-                count => format!("{old} to {gloss}, {count} annotations"),
+                count => format!("{old} to {gloss}, {}", counted(count as u64, "annotations")),
             };
             Ok((gloss, summary))
         })

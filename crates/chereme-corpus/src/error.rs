@@ -167,10 +167,10 @@ impl Error {
             },
             Self::NotACorpus { remedy, .. } => Some(remedy.clone()),
             Self::Damaged { .. } => {
-                Some("`chereme check` tells what else is wrong and how to mend it".into())
+                Some("`chereme check CORPUS` lists all damage and says how to mend it; a backup may be whole".into())
             }
             Self::Database(_) => self.cause().map(|cause| remedy_of(cause).to_owned()),
-            Self::Index(_) => Some("`chereme check --mend` makes the search index anew".into()),
+            Self::Index(_) => Some("`chereme check CORPUS --mend` builds the search index again".into()),
             Self::Wrong { remedy, .. } => remedy.clone(),
             Self::Several { errors } => errors.first().and_then(Self::remedy),
             Self::Stopped => None,
@@ -211,11 +211,13 @@ fn several(errors: &[Error]) -> String {
 
 fn remedy_of(cause: Cause) -> &'static str {
     match cause {
-        Cause::Busy => "another program is writing to the corpus; try again when it is done",
+        Cause::Busy => {
+            "another program has been writing to the corpus for 20 seconds; try again when it is done"
+        }
         Cause::Full => "the disk is full; make room and try again, nothing was lost",
         Cause::ReadOnly => "the file or its folder may not be written by you",
         Cause::Damaged => {
-            "the file is damaged; `chereme check` tells where if it can still be opened, and a backup may be whole"
+            "the file is damaged: take a backup, or save what can still be read with `chereme export CORPUS all --to FOLDER`"
         }
     }
 }

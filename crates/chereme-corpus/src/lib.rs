@@ -23,6 +23,7 @@ mod inventories;
 mod kept;
 mod kinematics;
 mod list;
+mod log;
 mod media;
 mod movement;
 mod notation;
@@ -49,6 +50,7 @@ use db::Store;
 pub use chereme_formats::roles::{Hands, Mapping, MappingError};
 pub use chereme_formats::table::annotations::Moment;
 pub use chereme_sign::query::HELP as QUERY_HELP;
+pub use chereme_sign::tier::spans::Mode;
 pub use chereme_sign::{Stereotype, TierRole};
 
 pub use address::{Address, Name, Stretch};
@@ -56,7 +58,8 @@ pub use animate::Staging;
 pub use annotate::hold;
 pub use annotate::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
-    AnnotationOrigin, Copied, NewTier, RemovedTiers, Scheme, TierChange, TierName, Values,
+    AnnotationOrigin, Copied, Find, NewTier, RemovedTiers, Replaced, ReplacedValue, Scheme,
+    TierChange, TierName, Values, Within,
 };
 pub use around::Around;
 pub use check::{CheckReport, Fault};
@@ -83,6 +86,7 @@ pub use inventories::StoredInventory;
 pub use kept::{KeptSearch, kept_like};
 pub use kinematics::Curves;
 pub use list::{ListFilter, ListKind, Listing, cell_text, components_text};
+pub use log::{ChangeKind, Changed, FieldChange, OperationDetail};
 pub use media::{MediaChange, MediaPlace};
 pub use movement::ChannelGroup;
 pub use notation::{Notation, read_notation};

@@ -228,7 +228,10 @@ mod tests {
         let mut exported = |corpus: &Corpus, to: &str| {
             let path = folder.path().join(to);
             let what = crate::ExportWhat::Address(Address::Recording(take.clone()));
-            let options = crate::ExportOptions { force: true };
+            let options = crate::ExportOptions {
+                force: true,
+                ..Default::default()
+            };
             corpus
                 .export(&what, &path, &options, &mut progress)
                 .expect("exported");

@@ -69,7 +69,10 @@ impl Desk {
             .export(
                 what,
                 &path,
-                &ExportOptions { force: true },
+                &ExportOptions {
+                    force: true,
+                    ..ExportOptions::default()
+                },
                 &mut Progress::new(&mut progress),
             )
             .expect("written");

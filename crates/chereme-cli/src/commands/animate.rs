@@ -7,8 +7,9 @@ use chereme_corpus::Staging;
 
 use crate::args::Cli;
 use crate::output::Output;
+use crate::streams;
 
-/// Make movement from notation: HamNoSys or SiGML, on any body
+/// Synthesise movement from notation: HamNoSys or SiGML, on any body
 ///
 /// The notation is a SiGML file, HamNoSys as characters or as names of symbols in quotes, a file of it
 /// (.hns or .txt), or a sign that the corpus holds as notation: a gloss, token:41. Several follow one
@@ -24,7 +25,7 @@ Examples:
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// The notation: a file, HamNoSys text, or a notated sign
+    /// The notation: a file, HamNoSys text, or a notated sign; - is SiGML or HamNoSys from standard input
     #[arg(required = true)]
     notation: Vec<String>,
     /// Whose body signs: a signer, or a recording for its skeleton (signer:NAME, recording:NAME); else the corpus chooses
@@ -47,7 +48,22 @@ pub(crate) struct Args {
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
-    let notation: Vec<&str> = args.notation.iter().map(String::as_str).collect();
+    let mut notation = args.notation.clone();
+    let mut stands = Vec::new();
+    for text in notation.iter_mut().filter(|text| *text == "-") {
+        // SiGML is read from files; a line of HamNoSys is notation as it stands.
+        let read = streams::read_text()?;
+        *text = if read.trim_start().starts_with('<') {
+            let stand = streams::output("stdin", "sigml")?;
+            std::fs::write(&stand.path, read)?;
+            let path = stand.path.display().to_string();
+            stands.push(stand);
+            path
+        } else {
+            read.trim().to_owned()
+        };
+    }
+    let notation: Vec<&str> = notation.iter().map(String::as_str).collect();
     let staging = Staging {
         signer: args.signer.as_deref(),
         language: args.language.as_deref(),

@@ -11,12 +11,12 @@ use crate::output::{Bar, Output};
 
 /// Look for damage: database, blocks and hashes, tier rules, tokens, history, search index
 ///
-/// Says what is wrong and how to mend it; the exit code is 1 where anything is.
+/// Reports every fault with its remedy; the exit code is 1 if there is any.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// Make anew what is derived (tokens, search index) where it is wrong
+    /// Rebuild what is derived (tokens, search index) if it is wrong
     #[arg(long)]
     mend: bool,
 }
@@ -40,7 +40,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
     let looked: Vec<String> = report
         .checked
         .iter()
-        .map(|(what, count)| format!("{count} {what}"))
+        .map(|(what, count)| output.counted(*count, what))
         .collect();
     let word = if report.ok {
         "all is well"

@@ -17,7 +17,7 @@ use crate::output::{Bar, Output};
 /// The starter corpus was made by a program, not captured; it is part of this one.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
-    /// The folder for what the demo makes; a new one beside you where none is named
+    /// The folder for the results of the demo; else a new one in the current folder
     dir: Option<PathBuf>,
 }
 
@@ -111,8 +111,8 @@ impl Demo {
         let files = self.folder.join("starter");
         let unpacked = unpack_starter(&files)?;
         output.line(format!(
-            "1. The starter corpus: {} files in {}",
-            unpacked.len(),
+            "1. The starter corpus: {} in {}",
+            output.counted(unpacked.len() as u64, "files"),
             files.display()
         ))?;
         let mut corpus = Corpus::create(&self.path, &cli.author())?;
@@ -127,7 +127,7 @@ impl Demo {
         let made: Vec<String> = report
             .created
             .iter()
-            .map(|(what, count)| format!("{count} {what}"))
+            .map(|(what, count)| output.counted(*count, what))
             .collect();
         output.line(format!(
             "   built {}: {}",
@@ -151,8 +151,8 @@ impl Demo {
             let answer = self.corpus()?.search(query, &SearchOptions::default())?;
             let glosses: Vec<&str> = answer.hits.iter().map(|hit| hit.gloss.as_str()).collect();
             output.line(format!(
-                "2. Search {what}, {query}: {} tokens",
-                answer.total
+                "2. Search {what}, {query}: {}",
+                output.counted(answer.total as u64, "tokens")
             ))?;
             output.line(format!("   {}", glosses.join(", ")))?;
             if answer.total == 0 {
@@ -258,8 +258,9 @@ impl Demo {
             );
         }
         drop(bar);
-        output
-            .line("5. Taken away: LIMACE.bvh, tokens.csv, and everything in the folder enriched")?;
+        output.line(
+            "5. Written out: LIMACE.bvh, tokens.csv, and everything in the folder enriched",
+        )?;
         self.steps
             .push(json!({ "step": "export", "written": written }));
         Ok(())

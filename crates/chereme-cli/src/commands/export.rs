@@ -1,30 +1,46 @@
 //! `chereme export`.
 
+use std::io;
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{ExportOptions, ExportWhat, Progress, SearchOptions};
+use chereme_corpus::{Corpus, Error, ExportOptions, ExportWhat, Progress, SearchOptions};
 
 use crate::args::Cli;
-use crate::output::{Bar, Output};
+use crate::output::{Bar, Output, tell};
+use crate::streams;
 
-/// Take things away: movement, annotations, tables, or the whole enriched database
+/// Write out movement, annotations, tables, or the whole enriched database
 ///
-/// The ending of --to says the format: .bvh (movement of a recording or token), .eaf (a recording's
+/// The extension of --to says the format: .bvh (movement of a recording or token), .eaf (a recording's
 /// tiers, for ELAN), .csv or .tsv (tokens with all components), .curves.csv (how much there is of each
 /// non-manual, frame by frame), .sigml (notated signs as gestural SiGML),
-/// .hsigml (the same as HamNoSys's symbols), .hns or .txt (as HamNoSys text, a sign a line), or none: a
-/// folder with the database, a table a file, the recordings, the inventories, checksums and provenance.
+/// .hsigml (the same as HamNoSys's symbols), .hns or .txt (as HamNoSys text, a sign a line). A name
+/// without an extension is a folder: with --format it gets a file of that format for each recording
+/// or token; without it, for all, the database, a data dictionary with example queries, a table a file, the
+/// recordings, the inventories, checksums and provenance. With --to - the file goes to standard output.
 /// The same corpus always gives the same bytes.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme export mine.chereme all --to shared/
+  chereme export mine.chereme recording:3 --to take.bvh
+  chereme export mine.chereme 'query:right.configuration=U' --to takes/ --format bvh
+  chereme export mine.chereme ESCARGOT LIMACE token:41 --to takes/ --format bvh
+  chereme export mine.chereme all --to - --format csv | head")]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// What: all, a gloss, token:41, recording:3, tier:12, or query:'right.configuration=U'
-    what: String,
-    /// Where to
+    /// What: all, a gloss, token:41, recording:3, tier:12, or query:'right.configuration=U'; several are written
+    /// together
+    #[arg(required = true)]
+    what: Vec<String>,
+    /// The file or folder to write; - is standard output
     #[arg(long, value_name = "PATH")]
     to: PathBuf,
+    /// The format, such as bvh or csv: needed with --to -, and to write a file for each into a folder
+    #[arg(long, value_name = "FORMAT")]
+    format: Option<String>,
     /// Write over a file that is there already
     #[arg(long)]
     force: bool,
@@ -32,22 +48,32 @@ pub(crate) struct Args {
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
-    let what = match args.what.strip_prefix("query:") {
-        Some(query) => {
-            let options = SearchOptions {
-                facets: false,
-                ..SearchOptions::default()
-            };
-            let answer = corpus.search(query, &options)?;
-            ExportWhat::Tokens(answer.hits.iter().map(|hit| hit.token).collect())
-        }
-        None if args.what == "all" => ExportWhat::All,
-        None => ExportWhat::Address(args.what.parse()?),
-    };
-    let options = ExportOptions { force: args.force };
+    let what = what(&mut corpus, &args.what)?;
     let mut bar = Bar::new();
     let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
-    let report = corpus.export(&what, &args.to, &options, &mut Progress::new(&mut hear))?;
+    let progress = &mut Progress::new(&mut hear);
+    if streams::is_standard(&args.to) {
+        streams::not_with_json(output.is_json())?;
+        let format = args.format.as_deref().ok_or_else(|| {
+            Error::wrong("standard output has no extension that says the format")
+                .at("-")
+                .advise("name it, as with --format csv")
+        })?;
+        let mut out = io::BufWriter::new(io::stdout().lock());
+        let notes = corpus.export_stream(&what, format, &mut out, progress)?;
+        io::Write::flush(&mut out)?;
+        drop(bar);
+        for note in notes {
+            tell(&format!("note: {note}"));
+        }
+        output.silence();
+        return Ok(());
+    }
+    let options = ExportOptions {
+        force: args.force,
+        format: args.format.clone(),
+    };
+    let report = corpus.export(&what, &args.to, &options, progress)?;
     drop(bar);
     match report.files.as_slice() {
         [one] => output.line(format!(
@@ -59,8 +85,8 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             let bytes: u64 = files.iter().map(|file| file.bytes).sum();
             let megabytes = bytes as f64 / 1e6;
             output.line(format!(
-                "wrote {} files, {megabytes:.1} MB, to {}",
-                files.len(),
+                "wrote {}, {megabytes:.1} MB, to {}",
+                output.counted(files.len() as u64, "files"),
                 args.to.display()
             ))?;
         }
@@ -69,4 +95,39 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         output.line(format!("note: {note}"))?;
     }
     output.document(report)
+}
+
+/// Reads what to export: all, addresses, or queries.
+fn what(corpus: &mut Corpus, words: &[String]) -> Result<ExportWhat> {
+    match words {
+        [one] if one == "all" => return Ok(ExportWhat::All),
+        [one] => {
+            if let Some(query) = one.strip_prefix("query:") {
+                return Ok(ExportWhat::Tokens(found(corpus, query)?));
+            }
+            return Ok(ExportWhat::Address(one.parse()?));
+        }
+        _ => {}
+    }
+    let mut addresses = Vec::new();
+    for word in words {
+        match word.strip_prefix("query:") {
+            Some(query) => addresses.extend(
+                found(corpus, query)?
+                    .into_iter()
+                    .map(chereme_corpus::Address::Token),
+            ),
+            None => addresses.push(word.parse()?),
+        }
+    }
+    Ok(ExportWhat::Several(addresses))
+}
+
+fn found(corpus: &mut Corpus, query: &str) -> Result<Vec<i64>> {
+    let options = SearchOptions {
+        facets: false,
+        ..SearchOptions::default()
+    };
+    let answer = corpus.search(query, &options)?;
+    Ok(answer.hits.iter().map(|hit| hit.token).collect())
 }

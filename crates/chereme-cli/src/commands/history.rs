@@ -3,38 +3,52 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{OperationKind, OperationRow};
+use chereme_corpus::words::history as words;
+use chereme_corpus::words::{Language, Text, fill};
+use chereme_corpus::{Corpus, OperationDetail, OperationKind, OperationRow};
 use serde_json::json;
 
 use crate::args::Cli;
 use crate::output::Output;
 
-/// Take back the newest operation that stands
+/// Undo the last change
+///
+/// Every change can be undone, also after a restart. With --times more than there are, all are undone
+/// and the command says how many; it fails only if nothing was left to undo.
 #[derive(Debug, clap::Args)]
 pub(crate) struct UndoArgs {
     /// The corpus
     corpus: PathBuf,
-    /// How many operations to take back
+    /// How many operations to undo
     #[arg(long, default_value_t = 1, value_name = "N", value_parser = at_least_one)]
     times: usize,
 }
 
-/// Do again what was undone last
+/// Redo what was undone last
 #[derive(Debug, clap::Args)]
 pub(crate) struct RedoArgs {
     /// The corpus
     corpus: PathBuf,
-    /// How many operations to do again
+    /// How many operations to redo
     #[arg(long, default_value_t = 1, value_name = "N", value_parser = at_least_one)]
     times: usize,
 }
 
-/// List what was done, newest first
+/// List the operations, newest first, or show what one of them changed
+///
+/// With an operation, or with --changes for each of them, it lists every annotation, tier, recording,
+/// sign and value that was added, changed or removed: its name, and each field from what to what.
 #[derive(Debug, clap::Args)]
 pub(crate) struct LogArgs {
     /// The corpus
     corpus: PathBuf,
-    /// How many operations to list at most
+    /// The operation to show in detail, by its number in the list
+    #[arg(value_parser = operation)]
+    operation: Option<i64>,
+    /// Show below each operation what it changed
+    #[arg(long)]
+    changes: bool,
+    /// List at most N operations, and of each at most N changes
     #[arg(long, default_value_t = 50, value_name = "N")]
     limit: usize,
 }
@@ -44,58 +58,143 @@ fn at_least_one(text: &str) -> Result<usize, String> {
     times.ok_or_else(|| "write how many operations, 1 or more".to_owned())
 }
 
+fn operation(text: &str) -> Result<i64, String> {
+    let number = text.trim_start_matches("operation:").parse();
+    number.map_err(|_| "write the number of an operation, such as 12".to_owned())
+}
+
 pub(super) fn undo(cli: &Cli, args: &UndoArgs, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
-    walk(output, args.times, "undone", || Ok(corpus.undo()?))
+    walk(output, args.times, true, &mut corpus)
 }
 
 pub(super) fn redo(cli: &Cli, args: &RedoArgs, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
-    walk(output, args.times, "done again", || Ok(corpus.redo()?))
+    walk(output, args.times, false, &mut corpus)
 }
 
-fn walk(
-    output: &mut Output,
-    times: usize,
-    word: &str,
-    mut step: impl FnMut() -> Result<OperationRow>,
-) -> Result<()> {
+fn walk(output: &mut Output, times: usize, back: bool, corpus: &mut Corpus) -> Result<()> {
+    let left = |corpus: &Corpus| -> Result<usize> {
+        let (undo, redo) = corpus.steps()?;
+        Ok(if back { undo } else { redo })
+    };
     let mut operations = Vec::new();
-    for _ in 0..times.max(1) {
-        let operation = step()?;
+    let language = output.language();
+    while operations.len() < times.max(1) {
+        if !operations.is_empty() && left(corpus)? == 0 {
+            let text = if back {
+                words::ALL_UNDONE
+            } else {
+                words::ALL_REDONE
+            };
+            let count = output.counted(operations.len() as u64, "operations");
+            output.line(fill(
+                output.say(text),
+                &[("count", &count), ("asked", &times)],
+            ))?;
+            break;
+        }
+        let operation = if back { corpus.undo()? } else { corpus.redo()? };
         let target = operation.target.unwrap_or(operation.id);
-        let (name, summary) = (&operation.name, &operation.summary);
-        output.line(format!("{word}: operation {target}, {name}: {summary}"))?;
+        let text = if back { words::UNDID } else { words::REDID };
+        let what = what(&operation, language);
+        output.line(fill(output.say(text), &[("id", &target), ("what", &what)]))?;
         operations.push(operation);
     }
-    output.document(json!({ "operations": operations }))
+    let left = left(corpus)?;
+    output.document(json!({ "operations": operations, "left": left }))
+}
+
+/// Returns what an operation did: by its own words in English, as a sentence in other languages.
+fn what(row: &OperationRow, language: Language) -> String {
+    match language {
+        Language::English => format!("{}: {}", row.name, row.summary),
+        Language::French => words::sentence(row, language),
+    }
 }
 
 pub(super) fn log(cli: &Cli, args: &LogArgs, output: &mut Output) -> Result<()> {
     let corpus = cli.open(&args.corpus)?;
+    if let Some(id) = args.operation {
+        let detail = corpus.operation(id, args.limit)?;
+        let row = &detail.operation;
+        output.line(format!(
+            "{} {} {}: {}",
+            row.id,
+            row.at,
+            row.author,
+            what(row, output.language())
+        ))?;
+        print_changes(&detail, output)?;
+        return output.document(detail);
+    }
     let rows = corpus.log(args.limit)?;
-    let table: Vec<Vec<String>> = rows.iter().map(cells).collect();
-    output.table(&["id", "when", "who", "what", "changes", ""], &table)?;
+    if args.changes {
+        let mut details = Vec::new();
+        for row in &rows {
+            let detail = corpus.operation(row.id, args.limit)?;
+            output.line(cells(row, output).join("  ").trim_end())?;
+            print_changes(&detail, output)?;
+            details.push(detail);
+        }
+        return output.document(json!({ "total": rows.len(), "rows": rows, "details": details }));
+    }
+    let table: Vec<Vec<String>> = rows.iter().map(|row| cells(row, output)).collect();
+    let titles = [
+        words::NUMBER,
+        words::WHEN,
+        words::WHO,
+        words::WHAT,
+        words::CHANGES,
+    ];
+    let mut titles = titles.map(|text| output.say(text)).to_vec();
+    titles.push("");
+    output.table(&titles, &table)?;
     output.document(json!({ "total": rows.len(), "rows": rows }))
 }
 
-fn cells(row: &OperationRow) -> Vec<String> {
-    let about = |word: &str| format!("{word} of {}: ", row.target.unwrap_or_default());
+fn print_changes(detail: &OperationDetail, output: &mut Output) -> Result<()> {
+    for change in &detail.changes {
+        output.line(format!("  {}", change.sentence()))?;
+    }
+    let more = detail.total - detail.changes.len() as u64;
+    if more > 0 {
+        output.line(format!(
+            "  and {}; --limit shows more",
+            output.counted(more, "changes")
+        ))?;
+    }
+    if detail.total == 0 {
+        let tables: Vec<String> = detail
+            .tables
+            .iter()
+            .map(|(table, count)| format!("{count} of {}", table.replace('_', " ")))
+            .collect();
+        output.line(format!("  rows: {}", tables.join(", ")))?;
+    }
+    Ok(())
+}
+
+fn cells(row: &OperationRow, output: &Output) -> Vec<String> {
+    let about = |text: Text| {
+        let target = row.target.unwrap_or_default();
+        fill(output.say(text), &[("id", &target)])
+    };
     let kind = match row.kind {
         OperationKind::Do => String::new(),
-        OperationKind::Undo => about("undo"),
-        OperationKind::Redo => about("redo"),
+        OperationKind::Undo => about(words::UNDO_OF),
+        OperationKind::Redo => about(words::REDO_OF),
     };
     vec![
         row.id.to_string(),
         row.at.clone(),
         row.author.clone(),
-        format!("{kind}{}: {}", row.name, row.summary),
+        format!("{kind}{}", what(row, output.language())),
         row.changes.to_string(),
         if row.stands {
             String::new()
         } else {
-            "undone".to_owned()
+            output.say(words::UNDONE).to_owned()
         },
     ]
 }

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use chereme_corpus::{
-    Corpus, FileReport, FileStatus, ImportOptions, ImportReport, Mapping, Progress,
+    Corpus, Error, FileReport, FileStatus, ImportOptions, ImportReport, Mapping, Progress,
 };
 use chereme_motion::anatomy::RolesError;
 use clap::ValueEnum;
@@ -13,8 +13,9 @@ use serde_json::Value;
 
 use crate::args::{Cli, SideWord, read_text, wrong_text};
 use crate::output::{Bar, Output};
+use crate::streams::{self, Stand};
 
-/// Take recordings, annotations, lexicons and inventories into a corpus
+/// Import recordings, annotations, lexicons and inventories into a corpus
 ///
 /// Files: .bvh (movement), .eaf (ELAN annotations), .csv or .tsv (a lexicon of codings, of HamNoSys, or
 /// both; .json where it holds signs), .sigml or .hsigml (signs as notation; .xml where it is SiGML), .hns
@@ -32,9 +33,15 @@ Examples:
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// Files and folders
+    /// Files and folders; - is standard input, whose kind --format says
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
+    /// The kind of file that standard input is, by its extension: eaf, bvh, csv, sigml ...
+    #[arg(long, value_name = "FORMAT")]
+    format: Option<String>,
+    /// The name of the recording or table that standard input holds
+    #[arg(long, value_name = "NAME", default_value = "stdin")]
+    name: String,
     /// Report what would be done, and write nothing
     #[arg(long)]
     dry_run: bool,
@@ -53,7 +60,7 @@ pub(crate) struct Args {
     /// A file that says which joint is what: lines such as `right wrist = RHand`
     #[arg(long, value_name = "FILE")]
     roles: Option<PathBuf>,
-    /// Read the root's columns as they lie where the header has their order or unit wrong
+    /// Read the root's columns in the order of the numbers if the header has their order or unit wrong
     #[arg(long)]
     mend_root: bool,
     /// A file that says which tier or column is what (JSON)
@@ -103,7 +110,8 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
     };
     let mut bar = Bar::new();
     let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
-    let report = corpus.import(&args.files, &options, &mut Progress::new(&mut hear));
+    let (files, _stands) = files(args)?;
+    let report = corpus.import(&files, &options, &mut Progress::new(&mut hear));
     drop(bar);
     let empty = |report: &ImportReport| {
         report.has_refusals() && report.created.values().all(|count| *count == 0)
@@ -126,6 +134,34 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
     } else {
         ExitCode::SUCCESS
     })
+}
+
+/// Returns the files to import, with a file in place of standard input.
+fn files(args: &Args) -> Result<(Vec<PathBuf>, Vec<Stand>)> {
+    let mut stands = Vec::new();
+    let mut files = args.files.clone();
+    for file in files.iter_mut().filter(|file| streams::is_standard(file)) {
+        let format = args.format.as_deref().ok_or_else(|| {
+            Error::wrong("standard input has no extension that says its kind")
+                .at("-")
+                .advise("name it, as with --format eaf")
+        })?;
+        if !format.chars().all(|c| c.is_alphanumeric() || c == '.')
+            || args.name.contains(['/', '\\'])
+        {
+            return Err(Error::wrong(format!(
+                "{format:?} is no extension of a file, or {:?} no name",
+                args.name
+            ))
+            .at(format)
+            .advise("write --format eaf, and --name take1")
+            .into());
+        }
+        let stand = streams::input(&args.name, format)?;
+        file.clone_from(&stand.path);
+        stands.push(stand);
+    }
+    Ok((files, stands))
 }
 
 /// A throw-away corpus for a dry run where there is none yet.
@@ -206,7 +242,7 @@ fn print(report: &ImportReport, output: &mut Output) -> Result<()> {
         .created
         .iter()
         .filter(|(_, count)| **count > 0)
-        .map(|(what, count)| format!("{count} {what}"))
+        .map(|(what, count)| output.counted(*count, what))
         .collect();
     let created = if created.is_empty() {
         "nothing".to_owned()

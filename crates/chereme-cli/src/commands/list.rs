@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
+use chereme_corpus::words::counted_in;
 use chereme_corpus::{Info, ListFilter, ListKind, cell_text};
 
 use crate::args::Cli;
@@ -22,13 +23,13 @@ pub(crate) struct Args {
     /// The column to sort by
     #[arg(long, value_name = "COLUMN")]
     sort: Option<String>,
-    /// The greatest first
+    /// Sort from the greatest to the least
     #[arg(long)]
     descending: bool,
-    /// How many rows to list at most
+    /// List at most N rows
     #[arg(long, value_name = "N")]
     limit: Option<usize>,
-    /// How many rows to leave out before
+    /// Skip the first N rows
     #[arg(long, default_value_t = 0, value_name = "N")]
     offset: usize,
 }
@@ -73,11 +74,12 @@ pub(super) fn list(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     } else {
         String::new()
     };
-    output.line(format!("{} {}{shown}", found.total, args.kind.name()))?;
+    let count = output.counted(found.total, args.kind.name());
+    output.line(format!("{count}{shown}"))?;
     output.document(found)
 }
 
-/// Tell what is in a corpus
+/// Show what a corpus holds
 #[derive(Debug, clap::Args)]
 pub(crate) struct InfoArgs {
     /// The corpus
@@ -90,16 +92,6 @@ pub(super) fn info(cli: &Cli, args: &InfoArgs, output: &mut Output) -> Result<()
     output.document(info)
 }
 
-/// Returns the word for one or for several of what is counted.
-fn numbered(what: &str, count: u64) -> String {
-    match what {
-        _ if count != 1 => what.to_owned(),
-        "inventories" => "inventory".to_owned(),
-        "searches" => "search".to_owned(),
-        _ => what.strip_suffix('s').unwrap_or(what).to_owned(),
-    }
-}
-
 fn print(info: &Info, output: &mut Output) -> Result<()> {
     let counts = |map: &std::collections::BTreeMap<String, u64>| {
         map.iter()
@@ -107,7 +99,8 @@ fn print(info: &Info, output: &mut Output) -> Result<()> {
             .collect::<Vec<_>>()
             .join(", ")
     };
-    let counted = |(what, count): (&&str, &u64)| format!("{count} {}", numbered(what, *count));
+    let language = output.language();
+    let counted = |(what, count): (&&str, &u64)| counted_in(*count, what, language);
     output.line(format!(
         "{}: {:.1} MB, schema version {}",
         info.path.display(),
@@ -117,8 +110,9 @@ fn print(info: &Info, output: &mut Output) -> Result<()> {
     let all: Vec<String> = info.counts.iter().map(counted).collect();
     output.line(format!("holds: {}", all.join(", ")))?;
     output.line(format!(
-        "movement: {:.2} hours, {} frames",
-        info.motion_hours, info.motion_frames
+        "movement: {:.2} hours, {}",
+        info.motion_hours,
+        counted_in(info.motion_frames, "frames", language)
     ))?;
     output.line(format!("recordings: {}", counts(&info.recordings)))?;
     output.line(format!("tokens: {}", counts(&info.tokens)))?;
@@ -129,10 +123,9 @@ fn print(info: &Info, output: &mut Output) -> Result<()> {
             .as_deref()
             .unwrap_or("handedness not known");
         output.line(format!(
-            "signer {}: {hand}, {} {}",
+            "signer {}: {hand}, {}",
             signer.name,
-            signer.recordings,
-            numbered("recordings", signer.recordings)
+            counted_in(signer.recordings, "recordings", language)
         ))?;
     }
     let named: Vec<String> = info

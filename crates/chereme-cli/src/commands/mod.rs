@@ -3,6 +3,7 @@
 mod animate;
 mod annotate;
 mod check;
+mod completions;
 mod demo;
 mod export;
 mod history;
@@ -52,6 +53,8 @@ pub(crate) enum Command {
     Undo(history::UndoArgs),
     Redo(history::RedoArgs),
     Log(history::LogArgs),
+    Completions(completions::Args),
+    Man(completions::ManArgs),
     #[cfg(feature = "studio")]
     Studio(studio::Args),
 }
@@ -78,6 +81,8 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Undo(args) => history::undo(cli, args, output),
         Command::Redo(args) => history::redo(cli, args, output),
         Command::Log(args) => history::log(cli, args, output),
+        Command::Completions(args) => completions::run(args, output),
+        Command::Man(args) => completions::man(args, output),
         #[cfg(feature = "studio")]
         Command::Studio(args) => studio::run(cli, args),
     }?;

@@ -8,6 +8,7 @@ use serde_json::json;
 
 use crate::args::Cli;
 use crate::output::{Bar, Output};
+use crate::streams;
 
 const RECIPES: &str = "\
 What a recipe begins with
@@ -47,12 +48,12 @@ Examples:
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// The recipe, as text or JSON
+    /// The recipe, as text or JSON; - is standard input
     recipe: String,
     /// The gloss of the new sign; without it nothing is stored
     #[arg(long = "as", value_name = "GLOSS")]
     gloss: Option<String>,
-    /// Put it in the place of a sign that was made before, which keeps its gloss, its token and what
+    /// Replace a sign that was made before; it keeps its gloss, its token and the annotations that
     /// people wrote on its tiers
     #[arg(long, value_name = "SIGN", conflicts_with = "gloss")]
     replace: Option<Address>,
@@ -66,10 +67,14 @@ pub(crate) struct Args {
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
+    let recipe = match args.recipe.as_str() {
+        "-" => streams::read_text()?.trim().to_owned(),
+        recipe => recipe.to_owned(),
+    };
     let done = match (&args.replace, &args.gloss) {
-        (Some(sign), _) => corpus.recombine_again(sign, &args.recipe)?,
-        (None, Some(gloss)) => corpus.recombine(&args.recipe, gloss)?,
-        (None, None) => corpus.preview(&args.recipe)?,
+        (Some(sign), _) => corpus.recombine_again(sign, &recipe)?,
+        (None, Some(gloss)) => corpus.recombine(&recipe, gloss)?,
+        (None, None) => corpus.preview(&recipe)?,
     };
     tell(&done, args.explain, args.draw.as_deref(), output)?;
     if args.gloss.is_some() && one_more(&done) {

@@ -7,6 +7,7 @@ use chereme_corpus::{Address, Picture, PictureOptions, Progress};
 
 use crate::args::{Cli, SideWord};
 use crate::output::{Bar, Output};
+use crate::streams;
 
 /// Draw movement as a contact sheet (.png) or an animation (.gif), handshapes (.png), or notation (.svg)
 ///
@@ -28,13 +29,16 @@ pub(crate) struct Args {
     /// What to draw
     #[arg(value_name = "WHAT")]
     what: String,
-    /// The picture; its ending says the kind
+    /// The picture; its extension says the kind; - is standard output
     #[arg(long, value_name = "FILE")]
     to: PathBuf,
-    /// How many pictures a contact sheet has side by side
+    /// The kind of picture for standard output: png, gif or svg
+    #[arg(long, value_name = "FORMAT", default_value = "png", value_parser = ["png", "gif", "svg"])]
+    format: String,
+    /// How many pictures a contact sheet has side by side, from 1 to 64
     #[arg(long, default_value_t = 8, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
     frames: u16,
-    /// How high one picture is, in pixels
+    /// How high one picture is, in pixels, from 32 to 2000
     #[arg(long, default_value_t = 260, value_name = "PIXELS", value_parser = clap::value_parser!(u16).range(32..=2000))]
     height: u16,
     /// How fast an animation runs; 1 is the recorded speed
@@ -60,21 +64,33 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         speed: args.speed,
         force: args.force,
     };
+    let stand = match streams::is_standard(&args.to) {
+        true => {
+            streams::not_with_json(output.is_json())?;
+            Some(streams::output("picture", &args.format)?)
+        }
+        false => None,
+    };
+    let to = stand.as_ref().map_or(&args.to, |stand| &stand.path);
     let picture = match args.what.strip_prefix("inventory:") {
         Some(name) => {
             let (inventory, value) = match name.split_once('/') {
                 Some((inventory, value)) => (inventory, Some(value)),
                 None => (name, None),
             };
-            corpus.draw_handshapes(inventory, value, args.hand.side(), &args.to, &options)?
+            corpus.draw_handshapes(inventory, value, args.hand.side(), to, &options)?
         }
         None => {
             let address: Address = args.what.parse()?;
             let mut bar = Bar::new();
             let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
-            corpus.draw(&address, &args.to, &options, &mut Progress::new(&mut hear))?
+            corpus.draw(&address, to, &options, &mut Progress::new(&mut hear))?
         }
     };
+    if let Some(stand) = &stand {
+        output.silence();
+        return streams::copy(stand);
+    }
     say(&picture, output)?;
     output.document(picture)
 }

@@ -8,7 +8,7 @@ use chereme_corpus::{Address, ScoreOptions};
 use crate::args::Cli;
 use crate::output::Output;
 
-/// Tell how alike two pieces of movement are, with the alignment
+/// Score how alike two pieces of movement are, with the alignment
 ///
 /// Dynamic time warping over placement, movement, orientation and configuration, each in its own
 /// scale; 0 is the same movement.
@@ -56,8 +56,8 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         ))?;
     }
     output.line(format!(
-        "alignment: {} pairs of frames",
-        score.alignment.len()
+        "alignment: {}",
+        output.counted(score.alignment.len() as u64, "pairs of frames")
     ))?;
     output.document(score)
 }

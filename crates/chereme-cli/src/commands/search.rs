@@ -22,22 +22,22 @@ pub(crate) struct Args {
     /// The query, words side by side must all hold; or @NAME, a kept one
     #[arg(required_unless_present = "forget", value_name = "QUERY")]
     query: Vec<String>,
-    /// Keep the query in the corpus under this name, in place of the one that has it
+    /// Save the query in the corpus as @NAME, in place of an earlier one of that name
     #[arg(long, value_name = "NAME")]
     keep: Option<String>,
-    /// Keep the search of this name no longer
+    /// Delete the saved search NAME
     #[arg(long, value_name = "NAME", conflicts_with_all = ["query", "keep"])]
     forget: Option<String>,
-    /// How many tokens to show at most
+    /// Show at most N tokens
     #[arg(long, value_name = "N")]
     limit: Option<usize>,
-    /// How many tokens to leave out before
+    /// Skip the first N tokens
     #[arg(long, default_value_t = 0, value_name = "N")]
     offset: usize,
     /// In which order
     #[arg(long, value_enum, default_value_t = OrderWord::Rank)]
     sort: OrderWord,
-    /// Leave the counts of values out
+    /// Leave out the counts of values
     #[arg(long)]
     no_facets: bool,
 }

@@ -62,7 +62,7 @@ pub(super) enum Action {
         #[arg(long)]
         inventory: Option<String>,
     },
-    /// Copy a tier beside itself under another name
+    /// Copy a tier under another name
     CopyTier {
         /// The tier
         tier: String,
@@ -252,7 +252,8 @@ pub(super) fn run(
         Action::RemoveTier { tier } => {
             let removed = corpus.remove_tier(&TierName::read(tier, recording)?)?;
             let (names, count) = (removed.tiers.join(", "), removed.annotations);
-            output.line(format!("removed {names} with {count} annotations"))?;
+            let count = output.counted(count, "annotations");
+            output.line(format!("removed {names} with {count}"))?;
             output.document(removed)
         }
         Action::Recording {

@@ -1,6 +1,7 @@
 //! A desk to try commands on: a corpus, the files that it was made of, and the program.
 
 use std::fs;
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
@@ -87,6 +88,11 @@ impl Desk {
 
     /// Runs the program with words parted by blanks; words with blanks stand in single quotes.
     pub(super) fn run(&self, line: &str) -> Output {
+        self.pipe(line, b"")
+    }
+
+    /// Likewise, with `input` on standard input.
+    pub(super) fn pipe(&self, line: &str, input: &[u8]) -> Output {
         let mut words = Vec::new();
         for (at, part) in line.split('\'').enumerate() {
             if at % 2 == 1 {
@@ -95,13 +101,21 @@ impl Desk {
                 words.extend(part.split_whitespace());
             }
         }
-        Command::new(env!("CARGO_BIN_EXE_chereme"))
+        let mut child = Command::new(env!("CARGO_BIN_EXE_chereme"))
             .args(words)
-            .stdin(Stdio::null())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
             .env_remove("CHEREME_AUTHOR")
+            .env("LC_ALL", "C")
             .current_dir(self.folder.path())
-            .output()
-            .expect("the program runs")
+            .spawn()
+            .expect("the program runs");
+        let mut stdin = child.stdin.take().expect("a pipe");
+        // A program that reads nothing may be gone by now.
+        let _ = stdin.write_all(input);
+        drop(stdin);
+        child.wait_with_output().expect("the program ends")
     }
 
     pub(super) fn json(&self, line: &str) -> Value {

@@ -66,8 +66,13 @@ pub(crate) fn travel(
         .map(|leg| leg.distance.metres(frame.arm))
         .sum();
     let mut did = vec![format!(
-        "{} ways, {:.0} cm in all",
+        "{} {}, {:.0} cm in all",
         settings.path.len(),
+        if settings.path.len() == 1 {
+            "leg"
+        } else {
+            "legs"
+        },
         length * 100.0
     )];
     did.extend(told(&reach));

@@ -12,6 +12,7 @@ use crate::db::tiers::{self as rows, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::tokens;
+use crate::words::counted;
 
 /// Which annotations go along when a tier is copied.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -71,8 +72,10 @@ impl Corpus {
             tokens::derive(connection, from.recording_id, None, &inventories)?;
             let recording = crate::db::recordings::recording(connection, from.recording_id)?.name;
             let summary = format!(
-                "{:?} of {recording} as {:?} with {count} annotations",
-                from.name, row.name
+                "{:?} of {recording} as {:?} with {}",
+                from.name,
+                row.name,
+                counted(count, "annotations")
             );
             Ok((rows::tier(connection, id)?, summary))
         })

@@ -11,7 +11,7 @@ use crate::db::tiers::TierRow;
 /// How long an annotation is at least, where frames do not say: a hundredth of a second.
 pub const LEAST: i64 = 10_000;
 /// Where a recording without movement ends: annotations make it longer.
-const FAR: i64 = 1 << 50;
+pub(super) const FAR: i64 = 1 << 50;
 
 /// What times the annotations of a tier have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

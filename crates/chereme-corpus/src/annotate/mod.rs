@@ -7,18 +7,22 @@ mod arrange;
 mod bulk;
 mod copies;
 pub mod hold;
+mod make_room;
 mod names;
+mod replace;
 mod scheme;
 mod scope;
 #[cfg(test)]
 mod tests;
 mod tiers;
+pub(crate) mod told;
 mod write;
 
 use std::collections::BTreeMap;
 
 use chereme_formats::table::annotations::Moment;
 use chereme_motion::{Instant, Span};
+use chereme_sign::tier::spans::Mode;
 use chereme_sign::tier::{AnnotationId, Change, Seam, TierId, plan};
 use chereme_sign::{Reading, Stereotype};
 use rusqlite::Connection;
@@ -26,6 +30,7 @@ use serde::Serialize;
 
 pub use copies::Copied;
 pub use names::{AnnotationName, TierName};
+pub use replace::{Find, Replaced, ReplacedValue, Within};
 pub use scheme::Scheme;
 pub use tiers::{NewTier, RemovedTiers, TierChange, Values};
 
@@ -36,6 +41,7 @@ use crate::error::{Error, Result};
 use crate::inventories::StoredInventory;
 use crate::progress::{Progress, Step, Unit};
 use crate::tokens;
+use crate::words::counted;
 use scope::Scope;
 
 /// One change of annotations.
@@ -158,6 +164,9 @@ pub struct AnnotateOptions {
     pub snap: bool,
     /// Who says so.
     pub origin: AnnotationOrigin,
+    /// What becomes of annotations that are in the way of one that is added or moved: in normal mode
+    /// the change is refused.
+    pub mode: Mode,
 }
 
 /// What became of a list of changes.
@@ -236,7 +245,7 @@ impl AnnotateReport {
             .collect();
         let place = match self.recordings.as_slice() {
             [one] => one.clone(),
-            several => format!("{} recordings", several.len()),
+            several => counted(several.len() as u64, "recordings"),
         };
         format!("{} in {place}", counts.join(", "))
     }
@@ -416,6 +425,7 @@ impl<'a> Work<'a> {
                 ))
                 .advise("only annotations of symbolic tiers have no times of their own")
             })?;
+            self.make_room(&tier, span)?;
             Change::Add {
                 tier: id,
                 span,
@@ -441,7 +451,7 @@ impl<'a> Work<'a> {
             let start = start.unwrap_or_else(|| still(row.start_us));
             let end = end.unwrap_or_else(|| still(row.end_us));
             let span = self.span(row.tier_id, start, end)?;
-            if span != span_of(row) {
+            if span != span_of(row) && !self.moved_with_others(row, &tier, span)? {
                 self.carry_out(row.tier_id, &Change::Move { annotation, span }, None)?;
             }
         }
@@ -469,8 +479,10 @@ impl<'a> Work<'a> {
             next += 1;
             AnnotationId(next)
         };
-        let edits = plan(&near.set, change, &mut fresh)
-            .map_err(|error| Error::wrong(error.to_string()).at(format!("tier:{tier}")))?;
+        let edits = match plan(&near.set, change, &mut fresh) {
+            Ok(edits) => edits,
+            Err(error) => return Err(told::refused(self.connection, tier, &error)?),
+        };
         let named: Vec<i64> = change.annotations().into_iter().map(signed).collect();
         let named = match change {
             Change::AddBelow { .. } => Vec::new(),

@@ -112,7 +112,7 @@ pub(super) fn tier(connection: &Connection, name: &TierName) -> Result<TierRow> 
     let meant = did_you_mean(nearest(wanted, names.clone()));
     let all: Vec<&str> = names.take(20).collect();
     let remedy = if all.is_empty() {
-        "add one first: `chereme annotate CORPUS add-tier`".to_owned()
+        "add one first: `chereme annotate CORPUS --in RECORDING add-tier NAME`".to_owned()
     } else {
         format!("its tiers are: {}", all.join(", "))
     };
@@ -169,7 +169,7 @@ impl Work<'_> {
                 let all: Vec<String> = several
                     .iter()
                     .take(12)
-                    .map(|id| format!("annotation:{id}"))
+                    .map(|id| super::told::candidate(self.connection, *id))
                     .collect();
                 Err(Error::wrong(format!(
                     "{id:?} can be {} annotations: {}",
@@ -197,7 +197,10 @@ impl Work<'_> {
             || "`chereme list CORPUS annotations` lists those that are there".to_owned(),
             |row| {
                 let starts = Instant::from_micros(row.start_us);
-                format!("annotation:{} there starts at {starts}", row.id)
+                format!(
+                    "the one there, {}, starts at {starts}",
+                    super::told::said(row)
+                )
             },
         );
         Err(Error::wrong(format!(

@@ -67,6 +67,11 @@ impl Scope {
         };
     }
 
+    /// Returns whether the recording has movement, which limits its annotations.
+    pub(super) fn moves(&self) -> bool {
+        self.clock.is_some()
+    }
+
     /// Makes a recording without movement as long as its annotations.
     pub(super) fn close(&self, connection: &Connection) -> Result<()> {
         match (self.touched, &self.clock) {

@@ -3,6 +3,7 @@
 mod arrange;
 mod copies;
 mod laws;
+mod replace;
 mod scheme;
 mod tiers;
 
@@ -246,11 +247,7 @@ fn the_rules_of_the_tiers_hold_through_the_store() {
     for (before, change, want) in [
         // Roots.
         ("", "add G 0-100 BOL", "G 1 0-100 BOL"),
-        (
-            "add G 0-100 BOL",
-            "add G 50-150 CHAT",
-            "overlaps annotation:1",
-        ),
+        ("add G 0-100 BOL", "add G 50-150 CHAT", "overlaps \"BOL\""),
         (
             "add G 0-100 BOL",
             "add G 100-100 CHAT",
@@ -265,7 +262,7 @@ fn the_rules_of_the_tiers_hold_through_the_store() {
         (
             "add G 0-100 BOL; add G 200-300 CHAT",
             "set 1 250-350",
-            "overlaps annotation:2",
+            "overlaps \"CHAT\"",
         ),
         ("add G 0-100 BOL", "set 1 50-150 = CHAT", "G 1 50-150 CHAT"),
         (
@@ -610,7 +607,7 @@ fn tables_are_carried_out_or_told_row_by_row() {
     for want in [
         "6 changes cannot be made, and none was:\nbad.csv, line 2: ",
         "bad.csv, line 4: end: \"x\" is no time",
-        "bad.csv, line 2: the new annotation from 0.000s to 0.500s overlaps annotation:1",
+        "bad.csv, line 2: a new annotation from 0.000s to 0.500s overlaps \"BOL\"",
         "bad.csv, line 3: no recording is called \"Take 2\"",
         "bad.csv, line 6: no annotation is called \"a99\"",
         "bad.csv, line 7: no annotation of the tier \"G\" starts at 1.600s",

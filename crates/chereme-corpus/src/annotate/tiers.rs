@@ -18,6 +18,7 @@ use crate::db::tiers::{self as rows, TierRow};
 use crate::error::{Error, Result};
 use crate::inventories::{self, StoredInventory};
 use crate::tokens;
+use crate::words::counted;
 
 /// Where the values of a tier come from.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -168,9 +169,9 @@ impl Corpus {
             tokens::derive(connection, tier.recording_id, None, &inventories)?;
             let recording = crate::db::recordings::recording(connection, tier.recording_id)?.name;
             let summary = format!(
-                "{} with {} annotations from {recording}",
+                "{} with {} from {recording}",
                 removed.tiers.join(", "),
-                removed.annotations
+                counted(removed.annotations, "annotations")
             );
             Ok((removed, summary))
         })
@@ -358,9 +359,9 @@ fn check_values(connection: &Connection, tier: &TierRow, stored: &StoredInventor
         .collect::<Vec<_>>()
         .join(", ");
     Err(Error::wrong(format!(
-        "the tier {:?} says {} values that the inventory {:?} does not have: {shown}",
+        "the tier {:?} says {} that the inventory {:?} does not have: {shown}",
         tier.name,
-        missing.len(),
+        counted(missing.len() as u64, "values"),
         stored.inventory.id
     ))
     .advise("change those annotations first, or leave the tier free"))

@@ -322,7 +322,7 @@ fn write_part(connection: &Connection, operation: i64, part: i64, lines: &[u8]) 
 
 pub(super) fn undo(connection: &Connection, author: &str) -> Result<OperationRow> {
     let target = stacks(connection)?.0.pop().ok_or_else(|| {
-        Error::wrong("there is nothing to undo").advise("`chereme log` lists what was done")
+        Error::wrong("there is nothing to undo").advise("`chereme log CORPUS` lists what was done")
     })?;
     invert(connection, author, OperationKind::Undo, target, target)
 }
@@ -423,6 +423,86 @@ fn read_part(connection: &Connection, operation: i64, part: i64) -> Result<Strin
     )
     .map_err(|error| damaged(place(), error.to_string()))?;
     String::from_utf8(lines).map_err(|_| damaged(place(), "it is no text"))
+}
+
+/// A row that an operation changed, as JSON before and after; null where it was not there.
+pub(crate) struct RowChange {
+    pub(crate) table: String,
+    pub(crate) before: Value,
+    pub(crate) after: Value,
+}
+
+/// Gives the changes of an operation to `take`, in order.
+pub(crate) fn each_change(
+    connection: &Connection,
+    operation: i64,
+    mut take: impl FnMut(RowChange) -> Result<()>,
+) -> Result<()> {
+    let parts: i64 = connection.query_row(
+        "SELECT count(*) FROM changeset WHERE operation_id = ?1",
+        [operation],
+        |row| row.get(0),
+    )?;
+    for part in 0..parts {
+        for line in read_part(connection, operation, part)?.lines() {
+            let (table, _, before, after, _): (String, String, Value, Value, Value) =
+                serde_json::from_str(line).map_err(|error| {
+                    damaged(format!("changeset {operation}"), error.to_string())
+                })?;
+            take(RowChange {
+                table,
+                before,
+                after,
+            })?;
+        }
+    }
+    Ok(())
+}
+
+/// Returns how many operations can be undone, and how many redone.
+pub(crate) fn steps(connection: &Connection) -> Result<(usize, usize)> {
+    let (done, undone) = stacks(connection)?;
+    Ok((done.len(), undone.len()))
+}
+
+/// Returns the table that a column of a tracked table refers to.
+pub(crate) fn refers_to(table: &str, column: &str) -> Option<&'static str> {
+    let (_, references) = TRACKED.iter().find(|tracked| tracked.0 == table)?;
+    let (_, other) = references.iter().find(|reference| reference.0 == column)?;
+    Some(other)
+}
+
+/// Returns the name of a row as people know it; nothing where it is gone or has none.
+pub(crate) fn name_of(connection: &Connection, table: &str, id: i64) -> Result<Option<String>> {
+    let sql = match table {
+        "recording" => "SELECT name FROM recording WHERE id = ?1",
+        "tier" => "SELECT name FROM tier WHERE id = ?1",
+        "signer" => "SELECT name FROM signer WHERE id = ?1",
+        "sign" => "SELECT gloss FROM sign WHERE id = ?1",
+        "inventory" => "SELECT key FROM inventory WHERE id = ?1",
+        "annotation" => "SELECT value FROM annotation WHERE id = ?1",
+        _ => return Ok(None),
+    };
+    Ok(connection
+        .prepare_cached(sql)?
+        .query_row([id], |row| row.get(0))
+        .optional()?)
+}
+
+/// Returns the row that a tier refers to by `column`; nothing where it is gone.
+pub(crate) fn reference_of(
+    connection: &Connection,
+    table: &str,
+    id: i64,
+    column: &str,
+) -> Result<Option<i64>> {
+    if (table, column) != ("tier", "recording_id") {
+        return Ok(None);
+    }
+    Ok(connection
+        .prepare_cached("SELECT recording_id FROM tier WHERE id = ?1")?
+        .query_row([id], |row| row.get(0))
+        .optional()?)
 }
 
 /// The statements that take changes of a table's rows back; `?1` and `?2` are rows as JSON.
@@ -542,11 +622,20 @@ fn expect_row(
     if same {
         return Ok(());
     }
+    let named = ["name", "gloss", "value", "key", "text"]
+        .into_iter()
+        .find_map(|column| want.get(column)?.as_str().filter(|text| !text.is_empty()));
+    let row = match named {
+        Some(name) => format!("{} {name:?}", table.replace('_', " ")),
+        None => {
+            let key = want.get(&inverse.key).unwrap_or(&Value::Null);
+            format!("row {key} of {table}")
+        }
+    };
     Err(Error::wrong(format!(
-        "the row {} of {table} was changed by something else since, so this cannot be taken back",
-        want.get(&inverse.key).unwrap_or(&Value::Null)
+        "the {row} was changed by something else since, so this cannot be taken back"
     ))
-    .advise("`chereme log` shows what was done; `chereme check` looks for damage"))
+    .advise("`chereme log CORPUS` shows what was done; `chereme check CORPUS` looks for damage"))
 }
 
 /// Returns the number of the newest operation; nothing where there was none.

@@ -17,6 +17,7 @@ use crate::db::tiers;
 use crate::error::{Error, Result};
 use crate::notation;
 use crate::progress::{Progress, Step, Unit};
+use crate::words::counted;
 
 /// A column of values: component, feature, hand, and the phase where it has a column of its own.
 type Column = (String, Option<String>, Option<String>, Option<Place>);
@@ -76,7 +77,8 @@ pub(super) fn tokens(
     }
     if unclear > 0 {
         notes.push(format!(
-            "{unclear} values hold \">\" or \"+\" and would be read back as several"
+            "{} with \">\" or \"+\" in it would be read back as several",
+            counted(unclear as u64, "values")
         ));
     }
     let mut table = table(delimiter, out);

@@ -10,7 +10,7 @@ use rusqlite::Connection;
 use serde_json::json;
 use sha2::{Digest, Sha256};
 
-use super::bvh;
+use super::{bvh, dictionary};
 use crate::address::Stretch;
 use crate::curves;
 use crate::db::curves as rows;
@@ -65,6 +65,8 @@ struct Folder {
 impl Folder {
     fn fill(mut self, connection: &Connection, progress: &mut Progress<'_>) -> Result<Vec<String>> {
         self.text("README.md", ABOUT)?;
+        self.text("DICTIONARY.md", &dictionary::dictionary())?;
+        self.text("queries.sql", &dictionary::queries())?;
         let copy = self.make("corpus.chereme")?;
         dump::copy(connection, &copy)?;
         // The other files come from the copy, so that all of the folder is of one moment.
@@ -234,7 +236,7 @@ fn hash(path: &Path) -> Result<String> {
 }
 
 /// Returns a file name like `name` that every system takes and no other of `taken` has.
-fn file_name(name: &str, taken: &mut BTreeSet<String>) -> String {
+pub(super) fn file_name(name: &str, taken: &mut BTreeSet<String>) -> String {
     let plain: String = name
         .chars()
         .map(|c| {

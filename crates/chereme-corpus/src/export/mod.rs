@@ -2,9 +2,11 @@
 
 mod bvh;
 mod csv;
+mod dictionary;
 mod eaf;
 mod enriched;
 mod notation;
+mod several;
 #[cfg(test)]
 mod tests;
 
@@ -25,6 +27,7 @@ use crate::db::search as rows;
 use crate::db::{list, recordings, signs};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
+use crate::words::counted;
 
 /// What to export.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,15 +36,20 @@ pub enum ExportWhat {
     Address(Address),
     /// These tokens, such as those that a query finds, in this order.
     Tokens(Vec<i64>),
+    /// What several addresses name.
+    Several(Vec<Address>),
     /// Everything.
     All,
 }
 
 /// How to export.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ExportOptions {
     /// Whether a file that is there already is replaced.
     pub force: bool,
+    /// The format, as its extension without the dot, such as `bvh` or `curves.csv`. With it a name without
+    /// an extension is a folder that gets a file for each recording or token; else the extension says it.
+    pub format: Option<String>,
 }
 
 /// What was written.
@@ -77,6 +85,7 @@ impl Corpus {
     /// | `.hsigml` | notated tokens as H-SiGML, HamNoSys's symbols as elements |
     /// | `.hns`, `.txt` | notated tokens as HamNoSys text, a sign a line: the gloss, a tab, the text |
     /// | none | everything, as a folder of files that anyone can read |
+    /// | none, with a format | a folder with a file of that format for each recording or token |
     ///
     /// A file appears whole or not at all.
     ///
@@ -95,18 +104,30 @@ impl Corpus {
             .extension()
             .map(|text| text.to_string_lossy().to_lowercase());
         let mut report = ExportReport::default();
+        let form = options.format.as_deref().map(named).transpose()?;
         match (extension.as_deref(), what) {
+            (None, _) if let Some((format, extension)) = form => {
+                let reading = rows::begin_reading(connection)?;
+                let form = (format, extension.as_str());
+                return several::write(&reading, what, form, to, options, progress);
+            }
             (None, ExportWhat::All) => {
                 let files = enriched::write(connection, to, progress)?;
                 report.files = files.into_iter().map(exported).collect::<Result<_>>()?;
             }
-            (None, _) => return Err(no_format(to, "only everything can be written as a folder")),
+            (None, _) => {
+                let message = "only everything can be written as a folder of all formats";
+                return Err(no_format(to, message));
+            }
             (Some(extension), _) => {
                 let reading = rows::begin_reading(connection)?;
                 let curves = is_of_curves(to);
-                let format = Format::of(extension)
-                    .map(|format| format.of_curves(curves))
-                    .ok_or_else(|| no_format(to, &format!("{extension:?} is no format")))?;
+                let format = match form {
+                    Some((format, _)) => format,
+                    None => Format::of(extension)
+                        .map(|format| format.of_curves(curves))
+                        .ok_or_else(|| unknown(to, extension))?,
+                };
                 let file = whole(to, options.force, &mut |out| {
                     let notes = &mut report.notes;
                     write_file(&reading, what, format, out, notes, progress)
@@ -116,10 +137,67 @@ impl Corpus {
         }
         Ok(report)
     }
+
+    /// Writes a part of the corpus to `out` in the format that is called `format`, such as `bvh`, and
+    /// returns what its reader should know.
+    ///
+    /// # Errors
+    /// Where there is no such format, or `what` cannot be written in it.
+    pub fn export_stream(
+        &self,
+        what: &ExportWhat,
+        format: &str,
+        out: &mut dyn Write,
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<String>> {
+        let (format, _) = named(format)?;
+        let reading = rows::begin_reading(self.store.read())?;
+        let mut notes = Vec::new();
+        write_file(&reading, what, format, out, &mut notes, progress)?;
+        Ok(notes)
+    }
+}
+
+/// Returns the format that people call by its extension, and the extension.
+fn named(format: &str) -> Result<(Format, String)> {
+    let extension = format.trim().trim_start_matches('.').to_lowercase();
+    let (curves, last) = match extension.strip_prefix("curves.") {
+        Some(last) => (true, last),
+        None => (false, extension.as_str()),
+    };
+    let found = Format::of(last).map(|format| format.of_curves(curves));
+    match found {
+        Some(format) => Ok((format, extension)),
+        None => Err(unknown(Path::new(format), &extension)),
+    }
+}
+
+/// Returns the failure that there is no such format, with what comes nearest to the common ones.
+fn unknown(to: &Path, extension: &str) -> Error {
+    let wrong = |message: String, remedy: &str| {
+        Error::wrong(message)
+            .at(to.display().to_string())
+            .advise(remedy)
+    };
+    match extension {
+        "glb" | "gltf" | "fbx" | "usd" | "usda" | "usdz" => wrong(
+            format!("{extension} is not written"),
+            "write .bvh; Blender and others read it (File, Import, Motion Capture)",
+        ),
+        "png" | "gif" | "svg" => wrong(
+            format!("{extension} is a picture"),
+            "draw it with `chereme render CORPUS WHAT --to FILE`",
+        ),
+        "json" => wrong(
+            "json is not written as a file".to_owned(),
+            "add --json to `chereme list` or `chereme search`; export all to a folder for the inventories",
+        ),
+        _ => no_format(to, &format!("{extension:?} is no format")),
+    }
 }
 
 /// A format of single files.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Format {
     /// A table with this between its cells.
     Table(u8),
@@ -202,7 +280,7 @@ fn write_file(
 fn no_format(to: &Path, message: &str) -> Error {
     Error::wrong(message).at(to.display().to_string()).advise(
         "end the name in .csv, .tsv, .curves.csv, .eaf, .bvh, .sigml, .hsigml or .hns; a name without a dot is a \
-         folder of everything",
+         folder of everything, or with --format of a file for each recording or token",
     )
 }
 
@@ -212,6 +290,17 @@ fn tokens(connection: &Connection, what: &ExportWhat) -> Result<Vec<i64>> {
     match what {
         ExportWhat::All => list::token_ids(connection),
         ExportWhat::Tokens(tokens) => Ok(tokens.clone()),
+        ExportWhat::Several(addresses) => {
+            let mut all = Vec::new();
+            for address in addresses {
+                for id in self::tokens(connection, &ExportWhat::Address(address.clone()))? {
+                    if !all.contains(&id) {
+                        all.push(id);
+                    }
+                }
+            }
+            Ok(all)
+        }
         ExportWhat::Address(Address::Recording(name)) => {
             let recording = address::recording(connection, name)?;
             Ok(ids(signs::tokens_of_recording(connection, recording.id)?))
@@ -235,15 +324,20 @@ fn tokens(connection: &Connection, what: &ExportWhat) -> Result<Vec<i64>> {
 fn stretch(connection: &Connection, what: &ExportWhat) -> Result<Stretch> {
     let several = |count: usize, what: &str| {
         Error::wrong(format!(
-            "such a file holds one recording, and these are {count} {what}"
+            "such a file holds one recording, and these are {}",
+            counted(count as u64, what)
         ))
-        .advise("name one, such as recording:3 or token:41, or export everything to a folder")
+        .advise("name one, such as recording:3 or token:41, or write a file for each with --to FOLDER --format bvh")
     };
     match what {
         ExportWhat::Address(address) => address::stretch(connection, address),
         ExportWhat::Tokens(tokens) => match tokens.as_slice() {
             [one] => address::stretch(connection, &Address::Token(*one)),
             tokens => Err(several(tokens.len(), "tokens")),
+        },
+        ExportWhat::Several(addresses) => match addresses.as_slice() {
+            [one] => address::stretch(connection, one),
+            all => Err(several(all.len(), "recordings and tokens")),
         },
         ExportWhat::All => match recordings::recordings(connection)?.as_slice() {
             [one] => address::stretch(connection, &Address::Recording(Name::Number(one.id))),

@@ -11,6 +11,7 @@ use crate::db::signs::AT_ONCE;
 use crate::error::{Error, Result};
 use crate::notation;
 use crate::progress::{Progress, Step, Unit};
+use crate::words::counted;
 
 /// How notation is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,7 +41,8 @@ pub(super) fn write(
     }
     if without > 0 {
         notes.push(format!(
-            "{without} tokens have no notation and were left out"
+            "{} without notation: left out",
+            counted(without as u64, "tokens")
         ));
     }
     let (bytes, lost) = match form {
@@ -81,6 +83,9 @@ fn tell_lost(signs: &[Notated], lost: &[Vec<String>], notes: &mut Vec<String>) {
         }
     }
     notes.extend(kinds.into_iter().map(|(message, (count, gloss))| {
-        format!("left out of {count} signs, the first {gloss}: {message}")
+        format!(
+            "left out of {}, the first {gloss}: {message}",
+            counted(count as u64, "signs")
+        )
     }));
 }

@@ -346,7 +346,10 @@ fn shared_annotation_files_come_back_as_they_were() {
         }
         let corpus = place.corpus(std::slice::from_ref(&file));
         let out = place.path("out.eaf");
-        let options = ExportOptions { force: true };
+        let options = ExportOptions {
+            force: true,
+            ..ExportOptions::default()
+        };
         let mut hear = unheard;
         corpus
             .export(
@@ -429,7 +432,10 @@ fn files_appear_whole_and_replace_nothing_unasked() {
         assert!(to == there || !to.exists());
     }
     assert_eq!(std::fs::read(&there).expect("bytes"), b"mine");
-    let options = ExportOptions { force: true };
+    let options = ExportOptions {
+        force: true,
+        ..ExportOptions::default()
+    };
     let mut hear = unheard;
     let report = corpus
         .export(
@@ -454,4 +460,55 @@ fn files_appear_whole_and_replace_nothing_unasked() {
         })
         .collect();
     assert!(left.is_empty(), "{left:?}");
+}
+
+#[test]
+fn several_recordings_go_into_one_folder_a_file_each() {
+    let mut place = Place::new();
+    let one = place.file("one.eaf", EAF.as_bytes());
+    let two = place.file("two.eaf", EAF.replace("BOL", "TASSE").as_bytes());
+    let corpus = place.corpus(&[one, two]);
+    let write = |what: &ExportWhat, to: &Path, force: bool, format: &str| {
+        let options = ExportOptions {
+            force,
+            format: Some(format.to_owned()),
+        };
+        let mut hear = unheard;
+        corpus.export(what, to, &options, &mut Progress::new(&mut hear))
+    };
+    let to = place.path("takes");
+    let several = ExportWhat::Several(vec![
+        "recording:one".parse().expect("an address"),
+        "recording:two".parse().expect("an address"),
+        "recording:1".parse().expect("an address"),
+    ]);
+    let report = write(&several, &to, false, "eaf").expect("written");
+    let names: Vec<_> = report
+        .files
+        .iter()
+        .filter_map(|file| file.path.file_name())
+        .collect();
+    assert_eq!(names, ["one.eaf", "two.eaf"], "each once");
+    assert!(
+        write(&several, &to, false, "eaf").is_err(),
+        "nothing is replaced unasked"
+    );
+    write(&several, &to, true, ".EAF").expect("replaced");
+    let all = write(&ExportWhat::All, &place.path("all"), false, "eaf").expect("written");
+    assert_eq!(all.files.len(), 2);
+    let tokens = place.path("tokens");
+    let found = write(&ExportWhat::Tokens(vec![1, 2]), &tokens, false, "eaf").expect("written");
+    assert!(!found.files.is_empty() && found.files.len() <= 2);
+    assert!(write(&several, &place.path("x"), false, "glb").is_err());
+    let mut hear = unheard;
+    let mut bytes = Vec::new();
+    corpus
+        .export_stream(
+            &address("recording:one"),
+            "eaf",
+            &mut bytes,
+            &mut Progress::new(&mut hear),
+        )
+        .expect("written");
+    assert_eq!(bytes, std::fs::read(to.join("one.eaf")).expect("read"));
 }

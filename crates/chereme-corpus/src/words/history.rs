@@ -21,6 +21,17 @@ texts! {
     WALK_GO: "Yes", "Oui";
     WALKED_BACK: "{n} steps undone.", "{n} étapes annulées.";
     WALKED_FORWARD: "{n} steps done again.", "{n} étapes rétablies.";
+    UNDID: "undone: operation {id}, {what}", "annulé : opération {id}, {what}";
+    REDID: "done again: operation {id}, {what}", "rétabli : opération {id}, {what}";
+    ALL_UNDONE: "{count} undone, and nothing is left to undo ({asked} were asked for)", "annulé : {count}, et il ne reste rien à annuler ({asked} étaient demandées)";
+    ALL_REDONE: "{count} done again, and nothing is left to redo ({asked} were asked for)", "rétabli : {count}, et il ne reste rien à rétablir ({asked} étaient demandées)";
+    UNDO_OF: "undo of {id}: ", "annulation de {id} : ";
+    REDO_OF: "redo of {id}: ", "rétablissement de {id} : ";
+    NUMBER: "id", "n°";
+    WHEN: "when", "quand";
+    WHO: "who", "qui";
+    WHAT: "what", "quoi";
+    CHANGES: "changes", "modifications";
     DID_IMPORT: "Imported: {what}", "Importé : {what}";
     DID_RECOMBINE: "{gloss} made: {recipe}", "{gloss} composé : {recipe}";
     DID_RECOMBINE_AGAIN: "{gloss} made anew: {recipe}", "{gloss} refait : {recipe}";

@@ -7,6 +7,9 @@ use std::fmt::Display;
 
 use serde::{Deserialize, Serialize};
 
+pub use count::{counted, counted_in, numbered};
+pub use messages::message;
+
 /// Declares the texts of one part.
 macro_rules! texts {
     ($($name:ident: $en:literal, $fr:literal;)*) => {
@@ -19,7 +22,9 @@ macro_rules! texts {
     };
 }
 
+mod count;
 pub mod history;
+mod messages;
 pub mod trouble;
 
 /// A language that the program speaks.

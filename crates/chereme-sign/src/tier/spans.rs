@@ -123,6 +123,34 @@ pub fn tiled(
     ]
 }
 
+/// Returns the annotations that give way to a new one at `wanted`, as they are then: those from its start
+/// on, as far as they must in bulldozer mode, all by the same time in shift mode. Nothing where one that
+/// begins earlier is in the way, where there is no room at the end, or in normal mode.
+#[must_use]
+pub fn opened(items: &[Item], wanted: (i64, i64), mode: Mode, limits: Limits) -> Option<Vec<Item>> {
+    let at = items.partition_point(|item| item.start < wanted.0);
+    let reaches_in = at > 0 && items[at - 1].end > wanted.0;
+    if mode == Mode::Normal || reaches_in || wanted.1 > limits.to.max(wanted.0) {
+        return None;
+    }
+    let mut new = items[at..].to_vec();
+    let mut edge = wanted.1;
+    let all_by = new.first().map_or(0, |next| (wanted.1 - next.start).max(0));
+    for item in &mut new {
+        let by = match mode {
+            Mode::Shift => all_by,
+            _ => (edge - item.start).max(0),
+        };
+        *item = shifted(*item, by);
+        edge = item.end;
+    }
+    if edge > limits.to {
+        return None;
+    }
+    let changed = items[at..].iter().zip(new).filter(|(old, new)| *old != new);
+    Some(changed.map(|(_, new)| new).collect())
+}
+
 /// Returns changed annotations in an order in which they can be changed one after the other without
 /// ever overlapping: what goes to the right from the last on, what goes to the left from the first on.
 #[must_use]
@@ -376,6 +404,39 @@ mod tests {
             ((500, 500), None),
         ] {
             assert_eq!(room(&all, wanted), want, "{wanted:?}");
+        }
+    }
+
+    #[test]
+    fn those_after_a_new_one_make_room_for_it() {
+        let all = items(&[(0, 100), (150, 250), (300, 400)]);
+        for (wanted, mode, want) in [
+            ((120, 200), Mode::Normal, None),
+            (
+                (120, 200),
+                Mode::Bulldozer,
+                Some(items(&[(0, 0), (200, 300)])),
+            ),
+            (
+                (120, 260),
+                Mode::Bulldozer,
+                Some(items(&[(0, 0), (260, 360), (360, 460)])),
+            ),
+            (
+                (120, 200),
+                Mode::Shift,
+                Some(items(&[(0, 0), (200, 300), (350, 450)])),
+            ),
+            ((110, 140), Mode::Shift, Some(Vec::new())),
+            ((50, 140), Mode::Bulldozer, None),
+            ((120, 900), Mode::Shift, None),
+        ] {
+            let want = want.map(|all| all.into_iter().filter(|item| item.end > 0).collect());
+            assert_eq!(
+                opened(&all, wanted, mode, LIMITS),
+                want,
+                "{wanted:?} {mode:?}"
+            );
         }
     }
 

@@ -314,6 +314,7 @@ impl Export {
         let to = PathBuf::from(self.to.trim());
         let options = ExportOptions {
             force: self.replace,
+            format: None,
         };
         let address = |address: Address| ExportWhat::Address(address);
         let work = match what {

@@ -1,0 +1,74 @@
+//! `chereme completions` and `chereme man`.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::Error;
+use clap::CommandFactory;
+use clap_complete::Shell;
+
+use crate::args::Cli;
+use crate::output::Output;
+
+/// Write the completions of a shell to standard output
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme completions bash > ~/.local/share/bash-completion/completions/chereme
+  chereme completions zsh > ~/.zfunc/_chereme
+  chereme completions fish > ~/.config/fish/completions/chereme.fish
+  chereme completions powershell >> $PROFILE")]
+pub(crate) struct Args {
+    /// The shell
+    #[arg(value_enum)]
+    shell: Shell,
+}
+
+/// Write the manual pages, in the form of the program `man`
+#[derive(Debug, clap::Args)]
+pub(crate) struct ManArgs {
+    /// The folder for a page of each command; without it the page of the whole goes to standard output
+    #[arg(long, value_name = "FOLDER")]
+    to: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &Args, output: &mut Output) -> Result<()> {
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut Cli::command(), "chereme", &mut script);
+    let script = String::from_utf8(script)?;
+    output.line(script.trim_end())?;
+    output.document(serde_json::json!({ "shell": args.shell.to_string(), "script": script }))
+}
+
+pub(super) fn man(args: &ManArgs, output: &mut Output) -> Result<()> {
+    let Some(folder) = &args.to else {
+        let mut page = Vec::new();
+        clap_mangen::Man::new(Cli::command()).render(&mut page)?;
+        let page = String::from_utf8(page)?;
+        output.line(page.trim_end())?;
+        return output.document(serde_json::json!({ "page": page }));
+    };
+    let fault = |error| Error::file(folder, error);
+    std::fs::create_dir_all(folder).map_err(fault)?;
+    let mut whole = Cli::command();
+    whole.build();
+    let mut files = Vec::new();
+    let mut write = |command: clap::Command| -> Result<()> {
+        let page = clap_mangen::Man::new(command);
+        let path = folder.join(page.get_filename());
+        let mut file = std::fs::File::create(&path).map_err(fault)?;
+        page.render(&mut file)?;
+        file.flush().map_err(fault)?;
+        files.push(path);
+        Ok(())
+    };
+    for command in whole.get_subcommands() {
+        let name: &'static str = format!("chereme-{}", command.get_name()).leak();
+        write(command.clone().name(name))?;
+    }
+    write(whole)?;
+    let count = output.counted(files.len() as u64, "files");
+    output.line(format!("wrote {count} to {}", folder.display()))?;
+    output.document(serde_json::json!({ "files": files }))
+}

@@ -1,0 +1,82 @@
+//! Standard input and output in place of files, written `-`.
+
+use std::io::{self, Read, Write};
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use chereme_corpus::Error;
+use tempfile::TempDir;
+
+/// Returns whether a path is `-`, which stands for standard input or output.
+pub(crate) fn is_standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// Reads all of standard input.
+pub(crate) fn read() -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    io::stdin()
+        .lock()
+        .read_to_end(&mut bytes)
+        .map_err(|error| Error::file("-", error))?;
+    Ok(bytes)
+}
+
+/// Reads all of standard input as text.
+pub(crate) fn read_text() -> Result<String> {
+    let text = String::from_utf8(read()?);
+    text.map_err(|_| {
+        let advice = "write it in UTF-8, or name a file";
+        Error::wrong("standard input is no text")
+            .at("-")
+            .advise(advice)
+            .into()
+    })
+}
+
+/// A file that stands for standard input or output while a command works.
+pub(crate) struct Stand {
+    /// Keeps the folder until the file is no longer needed.
+    _folder: TempDir,
+    /// The file.
+    pub(crate) path: PathBuf,
+}
+
+/// Writes standard input to a file `NAME.FORMAT`, so that what reads files can read it.
+pub(crate) fn input(name: &str, format: &str) -> Result<Stand> {
+    let stand = output(name, format)?;
+    std::fs::write(&stand.path, read()?).map_err(|error| Error::file(&stand.path, error))?;
+    Ok(stand)
+}
+
+/// Returns a place for a file `NAME.FORMAT` that [`copy`] then writes to standard output.
+pub(crate) fn output(name: &str, format: &str) -> Result<Stand> {
+    let folder = tempfile::tempdir()?;
+    let format = format.trim_start_matches('.');
+    let path = folder.path().join(format!("{name}.{format}"));
+    Ok(Stand {
+        _folder: folder,
+        path,
+    })
+}
+
+/// Writes a file to standard output.
+pub(crate) fn copy(stand: &Stand) -> Result<()> {
+    let bytes = std::fs::read(&stand.path).map_err(|error| Error::file(&stand.path, error))?;
+    let mut out = io::stdout().lock();
+    match out.write_all(&bytes).and_then(|()| out.flush()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        other => Ok(other?),
+    }
+}
+
+/// Refuses `--json` where the document itself goes to standard output.
+pub(crate) fn not_with_json(json: bool) -> Result<()> {
+    if json {
+        return Err(Error::wrong("--json and --to - both want standard output")
+            .at("-")
+            .advise("leave --json out, or name a file")
+            .into());
+    }
+    Ok(())
+}

@@ -1,0 +1,187 @@
+//! The help of the command line in French, found by its English form.
+
+mod help;
+
+use chereme_corpus::words::Language;
+use clap::builder::StyledStr;
+use clap::{Arg, Command};
+
+/// What clap itself says, as English and French.
+const FRAME: [(&str, &str); 17] = [
+    ("error: ", "erreur : "),
+    ("  tip: ", "  conseil : "),
+    ("unexpected argument ", "argument inattendu : "),
+    ("unrecognized subcommand ", "commande inconnue : "),
+    (
+        "the following required arguments were not provided:",
+        "il manque :",
+    ),
+    (" found\n", "\n"),
+    (
+        "a similar subcommand exists: ",
+        "une commande semblable existe : ",
+    ),
+    (
+        "a similar argument exists: ",
+        "un argument semblable existe : ",
+    ),
+    ("a similar value exists: ", "une valeur semblable existe : "),
+    (
+        "some similar subcommands exist: ",
+        "des commandes semblables existent : ",
+    ),
+    ("invalid value ", "valeur incorrecte "),
+    (" for '", " pour '"),
+    ("a value is required for ", "il faut une valeur pour "),
+    (" but none was supplied", ", et il n’y en a pas"),
+    ("[possible values: ", "[valeurs possibles : "),
+    ("Usage: ", "Utilisation : "),
+    (
+        "For more information, try '--help'.",
+        "Pour en savoir plus : '--help'.",
+    ),
+];
+
+const TEMPLATE: &str = "\
+{before-help}{about-with-newline}
+Utilisation : {usage}
+
+{all-args}{after-help}";
+
+/// Returns the command with its help in `language`; what has no French words yet stays English.
+pub(crate) fn spoken(command: Command, language: Language) -> Command {
+    match language {
+        Language::English => command,
+        Language::French => french(command),
+    }
+}
+
+fn french(command: Command) -> Command {
+    let about = command.get_about().map(translated);
+    let long = command.get_long_about().map(translated);
+    let after = command.get_after_help().map(translated);
+    let after_long = command.get_after_long_help().map(translated);
+    let mut command = command
+        .help_template(TEMPLATE)
+        .subcommand_help_heading("Commandes")
+        .mut_args(argument)
+        .mut_subcommands(french);
+    if let Some(about) = about {
+        command = command.about(about);
+    }
+    if let Some(long) = long {
+        command = command.long_about(long);
+    }
+    if let Some(after) = after {
+        command = command.after_help(after);
+    }
+    if let Some(after) = after_long {
+        command = command.after_long_help(after);
+    }
+    command
+}
+
+fn argument(argument: Arg) -> Arg {
+    let help = argument.get_help().map(translated);
+    let long = argument.get_long_help().map(translated);
+    let mut argument = argument;
+    if let Some(help) = help {
+        argument = argument.help(help);
+    }
+    if let Some(long) = long {
+        argument = argument.long_help(long);
+    }
+    argument
+}
+
+/// Returns a text of the help in French; its first lines where only those are known.
+fn translated(text: &StyledStr) -> String {
+    let text = text.to_string();
+    if let Some(french) = help::of(&text) {
+        return french.to_owned();
+    }
+    match text.split_once("\n\n") {
+        Some((first, rest)) => match help::of(first) {
+            Some(french) => format!("{french}\n\n{rest}"),
+            None => text,
+        },
+        None => text,
+    }
+}
+
+/// Returns what clap says of wrong usage in French.
+pub(crate) fn usage(text: &str) -> String {
+    let mut said = text.to_owned();
+    for (english, french) in FRAME {
+        said = said.replace(english, french);
+    }
+    said.trim_end().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+    use crate::args::Cli;
+    use clap::CommandFactory;
+
+    /// Returns every text of the help, first paragraphs only.
+    fn texts(command: &Command, into: &mut BTreeSet<String>) {
+        let mut take = |text: Option<&StyledStr>| {
+            let text = text.map(ToString::to_string).unwrap_or_default();
+            let first = text.split("\n\n").next().unwrap_or_default();
+            if !first.is_empty() {
+                into.insert(first.to_owned());
+            }
+        };
+        take(command.get_about());
+        for argument in command.get_arguments() {
+            take(argument.get_help());
+        }
+        for command in command.get_subcommands() {
+            texts(command, into);
+        }
+    }
+
+    #[test]
+    fn nearly_all_of_the_help_is_there_in_french() {
+        let mut all = BTreeSet::new();
+        texts(&Cli::command(), &mut all);
+        let missing: Vec<&String> = all.iter().filter(|text| help::of(text).is_none()).collect();
+        // Words of options that are newer than their translation are shown in English.
+        assert!(
+            missing.len() * 5 < all.len(),
+            "{} of {} are not there:\n{missing:#?}",
+            missing.len(),
+            all.len()
+        );
+        for command in Cli::command().get_subcommands() {
+            let about = command
+                .get_about()
+                .map(ToString::to_string)
+                .unwrap_or_default();
+            assert!(help::of(&about).is_some(), "{about}");
+        }
+    }
+
+    #[test]
+    fn the_help_is_french_where_french_is_asked_for() {
+        let mut command = spoken(Cli::command(), Language::French);
+        command.clone().debug_assert();
+        let help = command.render_help().to_string();
+        assert!(
+            help.contains("Utilisation : chereme") && help.contains("Commandes:"),
+            "{help}"
+        );
+        assert!(help.contains("Annuler la dernière modification"), "{help}");
+        let error = command
+            .try_get_matches_from(["chereme", "dance"])
+            .expect_err("no command");
+        let said = usage(&error.render().to_string());
+        assert!(
+            said.starts_with("erreur : commande inconnue : 'dance'"),
+            "{said}"
+        );
+    }
+}

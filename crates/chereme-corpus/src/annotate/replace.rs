@@ -1,0 +1,354 @@
+//! Finding values of annotations and replacing them, and shifting whole tiers in time.
+
+use chereme_formats::table::annotations::Moment;
+use chereme_motion::Instant;
+use chereme_sign::text::fold;
+use chereme_sign::tier::spans::{self, Item};
+use regex::{NoExpand, Regex};
+use rusqlite::Connection;
+use serde::Serialize;
+
+use super::{
+    AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, TierName,
+    Work, names, span_of,
+};
+use crate::Corpus;
+use crate::address::{self, Name};
+use crate::db::recordings::{self, RecordingRow};
+use crate::db::tiers::{self as rows, TierRow};
+use crate::error::{Error, Result};
+use crate::progress::Progress;
+
+/// What to look for in the values of annotations.
+#[derive(Debug, Clone)]
+pub enum Find {
+    /// This text, anywhere in a value.
+    Text(String),
+    /// This text, and nothing else in the value.
+    Whole(String),
+    /// What a regular expression matches; `$1` in the replacement is its first group.
+    Pattern(Regex),
+}
+
+impl Find {
+    /// Reads a regular expression.
+    ///
+    /// # Errors
+    /// Where it is none.
+    pub fn pattern(text: &str) -> Result<Self> {
+        let advice = "write a regular expression such as ^BO.*; a text is found without --regex";
+        Regex::new(text).map(Self::Pattern).map_err(|error| {
+            let why = error.to_string();
+            let why = why.lines().last().unwrap_or_default().trim();
+            let why = why.trim_start_matches("error: ");
+            Error::wrong(format!("{text:?} is no regular expression: {why}"))
+                .at(text)
+                .advise(advice)
+        })
+    }
+
+    /// Returns `value` with everything that is found replaced.
+    fn replaced(&self, value: &str, with: &str) -> String {
+        match self {
+            Self::Text(text) if text.is_empty() => value.to_owned(),
+            Self::Text(text) => value.replace(text.as_str(), with),
+            Self::Whole(text) if value == text => with.to_owned(),
+            Self::Whole(_) => value.to_owned(),
+            Self::Pattern(pattern) if with.contains('$') => {
+                pattern.replace_all(value, with).into_owned()
+            }
+            Self::Pattern(pattern) => pattern.replace_all(value, NoExpand(with)).into_owned(),
+        }
+    }
+}
+
+/// The tiers that a search for values or a shift is about.
+#[derive(Debug, Clone, Default)]
+pub struct Within {
+    /// The recording; nothing for all of them.
+    pub recording: Option<Name>,
+    /// Names of tiers, `*` for any letters, or `tier:12`; none for all of them.
+    pub tiers: Vec<String>,
+}
+
+/// A value that was replaced, or would be.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct ReplacedValue {
+    /// The annotation's row.
+    pub annotation: i64,
+    /// The recording's name.
+    pub recording: String,
+    /// The tier's name.
+    pub tier: String,
+    /// When it starts, in microseconds.
+    pub start_us: i64,
+    /// What it said.
+    pub from: String,
+    /// What it says now.
+    pub to: String,
+}
+
+/// What was replaced, or would be.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Replaced {
+    /// Whether nothing was written.
+    pub dry_run: bool,
+    /// How many annotations change.
+    pub changed: u64,
+    /// Each of them, by recording, tier and time.
+    pub values: Vec<ReplacedValue>,
+}
+
+impl Corpus {
+    /// Replaces what `find` finds in the values of annotations by `with`, as one operation.
+    ///
+    /// A value that becomes empty is unset. With `dry_run` everything is tried and nothing written.
+    ///
+    /// # Errors
+    /// Where a tier is not there, or its inventory does not have a new value; nothing is changed then.
+    pub fn replace_values(
+        &mut self,
+        find: &Find,
+        with: &str,
+        within: &Within,
+        dry_run: bool,
+        progress: &mut Progress<'_>,
+    ) -> Result<Replaced> {
+        let mut values = Vec::new();
+        for (recording, tier) in tiers_within(self.store.read(), within)? {
+            for row in rows::annotations(self.store.read(), tier.id)? {
+                let to = find.replaced(&row.value, with);
+                if row.state == "value" && to != row.value {
+                    values.push(ReplacedValue {
+                        annotation: row.id,
+                        recording: recording.name.clone(),
+                        tier: tier.name.clone(),
+                        start_us: row.start_us,
+                        from: row.value,
+                        to,
+                    });
+                }
+            }
+        }
+        let changes: Vec<AnnotationChange> = values.iter().map(change).collect();
+        let report = match changes.is_empty() {
+            true => AnnotateReport::default(),
+            false => self.annotate_or_try(&changes, dry_run, progress)?,
+        };
+        Ok(Replaced {
+            dry_run,
+            changed: report.changed,
+            values,
+        })
+    }
+
+    /// Moves all annotations of tiers by `by_us` microseconds, as one operation; what hangs below them
+    /// goes along.
+    ///
+    /// # Errors
+    /// Where a tier is not there or has no times of its own, or an annotation would leave the recording
+    /// or the annotation above it; nothing is changed then.
+    pub fn shift_tiers(
+        &mut self,
+        within: &Within,
+        by_us: i64,
+        dry_run: bool,
+        progress: &mut Progress<'_>,
+    ) -> Result<AnnotateReport> {
+        let connection = self.store.read();
+        let chosen = tiers_within(connection, within)?;
+        let ids: Vec<i64> = chosen.iter().map(|(_, tier)| tier.id).collect();
+        let mut changes = Vec::new();
+        for (recording, tier) in &chosen {
+            let goes_along = tier.parent_id.is_some_and(|above| ids.contains(&above));
+            if goes_along || (within.tiers.is_empty() && tier.parent_id.is_some()) {
+                continue;
+            }
+            let old: Vec<Item> = rows::annotations(connection, tier.id)?
+                .iter()
+                .map(|row| item(row.id, span_of(row)))
+                .collect();
+            let new: Vec<Item> = old.iter().map(|item| moved(*item, by_us)).collect();
+            check(connection, recording, tier, &new, by_us)?;
+            for item in spans::in_order(&old, &new) {
+                changes.push(set(recording, tier, item));
+            }
+        }
+        match changes.is_empty() {
+            true => Ok(AnnotateReport::default()),
+            false => self.annotate_or_try(&changes, dry_run, progress),
+        }
+    }
+
+    /// Makes changes, or with `dry_run` tries them and takes them back.
+    fn annotate_or_try(
+        &mut self,
+        changes: &[AnnotationChange],
+        dry_run: bool,
+        progress: &mut Progress<'_>,
+    ) -> Result<AnnotateReport> {
+        let options = AnnotateOptions::default();
+        if !dry_run {
+            return self.annotate(changes, &options, progress);
+        }
+        let mut tried = None;
+        let done = self.store.operation("annotate", |connection| {
+            let mut work = Work::new(connection, &options)?;
+            for change in changes {
+                work.change(change)?;
+            }
+            tried = Some(work.finish(changes.len())?);
+            // What was only tried is rolled back.
+            Err::<((), String), _>(Error::Stopped)
+        });
+        match (done, tried) {
+            (_, Some(report)) => Ok(report),
+            (Err(error), None) => Err(error),
+            (Ok(()), None) => Ok(AnnotateReport::default()),
+        }
+    }
+}
+
+fn change(value: &ReplacedValue) -> AnnotationChange {
+    let at = Instant::from_micros(value.start_us);
+    AnnotationChange {
+        place: Some(format!(
+            "{:?} at {at} on {:?} of {:?}",
+            value.from, value.tier, value.recording
+        )),
+        label: None,
+        action: AnnotationAction::Set {
+            annotation: AnnotationName::Number(value.annotation),
+            start: None,
+            end: None,
+            value: Some(value.to.clone()),
+        },
+    }
+}
+
+fn set(recording: &RecordingRow, tier: &TierRow, item: Item) -> AnnotationChange {
+    let moment = |micros| Some(Moment::Time(Instant::from_micros(micros)));
+    AnnotationChange {
+        place: Some(format!("{:?} of {:?}", tier.name, recording.name)),
+        label: None,
+        action: AnnotationAction::Set {
+            annotation: AnnotationName::Number(item.id),
+            start: moment(item.start),
+            end: moment(item.end),
+            value: None,
+        },
+    }
+}
+
+pub(super) fn item(id: i64, span: chereme_motion::Span) -> Item {
+    Item {
+        id,
+        start: span.start().micros(),
+        end: span.end().micros(),
+    }
+}
+
+fn moved(item: Item, by: i64) -> Item {
+    Item {
+        start: item.start.saturating_add(by),
+        end: item.end.saturating_add(by),
+        ..item
+    }
+}
+
+/// Refuses a shift that would leave the recording, and says how far one can go.
+fn check(
+    connection: &Connection,
+    recording: &RecordingRow,
+    tier: &TierRow,
+    new: &[Item],
+    by: i64,
+) -> Result<()> {
+    let first = new.iter().map(|item| item.start).min().unwrap_or(0);
+    let last = new.iter().map(|item| item.end).max().unwrap_or(0);
+    let moves = recordings::motion_track(connection, recording.id)?.is_some();
+    let over = if moves {
+        last - recording.duration_us
+    } else {
+        0
+    };
+    let most = match (first < 0, over > 0) {
+        (true, _) => by - first,
+        (_, true) => by - over,
+        _ => return Ok(()),
+    };
+    Err(Error::wrong(format!(
+        "annotations of the tier {:?} would leave the recording {:?}",
+        tier.name, recording.name
+    ))
+    .at(format!("{:?} of {:?}", tier.name, recording.name))
+    .advise(format!("shift it by {:.3}s at most", most as f64 / 1e6)))
+}
+
+/// Returns the tiers that are meant, with their recordings, in order.
+fn tiers_within(connection: &Connection, within: &Within) -> Result<Vec<(RecordingRow, TierRow)>> {
+    let recordings = match &within.recording {
+        Some(name) => vec![address::recording(connection, name)?],
+        None => recordings::recordings(connection)?,
+    };
+    let mut found = Vec::new();
+    let mut used = vec![false; within.tiers.len()];
+    for recording in recordings {
+        for tier in rows::tiers(connection, recording.id)? {
+            let mut wanted = within.tiers.is_empty();
+            for (text, used) in within.tiers.iter().zip(&mut used) {
+                if is_meant(text, &tier) {
+                    (wanted, *used) = (true, true);
+                }
+            }
+            if wanted {
+                found.push((recording.clone(), tier));
+            }
+        }
+    }
+    if let Some((text, _)) = within.tiers.iter().zip(used).find(|(_, used)| !used) {
+        return Err(match &within.recording {
+            // Says which tiers there are.
+            Some(_) => {
+                let name = TierName::read(text, within.recording.as_ref())?;
+                match names::tier(connection, &name) {
+                    Err(error) => error,
+                    Ok(_) => no_tier(text),
+                }
+            }
+            None => no_tier(text),
+        });
+    }
+    Ok(found)
+}
+
+fn no_tier(text: &str) -> Error {
+    Error::wrong(format!("no recording has a tier {text:?}"))
+        .at(text)
+        .advise("`chereme list CORPUS tiers` lists them")
+}
+
+/// Tells whether a tier has that name or number; `*` stands for any letters.
+fn is_meant(text: &str, tier: &TierRow) -> bool {
+    if let Ok(crate::Address::Tier(id)) = text.parse() {
+        return id == tier.id;
+    }
+    let name = fold(&tier.name);
+    let wanted = fold(text.trim());
+    let mut parts = wanted.split('*');
+    let first = parts.next().unwrap_or_default();
+    let Some(mut rest) = name.strip_prefix(first) else {
+        return false;
+    };
+    let parts: Vec<&str> = parts.collect();
+    let Some((last, middle)) = parts.split_last() else {
+        return rest.is_empty();
+    };
+    for part in middle {
+        match rest.find(part) {
+            Some(at) => rest = &rest[at + part.len()..],
+            None => return false,
+        }
+    }
+    rest.ends_with(last)
+}

@@ -1,0 +1,255 @@
+//! Values found and replaced, tiers shifted, and annotations that give way.
+
+use super::*;
+use crate::annotate::replace::{Find, Within};
+
+fn on(tiers: &[&str]) -> Within {
+    Within {
+        recording: Some(Name::Text(RECORDING.into())),
+        tiers: tiers.iter().map(|name| (*name).to_owned()).collect(),
+    }
+}
+
+fn replace(
+    corpus: &mut Corpus,
+    find: &Find,
+    with: &str,
+    tiers: &[&str],
+    dry: bool,
+) -> Result<Vec<String>> {
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let done = corpus.replace_values(find, with, &on(tiers), dry, progress)?;
+    assert_eq!(done.changed, done.values.len() as u64);
+    Ok(done
+        .values
+        .iter()
+        .map(|it| format!("{} {}>{}", it.tier, it.from, it.to))
+        .collect())
+}
+
+#[test]
+fn values_are_replaced_as_one_operation_that_a_dry_run_only_tells() {
+    let (_folder, mut corpus) = corpus();
+    annotate(
+        &mut corpus,
+        "add G 0-100 BOL-A; add G 200-300 BOL; add H 0-100 BOL; add L 0-100 chin",
+    )
+    .expect("added");
+    let before = shown(&corpus);
+    let text = |text: &str| Find::Text(text.to_owned());
+    let pattern = |text: &str| Find::pattern(text).expect("a pattern");
+    let operations = corpus.steps().expect("steps").0;
+    let cases: [(Find, &str, &[&str], &[&str]); 7] = [
+        (
+            text("BOL"),
+            "TASSE",
+            &["G"],
+            &["G BOL-A>TASSE-A", "G BOL>TASSE"],
+        ),
+        (text("bol"), "TASSE", &["G"], &[]),
+        (text(""), "x", &["G"], &[]),
+        (
+            Find::Whole("BOL".into()),
+            "TASSE",
+            &["G", "H"],
+            &["G BOL>TASSE", "H BOL>TASSE"],
+        ),
+        (
+            pattern("^BO(.)"),
+            "$1",
+            &["*"],
+            &["G BOL-A>L-A", "G BOL>L", "H BOL>L"],
+        ),
+        (pattern("-.$"), "", &[], &["G BOL-A>BOL"]),
+        (text("chin"), "a $1", &["l"], &["L chin>a $1"]),
+    ];
+    for (find, with, tiers, want) in cases {
+        let told = replace(&mut corpus, &find, with, tiers, true).expect("tried");
+        assert_eq!(told, want, "{find:?}");
+        assert_eq!(shown(&corpus), before, "a dry run writes nothing");
+        assert_eq!(corpus.steps().expect("steps").0, operations);
+        assert_eq!(
+            replace(&mut corpus, &find, with, tiers, false).expect("done"),
+            want
+        );
+        if !want.is_empty() {
+            assert_ne!(shown(&corpus), before);
+            corpus.undo().expect("undone");
+            assert_eq!(shown(&corpus), before, "one operation");
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_replaced_is_refused_whole() {
+    let (_folder, mut corpus) = corpus();
+    annotate(&mut corpus, "add C 0-100 U; add G 0-100 U").expect("added");
+    let before = shown(&corpus);
+    for dry in [true, false] {
+        let find = Find::Text("U".into());
+        let error =
+            replace(&mut corpus, &find, "no such shape", &["C", "G"], dry).expect_err("refused");
+        assert!(
+            error.to_string().contains("no value of the inventory"),
+            "{error}"
+        );
+        assert_eq!(shown(&corpus), before);
+    }
+    let gone =
+        replace(&mut corpus, &Find::Text("U".into()), "V", &["Q"], true).expect_err("no tier");
+    assert!(gone.to_string().contains("no tier \"Q\""), "{gone}");
+    let bad = Find::pattern("(").expect_err("no pattern");
+    assert!(bad.remedy().is_some(), "{bad}");
+}
+
+#[test]
+fn tiers_are_shifted_with_what_hangs_below_them() {
+    let (_folder, mut corpus) = corpus();
+    annotate(
+        &mut corpus,
+        "add G 100-200 A; add G 200-400 B; add I 220-300 b; add H 0-50 C",
+    )
+    .expect("added");
+    let before = shown(&corpus);
+    let shift = |corpus: &mut Corpus, tiers: &[&str], by: i64, dry: bool| {
+        let mut hear = unheard;
+        corpus.shift_tiers(&on(tiers), by * 1000, dry, &mut Progress::new(&mut hear))
+    };
+    shift(&mut corpus, &["G"], 50, true).expect("tried");
+    assert_eq!(shown(&corpus), before);
+    shift(&mut corpus, &["G", "I"], 50, false).expect("shifted");
+    assert_eq!(
+        shown(&corpus),
+        "G 1 150-250 A; G 2 250-450 B; H 4 0-50 C; I 3<2 270-350 b"
+    );
+    shift(&mut corpus, &["G"], -50, false).expect("shifted back");
+    assert_eq!(shown(&corpus), before);
+    shift(&mut corpus, &[], 1000, false).expect("all of it");
+    assert_eq!(
+        shown(&corpus),
+        "G 1 1100-1200 A; G 2 1200-1400 B; H 4 1000-1050 C; I 3<2 1220-1300 b"
+    );
+    corpus.undo().expect("undone");
+    assert_eq!(shown(&corpus), before, "one operation");
+    for (by, most) in [(-101, "-0.100s"), (9_700, "9.600s")] {
+        let error = shift(&mut corpus, &["G"], by, false).expect_err("too far");
+        let remedy = error.remedy().expect("a remedy");
+        assert!(remedy.contains(most), "{remedy}");
+    }
+    assert!(
+        shift(&mut corpus, &["I"], 500, false).is_err(),
+        "out of the one above"
+    );
+    assert_eq!(shown(&corpus), before);
+}
+
+fn with_mode(corpus: &mut Corpus, mode: Mode, text: &str) -> Result<AnnotateReport> {
+    let options = AnnotateOptions {
+        mode,
+        ..AnnotateOptions::default()
+    };
+    let mut hear = unheard;
+    corpus.annotate(
+        &[action(text).into()],
+        &options,
+        &mut Progress::new(&mut hear),
+    )
+}
+
+#[test]
+fn annotations_in_the_way_are_pushed_or_move_along() {
+    let start = "add G 0-100 A; add G 150-250 B; add G 300-400 C; add I 310-390 c";
+    for (mode, text, want) in [
+        (
+            Mode::Bulldozer,
+            "set 2 150-340",
+            "G 1 0-100; G 2 150-340; G 3 340-440; I 4 350-430",
+        ),
+        (
+            Mode::Shift,
+            "set 2 150-340",
+            "G 1 0-100; G 2 150-340; G 3 390-490; I 4 400-480",
+        ),
+        (
+            Mode::Bulldozer,
+            "set 1 60-160",
+            "G 1 60-160; G 2 160-260; G 3 300-400; I 4 310-390",
+        ),
+        (
+            Mode::Bulldozer,
+            "set 2 200-350",
+            "G 1 0-100; G 2 200-350; G 3 350-450; I 4 360-440",
+        ),
+        (
+            Mode::Bulldozer,
+            "add G 120-200 N",
+            "G 1 0-100; G 5 120-200; G 2 200-300; G 3 300-400; I 4 310-390",
+        ),
+        (
+            Mode::Shift,
+            "add G 120-200 N",
+            "G 1 0-100; G 5 120-200; G 2 200-300; G 3 350-450; I 4 360-440",
+        ),
+    ] {
+        let (_folder, mut corpus) = corpus();
+        annotate(&mut corpus, start).expect("added");
+        with_mode(&mut corpus, mode, text).expect("made");
+        let spans = strings(
+            corpus.store.read(),
+            "SELECT t.name || ' ' || a.id || ' ' || (a.start_us / 1000) || '-' || (a.end_us / 1000)
+             FROM annotation a JOIN tier t ON t.id = a.tier_id ORDER BY t.id, a.start_us",
+        );
+        assert_eq!(spans.join("; "), want, "{mode:?} {text}");
+        corpus.undo().expect("undone");
+        assert!(shown(&corpus).contains("G 2 150-250 B"), "one operation");
+    }
+    let (_folder, mut corpus) = corpus();
+    annotate(&mut corpus, start).expect("added");
+    for (mode, text) in [
+        (Mode::Normal, "set 2 150-340"),
+        (Mode::Bulldozer, "set 2 150-9990"),
+        (Mode::Shift, "set 3 50-120"),
+        (Mode::Shift, "add G 50-120 N"),
+    ] {
+        let error = with_mode(&mut corpus, mode, text).expect_err(text);
+        assert!(error.remedy().is_some(), "{error}");
+    }
+}
+
+#[test]
+fn an_overlap_names_what_is_there_and_what_is_free() {
+    let (_folder, mut corpus) = corpus();
+    annotate(
+        &mut corpus,
+        "add G 780-4090 SO; add G 5000-10000 END; add T 780-4090 x",
+    )
+    .expect("added");
+    for (text, message, remedy) in [
+        (
+            "add G 1000-2000 N",
+            "a new annotation from 1.000s to 2.000s overlaps \"SO\" (0.780s to 4.090s) on the tier \"G\" of \"Take 1\"",
+            "free next to it: 0.000s to 0.780s, 4.090s to 5.000s",
+        ),
+        (
+            "set 1 4000-6000",
+            "\"SO\" from 4.000s to 6.000s overlaps \"END\" (5.000s to 10.000s) on the tier \"G\" of \"Take 1\"",
+            "free next to it: 4.090s to 5.000s",
+        ),
+    ] {
+        let error = annotate(&mut corpus, text).expect_err(text);
+        assert_eq!(error.to_string(), message);
+        assert_eq!(error.remedy().as_deref(), Some(remedy));
+    }
+    for text in [
+        "split 3 5000",
+        "add T 900-1000 y; add T 950-1000 z",
+        "set 3 0-500",
+    ] {
+        let error = annotate(&mut corpus, text).expect_err(text).to_string();
+        assert!(
+            !error.contains("annotation:") && !error.contains("tier:"),
+            "{error}"
+        );
+    }
+}

@@ -1,0 +1,56 @@
+//! The description of the database that goes with an exported folder, made from `schema/README.md`.
+
+/// The description of every table and column, with example queries.
+const SCHEMA: &str = include_str!("../../../../schema/README.md");
+
+/// What only readers of the source need: these sections do not go along.
+const LEFT_OUT_TO: &str = "## At a glance";
+
+/// Returns the data dictionary: tables, columns and conventions, with example queries.
+pub(super) fn dictionary() -> String {
+    let start = SCHEMA.find(LEFT_OUT_TO).unwrap_or_default();
+    format!(
+        "# The tables of this corpus\n\nThis page describes every table and column of `corpus.chereme`, which are the files of \
+         `tables`, too, and ends with\nexample queries. `queries.sql` holds the same queries, to run as they are:\n\n```\n\
+         sqlite3 -readonly corpus.chereme < queries.sql\n```\n\nAny SQLite tool reads the database from version 3.37 on \
+         (STRICT tables), and runs the queries from 3.38 on (`->>`).\n\n{}",
+        &SCHEMA[start..]
+    )
+}
+
+/// Returns the example queries, each below a comment that says what it finds.
+pub(super) fn queries() -> String {
+    let mut text = String::from(
+        "-- Example queries on corpus.chereme; DICTIONARY.md explains tables and columns.\n",
+    );
+    let (mut title, mut inside) = ("", false);
+    for line in SCHEMA.lines() {
+        match line {
+            "```sql" => {
+                text.push_str(&format!("\n-- {title}\n"));
+                inside = true;
+            }
+            "```" => inside = false,
+            line if inside => {
+                text.push_str(line);
+                text.push('\n');
+            }
+            "" => {}
+            line => title = line,
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_dictionary_describes_tables_and_says_nothing_of_the_source_tree() {
+        let text = dictionary();
+        assert!(text.contains("### `annotation`"));
+        assert!(!text.contains("tests/stores"));
+        assert!(queries().matches("SELECT").count() > 20);
+    }
+}

@@ -1,0 +1,119 @@
+//! Several recordings or tokens at once, a file for each of them in one folder.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+
+use rusqlite::Connection;
+
+use super::enriched::file_name;
+use super::{ExportOptions, ExportReport, ExportWhat, Format, whole, write_file};
+use crate::address::{self, Address, Name};
+use crate::db::{recordings, signs};
+use crate::error::{Error, Result};
+use crate::progress::{Progress, Step, Unit};
+
+/// Writes a file of `format` for each of what is meant into the folder `to`, which is made where it is
+/// not there.
+pub(super) fn write(
+    connection: &Connection,
+    what: &ExportWhat,
+    (format, extension): (Format, &str),
+    to: &Path,
+    options: &ExportOptions,
+    progress: &mut Progress<'_>,
+) -> Result<ExportReport> {
+    let each = each(connection, what, format)?;
+    if each.is_empty() {
+        return Err(Error::wrong("there is nothing to write")
+            .advise("name recordings or tokens, or a query that finds some"));
+    }
+    if to.is_file() {
+        return Err(Error::file(to, std::io::ErrorKind::AlreadyExists.into()));
+    }
+    fs::create_dir_all(to).map_err(|error| Error::file(to, error))?;
+    let mut taken = BTreeSet::new();
+    let mut report = ExportReport::default();
+    for (done, (name, address)) in each.iter().enumerate() {
+        let name = file_name(name, &mut taken);
+        let path = to.join(format!("{name}.{extension}"));
+        let one = ExportWhat::Address(address.clone());
+        let notes = &mut report.notes;
+        let file = whole(&path, options.force, &mut |out| {
+            write_file(connection, &one, format, out, notes, progress)
+        })?;
+        report.files.push(file);
+        progress.tell(Step {
+            task: "files",
+            done: done as u64 + 1,
+            total: Some(each.len() as u64),
+            unit: Unit::Items,
+        })?;
+    }
+    Ok(report)
+}
+
+/// Returns what gets a file of its own, with the name of the file. Tiers belong to a recording: tokens
+/// stand for theirs then.
+fn each(
+    connection: &Connection,
+    what: &ExportWhat,
+    format: Format,
+) -> Result<Vec<(String, Address)>> {
+    let recording = |id: i64, name: &str| (name.to_owned(), Address::Recording(Name::Number(id)));
+    let token = |id: i64| -> Result<Option<(String, Address)>> {
+        let row = signs::token(connection, id)?;
+        Ok(match (format, row.recording_id) {
+            (Format::Eaf, Some(id)) => {
+                let name = row.recording.unwrap_or_default();
+                Some(recording(id, &name))
+            }
+            (Format::Bvh | Format::Curves(_) | Format::Eaf, None) => None,
+            _ => Some((row.gloss, Address::Token(id))),
+        })
+    };
+    let mut all = Vec::new();
+    match what {
+        ExportWhat::All => {
+            for row in recordings::recordings(connection)? {
+                if recordings::motion_track(connection, row.id)?.is_some()
+                    || matches!(format, Format::Eaf)
+                {
+                    all.push(recording(row.id, &row.name));
+                }
+            }
+        }
+        ExportWhat::Tokens(ids) => {
+            for id in ids {
+                all.extend(token(*id)?);
+            }
+        }
+        ExportWhat::Address(address) => all.push(named(connection, address, &token)?),
+        ExportWhat::Several(addresses) => {
+            for address in addresses {
+                all.push(named(connection, address, &token)?);
+            }
+        }
+    }
+    let mut seen = BTreeSet::new();
+    all.retain(|(_, address)| seen.insert(address.to_string()));
+    Ok(all)
+}
+
+fn named(
+    connection: &Connection,
+    address: &Address,
+    token: &dyn Fn(i64) -> Result<Option<(String, Address)>>,
+) -> Result<(String, Address)> {
+    if let Address::Recording(name) = address {
+        let row = address::recording(connection, name)?;
+        return Ok((row.name, Address::Recording(Name::Number(row.id))));
+    }
+    let row = address::token(connection, address)?;
+    let found = token(row.id)?;
+    found.ok_or_else(|| {
+        Error::wrong(format!("{address} is without movement"))
+            .at(address.to_string())
+            .advise("name recordings, or tokens that were recorded")
+    })
+}

@@ -1,0 +1,480 @@
+//! The history in detail: the rows that an operation changed, from what to what.
+
+use std::collections::BTreeMap;
+
+use chereme_motion::Instant;
+use rusqlite::Connection;
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::Corpus;
+use crate::db::OperationRow;
+use crate::db::history::{self, RowChange};
+use crate::error::{Error, Result};
+
+/// The tables whose rows people know, with the noun for one of them and the column that names it.
+const KNOWN: [(&str, &str, &str); 11] = [
+    ("annotation", "annotation", "value"),
+    ("tier", "tier", "name"),
+    ("recording", "recording", "name"),
+    ("signer", "signer", "name"),
+    ("sign", "sign", "gloss"),
+    ("sign_text", "translation", "text"),
+    ("inventory", "inventory", "key"),
+    ("inventory_value", "value", "key"),
+    ("kept_search", "search", "name"),
+    ("recipe", "recipe", "text"),
+    ("notation", "notation", "system"),
+];
+
+/// Columns that say nothing to people.
+const SILENT: [&str; 8] = [
+    "id",
+    "uid",
+    "source",
+    "position",
+    "file_start_ms",
+    "file_end_ms",
+    "document",
+    "hash",
+];
+
+/// What an operation changed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OperationDetail {
+    /// The operation.
+    pub operation: OperationRow,
+    /// How many rows of things that people know it changed, whatever part of them is listed.
+    pub total: u64,
+    /// How many rows it changed, by table; rows that follow from others are among them.
+    pub tables: BTreeMap<String, u64>,
+    /// The changes, in order.
+    pub changes: Vec<Changed>,
+}
+
+/// A row that an operation changed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Changed {
+    /// What kind of thing it is, such as `annotation`.
+    pub what: &'static str,
+    /// Its row.
+    pub id: Option<i64>,
+    /// Its name: what an annotation says, the name of a tier, the gloss of a sign.
+    pub name: String,
+    /// Where it belongs, such as the tier and recording of an annotation.
+    pub place: Option<String>,
+    /// What was done to it.
+    pub kind: ChangeKind,
+    /// Its columns that differ; for what was added or removed, all that it says.
+    pub fields: Vec<FieldChange>,
+}
+
+/// What was done to a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ChangeKind {
+    /// It was not there before.
+    Added,
+    /// It differs from before.
+    Changed,
+    /// It is there no longer.
+    Removed,
+}
+
+/// A column of a row before and after.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FieldChange {
+    /// The column, such as `start_us`; of a reference the name of the thing, such as `signer`.
+    pub field: String,
+    /// What it was.
+    pub from: Value,
+    /// What it is.
+    pub to: Value,
+}
+
+impl Corpus {
+    /// Returns what an operation changed, at most `limit` of its changes.
+    ///
+    /// # Errors
+    /// Where there is no such operation, or its changeset cannot be read.
+    pub fn operation(&self, id: i64, limit: usize) -> Result<OperationDetail> {
+        let connection = self.store.read();
+        let operation = history::log(connection, usize::MAX)?
+            .into_iter()
+            .find(|row| row.id == id)
+            .ok_or_else(|| {
+                Error::wrong(format!("there is no operation {id}"))
+                    .at(id.to_string())
+                    .advise("`chereme log CORPUS` lists them")
+            })?;
+        let mut rows = Rows::default();
+        history::each_change(connection, id, |change| {
+            rows.take(change);
+            Ok(())
+        })?;
+        let mut changes = Vec::new();
+        let mut total = 0;
+        for (table, before, after) in rows.known() {
+            total += 1;
+            if changes.len() < limit {
+                changes.push(changed(connection, &rows, table, before, after)?);
+            }
+        }
+        Ok(OperationDetail {
+            operation,
+            total,
+            tables: rows.counts,
+            changes,
+        })
+    }
+
+    /// Returns how many operations stand and can be undone, and how many can be redone.
+    ///
+    /// # Errors
+    /// Where the database fails.
+    pub fn steps(&self) -> Result<(usize, usize)> {
+        history::steps(self.store.read())
+    }
+}
+
+/// The rows of an operation as they were before the first change of each and are after the last.
+#[derive(Default)]
+struct Rows {
+    order: Vec<(usize, i64)>,
+    images: BTreeMap<(usize, i64), (Value, Value)>,
+    counts: BTreeMap<String, u64>,
+}
+
+impl Rows {
+    fn take(&mut self, change: RowChange) {
+        *self.counts.entry(change.table.clone()).or_default() += 1;
+        let Some(table) = KNOWN.iter().position(|known| known.0 == change.table) else {
+            return;
+        };
+        let image = if change.after.is_null() {
+            &change.before
+        } else {
+            &change.after
+        };
+        let key = (table, image.get("id").and_then(Value::as_i64).unwrap_or(-1));
+        match self.images.get_mut(&key) {
+            Some((_, after)) => *after = change.after,
+            None => {
+                self.order.push(key);
+                self.images.insert(key, (change.before, change.after));
+            }
+        }
+    }
+
+    /// The rows that differ in the end, by kind of thing.
+    fn known(&self) -> impl Iterator<Item = (usize, &Value, &Value)> {
+        self.order.iter().filter_map(|key| {
+            let (before, after) = self.images.get(key)?;
+            (before != after).then_some((key.0, before, after))
+        })
+    }
+
+    /// Returns the name of a row of `table` as it was in this operation, else as it is now.
+    fn name(&self, connection: &Connection, table: &str, id: i64) -> Result<Option<String>> {
+        let known = KNOWN.iter().position(|known| known.0 == table);
+        let image = known.and_then(|known| {
+            let (before, after) = self.images.get(&(known, id))?;
+            let image = if after.is_null() { before } else { after };
+            Some(image.get(KNOWN[known].2)?.as_str()?.to_owned())
+        });
+        match image {
+            Some(name) => Ok(Some(name)),
+            None => history::name_of(connection, table, id),
+        }
+    }
+
+    /// Returns the row that a row refers to, as it was in this operation, else as it is now.
+    fn refers(
+        &self,
+        connection: &Connection,
+        table: &str,
+        id: i64,
+        column: &str,
+    ) -> Result<Option<i64>> {
+        let known = KNOWN.iter().position(|known| known.0 == table);
+        let image = known.and_then(|known| {
+            let (before, after) = self.images.get(&(known, id))?;
+            let image = if after.is_null() { before } else { after };
+            image.get(column)?.as_i64()
+        });
+        match image {
+            Some(id) => Ok(Some(id)),
+            None => history::reference_of(connection, table, id, column),
+        }
+    }
+}
+
+fn changed(
+    connection: &Connection,
+    rows: &Rows,
+    table: usize,
+    before: &Value,
+    after: &Value,
+) -> Result<Changed> {
+    let (name_of_table, what, naming) = KNOWN[table];
+    let kind = match (before.is_null(), after.is_null()) {
+        (true, _) => ChangeKind::Added,
+        (_, true) => ChangeKind::Removed,
+        _ => ChangeKind::Changed,
+    };
+    let image = if before.is_null() { after } else { before };
+    let number = |column: &str| image.get(column).and_then(Value::as_i64);
+    let text = |column: &str| {
+        image
+            .get(column)
+            .and_then(Value::as_str)
+            .unwrap_or_default()
+    };
+    let name = match text(naming) {
+        "" => text("state").to_owned(),
+        name => name.to_owned(),
+    };
+    let named = |table: &str, id: Option<i64>| match id {
+        Some(id) => rows.name(connection, table, id),
+        None => Ok(None),
+    };
+    let place = match name_of_table {
+        "annotation" => {
+            let tier = number("tier_id");
+            let recording = match tier {
+                Some(tier) => rows.refers(connection, "tier", tier, "recording_id")?,
+                None => None,
+            };
+            let (tier, recording) = (named("tier", tier)?, named("recording", recording)?);
+            tier.zip(recording)
+                .map(|(tier, recording)| format!("{tier} of {recording}"))
+        }
+        "tier" | "recipe" => named("recording", number("recording_id"))?,
+        "sign_text" => named("sign", number("sign_id"))?,
+        "inventory_value" => named("inventory", number("inventory_id"))?,
+        _ => None,
+    };
+    let mut fields = Vec::new();
+    let both = [after, before].into_iter().filter_map(Value::as_object);
+    let columns: Vec<&String> = both.take(1).flat_map(serde_json::Map::keys).collect();
+    let columns = match columns.is_empty() {
+        true => before
+            .as_object()
+            .into_iter()
+            .flat_map(serde_json::Map::keys)
+            .collect(),
+        false => columns,
+    };
+    for column in columns {
+        let at = |image: &Value| image.get(column).cloned().unwrap_or(Value::Null);
+        let (mut from, mut to) = (at(before), at(after));
+        if from == to || SILENT.contains(&column.as_str()) {
+            continue;
+        }
+        let mut field = column.clone();
+        if let Some(other) = history::refers_to(name_of_table, column) {
+            for side in [&mut from, &mut to] {
+                if let Some(name) = named(other, side.as_i64())? {
+                    *side = Value::from(name);
+                }
+            }
+            field = column.trim_end_matches("_id").to_owned();
+        }
+        fields.push(FieldChange { field, from, to });
+    }
+    Ok(Changed {
+        what,
+        id: image.get("id").and_then(Value::as_i64),
+        name,
+        place,
+        kind,
+        fields,
+    })
+}
+
+impl Changed {
+    /// Returns the change as a line for people.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        let own = |field: &&FieldChange| {
+            let same = ["tier", "recording", "sign", "inventory"].contains(&field.field.as_str());
+            !(same && self.place.is_some() && self.kind != ChangeKind::Changed)
+        };
+        let place = match &self.place {
+            Some(place) => format!(" on {place}"),
+            None => String::new(),
+        };
+        let subject = format!("{} {:?}{place}", self.what, self.name);
+        match self.kind {
+            ChangeKind::Added | ChangeKind::Removed => {
+                let word = if self.kind == ChangeKind::Added {
+                    "added"
+                } else {
+                    "removed"
+                };
+                let time = |name: &str| {
+                    let field = self.fields.iter().find(|it| it.field == name)?;
+                    field.from.as_i64().or_else(|| field.to.as_i64())
+                };
+                match time("start_us").zip(time("end_us")) {
+                    Some((start, end)) => format!(
+                        "{word} {subject}, {} to {}",
+                        Instant::from_micros(start),
+                        Instant::from_micros(end)
+                    ),
+                    None => format!("{word} {subject}"),
+                }
+            }
+            ChangeKind::Changed => {
+                let fields: Vec<String> = self
+                    .fields
+                    .iter()
+                    .filter(own)
+                    .map(FieldChange::text)
+                    .collect();
+                let fields = if fields.is_empty() {
+                    "its order or form".to_owned()
+                } else {
+                    fields.join("; ")
+                };
+                format!("{subject}: {fields}")
+            }
+        }
+    }
+}
+
+impl FieldChange {
+    fn text(&self) -> String {
+        let is_time = self.field.ends_with("_us");
+        let text = |value: &Value| match value {
+            Value::Null => "nothing".to_owned(),
+            Value::String(text) => format!("{text:?}"),
+            Value::Number(number) if is_time => {
+                let micros = number.as_i64().unwrap_or_default();
+                Instant::from_micros(micros).to_string()
+            }
+            other => other.to_string(),
+        };
+        let field = self.field.trim_end_matches("_us").replace('_', " ");
+        format!("{field} from {} to {}", text(&self.from), text(&self.to))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        AnnotateOptions, AnnotationAction, AnnotationName, Name, NewTier, Progress,
+        RecordingChange, TierName, TierRole, unheard,
+    };
+
+    fn corpus(folder: &std::path::Path) -> Corpus {
+        let file = folder.join("take.eaf");
+        std::fs::write(&file, include_str!("export/tests.eaf")).expect("written");
+        let mut corpus = Corpus::create(&folder.join("c.chereme"), "A").expect("made");
+        let mut hear = unheard;
+        corpus
+            .import(
+                &[file],
+                &crate::ImportOptions::default(),
+                &mut Progress::new(&mut hear),
+            )
+            .expect("imported");
+        let recording = Name::Text("take".into());
+        corpus
+            .add_tier(&NewTier::new(recording, "Remarks", TierRole::Comment))
+            .expect("added");
+        corpus
+    }
+
+    fn annotate(corpus: &mut Corpus, actions: Vec<AnnotationAction>) -> i64 {
+        let changes: Vec<_> = actions.into_iter().map(Into::into).collect();
+        let mut hear = unheard;
+        let report = corpus
+            .annotate(
+                &changes,
+                &AnnotateOptions::default(),
+                &mut Progress::new(&mut hear),
+            )
+            .expect("annotated");
+        report.annotations[0]
+    }
+
+    fn newest(corpus: &Corpus) -> Vec<String> {
+        let id = corpus.log(1).expect("log")[0].id;
+        let detail = corpus.operation(id, 10).expect("detail");
+        assert_eq!(detail.total, detail.changes.len() as u64);
+        detail.changes.iter().map(Changed::sentence).collect()
+    }
+
+    #[test]
+    fn an_operation_says_from_what_to_what() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut corpus = corpus(folder.path());
+        assert_eq!(newest(&corpus), ["added tier \"Remarks\" on take"]);
+        let tier = TierName::read("Remarks", Some(&Name::Text("take".into()))).expect("a tier");
+        let add = AnnotationAction::Add {
+            tier,
+            start: Some("0.1".parse().expect("a time")),
+            end: Some("0.2".parse().expect("a time")),
+            parent: None,
+            order: None,
+            value: "ja".into(),
+            confidence: None,
+        };
+        let id = annotate(&mut corpus, vec![add]);
+        assert_eq!(
+            newest(&corpus),
+            ["added annotation \"ja\" on Remarks of take, 0.100s to 0.200s"]
+        );
+        let set = AnnotationAction::Set {
+            annotation: AnnotationName::Number(id),
+            start: None,
+            end: Some("0.3".parse().expect("a time")),
+            value: Some("NUR".into()),
+        };
+        annotate(&mut corpus, vec![set]);
+        assert_eq!(
+            newest(&corpus),
+            [
+                "annotation \"ja\" on Remarks of take: end from 0.200s to 0.300s; value from \"ja\" to \"NUR\""
+            ]
+        );
+        corpus.undo().expect("undone");
+        assert_eq!(
+            newest(&corpus),
+            [
+                "annotation \"NUR\" on Remarks of take: end from 0.300s to 0.200s; value from \"NUR\" to \"ja\""
+            ]
+        );
+        let remove = AnnotationAction::Remove {
+            annotation: AnnotationName::Number(id),
+        };
+        annotate(&mut corpus, vec![remove]);
+        assert_eq!(
+            newest(&corpus),
+            ["removed annotation \"ja\" on Remarks of take, 0.100s to 0.200s"]
+        );
+        let change = RecordingChange {
+            name: Some("take two".into()),
+            signer: Some(Some("Zoé".into())),
+            ..RecordingChange::default()
+        };
+        corpus
+            .change_recording(&Name::Text("take".into()), &change)
+            .expect("changed");
+        let told = newest(&corpus);
+        assert!(
+            told.contains(&"added signer \"Zoé\"".to_owned()),
+            "{told:?}"
+        );
+        assert!(
+            told.iter().any(|it| it.starts_with(
+                "recording \"take\": name from \"take\" to \"take two\"; signer from "
+            ) && it.ends_with(" to \"Zoé\"")),
+            "{told:?}"
+        );
+        assert!(corpus.operation(99, 1).is_err());
+        assert!(corpus.operation(1, 1).expect("detail").changes.len() <= 1);
+    }
+}

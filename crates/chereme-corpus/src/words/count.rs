@@ -1,0 +1,99 @@
+//! How many of something, in singular and plural.
+
+use super::Language;
+
+/// Nouns as plural, singular, French singular and French plural.
+const NOUNS: [(&str, &str, &str, &str); 24] = [
+    ("annotations", "annotation", "annotation", "annotations"),
+    ("blocks", "block", "bloc", "blocs"),
+    ("changes", "change", "modification", "modifications"),
+    ("columns", "column", "colonne", "colonnes"),
+    ("curves", "curve", "courbe", "courbes"),
+    ("files", "file", "fichier", "fichiers"),
+    ("frames", "frame", "image", "images"),
+    ("inventories", "inventory", "inventaire", "inventaires"),
+    ("joints", "joint", "articulation", "articulations"),
+    ("media", "media file", "média", "médias"),
+    ("notations", "notation", "notation", "notations"),
+    ("operations", "operation", "opération", "opérations"),
+    (
+        "pairs of frames",
+        "pair of frames",
+        "paire d’images",
+        "paires d’images",
+    ),
+    ("recipes", "recipe", "recette", "recettes"),
+    (
+        "recordings",
+        "recording",
+        "enregistrement",
+        "enregistrements",
+    ),
+    ("rows", "row", "ligne", "lignes"),
+    ("searches", "search", "recherche", "recherches"),
+    ("signers", "signer", "signeur", "signeurs"),
+    ("signs", "sign", "signe", "signes"),
+    ("symbols", "symbol", "symbole", "symboles"),
+    ("tiers", "tier", "acteur", "acteurs"),
+    ("tokens", "token", "occurrence", "occurrences"),
+    ("values", "value", "valeur", "valeurs"),
+    ("tracks", "track", "piste", "pistes"),
+];
+
+/// Returns `1 token`, `2 tokens`, with the noun given in its plural.
+#[must_use]
+pub fn counted(count: u64, noun: &str) -> String {
+    counted_in(count, noun, Language::English)
+}
+
+/// Returns how many of something there are, in a language; a noun that the table lacks stays English.
+#[must_use]
+pub fn counted_in(count: u64, noun: &str, language: Language) -> String {
+    format!("{count} {}", numbered(count, noun, language))
+}
+
+/// Returns the form of a noun, given in its plural, that goes with a number.
+#[must_use]
+pub fn numbered(count: u64, noun: &str, language: Language) -> String {
+    let known = NOUNS.iter().find(|known| known.0 == noun);
+    match (known, language) {
+        // French takes the plural from two on.
+        (Some((_, _, one, many)), Language::French) => {
+            if count < 2 { one } else { many }.to_string()
+        }
+        (Some((many, one, ..)), Language::English) => {
+            if count == 1 { one } else { many }.to_string()
+        }
+        (None, _) if count != 1 => noun.to_owned(),
+        (None, _) => match noun.strip_suffix("ies") {
+            Some(stem) => format!("{stem}y"),
+            None => noun.strip_suffix('s').unwrap_or(noun).to_owned(),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nouns_go_with_their_numbers() {
+        for (count, noun, english, french) in [
+            (1, "tokens", "1 token", "1 occurrence"),
+            (0, "tokens", "0 tokens", "0 occurrence"),
+            (2, "inventories", "2 inventories", "2 inventaires"),
+            (1, "inventories", "1 inventory", "1 inventaire"),
+            (1, "searches", "1 search", "1 recherche"),
+            (1, "fancies", "1 fancy", "1 fancy"),
+            (
+                1,
+                "novelties of a kind",
+                "1 novelties of a kind",
+                "1 novelties of a kind",
+            ),
+        ] {
+            assert_eq!(counted(count, noun), english);
+            assert_eq!(counted_in(count, noun, Language::French), french);
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! Messages of the library in French, found by their English form.
+//!
+//! The library says what is wrong in English. A line of the table gives such a message and its French form;
+//! `{name}` stands for what differs from case to case and is carried over.
+
+use super::Language;
+
+/// Messages and remedies as English and French.
+const MESSAGES: [(&str, &str); 58] = [
+    (
+        "{path}: there is nothing of this name",
+        "{path} : rien ne porte ce nom",
+    ),
+    (
+        "{path}: something of this name is there already",
+        "{path} : quelque chose porte déjà ce nom",
+    ),
+    (
+        "{path} cannot be opened as a corpus: {why}",
+        "{path} ne s’ouvre pas comme corpus : {why}",
+    ),
+    (
+        "the corpus database says: {what}",
+        "la base du corpus dit : {what}",
+    ),
+    (
+        "the search index says: {what}",
+        "l’index de recherche dit : {what}",
+    ),
+    ("{place} is damaged: {why}", "{place} est abîmé : {why}"),
+    (
+        "stopped; the corpus is as it was before",
+        "arrêté ; le corpus est tel qu’il était",
+    ),
+    (
+        "one change cannot be made, and none was:\n{rest}",
+        "une modification est impossible, et aucune n’a été faite :\n{rest}",
+    ),
+    (
+        "{n} changes cannot be made, and none was:\n{rest}",
+        "{n} modifications sont impossibles, et aucune n’a été faite :\n{rest}",
+    ),
+    (
+        "check the spelling of the path",
+        "vérifiez l’orthographe du chemin",
+    ),
+    (
+        "choose another name, or move the existing one away",
+        "choisissez un autre nom, ou déplacez ce qui existe",
+    ),
+    (
+        "choose another name, or write over it with --force",
+        "choisissez un autre nom, ou remplacez-le avec --force",
+    ),
+    (
+        "another program has been writing to the corpus for 20 seconds; try again when it is done",
+        "un autre programme écrit dans le corpus depuis 20 secondes ; réessayez quand il aura fini",
+    ),
+    (
+        "the disk is full; make room and try again, nothing was lost",
+        "le disque est plein ; faites de la place et réessayez, rien n’est perdu",
+    ),
+    (
+        "the file or its folder may not be written by you",
+        "vous n’avez pas le droit d’écrire ce fichier ou ce dossier",
+    ),
+    (
+        "no sign is called {gloss}; did you mean {near}?",
+        "aucun signe ne s’appelle {gloss} ; vouliez-vous dire {near} ?",
+    ),
+    (
+        "no sign is called {gloss}",
+        "aucun signe ne s’appelle {gloss}",
+    ),
+    (
+        "no recording is called {name}; did you mean {near}?",
+        "aucun enregistrement ne s’appelle {name} ; vouliez-vous dire {near} ?",
+    ),
+    (
+        "no recording is called {name}",
+        "aucun enregistrement ne s’appelle {name}",
+    ),
+    (
+        "no annotation is called {name}",
+        "aucune annotation ne s’appelle {name}",
+    ),
+    (
+        "no recording has a tier {name}",
+        "aucun enregistrement n’a d’acteur {name}",
+    ),
+    (
+        "the recording {name} has no tier {tier}; did you mean {near}?",
+        "l’enregistrement {name} n’a pas d’acteur {tier} ; vouliez-vous dire {near} ?",
+    ),
+    (
+        "the recording {name} has no tier {tier}",
+        "l’enregistrement {name} n’a pas d’acteur {tier}",
+    ),
+    ("its tiers are: {names}", "ses acteurs sont : {names}"),
+    ("the signers are: {names}", "les signeurs sont : {names}"),
+    ("there is no signer:{name}", "il n’y a pas de signer:{name}"),
+    (
+        "there is no recording:{id}",
+        "il n’y a pas de recording:{id}",
+    ),
+    ("there is no token:{id}", "il n’y a pas de token:{id}"),
+    (
+        "there is no annotation:{id}",
+        "il n’y a pas d’annotation:{id}",
+    ),
+    (
+        "there is no operation {id}",
+        "il n’y a pas d’opération {id}",
+    ),
+    (
+        "there is another {what} called {name}",
+        "un autre ({what}) s’appelle déjà {name}",
+    ),
+    ("give it another name", "donnez-lui un autre nom"),
+    ("which recording?", "quel enregistrement ?"),
+    ("name it with --in", "nommez-le avec --in"),
+    (
+        "which recording’s tier is {tier}?",
+        "de quel enregistrement est l’acteur {tier} ?",
+    ),
+    (
+        "name the recording too, or write tier:12",
+        "nommez aussi l’enregistrement, ou écrivez tier:12",
+    ),
+    ("{command} lists them", "{command} en donne la liste"),
+    (
+        "{command} lists the glosses",
+        "{command} donne la liste des gloses",
+    ),
+    (
+        "{command} lists what was done",
+        "{command} dit ce qui a été fait",
+    ),
+    ("there is nothing to undo", "il n’y a rien à annuler"),
+    ("there is nothing to redo", "il n’y a rien à rétablir"),
+    (
+        "only what was undone last, with no other work since, can be done again",
+        "on ne rétablit que ce qui vient d’être annulé, sans autre travail depuis",
+    ),
+    (
+        "{what} can mean {n} things: {list}",
+        "{what} peut désigner {n} choses : {list}",
+    ),
+    ("write which one", "écrivez laquelle"),
+    (
+        "{address} is a lexicon entry without movement",
+        "{address} est une entrée du lexique, sans mouvement",
+    ),
+    (
+        "name a token that was recorded, such as token:41",
+        "nommez une occurrence enregistrée, comme token:41",
+    ),
+    (
+        "{what} from {start} to {end} overlaps {other} ({from} to {to}) on the tier {tier} of {recording}",
+        "{what}, de {start} à {end}, chevauche {other} ({from} à {to}) sur l’acteur {tier} de {recording}",
+    ),
+    ("free next to it: {times}", "libre à côté : {times}"),
+    (
+        "{value} is no value of the inventory {inventory} of the tier {tier}; did you mean {near}?",
+        "{value} n’est pas une valeur de l’inventaire {inventory} de l’acteur {tier} ; vouliez-vous dire {near} ?",
+    ),
+    (
+        "{value} is no value of the inventory {inventory} of the tier {tier}",
+        "{value} n’est pas une valeur de l’inventaire {inventory} de l’acteur {tier}",
+    ),
+    (
+        "the tier {tier} cannot be {what}",
+        "l’acteur {tier} ne peut pas être {what}",
+    ),
+    (
+        "the recipe cannot be read: {why}",
+        "la recette ne se lit pas : {why}",
+    ),
+    (
+        "the recipe cannot be made: {why}",
+        "la recette ne peut pas être exécutée : {why}",
+    ),
+    (
+        "this kind of file is not known",
+        "ce genre de fichier n’est pas connu",
+    ),
+    (
+        "the folder {folder} is not there",
+        "le dossier {folder} n’existe pas",
+    ),
+    (
+        "make it first, or choose another place",
+        "créez-le d’abord, ou choisissez un autre endroit",
+    ),
+    ("{what} is no format", "{what} n’est pas un format"),
+    ("the table asks for nothing", "la table ne demande rien"),
+];
+
+/// Returns a message of the library in `language`; nothing where the table lacks it.
+#[must_use]
+pub fn message(text: &str, language: Language) -> Option<String> {
+    if language == Language::English {
+        return Some(text.to_owned());
+    }
+    MESSAGES
+        .iter()
+        .find_map(|(english, french)| carried(text, english, french))
+}
+
+/// Returns `other` with what `text` has in the blanks of `form`; nothing where it is not of that form.
+fn carried(text: &str, form: &str, other: &str) -> Option<String> {
+    let mut filled = other.to_owned();
+    let mut parts = form.split('{');
+    let mut rest = text.strip_prefix(parts.next()?)?;
+    for part in parts {
+        let (name, literal) = part.split_once('}')?;
+        let end = match literal {
+            "" => rest.len(),
+            _ => rest.find(literal)?,
+        };
+        filled = filled.replace(&format!("{{{name}}}"), &rest[..end]);
+        rest = &rest[end + literal.len()..];
+    }
+    rest.is_empty().then_some(filled)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_message_has_the_same_blanks_in_both_languages() {
+        let blanks = |text: &str| {
+            let mut names: Vec<String> = text
+                .split('{')
+                .skip(1)
+                .filter_map(|rest| Some(rest.split_once('}')?.0.to_owned()))
+                .collect();
+            names.sort();
+            names
+        };
+        for (english, french) in MESSAGES {
+            assert_eq!(blanks(english), blanks(french), "{english}");
+            let same = carried(english, english, english);
+            assert_eq!(same.as_deref(), Some(english), "it is of its own form");
+        }
+    }
+
+    #[test]
+    fn common_failures_are_said_in_french() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("c.chereme");
+        let mut corpus = crate::Corpus::create(&path, "A").expect("made");
+        let mut hear = crate::unheard;
+        let progress = &mut crate::Progress::new(&mut hear);
+        let failures = [
+            corpus.undo().map(drop),
+            corpus.redo().map(drop),
+            corpus.recombine("NONE | swap", "X").map(drop),
+            corpus.preview("| ").map(drop),
+            corpus
+                .suggest(&"NONE".parse().expect("an address"))
+                .map(drop),
+            corpus.operation(99, 1).map(drop),
+            crate::Corpus::open(&folder.path().join("none"), "A").map(drop),
+            crate::Corpus::create(&path, "A").map(drop),
+            corpus
+                .export(
+                    &crate::ExportWhat::All,
+                    &folder.path().join("x.xyz"),
+                    &crate::ExportOptions::default(),
+                    progress,
+                )
+                .map(drop),
+        ];
+        for failure in failures {
+            let text = failure.expect_err("a failure").to_string();
+            let french = message(&text, Language::French);
+            assert!(french.is_some_and(|it| it != text), "{text}");
+        }
+        assert_eq!(message("no such words", Language::French), None);
+        assert_eq!(message("x", Language::English).as_deref(), Some("x"));
+        assert_eq!(
+            message(
+                "no sign is called \"BOLL\"; did you mean \"BOL\"?",
+                Language::French
+            )
+            .as_deref(),
+            Some("aucun signe ne s’appelle \"BOLL\" ; vouliez-vous dire \"BOL\" ?")
+        );
+    }
+}
