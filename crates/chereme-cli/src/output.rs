@@ -44,7 +44,7 @@ impl Output {
         }
     }
 
-    /// Tells whether a JSON document is wanted.
+    /// Returns whether a JSON document is wanted.
     pub(crate) fn is_json(&self) -> bool {
         self.json
     }
@@ -105,7 +105,7 @@ impl Output {
         quiet(self.text.flush())
     }
 
-    /// Tells why the work could not be done, and returns the exit code.
+    /// Reports why the work failed, and returns the exit code.
     pub(crate) fn fail(&mut self, error: &anyhow::Error) -> ExitCode {
         let known = error.downcast_ref::<chereme_corpus::Error>();
         let place = known.and_then(chereme_corpus::Error::place);
@@ -157,7 +157,7 @@ pub(crate) fn tell(text: &str) {
     let _ = writeln!(io::stderr(), "{text}");
 }
 
-/// Tells of wrong usage, or shows the help that was asked for.
+/// Reports wrong usage, or prints the help.
 pub(crate) fn usage(error: &clap::Error, json: bool, language: Language) -> ExitCode {
     if json && error.use_stderr() {
         let text = error.to_string();

@@ -50,7 +50,10 @@ fn of_source(text: &str) -> Vec<String> {
     let mut found = Vec::new();
     for line in code {
         let inside = line.split('`').skip(1).step_by(2);
-        let commands = inside.filter(|part| part.starts_with("chereme "));
+        let commands = inside.filter(|part| {
+            let word = part.strip_prefix("chereme ");
+            word.is_some_and(|it| it.starts_with(|c: char| c.is_ascii_lowercase()))
+        });
         found.extend(commands.map(|it| it.replace("\\\"", "\"")));
         if let Some(example) = line.strip_prefix("  chereme ") {
             let example = example.split("   (").next().unwrap_or_default();
@@ -74,7 +77,7 @@ fn of_guide(text: &str) -> Vec<String> {
 
 fn fault(command: &str) -> Option<String> {
     let mut words = words(command);
-    // What a shell does with the output is no part of the command.
+    // A redirection belongs to the shell.
     if let Some(end) = words
         .iter()
         .position(|word| ["|", ">", ">>", "<"].contains(&word.as_str()))

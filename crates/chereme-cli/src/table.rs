@@ -1,6 +1,6 @@
 //! Tables for people, as wide as the terminal.
 
-/// What parts two columns.
+/// The blanks between two columns.
 const GAP: usize = 2;
 /// The narrowest that a column of text is made.
 const NARROWEST: usize = 8;
@@ -121,6 +121,6 @@ mod tests {
         }
         let least = lines(&header, &rows(), Some(3));
         assert!(least[3].contains("ÊTRE DÉ…"), "{least:#?}");
-        assert_eq!(lines(&header, &[], Some(20))[0], "token  gloss  compo…");
+        assert_eq!(lines(&header, &[], Some(20))[0], "token  gloss  compone…");
     }
 }

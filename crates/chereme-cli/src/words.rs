@@ -6,7 +6,7 @@ use chereme_corpus::words::Language;
 use clap::builder::StyledStr;
 use clap::{Arg, Command};
 
-/// What clap itself says, as English and French.
+/// The phrases of clap, as English and French.
 const FRAME: [(&str, &str); 17] = [
     ("error: ", "erreur : "),
     ("  tip: ", "  conseil : "),
@@ -48,7 +48,7 @@ Utilisation : {usage}
 
 {all-args}{after-help}";
 
-/// Returns the command with its help in `language`; what has no French words yet stays English.
+/// Returns the command with its help in `language`; a text without French words stays English.
 pub(crate) fn spoken(command: Command, language: Language) -> Command {
     match language {
         Language::English => command,
@@ -109,7 +109,7 @@ fn translated(text: &StyledStr) -> String {
     }
 }
 
-/// Returns what clap says of wrong usage in French.
+/// Returns the message of clap about wrong usage in French.
 pub(crate) fn usage(text: &str) -> String {
     let mut said = text.to_owned();
     for (english, french) in FRAME {

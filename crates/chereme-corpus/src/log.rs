@@ -39,7 +39,7 @@ const SILENT: [&str; 8] = [
     "hash",
 ];
 
-/// What an operation changed.
+/// The changes of one operation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct OperationDetail {
     /// The operation.
@@ -55,21 +55,21 @@ pub struct OperationDetail {
 /// A row that an operation changed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Changed {
-    /// What kind of thing it is, such as `annotation`.
+    /// The kind of thing, such as `annotation`.
     pub what: &'static str,
     /// Its row.
     pub id: Option<i64>,
-    /// Its name: what an annotation says, the name of a tier, the gloss of a sign.
+    /// Its name: the value of an annotation, the name of a tier, the gloss of a sign.
     pub name: String,
-    /// Where it belongs, such as the tier and recording of an annotation.
+    /// Its place, such as the tier and recording of an annotation.
     pub place: Option<String>,
-    /// What was done to it.
+    /// The kind of change.
     pub kind: ChangeKind,
     /// Its columns that differ; for what was added or removed, all that it says.
     pub fields: Vec<FieldChange>,
 }
 
-/// What was done to a row.
+/// The kind of change of a row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ChangeKind {
@@ -86,9 +86,9 @@ pub enum ChangeKind {
 pub struct FieldChange {
     /// The column, such as `start_us`; of a reference the name of the thing, such as `signer`.
     pub field: String,
-    /// What it was.
+    /// The value before.
     pub from: Value,
-    /// What it is.
+    /// The value after.
     pub to: Value,
 }
 

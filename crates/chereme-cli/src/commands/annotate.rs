@@ -16,8 +16,8 @@ use crate::streams;
 
 /// Add, change, move, split, merge, replace and remove annotations and tiers; in bulk from a table
 ///
-/// Each call is one operation that `chereme undo` takes back. The rules of the tiers hold: what would
-/// break one is refused, with what would be right. Times are 1.5, 1.5s, 1500ms, 0:01.500 or a frame,
+/// Each call is one operation that `chereme undo` takes back. The rules of the tiers hold: a change that
+/// would break one is refused, with a remedy. Times are 1.5, 1.5s, 1500ms, 0:01.500 or a frame,
 /// f90. A tier is tier:12, or its name with --in RECORDING; an annotation is annotation:12, or its id
 /// in the file it came from.
 ///
@@ -33,7 +33,7 @@ pub(crate) struct Args {
     /// Move boundaries to the nearest frames of the recording's movement
     #[arg(long, global = true)]
     snap: bool,
-    /// What becomes of annotations in the way of one that is added or moved
+    /// How annotations give way to one that is added or moved
     #[arg(long, global = true, value_enum, default_value_t = ModeWord::Normal, hide_possible_values = false)]
     mode: ModeWord,
     /// Report the ids of all annotations; else of at most 100 in JSON, and of at most 20 in words
@@ -88,7 +88,7 @@ enum Action {
     Set {
         /// The annotation
         annotation: String,
-        /// What it says from now on
+        /// Its new value
         #[arg(long)]
         value: Option<String>,
         /// Where it starts from now on

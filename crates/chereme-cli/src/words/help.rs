@@ -65,8 +65,8 @@ const HELP: [(&str, &str); 171] = [
         "Amener les limites aux images les plus proches du mouvement",
     ),
     (
-        "What becomes of annotations in the way of one that is added or moved",
-        "Que deviennent les annotations qui gênent celle qu’on ajoute ou déplace",
+        "How annotations give way to one that is added or moved",
+        "Comment les annotations font place à celle qu’on ajoute ou déplace",
     ),
     (
         "Report the ids of all annotations; else of at most 100 in JSON, and of at most 20 in words",
@@ -105,7 +105,7 @@ const HELP: [(&str, &str); 171] = [
         "Changer ce que dit une annotation, ou la déplacer",
     ),
     ("The annotation", "L’annotation"),
-    ("What it says from now on", "Ce qu’elle dit désormais"),
+    ("Its new value", "Sa nouvelle valeur"),
     ("Where it starts from now on", "Son nouveau début"),
     ("Where it ends from now on", "Sa nouvelle fin"),
     ("Cut an annotation in two", "Couper une annotation en deux"),

@@ -1,4 +1,4 @@
-//! What is held when annotations are dragged: those of their tier that count, and what limits them.
+//! The annotations that a drag holds: their neighbours on the tier, and the limits of their movement.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -98,8 +98,8 @@ pub fn limits(contents: &Contents, frames: bool) -> Limits {
     }
 }
 
-/// Returns what is held when `chosen` are dragged, tier by tier. Annotations whose parent is held too go
-/// along with it and are left out.
+/// Returns what is held when `chosen` are dragged, tier by tier. Annotations whose parent is held too
+/// follow it and are left out.
 #[must_use]
 pub fn held(contents: &Contents, chosen: &BTreeSet<i64>, frames: bool) -> Vec<Held> {
     let limits = limits(contents, frames);

@@ -32,7 +32,7 @@ impl Work<'_> {
             (start, end) if start == end => vec![(Grip::Whole, start)],
             (0, end) => vec![(Grip::End, end)],
             (start, 0) => vec![(Grip::Start, start)],
-            // What shrinks goes first, so that it can make room for itself.
+            // The end that moves inwards goes first, so that the other one has room.
             (start, end) if end < 0 => vec![(Grip::End, end), (Grip::Start, start)],
             (start, end) => vec![(Grip::Start, start), (Grip::End, end)],
         };

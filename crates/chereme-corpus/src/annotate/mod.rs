@@ -601,7 +601,7 @@ fn not_in(stored: &StoredInventory, tier: &TierRow, text: &str) -> Error {
         inventory.id, tier.name
     ))
     .advise(format!(
-        "`chereme list CORPUS values --inventory {}` lists the values",
+        "`chereme list CORPUS values --where 'inventory={}'` lists the values",
         inventory.id
     ))
 }

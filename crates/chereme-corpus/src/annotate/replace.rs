@@ -19,14 +19,14 @@ use crate::db::tiers::{self as rows, TierRow};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 
-/// What to look for in the values of annotations.
+/// A text or pattern to look for in the values of annotations.
 #[derive(Debug, Clone)]
 pub enum Find {
     /// This text, anywhere in a value.
     Text(String),
     /// This text, and nothing else in the value.
     Whole(String),
-    /// What a regular expression matches; `$1` in the replacement is its first group.
+    /// Matches of a regular expression; `$1` in the replacement is its first group.
     Pattern(Regex),
 }
 
@@ -82,13 +82,13 @@ pub struct ReplacedValue {
     pub tier: String,
     /// When it starts, in microseconds.
     pub start_us: i64,
-    /// What it said.
+    /// The value before.
     pub from: String,
-    /// What it says now.
+    /// The value after.
     pub to: String,
 }
 
-/// What was replaced, or would be.
+/// The result of a replacement, or of trying one.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Replaced {
     /// Whether nothing was written.
@@ -100,7 +100,7 @@ pub struct Replaced {
 }
 
 impl Corpus {
-    /// Replaces what `find` finds in the values of annotations by `with`, as one operation.
+    /// Replaces the matches of `find` in the values of annotations by `with`, as one operation.
     ///
     /// A value that becomes empty is unset. With `dry_run` everything is tried and nothing written.
     ///
@@ -142,8 +142,8 @@ impl Corpus {
         })
     }
 
-    /// Moves all annotations of tiers by `by_us` microseconds, as one operation; what hangs below them
-    /// goes along.
+    /// Moves all annotations of tiers by `by_us` microseconds, as one operation, together with all
+    /// annotations below them.
     ///
     /// # Errors
     /// Where a tier is not there or has no times of its own, or an annotation would leave the recording
@@ -198,7 +198,7 @@ impl Corpus {
                 work.change(change)?;
             }
             tried = Some(work.finish(changes.len())?);
-            // What was only tried is rolled back.
+            // An error rolls the attempt back.
             Err::<((), String), _>(Error::Stopped)
         });
         match (done, tried) {
@@ -328,7 +328,7 @@ fn no_tier(text: &str) -> Error {
         .advise("`chereme list CORPUS tiers` lists them")
 }
 
-/// Tells whether a tier has that name or number; `*` stands for any letters.
+/// Returns whether a tier has that name or number; `*` stands for any letters.
 fn is_meant(text: &str, tier: &TierRow) -> bool {
     if let Ok(crate::Address::Tier(id)) = text.parse() {
         return id == tier.id;

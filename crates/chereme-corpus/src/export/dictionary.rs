@@ -3,7 +3,7 @@
 /// The description of every table and column, with example queries.
 const SCHEMA: &str = include_str!("../../../../schema/README.md");
 
-/// What only readers of the source need: these sections do not go along.
+/// The first section for readers of the database; those before it describe the source tree.
 const LEFT_OUT_TO: &str = "## At a glance";
 
 /// Returns the data dictionary: tables, columns and conventions, with example queries.

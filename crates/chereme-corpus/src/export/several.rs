@@ -13,8 +13,8 @@ use crate::db::{recordings, signs};
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 
-/// Writes a file of `format` for each of what is meant into the folder `to`, which is made where it is
-/// not there.
+/// Writes a file of `format` for each recording or token into the folder `to`, and makes the folder if it
+/// is missing.
 pub(super) fn write(
     connection: &Connection,
     what: &ExportWhat,
@@ -53,8 +53,8 @@ pub(super) fn write(
     Ok(report)
 }
 
-/// Returns what gets a file of its own, with the name of the file. Tiers belong to a recording: tokens
-/// stand for theirs then.
+/// Returns the recordings and tokens that get a file, with its name. In formats of tiers a token stands for
+/// its recording.
 fn each(
     connection: &Connection,
     what: &ExportWhat,

@@ -196,7 +196,7 @@ const MESSAGES: [(&str, &str); 58] = [
     ("the table asks for nothing", "la table ne demande rien"),
 ];
 
-/// Returns a message of the library in `language`; nothing where the table lacks it.
+/// Returns a message of the library in `language`; nothing if the table lacks it.
 #[must_use]
 pub fn message(text: &str, language: Language) -> Option<String> {
     if language == Language::English {
@@ -207,7 +207,7 @@ pub fn message(text: &str, language: Language) -> Option<String> {
         .find_map(|(english, french)| carried(text, english, french))
 }
 
-/// Returns `other` with what `text` has in the blanks of `form`; nothing where it is not of that form.
+/// Returns `other` with what `text` has in the blanks of `form`; nothing if it has another form.
 fn carried(text: &str, form: &str, other: &str) -> Option<String> {
     let mut filled = other.to_owned();
     let mut parts = form.split('{');
