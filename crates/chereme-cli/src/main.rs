@@ -12,6 +12,7 @@ mod streams;
 mod table;
 mod words;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches};
@@ -19,16 +20,29 @@ use clap::{CommandFactory, FromArgMatches};
 use args::Cli;
 use output::Output;
 
+/// Returns the actions of the command that the words name, if it has some and they name none of them.
+fn actions(words: &[OsString]) -> Vec<String> {
+    let whole = Cli::command();
+    let named = words.iter().skip(1).filter_map(|word| word.to_str());
+    let command = named.clone().find_map(|word| whole.find_subcommand(word));
+    let actions = command.into_iter().flat_map(clap::Command::get_subcommands);
+    let actions: Vec<String> = actions.map(|it| it.get_name().to_owned()).collect();
+    let known = named
+        .clone()
+        .any(|word| actions.iter().any(|it| it == word));
+    if known { Vec::new() } else { actions }
+}
+
 fn main() -> ExitCode {
     let mut words: Vec<_> = std::env::args_os().collect();
     let json = words.iter().any(|word| word == "--json");
     let language = args::language(&mut words);
     let parsed = words::spoken(Cli::command(), language)
-        .try_get_matches_from(words)
+        .try_get_matches_from(&words)
         .and_then(|matches| Cli::from_arg_matches(&matches));
     let cli = match parsed {
         Ok(cli) => cli,
-        Err(error) => return output::usage(&error, json, language),
+        Err(error) => return output::usage(&error, json, language, &actions(&words)),
     };
     let mut output = Output::new(cli.json, cli.width, language);
     chereme_corpus::on_waiting(output::waiting);

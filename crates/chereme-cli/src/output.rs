@@ -158,7 +158,12 @@ pub(crate) fn tell(text: &str) {
 }
 
 /// Reports wrong usage, or prints the help.
-pub(crate) fn usage(error: &clap::Error, json: bool, language: Language) -> ExitCode {
+pub(crate) fn usage(
+    error: &clap::Error,
+    json: bool,
+    language: Language,
+    actions: &[String],
+) -> ExitCode {
     if json && error.use_stderr() {
         let text = error.to_string();
         let (message, remedy) = text.split_once("\n\n").unwrap_or((&text, ""));
@@ -169,6 +174,13 @@ pub(crate) fn usage(error: &clap::Error, json: bool, language: Language) -> Exit
         note(&words::usage(&error.render().to_string()));
     } else {
         let _ = error.print();
+    }
+    if !json && error.kind() == clap::error::ErrorKind::UnknownArgument && !actions.is_empty() {
+        let text = fill(
+            trouble::ACTIONS.of(language),
+            &[("names", &actions.join(", "))],
+        );
+        note(&text);
     }
     ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
 }

@@ -4,7 +4,7 @@ mod help;
 
 use chereme_corpus::words::Language;
 use clap::builder::StyledStr;
-use clap::{Arg, Command};
+use clap::{Arg, ArgAction, Command};
 
 /// The phrases of clap, as English and French.
 const FRAME: [(&str, &str); 17] = [
@@ -63,9 +63,24 @@ fn french(command: Command) -> Command {
     let after_long = command.get_after_long_help().map(translated);
     let mut command = command
         .help_template(TEMPLATE)
-        .subcommand_help_heading("Commandes")
+        .subcommand_help_heading("Commandes ")
+        .disable_help_flag(true)
+        .disable_version_flag(true)
+        .disable_help_subcommand(true)
         .mut_args(argument)
-        .mut_subcommands(french);
+        .mut_subcommands(french)
+        .arg(flag(
+            "help",
+            'h',
+            "Afficher l’aide ; -h en donne un résumé",
+            ArgAction::Help,
+        ))
+        .arg(flag(
+            "version",
+            'V',
+            "Afficher la version",
+            ArgAction::Version,
+        ));
     if let Some(about) = about {
         command = command.about(about);
     }
@@ -79,6 +94,14 @@ fn french(command: Command) -> Command {
         command = command.after_long_help(after);
     }
     command
+}
+
+fn flag(name: &'static str, short: char, help: &'static str, action: ArgAction) -> Arg {
+    Arg::new(name)
+        .short(short)
+        .long(name)
+        .action(action)
+        .help(help)
 }
 
 fn argument(argument: Arg) -> Arg {
@@ -101,8 +124,8 @@ fn translated(text: &StyledStr) -> String {
         return french.to_owned();
     }
     match text.split_once("\n\n") {
-        Some((first, rest)) => match help::of(first) {
-            Some(french) => format!("{french}\n\n{rest}"),
+        Some((first, rest)) => match help::of(first.trim_end_matches('.')) {
+            Some(french) => format!("{french}\n\n{}", help::of(rest).unwrap_or(rest)),
             None => text,
         },
         None => text,
@@ -171,7 +194,11 @@ mod tests {
         command.clone().debug_assert();
         let help = command.render_help().to_string();
         assert!(
-            help.contains("Utilisation : chereme") && help.contains("Commandes:"),
+            help.contains("Utilisation : chereme") && help.contains("Commandes :"),
+            "{help}"
+        );
+        assert!(
+            help.contains("Afficher l’aide") && !help.contains("Print"),
             "{help}"
         );
         assert!(help.contains("Annuler la dernière modification"), "{help}");

@@ -250,6 +250,8 @@ const CASES: &[Case] = &[
         ERROR,
     ),
     ("annotate @c", 2, ERROR),
+    ("annotate @c change a1", 2, ERROR),
+    ("annotate @c --in bowl add-tier X --role nonsense", 2, ERROR),
     (
         "annotate @c --in bowl add-tiers",
         0,
@@ -739,6 +741,27 @@ fn the_command_line_speaks_french_where_it_is_asked_to() {
         "{}",
         text(&help.stdout)
     );
+}
+
+#[test]
+fn an_unknown_action_is_answered_with_those_there_are() {
+    let desk = Desk::new();
+    let corpus = desk.corpus();
+    let done = desk.run(&format!("annotate {} change a1", corpus.display()));
+    let said = text(&done.stderr);
+    assert!(said.contains("The actions are: add, set, split"), "{said}");
+    let done = desk.run(&format!(
+        "annotate {} --in bowl add-tier X --role nonsense",
+        corpus.display()
+    ));
+    assert!(
+        text(&done.stderr).contains("no role; roles are gloss"),
+        "{}",
+        text(&done.stderr)
+    );
+    let done = desk.run(&format!("render {} bowl --to x.png", corpus.display()));
+    let said = text(&done.stderr);
+    assert!(said.contains("recording:\"bowl\""), "{said}");
 }
 
 #[test]

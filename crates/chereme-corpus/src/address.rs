@@ -147,6 +147,12 @@ pub(crate) fn sign(connection: &Connection, gloss: &str) -> Result<i64> {
         [one] => Ok(signs::find_sign(connection, one)?.unwrap_or_default()),
         [] => {
             let near = nearest(gloss, glosses.iter().map(String::as_str));
+            if let Some(row) = recordings::recording_named(connection, gloss)? {
+                let address = Address::Recording(Name::Text(row.name));
+                return Err(Error::wrong(format!("no sign is called {gloss:?}"))
+                    .at(gloss)
+                    .advise(format!("a recording has this name: write {address}")));
+            }
             Err(
                 Error::wrong(format!("no sign is called {gloss:?}{}", did_you_mean(near)))
                     .at(gloss)

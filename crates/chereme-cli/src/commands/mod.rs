@@ -69,7 +69,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Export(args) => export::run(cli, args, output).map_err(offer_force),
         Command::New(args) => new::run(cli, args, output),
         Command::Import(args) => return import::run(cli, args, output),
-        Command::Check(args) => return check::run(cli, args, output),
+        Command::Check(args) => return check::run(cli, args, output).map_err(past_checking),
         Command::Score(args) => score::run(cli, args, output).map_err(offer_force),
         Command::Suggest(args) => suggest::run(cli, args, output),
         Command::Transcribe(args) => transcribe::run(cli, args, output),
@@ -87,6 +87,24 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Studio(args) => studio::run(cli, args),
     }?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// Advises something else than `chereme check` if that itself fails on damage.
+fn past_checking(error: anyhow::Error) -> anyhow::Error {
+    match error.downcast_ref::<Error>() {
+        Some(known)
+            if known
+                .remedy()
+                .is_some_and(|it| it.contains("chereme check")) =>
+        {
+            let place = known.place().unwrap_or_default();
+            Error::wrong(known.to_string())
+                .at(place)
+                .advise("the check cannot go on: take a backup, or save what can be read with `chereme export CORPUS all --to FOLDER`")
+                .into()
+        }
+        _ => error,
+    }
 }
 
 /// Adds to the failure that a file is there already how to write over it, for commands that can.

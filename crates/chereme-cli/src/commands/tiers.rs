@@ -19,7 +19,7 @@ pub(super) enum Action {
         name: String,
         /// What its annotations say: gloss, translation, comment, free, or a component such as
         /// placement or nonmanual.brows
-        #[arg(long, default_value = "free")]
+        #[arg(long, default_value = "free", value_parser = role)]
         role: TierRole,
         /// Whose hand they are about
         #[arg(long, value_enum)]
@@ -53,7 +53,7 @@ pub(super) enum Action {
         #[arg(long)]
         name: Option<String>,
         /// What its annotations say
-        #[arg(long)]
+        #[arg(long, value_parser = role)]
         role: Option<TierRole>,
         /// Whose hand they are about
         #[arg(long, value_enum)]
@@ -159,6 +159,15 @@ impl HandWord {
             Self::None => return None,
         })
     }
+}
+
+fn role(text: &str) -> Result<TierRole, String> {
+    text.parse().map_err(|_| {
+        format!(
+            "{text:?} is no role; roles are gloss, translation, comment, free, or a component such as \
+             right.configuration or nonmanual.brows"
+        )
+    })
 }
 
 fn stereotype(text: &str) -> Result<Stereotype, String> {

@@ -6,10 +6,14 @@ pub(super) fn of(english: &str) -> Option<&'static str> {
     found.map(|(_, french)| *french)
 }
 
-const HELP: [(&str, &str); 171] = [
+const HELP: [(&str, &str); 172] = [
     (
         "A corpus database for signed movement: import, search, recombine, look at and export signs",
         "Une base de corpus pour le mouvement signé : importer, chercher, recombiner, regarder et exporter des signes",
+    ),
+    (
+        "One file, NAME.chereme, holds recordings, the annotations of their tiers, and the new signs made from them. Start with `chereme demo`, or import a folder of your own.",
+        "Un seul fichier, NOM.chereme, contient les enregistrements, les annotations de leurs acteurs et les nouveaux signes qu’on en compose. Commencez par `chereme demo`, ou importez un dossier à vous.",
     ),
     (
         "Print one JSON document on standard output instead of tables",

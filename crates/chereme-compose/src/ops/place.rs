@@ -54,15 +54,26 @@ pub(crate) fn place(
     }
     let moved = frame.to_body(by);
     let cm = moved * 100.0;
-    let mut did = vec![format!(
-        "moved by {:.1} cm left, {:.1} cm up, {:.1} cm forward",
-        cm.x, cm.y, cm.z
-    )];
+    let mut did = vec![format!("moved {}", directions(cm))];
     if let Some(input) = input {
         did.push(format!("the place is from {}", input.from));
     }
     did.extend(told(&reach));
     Ok((did, reach.residual, moved))
+}
+
+/// Returns a displacement in centimetres as people say it, each part with the direction it goes.
+fn directions(cm: DVec3) -> String {
+    let part = |length: f64, to: &str, back: &str| {
+        let direction = if length < 0.0 { back } else { to };
+        format!("{:.1} cm {direction}", length.abs())
+    };
+    let parts = [
+        part(cm.x, "left", "right"),
+        part(cm.y, "up", "down"),
+        part(cm.z, "forward", "back"),
+    ];
+    parts.join(", ")
 }
 
 fn spatial(work: &Work, frame: &Frame, input: &PlaceInput, side: Side) -> Result<DVec3, Cause> {
@@ -155,4 +166,15 @@ pub(crate) fn told(reach: &Reach) -> Vec<String> {
         ));
     }
     told
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_displacement_names_the_direction_it_goes() {
+        let text = directions(DVec3::new(-1.9, 2.0, -0.34));
+        assert_eq!(text, "1.9 cm right, 2.0 cm up, 0.3 cm back");
+    }
 }
