@@ -113,6 +113,12 @@ impl Mapping {
         both
     }
 
+    /// Returns the names and patterns of tiers and columns that the mapping has entries for.
+    pub fn entries(&self) -> impl Iterator<Item = &str> {
+        let all = self.tiers.iter().chain(&self.columns);
+        all.map(|(entry, _)| entry.as_str())
+    }
+
     /// Returns the entry for a tier of this name, and what it says.
     #[must_use]
     pub fn tier(&self, name: &str) -> Option<(&str, &Target)> {

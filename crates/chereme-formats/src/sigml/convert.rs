@@ -19,13 +19,16 @@ pub struct Entry {
     pub line: Line,
 }
 
+/// How the finding ends that a sign has no gloss.
+pub const NO_GLOSS: &str = "has no gloss";
+
 /// Says what a document means: its signs in their order.
 ///
 /// Whatever can be lived with is read and told as a finding: names and values that SiGML 1.2 does
 /// not have, letters that repeat, parts in other places.
 ///
 /// # Errors
-/// [`Error::Root`] where the root is neither `<sigml>` nor a sign.
+/// [`Error::Root`] where the root is neither `<sigml>` nor a sign, nor an element around some.
 pub fn from_raw(root: &Element<'_>) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
     let mut findings = Findings::default();
     let mut entries = Vec::new();
@@ -47,6 +50,15 @@ pub fn from_raw(root: &Element<'_>) -> Result<(Vec<Entry>, Vec<Finding>), Error>
                 "the root element is a sign; <sigml> is missing around it",
             )
         });
+    } else if holds_signs(root) {
+        findings.add("wrappers", || {
+            let message = format!(
+                "<{}> was read as a wrapper around the signs in it",
+                shown(&root.name)
+            );
+            Finding::note(root.line.0, message)
+        });
+        read_signs(root, &mut findings, &mut entries);
     } else {
         return Err(Error::Root {
             line: root.line.0,
@@ -61,6 +73,17 @@ pub fn from_raw(root: &Element<'_>) -> Result<(Vec<Entry>, Vec<Finding>), Error>
     Ok((entries, findings.finish()))
 }
 
+/// Reports whether there is a document or a sign somewhere in an element.
+fn holds_signs(element: &Element<'_>) -> bool {
+    element.children.iter().any(|child| {
+        let name = child.name.to_ascii_lowercase();
+        matches!(
+            &*name,
+            "sigml" | "hamgestural_sign" | "hamgestural_segment" | "hns_sign"
+        ) || holds_signs(child)
+    })
+}
+
 fn read_signs(parent: &Element<'_>, findings: &mut Findings, entries: &mut Vec<Entry>) {
     for child in &parent.children {
         if read_entry(child, findings, entries) {
@@ -68,6 +91,22 @@ fn read_signs(parent: &Element<'_>, findings: &mut Findings, entries: &mut Vec<E
         }
         match &*child.name {
             "sigmlsection" | "sigmlstream" => read_signs(child, findings, entries),
+            name if name.eq_ignore_ascii_case("sigml") => {
+                let mut node = Node::new(child, findings);
+                node.text("base_uri");
+                node.finish();
+                read_signs(child, findings, entries);
+            }
+            _ if holds_signs(child) => {
+                findings.add("wrappers", || {
+                    let message = format!(
+                        "<{}> was read as a wrapper around the signs in it",
+                        shown(&child.name)
+                    );
+                    Finding::note(child.line.0, message)
+                });
+                read_signs(child, findings, entries);
+            }
             _ => findings.add("elements that are not signs", || {
                 let message = format!(
                     "<{}> is no notated sign; it was left out",
@@ -88,9 +127,7 @@ fn read_entry(element: &Element<'_>, findings: &mut Findings, entries: &mut Vec<
     let mut node = Node::new(element, findings);
     let gloss = node.text("gloss").map(str::trim).unwrap_or_default();
     if gloss.is_empty() {
-        node.warn("signs without a gloss", |tag| {
-            format!("<{tag}> has no gloss")
-        });
+        node.warn("signs without a gloss", |tag| format!("<{tag}> {NO_GLOSS}"));
     }
     let owned = |text: Option<&str>| text.map(str::to_owned);
     let mut sign = Notated {
