@@ -66,7 +66,7 @@ impl Corpus {
         let mut report = CheckReport::default();
         let mut looking = Looking {
             report: &mut report,
-            progress,
+            progress: &mut *progress,
         };
         let connection = self.store.read();
         looking.database(connection)?;
@@ -75,12 +75,12 @@ impl Corpus {
         looking.inventories(connection)?;
         looking.notations(connection)?;
         looking.tiers(connection)?;
-        for fault in self.store.check_history()? {
+        for fault in self.store.check_history(looking.progress)? {
             looking.fault("history", "history", fault, BACKUP);
         }
         self.check_index(&mut report)?;
         if mend {
-            self.mend(&mut report)?;
+            self.mend(&mut report, progress)?;
         }
         report.ok = report.faults.is_empty();
         Ok(report)
@@ -112,23 +112,24 @@ impl Corpus {
         Ok(())
     }
 
-    fn mend(&mut self, report: &mut CheckReport) -> Result<()> {
+    fn mend(&mut self, report: &mut CheckReport, progress: &mut Progress<'_>) -> Result<()> {
         let wrong = |kind| report.faults.iter().any(|fault| fault.kind == kind);
         let (tokens, index) = (wrong("tokens"), wrong("index"));
         if tokens {
-            self.store.operation("mend", |connection| {
-                let inventories = inventories::load(connection)?;
-                for recording in recordings::recordings(connection)? {
-                    tokens::derive(connection, recording.id, None, &inventories)?;
-                }
-                Ok(((), "tokens derived anew".to_owned()))
-            })?;
+            self.store
+                .operation_told("mend", progress, |connection, progress| {
+                    let inventories = inventories::load(connection)?;
+                    for recording in recordings::recordings(connection)? {
+                        tokens::derive_told(connection, recording.id, &inventories, progress)?;
+                    }
+                    Ok(((), "tokens derived anew".to_owned()))
+                })?;
             report
                 .mended
                 .push("the tokens were derived anew from the tiers".to_owned());
         }
         if index || tokens {
-            self.store.reindex()?;
+            self.store.reindex(progress)?;
             report
                 .mended
                 .push("the search index was made anew".to_owned());
@@ -165,7 +166,8 @@ impl Looking<'_, '_> {
     fn count(&mut self, what: &'static str) -> Result<()> {
         let count = self.report.checked.entry(what).or_default();
         *count += 1;
-        if count.is_multiple_of(64) {
+        let quick = matches!(what, "blocks" | "notations" | "skeletons");
+        if !quick || count.is_multiple_of(64) {
             let (task, done) = (what, *count);
             self.progress.tell(Step {
                 task,
@@ -258,6 +260,12 @@ impl Looking<'_, '_> {
                 &[group],
                 &(0..track.frames()),
                 |_, first, columns| {
+                    self.progress.tell(Step {
+                        task: "movement",
+                        done: first as u64,
+                        total: Some(track.frames() as u64),
+                        unit: Unit::Frames,
+                    })?;
                     let frames = columns.first().map_or(0, |column| column.mantissas.len());
                     if first != next {
                         let what =
@@ -300,7 +308,7 @@ impl Looking<'_, '_> {
             }
             let derived = rows::tried(connection, || {
                 let before = rows::changes(connection)?;
-                tokens::derive(connection, recording.id, None, &inventories)?;
+                tokens::derive_told(connection, recording.id, &inventories, self.progress)?;
                 Ok(rows::changes(connection)? - before)
             })?;
             if derived > 0 {

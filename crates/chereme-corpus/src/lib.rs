@@ -80,7 +80,10 @@ pub use details::{
 pub use edit::{RecordingChange, SignChange, SignerChange};
 pub use error::{Cause, Error, Result};
 pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile};
-pub use import::{FileReport, FileStatus, ImportOptions, ImportReport, ReportFinding};
+pub use import::{
+    FileReport, FileStatus, ImportOptions, ImportReport, Outcome, OwnEdit, OwnEdits, ReportFinding,
+    Saying, Unread,
+};
 pub use info::{Info, InventoryInfo, SignerInfo};
 pub use inventories::StoredInventory;
 pub use kept::{KeptSearch, kept_like};
@@ -147,7 +150,15 @@ impl Corpus {
     /// # Errors
     /// Where nothing is left to undo, or a row was changed behind the operation's back.
     pub fn undo(&mut self) -> Result<OperationRow> {
-        self.store.undo()
+        self.undo_told(&mut Progress::new(&mut unheard))
+    }
+
+    /// Does what [`undo`](Self::undo) does, and can be stopped.
+    ///
+    /// # Errors
+    /// Those of [`undo`](Self::undo), and [`Error::Stopped`].
+    pub fn undo_told(&mut self, progress: &mut Progress<'_>) -> Result<OperationRow> {
+        self.store.undo(progress)
     }
 
     /// Does the operation again that was undone last, and returns the operation that did so.
@@ -155,7 +166,15 @@ impl Corpus {
     /// # Errors
     /// Where nothing is left to redo.
     pub fn redo(&mut self) -> Result<OperationRow> {
-        self.store.redo()
+        self.redo_told(&mut Progress::new(&mut unheard))
+    }
+
+    /// Does what [`redo`](Self::redo) does, and can be stopped.
+    ///
+    /// # Errors
+    /// Those of [`redo`](Self::redo), and [`Error::Stopped`].
+    pub fn redo_told(&mut self, progress: &mut Progress<'_>) -> Result<OperationRow> {
+        self.store.redo(progress)
     }
 
     /// Returns the newest operations first, at most `limit` of them.

@@ -12,6 +12,7 @@ use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::Result;
 use crate::inventories::StoredInventory;
+use crate::progress::{Progress, Step, Unit, unheard};
 
 /// Brings the tokens of a recording to what its tiers say; those that stay keep their rows.
 ///
@@ -25,8 +26,30 @@ pub(crate) fn derive(
     window: Option<Span>,
     inventories: &[StoredInventory],
 ) -> Result<()> {
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    bring(connection, recording, window, inventories, progress)
+}
+
+/// Does the same for a whole recording, and can be stopped.
+pub(crate) fn derive_told(
+    connection: &Connection,
+    recording: i64,
+    inventories: &[StoredInventory],
+    progress: &mut Progress<'_>,
+) -> Result<()> {
+    bring(connection, recording, None, inventories, progress)
+}
+
+fn bring(
+    connection: &Connection,
+    recording: i64,
+    window: Option<Span>,
+    inventories: &[StoredInventory],
+    progress: &mut Progress<'_>,
+) -> Result<()> {
     let recording = recordings::recording(connection, recording)?;
-    let said = Said::read(connection, &recording, window, inventories)?;
+    let said = Said::read(connection, &recording, window, inventories, progress)?;
     let tokens = match said.within {
         Some(within) => {
             let (start, end) = (within.start().micros(), within.end().micros());
@@ -38,7 +61,9 @@ pub(crate) fn derive(
         .into_iter()
         .filter_map(|token| Some((token.annotation_id?, token)))
         .collect();
-    for gloss in said.glosses.iter().filter(|gloss| said.is_within(gloss)) {
+    let glosses = said.glosses.iter().filter(|gloss| said.is_within(gloss));
+    for (done, gloss) in glosses.enumerate() {
+        step(progress, done)?;
         let old = standing.remove(&gloss.row.id);
         let token = write_token(connection, &recording, gloss, old)?;
         signs::set_values(connection, token, &said.values(gloss))?;
@@ -48,6 +73,19 @@ pub(crate) fn derive(
         signs::delete_empty_sign(connection, token.sign_id)?;
     }
     Ok(())
+}
+
+/// Reports every 256th step.
+fn step(progress: &mut Progress<'_>, done: usize) -> Result<()> {
+    if done % 256 != 255 {
+        return Ok(());
+    }
+    progress.tell(Step {
+        task: "tokens",
+        done: done as u64,
+        total: None,
+        unit: Unit::Items,
+    })
 }
 
 fn write_token(
@@ -112,6 +150,7 @@ impl Said {
         recording: &RecordingRow,
         window: Option<Span>,
         inventories: &[StoredInventory],
+        progress: &mut Progress<'_>,
     ) -> Result<Self> {
         let all = tiers::tiers(connection, recording.id)?;
         let of = |role: &'static str| {
@@ -143,7 +182,9 @@ impl Said {
             let inventory = inventories
                 .iter()
                 .find(|it| Some(it.id) == tier.inventory_id);
-            for row in annotations(connection, tier, said.within.and(Some(reach)))? {
+            let rows = annotations(connection, tier, said.within.and(Some(reach)))?;
+            for (done, row) in rows.into_iter().enumerate() {
+                step(progress, done)?;
                 context = hull(context, span(&row));
                 said.add_component(tier, &row, inventory);
             }
@@ -153,7 +194,7 @@ impl Said {
         }
         said.components
             .sort_by_key(|coded| (coded.span.span.start(), coded.annotation));
-        said.give();
+        said.give(progress)?;
         Ok(said)
     }
 
@@ -225,7 +266,7 @@ impl Said {
     }
 
     /// Gives each component to the gloss that it belongs to, among those of each hand.
-    fn give(&mut self) {
+    fn give(&mut self, progress: &mut Progress<'_>) -> Result<()> {
         let mut hands: BTreeMap<Option<&str>, Vec<&Gloss>> = BTreeMap::new();
         for gloss in &self.glosses {
             hands.entry(gloss.hand.as_deref()).or_default().push(gloss);
@@ -235,6 +276,7 @@ impl Said {
             let spans: Vec<Span> = glosses.iter().map(|gloss| span(&gloss.row)).collect();
             let longest = spans.iter().map(|span| span.micros()).max().unwrap_or(0);
             for (at, coded) in self.components.iter().enumerate() {
+                step(progress, at)?;
                 let said = coded.span.span;
                 let from = said.start().shifted(-longest);
                 let first = spans.partition_point(|span| span.start() < from);
@@ -247,6 +289,7 @@ impl Said {
             }
         }
         self.owned = owned;
+        Ok(())
     }
 }
 

@@ -5,7 +5,8 @@ use std::process::ExitCode;
 
 use anyhow::Result;
 use chereme_corpus::{
-    Corpus, Error, FileReport, FileStatus, ImportOptions, ImportReport, Mapping, Progress,
+    Corpus, Error, FileReport, FileStatus, ImportOptions, ImportReport, Mapping, OwnEdits,
+    Progress, ReportFinding,
 };
 use chereme_motion::anatomy::RolesError;
 use clap::ValueEnum;
@@ -18,18 +19,25 @@ use crate::streams::{self, Stand};
 /// Import recordings, annotations, lexicons and inventories into a corpus
 ///
 /// Files: .bvh (movement), .eaf (ELAN annotations), .csv or .tsv (a lexicon of codings, of HamNoSys, or
-/// both; .json where it holds signs), .sigml or .hsigml (signs as notation; .xml where it is SiGML), .hns
-/// (HamNoSys, a sign a line: the gloss, a tab, the text; .txt where it has such lines), .json (an inventory),
-/// or folders of them. A movement and an annotation file with the same name become one recording. What each
-/// file was understood as is shown, and can be overridden. The corpus is made where there is none yet. An
-/// annotation file that was imported before and edited since updates its recording, annotation by
-/// annotation. One import is one operation: `chereme undo` takes it back.
+/// both; .json where it holds signs), .sigml or .hsigml (signs as notation; .xml if it is SiGML), .hns
+/// (HamNoSys, a sign a line: the gloss, a tab, the text; .txt if it has such lines), .json (an inventory),
+/// or folders of them. A movement and an annotation file of the same name in one folder become one
+/// recording; files of the same name in two folders become two. The report shows how each file was understood,
+/// which options override, also later: with --map, a file that is in already gets other tiers or columns. The
+/// corpus is made if it does not exist yet. A file that cannot be read does not keep the others out.
+///
+/// An annotation file that was imported before and edited since updates its recording, annotation by
+/// annotation. Where that would take back edits made in the corpus, the file is refused and the edits are
+/// listed; --merge, --theirs or --mine says what becomes of them. One import is one operation:
+/// `chereme undo` takes it back, and Ctrl-C leaves the corpus as it was.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   chereme import mine.chereme FOLDER
   chereme import mine.chereme take.bvh take.eaf --dry-run
-  chereme import ngt.chereme sigml/")]
+  chereme import ngt.chereme sigml/
+  chereme import mine.chereme take.eaf --merge
+  chereme import mine.chereme take.eaf --map tiers.json")]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
@@ -66,6 +74,15 @@ pub(crate) struct Args {
     /// A file that says which tier or column is what (JSON)
     #[arg(long, value_name = "FILE")]
     map: Option<PathBuf>,
+    /// Keep your edits and take the file's other changes; where both changed the same annotation, yours stays
+    #[arg(long, conflicts_with_all = ["theirs", "mine"])]
+    merge: bool,
+    /// Take what the file says, also where it takes back your edits
+    #[arg(long, conflicts_with = "mine")]
+    theirs: bool,
+    /// Leave a recording as it is where the file would take back your edits
+    #[arg(long)]
+    mine: bool,
     /// How the recordings came about
     #[arg(long, value_enum)]
     origin: Option<OriginWord>,
@@ -118,7 +135,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
     };
     if fresh && scratch.is_none() {
         if report.as_ref().map_or(true, empty) {
-            // What was made for nothing is not left behind.
+            // An empty corpus is not left behind.
             drop(corpus);
             let _ = std::fs::remove_file(path);
         } else {
@@ -164,7 +181,7 @@ fn files(args: &Args) -> Result<(Vec<PathBuf>, Vec<Stand>)> {
     Ok((files, stands))
 }
 
-/// A throw-away corpus for a dry run where there is none yet.
+/// A throw-away corpus for a dry run, if the named one does not exist yet.
 fn tempfile_for(args: &Args) -> Result<Option<(tempfile::TempDir, PathBuf)>> {
     if !args.dry_run || args.corpus.exists() {
         return Ok(None);
@@ -204,6 +221,12 @@ fn options(args: &Args) -> Result<ImportOptions> {
         mapping: mapping.transpose()?.unwrap_or_default(),
         origin: args.origin.map(|it| origin(it).to_owned()),
         licence: args.licence.clone(),
+        own_edits: match (args.merge, args.theirs, args.mine) {
+            (true, _, _) => OwnEdits::Merge,
+            (_, true, _) => OwnEdits::Theirs,
+            (_, _, true) => OwnEdits::Mine,
+            _ => OwnEdits::Ask,
+        },
         dry_run: args.dry_run,
     })
 }
@@ -230,28 +253,55 @@ fn print(report: &ImportReport, output: &mut Output) -> Result<()> {
             "{quiet} more files were taken in without a warning; --json tells what was noted"
         ))?;
     }
-    let skipped = report
-        .files
-        .iter()
-        .filter(|file| file.status == FileStatus::Skipped)
-        .count();
-    if skipped > 0 {
-        output.line(format!("{skipped} files of other kinds were left alone"))?;
+    for kind in report.unread() {
+        let what = match kind.ending {
+            Some(ending) => format!("{} .{ending}", kind.files.len()),
+            None => format!("{} without an ending", kind.files.len()),
+        };
+        output.line(format!("not read: {what} ({})", kind.why))?;
+        for file in kind.files.iter().take(NAMED) {
+            output.line(format!("  {file}"))?;
+        }
+        if kind.files.len() > NAMED {
+            output.line(format!("  and {} more", kind.files.len() - NAMED))?;
+        }
+        if let Some(remedy) = kind.remedy {
+            output.line(format!("    what to do: {remedy}"))?;
+        }
     }
-    let created: Vec<String> = report
-        .created
-        .iter()
-        .filter(|(_, count)| **count > 0)
-        .map(|(what, count)| output.counted(*count, what))
-        .collect();
-    let created = if created.is_empty() {
-        "nothing".to_owned()
-    } else {
-        created.join(", ")
+    for finding in &report.findings {
+        print_finding(finding, output)?;
+    }
+    let counts = |counts: &std::collections::BTreeMap<&'static str, u64>| {
+        let counts = counts.iter().filter(|(_, count)| **count > 0);
+        let counts: Vec<String> = counts
+            .map(|(what, count)| output.counted(*count, what))
+            .collect();
+        counts.join(", ")
     };
-    let word = if report.dry_run { "would make" } else { "made" };
-    output.line(format!("{word}: {created}"))
+    let mut any = false;
+    for (would, did, all) in [
+        ("would make", "made", &report.created),
+        ("would change", "changed", &report.changed),
+        ("would remove", "removed", &report.removed),
+    ] {
+        let all = counts(all);
+        if !all.is_empty() {
+            any = true;
+            output.line(format!(
+                "{}: {all}",
+                if report.dry_run { would } else { did }
+            ))?;
+        }
+    }
+    if !any {
+        output.line("nothing new")?;
+    }
+    Ok(())
 }
+
+/// Of more files of one kind that were not read than these, the rest are counted.
+const NAMED: usize = 3;
 
 fn print_file(file: &FileReport, output: &mut Output) -> Result<()> {
     let status = match file.status {
@@ -297,14 +347,19 @@ fn print_file(file: &FileReport, output: &mut Output) -> Result<()> {
         ))?;
     }
     for finding in &file.findings {
-        let line = finding
-            .line
-            .map(|line| format!("line {line}: "))
-            .unwrap_or_default();
-        output.line(format!("  {}: {line}{}", finding.severity, finding.message))?;
-        if let Some(remedy) = &finding.remedy {
-            output.line(format!("    what to do: {remedy}"))?;
-        }
+        print_finding(finding, output)?;
+    }
+    Ok(())
+}
+
+fn print_finding(finding: &ReportFinding, output: &mut Output) -> Result<()> {
+    let line = finding
+        .line
+        .map(|line| format!("line {line}: "))
+        .unwrap_or_default();
+    output.line(format!("  {}: {line}{}", finding.severity, finding.message))?;
+    if let Some(remedy) = &finding.remedy {
+        output.line(format!("    what to do: {remedy}"))?;
     }
     Ok(())
 }

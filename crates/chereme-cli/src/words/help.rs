@@ -281,6 +281,18 @@ const HELP: [(&str, &str); 172] = [
         "Report what would be done, and write nothing",
         "Dire ce qui serait fait, sans rien écrire",
     ),
+    (
+        "Keep your edits and take the file's other changes; where both changed the same annotation, yours stays",
+        "Garder vos modifications et prendre les autres du fichier ; si les deux ont changé la même annotation, la vôtre reste",
+    ),
+    (
+        "Take what the file says, also where it takes back your edits",
+        "Prendre ce que dit le fichier, même s’il annule vos modifications",
+    ),
+    (
+        "Leave a recording as it is where the file would take back your edits",
+        "Laisser un enregistrement tel quel si le fichier annulait vos modifications",
+    ),
     ("Whose movement it is", "De qui est le mouvement"),
     ("The signer's dominant hand", "La main dominante du signeur"),
     (

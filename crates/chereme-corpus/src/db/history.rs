@@ -13,6 +13,7 @@ use serde_json::Value;
 
 use super::damaged;
 use crate::error::{Error, Result};
+use crate::progress::{Progress, Step, Unit};
 
 /// The tables whose rows are recorded, and for each the columns that refer to a row with a uid.
 const TRACKED: [(&str, &[(&str, &str)]); 21] = [
@@ -268,7 +269,12 @@ fn insert_operation(
 }
 
 /// Packs the recorded changes into the operation's changeset; without any the operation is no more.
-pub(super) fn finish(connection: &Connection, operation: i64, summary: &str) -> Result<()> {
+pub(super) fn finish(
+    connection: &Connection,
+    operation: i64,
+    summary: &str,
+    progress: &mut Progress<'_>,
+) -> Result<()> {
     let mut changes = 0i64;
     let (mut part, mut lines) = (0i64, Vec::new());
     let mut statement = connection
@@ -290,6 +296,7 @@ pub(super) fn finish(connection: &Connection, operation: i64, summary: &str) -> 
         );
         lines.extend_from_slice(line.as_bytes());
         changes += 1;
+        step(progress, "history", changes)?;
         if lines.len() >= PART_BYTES {
             write_part(connection, operation, part, &lines)?;
             part += 1;
@@ -310,6 +317,19 @@ pub(super) fn finish(connection: &Connection, operation: i64, summary: &str) -> 
     Ok(())
 }
 
+/// Tells of every 512th change how far the work is.
+fn step(progress: &mut Progress<'_>, task: &str, done: i64) -> Result<()> {
+    if done % 512 != 0 {
+        return Ok(());
+    }
+    progress.tell(Step {
+        task,
+        done: u64::try_from(done).unwrap_or_default(),
+        total: None,
+        unit: Unit::Items,
+    })
+}
+
 fn write_part(connection: &Connection, operation: i64, part: i64, lines: &[u8]) -> Result<()> {
     let data = zstd::encode_all(lines, 3)
         .map_err(|error| damaged(format!("changeset {operation}"), error.to_string()))?;
@@ -320,14 +340,23 @@ fn write_part(connection: &Connection, operation: i64, part: i64, lines: &[u8]) 
     Ok(())
 }
 
-pub(super) fn undo(connection: &Connection, author: &str) -> Result<OperationRow> {
+pub(super) fn undo(
+    connection: &Connection,
+    author: &str,
+    progress: &mut Progress<'_>,
+) -> Result<OperationRow> {
     let target = stacks(connection)?.0.pop().ok_or_else(|| {
         Error::wrong("there is nothing to undo").advise("`chereme log CORPUS` lists what was done")
     })?;
-    invert(connection, author, OperationKind::Undo, target, target)
+    let (kind, pair) = (OperationKind::Undo, (target, target));
+    invert(connection, author, kind, pair, progress)
 }
 
-pub(super) fn redo(connection: &Connection, author: &str) -> Result<OperationRow> {
+pub(super) fn redo(
+    connection: &Connection,
+    author: &str,
+    progress: &mut Progress<'_>,
+) -> Result<OperationRow> {
     let target = stacks(connection)?.1.pop().ok_or_else(|| {
         Error::wrong("there is nothing to redo")
             .advise("only what was undone last, with no other work since, can be done again")
@@ -337,7 +366,8 @@ pub(super) fn redo(connection: &Connection, author: &str) -> Result<OperationRow
         [target],
         |row| row.get(0),
     )?;
-    invert(connection, author, OperationKind::Redo, target, undone_by)
+    let (kind, pair) = (OperationKind::Redo, (target, undone_by));
+    invert(connection, author, kind, pair, progress)
 }
 
 /// The operations that stand and can be undone, and those that can be redone, oldest first.
@@ -371,8 +401,8 @@ fn invert(
     connection: &Connection,
     author: &str,
     kind: OperationKind,
-    target: i64,
-    source: i64,
+    (target, source): (i64, i64),
+    progress: &mut Progress<'_>,
 ) -> Result<OperationRow> {
     let (name, summary): (String, String) = connection.query_row(
         "SELECT name, summary FROM operation WHERE id = ?1",
@@ -390,14 +420,17 @@ fn invert(
     for (table, _) in TRACKED {
         statements.insert(table, Inverse::of(connection, table)?);
     }
+    let mut done = 0;
     for part in (0..parts).rev() {
         let lines = read_part(connection, source, part)?;
         let lines: Vec<&str> = lines.lines().collect();
         for line in lines.into_iter().rev() {
             invert_change(connection, source, line, &statements)?;
+            done += 1;
+            step(progress, &name, done)?;
         }
     }
-    finish(connection, operation, &summary)?;
+    finish(connection, operation, &summary, progress)?;
     log(connection, usize::MAX)?
         .into_iter()
         .find(|row| row.id == operation)
@@ -678,7 +711,7 @@ pub(crate) fn log(connection: &Connection, limit: usize) -> Result<Vec<Operation
 }
 
 /// Reports changesets that are missing or cannot be read.
-pub(super) fn check(connection: &Connection) -> Result<Vec<String>> {
+pub(super) fn check(connection: &Connection, progress: &mut Progress<'_>) -> Result<Vec<String>> {
     let mut faults = Vec::new();
     let mut statement = connection.prepare(
         "SELECT o.id, o.changes, (SELECT count(*) FROM changeset c WHERE c.operation_id = o.id)
@@ -689,6 +722,12 @@ pub(super) fn check(connection: &Connection) -> Result<Vec<String>> {
         let (id, changes, parts): (i64, i64, i64) = (row.get(0)?, row.get(1)?, row.get(2)?);
         let mut found = 0i64;
         for part in 0..parts {
+            progress.tell(Step {
+                task: "history",
+                done: u64::try_from(id).unwrap_or_default(),
+                total: None,
+                unit: Unit::Items,
+            })?;
             match read_part(connection, id, part) {
                 Ok(lines) => found += lines.lines().count() as i64,
                 Err(error) => faults.push(error.to_string()),

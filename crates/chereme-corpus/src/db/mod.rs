@@ -29,6 +29,7 @@ use std::time::Duration;
 use rusqlite::{Connection, TransactionBehavior};
 
 use crate::error::{Error, Result};
+use crate::progress::{Progress, Step, Unit, unheard};
 use crate::search::index::SearchIndex;
 
 pub(crate) use history::log as history_log;
@@ -98,22 +99,34 @@ impl Store {
         name: &str,
         work: impl FnOnce(&Connection) -> Result<(T, String)>,
     ) -> Result<T> {
-        self.transact(|connection, author| {
+        let mut hear = unheard;
+        let progress = &mut Progress::new(&mut hear);
+        self.operation_told(name, progress, |connection, _| work(connection))
+    }
+
+    /// Does the same with work that tells where it is; it can be stopped until all of it is stored.
+    pub(crate) fn operation_told<T>(
+        &mut self,
+        name: &str,
+        progress: &mut Progress<'_>,
+        work: impl FnOnce(&Connection, &mut Progress<'_>) -> Result<(T, String)>,
+    ) -> Result<T> {
+        self.transact(progress, |connection, author, progress| {
             let operation = history::begin(connection, author, name)?;
-            let (value, summary) = work(connection)?;
-            history::finish(connection, operation, &summary)?;
+            let (value, summary) = work(connection, progress)?;
+            history::finish(connection, operation, &summary, progress)?;
             Ok(value)
         })
     }
 
     /// Takes the newest operation back that is not taken back yet, and returns it.
-    pub(crate) fn undo(&mut self) -> Result<OperationRow> {
-        self.transact(history::undo)
+    pub(crate) fn undo(&mut self, progress: &mut Progress<'_>) -> Result<OperationRow> {
+        self.transact(progress, history::undo)
     }
 
     /// Does the operation again that was taken back last, and returns it.
-    pub(crate) fn redo(&mut self) -> Result<OperationRow> {
-        self.transact(history::redo)
+    pub(crate) fn redo(&mut self, progress: &mut Progress<'_>) -> Result<OperationRow> {
+        self.transact(progress, history::redo)
     }
 
     /// Returns the operations, newest first.
@@ -122,18 +135,18 @@ impl Store {
     }
 
     /// Reports changesets that cannot be read.
-    pub(crate) fn check_history(&self) -> Result<Vec<String>> {
-        history::check(&self.connection)
+    pub(crate) fn check_history(&self, progress: &mut Progress<'_>) -> Result<Vec<String>> {
+        history::check(&self.connection, progress)
     }
 
     /// Makes the search index anew from the rows.
-    pub(crate) fn reindex(&mut self) -> Result<()> {
+    pub(crate) fn reindex(&mut self, progress: &mut Progress<'_>) -> Result<()> {
         let transaction = self
             .connection
             .transaction_with_behavior(TransactionBehavior::Immediate)?;
         let done = self
             .index
-            .rebuild(&transaction)
+            .rebuild(&transaction, progress)
             .and_then(|()| Ok(transaction.commit()?));
         if done.is_err() {
             self.index = SearchIndex::default();
@@ -141,14 +154,25 @@ impl Store {
         done
     }
 
-    fn transact<T>(&mut self, work: impl FnOnce(&Connection, &str) -> Result<T>) -> Result<T> {
+    fn transact<T>(
+        &mut self,
+        progress: &mut Progress<'_>,
+        work: impl FnOnce(&Connection, &str, &mut Progress<'_>) -> Result<T>,
+    ) -> Result<T> {
         let transaction = self
             .connection
             .transaction_with_behavior(TransactionBehavior::Immediate)?;
         transaction.execute_batch("DELETE FROM temp.change; DELETE FROM temp.touched;")?;
-        let done = work(&transaction, &self.author).and_then(|value| {
-            self.index.follow(&transaction)?;
+        let done = work(&transaction, &self.author, progress).and_then(|value| {
+            self.index.follow(&transaction, progress)?;
             transaction.execute_batch("DELETE FROM temp.change; DELETE FROM temp.touched;")?;
+            // From here on it can be stopped no more.
+            progress.tell(Step {
+                task: "storing",
+                done: 0,
+                total: None,
+                unit: Unit::Items,
+            })?;
             transaction.commit()?;
             Ok(value)
         });
@@ -234,7 +258,9 @@ mod tests {
         drop(store);
         let mut store = Store::open(&path, "B").expect("opened");
         for state in states.iter().rev().skip(1) {
-            store.undo().expect("undone");
+            store
+                .undo(&mut Progress::new(&mut unheard))
+                .expect("undone");
             assert_eq!(dump(&store), *state);
             let (connection, index) = store.searchable().expect("index");
             let rows: i64 = connection
@@ -243,20 +269,29 @@ mod tests {
             assert_eq!(index.documents(), rows as u64);
             assert!(!index.was_rebuilt());
         }
-        assert!(store.undo().is_err());
+        assert!(store.undo(&mut Progress::new(&mut unheard)).is_err());
         drop(store);
         let mut store = Store::open(&path, "C").expect("opened");
         for state in states.iter().skip(1) {
-            store.redo().expect("done again");
+            store
+                .redo(&mut Progress::new(&mut unheard))
+                .expect("done again");
             assert_eq!(dump(&store), *state);
         }
-        assert!(store.redo().is_err());
+        assert!(store.redo(&mut Progress::new(&mut unheard)).is_err());
         assert_eq!(store.log(100).expect("log").len(), 12);
-        assert_eq!(store.check_history().expect("read"), Vec::<String>::new());
-        store.undo().expect("undone");
+        assert_eq!(
+            store
+                .check_history(&mut Progress::new(&mut unheard))
+                .expect("read"),
+            Vec::<String>::new()
+        );
+        store
+            .undo(&mut Progress::new(&mut unheard))
+            .expect("undone");
         add(&mut store, "OR");
         assert!(
-            store.redo().is_err(),
+            store.redo(&mut Progress::new(&mut unheard)).is_err(),
             "new work clears what could be done again"
         );
     }

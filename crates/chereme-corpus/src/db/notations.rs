@@ -80,9 +80,11 @@ pub(crate) fn of_tokens(
     Ok(rows)
 }
 
-/// Returns the notations that came from files of this name, by line.
+/// Returns the notations that came from files of this name, or from the file at this place, by line.
 pub(crate) fn of_file(connection: &Connection, name: &str) -> Result<Vec<NotationRow>> {
-    let sql = format!("{NOTATION} WHERE f.name = ?1 ORDER BY n.line, n.id");
+    let sql = format!(
+        "{NOTATION} WHERE f.name = ?1 OR f.path = ?1 ORDER BY n.source_file_id, n.line, n.id"
+    );
     let mut statement = connection.prepare_cached(&sql)?;
     let rows = statement
         .query_map([name], notation_row)?

@@ -279,13 +279,9 @@ pub(crate) fn source_files(connection: &Connection, recording: i64) -> Result<Ve
     source_files_where(connection, "recording_id = ?1", recording)
 }
 
-/// Returns the file with this hash that was imported first.
-pub(crate) fn source_file_hashed(
-    connection: &Connection,
-    hash: &str,
-) -> Result<Option<SourceFileRow>> {
-    let rows = source_files_where(connection, "hash = ?1", hash)?;
-    Ok(rows.into_iter().next())
+/// Returns all files, oldest first.
+pub(crate) fn all_source_files(connection: &Connection) -> Result<Vec<SourceFileRow>> {
+    source_files_where(connection, "id > ?1", 0)
 }
 
 fn source_files_where(

@@ -20,11 +20,8 @@ use crate::movement::{self, BLOCK_FRAMES, ChannelGroup};
 use crate::progress::{Progress, Step, Unit};
 
 pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
-    if let Some(known) = recordings::source_file_hashed(job.connection, &job.hash)? {
-        if let Some(recording) = known.recording_id {
-            job.recordings.insert(job.pair_key(), recording);
-        }
-        return Ok(FileReport::unchanged(job.path));
+    if let Some(report) = known(job)? {
+        return Ok(report);
     }
     let file = File::open(job.path).map_err(|error| Error::file(job.path, error))?;
     let size = file
@@ -44,7 +41,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         Error::wrong(error.to_string()).advise("correct the line `Frame Time:` of the file")
     })?;
     let found = understand(job, &hierarchy, &block, rate, &mut report)?;
-    let recording = insert_recording(job)?;
+    let recording = insert_recording(job, &mut report)?;
     let track = insert_track(
         job,
         recording,
@@ -86,6 +83,58 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     mend_root(job, track, summary.root_fix, scale, &mut report)?;
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
     Ok(report)
+}
+
+/// Returns that the movement is there already: at its place, or under its name in an earlier import.
+fn known(job: &mut Job<'_>) -> Result<Option<FileReport>> {
+    let name = job.file_name.to_lowercase();
+    let known = job.places.hashed(&job.hash).find(|row| {
+        let here = row.path.as_deref() == Some(&job.place);
+        here || (job.places.is_earlier(row) && row.name.to_lowercase() == name)
+    });
+    let Some(mut row) = known.filter(|row| row.kind == job.kind).cloned() else {
+        return Ok(None);
+    };
+    let elsewhere = row.path.take().filter(|path| *path != job.place);
+    let mut report = FileReport::unchanged(job.path, elsewhere.as_deref());
+    if let Some(id) = row.recording_id {
+        report.recording = Some(recordings::recording(job.connection, id)?.name);
+    }
+    if elsewhere.is_some() {
+        // The annotations that lie next to it now are of the same take.
+        row.path = Some(job.place.clone());
+        job.places.add(row);
+    }
+    Ok(Some(report))
+}
+
+/// Says which other files of the corpus have to do with this one: the same movement under another name,
+/// or earlier movement at its place.
+fn compare(job: &Job<'_>, report: &mut FileReport) -> Result<()> {
+    let name = |id: i64| recordings::recording(job.connection, id).map(|row| row.name);
+    let before = job.places.at(&job.place, job.kind);
+    if let Some(id) = before.and_then(|row| row.recording_id) {
+        report.findings.push(ReportFinding::warning(
+            format!(
+                "other movement was imported from this file before, as the recording {:?}; movement is \
+                 not replaced, and this is a recording of its own",
+                name(id)?
+            ),
+            "undo the earlier import, if it is not needed any more",
+        ));
+    }
+    let same = job
+        .places
+        .hashed(&job.hash)
+        .find(|row| row.kind == job.kind);
+    if let Some((row, id)) = same.and_then(|row| Some((row, row.recording_id?))) {
+        let place = row.path.as_ref().unwrap_or(&row.name);
+        report.findings.push(ReportFinding::note(format!(
+            "its movement is the same as that of the recording {:?}, from {place}",
+            name(id)?
+        )));
+    }
+    Ok(())
 }
 
 fn wrong(error: chereme_formats::bvh::raw::BvhError) -> Error {
@@ -146,7 +195,10 @@ fn understand(
         .filter(|_| doubted && options.axes.is_none())
     {
         report.findings.push(ReportFinding::warning(
-            format!("the file's axes are in doubt: {reason}"),
+            format!(
+                "which way is up and which is left is not sure; {} is taken ({reason})",
+                convention.axes
+            ),
             "look at it with `chereme render`; say the axes with --axes, or name the joints in a roles file",
         ));
     }
@@ -246,7 +298,31 @@ fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, anatomy: &Anat
     }
 }
 
-fn insert_recording(job: &mut Job<'_>) -> Result<i64> {
+/// Returns the recording that lacks this movement, where its annotations came first.
+fn without_movement(job: &Job<'_>, report: &mut FileReport) -> Result<Option<i64>> {
+    let lacks = |id: i64| {
+        recordings::motion_track(job.connection, id).map(|track| track.is_none().then_some(id))
+    };
+    if let Some(id) = job.places.beside(&job.place) {
+        return lacks(id);
+    }
+    let mut others = job.places.recordings_named(&job.place);
+    let named = recordings::recording_named(job.connection, &job.stem)?;
+    others.extend(named.map(|row| row.id));
+    for id in others {
+        if lacks(id)?.is_some() {
+            let name = recordings::recording(job.connection, id)?.name;
+            report.findings.push(ReportFinding::note(format!(
+                "the recording {name:?} of this name had no movement: it has this one now"
+            )));
+            return Ok(Some(id));
+        }
+    }
+    Ok(None)
+}
+
+fn insert_recording(job: &mut Job<'_>, report: &mut FileReport) -> Result<i64> {
+    compare(job, report)?;
     let options = job.options;
     let signer_id = match &options.signer {
         Some(name) => {
@@ -257,11 +333,7 @@ fn insert_recording(job: &mut Job<'_>) -> Result<i64> {
         }
         None => None,
     };
-    let without_movement = match recordings::recording_named(job.connection, &job.stem)? {
-        Some(row) if recordings::motion_track(job.connection, row.id)?.is_none() => Some(row.id),
-        _ => None,
-    };
-    let id = match without_movement {
+    let id = match without_movement(job, report)? {
         Some(id) => {
             let (origin, licence) = (options.origin.as_deref(), options.licence.as_deref());
             recordings::describe(job.connection, id, signer_id, origin, licence)?;
@@ -269,9 +341,11 @@ fn insert_recording(job: &mut Job<'_>) -> Result<i64> {
         }
         None => {
             job.count("recordings", 1);
+            let (name, note) = job.own_name()?;
+            report.findings.extend(note);
             let row = RecordingRow {
                 id: 0,
-                name: recordings::free_name(job.connection, &job.stem)?,
+                name,
                 signer_id,
                 signer: None,
                 origin: options
@@ -285,7 +359,6 @@ fn insert_recording(job: &mut Job<'_>) -> Result<i64> {
             recordings::insert_recording(job.connection, &row)?
         }
     };
-    job.recordings.insert(job.pair_key(), id);
     Ok(id)
 }
 

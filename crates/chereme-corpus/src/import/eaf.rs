@@ -1,25 +1,28 @@
 //! ELAN's annotation files: tiers, annotations and vocabularies onto a recording.
 
+mod remap;
+mod target;
 mod update;
+mod vocabulary;
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::eaf;
-use chereme_formats::eaf::convert::{Annotation, Place, Tier, Timing, Transcript, Vocabulary};
+use chereme_formats::eaf::convert::{Annotation, Place, Timing, Transcript};
 use chereme_formats::roles::{self, Hands, Mapping, TierGuess};
 use chereme_motion::Instant;
-use chereme_sign::text::fold;
-use chereme_sign::{Component, Inventory, InventoryValue, TierRole, inventory};
+use chereme_sign::TierRole;
 use serde_json::json;
 
-use super::report::ReportFinding;
-use super::{FileReport, FileStatus, Job};
+use super::report::{Outcome, ReportFinding};
+use super::{FileReport, FileStatus, Job, OwnEdits};
 use crate::db::recordings::{self, MediaTrackRow, RecordingRow};
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
-use crate::inventories::{self, StoredInventory};
 use crate::progress::Progress;
 use crate::tokens;
+use remap::{remap, set_role};
+use vocabulary::tier_inventory;
 
 /// The properties by which a file says what its recording is.
 pub(crate) const ORIGIN: &str = "chereme.origin";
@@ -32,34 +35,70 @@ pub(crate) const TIERS: &str = "chereme.tiers";
 /// How long after the end of the movement annotations may end without a word.
 const BEYOND: i64 = 1_000_000;
 
-pub(super) fn import(job: &mut Job<'_>, _progress: &mut Progress<'_>) -> Result<FileReport> {
-    if is_newest(job)? {
-        return Ok(FileReport::unchanged(job.path));
+/// Reads an annotation file onto its recording.
+pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
+    let maps = job.options.mapping.entries().next().is_some();
+    let here = job.places.at(&job.place, job.kind).cloned();
+    if let Some(here) = here.filter(|row| row.hash == job.hash && !maps)
+        && let Some(report) = target::unchanged(job, &here)?
+    {
+        return Ok(report);
     }
     let bytes = job.bytes()?;
+    job.tell(progress)?;
     let (transcript, findings) =
         eaf::read(&bytes).map_err(|error| Error::wrong(error.to_string()))?;
+    job.tell(progress)?;
     let mut report = FileReport::new(job.path, FileStatus::Imported);
     report
         .findings
         .extend(findings.into_iter().map(ReportFinding::from));
     let guesses = guess(job, &transcript, &mut report)?;
     report.understand("tiers", &guesses);
-    let recording = recording(job, &transcript)?;
-    warn_of_length(job, recording, &transcript, &mut report)?;
+    let target = target::find(job, &transcript, &mut report)?;
+    let recording = recording(job, &transcript, target.recording, &mut report)?;
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
     let there = standing_tiers(job, recording, &transcript)?;
-    let tier_rows = write_tiers(job, (recording, &there), &transcript, &guesses, &mut report)?;
-    if there.is_empty() {
-        write_annotations(job, &transcript, &guesses, &tier_rows)?;
-    } else {
+    if let Some(base) = target.base.as_ref().filter(|base| base.hash == job.hash) {
+        if remap(job, &there, &transcript, &guesses, &mut report)? == 0 {
+            let mut same = FileReport::unchanged(job.path, target.elsewhere(job));
+            same.recording = report.recording;
+            return Ok(same);
+        }
         report.status = FileStatus::Updated;
-        let tiers = (tier_rows.as_slice(), &there);
-        update::annotations(job, &transcript, &guesses, tiers, &mut report)?;
+        report.findings.insert(
+            0,
+            ReportFinding::note(format!(
+                "it is the recording {:?} already (from {}); its tiers are what the mapping says now",
+                report.recording.as_deref().unwrap_or_default(),
+                base.path.as_ref().unwrap_or(&base.name)
+            )),
+        );
+        tokens::derive_told(job.connection, recording, &job.inventories, progress)?;
+        return Ok(report);
     }
+    warn_of_length(job, recording, &transcript, &mut report)?;
     let before = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
+    if there.is_empty() {
+        let tiers = write_tiers(job, (recording, &there), &transcript, &guesses, &mut report)?;
+        write_annotations(job, &transcript, &guesses, &tiers, progress)?;
+    } else {
+        let base = target.transcript(job)?;
+        let sides = (&transcript, base.as_ref());
+        update(
+            job,
+            (recording, &there),
+            sides,
+            &guesses,
+            &mut report,
+            progress,
+        )?;
+        if report.status == FileStatus::Refused {
+            return Ok(report);
+        }
+    }
     recordings::lengthen(job.connection, recording, transcript.end().micros())?;
-    tokens::derive(job.connection, recording, None, &job.inventories)?;
+    tokens::derive_told(job.connection, recording, &job.inventories, progress)?;
     let derived = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
     job.count("tokens", derived.saturating_sub(before));
     job.keep(Some(recording), Some(&bytes))?;
@@ -75,25 +114,96 @@ pub(super) fn import(job: &mut Job<'_>, _progress: &mut Progress<'_>) -> Result<
     Ok(report)
 }
 
-/// Tells whether the corpus has the file, and no later one of its name for the same recording.
-fn is_newest(job: &Job<'_>) -> Result<bool> {
-    let Some(known) = recordings::source_file_hashed(job.connection, &job.hash)? else {
-        return Ok(false);
+/// Brings a recording to what an edited file says; refuses that where edits of the corpus would be lost,
+/// unless the options say what becomes of them.
+fn update(
+    job: &mut Job<'_>,
+    (recording, there): (i64, &BTreeMap<String, TierRow>),
+    (transcript, base): (&Transcript, Option<&Transcript>),
+    guesses: &[TierGuess],
+    report: &mut FileReport,
+    progress: &mut Progress<'_>,
+) -> Result<()> {
+    let own_edits = job.options.own_edits;
+    let merge = own_edits == OwnEdits::Merge;
+    let broken = if merge {
+        rules_broken(job, recording)?
+    } else {
+        BTreeSet::new()
     };
-    let Some(recording) = known.recording_id else {
-        return Ok(true);
+    let (counts, inventories) = (job.counts.clone(), job.inventories.clone());
+    job.connection.execute_batch("SAVEPOINT edits")?;
+    let tier_rows = write_tiers(job, (recording, there), transcript, guesses, report)?;
+    let sides = update::Sides {
+        transcript,
+        guesses,
+        base,
+        known: there,
+        tier_rows: &tier_rows,
+        merge,
     };
-    let files = recordings::source_files(job.connection, recording)?;
-    let newest = files
+    let updated = update::annotations(job, &sides, progress)?;
+    report.status = FileStatus::Updated;
+    let lost = updated
+        .edits
         .iter()
-        .rfind(|file| file.kind == known.kind && file.name == known.name);
-    Ok(newest.is_none_or(|file| file.hash == job.hash))
+        .filter(|it| it.outcome == Outcome::Lost);
+    let lost: Vec<String> = lost.map(ToString::to_string).collect();
+    if lost.is_empty() || matches!(own_edits, OwnEdits::Theirs | OwnEdits::Merge) {
+        job.connection.execute_batch("RELEASE edits")?;
+        remap(job, there, transcript, guesses, report)?;
+        job.count("annotations", updated.changes.added);
+        job.counts.changed("annotations", updated.changes.changed);
+        job.counts.removed("annotations", updated.changes.removed);
+        updated.report(&sides, report);
+        if merge && let Some(rule) = rules_broken(job, recording)?.difference(&broken).next() {
+            return Err(Error::wrong(format!(
+                "the file and your edits do not fit together: {rule}"
+            ))
+            .advise("import it with --theirs (the file as it is) or --mine (your edits)"));
+        }
+        return Ok(());
+    }
+    job.connection
+        .execute_batch("ROLLBACK TO edits; RELEASE edits")?;
+    (job.counts, job.inventories) = (counts, inventories);
+    let many = match lost.len() {
+        1 => "an edit".to_owned(),
+        many => format!("{many} edits"),
+    };
+    report.edits = updated.edits;
+    let mut lines: Vec<ReportFinding> = Vec::new();
+    if own_edits == OwnEdits::Mine {
+        lines.push(ReportFinding::note(format!(
+            "it would take back {many} of yours: the recording stays as it is"
+        )));
+        for edit in &mut report.edits {
+            edit.outcome = Outcome::Conflict;
+        }
+    } else {
+        report.status = FileStatus::Refused;
+        lines.push(ReportFinding::error(
+            format!("it was changed since it was imported, and would take back {many} of yours"),
+            "import it again with --merge (your edits and the file's changes; yours where both changed \
+             the same annotation), --theirs (the file), or --mine (your edits)",
+        ));
+        update::some(&lost, &mut |line| lines.push(ReportFinding::note(line)));
+    }
+    report.findings.splice(0..0, lines);
+    Ok(())
+}
+
+/// Returns which rules of tiers a recording breaks.
+fn rules_broken(job: &Job<'_>, recording: i64) -> Result<BTreeSet<String>> {
+    let set = crate::check::tier_set(job.connection, recording)?;
+    let broken = chereme_sign::tier::check(&set).into_iter();
+    Ok(broken.map(|it| it.to_string()).collect())
 }
 
 /// What the tiers are: as the caller says, else the file, else by their names; those whose names say
 /// nothing are what tiers of that name are elsewhere in the corpus.
 fn guess(
-    job: &Job<'_>,
+    job: &mut Job<'_>,
     transcript: &Transcript,
     report: &mut FileReport,
 ) -> Result<Vec<TierGuess>> {
@@ -110,6 +220,11 @@ fn guess(
         }
         None => job.options.mapping.clone(),
     };
+    for tier in &transcript.tiers {
+        if let Some((entry, _)) = job.options.mapping.tier(&tier.name) {
+            job.used.insert(entry.to_owned());
+        }
+    }
     let mut guesses = roles::guess_tiers(transcript, &mapping);
     for guess in guesses.iter_mut().filter(|guess| guess.role.is_none()) {
         let known = tiers::roles_named(job.connection, &guess.tier)?;
@@ -150,8 +265,13 @@ fn warn_of_length(
     Ok(())
 }
 
-/// The recording that the annotations are about: that of the same stem, or a new one without movement.
-fn recording(job: &mut Job<'_>, transcript: &Transcript) -> Result<i64> {
+/// The recording that the annotations are about, or a new one without movement.
+fn recording(
+    job: &mut Job<'_>,
+    transcript: &Transcript,
+    paired: Option<i64>,
+    report: &mut FileReport,
+) -> Result<i64> {
     let property = |key: &str| {
         let found = transcript.properties.iter().find(|(name, _)| name == key);
         found.map(|(_, value)| value.clone())
@@ -180,10 +300,6 @@ fn recording(job: &mut Job<'_>, transcript: &Transcript) -> Result<i64> {
         .filter(|origin| ["captured", "made", "generated"].contains(&origin.as_str()));
     let origin = options.origin.clone().or(origin);
     let licence = options.licence.clone().or_else(|| property(LICENCE));
-    let paired = match job.recordings.get(&job.pair_key()) {
-        Some(&id) => Some(id),
-        None => recordings::recording_named(job.connection, &job.stem)?.map(|row| row.id),
-    };
     if let Some(id) = paired {
         recordings::describe(
             job.connection,
@@ -195,11 +311,13 @@ fn recording(job: &mut Job<'_>, transcript: &Transcript) -> Result<i64> {
         media(job, id, transcript)?;
         return Ok(id);
     }
+    let (name, note) = job.own_name()?;
+    report.findings.extend(note);
     let id = recordings::insert_recording(
         job.connection,
         &RecordingRow {
             id: 0,
-            name: job.stem.clone(),
+            name,
             signer_id: signer,
             signer: None,
             origin: origin.unwrap_or_else(|| "captured".to_owned()),
@@ -210,7 +328,6 @@ fn recording(job: &mut Job<'_>, transcript: &Transcript) -> Result<i64> {
     )?;
     job.count("recordings", 1);
     media(job, id, transcript)?;
-    job.recordings.insert(job.pair_key(), id);
     Ok(id)
 }
 
@@ -272,7 +389,8 @@ fn standing_tiers(
         Some(_) if update::is_edited(job, transcript, &there)? => Ok(there),
         Some(tier) => Err(Error::wrong(format!(
             "the recording {:?} has a tier {:?} already, and this file would bring another",
-            job.stem, tier.name
+            recordings::recording(job.connection, recording)?.name,
+            tier.name
         ))
         .advise("undo the earlier import first, or rename the file or the tier")),
     }
@@ -296,25 +414,12 @@ fn write_tiers(
         }
         new += 1;
         let inventory = tier_inventory(job, transcript, tier, guess, report)?;
-        let role = guess.role.clone().unwrap_or_default();
-        let (component, feature) = match &role {
-            TierRole::Component { component, feature } => (Some(*component), feature.clone()),
-            _ => (None, None),
-        };
-        let row = TierRow {
-            id: 0,
+        let mut row = TierRow {
             recording_id: recording,
             name: tier.name.clone(),
             position: (first + place) as i64,
             parent_id: tier.parent.map(|parent| rows[parent]),
             stereotype: tier.stereotype.map(|it| it.elan_name().to_owned()),
-            role: match role {
-                TierRole::Component { .. } => "component".to_owned(),
-                other => other.name(),
-            },
-            component: component.map(|it| it.name().to_owned()),
-            feature,
-            hand: guess.hand.map(|hand| hand.name().to_owned()),
             participant: tier.participant.clone(),
             annotator: tier.annotator.clone(),
             language: tier.language.clone(),
@@ -323,7 +428,9 @@ fn write_tiers(
                 json!({ "type": tier.kind, "locale": tier.locale, "vocabulary": tier.vocabulary })
                     .to_string(),
             ),
+            ..TierRow::default()
         };
+        set_role(&mut row, guess);
         rows[place] = tiers::insert_tier(job.connection, &row)?;
     }
     job.count("tiers", new);
@@ -341,157 +448,20 @@ fn parents_first(transcript: &Transcript) -> Vec<usize> {
     order
 }
 
-/// The inventory of a component tier: its vocabulary, or one of the corpus that has all its values.
-fn tier_inventory(
-    job: &mut Job<'_>,
-    transcript: &Transcript,
-    tier: &Tier,
-    guess: &TierGuess,
-    report: &mut FileReport,
-) -> Result<Option<i64>> {
-    let Some(TierRole::Component { component, feature }) = &guess.role else {
-        return Ok(None);
-    };
-    let said: BTreeSet<&str> = tier
-        .annotations
-        .iter()
-        .map(|annotation| annotation.value.trim())
-        .filter(|value| !value.is_empty() && missing(value).is_none())
-        .collect();
-    let fits = |stored: &&StoredInventory| {
-        let it = &stored.inventory;
-        it.component == *component
-            && it.feature == *feature
-            && said.iter().all(|value| it.find(value).is_some())
-    };
-    let vocabulary = tier.vocabulary.as_ref().and_then(|id| {
-        transcript
-            .vocabularies
-            .iter()
-            .find(|it| it.id == *id && !it.entries.is_empty())
-    });
-    let builtin =
-        |stored: &&StoredInventory| inventory::builtin_by_id(&stored.inventory.id).is_some();
-    let listed = |stored: &&StoredInventory| {
-        vocabulary.is_none_or(|it| {
-            entry_ids(it)
-                .iter()
-                .all(|id| stored.inventory.find(id).is_some())
-        })
-    };
-    let known = job
-        .inventories
-        .iter()
-        .filter(builtin)
-        .find(|it| fits(it) && listed(it));
-    if let Some(known) = known.filter(|_| vocabulary.is_some() || !said.is_empty()) {
-        return Ok(Some(known.id));
-    }
-    match vocabulary {
-        Some(vocabulary) => {
-            let (inventory, dropped) = of_vocabulary(vocabulary, *component, feature.clone());
-            for entry in dropped {
-                report.findings.push(ReportFinding::note(format!(
-                    "the vocabulary {:?} has {entry:?} twice; the second stays text",
-                    vocabulary.id
-                )));
-            }
-            let mut stored = job.inventories.iter().map(|it| &it.inventory);
-            let before = stored.find(|it| it.id == inventory.id);
-            let new = before.is_none();
-            let inventory = inventories::joined(before, inventory);
-            let id = inventories::store(job.connection, &inventory)?;
-            job.count("inventories", usize::from(new));
-            job.inventories = inventories::load(job.connection)?.into();
-            Ok(Some(id))
-        }
-        None if said.is_empty() => Ok(None),
-        None => Ok(job.inventories.iter().find(fits).map(|stored| stored.id)),
-    }
-}
-
-fn entry_ids(vocabulary: &Vocabulary) -> Vec<&str> {
-    let first = |entry: &'_ chereme_formats::eaf::convert::Entry| -> Option<usize> {
-        (!entry.values.is_empty()).then_some(0)
-    };
-    vocabulary
-        .entries
-        .iter()
-        .filter_map(|entry| first(entry).map(|at| entry.values[at].value.trim()))
-        .filter(|value| !value.is_empty())
-        .collect()
-}
-
-fn of_vocabulary(
-    vocabulary: &Vocabulary,
-    component: Component,
-    feature: Option<String>,
-) -> (Inventory, Vec<String>) {
-    let (mut seen, mut dropped, mut values) = (BTreeSet::new(), Vec::new(), Vec::new());
-    for entry in &vocabulary.entries {
-        let Some(id) = entry
-            .values
-            .first()
-            .map(|value| value.value.trim().to_owned())
-        else {
-            continue;
-        };
-        if id.is_empty() || !seen.insert(fold(&id)) {
-            dropped.push(id);
-            continue;
-        }
-        let mut names = BTreeMap::new();
-        for value in &entry.values {
-            let text = value.value.trim();
-            let own = fold(text) == fold(&id);
-            if !text.is_empty() && !value.language.is_empty() && (own || seen.insert(fold(text))) {
-                names.insert(value.language.clone(), text.to_owned());
-            }
-        }
-        let notes = entry
-            .values
-            .iter()
-            .find_map(|value| value.description.clone());
-        let notes = notes.filter(|text| !text.trim().is_empty());
-        values.push(InventoryValue {
-            id,
-            names,
-            notes,
-            ..InventoryValue::default()
-        });
-    }
-    let feature_name = feature
-        .as_ref()
-        .map_or(String::new(), |feature| format!(".{feature}"));
-    let inventory = Inventory {
-        id: format!("{}/{component}{feature_name}", vocabulary.id),
-        component,
-        feature,
-        version: 1,
-        language: None,
-        names: BTreeMap::from([("en".to_owned(), vocabulary.id.clone())]),
-        description: vocabulary
-            .descriptions
-            .iter()
-            .map(|(_, text)| text.trim())
-            .find(|text| !text.is_empty())
-            .unwrap_or_default()
-            .to_owned(),
-        values,
-    };
-    (inventory, dropped)
-}
-
 fn write_annotations(
     job: &mut Job<'_>,
     transcript: &Transcript,
     guesses: &[TierGuess],
     tier_rows: &[i64],
+    progress: &mut Progress<'_>,
 ) -> Result<()> {
     let mut rows: BTreeMap<Place, i64> = BTreeMap::new();
     let mut count = 0;
     for tier in parents_first(transcript) {
         for (index, annotation) in transcript.tiers[tier].annotations.iter().enumerate() {
+            if count % 256 == 255 {
+                job.tell(progress)?;
+            }
             let parent = annotation
                 .parent
                 .and_then(|parent| rows.get(&parent).copied());

@@ -1,17 +1,17 @@
 //! Inventories from JSON; JSON of signs is a lexicon.
 
-use chereme_formats::lexicon;
+use chereme_formats::{hns, lexicon};
 use chereme_sign::Inventory;
+use serde_json::Value;
 
 use super::{FileReport, FileStatus, Job};
-use crate::db::recordings;
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::progress::Progress;
 
 pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
-    if recordings::source_file_hashed(job.connection, &job.hash)?.is_some() {
-        return Ok(FileReport::unchanged(job.path));
+    if let Some(report) = job.unchanged() {
+        return Ok(report);
     }
     let bytes = job.bytes()?;
     let wrong = |message: String| {
@@ -27,30 +27,39 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
             job.kind = "lexicon";
             return super::lexicon::import(job, progress);
         }
-        Err(error) => return Err(wrong(error.to_string())),
+        Err(error) => {
+            let wrong = wrong(error.to_string());
+            return if !job.named && is_other(text) {
+                let other = Error::wrong("it holds no inventory and no signs")
+                    .advise(wrong.remedy().unwrap_or_default());
+                Ok(FileReport::skipped(job.path, &other))
+            } else {
+                Err(wrong)
+            };
+        }
     };
     let mut report = FileReport::new(job.path, FileStatus::Imported);
-    let known: Vec<&str> = job
-        .inventories
-        .iter()
-        .map(|stored| stored.inventory.id.as_str())
-        .collect();
-    let new = all
-        .iter()
-        .filter(|inventory| !known.contains(&inventory.id.as_str()))
-        .count();
+    let before = |inventory: &Inventory| {
+        let mut stored = job.inventories.iter().map(|stored| &stored.inventory);
+        stored.find(|it| it.id == inventory.id).cloned()
+    };
+    let earlier: Vec<Option<Inventory>> = all.iter().map(before).collect();
+    let new = earlier.iter().filter(|it| it.is_none()).count();
     for inventory in &all {
         inventories::store(job.connection, inventory)?;
     }
     // Values that were there before stay, so that both together may be none.
-    inventories::load(job.connection).map_err(|error| match error {
+    let now = inventories::load(job.connection).map_err(|error| match error {
         Error::Damaged { reason, .. } => Error::wrong(format!(
             "with the values that the corpus has of it already: {reason}"
         ))
         .advise("keep the ids of values, or give the inventory an id of its own"),
         other => other,
     })?;
+    let now = |old: &Inventory| now.iter().any(|stored| stored.inventory == *old);
+    let changed = earlier.iter().flatten().filter(|old| !now(old)).count();
     job.count("inventories", new);
+    job.counts.changed("inventories", changed);
     report.understand(
         "inventories",
         all.iter().map(|it| &it.id).collect::<Vec<_>>(),
@@ -59,11 +68,23 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     Ok(report)
 }
 
-/// Tells whether JSON holds signs with notation or codings.
+/// Reports whether JSON holds signs with notation or codings.
 fn holds_signs(job: &Job<'_>, bytes: &[u8]) -> bool {
+    let notated = |text: &String| hns::holds_some(text.as_bytes());
     let read = lexicon::read(bytes, &job.options.mapping);
     read.is_ok_and(|(lexicon, _)| {
         let mut signs = lexicon.entries.iter();
-        signs.any(|sign| sign.notation.is_some() || !sign.codings.is_empty())
+        signs.any(|sign| sign.notation.as_ref().is_some_and(notated) || !sign.codings.is_empty())
     })
+}
+
+/// Reports whether JSON is whole, and nothing that somebody meant as an inventory.
+fn is_other(text: &str) -> bool {
+    let inventory =
+        |value: &Value| value.get("values").is_some() || value.get("component").is_some();
+    match serde_json::from_str::<Value>(text) {
+        Ok(Value::Array(all)) => !all.iter().any(inventory),
+        Ok(other) => !inventory(&other),
+        Err(_) => false,
+    }
 }

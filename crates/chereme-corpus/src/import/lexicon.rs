@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use chereme_formats::lexicon::{self, Coding, Entry, Lexicon, Meaning};
+use chereme_formats::table::TableError;
 use chereme_sign::text::fold;
 use chereme_sign::{Component, Inventory, InventoryValue, Phase, Reading};
 use serde_json::{Map, Value, json};
@@ -11,7 +12,6 @@ use super::notation::{Text, Words};
 use super::report::ReportFinding;
 use super::{FileReport, FileStatus, Job};
 use crate::db::notations;
-use crate::db::recordings;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::error::{Error, Result};
 use crate::inventories;
@@ -19,21 +19,44 @@ use crate::progress::{Progress, Step, Unit};
 use crate::tokens::state_name;
 
 pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
-    if recordings::source_file_hashed(job.connection, &job.hash)?.is_some() {
-        return Ok(FileReport::unchanged(job.path));
+    let known = job.unchanged();
+    if let Some(report) = &known
+        && job.options.mapping.entries().next().is_none()
+    {
+        return Ok(report.clone());
     }
     let bytes = job.bytes()?;
-    let (table, findings) = lexicon::read(&bytes, &job.options.mapping).map_err(|error| {
-        Error::wrong(error.to_string())
-            .advise("a lexicon is a table with a header row and a column of glosses")
-    })?;
-    let mut report = FileReport::new(job.path, FileStatus::Imported);
+    let (table, findings) = match lexicon::read(&bytes, &job.options.mapping) {
+        Err(error @ TableError::Missing { .. }) if !job.named => {
+            return Ok(FileReport::skipped(job.path, &wrong(&error)));
+        }
+        other => other.map_err(|error| wrong(&error))?,
+    };
+    let mapped = map_columns(job, &table);
+    let mut report = match known {
+        Some(report) if !mapped => return Ok(report),
+        Some(_) => FileReport::new(job.path, FileStatus::Updated),
+        None => FileReport::new(job.path, FileStatus::Imported),
+    };
+    let remapped = report.status == FileStatus::Updated;
+    if remapped {
+        report.findings.push(ReportFinding::note(
+            "it was imported before: its columns were read again, as the mapping says",
+        ));
+    }
     report
         .findings
         .extend(findings.into_iter().map(ReportFinding::from));
     report.understand("columns", &table.columns);
     let inventories = store_inventories(job, &table)?;
-    let file = job.keep(None, Some(&bytes))?;
+    let before = job
+        .places
+        .hashed(&job.hash)
+        .find(|row| row.kind == job.kind);
+    let file = match before.map(|row| row.id) {
+        Some(id) if remapped => id,
+        _ => job.keep(None, Some(&bytes))?,
+    };
     let stored = job.inventories.clone();
     let words = Words::new(&stored);
     let total = Some(table.entries.len() as u64);
@@ -60,6 +83,23 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         }
     }
     Ok(report)
+}
+
+fn wrong(error: &TableError) -> Error {
+    Error::wrong(error.to_string())
+        .advise("a lexicon is a table with a header row and a column of glosses")
+}
+
+/// Notes which entries of the mapping name a column of the table, and returns whether any does.
+fn map_columns(job: &mut Job<'_>, table: &Lexicon) -> bool {
+    let mut any = false;
+    for column in &table.columns {
+        if let Some((entry, _)) = job.options.mapping.column(&column.title) {
+            job.used.insert(entry.to_owned());
+            any = true;
+        }
+    }
+    any
 }
 
 type Part = (Component, Option<String>);
@@ -178,6 +218,9 @@ fn import_entry(
         .iter()
         .map(|coding| value_row(coding, inventories))
         .collect();
+    if known.is_some() && !signs::values(connection, token)?.starts_with(&values) {
+        job.counts.changed("tokens", 1);
+    }
     signs::set_values(connection, token, &values)?;
     job.count("signs", usize::from(is_new));
     Ok(token)

@@ -9,12 +9,13 @@ mod inventory;
 mod lexicon;
 mod notated;
 mod notation;
+mod places;
 mod readers;
 mod report;
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -32,14 +33,18 @@ use crate::error::{Error, Result};
 use crate::inventories::{self, StoredInventory};
 use crate::progress::{Progress, Step, Unit};
 
+use places::Places;
 use readers::READERS;
-pub use report::{FileReport, FileStatus, ImportReport, ReportFinding};
+use report::Counts;
+pub use report::{
+    FileReport, FileStatus, ImportReport, Outcome, OwnEdit, ReportFinding, Saying, Unread,
+};
 
 /// A text file larger than this is no annotation file, lexicon or inventory.
 const LARGEST_TEXT: u64 = 512 << 20;
 const DEEPEST_FOLDER: usize = 32;
 
-/// What the caller knows better than the files.
+/// Facts that the caller knows better than the files.
 #[derive(Debug, Clone, Default)]
 pub struct ImportOptions {
     /// Whose movement it is.
@@ -54,17 +59,37 @@ pub struct ImportOptions {
     pub roles: Option<Roles>,
     /// Whether root columns that lie in another order than their header says are read as they lie.
     pub mend_root: bool,
-    /// What tiers and columns mean; it goes before what an annotation file says of its tiers itself.
+    /// The meaning of tiers and columns; it goes before what an annotation file says of its tiers itself.
     pub mapping: Mapping,
     /// `captured`, `made` or `generated`.
     pub origin: Option<String>,
     /// The terms under which the recordings may be used.
     pub licence: Option<String>,
+    /// The fate of edits of the corpus that an annotation file, imported again, would take back.
+    pub own_edits: OwnEdits,
     /// Report what would be done, and write nothing.
     pub dry_run: bool,
 }
 
-/// What every reader of a file needs.
+/// The fate of edits of the corpus that a file, imported again, would take back.
+///
+/// With any choice but the first, a file of the same name in another folder counts as a version of the one
+/// that was imported.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum OwnEdits {
+    /// The file is refused, and what would be lost is listed in [`FileReport::edits`].
+    #[default]
+    Ask,
+    /// The corpus stays as it is.
+    Mine,
+    /// The file's annotations take their place.
+    Theirs,
+    /// A change of one side alone is taken; if both changed the same annotation, the edit stays and is
+    /// listed.
+    Merge,
+}
+
+/// The file and the state that every reader needs.
 struct Job<'a> {
     connection: &'a Connection,
     options: &'a ImportOptions,
@@ -78,23 +103,47 @@ struct Job<'a> {
     kind: &'static str,
     hash: String,
     inventories: Rc<Vec<StoredInventory>>,
-    /// Recordings of this import, by folder and stem.
-    recordings: &'a mut BTreeMap<PathBuf, i64>,
-    created: &'a mut BTreeMap<&'static str, u64>,
+    /// The files that the corpus came from.
+    places: &'a mut Places,
+    counts: Counts,
+    /// Names and patterns of the mapping that a tier or column of this import has.
+    used: &'a mut BTreeSet<String>,
+    /// Whether the caller named the file, instead of a folder that it lies in.
+    named: bool,
+    /// The number of steps that progress heard of.
+    told: u64,
 }
 
 impl Job<'_> {
     fn count(&mut self, what: &'static str, many: usize) {
-        *self.created.entry(what).or_default() += many as u64;
+        self.counts.created(what, many);
     }
 
-    fn pair_key(&self) -> PathBuf {
-        self.path.with_extension("")
+    /// Reports that the work goes on, and hears whether it should stop.
+    fn tell(&mut self, progress: &mut Progress<'_>) -> Result<()> {
+        self.told += 1;
+        progress.tell(Step {
+            task: &self.file_name,
+            done: self.told,
+            total: None,
+            unit: Unit::Items,
+        })
     }
 
-    /// Writes down the file, with its bytes where they are kept, and returns its row.
-    fn keep(&self, recording_id: Option<i64>, bytes: Option<&[u8]>) -> Result<i64> {
-        let row = SourceFileRow {
+    /// Returns the file of these bytes that was imported before, whatever its place, and the report that
+    /// nothing changed.
+    fn unchanged(&self) -> Option<FileReport> {
+        let known = self
+            .places
+            .hashed(&self.hash)
+            .find(|row| row.kind == self.kind)?;
+        let elsewhere = known.path.as_deref().filter(|path| *path != self.place);
+        Some(FileReport::unchanged(self.path, elsewhere))
+    }
+
+    /// Writes down the file, with its bytes if they are kept, and returns its row.
+    fn keep(&mut self, recording_id: Option<i64>, bytes: Option<&[u8]>) -> Result<i64> {
+        let mut row = SourceFileRow {
             id: 0,
             recording_id,
             kind: self.kind.to_owned(),
@@ -102,7 +151,10 @@ impl Job<'_> {
             path: Some(self.place.clone()),
             hash: self.hash.clone(),
         };
-        recordings::insert_source_file(self.connection, &row, bytes)
+        row.id = recordings::insert_source_file(self.connection, &row, bytes)?;
+        let id = row.id;
+        self.places.add(row);
+        Ok(id)
     }
 
     fn bytes(&self) -> Result<Vec<u8>> {
@@ -122,29 +174,42 @@ impl Corpus {
     /// Takes files and folders into the corpus as one operation.
     ///
     /// A motion file and an annotation file of the same folder and stem become one recording.
-    /// Files that were imported before are left alone; a file that is refused is reported and
-    /// leaves nothing behind.
+    /// Where a file lies identifies it: files of one name in two folders are two. Files that were imported
+    /// before are left alone, unless the mapping says otherwise of their tiers or columns; a file that is
+    /// refused is reported, leaves nothing behind, and does not keep the others out.
     ///
     /// # Errors
-    /// Where a path is not there, the work is stopped, or the database fails.
+    /// Where nothing but one file is to be read and it is not there or of no kind that is read, the work is
+    /// stopped, or the database fails.
     pub fn import(
         &mut self,
         paths: &[PathBuf],
         options: &ImportOptions,
         progress: &mut Progress<'_>,
     ) -> Result<ImportReport> {
-        let files = gather(paths);
+        let mut files = gather(paths);
+        if let [only] = files.as_slice()
+            && only.named
+            && only.reader.is_err()
+            && let Some(Candidate {
+                reader: Err(error), ..
+            }) = files.pop()
+        {
+            return Err(error);
+        }
         let base = absolute(self.store.path());
         let mut report = ImportReport::default();
-        let run = |connection: &Connection| {
+        let run = |connection: &Connection, progress: &mut Progress<'_>| {
             let mut import = Import {
                 connection,
                 options,
                 base: base.parent().unwrap_or(Path::new("")),
-                recordings: BTreeMap::new(),
+                places: Places::load(connection)?,
                 inventories: None,
+                used: BTreeSet::new(),
             };
             import.files(&files, &mut report, progress)?;
+            import.warn_of_mapping(&mut report);
             let summary = report.summary();
             if options.dry_run {
                 Err(Error::Stopped)
@@ -152,7 +217,7 @@ impl Corpus {
                 Ok(((), summary))
             }
         };
-        match self.store.operation("import", run) {
+        match self.store.operation_told("import", progress, run) {
             Err(Error::Stopped) if options.dry_run && report.complete => {}
             other => other?,
         }
@@ -161,7 +226,7 @@ impl Corpus {
     }
 }
 
-/// A file to take in, or the reason why it is none.
+/// A file to take in, or the reason why it is not read.
 struct Candidate {
     path: PathBuf,
     /// Its place in [`READERS`], or why it is not read.
@@ -170,14 +235,16 @@ struct Candidate {
     named: bool,
 }
 
-/// What the files of an import share.
+/// The state that the files of an import share.
 struct Import<'a> {
     connection: &'a Connection,
     options: &'a ImportOptions,
     /// The folder of the corpus.
     base: &'a Path,
-    recordings: BTreeMap<PathBuf, i64>,
+    places: Places,
     inventories: Option<Rc<Vec<StoredInventory>>>,
+    /// Names and patterns of the mapping that a tier or column has.
+    used: BTreeSet<String>,
 }
 
 impl Import<'_> {
@@ -218,22 +285,34 @@ impl Import<'_> {
                 unit: Unit::Items,
             })?;
             before[reader] += 1;
-            let mut created = report.created.clone();
             connection.execute_batch("SAVEPOINT file")?;
-            match self.file(path, reader, &mut created, progress) {
-                Ok(file) => {
+            let known = self.places.len();
+            let counts = Counts {
+                created: report.created.clone(),
+                changed: report.changed.clone(),
+                removed: report.removed.clone(),
+            };
+            let file = match self.file(path, (reader, *named), counts, progress) {
+                Ok((file, counts)) if file.status != FileStatus::Refused => {
                     connection.execute_batch("RELEASE file")?;
-                    report.created = created;
+                    let Counts {
+                        created,
+                        changed,
+                        removed,
+                    } = counts;
+                    (report.created, report.changed, report.removed) = (created, changed, removed);
                     report.files.push(file);
+                    continue;
                 }
+                Ok((file, _)) => file,
                 Err(Error::Stopped) => return Err(Error::Stopped),
-                Err(error) => {
-                    connection.execute_batch("ROLLBACK TO file; RELEASE file")?;
-                    // What it had loaded or added is no more.
-                    self.inventories = None;
-                    report.files.push(FileReport::refused(path, &error));
-                }
-            }
+                Err(error) => FileReport::refused(path, &error),
+            };
+            connection.execute_batch("ROLLBACK TO file; RELEASE file")?;
+            // The rows that it had added do not exist any more.
+            self.inventories = None;
+            self.places.forget(known);
+            report.files.push(file);
         }
         report.complete = true;
         Ok(())
@@ -242,10 +321,10 @@ impl Import<'_> {
     fn file(
         &mut self,
         path: &Path,
-        reader: usize,
-        created: &mut BTreeMap<&'static str, u64>,
+        (reader, named): (usize, bool),
+        counts: Counts,
         progress: &mut Progress<'_>,
-    ) -> Result<FileReport> {
+    ) -> Result<(FileReport, Counts)> {
         let text = |part: Option<&std::ffi::OsStr>| {
             part.map(|part| part.to_string_lossy().into_owned())
                 .unwrap_or_default()
@@ -264,18 +343,40 @@ impl Import<'_> {
             kind: READERS[reader].kind,
             hash: hash_file(path, progress)?,
             inventories: inventories.clone(),
-            recordings: &mut self.recordings,
-            created,
+            places: &mut self.places,
+            counts,
+            used: &mut self.used,
+            named,
+            told: 0,
         };
         let done = (READERS[reader].read)(&mut job, progress)?;
         // Files that add inventories make the next one load them again.
         let same = Rc::ptr_eq(&job.inventories, &inventories) && READERS[reader].keeps_inventories;
+        let counts = job.counts;
         self.inventories = same.then_some(inventories);
-        Ok(done)
+        Ok((done, counts))
+    }
+
+    /// Warns of names in the mapping that no tier and no column of the files has.
+    fn warn_of_mapping(&self, report: &mut ImportReport) {
+        let all = self.options.mapping.entries();
+        let unused: Vec<String> = all
+            .filter(|entry| !self.used.contains(*entry))
+            .map(|entry| format!("{entry:?}"))
+            .collect();
+        if !unused.is_empty() {
+            report.findings.push(ReportFinding::warning(
+                format!(
+                    "the mapping names what no tier or column of these files is called: {}",
+                    unused.join(", ")
+                ),
+                "look at the names that the report lists, and correct the mapping",
+            ));
+        }
     }
 }
 
-/// Returns a path from the root, links and `..` resolved, where it is there.
+/// Returns a path from the root, links and `..` resolved if it exists.
 fn absolute(path: &Path) -> PathBuf {
     fs::canonicalize(path)
         .or_else(|_| std::path::absolute(path))

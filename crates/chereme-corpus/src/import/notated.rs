@@ -1,8 +1,9 @@
 //! Files of notation, SiGML or lines of HamNoSys: each sign a lexicon entry with its notation, and with
 //! components from it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
+use chereme_formats::{Finding, sigml};
 use chereme_sign::hamnosys::Notated;
 use serde_json::json;
 
@@ -10,33 +11,36 @@ use super::notation::{Words, document, lost};
 use super::report::ReportFinding;
 use super::{FileReport, FileStatus, Job};
 use crate::db::notations::{self, NotationRow};
-use crate::db::recordings;
 use crate::db::signs::{self, TokenRow};
 use crate::error::Result;
 use crate::notation::{self, Form};
 use crate::progress::Progress;
 
 /// Reads a file of SiGML.
-pub(super) fn import_sigml(job: &mut Job<'_>, _: &mut Progress<'_>) -> Result<FileReport> {
-    import(job, Form::Sigml)
+pub(super) fn import_sigml(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
+    import(job, Form::Sigml, progress)
 }
 
 /// Reads a file of lines of HamNoSys.
-pub(super) fn import_lines(job: &mut Job<'_>, _: &mut Progress<'_>) -> Result<FileReport> {
-    import(job, Form::Lines)
+pub(super) fn import_lines(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
+    import(job, Form::Lines, progress)
 }
 
-fn import(job: &mut Job<'_>, form: Form) -> Result<FileReport> {
-    if recordings::source_file_hashed(job.connection, &job.hash)?.is_some() {
-        return Ok(FileReport::unchanged(job.path));
+fn import(job: &mut Job<'_>, form: Form, progress: &mut Progress<'_>) -> Result<FileReport> {
+    if let Some(report) = job.unchanged() {
+        return Ok(report);
     }
     let bytes = job.bytes()?;
     let (entries, findings) = notation::read_signs(&bytes, form)?;
     let mut report = FileReport::new(job.path, FileStatus::Imported);
-    report
-        .findings
-        .extend(findings.into_iter().map(ReportFinding::from));
-    let earlier = notations::of_file(job.connection, &job.file_name)?;
+    // The names that these signs get are reported below.
+    let named = |finding: &Finding| !finding.message.ends_with(sigml::NO_GLOSS);
+    let findings = findings.into_iter().filter(named);
+    report.findings.extend(findings.map(ReportFinding::from));
+    let earlier = earlier(job, &mut report)?;
+    if !earlier.0.is_empty() {
+        report.status = FileStatus::Updated;
+    }
     let file = job.keep(None, Some(&bytes))?;
     let inventories = job.inventories.clone();
     let words = Words::new(&inventories);
@@ -44,10 +48,17 @@ fn import(job: &mut Job<'_>, form: Form) -> Result<FileReport> {
         file,
         form,
         several: entries.len() > 1,
-        earlier: Earlier::new(earlier),
+        earlier,
+        unnamed: Vec::new(),
     };
-    for (sign, line) in &entries {
+    for (done, (sign, line)) in entries.iter().enumerate() {
+        if done % 64 == 63 {
+            job.tell(progress)?;
+        }
         import_sign(job, sign, *line, &words, &mut place, &mut report)?;
+    }
+    if let Some(finding) = place.unnamed_signs() {
+        report.findings.push(finding);
     }
     let left = place.earlier.0.values().map(Vec::len).sum::<usize>();
     if left > 0 {
@@ -57,6 +68,33 @@ fn import(job: &mut Job<'_>, form: Form) -> Result<FileReport> {
         ));
     }
     Ok(report)
+}
+
+/// Returns the tokens that came of this file before. Those of a file of its name in another folder are of
+/// other signs, which is noted.
+fn earlier(job: &Job<'_>, report: &mut FileReport) -> Result<Earlier> {
+    let mut files = BTreeSet::new();
+    let mut elsewhere = None;
+    for row in job.places.namesakes(&job.file_name) {
+        if row.name != job.file_name || row.kind != job.kind {
+            continue;
+        }
+        match &row.path {
+            Some(path) if *path != job.place => elsewhere = Some(path),
+            _ => {
+                files.insert(row.id);
+            }
+        }
+    }
+    let mut rows = notations::of_file(job.connection, &job.file_name)?;
+    rows.retain(|row| row.source_file_id.is_some_and(|id| files.contains(&id)));
+    if let Some(path) = elsewhere.filter(|_| files.is_empty()) {
+        report.findings.push(ReportFinding::note(format!(
+            "another file of this name, {path}, was imported before; the signs of this one stand next \
+             to those, also where they have the same gloss"
+        )));
+    }
+    Ok(Earlier::new(rows))
 }
 
 /// Tokens of files of the same name that were imported before, by gloss, the last one first.
@@ -83,6 +121,26 @@ struct Place {
     form: Form,
     several: bool,
     earlier: Earlier,
+    /// Lines and names of signs without a gloss.
+    unnamed: Vec<(u64, String)>,
+}
+
+impl Place {
+    /// Returns which names signs without a gloss got.
+    fn unnamed_signs(&self) -> Option<ReportFinding> {
+        const REMEDY: &str = "give each sign a gloss in the file, and import it again";
+        let message = match self.unnamed.as_slice() {
+            [] => return None,
+            [(_, name)] => format!("the sign has no gloss: it is called {name:?}, as the file"),
+            [(_, first), .., (_, last)] => format!(
+                "{} signs have no gloss: they are called {first:?} to {last:?}, by the file and the line",
+                self.unnamed.len()
+            ),
+        };
+        let mut finding = ReportFinding::warning(message, REMEDY);
+        finding.line = self.unnamed.first().map(|(line, _)| *line);
+        Some(finding)
+    }
 }
 
 fn import_sign(
@@ -93,11 +151,14 @@ fn import_sign(
     place: &mut Place,
     report: &mut FileReport,
 ) -> Result<()> {
-    let gloss = match (sign.gloss.as_str(), place.form) {
-        ("", Form::Lines) if place.several => format!("{}-{line}", job.stem),
-        ("", _) => job.stem.clone(),
-        (gloss, _) => gloss.to_owned(),
+    let gloss = match sign.gloss.as_str() {
+        "" if place.several => format!("{}-{line}", job.stem),
+        "" => job.stem.clone(),
+        gloss => gloss.to_owned(),
     };
+    if sign.gloss.is_empty() {
+        place.unnamed.push((line, gloss.clone()));
+    }
     let row = i64::try_from(line).ok();
     let token = match place.earlier.next(&gloss) {
         Some(token) => token,
@@ -118,6 +179,10 @@ fn import_sign(
         document: document(sign)?,
         ..NotationRow::default()
     };
+    let before = notations::of_token(job.connection, token)?;
+    if before.is_some_and(|it| (it.text, it.document) != (row.text.clone(), row.document.clone())) {
+        job.counts.changed("notations", 1);
+    }
     notations::set(job.connection, &row)?;
     report.findings.extend(lost(&gloss, line, &mapped));
     Ok(())

@@ -15,7 +15,7 @@ pub(super) struct Reader {
     pub(super) endings: &'static [&'static str],
     /// The word for the kind in `source_file.kind`.
     pub(super) kind: &'static str,
-    /// What such files hold, in the plural.
+    /// The contents of such files, in the plural.
     pub(super) holds: &'static str,
     /// Whether a file with one of these endings is of this kind, where the ending alone does not decide.
     looks: fn(&Path) -> bool,
@@ -85,9 +85,9 @@ fn always(_: &Path) -> bool {
 /// A kind of file that people have next to those that are read.
 struct Unread {
     endings: &'static [&'static str],
-    /// What such a file is.
+    /// A noun for such files.
     what: &'static str,
-    /// What to do to have what is in it.
+    /// A step that makes its contents readable.
     remedy: &'static str,
 }
 
@@ -146,7 +146,7 @@ static UNREAD: [Unread; 10] = [
     },
 ];
 
-/// Returns the place in [`READERS`] of the kind of a file, where it is one that is read.
+/// Returns the place in [`READERS`] of the kind of a file, if it is one that is read.
 pub(super) fn reader(path: &Path) -> Option<usize> {
     let ending = ending(path)?;
     READERS
@@ -159,7 +159,7 @@ pub(super) fn ending(path: &Path) -> Option<String> {
     Some(path.extension()?.to_string_lossy().to_lowercase())
 }
 
-/// Returns what a file of a kind that is not read is, and what to do to have what is in it.
+/// Returns the refusal of a file of a kind that is not read, with a step that makes its contents readable.
 pub(super) fn unread(path: &Path) -> Error {
     let ending = ending(path).unwrap_or_default();
     let known = UNREAD

@@ -1,28 +1,36 @@
-//! What an import did, file by file.
+//! The report of an import, file by file.
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::path::Path;
 
 use chereme_formats::{Finding, Severity};
+use chereme_motion::Instant;
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::error::Error;
 
-/// What an import did.
+/// The report of an import.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct ImportReport {
     /// How many rows of each kind were made.
     pub created: BTreeMap<&'static str, u64>,
-    /// What became of each file.
+    /// How many rows of each kind were there before and say something else now.
+    pub changed: BTreeMap<&'static str, u64>,
+    /// How many rows of each kind went.
+    pub removed: BTreeMap<&'static str, u64>,
+    /// The report of each file.
     pub files: Vec<FileReport>,
+    /// Oddities of the import as a whole, such as a mapping that names no tier of any file.
+    pub findings: Vec<ReportFinding>,
     /// Whether nothing was written, as asked.
     pub dry_run: bool,
     #[serde(skip)]
     pub(super) complete: bool,
 }
 
-/// What became of a file.
+/// The report of a file.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FileReport {
     /// The file.
@@ -35,17 +43,135 @@ pub struct FileReport {
     /// How it was understood: unit and axes, joint roles, tiers, columns.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub understood: BTreeMap<&'static str, Value>,
-    /// What is odd about it, or why it was refused.
+    /// Its oddities, or the reason why it was refused.
     pub findings: Vec<ReportFinding>,
+    /// Edits of the corpus that the file says otherwise, and what became of them. A file that is refused
+    /// for their sake can be imported with another [`OwnEdits`](super::OwnEdits).
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub edits: Vec<OwnEdit>,
 }
 
-/// What became of a file.
+/// An annotation that was edited in the corpus, and that a file imported again says otherwise.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct OwnEdit {
+    /// The name of the tier.
+    pub tier: String,
+    /// The annotation in the corpus; nothing if it was removed there.
+    pub mine: Option<Saying>,
+    /// The annotation in the file; nothing if the file has it no more.
+    pub theirs: Option<Saying>,
+    /// The fate of the edit.
+    pub outcome: Outcome,
+}
+
+/// The value of an annotation, and its time.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Saying {
+    /// Its start in microseconds, to the millisecond of files.
+    pub start_us: i64,
+    /// Its end likewise.
+    pub end_us: i64,
+    /// Its value.
+    pub value: String,
+}
+
+/// The fate of an edit of the corpus.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outcome {
+    /// The file's annotation takes its place; in a file that is refused: would take it.
+    Lost,
+    /// It stays; the file did not change the annotation.
+    Kept,
+    /// It stays, though the file changed the same annotation.
+    Conflict,
+}
+
+impl OwnEdit {
+    /// Returns an annotation with its times where both sides differ in these.
+    fn text(&self, side: &Saying) -> String {
+        let times = |it: &Saying| (it.start_us, it.end_us);
+        let both = self.mine.as_ref().zip(self.theirs.as_ref());
+        let differ = both.is_some_and(|(mine, theirs)| times(mine) != times(theirs));
+        let [start, end] = [side.start_us, side.end_us].map(Instant::from_micros);
+        if differ {
+            format!("{:?} (from {start} to {end})", side.value)
+        } else {
+            format!("{:?}", side.value)
+        }
+    }
+}
+
+impl fmt::Display for OwnEdit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let any = self.mine.as_ref().or(self.theirs.as_ref());
+        let start = Instant::from_micros(any.map_or(0, |it| it.start_us));
+        write!(f, "tier {:?} at {start}: ", self.tier)?;
+        let text = |side: &Option<Saying>| side.as_ref().map(|it| self.text(it));
+        let (mine, theirs) = (text(&self.mine), text(&self.theirs));
+        match (mine, theirs, self.outcome) {
+            (Some(mine), Some(theirs), Outcome::Lost) => {
+                write!(f, "your {mine} gives way to the file's {theirs}")
+            }
+            (Some(mine), None, Outcome::Lost) => {
+                write!(f, "your {mine} goes: the file does not have it")
+            }
+            (None, theirs, Outcome::Lost) => {
+                let theirs = theirs.unwrap_or_default();
+                write!(f, "the file's {theirs} comes back, which you removed")
+            }
+            (Some(mine), Some(theirs), Outcome::Kept) => {
+                write!(f, "your {mine} stays; the file still says {theirs}")
+            }
+            (Some(mine), Some(theirs), Outcome::Conflict) => {
+                write!(
+                    f,
+                    "both were changed: your {mine} stays, the file says {theirs}"
+                )
+            }
+            (Some(mine), None, _) => {
+                write!(f, "your {mine} stays, though the file has removed it")
+            }
+            (None, theirs, _) => {
+                let theirs = theirs.unwrap_or_default();
+                write!(
+                    f,
+                    "the file's {theirs} is left out: you removed it, or it overlaps what you changed"
+                )
+            }
+        }
+    }
+}
+
+/// How many rows of each kind a file made, changed and removed.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Counts {
+    pub(super) created: BTreeMap<&'static str, u64>,
+    pub(super) changed: BTreeMap<&'static str, u64>,
+    pub(super) removed: BTreeMap<&'static str, u64>,
+}
+
+impl Counts {
+    pub(super) fn created(&mut self, what: &'static str, many: usize) {
+        *self.created.entry(what).or_default() += many as u64;
+    }
+
+    pub(super) fn changed(&mut self, what: &'static str, many: usize) {
+        *self.changed.entry(what).or_default() += many as u64;
+    }
+
+    pub(super) fn removed(&mut self, what: &'static str, many: usize) {
+        *self.removed.entry(what).or_default() += many as u64;
+    }
+}
+
+/// The result for a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum FileStatus {
     /// It was taken in.
     Imported,
-    /// It was taken in before and edited since; what it says now was taken over.
+    /// It was taken in before and edited since; the corpus follows it now.
     Updated,
     /// It was taken in before, and is the same.
     Unchanged,
@@ -53,6 +179,19 @@ pub enum FileStatus {
     Skipped,
     /// It could not be taken in.
     Refused,
+}
+
+/// Files of one kind that an import left alone.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Unread {
+    /// The ending of their names in lower case, without the dot.
+    pub ending: Option<String>,
+    /// The files.
+    pub files: Vec<String>,
+    /// Why they were not read.
+    pub why: String,
+    /// A step that makes their contents readable.
+    pub remedy: Option<String>,
 }
 
 /// Something about a file that a person should know.
@@ -99,6 +238,13 @@ impl ReportFinding {
         }
     }
 
+    pub(super) fn error(message: impl Into<String>, remedy: impl Into<String>) -> Self {
+        Self {
+            severity: "error",
+            ..Self::warning(message, remedy)
+        }
+    }
+
     pub(super) fn warning(message: impl Into<String>, remedy: impl Into<String>) -> Self {
         let remedy = Some(remedy.into());
         Self {
@@ -118,6 +264,7 @@ impl FileReport {
             recording: None,
             understood: BTreeMap::new(),
             findings: Vec::new(),
+            edits: Vec::new(),
         }
     }
 
@@ -133,11 +280,14 @@ impl FileReport {
         report
     }
 
-    pub(super) fn unchanged(path: &Path) -> Self {
+    /// Returns that a file is one that the corpus has; `earlier` is where it lay, if it lay elsewhere.
+    pub(super) fn unchanged(path: &Path, earlier: Option<&str>) -> Self {
         let mut report = Self::new(path, FileStatus::Unchanged);
-        report
-            .findings
-            .push(ReportFinding::note("the same file was imported before"));
+        let message = match earlier {
+            Some(place) => format!("the same bytes were imported before, from {place}"),
+            None => "the same file was imported before".to_owned(),
+        };
+        report.findings.push(ReportFinding::note(message));
         report
     }
 
@@ -164,6 +314,33 @@ impl FileReport {
 }
 
 impl ImportReport {
+    /// Returns which kinds of files of the folders were not read: the ending, how many files have it,
+    /// what they are, and what to do to have what is in them.
+    #[must_use]
+    pub fn unread(&self) -> Vec<Unread> {
+        let mut kinds: Vec<Unread> = Vec::new();
+        for file in &self.files {
+            if file.status != FileStatus::Skipped {
+                continue;
+            }
+            let ending = super::readers::ending(Path::new(&file.path));
+            let first = file.findings.first();
+            let why = first.map(|it| it.message.clone()).unwrap_or_default();
+            let same = |it: &&mut Unread| it.ending == ending && it.why == why;
+            if let Some(known) = kinds.iter_mut().find(same) {
+                known.files.push(file.path.clone());
+                continue;
+            }
+            kinds.push(Unread {
+                ending,
+                files: vec![file.path.clone()],
+                why,
+                remedy: first.and_then(|it| it.remedy.clone()),
+            });
+        }
+        kinds
+    }
+
     /// Returns whether a file was refused.
     #[must_use]
     pub fn has_refusals(&self) -> bool {

@@ -34,6 +34,7 @@ use super::directory::MemoryFolder;
 use super::known::Memory;
 use crate::db::search::{self as rows, State, TokenDocument};
 use crate::error::{Error, Result};
+use crate::progress::{Progress, Step, Unit, unheard};
 
 /// Raised whenever documents are made otherwise than before: indexes of other numbers are remade.
 const FORMAT: i64 = 3;
@@ -107,7 +108,8 @@ impl SearchIndex {
     /// Makes the index anew in a transaction of its own.
     fn mend(&mut self, connection: &Connection, noteworthy: bool) -> Result<()> {
         let transaction = rows::begin(connection)?;
-        self.rebuild(&transaction)?;
+        let mut hear = unheard;
+        self.rebuild(&transaction, &mut Progress::new(&mut hear))?;
         transaction.commit()?;
         self.rebuilt.set(self.rebuilt.get() || noteworthy);
         Ok(())
@@ -151,7 +153,11 @@ impl SearchIndex {
     }
 
     /// Writes the tokens that the running operation touched into the index, in its transaction.
-    pub(crate) fn follow(&mut self, connection: &Connection) -> Result<()> {
+    pub(crate) fn follow(
+        &mut self,
+        connection: &Connection,
+        progress: &mut Progress<'_>,
+    ) -> Result<()> {
         let touched = rows::touched(connection)?;
         let state = State::read(connection)?;
         let before: i64 = state.content - rows::touches(connection)?;
@@ -159,26 +165,30 @@ impl SearchIndex {
             return Ok(());
         }
         if state.format != FORMAT || before != state.indexed {
-            return self.rebuild(connection);
+            return self.rebuild(connection, progress);
         }
         if !self.is_open_at(state.indexed) {
             match OpenIndex::load(connection, state.indexed, self.open.as_ref()) {
                 Ok(open) => self.open = Some(open),
-                Err(Error::Index(_)) => return self.rebuild(connection),
+                Err(Error::Index(_)) => return self.rebuild(connection, progress),
                 Err(other) => return Err(other),
             }
         }
         let open = self.open.as_mut().expect("just loaded");
-        open.write(connection, &touched, state.content)?;
+        open.write(connection, &touched, state.content, progress)?;
         open.save(connection, state.content)
     }
 
     /// Makes the index anew from all rows, inside the caller's transaction.
-    pub(crate) fn rebuild(&mut self, connection: &Connection) -> Result<()> {
+    pub(crate) fn rebuild(
+        &mut self,
+        connection: &Connection,
+        progress: &mut Progress<'_>,
+    ) -> Result<()> {
         rows::delete_files(connection)?;
         let mut open = OpenIndex::empty()?;
         let state = State::read(connection)?;
-        open.fill(connection, state.content)?;
+        open.fill(connection, state.content, progress)?;
         open.save(connection, state.content)?;
         self.open = Some(open);
         Ok(())
@@ -249,12 +259,20 @@ impl OpenIndex {
         Ok(writer)
     }
 
-    fn write(&mut self, connection: &Connection, touched: &[i64], content: i64) -> Result<()> {
+    fn write(
+        &mut self,
+        connection: &Connection,
+        touched: &[i64],
+        content: i64,
+        progress: &mut Progress<'_>,
+    ) -> Result<()> {
         let mut writer = self.writer(MEMORY)?;
         for &token in touched {
             writer.delete_term(Term::from_field_u64(self.fields.id, token as u64));
         }
+        let (mut done, total) = (0, Some(touched.len() as u64));
         rows::each(connection, Some(touched), |token| {
+            step(progress, &mut done, total)?;
             writer.add_document(self.document(&token))?;
             Ok(())
         })?;
@@ -266,9 +284,16 @@ impl OpenIndex {
         Ok(())
     }
 
-    fn fill(&mut self, connection: &Connection, content: i64) -> Result<()> {
+    fn fill(
+        &mut self,
+        connection: &Connection,
+        content: i64,
+        progress: &mut Progress<'_>,
+    ) -> Result<()> {
         let mut writer = self.writer(4 * MEMORY)?;
+        let mut done = 0;
         rows::each(connection, None, |token| {
+            step(progress, &mut done, None)?;
             writer.add_document(self.document(&token))?;
             Ok(())
         })?;
@@ -353,6 +378,20 @@ impl OpenIndex {
         }
         document
     }
+}
+
+/// Tells of every 256th token how far the index is.
+fn step(progress: &mut Progress<'_>, done: &mut u64, total: Option<u64>) -> Result<()> {
+    *done += 1;
+    if !done.is_multiple_of(256) {
+        return Ok(());
+    }
+    progress.tell(Step {
+        task: "search index",
+        done: *done,
+        total,
+        unit: Unit::Items,
+    })
 }
 
 /// What the index's own files say about how far it has seen.

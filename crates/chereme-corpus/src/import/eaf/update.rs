@@ -1,33 +1,60 @@
 //! An annotation file that was imported before, edited since, and comes again.
+//!
+//! The corpus, the file and the file's earlier version are compared annotation by annotation, by their names
+//! in the file. A change of one side alone is taken. If the corpus was edited and the file would take the edit
+//! back, the edit is lost; a merge keeps it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::eaf::convert::{Annotation, Place, Transcript};
 use chereme_formats::roles::TierGuess;
 use chereme_motion::Instant;
+use chereme_sign::Stereotype;
 use serde::Serialize;
 
 use super::{FileReport, Job, annotation_row, coded, parents_first};
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::Result;
-use crate::import::report::ReportFinding;
+use crate::import::report::{Outcome, OwnEdit, ReportFinding, Saying};
+use crate::progress::Progress;
 
-/// So many changes are told one by one.
+/// So many changes are listed one by one.
 const TOLD: usize = 20;
 
-/// The rows of annotations by their place in the file.
-type Rows = BTreeMap<Place, i64>;
-
 /// How many annotations of a file differ from those of the corpus.
-#[derive(Debug, Default, Serialize)]
+#[derive(Debug, Default, Clone, Copy, Serialize)]
 pub(super) struct Changes {
-    added: usize,
-    changed: usize,
-    removed: usize,
+    pub(super) added: usize,
+    pub(super) changed: usize,
+    pub(super) removed: usize,
     unchanged: usize,
 }
 
-/// Tells whether a file is one of those that the tiers came from: of a tier that both have, it knows
+/// The result of an update.
+pub(super) struct Updated {
+    pub(super) changes: Changes,
+    pub(super) edits: Vec<OwnEdit>,
+    /// The changes of the file, for people.
+    told: Vec<String>,
+    /// How many are kept that the file never had.
+    kept: usize,
+}
+
+/// The files that an update compares, and the tiers that they are about.
+pub(super) struct Sides<'a> {
+    pub(super) transcript: &'a Transcript,
+    pub(super) guesses: &'a [TierGuess],
+    /// The earlier version of the file, where the corpus has it.
+    pub(super) base: Option<&'a Transcript>,
+    /// The tiers of the recording, by name.
+    pub(super) known: &'a BTreeMap<String, TierRow>,
+    /// The row of each tier of the file.
+    pub(super) tier_rows: &'a [i64],
+    /// Whether edits of the corpus are kept.
+    pub(super) merge: bool,
+}
+
+/// Reports whether a file is one of those that the tiers came from: of a tier that both have, it knows
 /// annotations by their names, or the corpus has none.
 pub(super) fn is_edited(
     job: &Job<'_>,
@@ -51,79 +78,231 @@ pub(super) fn is_edited(
     Ok(false)
 }
 
+/// Returns how many annotations two files say alike, by name, time and value, and how many the longer has.
+pub(super) fn alike(a: &Transcript, b: &Transcript) -> (usize, usize) {
+    let said = |transcript: &'_ Transcript| -> BTreeMap<(String, String), Said> {
+        let own = Base::of(transcript);
+        own.said
+    };
+    let (a, b) = (said(a), said(b));
+    let same = a.iter().filter(|(key, said)| b.get(*key) == Some(*said));
+    (same.count(), a.len().max(b.len()))
+}
+
 /// Brings annotations to what an edited file says: by their names in the file; those that the corpus
-/// added since by their time. What the file has no more is removed, but for what it never had.
+/// added since by their time. Annotations that the file has no more are removed, unless it never had them.
 pub(super) fn annotations(
     job: &mut Job<'_>,
-    transcript: &Transcript,
-    guesses: &[TierGuess],
-    (tier_rows, known): (&[i64], &BTreeMap<String, TierRow>),
-    report: &mut FileReport,
-) -> Result<()> {
+    sides: &Sides<'_>,
+    progress: &mut Progress<'_>,
+) -> Result<Updated> {
     let mut work = Update {
-        rows: Rows::new(),
-        changes: Changes::default(),
-        told: Vec::new(),
-        kept: 0,
+        sides,
+        base: sides.base.map(Base::of),
+        rows: BTreeMap::new(),
+        names: BTreeMap::new(),
         left: Vec::new(),
+        done: Updated {
+            changes: Changes::default(),
+            edits: Vec::new(),
+            told: Vec::new(),
+            kept: 0,
+        },
     };
-    let order = parents_first(transcript);
+    let order = parents_first(sides.transcript);
     for &tier in &order {
-        let name = &transcript.tiers[tier].name;
-        let old = match known.get(name) {
+        job.tell(progress)?;
+        let name = &sides.transcript.tiers[tier].name;
+        let old = match sides.known.get(name) {
             Some(row) => tiers::annotations(job.connection, row.id)?,
             None => Vec::new(),
         };
-        work.tier(job, transcript, (tier, tier_rows[tier]), guesses, old)?;
+        work.tier(job, tier, old, progress)?;
     }
     // Those below go before those above.
-    for (name, row) in std::mem::take(&mut work.left).into_iter().rev() {
-        work.tell(&name, &row, format!("{:?} removed", row.value));
-        tiers::delete_annotation(job.connection, row.id)?;
-        work.changes.removed += 1;
+    for (tier, row) in std::mem::take(&mut work.left).into_iter().rev() {
+        work.remove(job, &tier, &row)?;
     }
-    job.count("annotations", work.changes.added);
-    work.report(known, transcript, report);
-    Ok(())
+    Ok(work.done)
 }
 
-struct Update {
-    rows: Rows,
-    changes: Changes,
-    told: Vec<String>,
-    /// How many are kept that the file never had.
-    kept: usize,
-    /// What the file has no more, with the tier's name.
+/// The parts of an annotation that are compared.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Said {
+    /// Start and end in milliseconds, as files have them.
+    time: [i64; 2],
+    value: String,
+    /// The name of the annotation above.
+    above: Option<String>,
+}
+
+impl Said {
+    fn in_file(transcript: &Transcript, annotation: &Annotation) -> Self {
+        let above = annotation.parent.and_then(|place| {
+            let tier = transcript.tiers.get(place.tier)?;
+            Some(tier.annotations.get(place.index)?.id.clone())
+        });
+        Self {
+            time: [annotation.span.start(), annotation.span.end()].map(Instant::millis),
+            value: annotation.value.clone(),
+            above,
+        }
+    }
+
+    /// Returns what a row says, its missing values in the words of files.
+    fn in_corpus(row: &AnnotationRow, names: &BTreeMap<i64, String>) -> Self {
+        let value = match row.state.as_str() {
+            "not-applicable" => "n/a",
+            "unclear" => "unclear",
+            _ => &row.value,
+        };
+        Self {
+            time: millis(row),
+            value: value.to_owned(),
+            above: row.parent_id.and_then(|id| names.get(&id).cloned()),
+        }
+    }
+
+    fn saying(&self) -> Saying {
+        let [start_us, end_us] = self.time.map(|millis| millis.saturating_mul(1000));
+        Saying {
+            start_us,
+            end_us,
+            value: self.value.clone(),
+        }
+    }
+
+    /// Reports whether `mine` differs from `base` in something that `theirs` says otherwise.
+    fn is_lost(mine: &Self, base: Option<&Self>, theirs: &Self) -> bool {
+        let Some(base) = base else {
+            return mine != theirs;
+        };
+        (mine.time != base.time && mine.time != theirs.time)
+            || (mine.value != base.value && mine.value != theirs.value)
+            || (mine.above != base.above && mine.above != theirs.above)
+    }
+}
+
+fn millis(row: &AnnotationRow) -> [i64; 2] {
+    [row.start_us, row.end_us].map(|micros| Instant::from_micros(micros).millis())
+}
+
+/// The annotations of the earlier file, by tier and name.
+struct Base {
+    said: BTreeMap<(String, String), Said>,
+}
+
+impl Base {
+    fn of(transcript: &Transcript) -> Self {
+        let all = transcript.tiers.iter().flat_map(|tier| {
+            tier.annotations.iter().map(|it| {
+                let key = (tier.name.clone(), it.id.clone());
+                (key, Said::in_file(transcript, it))
+            })
+        });
+        Self {
+            said: all.collect(),
+        }
+    }
+}
+
+/// Returns what comes of three sides, and whether both changed it to different things; `mine` is kept then.
+fn merged<'t, T: PartialEq>(base: Option<&T>, mine: &'t T, theirs: &'t T) -> (&'t T, bool) {
+    if mine == theirs || base == Some(theirs) {
+        (mine, false)
+    } else if base == Some(mine) {
+        (theirs, false)
+    } else {
+        (mine, true)
+    }
+}
+
+struct Update<'s> {
+    sides: &'s Sides<'s>,
+    base: Option<Base>,
+    /// The rows of annotations by their place in the file.
+    rows: BTreeMap<Place, i64>,
+    /// The names of rows in the file.
+    names: BTreeMap<i64, String>,
+    /// Annotations that the file has no more, with the tier's name.
     left: Vec<(String, AnnotationRow)>,
+    done: Updated,
 }
 
-impl Update {
+impl Update<'_> {
+    fn said_before(&self, tier: &str, id: &str) -> Option<&Said> {
+        let key = (tier.to_owned(), id.to_owned());
+        self.base.as_ref()?.said.get(&key)
+    }
+
+    /// Reports whether the corpus says something of its own in a row.
+    fn is_own(&self, tier: &str, row: &AnnotationRow) -> bool {
+        let known = row.external_id.as_deref();
+        match known.and_then(|id| self.said_before(tier, id)) {
+            Some(before) => Said::in_corpus(row, &self.names) != *before,
+            None => known.is_none() || self.base.is_some(),
+        }
+    }
+
     fn tier(
         &mut self,
-        job: &Job<'_>,
-        transcript: &Transcript,
-        (tier, tier_row): (usize, i64),
-        guesses: &[TierGuess],
+        job: &mut Job<'_>,
+        tier: usize,
         old: Vec<AnnotationRow>,
+        progress: &mut Progress<'_>,
     ) -> Result<()> {
-        let name = &transcript.tiers[tier].name;
+        let sides = self.sides;
+        let it = &sides.transcript.tiers[tier];
+        for row in &old {
+            let name = row.external_id.clone();
+            self.names
+                .insert(row.id, name.unwrap_or_else(|| format!("#{}", row.id)));
+        }
+        let symbolic = it.stereotype.is_some_and(|it| {
+            matches!(
+                it,
+                Stereotype::SymbolicAssociation | Stereotype::SymbolicSubdivision
+            )
+        });
+        let own: Vec<(i64, [i64; 2])> = old
+            .iter()
+            .filter(|row| sides.merge && !symbolic && self.is_own(&it.name, row))
+            .map(|row| (row.id, millis(row)))
+            .collect();
+        let meets_own = |row: i64, time: [i64; 2]| {
+            let meets = |span: &(i64, [i64; 2])| {
+                span.0 != row && span.1[0] < time[1] && time[0] < span.1[1]
+            };
+            own.iter().any(meets)
+        };
         let mut old = Standing::of(old);
-        for (index, annotation) in transcript.tiers[tier].annotations.iter().enumerate() {
-            let parent = annotation
-                .parent
-                .and_then(|parent| self.rows.get(&parent).copied());
-            let new = coded(annotation_row(annotation, tier_row, parent), &guesses[tier]);
-            let id = match old.take(annotation, &new) {
-                Some(before) => self.put(job, name, before, new)?,
+        for (index, annotation) in it.annotations.iter().enumerate() {
+            if index % 256 == 255 {
+                job.tell(progress)?;
+            }
+            let above = annotation.parent.and_then(|place| self.rows.get(&place));
+            let parent = above.copied();
+            let new = annotation_row(annotation, sides.tier_rows[tier], parent);
+            let new = coded(new, &sides.guesses[tier]);
+            let theirs = Said::in_file(sides.transcript, annotation);
+            let row = match old.take(annotation, &new) {
+                Some(before) => {
+                    self.names.insert(before.id, annotation.id.clone());
+                    let free = !meets_own(before.id, theirs.time);
+                    Some(self.put(job, tier, before, (new, &theirs), free)?)
+                }
                 None => {
-                    self.changes.added += 1;
-                    self.tell(name, &new, format!("{:?} added", new.value));
-                    tiers::insert_annotation(job.connection, &new)?
+                    let orphan = annotation.parent.is_some() && parent.is_none();
+                    let free = !orphan && !meets_own(0, theirs.time);
+                    self.add(job, &it.name, new, &theirs, free)?
                 }
             };
-            self.rows.insert(Place { tier, index }, id);
+            if let Some(row) = row {
+                self.names.insert(row, annotation.id.clone());
+                self.rows.insert(Place { tier, index }, row);
+            }
         }
-        let spans: Vec<[i64; 2]> = transcript.tiers[tier]
+        let spans: Vec<[i64; 2]> = it
             .annotations
             .iter()
             .map(|it| [it.span.start().micros(), it.span.end().micros()])
@@ -131,31 +310,56 @@ impl Update {
         for row in old.rows.into_values() {
             let meets = |span: &[i64; 2]| row.start_us < span[1] && span[0] < row.end_us;
             if row.external_id.is_some() || spans.iter().any(meets) {
-                self.left.push((name.clone(), row));
+                self.left.push((it.name.clone(), row));
             } else {
-                self.kept += 1;
+                self.done.kept += 1;
             }
         }
         Ok(())
+    }
+
+    /// Adds what the corpus has not, unless somebody removed it here, or it has no room.
+    fn add(
+        &mut self,
+        job: &Job<'_>,
+        tier: &str,
+        new: AnnotationRow,
+        theirs: &Said,
+        free: bool,
+    ) -> Result<Option<i64>> {
+        let name = new.external_id.clone().unwrap_or_default();
+        let before = self.said_before(tier, &name).cloned();
+        if self.sides.merge {
+            if before.as_ref() == Some(theirs) {
+                return Ok(None);
+            }
+            if before.is_some() || !free {
+                self.edit(tier, None, Some(theirs), Outcome::Conflict);
+                return Ok(None);
+            }
+        } else if before.is_some() {
+            self.edit(tier, None, Some(theirs), Outcome::Lost);
+        }
+        self.done.changes.added += 1;
+        self.tell(tier, &new, format!("{:?} added", new.value));
+        Ok(Some(tiers::insert_annotation(job.connection, &new)?))
     }
 
     /// Writes an annotation that was there before.
     fn put(
         &mut self,
         job: &Job<'_>,
-        tier: &str,
+        tier: usize,
         before: AnnotationRow,
-        new: AnnotationRow,
+        (new, theirs): (AnnotationRow, &Said),
+        free: bool,
     ) -> Result<i64> {
-        let millis = |micros: i64| Instant::from_micros(micros).millis();
-        let old = [before.start_us, before.end_us];
-        let moved = old.map(millis) != [new.start_us, new.end_us].map(millis);
-        let renamed = (&before.state, &before.value) != (&new.state, &new.value);
-        let elsewhere = before.parent_id != new.parent_id;
-        let id = before.id;
-        if !(moved || renamed || elsewhere) {
-            self.changes.unchanged += 1;
-            if before.external_id.is_none() {
+        let (id, tier) = (before.id, &self.sides.transcript.tiers[tier].name);
+        let mine = Said::in_corpus(&before, &self.names);
+        let named = before.external_id.is_some();
+        if mine == *theirs {
+            self.done.changes.unchanged += 1;
+            if !named {
                 let row = AnnotationRow {
                     external_id: new.external_id,
                     ..before
@@ -164,40 +368,129 @@ impl Update {
             }
             return Ok(id);
         }
-        self.changes.changed += 1;
-        let what = match (renamed, moved) {
-            (true, true) => format!("{:?} is {:?}, and moved", before.value, new.value),
-            (true, false) => format!("{:?} is {:?}", before.value, new.value),
-            (false, true) => format!("{:?} moved", new.value),
-            (false, false) => format!("{:?} hangs below another", new.value),
-        };
-        self.tell(tier, &new, what);
-        let [start_us, end_us] = if moved {
-            [new.start_us, new.end_us]
-        } else {
-            old
-        };
-        let row = AnnotationRow {
-            id,
-            start_us,
-            end_us,
-            ..new
-        };
-        tiers::update_annotation(job.connection, &row)?;
+        let base = self.said_before(tier, new.external_id.as_deref().unwrap_or_default());
+        let base = base.cloned();
+        let lost = Said::is_lost(&mine, base.as_ref(), theirs);
+        let mut take = [true; 3];
+        if self.sides.merge {
+            let base = base.as_ref();
+            let time = merged(base.map(|it| &it.time), &mine.time, &theirs.time);
+            let value = merged(base.map(|it| &it.value), &mine.value, &theirs.value);
+            let above = merged(base.map(|it| &it.above), &mine.above, &theirs.above);
+            let room = free || *time.0 == mine.time;
+            if time.1 || value.1 || above.1 || !room {
+                self.edit(tier, Some(&mine), Some(theirs), Outcome::Conflict);
+            } else if lost {
+                self.edit(tier, Some(&mine), Some(theirs), Outcome::Kept);
+            }
+            take = [
+                *time.0 == theirs.time && room,
+                *value.0 == theirs.value,
+                *above.0 == theirs.above,
+            ];
+        } else if lost {
+            self.edit(tier, Some(&mine), Some(theirs), Outcome::Lost);
+        }
+        self.write(job, tier, (before, mine), (new, theirs), take)?;
         Ok(id)
     }
 
-    fn tell(&mut self, tier: &str, row: &AnnotationRow, what: String) {
-        let at = Instant::from_micros(row.start_us);
-        self.told.push(format!("tier {tier:?} at {at}: {what}"));
+    /// Writes what is taken of a file's annotation: its time, its value, and what it hangs below.
+    fn write(
+        &mut self,
+        job: &Job<'_>,
+        tier: &str,
+        (before, mine): (AnnotationRow, Said),
+        (new, theirs): (AnnotationRow, &Said),
+        [time, value, above]: [bool; 3],
+    ) -> Result<()> {
+        let moved = time && mine.time != theirs.time;
+        let renamed = value && mine.value != theirs.value;
+        let elsewhere = above && before.parent_id != new.parent_id;
+        let mut row = if renamed { new.clone() } else { before.clone() };
+        row.id = before.id;
+        row.external_id.clone_from(&new.external_id);
+        row.parent_id = if above {
+            new.parent_id
+        } else {
+            before.parent_id
+        };
+        let times = if moved { &new } else { &before };
+        (row.start_us, row.end_us) = (times.start_us, times.end_us);
+        (row.file_start_ms, row.file_end_ms) = (times.file_start_ms, times.file_end_ms);
+        row.position = if above { new.position } else { before.position };
+        if row != before {
+            tiers::update_annotation(job.connection, &row)?;
+        }
+        if !(moved || renamed || elsewhere) {
+            self.done.changes.unchanged += 1;
+            return Ok(());
+        }
+        self.done.changes.changed += 1;
+        let what = match (renamed, moved) {
+            (true, true) => format!("{:?} became {:?}, and moved", mine.value, new.value),
+            (true, false) => format!("{:?} became {:?}", mine.value, new.value),
+            (false, true) => format!("{:?} moved from {}", row.value, at(before.start_us)),
+            (false, false) => format!("{:?} hangs below another", row.value),
+        };
+        self.tell(tier, &row, what);
+        Ok(())
     }
 
-    fn report(
-        self,
-        known: &BTreeMap<String, TierRow>,
-        transcript: &Transcript,
-        report: &mut FileReport,
-    ) {
+    /// Removes what the file has no more, with what hangs below it.
+    fn remove(&mut self, job: &Job<'_>, tier: &str, row: &AnnotationRow) -> Result<()> {
+        let before = row.external_id.as_deref();
+        let before = before.and_then(|id| self.said_before(tier, id)).cloned();
+        let mine = Said::in_corpus(row, &self.names);
+        let own = match &before {
+            Some(before) => mine != *before,
+            None => row.external_id.is_none() || row.origin != "file",
+        };
+        let below = tiers::children(job.connection, row.id)?;
+        if self.sides.merge && (own || !below.is_empty()) {
+            if own && before.is_some() {
+                self.edit(tier, Some(&mine), None, Outcome::Conflict);
+            } else {
+                self.done.kept += 1;
+            }
+            return Ok(());
+        }
+        for row in &below {
+            let name = tiers::tier(job.connection, row.tier_id)?.name;
+            self.remove(job, &name, row)?;
+        }
+        if own {
+            self.edit(tier, Some(&mine), None, Outcome::Lost);
+        }
+        self.tell(tier, row, format!("{:?} removed", row.value));
+        tiers::delete_annotation(job.connection, row.id)?;
+        self.done.changes.removed += 1;
+        Ok(())
+    }
+
+    fn edit(&mut self, tier: &str, mine: Option<&Said>, theirs: Option<&Said>, outcome: Outcome) {
+        self.done.edits.push(OwnEdit {
+            tier: tier.to_owned(),
+            mine: mine.map(Said::saying),
+            theirs: theirs.map(Said::saying),
+            outcome,
+        });
+    }
+
+    fn tell(&mut self, tier: &str, row: &AnnotationRow, what: String) {
+        self.done
+            .told
+            .push(format!("tier {tier:?} at {}: {what}", at(row.start_us)));
+    }
+}
+
+fn at(micros: i64) -> Instant {
+    Instant::from_micros(micros)
+}
+
+impl Updated {
+    /// Reports what the file changed.
+    pub(super) fn report(self, sides: &Sides<'_>, report: &mut FileReport) {
         let Changes {
             added,
             changed,
@@ -209,26 +502,57 @@ impl Update {
             "its annotations were there before: {changed} changed, {added} added, {removed} removed, \
              {unchanged} as they were"
         ));
-        let more = self.told.len().saturating_sub(TOLD);
-        for line in self.told.into_iter().take(TOLD) {
-            note(line);
-        }
-        if more > 0 {
-            note(format!("and {more} more"));
-        }
+        some(&self.told, &mut note);
         if self.kept > 0 {
+            let (many, is) = if self.kept == 1 {
+                ("annotation", "is")
+            } else {
+                ("annotations", "are")
+            };
             note(format!(
-                "{} annotations that the file never had are kept",
+                "{} {many} that the file does not have {is} kept",
                 self.kept
             ));
         }
-        let names: BTreeSet<&str> = transcript.tiers.iter().map(|it| it.name.as_str()).collect();
-        for name in known.keys().filter(|name| !names.contains(name.as_str())) {
+        let own = &sides.transcript.tiers;
+        let names: BTreeSet<&str> = own.iter().map(|it| it.name.as_str()).collect();
+        for name in sides
+            .known
+            .keys()
+            .filter(|name| !names.contains(name.as_str()))
+        {
             note(format!(
                 "the tier {name:?}, which the file has not, is kept"
             ));
         }
+        let told = |outcome| {
+            let edits = self.edits.iter().filter(move |it| it.outcome == outcome);
+            edits.map(ToString::to_string).collect::<Vec<_>>()
+        };
+        let warn = |remedy: &'static str| move |text: String| ReportFinding::warning(text, remedy);
+        let lost = warn("`chereme undo` takes the import back");
+        some(&told(Outcome::Lost), &mut |text| {
+            report.findings.push(lost(text))
+        });
+        let conflict = warn("change it by hand, if the file is right");
+        some(&told(Outcome::Conflict), &mut |text| {
+            report.findings.push(conflict(text))
+        });
+        let mut note = |text: String| report.findings.push(ReportFinding::note(text));
+        some(&told(Outcome::Kept), &mut note);
         report.understand("changes", self.changes);
+        report.edits = self.edits;
+    }
+}
+
+/// Passes on the first lines of many, and how many more there are.
+pub(super) fn some(lines: &[String], take: &mut dyn FnMut(String)) {
+    for line in lines.iter().take(TOLD) {
+        take(line.clone());
+    }
+    let more = lines.len().saturating_sub(TOLD);
+    if more > 0 {
+        take(format!("and {more} more"));
     }
 }
 
@@ -241,7 +565,6 @@ struct Standing {
 
 impl Standing {
     fn of(rows: Vec<AnnotationRow>) -> Self {
-        let millis = |micros: i64| Instant::from_micros(micros).millis();
         let mut standing = Self {
             rows: BTreeMap::new(),
             by_name: BTreeMap::new(),
@@ -250,9 +573,7 @@ impl Standing {
         for row in rows {
             match &row.external_id {
                 Some(name) => standing.by_name.insert(name.clone(), row.id),
-                None => standing
-                    .by_time
-                    .insert([row.start_us, row.end_us].map(millis), row.id),
+                None => standing.by_time.insert(millis(&row), row.id),
             };
             standing.rows.insert(row.id, row);
         }
@@ -261,10 +582,8 @@ impl Standing {
 
     /// Takes the row of an annotation: that of its name, else one without a name at its time.
     fn take(&mut self, annotation: &Annotation, new: &AnnotationRow) -> Option<AnnotationRow> {
-        let millis = |micros: i64| Instant::from_micros(micros).millis();
-        let time = [new.start_us, new.end_us].map(millis);
         let id = self.by_name.remove(&annotation.id);
-        let id = id.or_else(|| self.by_time.remove(&time))?;
+        let id = id.or_else(|| self.by_time.remove(&millis(new)))?;
         self.rows.remove(&id)
     }
 }

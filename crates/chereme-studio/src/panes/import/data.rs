@@ -274,6 +274,7 @@ mod tests {
                 message: "odd".into(),
                 remedy: Some("mend it".into()),
             }],
+            edits: Vec::new(),
         }
     }
 

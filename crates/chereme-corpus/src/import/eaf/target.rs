@@ -1,0 +1,149 @@
+//! Which recording an annotation file is about, and which file of the corpus it is a new version of.
+
+use chereme_formats::eaf;
+use chereme_formats::eaf::convert::Transcript;
+
+use super::update;
+use super::{FileReport, Job, OwnEdits};
+use crate::db::recordings::{self, SourceFileRow};
+use crate::error::Result;
+use crate::import::report::ReportFinding;
+
+/// The recording and the earlier version that an annotation file belongs to.
+#[derive(Default)]
+pub(super) struct Target {
+    /// Its recording, where the corpus has it.
+    pub(super) recording: Option<i64>,
+    /// The file's earlier version.
+    pub(super) base: Option<SourceFileRow>,
+}
+
+impl Target {
+    /// Returns where the earlier version lay, if it lay elsewhere.
+    pub(super) fn elsewhere(&self, job: &Job<'_>) -> Option<&str> {
+        let path = self.base.as_ref()?.path.as_deref()?;
+        (path != job.place).then_some(path)
+    }
+
+    /// Reads the earlier version; nothing where the corpus does not have it or it cannot be read.
+    pub(super) fn transcript(&self, job: &Job<'_>) -> Result<Option<Transcript>> {
+        match &self.base {
+            Some(base) => read(job, base),
+            None => Ok(None),
+        }
+    }
+}
+
+fn read(job: &Job<'_>, file: &SourceFileRow) -> Result<Option<Transcript>> {
+    let bytes = recordings::source_bytes(job.connection, file.id)?;
+    Ok(bytes.and_then(|bytes| Some(eaf::read(&bytes).ok()?.0)))
+}
+
+/// Returns the report of a file that is in its place as it was, if it is of the take that lies next to it.
+pub(super) fn unchanged(job: &Job<'_>, here: &SourceFileRow) -> Result<Option<FileReport>> {
+    let Some(id) = here.recording_id else {
+        return Ok(None);
+    };
+    if job.places.beside(&job.place) != Some(id) {
+        return Ok(None);
+    }
+    let mut report = FileReport::unchanged(job.path, None);
+    report.recording = Some(recordings::recording(job.connection, id)?.name);
+    Ok(Some(report))
+}
+
+/// Finds the recording of a file: that of the take next to it, else that of the file that it is a version
+/// of, else one of its name that has no annotation file from elsewhere.
+pub(super) fn find(
+    job: &Job<'_>,
+    transcript: &Transcript,
+    report: &mut FileReport,
+) -> Result<Target> {
+    if let Some(id) = job.places.beside(&job.place) {
+        return Ok(Target {
+            recording: Some(id),
+            base: earlier(job, id)?,
+        });
+    }
+    let mut candidates = job.places.recordings_named(&job.place);
+    let named = recordings::recording_named(job.connection, &job.stem)?.map(|row| row.id);
+    candidates.extend(
+        named
+            .filter(|id| !candidates.contains(id))
+            .into_iter()
+            .collect::<Vec<_>>(),
+    );
+    for &id in &candidates {
+        let Some(base) = earlier(job, id)? else {
+            continue;
+        };
+        if is_version(job, &base, transcript, report)? {
+            return Ok(Target {
+                recording: Some(id),
+                base: Some(base),
+            });
+        }
+    }
+    for id in candidates {
+        if earlier(job, id)?.is_none() {
+            return Ok(Target {
+                recording: Some(id),
+                base: None,
+            });
+        }
+    }
+    Ok(Target::default())
+}
+
+/// Returns the newest annotation file of a recording: the one that lay here, or else one of this name.
+fn earlier(job: &Job<'_>, recording: i64) -> Result<Option<SourceFileRow>> {
+    let files = recordings::source_files(job.connection, recording)?;
+    let all = || files.iter().rev().filter(|row| row.kind == job.kind);
+    let here = all().find(|row| row.path.as_deref() == Some(&job.place));
+    let name = job.file_name.to_lowercase();
+    let named = || all().find(|row| row.name.to_lowercase() == name);
+    Ok(here.or_else(named).cloned())
+}
+
+/// Reports whether a file from elsewhere is a version of one of its name that an earlier import brought: the
+/// caller says so, the bytes are the same, or at least half of its annotations are.
+fn is_version(
+    job: &Job<'_>,
+    base: &SourceFileRow,
+    transcript: &Transcript,
+    report: &mut FileReport,
+) -> Result<bool> {
+    let Some(path) = &base.path else {
+        return Ok(true);
+    };
+    if !job.places.is_earlier(base) {
+        return Ok(false);
+    }
+    if base.hash == job.hash {
+        return Ok(true);
+    }
+    let Some(before) = read(job, base)? else {
+        return Ok(false);
+    };
+    let (same, all) = update::alike(&before, transcript);
+    let alike = same > 0 && 2 * same >= all;
+    if alike || job.options.own_edits != OwnEdits::Ask {
+        report.findings.push(ReportFinding::note(format!(
+            "it is taken for a new version of {path}: {same} of {all} annotations are the same"
+        )));
+        return Ok(true);
+    }
+    report.findings.push(ReportFinding {
+        severity: "note",
+        line: None,
+        message: format!(
+            "it is taken for another file than {path}, with which it shares {same} of {all} annotations"
+        ),
+        remedy: Some(
+            "if it is a new version of that file: `chereme undo`, then import it with --merge, --theirs or \
+             --mine"
+                .to_owned(),
+        ),
+    });
+    Ok(false)
+}

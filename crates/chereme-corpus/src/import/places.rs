@@ -1,0 +1,243 @@
+//! Which file of the corpus a file is: one that it has, a new version of one, or another of the same name.
+//!
+//! Where a file lies identifies it. Files that lie next to each other with one name but for the ending
+//! (and for capital letters) are of one take. A file elsewhere is another file, unless an earlier import
+//! brought the same bytes, or its content shows that it was moved.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use rusqlite::Connection;
+
+use super::Job;
+use super::report::ReportFinding;
+use crate::db::recordings::{self, SourceFileRow};
+use crate::error::Result;
+
+/// The files that the corpus came from; those of the running import are added as they are read.
+#[derive(Default)]
+pub(super) struct Places {
+    rows: Vec<SourceFileRow>,
+    /// The last row that an earlier import wrote.
+    earlier: i64,
+    by_stem: BTreeMap<String, Vec<usize>>,
+    by_hash: BTreeMap<String, Vec<usize>>,
+}
+
+impl Places {
+    pub(super) fn load(connection: &Connection) -> Result<Self> {
+        let mut places = Self::default();
+        for row in recordings::all_source_files(connection)? {
+            places.add(row);
+        }
+        places.earlier = places.rows.last().map_or(0, |row| row.id);
+        Ok(places)
+    }
+
+    pub(super) fn add(&mut self, row: SourceFileRow) {
+        let at = self.rows.len();
+        self.by_stem.entry(stem(&row.name)).or_default().push(at);
+        self.by_hash.entry(row.hash.clone()).or_default().push(at);
+        self.rows.push(row);
+    }
+
+    /// Returns how many files are known, for [`forget`](Self::forget).
+    pub(super) fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Forgets all files but the first ones, as a file that is refused leaves nothing behind.
+    pub(super) fn forget(&mut self, first: usize) {
+        for row in self.rows.drain(first..) {
+            for (list, key) in [
+                (&mut self.by_stem, stem(&row.name)),
+                (&mut self.by_hash, row.hash),
+            ] {
+                list.entry(key).or_default().retain(|&at| at < first);
+            }
+        }
+    }
+
+    /// Returns the files of this name, whatever its ending and capital letters, the newest first.
+    pub(super) fn namesakes(&self, name: &str) -> impl Iterator<Item = &SourceFileRow> {
+        let found = self.by_stem.get(&stem(name)).into_iter().flatten();
+        found.rev().map(|&at| &self.rows[at])
+    }
+
+    /// Returns the files of these bytes, the newest first.
+    pub(super) fn hashed(&self, hash: &str) -> impl Iterator<Item = &SourceFileRow> {
+        let found = self.by_hash.get(hash).into_iter().flatten();
+        found.rev().map(|&at| &self.rows[at])
+    }
+
+    /// Returns the newest file of a kind at this place.
+    pub(super) fn at(&self, place: &str, kind: &str) -> Option<&SourceFileRow> {
+        self.namesakes(name(place))
+            .find(|row| row.kind == kind && row.path.as_deref() == Some(place))
+    }
+
+    /// Reports whether an earlier import brought a file; two files of one import are never the same.
+    pub(super) fn is_earlier(&self, row: &SourceFileRow) -> bool {
+        row.id <= self.earlier
+    }
+
+    /// Returns the recording of the files that lie next to this one and have its name but for the ending.
+    pub(super) fn beside(&self, place: &str) -> Option<i64> {
+        let own = Path::new(place).file_stem();
+        let near = || {
+            self.namesakes(name(place)).filter_map(|row| {
+                let path = row
+                    .path
+                    .as_deref()
+                    .filter(|it| folder(it) == folder(place))?;
+                Some((Path::new(path).file_stem() == own, row.recording_id?))
+            })
+        };
+        if let Some((_, exact)) = near().find(|(exact, _)| *exact) {
+            return Some(exact);
+        }
+        // On systems that know `take` from `TAKE`, two takes may differ in nothing else.
+        let first = near().next()?.1;
+        near().all(|(_, id)| id == first).then_some(first)
+    }
+
+    /// Returns the recordings of files of this name elsewhere, those in folders of alike names first.
+    pub(super) fn recordings_named(&self, place: &str) -> Vec<i64> {
+        let mut found: Vec<(usize, i64)> = Vec::new();
+        for row in self.namesakes(name(place)) {
+            let Some(id) = row.recording_id else { continue };
+            let alike = row.path.as_deref().map_or(0, |path| shared(path, place));
+            match found.iter_mut().find(|(_, known)| *known == id) {
+                Some(known) => known.0 = known.0.max(alike),
+                None => found.push((alike, id)),
+            }
+        }
+        found.sort_by_key(|(alike, id)| (std::cmp::Reverse(*alike), *id));
+        found.into_iter().map(|(_, id)| id).collect()
+    }
+
+    /// Returns where the newest file of a recording lies.
+    fn of_recording(&self, id: i64) -> Option<&str> {
+        let row = self
+            .rows
+            .iter()
+            .rev()
+            .find(|row| row.recording_id == Some(id));
+        row?.path.as_deref()
+    }
+}
+
+impl Job<'_> {
+    /// Returns the name of a new recording: that of the file, or one of its own where another has it, with
+    /// a note that says so.
+    pub(super) fn own_name(&self) -> Result<(String, Option<ReportFinding>)> {
+        let Some(other) = recordings::recording_named(self.connection, &self.stem)? else {
+            return Ok((self.stem.clone(), None));
+        };
+        let elsewhere = self.places.of_recording(other.id);
+        let apart = elsewhere.and_then(|path| apart(&self.place, path));
+        let name = match apart {
+            Some(folder) => format!("{} ({folder})", self.stem),
+            None => self.stem.clone(),
+        };
+        let name = recordings::free_name(self.connection, &name)?;
+        let from = elsewhere.map_or(String::new(), |path| format!(", which came from {path},"));
+        let note = ReportFinding::note(format!(
+            "the recording {:?}{from} has this file's name already: this one is called {name:?}",
+            other.name
+        ));
+        Ok((name, Some(note)))
+    }
+}
+
+/// Returns the folder of `new` that distinguishes it from `old`: the nearest one that differs.
+fn apart<'p>(new: &'p str, old: &str) -> Option<&'p str> {
+    let mut old = folder(old).rsplit('/');
+    let differs = folder(new).rsplit('/').find(|own| old.next() != Some(own));
+    differs.filter(|folder| !folder.is_empty() && *folder != "..")
+}
+
+/// Returns how many folders above two files have the same names.
+fn shared(a: &str, b: &str) -> usize {
+    let pairs = folder(a).rsplit('/').zip(folder(b).rsplit('/'));
+    pairs.take_while(|(a, b)| a == b && !a.is_empty()).count()
+}
+
+fn folder(place: &str) -> &str {
+    place.rsplit_once('/').map_or("", |(folder, _)| folder)
+}
+
+fn name(place: &str) -> &str {
+    place.rsplit_once('/').map_or(place, |(_, name)| name)
+}
+
+fn stem(name: &str) -> String {
+    let stem = Path::new(name).file_stem().unwrap_or_default();
+    stem.to_string_lossy().to_lowercase()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn places(all: &[(&str, i64)]) -> Places {
+        let mut places = Places::default();
+        for (id, (path, recording)) in all.iter().enumerate() {
+            places.add(SourceFileRow {
+                id: id as i64,
+                recording_id: Some(*recording),
+                kind: "bvh".to_owned(),
+                name: name(path).to_owned(),
+                path: Some((*path).to_owned()),
+                hash: String::new(),
+            });
+        }
+        places
+    }
+
+    #[test]
+    fn files_of_a_take_lie_next_to_each_other_whatever_the_case_of_their_names() {
+        let known = places(&[("A/Take2.BVH", 1), ("B/take2.bvh", 2), ("B/TAKE2.bvh", 3)]);
+        for (place, found) in [
+            ("A/TAKE2.EAF", Some(1)),
+            ("B/TAKE2.eaf", Some(3)),
+            ("B/take2.EAF", Some(2)),
+            ("B/Take2.eaf", None),
+            ("C/take2.eaf", None),
+            ("A/take.eaf", None),
+        ] {
+            assert_eq!(known.beside(place), found, "{place}");
+        }
+        assert_eq!(known.recordings_named("eaf/B/take2.eaf"), [2, 3, 1]);
+    }
+
+    #[test]
+    fn the_nearest_folder_that_differs_tells_files_apart() {
+        for (new, old, differs) in [
+            ("B/x.eaf", "A/x.eaf", Some("B")),
+            ("B/rec/x.eaf", "A/rec/x.eaf", Some("B")),
+            ("A/x.eaf", "x.eaf", Some("A")),
+            ("x.eaf", "A/x.eaf", None),
+            ("A/x.eaf", "A/x.eaf", None),
+            ("../x.eaf", "x.eaf", None),
+        ] {
+            assert_eq!(apart(new, old), differs, "{new} {old}");
+        }
+    }
+
+    #[test]
+    fn what_was_refused_is_forgotten() {
+        let mut known = places(&[("A/x.bvh", 1)]);
+        known.add(SourceFileRow {
+            id: 9,
+            recording_id: Some(2),
+            kind: "bvh".to_owned(),
+            name: "x.bvh".to_owned(),
+            path: Some("B/x.bvh".to_owned()),
+            hash: "h".to_owned(),
+        });
+        known.forget(1);
+        assert_eq!(known.beside("B/x.eaf"), None);
+        assert_eq!((known.hashed("h").count(), known.len()), (0, 1));
+    }
+}

@@ -1,0 +1,505 @@
+//! Files that are imported again, files of one name, and files that hold nothing for a corpus.
+
+use super::*;
+
+/// Imports paths and returns the whole report.
+fn take(corpus: &mut Corpus, paths: &[PathBuf], options: &ImportOptions) -> ImportReport {
+    let mut hear = unheard;
+    let report = corpus.import(paths, options, &mut Progress::new(&mut hear));
+    report.expect("imported")
+}
+
+fn choose(own_edits: OwnEdits) -> ImportOptions {
+    ImportOptions {
+        own_edits,
+        ..ImportOptions::default()
+    }
+}
+
+fn names(corpus: &Corpus) -> Vec<String> {
+    let all = crate::db::recordings::recordings(corpus.store.read()).expect("recordings");
+    all.into_iter().map(|row| row.name).collect()
+}
+
+fn has(findings: &[ReportFinding], what: &str) -> bool {
+    findings.iter().any(|it| it.message.contains(what))
+}
+
+/// Says something else in the annotation of this value.
+fn edit(corpus: &mut Corpus, from: &str, to: Option<&str>) {
+    use crate::db::tiers;
+    let done = corpus.store.operation("annotate", |connection| {
+        let mut all = Vec::new();
+        for recording in crate::db::recordings::recordings(connection)? {
+            for tier in tiers::tiers(connection, recording.id)? {
+                all.extend(tiers::annotations(connection, tier.id)?);
+            }
+        }
+        let mut row = all
+            .into_iter()
+            .find(|row| row.value == from)
+            .expect("it is there");
+        match to {
+            Some(to) => {
+                to.clone_into(&mut row.value);
+                tiers::update_annotation(connection, &row)?;
+            }
+            None => tiers::delete_annotation(connection, row.id)?,
+        }
+        Ok(((), String::new()))
+    });
+    done.expect("edited");
+}
+
+/// Four free annotations of 0.5 s, one a tier.
+fn four(values: [&str; 4]) -> String {
+    let tiers: Vec<(String, &str)> = values
+        .iter()
+        .enumerate()
+        .map(|(at, value)| (format!("T{at}"), *value))
+        .collect();
+    let rows: Vec<(&str, i64, i64, &str)> = tiers
+        .iter()
+        .map(|(tier, value)| (tier.as_str(), 0, 500, *value))
+        .collect();
+    eaf(&rows)
+}
+
+#[test]
+fn files_of_one_name_in_two_folders_are_two_recordings() {
+    let desk = Desk::new();
+    for (folder, value) in [("A", "CHAT"), ("B", "CHIEN")] {
+        fs::create_dir(desk.folder.path().join(folder)).expect("made");
+        desk.file(
+            &format!("{folder}/x.eaf"),
+            &eaf(&[("Gloss", 0, 500, value)]),
+        );
+    }
+    let folders = ["A", "B"].map(|folder| desk.folder.path().join(folder));
+    let mut corpus = desk.corpus("c.chereme");
+    let report = take(&mut corpus, &folders, &ImportOptions::default());
+    assert_eq!(names(&corpus), ["x", "x (B)"]);
+    assert_eq!(said(&corpus), ["Gloss 0 CHAT", "Gloss 0 CHIEN"]);
+    assert!(has(&report.files[1].findings, "A/x.eaf"), "{report:?}");
+    assert!(has(&report.files[1].findings, "\"x (B)\""), "{report:?}");
+    let again = take(&mut corpus, &folders, &ImportOptions::default());
+    let unchanged = |it: &FileReport| it.status == FileStatus::Unchanged;
+    assert!(again.files.iter().all(unchanged), "{again:?}");
+    // One at a time it is the same.
+    let mut apart = desk.corpus("d.chereme");
+    for folder in folders {
+        take(&mut apart, &[folder], &ImportOptions::default());
+    }
+    assert_eq!(names(&apart), ["x", "x (B)"]);
+}
+
+#[test]
+fn movement_and_annotations_of_one_name_in_two_folders_stay_together() {
+    let desk = Desk::new();
+    for (folder, value) in [("A", "CHAT"), ("B", "CHIEN")] {
+        fs::create_dir(desk.folder.path().join(folder)).expect("made");
+        desk.file(&format!("{folder}/Take.BVH"), MOVEMENT);
+        desk.file(
+            &format!("{folder}/TAKE.eaf"),
+            &eaf(&[("Gloss", 0, 200, value)]),
+        );
+    }
+    let mut corpus = desk.corpus("c.chereme");
+    take(
+        &mut corpus,
+        &[desk.folder.path().join("A")],
+        &ImportOptions::default(),
+    );
+    assert_eq!(names(&corpus), ["Take"], "whatever the case of their names");
+    let mut corpus = desk.corpus("d.chereme");
+    let both = ["A", "B"].map(|folder| desk.folder.path().join(folder));
+    take(&mut corpus, &both, &ImportOptions::default());
+    assert_eq!(names(&corpus), ["Take", "Take (B)"]);
+    for id in recordings_of(&corpus) {
+        let connection = corpus.store.read();
+        assert_eq!(
+            crate::db::tiers::tiers(connection, id)
+                .expect("tiers")
+                .len(),
+            1
+        );
+        assert!(
+            recordings::motion_track(connection, id)
+                .expect("read")
+                .is_some()
+        );
+    }
+}
+
+#[test]
+fn a_file_belongs_to_its_take_and_not_to_its_bytes() {
+    let desk = Desk::new();
+    let text = eaf(&[("Gloss", 0, 200, "BOL")]);
+    for take in ["take1", "take2"] {
+        desk.file(
+            &format!("{take}.bvh"),
+            &format!("{MOVEMENT}{}", if take == "take1" { "" } else { "\n" }),
+        );
+        desk.file(&format!("{take}.eaf"), &text);
+    }
+    let folder = [desk.folder.path().to_owned()];
+    let mut corpus = desk.corpus("c.chereme");
+    take(&mut corpus, &folder, &ImportOptions::default());
+    assert_eq!(names(&corpus), ["take1", "take2"]);
+    assert_eq!(said(&corpus), ["Gloss 0 BOL", "Gloss 0 BOL"]);
+    assert_whole(&mut corpus);
+}
+
+#[test]
+fn signs_of_one_gloss_in_files_of_one_name_are_two() {
+    let desk = Desk::new();
+    for (folder, shape) in [("A", "finger2"), ("B", "flat")] {
+        fs::create_dir(desk.folder.path().join(folder)).expect("made");
+        desk.file(
+            &format!("{folder}/x.sigml"),
+            &format!(
+                "<sigml><hamgestural_sign gloss=\"TWO\"><sign_manual><handconfig handshape=\"{shape}\"/>\
+                 <handconfig extfidir=\"u\"/><handconfig palmor=\"u\"/></sign_manual></hamgestural_sign></sigml>"
+            ),
+        );
+    }
+    let mut corpus = desk.corpus("c.chereme");
+    let all = [desk.folder.path().to_owned()];
+    let report = take(&mut corpus, &all, &ImportOptions::default());
+    let tokens = corpus.list(ListKind::Tokens, &ListFilter::default());
+    assert_eq!(tokens.expect("listed").total, 2, "{report:?}");
+    assert!(
+        report.files.iter().any(|it| has(&it.findings, "A/x.sigml")),
+        "{report:?}"
+    );
+}
+
+#[test]
+fn edits_that_a_changed_file_would_take_back_are_asked_about() {
+    let desk = Desk::new();
+    let path = desk.file("one.eaf", &four(["A", "B", "C", "D"]));
+    let paths = [path];
+    let theirs = four(["A2", "B", "C2", "D"]);
+    // Mine: B and C; the file's: A and C.
+    for (choice, after) in [
+        (OwnEdits::Ask, ["A", "mine B", "mine C", "D"]),
+        (OwnEdits::Mine, ["A", "mine B", "mine C", "D"]),
+        (OwnEdits::Theirs, ["A2", "B", "C2", "D"]),
+        (OwnEdits::Merge, ["A2", "mine B", "mine C", "D"]),
+    ] {
+        let mut corpus = desk.corpus(&format!("{choice:?}.chereme"));
+        desk.file("one.eaf", &four(["A", "B", "C", "D"]));
+        take(&mut corpus, &paths, &ImportOptions::default());
+        edit(&mut corpus, "B", Some("mine B"));
+        edit(&mut corpus, "C", Some("mine C"));
+        desk.file("one.eaf", &theirs);
+        let report = take(&mut corpus, &paths, &choose(choice));
+        let after: Vec<String> = (0..4).map(|at| format!("T{at} 0 {}", after[at])).collect();
+        assert_eq!(said(&corpus), after, "{choice:?}: {report:?}");
+        let file = &report.files[0];
+        assert_eq!(report.has_refusals(), choice == OwnEdits::Ask);
+        let edits: Vec<_> = file
+            .edits
+            .iter()
+            .map(|it| (it.tier.as_str(), it.outcome))
+            .collect();
+        match choice {
+            OwnEdits::Ask => {
+                assert_eq!(edits, [("T1", Outcome::Lost), ("T2", Outcome::Lost)]);
+                assert!(
+                    has(
+                        &file.findings,
+                        "tier \"T1\" at 0.000s: your \"mine B\" gives way to the file's \"B\""
+                    ),
+                    "{file:?}"
+                );
+                assert!(
+                    file.findings[0]
+                        .remedy
+                        .as_ref()
+                        .is_some_and(|it| it.contains("--merge"))
+                );
+            }
+            OwnEdits::Mine => assert!(has(&file.findings, "stays as it is"), "{file:?}"),
+            OwnEdits::Theirs => {
+                assert!(has(
+                    &file.findings,
+                    "your \"mine C\" gives way to the file's \"C2\""
+                ));
+                assert_eq!(report.changed.get("annotations"), Some(&3));
+            }
+            OwnEdits::Merge => {
+                assert_eq!(edits, [("T1", Outcome::Kept), ("T2", Outcome::Conflict)]);
+                assert!(
+                    has(
+                        &file.findings,
+                        "both were changed: your \"mine C\" stays, the file says \"C2\""
+                    ),
+                    "{file:?}"
+                );
+            }
+        }
+        assert_whole(&mut corpus);
+        if choice != OwnEdits::Ask {
+            let again = take(&mut corpus, &paths, &ImportOptions::default());
+            assert_eq!(again.files[0].status, FileStatus::Unchanged, "{choice:?}");
+        }
+    }
+}
+
+#[test]
+fn what_was_removed_or_added_here_is_merged_too() {
+    let desk = Desk::new();
+    let paths = [desk.file("one.eaf", &four(["A", "B", "C", "D"]))];
+    let without = |text: String, id: &str| {
+        let start = text
+            .find(&format!(
+                "<ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID=\"{id}\""
+            ))
+            .expect("there");
+        let end = start + text[start..].find("</TIER>").expect("its end");
+        format!("{}{}", &text[..start], &text[end..])
+    };
+    let theirs = without(four(["A", "B", "C2", "D"]), "a3");
+    for (choice, after, edits) in [
+        (OwnEdits::Merge, vec!["T0 0 A"], 2),
+        (OwnEdits::Theirs, vec!["T0 0 A", "T1 0 B", "T2 0 C2"], 2),
+    ] {
+        let mut corpus = desk.corpus(&format!("{choice:?}.chereme"));
+        desk.file("one.eaf", &four(["A", "B", "C", "D"]));
+        take(&mut corpus, &paths, &ImportOptions::default());
+        // B goes here alone; C goes here and changes there; D goes there alone.
+        edit(&mut corpus, "B", None);
+        edit(&mut corpus, "C", None);
+        desk.file("one.eaf", &theirs);
+        let refused = take(&mut corpus, &paths, &ImportOptions::default());
+        assert!(refused.has_refusals() && has(&refused.files[0].findings, "which you removed"));
+        let report = take(&mut corpus, &paths, &choose(choice));
+        assert_eq!(said(&corpus), after, "{report:?}");
+        let wanted = if choice == OwnEdits::Merge { 1 } else { edits };
+        assert_eq!(report.files[0].edits.len(), wanted, "{report:?}");
+        assert_eq!(report.removed.get("annotations"), Some(&1));
+        assert_whole(&mut corpus);
+    }
+}
+
+#[test]
+fn a_colleagues_copy_from_another_folder_is_a_version_of_the_file() {
+    let desk = Desk::new();
+    let first = desk.file("one.eaf", &four(["A", "B", "C", "D"]));
+    fs::create_dir(desk.folder.path().join("post")).expect("made");
+    let other = desk.file("post/one.eaf", &four(["A", "B", "C", "D2"]));
+    let mut corpus = desk.corpus("c.chereme");
+    take(&mut corpus, &[first], &ImportOptions::default());
+    let report = take(&mut corpus, &[other], &ImportOptions::default());
+    assert_eq!(report.files[0].status, FileStatus::Updated);
+    assert!(
+        has(&report.files[0].findings, "new version of one.eaf: 3 of 4"),
+        "{report:?}"
+    );
+    assert_eq!(names(&corpus), ["one"]);
+}
+
+#[test]
+fn a_mapping_changes_the_tiers_of_a_file_that_is_in_already() {
+    let desk = Desk::new();
+    let tiers = [
+        ("QX1", 0, 500, "BOL"),
+        ("QX2", 0, 500, "S"),
+        ("QX3", 0, 500, "n/a"),
+    ];
+    let path = desk.file("one.eaf", &eaf(&tiers));
+    let mut corpus = desk.corpus("c.chereme");
+    import(&mut corpus, &path, "{}");
+    let map = r#"{"tiers": {"QX1": "gloss", "QX2": "right.configuration", "nosuch": "gloss"}}"#;
+    let options = ImportOptions {
+        mapping: Mapping::from_json(map).expect("a mapping"),
+        ..ImportOptions::default()
+    };
+    let report = take(&mut corpus, std::slice::from_ref(&path), &options);
+    assert_eq!(
+        roles(&corpus),
+        ["QX1:  gloss", "QX2: right configuration", "QX3:  free"]
+    );
+    assert_eq!(report.files[0].status, FileStatus::Updated);
+    assert_eq!(report.changed.get("tiers"), Some(&2));
+    assert!(
+        has(
+            &report.files[0].findings,
+            "tier \"QX2\": right.configuration (before: free)"
+        ),
+        "{report:?}"
+    );
+    assert!(has(&report.findings, "\"nosuch\""), "{report:?}");
+    let found = corpus.search("right.configuration=S", &SearchOptions::default());
+    assert_eq!(found.expect("searched").total, 1);
+    assert_whole(&mut corpus);
+    let again = take(&mut corpus, &[path], &options);
+    assert_eq!(again.files[0].status, FileStatus::Unchanged);
+    corpus.undo().expect("taken back");
+    assert_eq!(roles(&corpus), ["QX1:  free", "QX2:  free", "QX3:  free"]);
+}
+
+#[test]
+fn a_mapping_changes_the_columns_of_a_table_that_is_in_already() {
+    let desk = Desk::new();
+    let path = desk.file("lex.tsv", "gloss\tqx\nA\tchin\nC\tchest\n");
+    let mut corpus = desk.corpus("c.chereme");
+    import(&mut corpus, &path, "{}");
+    let map = r#"{"columns": {"qx": "placement"}}"#;
+    let report = import(&mut corpus, &path, map);
+    assert_eq!(report.status, FileStatus::Updated, "{report:?}");
+    let found = corpus.search("placement=chin", &SearchOptions::default());
+    assert_eq!(found.expect("searched").total, 1);
+    let tokens = corpus.list(ListKind::Tokens, &ListFilter::default());
+    assert_eq!(tokens.expect("listed").total, 2);
+}
+
+#[test]
+fn one_wrong_file_does_not_keep_the_others_out() {
+    let desk = Desk::new();
+    let good = desk.file("good.eaf", &eaf(&[("Gloss", 0, 500, "BOL")]));
+    let paths = [
+        desk.file("bad.eaf", "<ANNOTATION_DOCUMENT>"),
+        desk.file("notes.docx", "x"),
+        desk.folder.path().join("none.bvh"),
+        good,
+    ];
+    let mut corpus = desk.corpus("c.chereme");
+    let report = take(&mut corpus, &paths, &ImportOptions::default());
+    let refused = |it: &&FileReport| it.status == FileStatus::Refused;
+    assert_eq!(report.files.iter().filter(refused).count(), 3, "{report:?}");
+    assert!(report.has_refusals());
+    assert_eq!(said(&corpus), ["Gloss 0 BOL"]);
+}
+
+#[test]
+fn what_is_no_lexicon_makes_nothing_and_is_named() {
+    let desk = Desk::new();
+    desk.file(
+        "package.json",
+        r#"{"name": "x", "version": "1.0.0", "scripts": {"start": "node a.js"}, "private": true, "license": "MIT"}"#,
+    );
+    desk.file("prices.csv", "item,price\nbread,2\n");
+    desk.file("take.etf", "");
+    desk.file("take.pfsx", "");
+    desk.file("more.pfsx", "");
+    desk.file("good.eaf", &eaf(&[("Gloss", 0, 500, "BOL")]));
+    let mut corpus = desk.corpus("c.chereme");
+    let folder = [desk.folder.path().to_owned()];
+    let report = take(&mut corpus, &folder, &ImportOptions::default());
+    assert!(!report.has_refusals(), "{report:?}");
+    let unread = report.unread();
+    let kinds: Vec<(&str, usize)> = unread
+        .iter()
+        .map(|it| (it.ending.as_deref().unwrap_or_default(), it.files.len()))
+        .collect();
+    for kind in [("etf", 1), ("pfsx", 2), ("json", 1), ("csv", 1)] {
+        assert!(kinds.contains(&kind), "{kind:?}: {unread:?}");
+    }
+    let tokens = corpus.list(ListKind::Tokens, &ListFilter::default());
+    assert_eq!(tokens.expect("listed").total, 1);
+    let named = take(
+        &mut corpus,
+        &[folder[0].join("prices.csv")],
+        &ImportOptions::default(),
+    );
+    assert!(named.has_refusals(), "a file that was named is refused");
+}
+
+#[test]
+fn signs_without_a_gloss_get_the_name_of_their_file_and_it_is_told() {
+    let desk = Desk::new();
+    let sign = "<hamgestural_sign><sign_manual><handconfig handshape=\"flat\"/></sign_manual></hamgestural_sign>";
+    let one = desk.file("one.sigml", &format!("<sigml>{sign}</sigml>"));
+    let two = desk.file(
+        "two.xml",
+        &format!("<collection>\n<sigml>{sign}</sigml>\n<sigml>{sign}</sigml></collection>"),
+    );
+    let mut corpus = desk.corpus("c.chereme");
+    let first = import(&mut corpus, &one, "{}");
+    assert!(has(&first.findings, "it is called \"one\""), "{first:?}");
+    assert!(!has(&first.findings, "has no gloss;"), "{first:?}");
+    let second = import(&mut corpus, &two, "{}");
+    assert!(
+        has(&second.findings, "\"two-2\" to \"two-3\""),
+        "{second:?}"
+    );
+    assert!(
+        has(&second.findings, "<collection> was read as a wrapper"),
+        "{second:?}"
+    );
+    let signs = corpus.list(ListKind::Signs, &ListFilter::default());
+    assert_eq!(signs.expect("listed").total, 3);
+}
+
+#[test]
+fn stopping_an_import_of_any_kind_leaves_the_corpus_as_it_was() {
+    use std::ops::ControlFlow;
+    let desk = Desk::new();
+    let many: Vec<(String, i64)> = (0..600)
+        .map(|at| (format!("G{}", at % 7), at * 10))
+        .collect();
+    let rows: Vec<(&str, i64, i64, &str)> = many
+        .iter()
+        .map(|(value, at)| ("Gloss", *at, at + 10, value.as_str()))
+        .collect();
+    let one_tier = eaf(&rows).replace(
+        "</TIER><TIER TIER_ID=\"Gloss\" LINGUISTIC_TYPE_REF=\"t\">",
+        "",
+    );
+    let lexicon: String = (0..600).map(|at| format!("S{at}\tflat\n")).collect();
+    let signs: String = (0..300)
+        .map(|at| format!("<hamgestural_sign gloss=\"N{at}\"><sign_manual><handconfig handshape=\"flat\"/></sign_manual></hamgestural_sign>\n"))
+        .collect();
+    for path in [
+        desk.file("big.eaf", &one_tier),
+        desk.file("big.tsv", &format!("gloss\tHandshape\n{lexicon}")),
+        desk.file("big.sigml", &format!("<sigml>{signs}</sigml>")),
+    ] {
+        let mut corpus = desk.corpus(&format!(
+            "{}.chereme",
+            path.file_name().expect("a name").display()
+        ));
+        let mut steps = Vec::new();
+        let mut hear = |step: Step<'_>| {
+            steps.push(step.task.to_owned());
+            ControlFlow::Continue(())
+        };
+        let options = ImportOptions::default();
+        let all = [path.clone()];
+        let done = corpus.import(&all, &options, &mut Progress::new(&mut hear));
+        done.expect("imported");
+        for task in ["history", "search index"] {
+            assert!(
+                steps.iter().any(|it| it == task),
+                "{task}: {}",
+                path.display()
+            );
+        }
+        corpus.undo().expect("taken back");
+        let before = corpus.log(9).expect("log").len();
+        // Wherever it is stopped, nothing is left.
+        for at in [0, steps.len() / 3, steps.len() / 2, steps.len() - 1] {
+            let mut told = 0;
+            let mut hear = |_: Step<'_>| {
+                told += 1;
+                if told > at {
+                    ControlFlow::Break(())
+                } else {
+                    ControlFlow::Continue(())
+                }
+            };
+            let stopped = corpus.import(&all, &options, &mut Progress::new(&mut hear));
+            assert!(matches!(stopped, Err(Error::Stopped)), "{at}: {stopped:?}");
+            assert_eq!(corpus.log(9).expect("log").len(), before);
+            let tokens = corpus.list(ListKind::Tokens, &ListFilter::default());
+            assert_eq!(tokens.expect("listed").total, 0);
+        }
+        let mut stop = |_: Step<'_>| ControlFlow::Break(());
+        let redone = corpus.redo_told(&mut Progress::new(&mut stop));
+        assert!(matches!(redone, Err(Error::Stopped)), "{redone:?}");
+        assert_eq!(corpus.log(9).expect("log").len(), before);
+        assert_whole(&mut corpus);
+    }
+}
