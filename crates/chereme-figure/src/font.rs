@@ -1,6 +1,8 @@
 //! A small letter for labels: five dots wide, drawn for this crate, as data.
 //!
-//! It covers ASCII and the accented letters of Latin-1 and French; other characters show as a box.
+//! It covers ASCII and the accented letters of Latin-1 and French; other characters are drawn by [`letters`](crate::letters).
+
+use crate::letters;
 
 /// The width of a character's cell in dots, the gap after it included.
 pub(crate) const WIDTH: usize = 6;
@@ -185,18 +187,35 @@ const ACCENTED: &[(char, char, [u8; 2])] = &[
 /// What a character without a glyph shows as.
 const UNKNOWN: [u8; 7] = [0x1F, 0x11, 0x11, 0x11, 0x11, 0x11, 0x1F];
 
+/// Returns whether this letter has a character.
+pub(crate) fn knows(character: char) -> bool {
+    ACCENTED.iter().any(|entry| entry.0 == character) || known(character).is_some()
+}
+
 /// Returns the width of `text` in dots, without the gap after its last character.
 pub(crate) fn width(text: &str) -> usize {
-    (text.chars().count() * WIDTH).saturating_sub(1)
+    letters::line(text).width()
 }
 
 /// Returns `text` cut to what `dots` dots hold, an ellipsis at its end where something is left out.
 pub(crate) fn fitted(text: &str, dots: usize) -> String {
-    if width(text) <= dots {
+    // Marks need no room; more of them than letters is no text.
+    let most = dots.saturating_mul(2) + 1;
+    let beginning = |count: usize| text.chars().take(count).collect::<String>();
+    if text.chars().nth(most).is_none() && width(text) <= dots {
         return text.to_owned();
     }
-    let room = ((dots + 1) / WIDTH).saturating_sub(1);
-    text.chars().take(room).chain(['…']).collect()
+    let cut = |count: usize| beginning(count) + "…";
+    let (mut low, mut high) = (0, text.chars().take(most).count());
+    while low < high {
+        let middle = (low + high).div_ceil(2);
+        if width(&cut(middle)) <= dots {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
+    }
+    cut(low)
 }
 
 /// Calls `dot` with column and row of every dot of `text` on one line.
@@ -234,10 +253,14 @@ fn cell(character: char) -> [u8; HEIGHT] {
 }
 
 fn glyph(character: char) -> [u8; 7] {
+    known(character).unwrap_or(UNKNOWN)
+}
+
+fn known(character: char) -> Option<[u8; 7]> {
     let index = (character as usize).wrapping_sub(' ' as usize);
-    ASCII.get(index).copied().unwrap_or_else(|| {
+    ASCII.get(index).copied().or_else(|| {
         let sign = SIGNS.iter().find(|entry| entry.0 == character);
-        sign.map_or(UNKNOWN, |entry| entry.1)
+        sign.map(|entry| entry.1)
     })
 }
 

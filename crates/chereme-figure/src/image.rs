@@ -1,6 +1,6 @@
 //! A picture of pixels, and the few marks that sheets and charts need.
 
-use crate::font;
+use crate::letters;
 use crate::palette::Colour;
 
 /// A picture, row by row from the top left, without transparency.
@@ -110,10 +110,22 @@ impl Image {
 
     /// Writes one line of text whose cells have their top left corner at `at`.
     pub(crate) fn text(&mut self, text: &str, at: [i64; 2], scale: usize, colour: Colour) {
-        let scale = scale as i64;
-        font::draw(text, |x, y| {
-            let corner = [at[0] + x as i64 * scale, at[1] + y as i64 * scale];
-            self.fill(corner, [scale, scale], colour);
-        });
+        let line = letters::line(text);
+        line.draw(at, scale, |x, y, covered| self.blend(x, y, colour, covered));
+    }
+
+    /// Covers a part of one pixel; outside nothing happens.
+    fn blend(&mut self, x: i64, y: i64, colour: Colour, covered: f32) {
+        if covered >= 1.0 {
+            return self.set(x, y, colour);
+        }
+        let inside = (0..self.width as i64).contains(&x) && (0..self.height as i64).contains(&y);
+        if inside {
+            let below = &mut self.pixels[y as usize * self.width + x as usize];
+            for (below, over) in below.0.iter_mut().zip(colour.0) {
+                let mixed = f32::from(*below) * (1.0 - covered) + f32::from(over) * covered;
+                *below = mixed.round() as u8;
+            }
+        }
     }
 }

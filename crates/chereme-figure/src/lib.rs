@@ -39,6 +39,7 @@
 //! | [`animation`] | moving pictures, and GIF |
 //! | [`handshape`] | a hand alone, from joint angles |
 //! | [`chart`] | how two clips are aligned |
+//! | [`letters`] | text in any script, and the fonts of the computer |
 //! | [`error`] | what keeps a picture from being made |
 
 pub mod animation;
@@ -53,6 +54,7 @@ mod font;
 pub mod handshape;
 pub mod image;
 mod ink;
+pub mod letters;
 pub mod mesh;
 pub mod palette;
 mod quantize;

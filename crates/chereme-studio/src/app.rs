@@ -21,6 +21,7 @@ use crate::model::reel::Reel;
 use crate::overlay::Overlays;
 use crate::panes::carry::{self, Sprung};
 use crate::panes::{PaneKind, Panes};
+use crate::script::fonts::Untold;
 use crate::settings::{Folders, Settings};
 use crate::start::Start;
 use crate::words::Text;
@@ -53,6 +54,7 @@ pub struct Studio {
     sprung: Sprung,
     pub(crate) start: Start,
     pub(crate) chooser: Chooser,
+    untold: Untold,
     pub(crate) clipboard: Clipboard,
     pub(crate) overlays: Overlays,
     pub(crate) out: Outbox,
@@ -113,6 +115,7 @@ impl Studio {
             sprung: Sprung::default(),
             start: Start::default(),
             chooser: Chooser::default(),
+            untold: Untold::default(),
             clipboard: Clipboard::default(),
             overlays: Overlays::default(),
             out,
@@ -154,6 +157,9 @@ impl Studio {
         // What could answer a drag has to be drawn.
         if self.shown.handle.is_some() && !layout::shows(&self.tree, PaneKind::Recombine) {
             self.shown.handle = None;
+        }
+        if let Some((text, remedy)) = self.untold.news(self.settings.language) {
+            self.overlays.notices.say(&text, Some(remedy));
         }
         self.bars(ui);
         if self.desk.is_some() {

@@ -18,6 +18,7 @@
 //! | `little` | looping little figures, for any pane |
 //! | `draft` | what is half typed, kept through a crash |
 //! | `settings`, `layout`, `theme` | what is remembered, where panes are, how it looks |
+//! | `script` | text in the scripts of the world: fonts, and what is read from the right |
 //! | `panes` | one module each: rows by plain functions in `data`, widgets in `ui` |
 //! | `bars`, `start`, `overlay` | menus and status, the page without a corpus, what lies above |
 
@@ -40,6 +41,7 @@ mod perform;
 mod pickers;
 mod plain;
 mod player;
+mod script;
 mod settings;
 mod start;
 mod theme;
@@ -82,6 +84,8 @@ pub fn run(options: Options) -> Result<(), Error> {
             .with_drag_and_drop(true),
         // It smooths gradients, of which there are only the ends of lists, and costs where windows are drawn in software.
         dithering: false,
+        // `script` finds fonts, for pictures too.
+        system_font_fallback: false,
         ..eframe::NativeOptions::default()
     };
     let started = eframe::run_native(

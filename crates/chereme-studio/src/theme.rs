@@ -80,6 +80,7 @@ impl Colours {
 /// Gives a context our fonts and spacing, and shapes that are cheap to draw, once.
 pub(crate) fn install(ctx: &Context) {
     ctx.set_fonts(fonts());
+    crate::script::install(ctx);
     ctx.add_plugin(crate::plain::Plain);
     ctx.style_mut_of(Theme::Light, |style| refine(style, false));
     ctx.style_mut_of(Theme::Dark, |style| refine(style, true));

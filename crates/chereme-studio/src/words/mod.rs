@@ -24,6 +24,7 @@ pub(crate) mod inspector;
 pub(crate) mod library;
 pub(crate) mod pickers;
 pub(crate) mod recombine;
+pub(crate) mod scripts;
 pub(crate) mod search;
 pub(crate) mod shell;
 pub(crate) mod stage;
@@ -34,7 +35,7 @@ pub(crate) mod timeline;
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 14] = [
+    const TABLES: [&[(&str, Text)]; 15] = [
         actions::ALL,
         export::ALL,
         hamnosys::ALL,
@@ -43,6 +44,7 @@ mod tests {
         library::ALL,
         pickers::ALL,
         recombine::ALL,
+        scripts::ALL,
         search::ALL,
         shell::ALL,
         stage::ALL,

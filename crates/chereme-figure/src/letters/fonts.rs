@@ -1,0 +1,225 @@
+//! The fonts of this computer, found by the characters that they have.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+
+use fontdb::{Database, FaceInfo, ID, Stretch, Style};
+use skrifa::{FontRef, MetadataProvider};
+
+/// The largest font file that is read, and how many bytes of fonts are kept in memory at most.
+const MOST_FILE: usize = 48 << 20;
+const MOST_KEPT: usize = 192 << 20;
+/// How many characters are remembered with their font, and how many without one.
+const MOST_KNOWN: usize = 1 << 16;
+const MOST_MISSING: usize = 512;
+
+/// A font that was read because a text needs it.
+#[derive(Debug)]
+pub struct FontFile {
+    /// Its family, with a number that distinguishes it from other fonts of the family.
+    pub name: String,
+    /// The bytes of its file.
+    pub data: Vec<u8>,
+    /// Which font of the file it is.
+    pub index: u32,
+}
+
+impl AsRef<[u8]> for FontFile {
+    fn as_ref(&self) -> &[u8] {
+        &self.data
+    }
+}
+
+impl FontFile {
+    /// Returns the font as its tables.
+    pub(super) fn tables(&self) -> Option<FontRef<'_>> {
+        FontRef::from_index(&self.data, self.index).ok()
+    }
+}
+
+/// The fonts of this computer, once their names are read.
+static SHARED: OnceLock<SystemFonts> = OnceLock::new();
+
+/// The fonts in some folders. Only their names are read at first, and a whole font when a character needs it.
+#[derive(Debug)]
+pub struct SystemFonts {
+    faces: Database,
+    /// The plain fonts first.
+    order: Vec<ID>,
+    known: Mutex<Known>,
+}
+
+/// What was looked for.
+#[derive(Debug, Default)]
+struct Known {
+    loaded: Vec<(ID, Arc<FontFile>)>,
+    kept: usize,
+    of: BTreeMap<char, Option<usize>>,
+    missing: BTreeSet<char>,
+}
+
+impl SystemFonts {
+    /// Returns the fonts of this computer; who asks first waits until their names are read.
+    #[must_use]
+    pub fn shared() -> &'static Self {
+        SHARED.get_or_init(|| {
+            let mut faces = Database::new();
+            faces.load_system_fonts();
+            Self::new(faces)
+        })
+    }
+
+    /// Returns the fonts of this computer where their names are read already.
+    #[must_use]
+    pub fn ready() -> Option<&'static Self> {
+        SHARED.get()
+    }
+
+    /// Reads the names of the fonts of this computer on a thread of its own, so that nobody waits for them later.
+    pub fn prepare() {
+        std::thread::spawn(|| {
+            let _ = Self::shared();
+        });
+    }
+
+    /// Returns the fonts in a folder and the folders in it.
+    #[must_use]
+    pub fn of_folder(folder: &Path) -> Self {
+        let mut faces = Database::new();
+        faces.load_fonts_dir(folder);
+        Self::new(faces)
+    }
+
+    fn new(faces: Database) -> Self {
+        let mut order: Vec<(Rank, ID)> = faces.faces().map(|face| (rank(face), face.id)).collect();
+        order.sort_by(|a, b| a.0.cmp(&b.0));
+        Self {
+            order: order.into_iter().map(|(_, id)| id).collect(),
+            faces,
+            known: Mutex::default(),
+        }
+    }
+
+    /// Returns a font that draws a character; one that was read already goes first.
+    #[must_use]
+    pub fn find(&self, letter: char) -> Option<Arc<FontFile>> {
+        let mut known = self.known();
+        if let Some(found) = known.of.get(&letter) {
+            let at = (*found)?;
+            return known.loaded.get(at).map(|(_, font)| font.clone());
+        }
+        let at = known
+            .loaded
+            .iter()
+            .position(|(_, font)| draws(&font.data, font.index, letter))
+            .or_else(|| self.load(&mut known, letter));
+        if known.of.len() >= MOST_KNOWN {
+            known.of.clear();
+        }
+        known.of.insert(letter, at);
+        match at {
+            Some(at) => known.loaded.get(at).map(|(_, font)| font.clone()),
+            None => {
+                if known.missing.len() < MOST_MISSING {
+                    known.missing.insert(letter);
+                }
+                None
+            }
+        }
+    }
+
+    /// Returns the characters asked for since the last call that no font has.
+    #[must_use]
+    pub fn take_missing(&self) -> BTreeSet<char> {
+        std::mem::take(&mut self.known().missing)
+    }
+
+    fn known(&self) -> MutexGuard<'_, Known> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn load(&self, known: &mut Known, letter: char) -> Option<usize> {
+        for id in &self.order {
+            let fits = |data: &[u8], index| {
+                let room = MOST_KEPT.saturating_sub(known.kept).min(MOST_FILE);
+                (data.len() <= room && draws(data, index, letter)).then(|| (data.to_vec(), index))
+            };
+            let Some((data, index)) = self.faces.with_face_data(*id, fits).flatten() else {
+                continue;
+            };
+            let family = self.faces.face(*id).and_then(|face| face.families.first());
+            let family = family.map_or("font", |(name, _)| name);
+            let at = known.loaded.len();
+            known.kept += data.len();
+            let name = format!("{family} ({at})");
+            let font = Arc::new(FontFile { name, data, index });
+            known.loaded.push((*id, font));
+            return Some(at);
+        }
+        None
+    }
+}
+
+/// Returns whether a font has the outline of a character.
+fn draws(data: &[u8], index: u32, letter: char) -> bool {
+    let Ok(font) = FontRef::from_index(data, index) else {
+        return false;
+    };
+    let glyph = font.charmap().map(letter);
+    glyph.is_some_and(|glyph| font.outline_glyphs().get(glyph).is_some())
+}
+
+/// How far a font is from a plain upright one, then its name, so that the same fonts always give the same order.
+type Rank = (u32, bool, String, u32);
+
+fn rank(face: &FaceInfo) -> Rank {
+    let name = face.families.first().map_or("", |(name, _)| name);
+    let name = name.to_lowercase();
+    let has = |part: &str| u32::from(name.contains(part));
+    let slanted = u32::from(face.style != Style::Normal) * 4000;
+    let narrow = u32::from(face.stretch != Stretch::Normal) * 2000;
+    let heavy = u32::from(face.weight.0.abs_diff(400));
+    let odd = has("emoji") * 6000 + has("unifont") * 5000 + has("last resort") * 9000;
+    let styled = (has("serif") + has("mono") + has("display") + has("nastaliq")) * 150;
+    let far = slanted + narrow + heavy + odd + styled;
+    let path = format!("{name}\0{}", face.post_script_name);
+    (far, !name.starts_with("noto sans"), path, face.index)
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// A folder with one font, which has Greek and Cyrillic letters, and no Arabic ones.
+    pub(in crate::letters) fn noto() -> (tempfile::TempDir, SystemFonts) {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("NotoSans.ttf");
+        std::fs::write(file, notosans::REGULAR_TTF).expect("a font");
+        std::fs::write(folder.path().join("broken.ttf"), b"\0\x01\0\0 no font").expect("a file");
+        let fonts = SystemFonts::of_folder(folder.path());
+        (folder, fonts)
+    }
+
+    #[test]
+    fn a_font_is_read_when_a_character_needs_it_and_what_no_font_has_is_told_once() {
+        let (_folder, fonts) = noto();
+        assert!(fonts.known().loaded.is_empty());
+        let cyrillic = fonts.find('Ж').expect("a font");
+        assert!(cyrillic.name.starts_with("Noto Sans"), "{}", cyrillic.name);
+        let greek = fonts.find('Ω').expect("a font");
+        assert!(Arc::ptr_eq(&cyrillic, &greek));
+        assert_eq!(fonts.known().loaded.len(), 1);
+        assert!(fonts.find('ع').is_none());
+        assert!(fonts.find('ع').is_none());
+        assert_eq!(Vec::from_iter(fonts.take_missing()), ['ع']);
+        assert!(fonts.find('ع').is_none());
+        assert!(fonts.take_missing().is_empty());
+    }
+
+    #[test]
+    fn a_computer_without_fonts_has_none() {
+        let folder = tempfile::tempdir().expect("a folder");
+        assert!(SystemFonts::of_folder(folder.path()).find('a').is_none());
+    }
+}

@@ -1,0 +1,219 @@
+//! Text in any script on a picture: the small letter of this crate, and for what it lacks the fonts of the computer.
+//!
+//! The same text gives the same bytes on every computer as long as the [small letter](crate::font) has its
+//! characters; others look as the fonts of the computer have them, or as a frame with the character's number.
+
+mod code;
+mod fonts;
+mod order;
+mod outline;
+
+use std::sync::Arc;
+
+pub use code::{CODE_HEIGHT, code_width, draw_code};
+pub use fonts::{FontFile, SystemFonts};
+pub use order::{Run, any_from_right, hangs_on, mirrored, reads_from_right, runs};
+
+use crate::font;
+use outline::Placed;
+
+/// The size of a font beside the small letter, and where its base line is from the top of a cell, in dots.
+const SIZE: f32 = 11.0;
+const BASE: f32 = 10.0;
+
+/// A line of text, laid out.
+#[derive(Debug, Default)]
+pub(crate) struct Line {
+    pieces: Vec<(usize, Piece)>,
+    width: usize,
+}
+
+#[derive(Debug)]
+enum Piece {
+    Dots(String),
+    Code(char),
+    Outlines(Arc<FontFile>, Vec<Placed>),
+}
+
+impl Line {
+    /// Returns how many dots it is wide, without the gap after its last character.
+    pub(crate) fn width(&self) -> usize {
+        self.width.saturating_sub(1)
+    }
+
+    /// Paints it with the top left corner at `at`, each dot so many pixels wide; `paint` gets a pixel and how much of it
+    /// is covered.
+    pub(crate) fn draw(
+        &self,
+        at: [i64; 2],
+        scale: usize,
+        mut paint: impl FnMut(i64, i64, f32),
+    ) {
+        let dots = scale as i64;
+        for (left, piece) in &self.pieces {
+            let x = at[0] + *left as i64 * dots;
+            let mut square = |column: usize, row: i64| {
+                for i in 0..dots {
+                    for j in 0..dots {
+                        paint(x + column as i64 * dots + i, at[1] + row * dots + j, 1.0);
+                    }
+                }
+            };
+            match piece {
+                Piece::Dots(text) => font::draw(text, |column, row| square(column, row as i64)),
+                // The frame is higher than a cell.
+                Piece::Code(letter) => {
+                    draw_code(*letter, |column, row| square(column, row as i64 - 2));
+                }
+                Piece::Outlines(font, placed) => {
+                    let base = at[1] as f32 + BASE * scale as f32;
+                    let place = (SIZE * scale as f32, [x as f32, base]);
+                    outline::fill(font, placed, place, &mut paint);
+                }
+            }
+        }
+    }
+}
+
+/// What draws a character.
+#[derive(Debug, Clone)]
+enum Drawn {
+    Dots,
+    Font(Arc<FontFile>),
+    Nothing,
+}
+
+impl Drawn {
+    fn is(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Dots, Self::Dots) => true,
+            (Self::Font(a), Self::Font(b)) => Arc::ptr_eq(a, b),
+            _ => false,
+        }
+    }
+}
+
+/// Lays a line of text out; the fonts of the computer are only looked at for what the small letter lacks.
+pub(crate) fn line(text: &str) -> Line {
+    if !text.chars().all(font::knows) {
+        return lay_out(text, SystemFonts::shared());
+    }
+    let mut line = Line::default();
+    line.add(text, &Drawn::Dots, false);
+    line
+}
+
+/// Lays a line of text out with some fonts.
+fn lay_out(text: &str, fonts: &SystemFonts) -> Line {
+    let mut line = Line::default();
+    for run in runs(text) {
+        let mut parts = parts(&text[run.range.clone()], fonts);
+        if run.from_right {
+            parts.reverse();
+        }
+        for (part, drawn) in parts {
+            line.add(part, &drawn, run.from_right);
+        }
+    }
+    line
+}
+
+/// Cuts a run into parts that one font draws.
+fn parts<'a>(run: &'a str, fonts: &SystemFonts) -> Vec<(&'a str, Drawn)> {
+    let mut parts: Vec<(std::ops::Range<usize>, Drawn)> = Vec::new();
+    for (at, letter) in run.char_indices() {
+        let end = at + letter.len_utf8();
+        let hangs = hangs_on(letter) && !parts.is_empty();
+        let drawn = if font::knows(letter) || (hangs_on(letter) && parts.is_empty()) {
+            Drawn::Dots
+        } else if hangs {
+            parts.last().map_or(Drawn::Nothing, |(_, drawn)| drawn.clone())
+        } else {
+            fonts.find(letter).map_or(Drawn::Nothing, Drawn::Font)
+        };
+        match parts.last_mut() {
+            Some((range, last)) if hangs || last.is(&drawn) => range.end = end,
+            _ => parts.push((at..end, drawn)),
+        }
+    }
+    let text = |(range, drawn)| (&run[std::ops::Range::clone(&range)], drawn);
+    parts.into_iter().map(text).collect()
+}
+
+impl Line {
+    fn add(&mut self, part: &str, drawn: &Drawn, from_right: bool) {
+        let seen = part.chars().filter(|letter| font::knows(*letter) || !hangs_on(*letter));
+        let (piece, width) = match drawn {
+            Drawn::Dots => {
+                let text: String = match from_right {
+                    true => part.chars().rev().map(mirrored).collect(),
+                    false => seen.collect(),
+                };
+                let width = text.chars().count() * font::WIDTH;
+                (Piece::Dots(text), width)
+            }
+            Drawn::Font(file) => {
+                let (placed, wide) = outline::shape(file, part, from_right);
+                let width = (wide.max(0.0) * SIZE).ceil() as usize;
+                (Piece::Outlines(file.clone(), placed), width + 1)
+            }
+            Drawn::Nothing => {
+                let letter = part.chars().next().unwrap_or(char::REPLACEMENT_CHARACTER);
+                (Piece::Code(letter), code_width(letter))
+            }
+        };
+        self.pieces.push((self.width, piece));
+        self.width += width;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fonts::tests::noto;
+    use super::*;
+
+    fn dots(text: &str, fonts: &SystemFonts) -> Vec<(i64, i64, u8)> {
+        let mut all = Vec::new();
+        lay_out(text, fonts).draw([0, 4], 1, |x, y, part| all.push((x, y, (part * 255.0) as u8)));
+        all
+    }
+
+    #[test]
+    fn what_the_small_letter_has_looks_as_ever_and_the_rest_as_the_font_has_it() {
+        let (_folder, fonts) = noto();
+        let mut plain = Vec::new();
+        font::draw("ÉCOLE-2H", |x, y| plain.push((x as i64, y as i64 + 4, 255)));
+        assert_eq!(dots("ÉCOLE-2H", &fonts), plain);
+        let mixed = lay_out("жук X", &fonts);
+        assert!(matches!(mixed.pieces[0].1, Piece::Outlines(..)));
+        assert!(matches!(&mixed.pieces[1].1, Piece::Dots(text) if text == " X"));
+        assert!(!dots("жук", &fonts).is_empty());
+        assert_ne!(dots("жук", &fonts), dots("зук", &fonts));
+    }
+
+    #[test]
+    fn letters_that_no_font_has_show_their_number_from_the_right_where_they_are_read_so() {
+        let (_folder, fonts) = noto();
+        let line = lay_out("كتاب X", &fonts);
+        let codes: Vec<char> = line
+            .pieces
+            .iter()
+            .filter_map(|(_, piece)| match piece {
+                Piece::Code(letter) => Some(*letter),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(codes, ['ب', 'ا', 'ت', 'ك']);
+        assert!(matches!(&line.pieces[4].1, Piece::Dots(text) if text == " X"));
+    }
+
+    #[test]
+    fn hostile_text_is_laid_out() {
+        let (_folder, fonts) = noto();
+        for text in ["\u{202e}abc\u{301}\u{301}", "\u{301}", "\u{0}\n\t\u{7f}", "\u{feff}\u{200d}ж\u{200d}", "(ع)[ж"] {
+            let line = lay_out(text, &fonts);
+            assert!(line.width() < 400, "{text:?}");
+            line.draw([0, 0], 2, |_, _, _| {});
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Fonts of the computer for letters that ours lack, and what stands for a letter that no font has.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use chereme_figure::letters::{CODE_HEIGHT, SystemFonts, code_width, draw_code};
+use eframe::egui::epaint::text::{
+    FallbackRequest, FontInsert, FontPriority, FontProvider, GlyphBitmap, GlyphRasterizer,
+    GlyphRasterizerRequest, InsertFontFamily, RasterizedGlyph,
+};
+use eframe::egui::{Color32, ColorImage, Context, FontData, vec2};
+
+use crate::words::{Language, Text, scripts as words};
+
+/// Gives a context the fonts of this computer, whose names are read meanwhile.
+pub(super) fn install(ctx: &Context) {
+    SystemFonts::prepare();
+    ctx.add_font_provider(Arc::new(OfComputer));
+    ctx.add_glyph_rasterizer(GlyphRasterizer::new("number of a letter without a font", code));
+}
+
+struct OfComputer;
+
+impl FontProvider for OfComputer {
+    fn font_for(&self, request: &FallbackRequest<'_>) -> Option<FontInsert> {
+        let letter = request.cluster.chars().next()?;
+        let font = SystemFonts::shared().find(letter)?;
+        let family = InsertFontFamily {
+            family: request.family.clone(),
+            priority: FontPriority::Lowest,
+        };
+        let (name, index) = (font.name.clone(), font.index);
+        let data = FontData::from_blob(font, index);
+        Some(FontInsert::new(&name, data, vec![family]))
+    }
+}
+
+/// Draws the number of a letter that no font has.
+#[allow(clippy::unnecessary_wraps, reason = "it is what egui asks")]
+fn code(request: &GlyphRasterizerRequest<'_>) -> Option<RasterizedGlyph> {
+    let letter = request.cluster.chars().next()?;
+    // Sharp at whole pixels only.
+    let scale = ((request.font_size_px / 14.0).round() as usize).clamp(1, 16);
+    let (width, height) = (code_width(letter) * scale, CODE_HEIGHT * scale);
+    let mut image = ColorImage::filled([width, height], Color32::TRANSPARENT);
+    draw_code(letter, |x, y| {
+        for i in 0..scale {
+            for j in 0..scale {
+                image.pixels[(y * scale + j) * width + x * scale + i] = Color32::WHITE;
+            }
+        }
+    });
+    let above = (request.font_size_px * 0.9).round();
+    Some(RasterizedGlyph {
+        bitmap: GlyphBitmap {
+            image,
+            offset_px: vec2(0.0, -above),
+            is_color: false,
+        },
+        advance_px: width as f32,
+    })
+}
+
+/// Scripts by the first and last character of their blocks.
+const SCRIPTS: [(char, char, Text); 17] = [
+    ('\u{370}', '\u{3ff}', words::GREEK),
+    ('\u{400}', '\u{52f}', words::CYRILLIC),
+    ('\u{530}', '\u{58f}', words::ARMENIAN),
+    ('\u{590}', '\u{5ff}', words::HEBREW),
+    ('\u{600}', '\u{6ff}', words::ARABIC),
+    ('\u{750}', '\u{77f}', words::ARABIC),
+    ('\u{900}', '\u{97f}', words::DEVANAGARI),
+    ('\u{980}', '\u{9ff}', words::BENGALI),
+    ('\u{b80}', '\u{bff}', words::TAMIL),
+    ('\u{e00}', '\u{e7f}', words::THAI),
+    ('\u{10a0}', '\u{10ff}', words::GEORGIAN),
+    ('\u{1200}', '\u{137f}', words::ETHIOPIC),
+    ('\u{3040}', '\u{30ff}', words::JAPANESE),
+    ('\u{3400}', '\u{9fff}', words::CHINESE),
+    ('\u{ac00}', '\u{d7af}', words::KOREAN),
+    ('\u{1100}', '\u{11ff}', words::KOREAN),
+    ('\u{fb50}', '\u{fefc}', words::ARABIC),
+];
+
+/// Scripts that no font of this computer has, each told once.
+#[derive(Debug, Default)]
+pub(crate) struct Untold {
+    told: BTreeSet<String>,
+}
+
+impl Untold {
+    /// Returns what is told of letters that were shown since the last call and have no font, and what helps.
+    pub(crate) fn news(&mut self, language: Language) -> Option<(String, &'static str)> {
+        let missing = SystemFonts::ready()?.take_missing();
+        self.of(&missing, language)
+    }
+
+    fn of(&mut self, missing: &BTreeSet<char>, language: Language) -> Option<(String, &'static str)> {
+        let names: BTreeSet<&'static str> = missing
+            .iter()
+            .filter_map(|letter| {
+                let within = |(first, last, _): &&(char, char, Text)| (*first..=*last).contains(letter);
+                let (_, _, name) = SCRIPTS.iter().find(within)?;
+                Some(name.of(language))
+            })
+            .filter(|name| self.told.insert((*name).to_owned()))
+            .collect();
+        if names.is_empty() {
+            return None;
+        }
+        let names = Vec::from_iter(names).join(", ");
+        let text = crate::words::fill(words::NO_FONT.of(language), &[("scripts", &names)]);
+        Some((text, words::NO_FONT_HELP.of(language)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scripts_without_a_font_are_told_once_by_their_names() {
+        let mut untold = Untold::default();
+        let letters = BTreeSet::from(['ع', 'غ', 'Ж', '\u{e000}']);
+        let (text, _) = untold.of(&letters, Language::English).expect("news");
+        assert!(text.contains("Arabic, Cyrillic"), "{text}");
+        assert!(untold.of(&letters, Language::English).is_none());
+        let (text, _) = untold.of(&BTreeSet::from(['א']), Language::French).expect("news");
+        assert!(text.contains("hébreu"), "{text}");
+    }
+
+    #[test]
+    fn a_letter_without_a_font_is_drawn_as_its_number() {
+        let request = |cluster| GlyphRasterizerRequest {
+            cluster,
+            family: &eframe::egui::FontFamily::Proportional,
+            font_size_px: 28.0,
+            subpixel_offset_px: 0.0,
+        };
+        let ain = code(&request("ع")).expect("a picture");
+        let ghain = code(&request("غ")).expect("a picture");
+        assert_eq!(ain.bitmap.image.size, [24, 30]);
+        assert_ne!(ain.bitmap.image.pixels, ghain.bitmap.image.pixels);
+    }
+}

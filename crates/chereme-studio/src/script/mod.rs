@@ -1,0 +1,89 @@
+//! Text in the scripts of the world: fonts of the computer where ours lack letters, and text that is read from the right.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `fonts` | fonts for letters that ours lack, what stands for a letter without a font, and the notice of it |
+//! | `visual` | lines as they stand where some of them is read from the right |
+//! | `edit` | the same while it is typed: where the cursor is |
+
+pub(crate) mod edit;
+pub(crate) mod fonts;
+mod visual;
+
+use std::sync::Arc;
+
+use chereme_figure::letters::any_from_right;
+use eframe::egui::layers::ShapeIdx;
+use eframe::egui::{Context, Galley, LayerId, Plugin, Shape, Ui};
+
+/// Gives a context fonts for all scripts, and draws text in the order in which it stands.
+pub(crate) fn install(ctx: &Context) {
+    fonts::install(ctx);
+    ctx.add_plugin(InOrder);
+}
+
+/// Puts what is read from the right in order, after all of a frame was painted: whatever painted it, labels, buttons
+/// and what is painted by hand go through here.
+struct InOrder;
+
+impl Plugin for InOrder {
+    fn debug_name(&self) -> &'static str {
+        "text read from the right"
+    }
+
+    fn on_end_pass(&mut self, ui: &mut Ui) {
+        let ctx = ui.ctx();
+        let mut layers: Vec<LayerId> = ctx.memory(|memory| memory.layer_ids().collect());
+        layers.extend([LayerId::background(), LayerId::debug()]);
+        layers.sort_by_key(|layer| (layer.order, layer.id.value()));
+        layers.dedup();
+        for layer in layers {
+            let found: Vec<(usize, Vec<Arc<Galley>>)> = ctx.graphics(|graphics| {
+                let Some(list) = graphics.get(layer) else {
+                    return Vec::new();
+                };
+                let texts = list.all_entries().enumerate().map(|(at, entry)| {
+                    let mut texts = Vec::new();
+                    gather(&entry.shape, &mut texts);
+                    (at, texts)
+                });
+                texts.filter(|(_, texts)| !texts.is_empty()).collect()
+            });
+            for (at, texts) in found {
+                let turned: Vec<Arc<Galley>> =
+                    texts.iter().map(|text| visual::in_order(ctx, text)).collect();
+                ctx.graphics_mut(|graphics| {
+                    let list = graphics.entry(layer);
+                    list.mutate_shape(ShapeIdx(at), |entry| {
+                        put(&mut entry.shape, &mut turned.into_iter());
+                    });
+                });
+            }
+        }
+    }
+}
+
+/// Returns whether a text has to be put in order.
+fn is_turned(galley: &Galley) -> bool {
+    any_from_right(&galley.job.text) && !edit::is_in_order(galley)
+}
+
+fn gather(shape: &Shape, texts: &mut Vec<Arc<Galley>>) {
+    match shape {
+        Shape::Text(text) if is_turned(&text.galley) => texts.push(text.galley.clone()),
+        Shape::Vec(shapes) => shapes.iter().for_each(|shape| gather(shape, texts)),
+        _ => {}
+    }
+}
+
+fn put(shape: &mut Shape, turned: &mut std::vec::IntoIter<Arc<Galley>>) {
+    match shape {
+        Shape::Text(text) if is_turned(&text.galley) => {
+            if let Some(galley) = turned.next() {
+                text.galley = galley;
+            }
+        }
+        Shape::Vec(shapes) => shapes.iter_mut().for_each(|shape| put(shape, turned)),
+        _ => {}
+    }
+}

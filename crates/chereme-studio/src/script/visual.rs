@@ -1,0 +1,336 @@
+//! Lines as they stand where some of them is read from the right.
+//!
+//! egui shapes each word in its own script, and puts one word after the other from the left. So a text is given to it
+//! in the order in which it stands, each word that is read from the right as a piece of its own.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use chereme_figure::letters::{hangs_on, mirrored, reads_from_right, runs};
+use eframe::egui::text::{ByteIndex, LayoutJob, LayoutSection, TextWrapping};
+use eframe::egui::{Context, Galley};
+
+/// A part of a line in the order in which it stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Piece {
+    /// Its bytes in the text.
+    pub(super) range: Range<usize>,
+    pub(super) text: String,
+    pub(super) from_right: bool,
+}
+
+/// Returns the same text in the order in which it stands, with the same breaks of lines.
+pub(super) fn in_order(ctx: &Context, galley: &Galley) -> Arc<Galley> {
+    let words = in_words(&galley.job);
+    let (words, turned) = ctx.fonts_mut(|fonts| {
+        let words = fonts.layout_job(words);
+        let turned = turned(&galley.job, &lines(&words));
+        (words, fonts.layout_job(turned))
+    });
+    drop(words);
+    turned
+}
+
+/// Returns the job with a section for each word that is read from the right, so that lines are broken between them.
+fn in_words(job: &LayoutJob) -> LayoutJob {
+    let mut cut = job.clone();
+    cut.sections.clear();
+    for section in &job.sections {
+        let range = section.byte_range.start.0..section.byte_range.end.0;
+        let pieces = words(&job.text[range.clone()]);
+        for (nth, (piece, _)) in pieces.into_iter().enumerate() {
+            let leading_space = if nth == 0 { section.leading_space } else { 0.0 };
+            let (start, end) = (range.start + piece.start, range.start + piece.end);
+            cut.sections.push(LayoutSection {
+                leading_space,
+                byte_range: ByteIndex(start)..ByteIndex(end),
+                format: section.format.clone(),
+            });
+        }
+    }
+    cut
+}
+
+/// Cuts a text into words that are read from the right, and what stands between them; says which is which.
+fn words(text: &str) -> Vec<(Range<usize>, bool)> {
+    let mut words: Vec<(Range<usize>, bool)> = Vec::new();
+    for (at, letter) in text.char_indices() {
+        let end = at + letter.len_utf8();
+        let before = words.last().is_some_and(|(_, from_right)| *from_right);
+        let from_right = reads_from_right(letter) || (before && hangs_on(letter));
+        match words.last_mut() {
+            Some((range, same)) if *same == from_right => range.end = end,
+            _ => words.push((at..end, from_right)),
+        }
+    }
+    words
+}
+
+/// A line: its bytes in the text, and whether something is left out at its end.
+type Line = (Range<usize>, bool);
+
+/// Returns the lines of a text that was laid out word by word.
+///
+/// Words that are read from the right do not have a glyph for each character there, but blanks do.
+fn lines(galley: &Galley) -> Vec<Line> {
+    let text = galley.job.text.as_str();
+    let mut lines = Vec::new();
+    let mut start = 0;
+    for (nth, row) in galley.rows.iter().enumerate() {
+        let last = nth + 1 == galley.rows.len();
+        let cut = last && galley.elided;
+        let rest = &text[start..];
+        let glyphs = &row.row.glyphs;
+        let end = if row.ends_with_newline || (last && !cut) {
+            rest.find('\n').filter(|_| galley.job.break_on_newline)
+        } else {
+            let blanks = glyphs.iter().filter(|glyph| glyph.chr.is_whitespace()).count();
+            let after = match glyphs.iter().rposition(|glyph| glyph.chr.is_whitespace()) {
+                Some(at) => &glyphs[at + 1..],
+                None => &glyphs[..],
+            };
+            let seen = after.iter().filter(|glyph| glyph.advance_width > 0.0).count();
+            Some(beginning(rest, blanks, seen - usize::from(cut && seen > 0)))
+        };
+        let end = start + end.unwrap_or(rest.len());
+        lines.push((start..end, cut));
+        start = end;
+        if row.ends_with_newline && text[start..].starts_with('\n') {
+            start += 1;
+        }
+    }
+    lines
+}
+
+/// Returns how many bytes so many blanks, what is between them, and so many letters after them take.
+fn beginning(text: &str, blanks: usize, letters: usize) -> usize {
+    let mut all = text.char_indices().filter(|(_, letter)| letter.is_whitespace());
+    let after = match blanks.checked_sub(1).map(|nth| all.nth(nth)) {
+        Some(Some((at, blank))) => at + blank.len_utf8(),
+        Some(None) => return text.len(),
+        None => 0,
+    };
+    let rest = text[after..].char_indices();
+    let mut seen = rest.filter(|(_, letter)| !hangs_on(*letter)).skip(letters);
+    seen.next().map_or(text.len(), |(at, _)| after + at)
+}
+
+/// Returns the job that draws lines in the order in which they stand.
+fn turned(job: &LayoutJob, lines: &[Line]) -> LayoutJob {
+    let mut turned = LayoutJob {
+        text: String::with_capacity(job.text.len()),
+        sections: Vec::new(),
+        wrap: TextWrapping::no_max_width(),
+        justify: false,
+        ..job.clone()
+    };
+    let mut add = |text: &str, at: usize, first: bool| {
+        let Some(section) = section_at(job, at) else {
+            return;
+        };
+        let start = turned.text.len();
+        turned.text.push_str(text);
+        let begins = first && section.byte_range.start.0 == at;
+        turned.sections.push(LayoutSection {
+            leading_space: if begins { section.leading_space } else { 0.0 },
+            byte_range: ByteIndex(start)..ByteIndex(turned.text.len()),
+            format: section.format.clone(),
+        });
+    };
+    for (nth, (range, cut)) in lines.iter().enumerate() {
+        if nth > 0 {
+            add("\n", range.start.saturating_sub(1), false);
+        }
+        let pieces = pieces(&job.text[range.clone()], &|at| boundary(job, range.start + at));
+        for (nth, piece) in pieces.iter().enumerate() {
+            add(&piece.text, range.start + piece.range.start, nth == 0);
+        }
+        if let (true, Some(sign)) = (*cut, job.wrap.overflow_character) {
+            add(&sign.to_string(), range.end.saturating_sub(1), false);
+        }
+    }
+    turned
+}
+
+/// Returns the section that a byte lies in, or the last one before it.
+fn section_at(job: &LayoutJob, at: usize) -> Option<&LayoutSection> {
+    let after = job.sections.partition_point(|it| it.byte_range.start.0 <= at);
+    job.sections.get(after.saturating_sub(1))
+}
+
+/// Returns the byte at which the section ends that a byte lies in.
+fn boundary(job: &LayoutJob, at: usize) -> usize {
+    section_at(job, at).map_or(usize::MAX, |it| it.byte_range.end.0)
+}
+
+/// Returns the pieces of a line from left to right as they stand; `end` gives how far the look of a byte goes, counted
+/// in bytes of the whole text from the line's beginning.
+pub(super) fn pieces(line: &str, end: &dyn Fn(usize) -> usize) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    for run in runs(line) {
+        let text = &line[run.range.clone()];
+        let mut of_run: Vec<Piece> = Vec::new();
+        let cut = if run.from_right {
+            words(text)
+        } else {
+            vec![(0..text.len(), false)]
+        };
+        for (range, word) in cut {
+            let range = run.range.start + range.start..run.range.start + range.end;
+            for range in looks(line, range, end) {
+                let part = &line[range.clone()];
+                let text = match run.from_right && !word {
+                    true => part.chars().rev().map(mirrored).collect(),
+                    false => part.to_owned(),
+                };
+                of_run.push(Piece {
+                    range,
+                    text,
+                    from_right: run.from_right,
+                });
+            }
+        }
+        if run.from_right {
+            of_run.reverse();
+        }
+        pieces.append(&mut of_run);
+    }
+    pieces
+}
+
+/// Cuts a range where the look changes.
+fn looks(line: &str, range: Range<usize>, end: &dyn Fn(usize) -> usize) -> Vec<Range<usize>> {
+    let mut parts: Vec<Range<usize>> = Vec::new();
+    let mut limit = 0;
+    for (at, letter) in line[range.clone()].char_indices() {
+        let at = range.start + at;
+        let next = at + letter.len_utf8();
+        match parts.last_mut() {
+            Some(part) if at < limit => part.end = next,
+            _ => {
+                limit = end(at);
+                parts.push(at..next);
+            }
+        }
+    }
+    parts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eframe::egui::{Color32, FontId, RawInput, TextFormat};
+    use proptest::prelude::*;
+
+    fn shown(line: &str) -> String {
+        let pieces = pieces(line, &|_| usize::MAX);
+        let part = |piece: &Piece| match words(&piece.text).iter().any(|(_, it)| *it) {
+            true => format!("<{}>", piece.text),
+            false => piece.text.clone(),
+        };
+        pieces.iter().map(part).collect()
+    }
+
+    #[test]
+    fn words_stand_where_they_are_read() {
+        for (line, wanted) in [
+            ("AIMER", "AIMER"),
+            ("كتاب is notated.", "<كتاب> is notated."),
+            ("كتاب كبير", "<كبير> <كتاب>"),
+            ("(كتاب)", "(<كتاب>)"),
+            ("see كتاب كبير (2)", "see <كبير> <كتاب> (2)"),
+            ("שלום, עולם!", "!<עולם> ,<שלום>"),
+        ] {
+            assert_eq!(shown(line), wanted, "{line}");
+        }
+    }
+
+    fn context() -> Context {
+        let ctx = Context::default();
+        crate::theme::install(&ctx);
+        for _ in 0..2 {
+            let mut output = ctx.run_ui(RawInput::default(), |_| {});
+            output.textures_delta.clear();
+        }
+        ctx
+    }
+
+    fn laid_out(ctx: &Context, job: LayoutJob) -> Arc<Galley> {
+        ctx.fonts_mut(|fonts| fonts.layout_job(job))
+    }
+
+    fn job(text: &str, width: f32) -> LayoutJob {
+        let font = FontId::proportional(14.0);
+        LayoutJob::simple(text.to_owned(), font, Color32::WHITE, width)
+    }
+
+    #[test]
+    fn a_sentence_that_begins_with_an_arabic_gloss_is_drawn_forwards_and_as_wide() {
+        let ctx = context();
+        let before = laid_out(&ctx, job("كتاب is notated, not stored.", f32::INFINITY));
+        let after = in_order(&ctx, &before);
+        assert_eq!(after.job.text, "كتاب is notated, not stored.");
+        let drawn: String = after.rows[0].row.glyphs.iter().map(|glyph| glyph.chr).collect();
+        assert!(drawn.ends_with(" is notated, not stored."), "{drawn}");
+        let x = |letter| {
+            let glyphs = &after.rows[0].row.glyphs;
+            let found = glyphs.iter().find(|glyph| glyph.chr == letter);
+            found.map(|glyph| glyph.pos.x).expect("a letter")
+        };
+        assert!(x('ب') < x('ك'), "the first letter stands at the right");
+        assert!(x('ك') < x('n'));
+    }
+
+    #[test]
+    fn lines_are_broken_where_they_were_and_each_is_put_in_order() {
+        let ctx = context();
+        let text = "كتاب كبير is a sign that was notated كتاب كبير and is not stored yet";
+        for width in [60.0, 120.0, 180.0, 400.0] {
+            let before = laid_out(&ctx, job(text, width));
+            let after = in_order(&ctx, &before);
+            let mut letters: Vec<char> = after.job.text.chars().filter(|c| *c != '\n').collect();
+            let mut wanted: Vec<char> = text.chars().collect();
+            letters.sort_unstable();
+            wanted.sort_unstable();
+            assert_eq!(letters, wanted, "{width}");
+            assert!(after.rect.width() <= width + 1.0, "{width}: {}", after.rect.width());
+        }
+    }
+
+    #[test]
+    fn colours_stay_with_their_letters() {
+        let ctx = context();
+        let mut job = LayoutJob::default();
+        let format = |colour| TextFormat::simple(FontId::proportional(14.0), colour);
+        job.append("كتاب ", 0.0, format(Color32::RED));
+        job.append("كبير", 0.0, format(Color32::GREEN));
+        let turned = in_order(&ctx, &laid_out(&ctx, job));
+        let looks: Vec<(&str, Color32)> = turned
+            .job
+            .sections
+            .iter()
+            .map(|it| (&turned.job.text[it.byte_range.start.0..it.byte_range.end.0], it.format.color))
+            .collect();
+        assert_eq!(
+            looks,
+            [("كبير", Color32::GREEN), (" ", Color32::RED), ("كتاب", Color32::RED)]
+        );
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(96))]
+
+        #[test]
+        fn no_text_is_lost_or_breaks(text in "[a-c \u{5d0}-\u{5d4}\u{627}-\u{62b}\u{64b}\u{202b}\u{202c}\u{200d}(1\n\t漢]{0,24}", width in 5.0f32..200.0, rows in 0usize..3) {
+            let ctx = context();
+            let mut job = job(&text, width);
+            if rows > 0 {
+                job.wrap.max_rows = rows;
+                job.wrap.break_anywhere = true;
+            }
+            let before = laid_out(&ctx, job);
+            let after = in_order(&ctx, &before);
+            prop_assert!(rows > 0 || after.job.text.chars().filter(|c| *c != '\n').count() == text.chars().filter(|c| *c != '\n').count());
+        }
+    }
+}
