@@ -127,6 +127,7 @@ actions! {
     MergePrevious "annotation.merge-previous" ANNOTATION_MERGE_PREVIOUS Annotation Corpus;
     DeleteAnnotation "annotation.delete" ANNOTATION_DELETE Annotation Corpus;
     UseInRecipe "recombine.use" USE_IN_RECIPE Edit Corpus;
+    OpenRecipe "recombine.open-recipe" OPEN_RECIPE Edit Corpus;
     RecombineSelected "recombine.selected" RECOMBINE_SELECTED Edit Corpus;
     StoreSign "recombine.store" STORE_SIGN Edit Corpus;
     CardUp "recombine.card-up" CARD_UP Edit Recombine repeats;

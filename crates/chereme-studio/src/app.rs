@@ -332,6 +332,7 @@ impl Studio {
                 focused: ctx.memory(|memory| memory.focused().is_some()),
                 held: self.panes.stage.is_held(ctx),
                 marked: clipboard::is_text_marked(ctx),
+                menu: egui::Popup::is_any_open(ctx),
             };
             let Some((action, text)) = ctx.input_mut(|input| self.keys.take(input, place)) else {
                 return;

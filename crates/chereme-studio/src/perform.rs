@@ -192,6 +192,7 @@ impl Studio {
                 self.out.work(Work::Check { mend });
             }
             Action::UseInRecipe => self.use_in_recipe(ctx),
+            Action::OpenRecipe => self.open_recipe(),
             Action::Paste | Action::PasteHere => {
                 if let Some(text) = self.clipboard.given(ctx, action) {
                     self.paste(action, text, ctx);
@@ -233,6 +234,17 @@ impl Studio {
         }
         let work = if back { Work::Undo } else { Work::Redo };
         self.out.work(work);
+    }
+
+    /// Opens the recipe again of the recording that is shown.
+    fn open_recipe(&mut self) {
+        let snapshot = self.snapshot.as_ref().zip(self.shown.recording);
+        match snapshot.and_then(|(snapshot, recording)| snapshot.recipe_of(recording)) {
+            Some((recipe, name)) => self.out.send(Command::Recipe(recipe, Some(name))),
+            None => self
+                .out
+                .send(Command::Hint(crate::words::actions::NO_RECIPE)),
+        }
     }
 
     /// Takes the sign that is chosen in the pane that was used last into the recipe.

@@ -43,12 +43,7 @@ impl Line {
 
     /// Paints it with the top left corner at `at`, each dot so many pixels wide; `paint` gets a pixel and how much of it
     /// is covered.
-    pub(crate) fn draw(
-        &self,
-        at: [i64; 2],
-        scale: usize,
-        mut paint: impl FnMut(i64, i64, f32),
-    ) {
+    pub(crate) fn draw(&self, at: [i64; 2], scale: usize, mut paint: impl FnMut(i64, i64, f32)) {
         let dots = scale as i64;
         for (left, piece) in &self.pieces {
             let x = at[0] + *left as i64 * dots;
@@ -127,7 +122,9 @@ fn parts<'a>(run: &'a str, fonts: &SystemFonts) -> Vec<(&'a str, Drawn)> {
         let drawn = if font::knows(letter) || (hangs_on(letter) && parts.is_empty()) {
             Drawn::Dots
         } else if hangs {
-            parts.last().map_or(Drawn::Nothing, |(_, drawn)| drawn.clone())
+            parts
+                .last()
+                .map_or(Drawn::Nothing, |(_, drawn)| drawn.clone())
         } else {
             fonts.find(letter).map_or(Drawn::Nothing, Drawn::Font)
         };
@@ -142,7 +139,9 @@ fn parts<'a>(run: &'a str, fonts: &SystemFonts) -> Vec<(&'a str, Drawn)> {
 
 impl Line {
     fn add(&mut self, part: &str, drawn: &Drawn, from_right: bool) {
-        let seen = part.chars().filter(|letter| font::knows(*letter) || !hangs_on(*letter));
+        let seen = part
+            .chars()
+            .filter(|letter| font::knows(*letter) || !hangs_on(*letter));
         let (piece, width) = match drawn {
             Drawn::Dots => {
                 let text: String = match from_right {
@@ -174,7 +173,9 @@ mod tests {
 
     fn dots(text: &str, fonts: &SystemFonts) -> Vec<(i64, i64, u8)> {
         let mut all = Vec::new();
-        lay_out(text, fonts).draw([0, 4], 1, |x, y, part| all.push((x, y, (part * 255.0) as u8)));
+        lay_out(text, fonts).draw([0, 4], 1, |x, y, part| {
+            all.push((x, y, (part * 255.0) as u8))
+        });
         all
     }
 
@@ -182,7 +183,9 @@ mod tests {
     fn what_the_small_letter_has_looks_as_ever_and_the_rest_as_the_font_has_it() {
         let (_folder, fonts) = noto();
         let mut plain = Vec::new();
-        font::draw("ÉCOLE-2H", |x, y| plain.push((x as i64, y as i64 + 4, 255)));
+        font::draw("ÉCOLE-2H", |x, y| {
+            plain.push((x as i64, y as i64 + 4, 255))
+        });
         assert_eq!(dots("ÉCOLE-2H", &fonts), plain);
         let mixed = lay_out("жук X", &fonts);
         assert!(matches!(mixed.pieces[0].1, Piece::Outlines(..)));
@@ -210,7 +213,13 @@ mod tests {
     #[test]
     fn hostile_text_is_laid_out() {
         let (_folder, fonts) = noto();
-        for text in ["\u{202e}abc\u{301}\u{301}", "\u{301}", "\u{0}\n\t\u{7f}", "\u{feff}\u{200d}ж\u{200d}", "(ع)[ж"] {
+        for text in [
+            "\u{202e}abc\u{301}\u{301}",
+            "\u{301}",
+            "\u{0}\n\t\u{7f}",
+            "\u{feff}\u{200d}ж\u{200d}",
+            "(ع)[ж",
+        ] {
             let line = lay_out(text, &fonts);
             assert!(line.width() < 400, "{text:?}");
             line.draw([0, 0], 2, |_, _, _| {});

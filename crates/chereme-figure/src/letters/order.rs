@@ -106,7 +106,10 @@ mod tests {
             ("שלום", "<שלום>"),
             // A sentence of the window stays its own, whatever it begins with.
             ("كتاب is notated.", "<كتاب> is notated."),
-            ("Only those with كتاب كبير, please", "Only those with <كتاب كبير>, please"),
+            (
+                "Only those with كتاب كبير, please",
+                "Only those with <كتاب كبير>, please",
+            ),
             ("كتاب (2)", "<)>2<كتاب (>"),
         ] {
             assert_eq!(shown(line), wanted, "{line}");

@@ -34,8 +34,14 @@ pub(super) fn shape(font: &FontFile, text: &str, from_right: bool) -> (Vec<Place
     let mut x = 0.0;
     let mut placed = Vec::new();
     for (info, place) in shaped.glyph_infos().iter().zip(shaped.glyph_positions()) {
-        let at = [x + place.x_offset as f32 * unit, place.y_offset as f32 * unit];
-        placed.push(Placed { glyph: info.glyph_id, at });
+        let at = [
+            x + place.x_offset as f32 * unit,
+            place.y_offset as f32 * unit,
+        ];
+        placed.push(Placed {
+            glyph: info.glyph_id,
+            at,
+        });
         x += place.x_advance as f32 * unit;
     }
     (placed, x)
@@ -88,7 +94,10 @@ impl Path {
         let points = || self.sides.iter().flatten().map(|p| place(*p));
         let bound = |axis: usize| {
             let all = || points().map(|p| p[axis]);
-            let (low, high) = (all().fold(f32::MAX, f32::min), all().fold(f32::MIN, f32::max));
+            let (low, high) = (
+                all().fold(f32::MAX, f32::min),
+                all().fold(f32::MIN, f32::max),
+            );
             (low.floor(), high.ceil())
         };
         let ((left, right), (top, bottom)) = (bound(0), bound(1));
@@ -226,7 +235,10 @@ mod tests {
     fn what_is_filled_has_the_area_of_the_shape() {
         for (points, area) in [
             (&[[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [0.0, 3.0]][..], 12.0),
-            (&[[0.25, 0.5], [4.75, 0.5], [4.75, 3.25], [0.25, 3.25]], 4.5 * 2.75),
+            (
+                &[[0.25, 0.5], [4.75, 0.5], [4.75, 3.25], [0.25, 3.25]],
+                4.5 * 2.75,
+            ),
             (&[[0.0, 0.0], [7.3, 1.1], [2.2, 5.9]], 20.325),
             (&[[2.2, 5.9], [7.3, 1.1], [0.0, 0.0]], 20.325),
             (&[[0.1, 0.0], [0.4, 0.0], [0.4, 9.0], [0.1, 9.0]], 2.7),

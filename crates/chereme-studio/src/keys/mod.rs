@@ -59,6 +59,8 @@ pub(crate) struct Place {
     pub(crate) held: bool,
     /// Whether text of a label is marked, which is what is copied then.
     pub(crate) marked: bool,
+    /// Whether a menu or a list to choose from is open.
+    pub(crate) menu: bool,
 }
 
 impl Keys {
@@ -119,6 +121,7 @@ impl Keys {
     /// Returns the action that `chord` means at `place`: the pane's own before the others.
     pub(crate) fn action(&self, chord: Chord, place: Place) -> Option<Action> {
         let taken = (place.typing && chord.is_for_text())
+            || (place.menu && !chord.ctrl && !chord.alt)
             || (place.focused && chord.is_for_widgets())
             || (place.held && chord.is_for_handles());
         if taken {
@@ -188,6 +191,7 @@ mod tests {
         focused: false,
         held: false,
         marked: false,
+        menu: false,
     };
 
     fn chord(text: &str) -> Chord {
@@ -228,6 +232,29 @@ mod tests {
         assert_eq!(keys.action(chord("Ctrl+Z"), AT), Some(Action::Play));
         assert_eq!(keys.action(chord("Ctrl+Space"), AT), None);
         assert!(keys.of(Action::Undo).is_empty());
+    }
+
+    #[test]
+    fn keys_typed_over_an_open_menu_reach_nothing_below_it() {
+        let menu = Place { menu: true, ..AT };
+        for (keymap, _) in Keymap::ALL {
+            let keys = Keys::new(keymap, &Rebound::new());
+            for row in ACTIONS {
+                let place = match row.context {
+                    Context::Pane(pane) => Place {
+                        pane: Some(pane),
+                        ..menu
+                    },
+                    _ => menu,
+                };
+                for chord in keys.of(row.action) {
+                    let plain = !chord.ctrl && !chord.alt;
+                    assert!(!plain || keys.action(*chord, place).is_none(), "{}", row.id);
+                }
+            }
+        }
+        let keys = Keys::new(Keymap::Elan, &Rebound::new());
+        assert_eq!(keys.action(chord("Ctrl+Z"), menu), Some(Action::Undo));
     }
 
     #[test]

@@ -62,6 +62,12 @@ impl Snapshot {
             .find(|it| it.row.name == name)
     }
 
+    /// Returns the recipe of a recording that was made of one, with the recording's name.
+    pub(crate) fn recipe_of(&self, recording: i64) -> Option<(String, String)> {
+        let it = self.recording(recording)?;
+        Some((it.recipe.clone()?, it.row.name.clone()))
+    }
+
     /// Returns whether the sign of that gloss is notated.
     pub(crate) fn is_notated(&self, gloss: &str) -> bool {
         let signs = &self.overview.signs;

@@ -111,7 +111,14 @@ impl Sprung {
 }
 
 /// Draws the menu of a sign in a list.
-pub(crate) fn menu(ui: &mut Ui, seen: &Seen<'_>, (token, gloss): (i64, &str), out: &mut Outbox) {
+///
+/// `recording` is that in which it lies: one that was made of a recipe has it opened again.
+pub(crate) fn menu(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    (token, gloss, recording): (i64, &str, Option<i64>),
+    out: &mut Outbox,
+) {
     let mut entry = |name: &str, command: Command, keys: String| {
         let button = eframe::egui::Button::new(name).shortcut_text(keys);
         if ui.add(button).clicked() {
@@ -123,6 +130,11 @@ pub(crate) fn menu(ui: &mut Ui, seen: &Seen<'_>, (token, gloss): (i64, &str), ou
         token,
         gloss: gloss.to_owned(),
     };
+    if let Some((recipe, name)) = recording.and_then(|it| seen.snapshot.recipe_of(it)) {
+        let open = Action::OpenRecipe;
+        let command = Command::Recipe(recipe, Some(name));
+        entry(seen.say(open.row().name), command, seen.keys.text(open));
+    }
     let (used, like) = (Action::UseInRecipe, Action::SearchLike);
     let name = seen.say(used.row().name);
     entry(name, Command::Use(carried), seen.keys.text(used));

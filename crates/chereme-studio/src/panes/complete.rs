@@ -1,5 +1,6 @@
 //! A line of text with what it could be: typed letters narrow a list, arrows choose, Enter takes.
 
+use crate::script::edit;
 use chereme_sign::text::fold;
 use eframe::egui::{
     Button, Id, Key, Modifiers, Popup, PopupCloseBehavior, Rect, Response, RichText, Role,
@@ -22,6 +23,8 @@ pub(crate) struct Line<'a> {
     pub(crate) name: &'a str,
     pub(crate) hint: &'a str,
     pub(crate) width: f32,
+    /// Whether Enter takes a candidate that is the only one and begins with what is typed.
+    pub(crate) takes_only: bool,
     /// What is told beside each candidate.
     pub(crate) about: Option<&'a About<'a>>,
 }
@@ -32,6 +35,7 @@ impl Default for Line<'_> {
             name: "",
             hint: "",
             width: f32::INFINITY,
+            takes_only: true,
             about: None,
         }
     }
@@ -79,6 +83,15 @@ pub(crate) fn fitting<'a>(all: impl Iterator<Item = &'a str>, typed: &str) -> Ve
     first
 }
 
+/// Returns whether there is one candidate, and it begins with what is typed.
+fn is_only(offered: &[String], typed: &str) -> bool {
+    let typed = fold(typed.trim());
+    match offered {
+        [one] => !typed.is_empty() && fold(one).starts_with(&typed),
+        _ => false,
+    }
+}
+
 /// Shows the line; `candidates` is only asked while it has the focus.
 pub(crate) fn complete(
     ui: &mut Ui,
@@ -114,15 +127,16 @@ pub(crate) fn complete(
         if pressed(Key::Escape) {
             listed.away = true;
         }
-        if listed.chosen.is_some() && pressed(Key::Enter) {
-            taken = listed.chosen.and_then(|at| offered.get(at)).cloned();
+        let only = line.takes_only && is_only(&offered, text);
+        let enter = listed.chosen.or(only.then_some(0));
+        if enter.is_some() && pressed(Key::Enter) {
+            taken = enter.and_then(|at| offered.get(at)).cloned();
         }
     }
-    let field = TextEdit::singleline(text)
-        .id(id)
-        .hint_text(line.hint)
-        .desired_width(line.width);
-    let response = ui.add(field);
+    let shown = edit::line(ui, text, |field| {
+        field.id(id).hint_text(line.hint).desired_width(line.width)
+    });
+    let response = shown.response.response;
     if !line.name.is_empty() {
         response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, line.name));
     }
@@ -203,6 +217,35 @@ fn to_end(ui: &Ui, id: Id, letters: usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn enter_takes_the_only_candidate_that_goes_on_with_what_is_typed() {
+        let mut window = egui_kittest::Harness::new_ui_state(
+            |ui, text: &mut String| {
+                let all = ["ESCARGOT", "BOL", "BON"];
+                let candidates = |typed: &str| fitting(all.into_iter(), typed);
+                let line = Line {
+                    name: "sign",
+                    width: 120.0,
+                    ..Line::default()
+                };
+                complete(ui, Id::unique("sign"), line, text, &candidates);
+            },
+            String::new(),
+        );
+        use egui_kittest::kittest::Queryable;
+        for (typed, taken) in [("esc", "ESCARGOT"), ("bo", "bo"), ("argot", "argot")] {
+            window.state_mut().clear();
+            window.run();
+            window.get_by_label("sign").focus();
+            window.run();
+            window.get_by_label("sign").type_text(typed);
+            window.run();
+            window.key_press(Key::Enter);
+            window.run();
+            assert_eq!(window.state(), taken);
+        }
+    }
 
     #[test]
     fn what_begins_with_the_letters_comes_before_what_holds_them() {

@@ -57,12 +57,11 @@ pub(crate) fn lay_out(ui: &Ui, job: LayoutJob) -> Arc<Galley> {
         .text
         .chars()
         .zip(&places)
-        .map(|(chr, [x, width])| eframe::epaint::text::Glyph {
-            chr,
-            pos: pos2(*x, glyph.pos.y),
-            advance_width: *width,
-            first_vertex: after,
-            ..glyph
+        .map(|(chr, [x, width])| {
+            let mut glyph = glyph;
+            (glyph.chr, glyph.pos) = (chr, pos2(*x, glyph.pos.y));
+            (glyph.advance_width, glyph.first_vertex) = (*width, after);
+            glyph
         })
         .collect();
     // The cursor after the last letter stands at the end of the row as egui knows it.
@@ -77,7 +76,11 @@ pub(crate) fn lay_out(ui: &Ui, job: LayoutJob) -> Arc<Galley> {
 /// Returns for each character where the cursor before it stands, and how wide it is where it is read from the left;
 /// and where the cursor after all of them stands.
 fn places(ui: &Ui, job: &LayoutJob, pieces: &[Piece]) -> (Vec<[f32; 2]>, f32) {
-    let look = job.sections.first().map(|it| it.format.clone()).unwrap_or_default();
+    let look = job
+        .sections
+        .first()
+        .map(|it| it.format.clone())
+        .unwrap_or_default();
     let wide = |text: &str| {
         let (font, colour) = (look.font_id.clone(), look.color);
         ui.fonts_mut(|fonts| fonts.layout_no_wrap(text.to_owned(), font, colour).size().x)
@@ -142,15 +145,16 @@ fn nearest(galley: &Galley, point: Pos2) -> usize {
     let count = row.row.glyphs.len();
     let far = |at: &usize| (row.row.x_offset(CharIndex(*at)) - point.x).abs();
     let all = 0..=count;
-    all.min_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(count)
+    all.min_by(|a, b| far(a).total_cmp(&far(b)))
+        .unwrap_or(count)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use eframe::egui::{Key, vec2};
     use egui_kittest::Harness;
     use egui_kittest::kittest::Queryable;
-    use eframe::egui::{Key, vec2};
 
     fn typed<'a>(text: &str) -> Harness<'a, (String, Option<TextEditOutput>)> {
         let draw = |ui: &mut Ui, state: &mut (String, Option<TextEditOutput>)| {

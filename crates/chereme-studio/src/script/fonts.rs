@@ -16,7 +16,10 @@ use crate::words::{Language, Text, scripts as words};
 pub(super) fn install(ctx: &Context) {
     SystemFonts::prepare();
     ctx.add_font_provider(Arc::new(OfComputer));
-    ctx.add_glyph_rasterizer(GlyphRasterizer::new("number of a letter without a font", code));
+    ctx.add_glyph_rasterizer(GlyphRasterizer::new(
+        "number of a letter without a font",
+        code,
+    ));
 }
 
 struct OfComputer;
@@ -95,11 +98,16 @@ impl Untold {
         self.of(&missing, language)
     }
 
-    fn of(&mut self, missing: &BTreeSet<char>, language: Language) -> Option<(String, &'static str)> {
+    fn of(
+        &mut self,
+        missing: &BTreeSet<char>,
+        language: Language,
+    ) -> Option<(String, &'static str)> {
         let names: BTreeSet<&'static str> = missing
             .iter()
             .filter_map(|letter| {
-                let within = |(first, last, _): &&(char, char, Text)| (*first..=*last).contains(letter);
+                let within =
+                    |(first, last, _): &&(char, char, Text)| (*first..=*last).contains(letter);
                 let (_, _, name) = SCRIPTS.iter().find(within)?;
                 Some(name.of(language))
             })
@@ -125,7 +133,9 @@ mod tests {
         let (text, _) = untold.of(&letters, Language::English).expect("news");
         assert!(text.contains("Arabic, Cyrillic"), "{text}");
         assert!(untold.of(&letters, Language::English).is_none());
-        let (text, _) = untold.of(&BTreeSet::from(['א']), Language::French).expect("news");
+        let (text, _) = untold
+            .of(&BTreeSet::from(['א']), Language::French)
+            .expect("news");
         assert!(text.contains("hébreu"), "{text}");
     }
 

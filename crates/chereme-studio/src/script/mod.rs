@@ -50,8 +50,10 @@ impl Plugin for InOrder {
                 texts.filter(|(_, texts)| !texts.is_empty()).collect()
             });
             for (at, texts) in found {
-                let turned: Vec<Arc<Galley>> =
-                    texts.iter().map(|text| visual::in_order(ctx, text)).collect();
+                let turned: Vec<Arc<Galley>> = texts
+                    .iter()
+                    .map(|text| visual::in_order(ctx, text))
+                    .collect();
                 ctx.graphics_mut(|graphics| {
                     let list = graphics.entry(layer);
                     list.mutate_shape(ShapeIdx(at), |entry| {

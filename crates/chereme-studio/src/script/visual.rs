@@ -84,12 +84,18 @@ fn lines(galley: &Galley) -> Vec<Line> {
         let end = if row.ends_with_newline || (last && !cut) {
             rest.find('\n').filter(|_| galley.job.break_on_newline)
         } else {
-            let blanks = glyphs.iter().filter(|glyph| glyph.chr.is_whitespace()).count();
+            let blanks = glyphs
+                .iter()
+                .filter(|glyph| glyph.chr.is_whitespace())
+                .count();
             let after = match glyphs.iter().rposition(|glyph| glyph.chr.is_whitespace()) {
                 Some(at) => &glyphs[at + 1..],
                 None => &glyphs[..],
             };
-            let seen = after.iter().filter(|glyph| glyph.advance_width > 0.0).count();
+            let seen = after
+                .iter()
+                .filter(|glyph| glyph.advance_width > 0.0)
+                .count();
             Some(beginning(rest, blanks, seen - usize::from(cut && seen > 0)))
         };
         let end = start + end.unwrap_or(rest.len());
@@ -104,7 +110,9 @@ fn lines(galley: &Galley) -> Vec<Line> {
 
 /// Returns how many bytes so many blanks, what is between them, and so many letters after them take.
 fn beginning(text: &str, blanks: usize, letters: usize) -> usize {
-    let mut all = text.char_indices().filter(|(_, letter)| letter.is_whitespace());
+    let mut all = text
+        .char_indices()
+        .filter(|(_, letter)| letter.is_whitespace());
     let after = match blanks.checked_sub(1).map(|nth| all.nth(nth)) {
         Some(Some((at, blank))) => at + blank.len_utf8(),
         Some(None) => return text.len(),
@@ -141,7 +149,9 @@ fn turned(job: &LayoutJob, lines: &[Line]) -> LayoutJob {
         if nth > 0 {
             add("\n", range.start.saturating_sub(1), false);
         }
-        let pieces = pieces(&job.text[range.clone()], &|at| boundary(job, range.start + at));
+        let pieces = pieces(&job.text[range.clone()], &|at| {
+            boundary(job, range.start + at)
+        });
         for (nth, piece) in pieces.iter().enumerate() {
             add(&piece.text, range.start + piece.range.start, nth == 0);
         }
@@ -154,7 +164,9 @@ fn turned(job: &LayoutJob, lines: &[Line]) -> LayoutJob {
 
 /// Returns the section that a byte lies in, or the last one before it.
 fn section_at(job: &LayoutJob, at: usize) -> Option<&LayoutSection> {
-    let after = job.sections.partition_point(|it| it.byte_range.start.0 <= at);
+    let after = job
+        .sections
+        .partition_point(|it| it.byte_range.start.0 <= at);
     job.sections.get(after.saturating_sub(1))
 }
 
@@ -270,7 +282,12 @@ mod tests {
         let before = laid_out(&ctx, job("كتاب is notated, not stored.", f32::INFINITY));
         let after = in_order(&ctx, &before);
         assert_eq!(after.job.text, "كتاب is notated, not stored.");
-        let drawn: String = after.rows[0].row.glyphs.iter().map(|glyph| glyph.chr).collect();
+        let drawn: String = after.rows[0]
+            .row
+            .glyphs
+            .iter()
+            .map(|glyph| glyph.chr)
+            .collect();
         assert!(drawn.ends_with(" is notated, not stored."), "{drawn}");
         let x = |letter| {
             let glyphs = &after.rows[0].row.glyphs;
@@ -293,7 +310,11 @@ mod tests {
             letters.sort_unstable();
             wanted.sort_unstable();
             assert_eq!(letters, wanted, "{width}");
-            assert!(after.rect.width() <= width + 1.0, "{width}: {}", after.rect.width());
+            assert!(
+                after.rect.width() <= width + 1.0,
+                "{width}: {}",
+                after.rect.width()
+            );
         }
     }
 
@@ -309,11 +330,20 @@ mod tests {
             .job
             .sections
             .iter()
-            .map(|it| (&turned.job.text[it.byte_range.start.0..it.byte_range.end.0], it.format.color))
+            .map(|it| {
+                (
+                    &turned.job.text[it.byte_range.start.0..it.byte_range.end.0],
+                    it.format.color,
+                )
+            })
             .collect();
         assert_eq!(
             looks,
-            [("كبير", Color32::GREEN), (" ", Color32::RED), ("كتاب", Color32::RED)]
+            [
+                ("كبير", Color32::GREEN),
+                (" ", Color32::RED),
+                ("كتاب", Color32::RED)
+            ]
         );
     }
 

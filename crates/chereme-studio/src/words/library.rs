@@ -22,6 +22,6 @@ texts! {
     ALIKE: "Signs like it that move", "Signes semblables qui bougent";
     IMPORT: "Import…", "Importer…";
     CAPTURED: "captured", "capté";
-    MADE: "made", "composé";
+    MADE: "synthesised", "composé";
     GENERATED: "generated", "produit";
 }

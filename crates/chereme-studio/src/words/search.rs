@@ -121,11 +121,14 @@ texts! {
     FACETS: "Values", "Valeurs";
     FACETS_TIP: "How often each value occurs in what was found; a click asks for it too.", "Combien de fois chaque valeur apparaît dans ce qui est trouvé ; un clic la demande aussi.";
     FACET_TIP: "Only those with {value}\nCtrl and a click: all that is known of it", "Seulement ceux avec {value}\nCtrl et un clic : tout ce qu’on en sait";
-    BEFORE: "Before", "Avant";
+    FACET_OFF: "{value} is wanted: a click wants it no longer", "{value} est demandé : un clic ne le demande plus";
+    BEFORE: "before", "avant";
     GLOSS: "gloss", "glose";
-    AFTER: "After", "Après";
-    PLACE: "Where", "Où";
+    WIDTH_OF: "Width of the column {column}", "Largeur de la colonne {column}";
+    AFTER: "after", "après";
+    PLACE: "where", "où";
     DURATION: "duration", "durée";
+    WIDER: "Drag to make the column wider or narrower; a double-click has it as usual", "Glisser pour élargir ou rétrécir la colonne ; un double clic la remet comme d’ordinaire";
     SORT: "Sort by {column}", "Trier par {column}";
     SORT_FEWER: "Too many hits to sort by what is around them: narrow the query", "Trop de résultats pour trier par contexte : précisez la requête";
     HIT_TIP: "{hit}\nArrow keys walk, Enter opens", "{hit}\nFlèches pour aller, Entrée pour ouvrir";

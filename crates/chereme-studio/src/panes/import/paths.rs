@@ -35,6 +35,11 @@ impl Paths {
             self.all.clear();
         }
         let candidates = |typed: &str| fitting(self.all.iter().map(String::as_str), typed);
+        let line = Line {
+            // A folder is a path by itself.
+            takes_only: false,
+            ..line
+        };
         complete(ui, id, line, text, &candidates)
     }
 

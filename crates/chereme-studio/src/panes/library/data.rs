@@ -1,5 +1,7 @@
 //! What the lists of recordings and of signs say, without a window.
 
+use std::collections::BTreeMap;
+
 use chereme_corpus::{RecordingGlance, SignGlance};
 use chereme_motion::{Instant, Span};
 use chereme_sign::text::fold;
@@ -86,12 +88,22 @@ pub(crate) struct SignRow {
 }
 
 /// Returns the signs whose gloss holds `filter`, whatever its case and accents.
-pub(crate) fn signs(signs: &[SignGlance], filter: &str, language: Language) -> Vec<SignRow> {
+pub(crate) fn signs(
+    signs: &[SignGlance],
+    recordings: &[RecordingGlance],
+    filter: &str,
+    language: Language,
+) -> Vec<SignRow> {
+    let origins: BTreeMap<i64, &str> = recordings
+        .iter()
+        .map(|it| (it.row.id, it.row.origin.as_str()))
+        .collect();
+    let origin = |it: &SignGlance| origins.get(&it.place?.0).copied();
     let wanted = fold(filter.trim());
     let fits = |it: &&SignGlance| wanted.is_empty() || fold(&it.gloss).contains(&wanted);
     let row = |it: &SignGlance| SignRow {
         gloss: it.gloss.clone(),
-        about: about(it, language),
+        about: about(it, origin(it), language),
         token: it.citation,
         moves: moves(it),
     };
@@ -107,9 +119,13 @@ fn moves(sign: &SignGlance) -> Moves {
 }
 
 /// Returns where a sign comes from, and how many tokens it has.
-pub(crate) fn about(sign: &SignGlance, language: Language) -> String {
+pub(crate) fn about(sign: &SignGlance, origin: Option<&str>, language: Language) -> String {
     let what = match moves(sign) {
-        Moves::Recorded(..) => words::RECORDED,
+        // What was made was not recorded.
+        Moves::Recorded(..) => origin
+            .filter(|it| *it != "captured")
+            .and_then(origin_text)
+            .unwrap_or(words::RECORDED),
         Moves::Notated => words::NOTATED,
         Moves::Not => words::IN_LEXICON,
     };
@@ -171,6 +187,36 @@ mod tests {
     }
 
     #[test]
+    fn a_sign_that_was_made_was_not_recorded() {
+        let span = Span::between(Instant::ZERO, Instant::from_micros(9));
+        let sign = SignGlance {
+            gloss: "LIMACE".into(),
+            tokens: 1,
+            place: Some((1, span)),
+            ..SignGlance::default()
+        };
+        let mut recording = glance(1, "LIMACE", None);
+        for (origin, english, french) in [
+            ("made", "synthesised", "composé"),
+            ("generated", "generated", "produit"),
+            ("captured", "recorded", "enregistré"),
+        ] {
+            recording.row.origin = origin.into();
+            let about = |language| {
+                let rows = signs(
+                    std::slice::from_ref(&sign),
+                    std::slice::from_ref(&recording),
+                    "",
+                    language,
+                );
+                rows[0].about.clone()
+            };
+            assert_eq!(about(Language::English), english);
+            assert_eq!(about(Language::French), french);
+        }
+    }
+
+    #[test]
     fn signs_say_whether_there_is_something_to_see() {
         let sign = |gloss: &str, tokens, citation| SignGlance {
             gloss: gloss.into(),
@@ -190,14 +236,14 @@ mod tests {
             },
             sign("rien", 0, None),
         ];
-        let shown = signs(&all, "", Language::English);
+        let shown = signs(&all, &[], "", Language::English);
         let moves: Vec<Moves> = shown.iter().map(|row| row.moves).collect();
         assert_eq!(
             moves,
             [Moves::Recorded(4, span), Moves::Notated, Moves::Not]
         );
         assert_eq!(shown[0].about, "recorded · tokens: 3");
-        assert_eq!(signs(&all, "zer", Language::French)[0].token, Some(2));
-        assert!(signs(&all, "none", Language::French).is_empty());
+        assert_eq!(signs(&all, &[], "zer", Language::French)[0].token, Some(2));
+        assert!(signs(&all, &[], "none", Language::French).is_empty());
     }
 }

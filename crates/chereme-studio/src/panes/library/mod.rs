@@ -5,8 +5,8 @@ pub(crate) mod data;
 use std::sync::Arc;
 
 use eframe::egui::{
-    EventFilter, Id, Key, Modifiers, Rect, RectAlign, Response, ScrollArea, Sense, TextEdit,
-    Tooltip, Ui, Vec2, WidgetInfo, vec2,
+    EventFilter, Id, Key, Modifiers, Rect, RectAlign, Response, ScrollArea, Sense, Tooltip, Ui,
+    Vec2, WidgetInfo, vec2,
 };
 
 use super::bare::{self, Bare};
@@ -17,6 +17,7 @@ use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::little::{self, Cell, Motion};
+use crate::script::edit;
 use crate::words::{Language, fill, library as words};
 use crate::work::{Ended, WorkId};
 pub(crate) use data::origin_text;
@@ -73,7 +74,7 @@ impl Rows {
         let origin =
             |name: &str| origin_text(name).map_or(name.to_owned(), |it| seen.say(it).to_owned());
         self.recordings = data::rows(&overview.recordings, filter, origin);
-        self.signs = data::signs(&overview.signs, filter, seen.language);
+        self.signs = data::signs(&overview.signs, &overview.recordings, filter, seen.language);
         self.of = Some(now);
     }
 }
@@ -112,10 +113,12 @@ impl Library {
             }
         });
         let before = self.filter.clone();
-        let filter = TextEdit::singleline(&mut self.filter)
-            .hint_text(seen.say(words::FILTER))
-            .desired_width(f32::INFINITY);
-        let response = ui.add(filter);
+        let shown = edit::line(ui, &mut self.filter, |field| {
+            field
+                .hint_text(seen.say(words::FILTER))
+                .desired_width(f32::INFINITY)
+        });
+        let response = shown.response.response;
         let (name, text) = (seen.say(words::FILTER), self.filter.clone());
         response.widget_info(|| WidgetInfo {
             label: Some(name.to_owned()),
@@ -243,7 +246,17 @@ impl Library {
                     out.send(Command::Recording(row.id));
                     out.send(Command::Look);
                 }
+                if response.double_clicked() {
+                    open_recipe(seen, Some(row.id), out);
+                }
                 response.context_menu(|ui| {
+                    if seen.snapshot.recipe_of(row.id).is_some() {
+                        let name = seen.say(Action::OpenRecipe.row().name);
+                        if ui.button(name).clicked() {
+                            open_recipe(seen, Some(row.id), out);
+                            ui.close();
+                        }
+                    }
                     inspect(ui, seen, Thing::Recording(row.id), out);
                 });
             }
@@ -295,10 +308,14 @@ impl Library {
         if response.clicked() {
             self.choose(row, out);
         }
+        let recording = recording_of(row);
+        if response.double_clicked() {
+            open_recipe(seen, recording, out);
+        }
         response.context_menu(|ui| {
             let Some(token) = row.token else { return };
             let gloss = row.gloss.as_str();
-            super::carry::menu(ui, seen, (token, gloss), out);
+            super::carry::menu(ui, seen, (token, gloss, recording), out);
         });
     }
 }
@@ -306,6 +323,21 @@ impl Library {
 /// The row at a place of the list, whatever stands there.
 fn row_id(at: usize) -> Id {
     Id::unique("library").with(at)
+}
+
+/// The recording in which a sign lies.
+fn recording_of(row: &SignRow) -> Option<i64> {
+    match row.moves {
+        Moves::Recorded(recording, _) => Some(recording),
+        _ => None,
+    }
+}
+
+/// Opens the recipe of a recording that was made of one.
+fn open_recipe(seen: &Seen<'_>, recording: Option<i64>, out: &mut Outbox) {
+    if let Some((recipe, name)) = recording.and_then(|it| seen.snapshot.recipe_of(it)) {
+        out.send(Command::Recipe(recipe, Some(name)));
+    }
 }
 
 fn carried(row: &SignRow) -> Option<Carried> {

@@ -11,7 +11,8 @@ use super::stack::{Card, Stack, What};
 use super::{catalogue, fields, settings};
 use crate::action::Action;
 use crate::context::Seen;
-use crate::words::{fill, recombine as words};
+use crate::panes::meant::meant;
+use crate::words::{fill, recombine as words, search};
 
 /// Residuals above this are worth a look, in metres.
 const FAR: f64 = 0.005;
@@ -144,7 +145,10 @@ fn frame(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>, stack: &Stack, did: &m
             did.push(Did::Choose(shown.card.id));
             did.push(Did::Change(shown.card.id, what));
         }
-        told(ui, seen, shown);
+        if let Some(what) = told(ui, seen, shown) {
+            did.push(Did::Choose(shown.card.id));
+            did.push(Did::Change(shown.card.id, what));
+        }
     });
     let rect = inner.response.rect.intersect(ui.clip_rect());
     let pressed = ui.input(|input| {
@@ -258,8 +262,9 @@ fn menu(ui: &mut Ui, seen: &Seen<'_>, id: u64, did: &mut Vec<Did>) {
     }
 }
 
-/// What became of a card: what it did, how near it came, or why it cannot be done.
-fn told(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>) {
+/// What became of a card: what it did, how near it came, or why it cannot be done; returns what it becomes where
+/// a slip in it is mended.
+fn told(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>) -> Option<What> {
     if let Some(trouble) = shown.trouble {
         ui.label(
             RichText::new(&trouble.text)
@@ -273,15 +278,19 @@ fn told(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>) {
         {
             ui.label(RichText::new(remedy).small());
         }
-        return;
+        let meant = meant(&trouble.text).or_else(|| meant(trouble.remedy.as_deref()?))?;
+        let mended = shown
+            .card
+            .what
+            .mended(meant.wrong.as_deref()?, &meant.right)?;
+        let text = fill(seen.say(search::MEND), &[("text", &meant.right)]);
+        return ui.small_button(text).clicked().then_some(mended);
     }
     if shown.card.on && !shown.card.what.is_complete() {
         ui.label(RichText::new(seen.say(words::INCOMPLETE)).small().weak());
     }
     let quiet = shown.card.what.is_source() && !shown.chosen;
-    let Some(note) = shown.note.filter(|_| shown.counts && !quiet) else {
-        return;
-    };
+    let note = shown.note.filter(|_| shown.counts && !quiet)?;
     if let Some(residual) = note.residual {
         let text = fill(
             seen.say(words::RESIDUAL),
@@ -297,6 +306,7 @@ fn told(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>) {
     for did in &note.did {
         ui.label(RichText::new(did).small().weak());
     }
+    None
 }
 
 /// Shows at the pointer which card is dragged.

@@ -368,6 +368,7 @@ pub(super) fn of_inventory(
         name: seen.say(name),
         hint: seen.say(hint),
         width: (ui.available_width() - 110.0).clamp(60.0, 100.0),
+        takes_only: true,
         about: Some(&about),
     };
     let typed = complete(ui, id, line, text, &candidates);
@@ -497,12 +498,16 @@ pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut 
         let candidates = |typed: &str| fitting(signs.iter().map(|it| it.gloss.as_str()), typed);
         let about = |gloss: &str| {
             let at = signs.binary_search_by(|it| it.gloss.as_str().cmp(gloss));
-            Some(data::about(&signs[at.ok()?], seen.language))
+            let sign = &signs[at.ok()?];
+            let recording = sign.place.and_then(|it| seen.snapshot.recording(it.0));
+            let origin = recording.map(|it| it.row.origin.as_str());
+            Some(data::about(sign, origin, seen.language))
         };
         let line = Line {
             name,
             hint: seen.say(words::SIGN_HINT),
             width: (ui.available_width() - 84.0).clamp(80.0, 200.0),
+            takes_only: true,
             about: Some(&about),
         };
         let typed = complete(ui, id, line, text, &candidates);

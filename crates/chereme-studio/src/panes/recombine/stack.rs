@@ -94,6 +94,34 @@ impl What {
         }
     }
 
+    /// Returns the card with a name in it put right, where it holds the wrong one.
+    pub(crate) fn mended(&self, wrong: &str, right: &str) -> Option<Self> {
+        let name = |name: &str| Node::Sign(name.to_owned()).to_string();
+        let (wrong_text, right_text) = (name(wrong), name(right));
+        let replaced = |text: &str| -> Option<Recipe> {
+            let found = text.contains(&wrong_text);
+            let text = text.replacen(&wrong_text, &right_text, 1);
+            found.then(|| text.parse().ok()).flatten()
+        };
+        match self {
+            Self::Source {
+                via,
+                node: Node::Sign(name),
+            } if name == wrong => Some(Self::Source {
+                via: *via,
+                node: Node::Sign(right.to_owned()),
+            }),
+            Self::Source { via, node } => Some(Self::Source {
+                via: *via,
+                node: replaced(&node.to_string())?.root().clone(),
+            }),
+            Self::Step(step) => match replaced(&format!("A | {step}"))?.root() {
+                Node::Pipe(pipe) => pipe.steps.first().cloned().map(Self::Step),
+                _ => None,
+            },
+        }
+    }
+
     /// Returns whether both are of one kind, so that one can have become the other.
     fn is_like(&self, other: &Self) -> bool {
         match (self, other) {

@@ -1,6 +1,6 @@
 //! The bar below the cards: what was made, the gloss, and storing.
 
-use eframe::egui::{Button, RichText, TextEdit, Ui};
+use eframe::egui::{Button, RichText, Ui};
 
 use super::Recombine;
 use crate::command::Command;
@@ -34,10 +34,11 @@ impl Recombine {
                 words::STORE
             };
             let width = (ui.available_width() - 128.0).max(70.0);
-            let field = TextEdit::singleline(&mut self.gloss)
-                .hint_text(seen.say(words::GLOSS))
-                .desired_width(width);
-            let response = ui.add(field);
+            let shown = crate::script::edit::line(ui, &mut self.gloss, |field| {
+                let hint = seen.say(words::GLOSS);
+                field.hint_text(hint).desired_width(width)
+            });
+            let response = shown.response.response;
             if self.naming {
                 response.request_focus();
             }

@@ -2,17 +2,18 @@
 
 use std::collections::BTreeMap;
 
+use chereme_sign::query::{facet_condition, narrow, wants, without};
 use chereme_sign::{Component, Field};
 use eframe::egui::{
     Align2, Rect, Response, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, TextStyle, Ui,
     WidgetInfo, pos2, vec2,
 };
 
-use super::builder::with_value;
 use super::rows::{component_text, feature_text};
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::inspector::Thing;
+use crate::panes::library::data::origin_text;
 use crate::pickers;
 use crate::words::{Text, fill, library, recombine, search as words};
 
@@ -26,7 +27,19 @@ const PARTS: [(&str, Text); 6] = [
     ("final", words::FINAL),
 ];
 
-/// Draws how often each value occurs; returns the query that wants the one that was chosen too.
+/// Returns whether a query wants a value of a facet, and the query that a click on it gives: narrowed by the value as
+/// a whole, or without it where it is wanted already. A field that no query names gives nothing.
+fn clicked(query: &str, field: &str, value: &str) -> Option<(bool, String)> {
+    let condition = facet_condition(field, value)?;
+    let on = wants(query, &condition);
+    let turned = match on {
+        true => without(query, &condition),
+        false => narrow(query, &condition),
+    };
+    Some((on, turned))
+}
+
+/// Draws how often each value occurs; returns the query that wants the one that was chosen too, or no longer.
 pub(super) fn show(
     ui: &mut Ui,
     seen: &Seen<'_>,
@@ -48,7 +61,9 @@ pub(super) fn show(
                 let most = values.iter().map(|(_, count)| *count).max().unwrap_or(1);
                 for (value, count) in values {
                     let share = *count as f32 / most as f32;
-                    let (response, of) = facet(ui, seen, field, value, share, *count);
+                    let turned = clicked(query, field, value);
+                    let on = turned.as_ref().is_some_and(|(on, _)| *on);
+                    let (response, of) = facet(ui, seen, (field, value), (share, *count), on);
                     let thing = of.map(|of| Thing::Value(of, value.clone()));
                     let asks = ui.input(|input| input.modifiers.command);
                     match thing {
@@ -56,7 +71,7 @@ pub(super) fn show(
                             out.send(Command::Inspect(thing));
                         }
                         _ if response.clicked() => {
-                            chosen = Some(with_value(query, field, value));
+                            chosen = turned.map(|(_, query)| query);
                         }
                         Some(thing) => menu(seen, &response, thing, out),
                         None => {}
@@ -131,10 +146,9 @@ fn menu(seen: &Seen<'_>, response: &Response, thing: Thing, out: &mut Outbox) {
 fn facet(
     ui: &mut Ui,
     seen: &Seen<'_>,
-    field: &str,
-    value: &str,
-    share: f32,
-    count: usize,
+    (field, value): (&str, &str),
+    (share, count): (f32, usize),
+    on: bool,
 ) -> (Response, Option<i64>) {
     let parsed = field.parse::<Field>().ok();
     let stored = parsed.as_ref().and_then(|field| {
@@ -148,12 +162,17 @@ fn facet(
     let size = vec2(ui.available_width() - 4.0, 26.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let name = format!("{field}={value} ({count})");
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+    response.widget_info(|| WidgetInfo::selected(Role::Button, true, on, &name));
     if ui.is_rect_visible(rect) {
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         let colours = seen.colours();
         let bar = Rect::from_min_size(rect.min, vec2(rect.width() * share, rect.height()));
         painter.rect_filled(bar.shrink(1.0), 3.0, colours.selection.gamma_multiply(0.5));
+        if on {
+            painter.rect_filled(rect.shrink(1.0), 3.0, colours.selection);
+            let stroke = Stroke::new(1.5, colours.accent);
+            painter.rect_stroke(rect.shrink(1.0), 3.0, stroke, StrokeKind::Inside);
+        }
         let picture = Rect::from_min_size(rect.min, vec2(26.0, 26.0));
         let mut left = rect.left() + 6.0;
         if let Some(inventory) = inventory
@@ -166,7 +185,9 @@ fn facet(
         let text = visuals.text_color();
         let at = pos2(left, rect.center().y);
         let hand = HANDS.iter().find(|it| field == "hand" && it.0 == value);
-        let said = hand.map_or(value, |(_, text)| seen.say(*text));
+        let origin = origin_text(value).filter(|_| field == "origin");
+        let said = hand.map(|(_, text)| *text).or(origin);
+        let said = said.map_or(value, |text| seen.say(text));
         painter.text(at, Align2::LEFT_CENTER, said, font.clone(), text);
         let at = rect.right_center() - vec2(6.0, 0.0);
         let weak = ui.visuals().weak_text_color();
@@ -176,7 +197,12 @@ fn facet(
             painter.rect_stroke(rect, 3.0, stroke, StrokeKind::Inside);
         }
     }
-    let tip = fill(seen.say(words::FACET_TIP), &[("value", &value)]);
+    let tip = if on {
+        words::FACET_OFF
+    } else {
+        words::FACET_TIP
+    };
+    let tip = fill(seen.say(tip), &[("value", &value)]);
     let known = stored.filter(|it| it.inventory.get(value).is_some());
     (response.on_hover_text(tip), known.map(|it| it.id))
 }
@@ -184,6 +210,21 @@ fn facet(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_facet_narrows_the_whole_query_and_is_switched_off_again() {
+        let query = "movement=arc or movement=circle";
+        let (on, narrowed) = clicked(query, "dominant.configuration", "5_folded").expect("a facet");
+        assert!(!on);
+        assert_eq!(
+            narrowed,
+            "(movement=arc or movement=circle) dominant.configuration==5_folded"
+        );
+        let (on, again) =
+            clicked(&narrowed, "dominant.configuration", "5_folded").expect("a facet");
+        assert!(on);
+        assert_eq!(again, query);
+    }
 
     #[test]
     fn facets_stand_in_the_order_of_the_components() {

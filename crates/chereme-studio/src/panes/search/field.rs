@@ -13,6 +13,7 @@ use eframe::egui::{
 
 use super::suggest::{self, Offers};
 use crate::context::Seen;
+use crate::script::edit;
 use crate::words::{fill, search as words};
 
 /// The text of the query, and what is offered for it.
@@ -75,13 +76,14 @@ impl Field {
         };
         let before = self.text.clone();
         let label = seen.say(words::QUERY);
-        let output = TextEdit::singleline(&mut self.text)
+        let mut output = TextEdit::singleline(&mut self.text)
             .id(id)
             .hint_text(seen.say(words::HINT))
             .layouter(&mut layouter)
             .lock_focus(offers.is_some())
             .desired_width(f32::INFINITY)
             .show(ui);
+        edit::settle(ui, &mut output);
         let response: Response = output.response.response;
         let text = self.text.clone();
         response.widget_info(|| WidgetInfo {
@@ -146,6 +148,7 @@ impl Field {
         let taken = match (enter, tab, self.at) {
             (true, _, Some(at)) | (_, true, Some(at)) => Some(at),
             (_, true, None) => Some(0),
+            (true, _, None) if offers.all.len() == 1 => Some(0),
             _ => None,
         };
         match taken {
@@ -267,7 +270,11 @@ impl Field {
 }
 
 /// Returns the characters that are wrong.
-fn mark(text: &str, error: Option<&QueryError>, wrong: Option<usize>) -> Option<Range<usize>> {
+pub(super) fn mark(
+    text: &str,
+    error: Option<&QueryError>,
+    wrong: Option<usize>,
+) -> Option<Range<usize>> {
     if let Some(error) = error {
         return Some(error.at.clone()).filter(|at| !at.is_empty());
     }
@@ -298,7 +305,7 @@ fn marked(ui: &Ui, text: &str, mark: Option<Range<usize>>, trouble: Color32) -> 
     }
     job.append(&text[end..], 0.0, plain);
     job.wrap.max_width = f32::INFINITY;
-    ui.fonts_mut(|fonts| fonts.layout_job(job))
+    edit::lay_out(ui, job)
 }
 
 #[cfg(test)]

@@ -30,6 +30,7 @@ use eframe::egui::{ScrollArea, Ui};
 
 use super::bare::{self, Bare};
 use super::inspector::Thing;
+use super::meant::meant;
 use super::notated::Notated;
 use super::{Acted, Carried, Pane};
 use crate::action::Action;
@@ -99,6 +100,8 @@ pub(crate) struct Search {
     opened: Option<usize>,
     /// How far the hits are scrolled.
     scrolled: f32,
+    /// How wide the columns of the table are.
+    shares: results::Shares,
     /// Signs made of their notation.
     notated: Notated,
     come: bool,
@@ -109,6 +112,19 @@ struct Wrong {
     from: Option<usize>,
     error: String,
     remedy: Option<String>,
+}
+
+impl Wrong {
+    /// Returns what was most likely meant, and the query with it.
+    fn mended(&self, query: &str) -> Option<(String, String)> {
+        let told = [Some(self.error.as_str()), self.remedy.as_deref()];
+        let meant = told.into_iter().flatten().find_map(meant)?;
+        let at = field::mark(query, None, Some(self.from?))?;
+        let before = query.chars().take(at.start);
+        let after = query.chars().skip(at.end);
+        let mended = before.chain(meant.right.chars()).chain(after).collect();
+        Some((meant.right, mended))
+    }
 }
 
 impl Default for Search {
@@ -139,6 +155,7 @@ impl Default for Search {
             reach: None,
             opened: None,
             scrolled: 0.0,
+            shares: results::Shares::default(),
             notated: Notated::default(),
             come: false,
         }
@@ -324,7 +341,8 @@ impl Search {
         self.generation = now;
         self.aside.forget_counts();
         self.notated.follow(now);
-        if self.found.is_some() && self.changed.is_none() {
+        let asked = self.found.is_some() || self.wrong.is_some();
+        if asked && self.changed.is_none() {
             self.ask(out);
         }
     }
@@ -409,6 +427,11 @@ impl Pane for Search {
 
 impl Search {
     fn answered(&mut self, ended: &Ended) {
+        if matches!(ended, Err(error) if !matches!(error, Error::Stopped)) {
+            // What answered another query is no answer to this one.
+            self.found = None;
+            (self.at, self.opened, self.scrolled) = (0, None, 0.0);
+        }
         match ended {
             Ok(Outcome::Found(answer)) => {
                 let same = self

@@ -60,6 +60,10 @@ impl Search {
                 self.field.set(query);
                 self.rows = rows::Rows::default();
             }
+            if let Some(query) = suggest::with_origins(&self.field.text) {
+                self.field.set(query);
+                self.rows = rows::Rows::default();
+            }
             self.field.take_focus();
             // Who types needs no rows where there is room for them or for hits only.
             self.built &= !self.low;
@@ -69,10 +73,12 @@ impl Search {
         if typed.down && self.found.as_ref().is_some_and(|found| found.total > 0) {
             self.reach(self.at);
         }
+        // What no query can say is told by the field itself.
+        let told = Query::parse(&self.field.text).is_err();
         if let Some(wrong) = self
             .wrong
             .as_ref()
-            .filter(|_| self.query == self.field.text)
+            .filter(|_| self.query == self.field.text && !told)
         {
             let trouble = seen.colours().trouble;
             if seen.language != Language::English {
@@ -81,6 +87,13 @@ impl Search {
             ui.label(RichText::new(&wrong.error).small().color(trouble));
             if let Some(remedy) = &wrong.remedy {
                 ui.label(RichText::new(remedy).small());
+            }
+            let mended = wrong.mended(&self.field.text);
+            if let Some((meant, query)) = mended {
+                let text = fill(seen.say(words::MEND), &[("text", &meant)]);
+                if ui.small_button(text).clicked() {
+                    self.turn_to(query, out);
+                }
             }
         }
         self.tools(ui, seen, out);
@@ -91,8 +104,13 @@ impl Search {
             picker.inspect(seen, out);
         }
         let settled = self.changed.is_some_and(|when| now - when >= PAUSE);
-        if settled && !typed.unfinished && Query::parse(&self.field.text).is_ok() {
+        let error = Query::parse(&self.field.text).err();
+        let end = self.field.text.trim_end().chars().count();
+        if settled && !typed.unfinished && error.is_none() {
             self.ask(out);
+        } else if settled && error.is_some_and(|error| error.at.start < end) {
+            // What answered another query is no answer to this one.
+            (self.found, self.changed) = (None, None);
         } else if self.changed.is_some() {
             ui.ctx().request_repaint_after_secs(PAUSE as f32);
         }

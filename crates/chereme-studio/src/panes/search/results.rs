@@ -2,13 +2,15 @@
 
 use chereme_corpus::Hit;
 use chereme_motion::Side;
+use eframe::egui::text::{LayoutJob, TextWrapping};
 use eframe::egui::{
-    Align2, EventFilter, FontId, Id, Key, Modifiers, Rect, Response, Role, ScrollArea, Sense,
-    Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
+    Align2, CursorIcon, EventFilter, FontId, Id, Key, Modifiers, Rect, Response, Role, ScrollArea,
+    Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo, pos2, vec2,
 };
 
 use super::hits::{self, Sort, coding};
 use super::{Search, View};
+use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::little::{self, Cell, Focus, Motion};
 use crate::panes::{Carried, carry, scrolled_to};
@@ -23,14 +25,40 @@ const FOOT: f32 = 36.0;
 const FIGURE: f32 = 132.0;
 const GAP: f32 = 6.0;
 
-/// A column of the table: its name, its share of the width, and how it sorts.
-const COLUMNS: [(Text, f32, Sort); 5] = [
-    (words::BEFORE, 0.24, Sort::Before),
-    (words::GLOSS, 0.20, Sort::Gloss),
-    (words::AFTER, 0.24, Sort::After),
-    (words::PLACE, 0.22, Sort::Place),
-    (words::DURATION, 0.10, Sort::Duration),
+/// A column of the table: its name, and how it sorts.
+const COLUMNS: [(Text, Sort); 5] = [
+    (words::BEFORE, Sort::Before),
+    (words::GLOSS, Sort::Gloss),
+    (words::AFTER, Sort::After),
+    (words::PLACE, Sort::Place),
+    (words::DURATION, Sort::Duration),
 ];
+/// How much of the width each column has as usual, and the least that one has.
+const SHARES: [f32; 5] = [0.24, 0.20, 0.24, 0.22, 0.10];
+const LEAST: f32 = 0.05;
+/// How wide the place is at which a column is made wider.
+const EDGE: f32 = 8.0;
+
+/// How much of the width of the table each column has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Shares([f32; 5]);
+
+impl Default for Shares {
+    fn default() -> Self {
+        Self(SHARES)
+    }
+}
+
+impl Shares {
+    /// Makes a column wider by a share of the width, and the next as much narrower; none vanishes.
+    fn widen(&mut self, column: usize, by: f32) {
+        if let [own, next] = &mut self.0[column..column + 2] {
+            let by = by.clamp((LEAST - *own).min(0.0), (*next - LEAST).max(0.0));
+            *own += by;
+            *next -= by;
+        }
+    }
+}
 
 /// Draws the hits.
 pub(crate) fn show(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
@@ -153,7 +181,19 @@ pub(super) fn carried(hit: &Hit) -> Carried {
 }
 
 fn menu(response: &Response, seen: &Seen<'_>, hit: &Hit, out: &mut Outbox) {
-    response.context_menu(|ui| carry::menu(ui, seen, (hit.token, &hit.gloss), out));
+    let recording = recording(hit, seen);
+    if response.double_clicked()
+        && let Some((recipe, name)) = recording.and_then(|it| seen.snapshot.recipe_of(it))
+    {
+        out.send(Command::Recipe(recipe, Some(name)));
+    }
+    response.context_menu(|ui| carry::menu(ui, seen, (hit.token, &hit.gloss, recording), out));
+}
+
+/// Returns the recording that a hit lies in.
+fn recording(hit: &Hit, seen: &Seen<'_>) -> Option<i64> {
+    let name = hit.recording.as_deref()?;
+    Some(seen.snapshot.recording_named(name)?.row.id)
 }
 
 fn text_colour(seen: &Seen<'_>) -> eframe::egui::Color32 {
@@ -231,7 +271,8 @@ fn head(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         .as_ref()
         .is_some_and(super::hits::Found::is_whole);
     let mut left = rect.left();
-    for (name, share, sort) in COLUMNS {
+    for (column, (name, sort)) in COLUMNS.into_iter().enumerate() {
+        let share = search.shares.0[column];
         let place = Rect::from_min_size(pos2(left, rect.top()), vec2(width * share, ROW));
         left = place.right();
         let usable = whole || !sort.is_local();
@@ -269,7 +310,39 @@ fn head(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
         if response.clicked() {
             search.sort_by(if chosen { Sort::Rank } else { sort }, out);
         }
+        if column + 1 < COLUMNS.len() {
+            edge(search, ui, seen, place, width, column);
+        }
     }
+}
+
+/// Makes the right edge of a column something that can be dragged.
+fn edge(search: &mut Search, ui: &Ui, seen: &Seen<'_>, place: Rect, width: f32, column: usize) {
+    let at = Rect::from_center_size(place.right_center(), vec2(EDGE, ROW));
+    let key = ui.scope_id().with(("edge", column));
+    let response = ui.interact(at, key, Sense::click_and_drag());
+    let name = fill(
+        seen.say(words::WIDTH_OF),
+        &[("column", &seen.say(COLUMNS[column].0))],
+    );
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
+    let response = response
+        .on_hover_text(seen.say(words::WIDER))
+        .on_hover_cursor(CursorIcon::ResizeHorizontal);
+    if response.double_clicked() {
+        search.shares = Shares::default();
+    } else if response.dragged() && width > 0.0 {
+        search.shares.widen(column, response.drag_delta().x / width);
+    }
+    let held = response.hovered() || response.dragged() || response.has_focus();
+    let colour = if held {
+        seen.colours().accent
+    } else {
+        seen.colours().rule
+    };
+    let inside = at.shrink2(vec2(0.0, 5.0));
+    ui.painter()
+        .vline(at.center().x, inside.y_range(), Stroke::new(1.0, colour));
 }
 
 fn table(search: &mut Search, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
@@ -310,22 +383,21 @@ fn line(
     let response = cell(search, ui, seen, rect, at, &hit);
     frame(search, ui, seen, &response, rect, at);
     let (text, weak) = (ui.visuals().text_color(), ui.visuals().weak_text_color());
-    let gloss = match hit.score {
-        Some(score) => format!("{} · {} %", hit.gloss, percent(score)),
-        None => hit.gloss.clone(),
-    };
     carry::drag(&response, carried(&hit), motion(&hit, seen));
     menu(&response, seen, &hit, out);
     if hit.recording.is_none() {
         let pictures = Rect::from_min_max(
-            pos2(rect.left() + rect.width() * 0.44, rect.top()),
+            pos2(
+                rect.left() + rect.width() * (search.shares.0[0] + search.shares.0[1]),
+                rect.top(),
+            ),
             rect.max,
         );
         strip(ui, seen, &hit, pictures);
     }
     let columns = [
         (around.before.join(" "), weak),
-        (gloss, text),
+        (hit.gloss.clone(), text),
         (around.after.join(" "), weak),
         (
             hits::place(&hit).map_or(String::new(), |_| hits::place_text(&hit, "")),
@@ -334,9 +406,20 @@ fn line(
         (hits::duration_text(&hit), weak),
     ];
     let mut left = rect.left();
-    for ((content, colour), (_, share, sort)) in columns.into_iter().zip(COLUMNS) {
-        let place = Rect::from_min_size(pos2(left, rect.top()), vec2(rect.width() * share, ROW));
+    let shares = search.shares.0;
+    for (((content, colour), (_, sort)), share) in columns.into_iter().zip(COLUMNS).zip(shares) {
+        let mut place =
+            Rect::from_min_size(pos2(left, rect.top()), vec2(rect.width() * share, ROW));
         left = place.right();
+        // How alike it is stands at the end of its gloss, which is cut before it.
+        if let Some(score) = hit.score.filter(|_| sort == Sort::Gloss) {
+            let share = format!("{} %", percent(score));
+            let font = TextStyle::Small.resolve(ui.style());
+            let painter = ui.painter().with_clip_rect(place.intersect(ui.clip_rect()));
+            let at = place.right_center() - vec2(5.0, 0.0);
+            let drawn = painter.text(at, Align2::RIGHT_CENTER, share, font, weak);
+            place.max.x = drawn.left();
+        }
         let font = TextStyle::Body.resolve(ui.style());
         put(ui, place, &content, font, colour, sort == Sort::Before);
     }
@@ -372,7 +455,15 @@ fn put(ui: &Ui, rect: Rect, text: &str, font: FontId, colour: eframe::egui::Colo
     } else {
         (rect.left_center(), Align2::LEFT_CENTER)
     };
-    painter.text(at, align, text, font, colour);
+    if end {
+        painter.text(at, align, text, font, colour);
+        return;
+    }
+    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
+    job.wrap = TextWrapping::truncate_at_width(rect.width().max(0.0));
+    let galley = painter.layout_job(job);
+    let at = align.anchor_size(at, galley.size());
+    painter.galley(at.min, galley, colour);
 }
 
 /// Returns what a hit is that lies in no recording.
@@ -480,5 +571,25 @@ fn focus(close: bool, query: &str) -> Focus {
         (false, _) => Focus::Signing,
         (true, false) => Focus::Hand(Side::Right),
         (true, true) => Focus::Hand(Side::Left),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_made_wider_at_the_cost_of_the_next_and_none_vanishes() {
+        let mut shares = Shares::default();
+        for (column, by) in [(0, 0.1), (1, -0.9), (3, 5.0), (2, f32::MAX), (0, -3.0)] {
+            shares.widen(column, by);
+            let sum: f32 = shares.0.iter().sum();
+            // Five additions of numbers below one.
+            assert!((sum - 1.0).abs() < 1e-5, "{shares:?}");
+            assert!(
+                shares.0.iter().all(|share| *share > LEAST - 1e-5),
+                "{shares:?}"
+            );
+        }
     }
 }

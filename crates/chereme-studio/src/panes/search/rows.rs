@@ -6,11 +6,13 @@ use chereme_sign::query::{
     Example, Missing, Pattern, Property, Query, TextField, TimeField, TimeTest,
 };
 use chereme_sign::{Component, Field, HandRef, Inventory, Phase};
-use eframe::egui::{Button, ComboBox, DragValue, RichText, Role, Slider, TextEdit, Ui, WidgetInfo};
+use eframe::egui::{Button, ComboBox, DragValue, RichText, Role, Slider, Ui, WidgetInfo};
 
 use super::builder::{self, Condition, How, Subject, written};
 use crate::context::Seen;
+use crate::panes::library::data::origin_text;
 use crate::pickers::{self, Picker};
+use crate::script::edit;
 use crate::words::{Text, fill, search as words};
 
 /// What the builder knows besides the query.
@@ -406,17 +408,22 @@ fn values_ui(
 /// Draws a choice among a few values.
 fn choice_ui(ui: &mut Ui, seen: &Seen<'_>, offered: &[&str], values: &mut Vec<Pattern>) {
     let now: Vec<String> = values.iter().map(written).collect();
+    let called = |id: &str| match origin_text(id) {
+        Some(text) => seen.say(text).to_owned(),
+        None => id.to_owned(),
+    };
     let shown = if now.is_empty() {
         seen.say(crate::words::pickers::CHOOSE).to_owned()
     } else {
-        now.join(", ")
+        let names: Vec<String> = now.iter().map(|id| called(id)).collect();
+        names.join(", ")
     };
     ComboBox::from_id_salt("choice")
         .selected_text(shown)
         .show_ui(ui, |ui| {
             for it in offered {
                 let chosen = now.iter().any(|value| value == it);
-                if ui.add(Button::selectable(chosen, *it)).clicked() {
+                if ui.add(Button::selectable(chosen, called(it))).clicked() {
                     *values = vec![Pattern::literal(*it)];
                 }
             }
@@ -429,7 +436,8 @@ fn text_ui(ui: &mut Ui, rows: &mut Rows, at: usize, values: &mut Vec<Pattern>, n
     let now = now.join(", ");
     let text = rows.typing.entry(at).or_insert_with(|| now.clone());
     let before = text.clone();
-    let response = ui.add(TextEdit::singleline(text).desired_width(150.0));
+    let shown = edit::line(ui, text, |field| field.desired_width(150.0));
+    let response = shown.response.response;
     if rows.begun.take_if(|it| *it == at).is_some() {
         response.request_focus();
     }

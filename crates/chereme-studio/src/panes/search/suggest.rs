@@ -1,12 +1,13 @@
 //! What could be written next in a query: words of the language, values, names and glosses.
 
 use chereme_corpus::KeptSearch;
-use chereme_sign::query::{Completion, Expected, Missing, Property, TextField, complete};
+use chereme_sign::query::{Completion, Expected, Missing, Property, Query, TextField, complete};
 use chereme_sign::text::fold;
 use chereme_sign::{Component, Field};
 
 use crate::model::Snapshot;
-use crate::words::Language;
+use crate::panes::library::data::origin_text;
+use crate::words::{Language, Text, library};
 
 /// How many are offered at most.
 const MOST: usize = 10;
@@ -101,6 +102,37 @@ fn kept(query: &str, name: &str, snapshot: &Snapshot) -> Offers {
     }
 }
 
+/// Returns a query in which origins that are called as the window calls them stand as queries have them; what is
+/// only notated is a lexicon entry.
+pub(super) fn with_origins(query: &str) -> Option<String> {
+    let error = Query::parse(query).err()?;
+    let before: String = query.chars().take(error.at.start).collect();
+    let word: String = query
+        .chars()
+        .skip(error.at.start)
+        .take(error.at.len())
+        .collect();
+    let word = fold(word.trim_matches('"'));
+    let called = |text: Text| {
+        Language::ALL
+            .iter()
+            .any(|(it, _)| fold(text.of(*it)) == word)
+    };
+    let ids = Property::Origin.fixed_values()?;
+    let id = ids.iter().find(|id| origin_text(id).is_some_and(called));
+    let id = id
+        .copied()
+        .or_else(|| called(library::NOTATED).then_some("lexicon"))?;
+    let after: String = query.chars().skip(error.at.end).collect();
+    let mended = format!("{before}{id}{after}");
+    // Another word may be left to be said otherwise.
+    match Query::parse(&mended) {
+        Ok(_) => Some(mended),
+        Err(next) if next.at.start > error.at.start => with_origins(&mended),
+        Err(_) => None,
+    }
+}
+
 /// A field is written with its operator: nobody wants to stop before it.
 fn with_operator(word: &str, expected: &Expected) -> String {
     let field = matches!(expected, Expected::Term | Expected::Annotation)
@@ -166,6 +198,20 @@ fn names(completion: &Completion, snapshot: &Snapshot, language: Language) -> Ve
         Expected::Property(Property::Signer) => {
             for signer in &overview.signers {
                 add(&[&signer.name], &signer.name, String::new());
+            }
+        }
+        Expected::Property(Property::Origin) => {
+            for id in Property::Origin.fixed_values().unwrap_or_default() {
+                let Some(text) = origin_text(id) else {
+                    continue;
+                };
+                let name = text.of(language);
+                let also = if *id == "lexicon" {
+                    library::NOTATED.of(language)
+                } else {
+                    name
+                };
+                add(&[id, name, also], id, name.to_owned());
             }
         }
         Expected::Property(Property::Recording) => {
@@ -296,9 +342,34 @@ mod tests {
             ("nonmanual.bro", "nonmanual.brows"),
             ("like esc", "like ESCARGOT"),
             ("origin=ma", "origin=made"),
+            ("origin=synth", "origin=made"),
+            ("origin=nota", "origin=lexicon"),
             ("handsh", "configuration="),
         ] {
             assert_eq!(first(query).as_deref(), Some(wanted), "{query}");
+        }
+    }
+
+    #[test]
+    fn origins_are_asked_for_as_the_window_calls_them() {
+        for (query, wanted) in [
+            ("origin=notated", "origin=lexicon"),
+            (
+                "origin=synthesised placement=chin",
+                "origin=made placement=chin",
+            ),
+            ("origin=capté,composé", "origin=captured,made"),
+            ("gloss=A origin=\"lexicon entry\"", "gloss=A origin=lexicon"),
+        ] {
+            assert_eq!(with_origins(query).as_deref(), Some(wanted), "{query}");
+        }
+        for query in [
+            "origin=made",
+            "origin=nonsense",
+            "origin=",
+            "placement=notated",
+        ] {
+            assert_eq!(with_origins(query), None, "{query}");
         }
     }
 
