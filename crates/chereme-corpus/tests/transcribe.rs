@@ -187,3 +187,73 @@ fn arm_turned_round(bvh: &str) -> String {
     }
     lines.join("\n")
 }
+
+#[test]
+fn a_component_that_is_not_coded_is_proposed_from_movement_and_a_stop_leaves_the_corpus() {
+    use chereme_corpus::SearchOptions;
+    use chereme_sign::Component;
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut paths = Vec::new();
+    for (name, bytes) in starter_files() {
+        let is_wanted = |ending: &str| name.to_string_lossy().ends_with(ending);
+        if is_wanted("bol.bvh") {
+            let path = folder.path().join("bol.bvh");
+            std::fs::write(&path, bytes).expect("written");
+            paths.push(path);
+        }
+    }
+    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let (options, mut unheard) = (ImportOptions::default(), unheard);
+    let mut progress = Progress::new(&mut unheard);
+    corpus
+        .import(&paths, &options, &mut progress)
+        .expect("taken in");
+    let gloss = chereme_corpus::NewTier::new(
+        chereme_corpus::Name::Text("bol".into()),
+        "gloss",
+        chereme_corpus::TierRole::Gloss,
+    );
+    let tier = corpus.add_tier(&gloss).expect("a tier");
+    let seconds = |at: f64| {
+        Some(chereme_corpus::Moment::Time(
+            chereme_motion::Instant::from_micros((at * 1e6) as i64),
+        ))
+    };
+    let add = chereme_corpus::AnnotationAction::Add {
+        tier: chereme_corpus::TierName::Number(tier.id),
+        start: seconds(0.0),
+        end: seconds(1.0),
+        parent: None,
+        order: None,
+        value: "BOL".into(),
+        confidence: None,
+    };
+    corpus
+        .annotate(&[add.into()], &Default::default(), &mut progress)
+        .expect("annotated");
+    let count = |corpus: &mut Corpus| {
+        let options = SearchOptions::default();
+        let found = corpus.search("configuration=*", &options).expect("found");
+        found.total
+    };
+    assert_eq!(count(&mut corpus), 0);
+
+    let before = corpus.generation().expect("a moment");
+    let mut stop = |_: chereme_corpus::Step<'_>| Break(());
+    let stopped = corpus.propose_coding(Component::Configuration, &mut Progress::new(&mut stop));
+    assert!(matches!(stopped, Err(Error::Stopped)));
+    assert_eq!(corpus.generation().expect("a moment"), before);
+
+    let proposed = corpus
+        .propose_coding(Component::Configuration, &mut progress)
+        .expect("proposed");
+    assert_eq!((proposed.tokens, proposed.unread), (1, 0));
+    assert!(proposed.annotations >= 1);
+    assert_eq!(proposed.recordings, ["bol"]);
+    assert_eq!(count(&mut corpus), 1);
+    // What has a value is not read again.
+    let again = corpus
+        .propose_coding(Component::Configuration, &mut progress)
+        .expect("proposed");
+    assert_eq!(again.tokens, 0);
+}

@@ -70,7 +70,7 @@ impl Line {
     }
 }
 
-/// What draws a character.
+/// The font that draws a character.
 #[derive(Debug, Clone)]
 enum Drawn {
     Dots,

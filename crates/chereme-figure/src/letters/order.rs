@@ -29,8 +29,8 @@ pub fn any_from_right(text: &str) -> bool {
 
 /// Returns the runs of a line from left to right as they stand.
 ///
-/// The line as a whole goes left to right where it has a letter that does: what the window says about an Arabic gloss
-/// stays a sentence of its own language. A line of right-to-left letters alone goes right to left.
+/// The line as a whole goes left to right if it has a letter that does: a sentence of the window stays a sentence of
+/// its own language, even if it begins with an Arabic gloss. A line of right-to-left letters alone goes right to left.
 #[must_use]
 pub fn runs(line: &str) -> Vec<Run> {
     if !any_from_right(line) {
@@ -49,7 +49,7 @@ pub fn runs(line: &str) -> Vec<Run> {
     ranges.into_iter().map(run).collect()
 }
 
-/// Returns a bracket as it looks where it is read from the right; other characters as they are.
+/// Returns a bracket as it looks when it is read from the right; other characters stay the same.
 #[must_use]
 pub fn mirrored(letter: char) -> char {
     const PAIRS: [(char, char); 6] = [

@@ -88,7 +88,7 @@ impl Path {
         self.last = next;
     }
 
-    /// Paints how much of each pixel lies inside; what is turned round twice counts once.
+    /// Paints how much of each pixel lies inside; a place inside two parts of the outline counts once.
     fn fill(&self, corner: [f32; 2], size: f32, paint: &mut impl FnMut(i64, i64, f32)) {
         let place = |p: [f32; 2]| [corner[0] + p[0], corner[1] - p[1]];
         let points = || self.sides.iter().flatten().map(|p| place(*p));

@@ -8,6 +8,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use chereme_corpus::{Contents, Overview, RecordingGlance, TierContents};
+use chereme_motion::{Instant, Span};
 
 /// The corpus at one moment, and what is said about the recording that is shown.
 #[derive(Debug, Clone, Default)]
@@ -43,6 +44,14 @@ pub(crate) struct Found<'a> {
     pub(crate) at: usize,
 }
 
+/// A sign by one of its tokens.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct Known {
+    pub(crate) gloss: String,
+    /// The recording in which it moves, and where.
+    pub(crate) place: Option<(i64, Span)>,
+}
+
 impl Snapshot {
     /// Returns whether the corpus may only be read here.
     pub(crate) fn is_read_only(&self) -> bool {
@@ -60,6 +69,43 @@ impl Snapshot {
             .recordings
             .iter()
             .find(|it| it.row.name == name)
+    }
+
+    /// Returns the sign of a token: a citation form, or one of the open recording.
+    pub(crate) fn token(&self, id: i64) -> Option<Known> {
+        let signs = self.overview.signs.iter();
+        if let Some(sign) = signs.into_iter().find(|it| it.citation == Some(id)) {
+            return Some(Known {
+                gloss: sign.gloss.clone(),
+                place: sign.place,
+            });
+        }
+        let tokens = &self.open.as_deref()?.contents.tokens;
+        let token = tokens.iter().find(|it| it.id == id)?;
+        let (start, end) = token.start_us.zip(token.end_us)?;
+        let span = Span::between(Instant::from_micros(start), Instant::from_micros(end));
+        Some(Known {
+            gloss: token.gloss.clone(),
+            place: token.recording_id.map(|recording| (recording, span)),
+        })
+    }
+
+    /// Returns a text in which tokens that are known stand by their glosses instead of their numbers.
+    pub(crate) fn named(&self, text: &str) -> String {
+        const TOKEN: &str = "token:";
+        let mut named = String::with_capacity(text.len());
+        let mut rest = text;
+        while let Some((before, after)) = rest.split_once(TOKEN) {
+            named.push_str(before);
+            let digits = after.len() - after.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+            let (number, after) = after.split_at(digits);
+            match number.parse().ok().and_then(|id| self.token(id)) {
+                Some(known) => named.push_str(&known.gloss),
+                None => named.extend([TOKEN, number]),
+            }
+            rest = after;
+        }
+        named + rest
     }
 
     /// Returns the recipe of a recording that was made of one, with the recording's name.
@@ -89,5 +135,35 @@ impl Snapshot {
             tier: &open.contents.tiers[tier],
             at,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_corpus::{Overview, SignGlance};
+
+    #[test]
+    fn tokens_stand_in_texts_by_their_glosses() {
+        let sign = SignGlance {
+            gloss: "AIMER".into(),
+            citation: Some(15),
+            ..SignGlance::default()
+        };
+        let snapshot = Snapshot {
+            overview: Arc::new(Overview {
+                signs: vec![sign],
+                ..Overview::default()
+            }),
+            open: None,
+        };
+        for (text, wanted) in [
+            ("token:15 (same signer)", "AIMER (same signer)"),
+            ("token:15 → token:150", "AIMER → token:150"),
+            ("token: nothing", "token: nothing"),
+            ("", ""),
+        ] {
+            assert_eq!(snapshot.named(text), wanted);
+        }
     }
 }

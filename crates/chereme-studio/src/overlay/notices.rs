@@ -110,6 +110,10 @@ impl Notices {
                 };
                 fill(text.of(language), &[("n", steps)])
             }
+            Outcome::Proposed(it) => fill(
+                words::NOTICE_PROPOSED.of(language),
+                &[("tokens", &it.tokens), ("unread", &it.unread)],
+            ),
             Outcome::Checked(report) => return self.checked(report, language),
             Outcome::Redone(row) => {
                 fill(words::NOTICE_REDONE.of(language), &[("what", &row.summary)])

@@ -138,7 +138,7 @@ pub(crate) fn menu(
     let (used, like) = (Action::UseInRecipe, Action::SearchLike);
     let name = seen.say(used.row().name);
     entry(name, Command::Use(carried), seen.keys.text(used));
-    let query = format!("like token:{token}");
+    let query = crate::panes::search::like_query(&seen.snapshot.overview, token, gloss);
     entry(
         seen.say(search::MORE_LIKE),
         Command::Find(query),

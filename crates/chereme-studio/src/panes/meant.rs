@@ -1,4 +1,4 @@
-//! What was meant by a slip, as the corpus tells it: `…"ESC"; did you mean "ESCARGOT"?`.
+//! The name that was meant by a slip, read from a message: `…"ESC"; did you mean "ESCARGOT"?`.
 
 /// A name that is not known, and the one that was most likely meant.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! Text that is read from the right while it is typed: it stands as elsewhere, and the cursor is where it is.
+//! Text that is read from the right while it is typed: it looks as in other places, and the cursor follows it.
 //!
 //! The text itself stays in the order in which it is read, as everywhere.
 
@@ -73,8 +73,8 @@ pub(crate) fn lay_out(ui: &Ui, job: LayoutJob) -> Arc<Galley> {
     Arc::new(galley)
 }
 
-/// Returns for each character where the cursor before it stands, and how wide it is where it is read from the left;
-/// and where the cursor after all of them stands.
+/// Returns for each character the place of the cursor before it, and its width if it is read from the left; and the
+/// place of the cursor after all of them.
 fn places(ui: &Ui, job: &LayoutJob, pieces: &[Piece]) -> (Vec<[f32; 2]>, f32) {
     let look = job
         .sections

@@ -92,7 +92,7 @@ pub(crate) struct Untold {
 }
 
 impl Untold {
-    /// Returns what is told of letters that were shown since the last call and have no font, and what helps.
+    /// Returns the notice about letters that were shown since the last call and have no font, and what helps.
     pub(crate) fn news(&mut self, language: Language) -> Option<(String, &'static str)> {
         let missing = SystemFonts::ready()?.take_missing();
         self.of(&missing, language)

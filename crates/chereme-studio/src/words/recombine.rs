@@ -35,6 +35,7 @@ texts! {
     CHANNELS: "Where each channel comes from ({n})", "D’où vient chaque canal ({n})";
     JOINS: "Joins ({n})", "Raccords ({n})";
     CONTACTS: "Contacts undone ({n})", "Contacts défaits ({n})";
+    OTHER_SIGN: "Take another sign", "Prendre un autre signe";
     SUGGEST: "What could be made from {sign}", "Ce qu’on peut faire de {sign}";
     NO_PARTNERS: "No sign differs from it in one component only.", "Aucun signe n’en diffère par un seul composant.";
     UNUSED: "{field}: values that no sign has with the rest", "{field} : valeurs qu’aucun signe n’a avec le reste";

@@ -111,6 +111,9 @@ texts! {
     LOOPING: "Looping", "En boucle";
     CLOSE_UP: "Hand close up", "Main de près";
     NOTHING: "Nothing answers this query.", "Rien ne répond à cette requête.";
+    NOT_CODED: "Not coded yet in this corpus: {component}", "Pas encore codé dans ce corpus : {component}";
+    PROPOSE: "Propose it from movement (recordings: {n})", "Le proposer d’après le mouvement (enregistrements : {n})";
+    PROPOSING: "Reading movement: {n} of {all}", "Lecture du mouvement : {n} sur {all}";
     WITHOUT: "One condition fewer:", "Avec une condition de moins :";
     WITHOUT_ONE: "without {part}: {n}", "sans {part} : {n}";
     WITHOUT_NONE: "No condition alone is to blame: take several away.", "Aucune condition n’est seule en cause : enlevez-en plusieurs.";

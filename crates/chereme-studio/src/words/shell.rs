@@ -87,6 +87,8 @@ texts! {
     TASK_SEARCH: "Searching", "Recherche";
     TASK_RECOMBINE: "Recombining", "Recombinaison";
     TASK_EXPORT: "Exporting", "Exportation";
+    TASK_PROPOSE: "Reading codings from movement", "Lecture des codages d’après le mouvement";
+    NOTICE_PROPOSED: "Signs coded from movement, on tiers of their own: {tokens}; not readable: {unread}", "Signes codés d’après le mouvement, sur des acteurs à part : {tokens} ; illisibles : {unread}";
     TASK_CHECK: "Checking", "Vérification";
     CHECKED_WELL: "Checked: nothing is wrong.", "Vérifié : tout est en ordre.";
     CHECKED_MENDED: "Checked, and mended: {n}", "Vérifié, et réparé : {n}";

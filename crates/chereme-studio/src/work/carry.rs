@@ -65,6 +65,7 @@ pub(super) fn carry(
             .map(|()| Outcome::Changed)?,
         Work::ForgetSearch(name) => corpus.forget_search(&name).map(|_| Outcome::Changed)?,
         Work::Check { mend } => Outcome::Checked(corpus.check(mend, progress)?),
+        Work::Propose(component) => Outcome::Proposed(corpus.propose_coding(component, progress)?),
         Work::Look(thing) => Outcome::Looked(look(corpus, thing)?),
         Work::Undo => Outcome::Undone(corpus.undo()?),
         Work::Redo => Outcome::Redone(corpus.redo()?),

@@ -14,11 +14,12 @@ use std::sync::Arc;
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, CheckReport,
     Copied, Curves, Details, Error, ExportOptions, ExportReport, ExportWhat, ImportOptions,
-    ImportReport, KeptSearch, MadePart, MediaChange, Moving, Name, NewTier, OperationRow,
+    ImportReport, KeptSearch, MadePart, MediaChange, Moving, Name, NewTier, OperationRow, Proposed,
     Recombination, RecordingChange, Scheme, SearchOptions, SignChange, SignerChange, Suggestions,
     TierChange, TierName, Unit,
 };
 use chereme_motion::Span;
+use chereme_sign::Component;
 
 use crate::panes::inspector::Thing;
 use crate::words::{Text, shell};
@@ -93,6 +94,8 @@ pub(crate) enum Work {
         /// Whether it is.
         mend: bool,
     },
+    /// Reads a component that is not coded from movement.
+    Propose(Component),
     /// Says all that is known of something.
     Look(Thing),
     /// Finds tokens.
@@ -167,6 +170,8 @@ pub(crate) enum Outcome {
     },
     /// The corpus was looked through.
     Checked(CheckReport),
+    /// A component was read from movement.
+    Proposed(Proposed),
     /// All that is known of something.
     Looked(Details),
     /// Tokens were found.
@@ -262,6 +267,7 @@ impl Work {
             | Self::RenameSearch(..)
             | Self::ForgetSearch(_)
             | Self::Check { .. }
+            | Self::Propose(_)
             | Self::Undo
             | Self::Redo => Lane::Edit,
             Self::Search(..)
@@ -284,6 +290,7 @@ impl Work {
             Self::Import(_, options) if options.dry_run => shell::TASK_LOOKING,
             Self::Import(..) => shell::TASK_IMPORT,
             Self::Check { .. } => shell::TASK_CHECK,
+            Self::Propose(_) => shell::TASK_PROPOSE,
             Self::Search(..)
             | Self::Around(..)
             | Self::Suggest(_)
@@ -322,7 +329,11 @@ impl Work {
 
     /// Returns whether it may be stopped when the window closes: what a person has typed may not.
     pub(crate) fn may_stop(&self) -> bool {
-        self.lane() != Lane::Edit || matches!(self, Self::Import(..) | Self::Check { .. })
+        self.lane() != Lane::Edit
+            || matches!(
+                self,
+                Self::Import(..) | Self::Check { .. } | Self::Propose(_)
+            )
     }
 }
 

@@ -85,7 +85,7 @@ pub(super) fn recording(ui: &mut Ui, seen: &Seen<'_>, glance: &RecordingGlance, 
         &data::recording_lines(glance, origin),
     );
     if let Some(recipe) = &glance.recipe {
-        ui.weak(recipe);
+        ui.weak(seen.snapshot.named(recipe));
         if ui.button(seen.say(words::OPEN_RECIPE)).clicked() {
             out.send(Command::Recipe(recipe.clone(), Some(row.name.clone())));
         }

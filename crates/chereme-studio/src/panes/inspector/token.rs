@@ -44,14 +44,17 @@ pub(super) fn show(
         ui.end_row();
         coding(it, ui, seen, token, out);
         if let Some(recipe) = &token.recipe {
-            said(ui, seen, words::RECIPE, recipe);
+            said(ui, seen, words::RECIPE, &seen.snapshot.named(recipe));
         }
         if !token.made_from.is_empty() {
             ui.weak(seen.say(words::MADE_FROM));
             ui.horizontal_wrapped(|ui| {
                 for address in &token.made_from {
                     match address.parse() {
-                        Ok(Address::Token(id)) => link(it, ui, address, Thing::Token(id)),
+                        Ok(Address::Token(id)) => {
+                            let name = seen.snapshot.named(address);
+                            link(it, ui, &name, Thing::Token(id));
+                        }
                         _ => drop(ui.label(address)),
                     }
                 }

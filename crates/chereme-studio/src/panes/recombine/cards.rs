@@ -304,7 +304,7 @@ fn told(ui: &mut Ui, seen: &Seen<'_>, shown: &Shown<'_>) -> Option<What> {
         ui.label(RichText::new(text).small().color(colour));
     }
     for did in &note.did {
-        ui.label(RichText::new(did).small().weak());
+        ui.label(RichText::new(seen.snapshot.named(did)).small().weak());
     }
     None
 }

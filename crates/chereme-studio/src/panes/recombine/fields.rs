@@ -510,11 +510,17 @@ pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut 
             takes_only: true,
             about: Some(&about),
         };
-        let typed = complete(ui, id, line, text, &candidates);
-        if takes_focus(ui) {
-            typed.response.request_focus();
+        let mut changed = false;
+        match token_chip(ui, seen, id, name, text) {
+            Some(cleared) => changed |= cleared,
+            None => {
+                let typed = complete(ui, id, line, text, &candidates);
+                if takes_focus(ui) {
+                    typed.response.request_focus();
+                }
+                changed |= typed.changed;
+            }
         }
-        let mut changed = typed.changed;
         let selected = selected_token(seen).map(|(token, gloss)| {
             let address = address(&seen.snapshot.overview, token, &gloss);
             (address, gloss)
@@ -527,11 +533,8 @@ pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut 
                 changed = true;
             }
         }
-        if let Some(gloss) = gloss_of(seen, text) {
-            ui.strong(gloss);
-            if let Some(when) = time_of(seen, text) {
-                ui.weak(when);
-            }
+        if let Some(when) = time_of(seen, text) {
+            ui.weak(when);
         }
         changed
     });
@@ -547,6 +550,26 @@ pub(super) fn sign(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut 
         return true;
     }
     inner.inner
+}
+
+/// Shows a token by its gloss, as nobody knows signs by numbers; a click has another sign typed instead. Returns
+/// whether that was clicked; nothing if the text names no token that is known.
+fn token_chip(ui: &mut Ui, seen: &Seen<'_>, id: Id, name: &str, text: &mut String) -> Option<bool> {
+    let gloss = gloss_of(seen, text).filter(|_| text.starts_with("token:"))?;
+    if ui.memory(|memory| memory.has_focus(id)) {
+        return None;
+    }
+    let response = ui.button(RichText::new(&gloss).strong());
+    let label = format!("{name}: {gloss}");
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
+    let clicked = response
+        .on_hover_text(seen.say(words::OTHER_SIGN))
+        .clicked();
+    if clicked {
+        text.clear();
+        ui.memory_mut(|memory| memory.request_focus(id));
+    }
+    Some(clicked)
 }
 
 /// Returns the gloss of a `token:…` of the open recording, or of what the stage shows that was made of it.

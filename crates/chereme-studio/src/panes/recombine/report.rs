@@ -29,7 +29,7 @@ pub(super) fn join_text(join: &JoinReport) -> (String, String) {
 pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, report: &Report) {
     for warning in &report.warnings {
         ui.label(
-            RichText::new(format!("! {warning}"))
+            RichText::new(format!("! {}", seen.snapshot.named(warning)))
                 .small()
                 .color(seen.colours().trouble),
         );
@@ -41,7 +41,7 @@ pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, report: &Report) {
             .show(ui, |ui| {
                 for channel in &report.channels {
                     ui.small(&channel.channel);
-                    let from = channel.from.join(" → ");
+                    let from = seen.snapshot.named(&channel.from.join(" → "));
                     ui.add(eframe::egui::Label::new(RichText::new(from).small()).wrap());
                     ui.end_row();
                 }
@@ -65,7 +65,7 @@ pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, report: &Report) {
     });
     section(ui, seen, words::CONTACTS, report.contacts.len(), |ui| {
         for contact in &report.contacts {
-            ui.small(contact);
+            ui.small(seen.snapshot.named(contact));
         }
     });
 }

@@ -1,13 +1,15 @@
 //! Beside the query: what was asked before, help by examples, and what is said where nothing is found.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_corpus::{Around, guessed};
+use chereme_sign::Component;
 use chereme_sign::query::Query;
 use eframe::egui::{Label, Popup, PopupCloseBehavior, RichText, Role, ScrollArea, Ui, WidgetInfo};
 
-use super::builder;
+use super::builder::{self, Condition, How, Subject};
 use super::kept::{Kept, only_counted};
+use super::rows::component_text;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::words::{Text, fill, search as words};
@@ -36,9 +38,89 @@ pub(super) struct Aside {
     /// Where nothing is found: what each condition left out would give.
     without: Option<Without>,
     leaving: BTreeMap<WorkId, usize>,
+    /// How many tokens have a component that was asked for, and which of them is proposed from movement now.
+    coded: Coded,
     /// A hit that is being opened, and where it turned out to be.
     pub(super) opening: Option<WorkId>,
     pub(super) opened: Option<Around>,
+}
+
+/// Whether components that a query asks for are coded at all.
+#[derive(Debug, Default)]
+struct Coded {
+    counting: BTreeMap<WorkId, Component>,
+    counts: BTreeMap<Component, usize>,
+    proposing: Option<WorkId>,
+}
+
+impl Coded {
+    /// Counts the tokens that have each component of a query.
+    fn follow(&mut self, query: &str, out: &mut Outbox) {
+        self.counts.clear();
+        self.counting.clear();
+        for component in components(query) {
+            let query = format!("{}=*", component.name());
+            let id = out.work(Work::Search(query, only_counted()));
+            self.counting.insert(id, component);
+        }
+    }
+
+    fn hear(&mut self, id: WorkId, ended: &Ended) {
+        if let Some(component) = self.counting.remove(&id)
+            && let Ok(Outcome::Found(answer)) = ended
+        {
+            self.counts.insert(component, answer.total);
+        }
+        self.proposing.take_if(|it| *it == id);
+    }
+
+    /// Says which components nobody has coded yet, and offers to read them from movement.
+    fn show(&mut self, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+        let moving = seen.snapshot.overview.recordings.iter();
+        let moving = moving.filter(|it| it.frames > 0).count();
+        for component in uncoded(&self.counts) {
+            let name = seen.say(component_text(component));
+            ui.label(fill(seen.say(words::NOT_CODED), &[("component", &name)]));
+            if let Some(id) = self.proposing.filter(|id| seen.is_running(Some(*id))) {
+                ui.horizontal(|ui| {
+                    ui.spinner();
+                    if let Some(far) = seen.far(id) {
+                        let all = far.total.unwrap_or(far.done);
+                        let text = seen.say(words::PROPOSING);
+                        ui.label(fill(text, &[("n", &far.done), ("all", &all)]));
+                    }
+                    if ui.button(seen.say(words::STOP)).clicked() {
+                        out.send(Command::Stop(id));
+                    }
+                });
+            } else if moving > 0 && component.is_manual() && !seen.snapshot.is_read_only() {
+                let text = fill(seen.say(words::PROPOSE), &[("n", &moving)]);
+                if ui.button(text).clicked() {
+                    self.proposing = Some(out.work(Work::Propose(component)));
+                }
+            }
+        }
+    }
+}
+
+/// Returns the components that a query asks for a value of.
+fn components(query: &str) -> BTreeSet<Component> {
+    let Ok(query) = Query::parse(query) else {
+        return BTreeSet::new();
+    };
+    let asked = |row: &Condition| match row {
+        Condition::Values(Subject::Component(field), How::Is | How::Exactly | How::Has, _) => {
+            Some(field.component)
+        }
+        _ => None,
+    };
+    builder::rows(&query).iter().filter_map(asked).collect()
+}
+
+/// Returns the components of which nothing is coded.
+fn uncoded(counts: &BTreeMap<Component, usize>) -> Vec<Component> {
+    let none = counts.iter().filter(|(_, count)| **count == 0);
+    none.map(|(component, _)| *component).collect()
 }
 
 /// What a query that finds nothing would find without each of its conditions.
@@ -88,6 +170,7 @@ impl Aside {
             _ => None,
         };
         self.kept.hear(id, ended);
+        self.coded.hear(id, ended);
         if let Some(at) = self.leaving.remove(&id)
             && let Some(without) = &mut self.without
             && let Some(part) = without.parts.get_mut(at)
@@ -163,6 +246,7 @@ impl Aside {
         ui.strong(seen.say(words::NOTHING));
         if self.without.as_ref().is_none_or(|it| it.query != query) {
             self.leaving.clear();
+            self.coded.follow(query, out);
             let parts = parts(query);
             for (at, (_, rest)) in parts.iter().enumerate() {
                 let id = out.work(Work::Search(rest.clone(), only_counted()));
@@ -177,6 +261,7 @@ impl Aside {
                     .collect(),
             });
         }
+        self.coded.show(ui, seen, out);
         let without = self.without.as_ref()?;
         let mut chosen = None;
         if let Some(meant) = &without.meant {
@@ -240,6 +325,23 @@ mod tests {
         );
         assert!(parts("").is_empty());
         assert!(parts("a=(").is_empty());
+    }
+
+    #[test]
+    fn components_that_a_query_wants_a_value_of_are_those_that_may_not_be_coded() {
+        let of = |query: &str| Vec::from_iter(components(query));
+        assert_eq!(
+            of("right.configuration=U gloss=A"),
+            [Component::Configuration]
+        );
+        assert_eq!(
+            of("placement=chin configuration==U,V"),
+            [Component::Configuration, Component::Placement]
+        );
+        assert!(of("configuration!=U").is_empty());
+        assert!(of("movement=unset").is_empty());
+        let counts = [(Component::Configuration, 0), (Component::Placement, 7)];
+        assert_eq!(uncoded(&counts.into()), [Component::Configuration]);
     }
 
     #[test]

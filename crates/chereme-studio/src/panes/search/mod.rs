@@ -7,11 +7,13 @@
 //! | `suggest`, `field` | the query as text: what could be written next, and the field |
 //! | `hits`, `results` | what was found: pages and order, and the grid and the table |
 //! | `page` | the pane from top to bottom |
+//! | `examples` | the signs that a query names as examples |
 //! | `facets` | how often each value occurs |
 //! | `aside`, `kept` | recent queries, help, and what is said where nothing is found; kept queries |
 
 mod aside;
 pub(crate) mod builder;
+mod examples;
 mod facets;
 mod field;
 mod hits;
@@ -25,7 +27,8 @@ mod symbols;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use chereme_corpus::{Error, SearchOptions};
+use chereme_corpus::{Error, Overview, SearchOptions};
+use chereme_sign::query::{Example, Expr, Query};
 use eframe::egui::{ScrollArea, Ui};
 
 use super::bare::{self, Bare};
@@ -92,6 +95,7 @@ pub(crate) struct Search {
     /// It was stopped before there was an answer.
     stopped: bool,
     aside: aside::Aside,
+    examples: examples::Examples,
     /// The moment of the corpus that was searched.
     generation: i64,
     /// The hit that the keys are at, the one that they go to, and the one that was opened.
@@ -150,6 +154,7 @@ impl Default for Search {
             wrong: None,
             stopped: false,
             aside: aside::Aside::default(),
+            examples: examples::Examples::default(),
             generation: 0,
             at: 0,
             reach: None,
@@ -327,7 +332,10 @@ impl Search {
         let Some(token) = by_annotation.or_else(by_time) else {
             return false;
         };
-        self.turn_to(format!("like token:{}", token.id), out);
+        self.turn_to(
+            like_query(&seen.snapshot.overview, token.id, &token.gloss),
+            out,
+        );
         self.built = true;
         true
     }
@@ -346,6 +354,22 @@ impl Search {
             self.ask(out);
         }
     }
+}
+
+/// Returns the query for what resembles a token, which it names by its gloss if that means it.
+pub(crate) fn like_query(overview: &Overview, token: i64, gloss: &str) -> String {
+    let mut named = overview.signs.iter().filter(|it| it.gloss == gloss);
+    if named.next().is_some_and(|it| it.citation == Some(token)) {
+        let text = format!("like {}", suggest::quoted(gloss));
+        let means = |query: Query| match &query.root {
+            Expr::Like(like) => like.example == Example::Sign(gloss.to_owned()),
+            _ => false,
+        };
+        if text.parse().is_ok_and(means) {
+            return text;
+        }
+    }
+    format!("like token:{token}")
 }
 
 /// Selects the annotation that a token is, and its tier.
@@ -401,6 +425,7 @@ impl Pane for Search {
 
     fn hear(&mut self, id: WorkId, ended: &Ended) {
         self.aside.hear(id, ended);
+        self.examples.hear(id, ended);
         self.notated.hear(id, ended);
         if self.around == Some(id) {
             self.around = None;
@@ -469,5 +494,55 @@ impl Search {
             }
             _ => {}
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use chereme_corpus::SignGlance;
+
+    #[test]
+    fn examples_are_named_by_their_gloss_where_that_means_them() {
+        let sign = |gloss: &str, token| SignGlance {
+            gloss: gloss.to_owned(),
+            citation: Some(token),
+            ..SignGlance::default()
+        };
+        let overview = Overview {
+            signs: vec![
+                sign("AIMER", 15),
+                sign("BON APPETIT", 16),
+                sign("token:3", 17),
+            ],
+            ..Overview::default()
+        };
+        for (token, gloss, wanted) in [
+            (15, "AIMER", "like AIMER"),
+            (16, "BON APPETIT", "like \"BON APPETIT\""),
+            (18, "AIMER", "like token:18"),
+            (17, "token:3", "like token:17"),
+        ] {
+            let query = like_query(&overview, token, gloss);
+            assert!(
+                query == wanted || query == format!("like \"{gloss}\""),
+                "{query}"
+            );
+            assert!(query.parse::<Query>().is_ok());
+        }
+    }
+
+    #[test]
+    fn a_slip_is_mended_where_it_is() {
+        let wrong = Wrong {
+            from: Some(10),
+            error: "\"chinn\" is no placement; did you mean chin?".into(),
+            remedy: None,
+        };
+        let mended = wrong.mended("placement=chinn gloss=A");
+        assert_eq!(
+            mended,
+            Some(("chin".into(), "placement=chin gloss=A".into()))
+        );
     }
 }

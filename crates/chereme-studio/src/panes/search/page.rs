@@ -97,7 +97,9 @@ impl Search {
             }
         }
         self.tools(ui, seen, out);
-        if self.built && rows::show(ui, &mut self.rows, seen, &mut self.field.text) {
+        self.examples.follow(&self.field.text, seen, out);
+        let with = (&self.examples, &mut *out);
+        if self.built && rows::show(ui, &mut self.rows, seen, &mut self.field.text, with) {
             self.ask(out);
         }
         for picker in self.rows.pickers.values_mut() {

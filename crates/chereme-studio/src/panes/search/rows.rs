@@ -2,14 +2,17 @@
 
 use std::collections::BTreeMap;
 
-use chereme_sign::query::{
-    Example, Missing, Pattern, Property, Query, TextField, TimeField, TimeTest,
-};
+use chereme_sign::query::{Missing, Pattern, Property, Query, TextField, TimeField, TimeTest};
 use chereme_sign::{Component, Field, HandRef, Inventory, Phase};
-use eframe::egui::{Button, ComboBox, DragValue, RichText, Role, Slider, Ui, WidgetInfo};
+use eframe::egui::{
+    Button, ComboBox, DragValue, RichText, Role, Sense, Slider, Ui, Vec2, WidgetInfo,
+};
 
 use super::builder::{self, Condition, How, Subject, written};
-use crate::context::Seen;
+use super::examples::Examples;
+use crate::context::{Outbox, Seen};
+use crate::little::{self, Cell, Motion};
+use crate::model::Known;
 use crate::panes::library::data::origin_text;
 use crate::pickers::{self, Picker};
 use crate::script::edit;
@@ -30,8 +33,17 @@ pub(crate) struct Rows {
     begun: Option<usize>,
 }
 
+/// How large the figure of an example is.
+const PICTURE: f32 = 72.0;
+
 /// Draws the rows of `text` and changes it; returns whether it changed.
-pub(crate) fn show(ui: &mut Ui, rows: &mut Rows, seen: &Seen<'_>, text: &mut String) -> bool {
+pub(super) fn show(
+    ui: &mut Ui,
+    rows: &mut Rows,
+    seen: &Seen<'_>,
+    text: &mut String,
+    (examples, out): (&Examples, &mut Outbox),
+) -> bool {
     let Ok(query) = Query::parse(text) else {
         ui.label(RichText::new(seen.say(words::NO_ROWS)).small().weak());
         return false;
@@ -51,7 +63,7 @@ pub(crate) fn show(ui: &mut Ui, rows: &mut Rows, seen: &Seen<'_>, text: &mut Str
                 if has_pictures(seen, condition) {
                     ui.set_row_height(36.0);
                 }
-                row(ui, rows, seen, at, condition);
+                row(ui, rows, seen, (at, condition), (examples, out));
                 let name = fill(seen.say(words::REMOVE), &[("row", &(at + 1))]);
                 let remove = ui.small_button("×").on_hover_text(&name);
                 remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
@@ -223,7 +235,13 @@ pub(crate) fn field_text(field: &Field, seen: &Seen<'_>) -> String {
     }
 }
 
-fn row(ui: &mut Ui, rows: &mut Rows, seen: &Seen<'_>, at: usize, condition: &mut Condition) {
+fn row(
+    ui: &mut Ui,
+    rows: &mut Rows,
+    seen: &Seen<'_>,
+    (at, condition): (usize, &mut Condition),
+    (examples, out): (&Examples, &mut Outbox),
+) {
     match condition {
         Condition::Values(subject, how, values) => {
             let name = subject_ui(ui, seen, subject);
@@ -251,7 +269,9 @@ fn row(ui: &mut Ui, rows: &mut Rows, seen: &Seen<'_>, at: usize, condition: &mut
             }));
             time_ui(ui, test);
         }
-        Condition::Like(example, weights) => like_ui(ui, seen, example, weights),
+        Condition::Like(example, weights) => {
+            like_ui(ui, seen, out, examples.get(example, seen), weights);
+        }
         Condition::Written(expr) => {
             ui.label(RichText::new(expr.to_string()).monospace());
             ui.weak(RichText::new(seen.say(words::AS_WRITTEN)).small());
@@ -506,10 +526,24 @@ fn time_ui(ui: &mut Ui, test: &mut TimeTest) {
 }
 
 /// Draws how much each component of an example counts.
-fn like_ui(ui: &mut Ui, seen: &Seen<'_>, example: &Example, weights: &mut [f64; 5]) {
-    let name = match example {
-        Example::Token(number) => format!("token:{number}"),
-        Example::Sign(gloss) => gloss.clone(),
+fn like_ui(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    example: Option<Known>,
+    weights: &mut [f64; 5],
+) {
+    let example = example.unwrap_or_default();
+    if let Some((recording, span)) = example.place {
+        let size = Vec2::splat(PICTURE);
+        let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
+        let motion = Motion::Span(recording, span);
+        let cell = Cell::new(motion, size).playing(little::clock(ui));
+        seen.little.paint(ui, seen, out, &cell, rect);
+    }
+    let name = match example.gloss.as_str() {
+        "" => "…",
+        gloss => gloss,
     };
     ui.vertical(|ui| {
         ui.label(fill(seen.say(words::LIKE), &[("example", &name)]));

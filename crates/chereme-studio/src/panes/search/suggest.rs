@@ -274,7 +274,7 @@ fn names(completion: &Completion, snapshot: &Snapshot, language: Language) -> Ve
 }
 
 /// Returns a value as it is written, in quotes where it needs them.
-fn quoted(text: &str) -> String {
+pub(super) fn quoted(text: &str) -> String {
     super::builder::with_value("", "", text)[1..].to_owned()
 }
 
