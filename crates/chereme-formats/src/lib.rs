@@ -5,6 +5,7 @@ pub mod c3d;
 pub mod curves;
 pub mod eaf;
 mod finding;
+pub mod gltf;
 pub mod hns;
 pub mod lexicon;
 pub mod pose;

@@ -67,7 +67,7 @@ pub(crate) fn rate_of(per_second: f64) -> Option<Rate> {
         return Rate::new((film * 1000.0) as u32, 1001).ok();
     }
     let scaled = (per_second * 1000.0).round();
-    if scaled >= 1.0 && scaled <= 4e9 {
+    if (1.0..=4e9).contains(&scaled) {
         return Rate::new(scaled as u32, 1000).ok();
     }
     None

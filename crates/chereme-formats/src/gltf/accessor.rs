@@ -1,0 +1,179 @@
+//! Numbers behind accessors: every index and every range of bytes is checked.
+
+use super::error::Error;
+use super::model::{Accessor, Document, Sparse};
+
+/// More numbers than this in one accessor are no movement.
+const MOST_NUMBERS: usize = 1 << 28;
+
+/// The document with the bytes of its buffers.
+pub(super) struct Data<'a> {
+    pub(super) document: &'a Document,
+    pub(super) buffers: Vec<Vec<u8>>,
+}
+
+impl Data<'_> {
+    /// Returns the numbers of an accessor that has `width` numbers in each element.
+    pub(super) fn floats(&self, index: usize, width: usize) -> Result<Vec<f32>, Error> {
+        let fault = |problem: &str| Error::element("accessors", index, problem);
+        let accessor = self
+            .document
+            .accessors
+            .get(index)
+            .ok_or_else(|| fault("does not exist"))?;
+        let found = match accessor.shape.as_str() {
+            "SCALAR" => 1,
+            "VEC2" => 2,
+            "VEC3" => 3,
+            "VEC4" => 4,
+            "MAT4" => 16,
+            _ => 0,
+        };
+        if found != width {
+            return Err(fault(&format!(
+                "is {:?}, and {width} numbers are needed",
+                accessor.shape
+            )));
+        }
+        let numbers = accessor
+            .count
+            .checked_mul(width)
+            .filter(|count| *count <= MOST_NUMBERS);
+        let numbers = numbers.ok_or_else(|| fault("has too many elements"))?;
+        let mut values = match accessor.buffer_view {
+            Some(view) => self.dense(index, accessor, (view, width))?,
+            // Without a view all numbers are nought.
+            None => vec![0.0; numbers],
+        };
+        if let Some(sparse) = &accessor.sparse {
+            self.overlay(index, accessor, sparse, (&mut values, width))?;
+        }
+        if values.iter().any(|value| !value.is_finite()) {
+            return Err(fault("holds numbers that are not finite"));
+        }
+        Ok(values)
+    }
+
+    fn view(&self, index: usize) -> Result<(&[u8], Option<usize>), Error> {
+        let fault = |problem: &str| Error::element("bufferViews", index, problem);
+        let view = self
+            .document
+            .buffer_views
+            .get(index)
+            .ok_or_else(|| fault("does not exist"))?;
+        if let Some(extension) = view
+            .extensions
+            .as_object()
+            .and_then(|all| all.keys().next())
+        {
+            return Err(Error::Packed(extension.clone()));
+        }
+        let buffer = self
+            .buffers
+            .get(view.buffer)
+            .ok_or_else(|| fault("names a buffer that does not exist"))?;
+        let end = view.byte_offset.checked_add(view.byte_length);
+        let bytes = end.and_then(|end| buffer.get(view.byte_offset..end));
+        Ok((
+            bytes.ok_or_else(|| fault("reaches beyond its buffer"))?,
+            view.byte_stride,
+        ))
+    }
+
+    fn dense(
+        &self,
+        index: usize,
+        accessor: &Accessor,
+        (view, width): (usize, usize),
+    ) -> Result<Vec<f32>, Error> {
+        let fault = |problem: &str| Error::element("accessors", index, problem);
+        let (bytes, stride) = self.view(view)?;
+        let size =
+            size(accessor.component_type).ok_or_else(|| fault("has an unknown component type"))?;
+        let stride = stride.unwrap_or(size * width);
+        let mut values = Vec::new();
+        for element in 0..accessor.count {
+            let begin = element
+                .checked_mul(stride)
+                .and_then(|at| at.checked_add(accessor.byte_offset));
+            let element = begin.and_then(|at| bytes.get(at..at.checked_add(size * width)?));
+            let element = element.ok_or_else(|| fault("reaches beyond its view"))?;
+            let numbers = element.chunks_exact(size);
+            values.extend(
+                numbers.map(|bytes| number(bytes, accessor.component_type, accessor.normalized)),
+            );
+        }
+        Ok(values)
+    }
+
+    fn overlay(
+        &self,
+        index: usize,
+        accessor: &Accessor,
+        sparse: &Sparse,
+        (values, width): (&mut [f32], usize),
+    ) -> Result<(), Error> {
+        let fault = |problem: &str| Error::element("accessors", index, problem);
+        let index_size = size(sparse.indices.component_type)
+            .ok_or_else(|| fault("has unknown sparse indices"))?;
+        let size =
+            size(accessor.component_type).ok_or_else(|| fault("has an unknown component type"))?;
+        let (indices, _) = self.view(sparse.indices.buffer_view)?;
+        let (numbers, _) = self.view(sparse.values.buffer_view)?;
+        let beyond = || fault("has sparse values beyond their view");
+        let indices = indices
+            .get(sparse.indices.byte_offset..)
+            .ok_or_else(beyond)?;
+        let numbers = numbers
+            .get(sparse.values.byte_offset..)
+            .ok_or_else(beyond)?;
+        for at in 0..sparse.count {
+            let bytes = indices
+                .get(at * index_size..(at + 1) * index_size)
+                .ok_or_else(beyond)?;
+            let target = number(bytes, sparse.indices.component_type, false) as usize;
+            let element = numbers
+                .get(at * size * width..(at + 1) * size * width)
+                .ok_or_else(beyond)?;
+            let end = target
+                .checked_add(1)
+                .and_then(|next| next.checked_mul(width));
+            let place = end
+                .and_then(|end| values.get_mut(target * width..end))
+                .ok_or_else(beyond)?;
+            for (value, bytes) in place.iter_mut().zip(element.chunks_exact(size)) {
+                *value = number(bytes, accessor.component_type, accessor.normalized);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Returns the bytes of a number of a component type.
+fn size(component: u32) -> Option<usize> {
+    match component {
+        5120 | 5121 => Some(1),
+        5122 | 5123 => Some(2),
+        5125 | 5126 => Some(4),
+        _ => None,
+    }
+}
+
+/// Reads a number; normalised integers are shares of their range (glTF 2.0, section 3.6.2.2).
+fn number(bytes: &[u8], component: u32, normalized: bool) -> f32 {
+    let two = || [bytes[0], bytes[1]];
+    let four = || [bytes[0], bytes[1], bytes[2], bytes[3]];
+    let (value, range) = match component {
+        5120 => (f32::from(bytes[0] as i8), 127.0),
+        5121 => (f32::from(bytes[0]), 255.0),
+        5122 => (f32::from(i16::from_le_bytes(two())), 32_767.0),
+        5123 => (f32::from(u16::from_le_bytes(two())), 65_535.0),
+        5125 => (u32::from_le_bytes(four()) as f32, 1.0),
+        _ => return f32::from_le_bytes(four()),
+    };
+    if normalized {
+        (value / range).max(-1.0)
+    } else {
+        value
+    }
+}

@@ -1,0 +1,17 @@
+//! glTF 2.0: movement out as GLB for Blender, three.js and game engines, and skeletons with movement in.
+//!
+//! [`write`] makes a GLB with a skin, a small mesh of bones and the annotations; [`read`] takes the skeleton,
+//! its movement and the weights of morph targets. Source: the glTF 2.0 specification of the Khronos Group.
+
+mod accessor;
+mod error;
+mod model;
+mod read;
+mod sample;
+#[cfg(test)]
+mod tests;
+mod write;
+
+pub use error::Error;
+pub use read::{Scene, read};
+pub use write::{About, Note, write};

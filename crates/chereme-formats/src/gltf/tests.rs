@@ -1,0 +1,326 @@
+use std::sync::Arc;
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Channel, Clip, Joint, Rate, Skeleton};
+use serde_json::json;
+
+use super::*;
+use crate::Finding;
+
+fn clip() -> Clip {
+    let turned = DQuat::from_rotation_z(0.3);
+    let joints = vec![
+        Joint::new("Hips root", None, DVec3::new(0.0, 0.9, 0.0)),
+        Joint {
+            rest: turned,
+            ..Joint::new("Arm.L", Some(0), DVec3::new(0.2, 0.4, 0.0))
+        },
+        Joint::new("Arm.L", Some(1), DVec3::new(0.3, 0.0, 0.0)).with_tip(DVec3::new(0.1, 0.0, 0.0)),
+    ];
+    let skeleton = Arc::new(Skeleton::new(joints).expect("a skeleton"));
+    let turns = |speed: f64| {
+        (0..20)
+            .map(|frame| DQuat::from_rotation_y(speed * f64::from(frame)))
+            .collect()
+    };
+    let channels = vec![
+        Channel {
+            rotations: turns(0.4),
+            translations: Some(
+                (0..20)
+                    .map(|frame| DVec3::new(0.01 * f64::from(frame), 0.9, 0.0))
+                    .collect(),
+            ),
+        },
+        Channel {
+            rotations: turns(-0.2),
+            translations: None,
+        },
+        Channel {
+            rotations: turns(0.0),
+            translations: None,
+        },
+    ];
+    Clip::new(skeleton, Rate::new(25, 1).expect("a rate"), channels).expect("a clip")
+}
+
+fn parse(bytes: &[u8]) -> Result<(Scene, Vec<Finding>), Error> {
+    read(bytes, &|_| None)
+}
+
+/// Returns the largest distance between joints of two clips, in metres.
+fn apart(a: &Clip, b: &Clip) -> f64 {
+    assert_eq!(
+        (a.frames(), a.skeleton().len()),
+        (b.frames(), b.skeleton().len())
+    );
+    let frames = (0..a.frames()).flat_map(|frame| {
+        let (a, b) = (a.model_pose(frame), b.model_pose(frame));
+        let pairs: Vec<f64> = a
+            .positions()
+            .iter()
+            .zip(b.positions())
+            .map(|(a, b)| a.distance(*b))
+            .collect();
+        pairs
+    });
+    frames.fold(0.0, f64::max)
+}
+
+#[test]
+fn movement_comes_back_to_a_hundredth_of_a_millimetre() {
+    let clip = clip();
+    let about = About {
+        name: "CHAT".into(),
+        ..About::default()
+    };
+    let (scene, findings) = parse(&write(&clip, &about)).expect("a GLB");
+    assert_eq!(findings, []);
+    assert!(apart(&clip, &scene.clip) < 1e-5);
+    assert_eq!(scene.clip.rate(), clip.rate());
+    assert_eq!(scene.take.as_deref(), Some("CHAT"));
+    let names: Vec<&str> = scene
+        .clip
+        .skeleton()
+        .joints()
+        .iter()
+        .map(|joint| joint.name.as_str())
+        .collect();
+    assert_eq!(names, ["Hips root", "Arm.L", "Arm.L (2)"]);
+}
+
+#[test]
+fn annotations_stand_where_blender_and_three_keep_them() {
+    let note = Note {
+        tier: "gloss".into(),
+        begin: 0.0,
+        end: 0.4,
+        value: "CHAT \"x\"".into(),
+    };
+    let about = About {
+        name: "a".into(),
+        licence: Some("CC0".into()),
+        notes: vec![note],
+    };
+    let bytes = write(&clip(), &about);
+    let length = u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
+    let document: serde_json::Value =
+        serde_json::from_slice(&bytes[20..20 + length]).expect("JSON");
+    let text = document["scenes"][0]["extras"]["chereme_annotations"]
+        .as_str()
+        .expect("a string");
+    let notes: serde_json::Value = serde_json::from_str(text).expect("JSON in it");
+    assert_eq!(notes[0]["value"], "CHAT \"x\"");
+    assert_eq!(
+        document["animations"][0]["extras"]["annotations"][0]["end"],
+        0.4
+    );
+    assert_eq!(document["asset"]["copyright"], "CC0");
+    assert_eq!(bytes.len() % 4, 0);
+}
+
+/// A document of one joint `a` whose rotation has these keys and accessor.
+fn document(extra: serde_json::Value, binary: &[u8]) -> Vec<u8> {
+    let mut document = json!({
+        "asset": {"version": "2.0"},
+        "nodes": [{"name": "top", "scale": [0.01, 0.01, 0.01], "children": [1]}, {"name": "a", "translation": [100.0, 0.0, 0.0], "children": [2]}, {"name": "b", "translation": [0.0, 50.0, 0.0]}],
+        "skins": [{"joints": [1, 2]}],
+        "buffers": [{"byteLength": binary.len()}],
+        "bufferViews": [{"buffer": 0, "byteLength": binary.len()}],
+    });
+    for (key, value) in extra.as_object().expect("an object") {
+        document[key] = value.clone();
+    }
+    let mut text = document.to_string().into_bytes();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    let mut bytes = b"glTF\x02\0\0\0\0\0\0\0".to_vec();
+    bytes.extend((text.len() as u32).to_le_bytes());
+    bytes.extend(b"JSON");
+    bytes.extend(text);
+    bytes.extend((binary.len() as u32).to_le_bytes());
+    bytes.extend(b"BIN\0");
+    bytes.extend(binary);
+    bytes
+}
+
+fn floats(values: &[f32]) -> Vec<u8> {
+    values
+        .iter()
+        .flat_map(|value| value.to_le_bytes())
+        .collect()
+}
+
+fn animated(interpolation: &str, output: serde_json::Value, binary: &[u8]) -> Result<Clip, Error> {
+    let extra = json!({
+        "animations": [{"channels": [{"sampler": 0, "target": {"node": 1, "path": "rotation"}}],
+            "samplers": [{"input": 0, "output": 1, "interpolation": interpolation}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "type": "SCALAR", "count": 2}, output],
+    });
+    parse(&document(extra, binary)).map(|(scene, _)| scene.clip)
+}
+
+#[test]
+fn a_scale_above_the_joints_goes_into_their_offsets() {
+    let (scene, findings) = parse(&document(json!({}), &[])).expect("a skeleton");
+    let pose = scene.clip.model_pose(0);
+    assert!(pose.position(1).distance(DVec3::new(1.0, 0.0, 0.0)) < 1e-9);
+    assert!(pose.position(2).distance(DVec3::new(1.0, 0.5, 0.0)) < 1e-9);
+    assert!(
+        findings
+            .iter()
+            .any(|finding| finding.message.contains("no animation"))
+    );
+}
+
+#[test]
+fn keys_of_every_kind_are_read() {
+    let half = 0.5f32.sqrt();
+    let times = [0.0, 0.04];
+    let turn = [0.0, 0.0, 0.0, 1.0, 0.0, half, 0.0, half];
+    let angle = |clip: &Clip, frame: usize| clip.channels()[1].rotations[frame].to_axis_angle().1;
+    let right = std::f64::consts::FRAC_PI_2;
+    let binary = floats(&[&times[..], &turn[..]].concat());
+    let plain = json!({"bufferView": 0, "byteOffset": 8, "componentType": 5126, "type": "VEC4", "count": 2});
+    for interpolation in ["LINEAR", "STEP"] {
+        let clip = animated(interpolation, plain.clone(), &binary).expect("a clip");
+        assert_eq!(clip.frames(), 2);
+        assert!((angle(&clip, 1) - right).abs() < 1e-6);
+    }
+    let none = [0.0f32; 4];
+    let cubic = floats(
+        &[
+            &times[..],
+            &none,
+            &turn[..4],
+            &none,
+            &none,
+            &turn[4..],
+            &none,
+        ]
+        .concat(),
+    );
+    let output = json!({"bufferView": 0, "byteOffset": 8, "componentType": 5126, "type": "VEC4", "count": 6});
+    assert!(
+        (angle(&animated("CUBICSPLINE", output, &cubic).expect("a clip"), 1) - right).abs() < 1e-6
+    );
+    let mut small = floats(&times);
+    let shorts = turn
+        .iter()
+        .flat_map(|value| ((value * 32_767.0).round() as i16).to_le_bytes());
+    small.extend(shorts);
+    let output = json!({"bufferView": 0, "byteOffset": 8, "componentType": 5122, "normalized": true, "type": "VEC4", "count": 2});
+    assert!((angle(&animated("LINEAR", output, &small).expect("a clip"), 1) - right).abs() < 1e-4);
+    let mut sparse = floats(&[&times[..], &turn[4..]].concat());
+    sparse.extend([1u8, 0, 0, 0]);
+    let output = json!({"componentType": 5126, "type": "VEC4", "count": 2, "sparse": {"count": 1,
+        "indices": {"bufferView": 0, "byteOffset": 24, "componentType": 5121}, "values": {"bufferView": 0, "byteOffset": 8}}});
+    let clip = animated("LINEAR", output, &sparse).expect("a clip");
+    assert!(angle(&clip, 0).abs() < 1e-9 && (angle(&clip, 1) - right).abs() < 1e-6);
+}
+
+#[test]
+fn documents_that_mean_nothing_are_refused() {
+    let output = |view: usize| json!({"bufferView": view, "componentType": 5126, "type": "VEC4", "count": 2});
+    let short = floats(&[0.0, 0.04]);
+    assert!(
+        animated("LINEAR", output(7), &short)
+            .expect_err("no view")
+            .to_string()
+            .contains("bufferViews 7")
+    );
+    assert!(
+        animated("LINEAR", output(0), &short)
+            .expect_err("short")
+            .to_string()
+            .contains("beyond its view")
+    );
+    let loops =
+        json!({"nodes": [{"children": [1]}, {"children": [0]}], "skins": [{"joints": [0]}]});
+    assert!(parse(&document(loops, &[])).is_err());
+    let far = json!({"buffers": [{"byteLength": 1, "uri": "../secret.bin"}]});
+    assert!(matches!(
+        parse(&document(far, &[])),
+        Err(Error::Elsewhere(_))
+    ));
+    let net = json!({"buffers": [{"byteLength": 1, "uri": "https://x.org/a.bin"}]});
+    assert!(matches!(
+        parse(&document(net, &[])),
+        Err(Error::Elsewhere(_))
+    ));
+    assert_eq!(parse(b"hello").err(), Some(Error::NoGltf));
+    assert!(matches!(
+        parse(&document(json!({"skins": []}), &[])),
+        Err(Error::NoSkeleton)
+    ));
+    let whole = write(&clip(), &About::default());
+    for end in (0..whole.len()).step_by(7) {
+        let _ = parse(&whole[..end]);
+        let mut changed = whole.clone();
+        changed[end] ^= 0xff;
+        let _ = parse(&changed);
+    }
+}
+
+#[test]
+fn text_form_reads_buffers_in_it_and_next_to_it() {
+    let text = r#"{"asset":{"version":"2.0"},"nodes":[{"name":"a"}],"skins":[{"joints":[0]}],"buffers":[{"byteLength":4,"uri":"URI"}]}"#;
+    let inside = text.replace("URI", "data:application/octet-stream;base64,AAAAAA==");
+    assert!(parse(inside.as_bytes()).is_ok());
+    let outside = text.replace("URI", "a%20b.bin");
+    assert!(
+        read(outside.as_bytes(), &|name| (name == "a b.bin")
+            .then(|| vec![0; 4]))
+        .is_ok()
+    );
+    assert!(matches!(
+        parse(outside.as_bytes()),
+        Err(Error::Elsewhere(_))
+    ));
+}
+
+#[test]
+fn files_of_others_are_read_or_refused_with_the_reason() {
+    let Some(folder) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        eprintln!("skipped: CHEREME_SHARED_DATA names no folder");
+        return;
+    };
+    let (mut folders, mut seen) = (vec![std::path::Path::new(&folder).join("motion/gltf")], 0);
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            seen += 1;
+            let bytes = std::fs::read(&path).expect("a file");
+            let stem = path
+                .file_stem()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned();
+            let scene = parse(&bytes);
+            if stem == "mesh-without-skinning" {
+                assert_eq!(scene.err(), Some(Error::NoSkeleton));
+                continue;
+            }
+            let (scene, _) = scene.unwrap_or_else(|error| panic!("{stem}: {error}"));
+            if stem == "model_with_motion" {
+                let clip = &scene.clip;
+                let find = |name: &str| {
+                    clip.skeleton()
+                        .joints()
+                        .iter()
+                        .position(|joint| joint.name == name)
+                };
+                let root = find("root").expect("a joint root");
+                assert!(clip.frames() >= 5, "{}", clip.frames());
+                assert!(clip.skeleton().joints()[root].offset.is_finite());
+            }
+            if stem == "sort_joints" {
+                assert!(scene.clip.skeleton().len() >= 297);
+            }
+        }
+    }
+    assert_eq!(seen, 6);
+}

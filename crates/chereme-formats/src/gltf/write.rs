@@ -1,0 +1,350 @@
+//! A clip as GLB: joints as nodes, a skin, bones as a mesh, one animation, annotations as extras.
+
+use chereme_motion::glam::{DMat4, DQuat, DVec3};
+use chereme_motion::{Clip, ModelPose, Pose, Skeleton};
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+use crate::tracks::unique;
+
+/// An annotation that goes with the movement.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Note {
+    /// The tier.
+    pub tier: String,
+    /// The beginning in seconds from the first frame.
+    pub begin: f64,
+    /// The end in seconds from the first frame.
+    pub end: f64,
+    /// The value.
+    pub value: String,
+}
+
+/// What a GLB says about its movement.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct About {
+    /// The name of the animation.
+    pub name: String,
+    /// The terms under which the movement may be used.
+    pub licence: Option<String>,
+    /// The annotations.
+    pub notes: Vec<Note>,
+}
+
+const FLOAT: u32 = 5126;
+const SHORT: u32 = 5123;
+const VERTICES: u32 = 34_962;
+const INDICES: u32 = 34_963;
+/// The thickest part of a bone, as a share of its length, and where it is.
+const THICKNESS: f64 = 0.08;
+const SHOULDER: f64 = 0.12;
+/// Bones shorter than this, in metres, get no mesh.
+const SHORTEST: f64 = 1e-4;
+
+/// The parts of a document while they grow.
+#[derive(Default)]
+struct Parts {
+    bytes: Vec<u8>,
+    views: Vec<Value>,
+    accessors: Vec<Value>,
+}
+
+impl Parts {
+    fn view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
+        while !self.bytes.len().is_multiple_of(4) {
+            self.bytes.push(0);
+        }
+        let mut view =
+            json!({"buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len()});
+        if let Some(target) = target {
+            view["target"] = target.into();
+        }
+        self.bytes.extend(bytes);
+        self.views.push(view);
+        self.views.len() - 1
+    }
+
+    fn accessor(&mut self, view: usize, kind: (u32, &str), count: usize) -> usize {
+        let (component, shape) = kind;
+        let accessor =
+            json!({"bufferView": view, "componentType": component, "type": shape, "count": count});
+        self.accessors.push(accessor);
+        self.accessors.len() - 1
+    }
+
+    fn floats(&mut self, values: &[f32], shape: &str, width: usize, target: Option<u32>) -> usize {
+        let bytes: Vec<u8> = values
+            .iter()
+            .flat_map(|value| value.to_le_bytes())
+            .collect();
+        let view = self.view(&bytes, target);
+        self.accessor(view, (FLOAT, shape), values.len() / width)
+    }
+
+    /// Writes the least and the greatest of each column into an accessor.
+    fn bounds(&mut self, accessor: usize, values: &[f32], width: usize) {
+        let fold = |start: f32, pick: fn(f32, f32) -> f32| -> Vec<f32> {
+            let column = |at: usize| {
+                values
+                    .iter()
+                    .skip(at)
+                    .step_by(width)
+                    .copied()
+                    .fold(start, pick)
+            };
+            (0..width).map(column).collect()
+        };
+        self.accessors[accessor]["min"] = json!(fold(f32::INFINITY, f32::min));
+        self.accessors[accessor]["max"] = json!(fold(f32::NEG_INFINITY, f32::max));
+    }
+}
+
+/// Returns a clip in metres of model space as a GLB.
+///
+/// Joints keep their names but for characters that programs change; the name as it was is in the node's
+/// `extras.name`. The annotations are a JSON string in `scenes[0].extras.chereme_annotations`, where Blender keeps
+/// them, and JSON in `animations[0].extras`, where three.js does.
+#[must_use]
+pub fn write(clip: &Clip, about: &About) -> Vec<u8> {
+    let skeleton = clip.skeleton();
+    let mut parts = Parts::default();
+    let animation = animation(clip, about, &mut parts);
+    let inverse = inverse_binds(skeleton, &mut parts);
+    let mesh = mesh(skeleton, &mut parts);
+    let mut nodes = nodes(skeleton);
+    let joints: Vec<usize> = (0..skeleton.len()).collect();
+    let mut roots = vec![0];
+    if mesh.is_some() {
+        nodes.push(json!({"name": "bones", "mesh": 0, "skin": 0}));
+        roots.push(skeleton.len());
+    }
+    let rate = clip.rate();
+    let notes = serde_json::to_string(&about.notes).unwrap_or_default();
+    let mut document = json!({
+        "asset": {"version": "2.0", "generator": format!("Chereme {}", env!("CARGO_PKG_VERSION"))},
+        "scene": 0,
+        "scenes": [{"name": about.name, "nodes": roots, "extras": {
+            "chereme_annotations": notes,
+            "chereme_frames_per_second": rate.per_second(),
+        }}],
+        "nodes": nodes,
+        "skins": [{"joints": joints, "skeleton": 0, "inverseBindMatrices": inverse}],
+        "buffers": [{"byteLength": parts.bytes.len()}],
+        "bufferViews": parts.views,
+        "accessors": parts.accessors,
+    });
+    if let Some(animation) = animation {
+        document["animations"] = json!([animation]);
+    }
+    if let Some(mesh) = mesh {
+        document["meshes"] = json!([mesh]);
+        document["materials"] = json!([{"name": "bone", "pbrMetallicRoughness":
+            {"baseColorFactor": [0.8, 0.75, 0.7, 1.0], "metallicFactor": 0.0, "roughnessFactor": 0.9}}]);
+    }
+    if let Some(licence) = &about.licence {
+        document["asset"]["copyright"] = licence.as_str().into();
+    }
+    container(&document, parts.bytes)
+}
+
+/// Puts JSON and numbers into the chunks of a GLB.
+fn container(document: &Value, mut numbers: Vec<u8>) -> Vec<u8> {
+    let mut text = document.to_string().into_bytes();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    numbers.resize(numbers.len().next_multiple_of(4), 0);
+    let total = 12 + 8 + text.len() + 8 + numbers.len();
+    let mut out = b"glTF".to_vec();
+    let word = |out: &mut Vec<u8>, value: usize| out.extend((value as u32).to_le_bytes());
+    word(&mut out, 2);
+    word(&mut out, total);
+    word(&mut out, text.len());
+    out.extend(b"JSON");
+    out.extend(text);
+    word(&mut out, numbers.len());
+    out.extend(b"BIN\0");
+    out.extend(numbers);
+    out
+}
+
+/// Returns letters, digits and underscores: other characters are changed by one reader or another.
+fn plain(name: &str) -> String {
+    let change = |letter: char| {
+        if letter.is_alphanumeric() {
+            letter
+        } else {
+            '_'
+        }
+    };
+    name.chars().map(change).collect()
+}
+
+fn nodes(skeleton: &Skeleton) -> Vec<Value> {
+    let names: Vec<String> = skeleton
+        .joints()
+        .iter()
+        .map(|joint| plain(&joint.name))
+        .collect();
+    let names = unique(names.iter().map(String::as_str), "joint");
+    let mut nodes: Vec<Value> = Vec::new();
+    for (at, (joint, name)) in skeleton.joints().iter().zip(names).enumerate() {
+        let name = plain(&name);
+        let mut node = Map::new();
+        if name != joint.name {
+            node.insert("extras".into(), json!({"name": joint.name}));
+        }
+        node.insert("name".into(), name.into());
+        node.insert("translation".into(), json!(vector(joint.offset)));
+        node.insert("rotation".into(), json!(turn(joint.rest)));
+        let children: Vec<usize> = (at + 1..skeleton.len())
+            .filter(|child| skeleton.joints()[*child].parent == Some(at))
+            .collect();
+        if !children.is_empty() {
+            node.insert("children".into(), json!(children));
+        }
+        nodes.push(node.into());
+    }
+    nodes
+}
+
+fn vector(at: DVec3) -> [f32; 3] {
+    at.as_vec3().to_array()
+}
+
+/// Returns a rotation as glTF writes it: unit length in 32 bits, x y z w.
+fn turn(rotation: DQuat) -> [f32; 4] {
+    rotation.normalize().as_quat().normalize().to_array()
+}
+
+fn animation(clip: &Clip, about: &About, parts: &mut Parts) -> Option<Value> {
+    let frames = clip.frames();
+    if frames == 0 {
+        return None;
+    }
+    let rate = clip.rate();
+    let times: Vec<f32> = (0..frames)
+        .map(|frame| (frame as f64 * rate.frame_time()) as f32)
+        .collect();
+    let input = parts.floats(&times, "SCALAR", 1, None);
+    parts.bounds(input, &times, 1);
+    let (mut samplers, mut channels) = (Vec::new(), Vec::new());
+    let mut add = |joint: usize, path: &str, output: usize| {
+        channels.push(json!({"sampler": samplers.len(), "target": {"node": joint, "path": path}}));
+        samplers.push(json!({"input": input, "output": output, "interpolation": "LINEAR"}));
+    };
+    for (joint, channel) in clip.channels().iter().enumerate() {
+        let mut before = DQuat::IDENTITY;
+        let mut turns = Vec::with_capacity(4 * frames);
+        for rotation in &channel.rotations {
+            // The two quaternions of a rotation blend to different turns; the nearer one is written.
+            let near = if before.dot(*rotation) < 0.0 {
+                -*rotation
+            } else {
+                *rotation
+            };
+            turns.extend(turn(near));
+            before = near;
+        }
+        let output = parts.floats(&turns, "VEC4", 4, None);
+        add(joint, "rotation", output);
+        if let Some(places) = &channel.translations {
+            let places: Vec<f32> = places.iter().flat_map(|at| vector(*at)).collect();
+            let output = parts.floats(&places, "VEC3", 3, None);
+            add(joint, "translation", output);
+        }
+    }
+    Some(json!({
+        "name": about.name,
+        "channels": channels,
+        "samplers": samplers,
+        "extras": {"annotations": about.notes, "frames_per_second": rate.per_second()},
+    }))
+}
+
+fn rest(skeleton: &Skeleton) -> ModelPose {
+    let joints = skeleton.joints();
+    let pose = Pose {
+        rotations: joints.iter().map(|joint| joint.rest).collect(),
+        translations: joints.iter().map(|joint| joint.offset).collect(),
+    };
+    ModelPose::of(skeleton, &pose)
+}
+
+fn inverse_binds(skeleton: &Skeleton, parts: &mut Parts) -> usize {
+    let rest = rest(skeleton);
+    let mut values = Vec::with_capacity(16 * skeleton.len());
+    for joint in 0..skeleton.len() {
+        let bind = DMat4::from_rotation_translation(rest.rotation(joint), rest.position(joint));
+        let mut inverse = bind.inverse().as_mat4().to_cols_array();
+        // The last row of an inverse bind matrix must be exactly 0 0 0 1.
+        for (at, value) in [(3, 0.0), (7, 0.0), (11, 0.0), (15, 1.0)] {
+            inverse[at] = value;
+        }
+        values.extend(inverse);
+    }
+    parts.floats(&values, "MAT4", 16, None)
+}
+
+/// Returns a mesh with an eight-sided body for each bone, nothing if no bone has a length.
+fn mesh(skeleton: &Skeleton, parts: &mut Parts) -> Option<Value> {
+    let rest = rest(skeleton);
+    let (mut places, mut joints, mut weights, mut indices) =
+        (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut bone = |joint: usize, from: DVec3, to: DVec3| {
+        let along = to - from;
+        let length = along.length();
+        if length < SHORTEST || places.len() / 3 + 6 > usize::from(u16::MAX) {
+            return;
+        }
+        let across = along.any_orthonormal_vector() * length * THICKNESS;
+        let other = along.normalize().cross(across);
+        let middle = from + along * SHOULDER;
+        let first = (places.len() / 3) as u16;
+        let corners = [
+            from,
+            middle + across,
+            middle + other,
+            middle - across,
+            middle - other,
+            to,
+        ];
+        for corner in corners {
+            places.extend(vector(corner));
+            joints.extend([joint as u16, 0, 0, 0]);
+            weights.extend([1.0f32, 0.0, 0.0, 0.0]);
+        }
+        for side in 0..4u16 {
+            let (a, b) = (1 + side, 1 + (side + 1) % 4);
+            indices.extend([first, first + b, first + a, first + 5, first + a, first + b]);
+        }
+    };
+    for (at, joint) in skeleton.joints().iter().enumerate() {
+        if let Some(parent) = joint.parent {
+            bone(parent, rest.position(parent), rest.position(at));
+        }
+        if let Some(tip) = joint.tip {
+            bone(at, rest.position(at), rest.point(at, tip));
+        }
+    }
+    if places.is_empty() {
+        return None;
+    }
+    let position = parts.floats(&places, "VEC3", 3, Some(VERTICES));
+    parts.bounds(position, &places, 3);
+    let bytes: Vec<u8> = joints
+        .iter()
+        .flat_map(|joint| joint.to_le_bytes())
+        .collect();
+    let view = parts.view(&bytes, Some(VERTICES));
+    let joint = parts.accessor(view, (SHORT, "VEC4"), joints.len() / 4);
+    let weight = parts.floats(&weights, "VEC4", 4, Some(VERTICES));
+    let bytes: Vec<u8> = indices
+        .iter()
+        .flat_map(|index: &u16| index.to_le_bytes())
+        .collect();
+    let view = parts.view(&bytes, Some(INDICES));
+    let index = parts.accessor(view, (SHORT, "SCALAR"), indices.len());
+    Some(json!({"name": "bones", "primitives": [{
+        "attributes": {"POSITION": position, "JOINTS_0": joint, "WEIGHTS_0": weight},
+        "indices": index, "material": 0, "mode": 4,
+    }]}))
+}
