@@ -1,5 +1,6 @@
 //! `chereme import`.
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -272,20 +273,18 @@ fn print(report: &ImportReport, output: &mut Output) -> Result<()> {
     for finding in &report.findings {
         print_finding(finding, output)?;
     }
-    let counts = |counts: &std::collections::BTreeMap<&'static str, u64>| {
+    let noun = |(what, count): (&&'static str, &u64)| output.counted(*count, what);
+    let counts = |counts: &BTreeMap<&'static str, u64>| -> String {
         let counts = counts.iter().filter(|(_, count)| **count > 0);
-        let counts: Vec<String> = counts
-            .map(|(what, count)| output.counted(*count, what))
-            .collect();
-        counts.join(", ")
+        counts.map(noun).collect::<Vec<_>>().join(", ")
     };
+    let lines = [
+        ("would make", "made", counts(&report.created)),
+        ("would change", "changed", counts(&report.changed)),
+        ("would remove", "removed", counts(&report.removed)),
+    ];
     let mut any = false;
-    for (would, did, all) in [
-        ("would make", "made", &report.created),
-        ("would change", "changed", &report.changed),
-        ("would remove", "removed", &report.removed),
-    ] {
-        let all = counts(all);
+    for (would, did, all) in lines {
         if !all.is_empty() {
             any = true;
             output.line(format!(
