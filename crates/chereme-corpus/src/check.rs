@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use chereme_formats::bvh::raw::Hierarchy;
 use chereme_motion::{Instant, Span};
 use chereme_sign::tier::{self, AnnotationId, Stereotype, TierId, TierSet};
-use chereme_sign::{HandRef, Reading, TierRole};
+use chereme_sign::{HandRef, Reading};
 use rusqlite::Connection;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
@@ -348,17 +348,7 @@ pub(crate) fn tier_set(connection: &Connection, recording: i64) -> Result<TierSe
             .stereotype
             .as_deref()
             .and_then(Stereotype::from_elan_name);
-        let component = row.component.as_deref().and_then(|name| name.parse().ok());
-        let role = match (row.role.as_str(), component) {
-            ("gloss", _) => TierRole::Gloss,
-            ("component", Some(component)) => TierRole::Component {
-                component,
-                feature: row.feature.clone(),
-            },
-            ("translation", _) => TierRole::Translation,
-            ("comment", _) => TierRole::Comment,
-            _ => TierRole::Free,
-        };
+        let role = row.role();
         all.push(tier::Tier {
             id: TierId(row.id as u64),
             name: row.name,

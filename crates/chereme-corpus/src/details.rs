@@ -199,10 +199,11 @@ impl Corpus {
     pub fn signer_details(&self, signer: &Name) -> Result<SignerDetails> {
         let reading = begin_reading(self.store.read())?;
         let signer = address::signer(&reading, signer)?;
+        let shown = edits::recordings_of_signer(&reading, signer.id)?;
         let all = recordings::recordings(&reading)?;
         let own: Vec<RecordingRow> = all
             .into_iter()
-            .filter(|row| row.signer_id == Some(signer.id))
+            .filter(|row| shown.contains(&row.id))
             .collect();
         let measures = own
             .iter()

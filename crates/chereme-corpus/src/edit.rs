@@ -97,7 +97,8 @@ impl Corpus {
         })
     }
 
-    /// Changes a signer; the tokens of the signer's recordings follow where the handedness changes.
+    /// Changes a signer; the tokens of the signer's recordings follow where the handedness changes, and
+    /// tiers of which the signer is the participant follow a new name.
     ///
     /// # Errors
     /// Where the signer is not there, or the name is taken.
@@ -119,6 +120,9 @@ impl Corpus {
             set(&mut row.notes, change.notes.as_ref());
             if row != old {
                 edits::update_signer(connection, &row)?;
+            }
+            if row.name != old.name {
+                edits::rename_participant(connection, &old.name, &row.name)?;
             }
             if row.handedness != old.handedness {
                 derive(

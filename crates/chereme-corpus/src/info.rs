@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use crate::Corpus;
-use crate::db::{OperationRow, SCHEMA_VERSION, info as rows};
+use crate::db::{OperationRow, SCHEMA_VERSION, attributes, info as rows};
 use crate::error::Result;
 
 /// What is in a corpus.
@@ -36,6 +36,8 @@ pub struct Info {
     pub signers: Vec<SignerInfo>,
     /// The inventories.
     pub inventories: Vec<InventoryInfo>,
+    /// What tables say of signs beyond their components.
+    pub attributes: Vec<AttributeInfo>,
     /// What was done last.
     pub last_operation: Option<OperationRow>,
 }
@@ -64,6 +66,19 @@ pub struct InventoryInfo {
     pub tiers: u64,
 }
 
+/// An attribute of signs at a glance.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AttributeInfo {
+    /// Its name, the title of its column.
+    pub name: String,
+    /// How many entries have it.
+    pub entries: u64,
+    /// The least number, where all of them are numbers.
+    pub least: Option<f64>,
+    /// The greatest number, where all of them are numbers.
+    pub greatest: Option<f64>,
+}
+
 impl Corpus {
     /// Returns what is in the corpus.
     ///
@@ -86,6 +101,15 @@ impl Corpus {
             bytes,
             signers: rows::signers(connection)?,
             inventories: rows::inventories(connection)?,
+            attributes: attributes::described(connection)?
+                .into_iter()
+                .map(|it| AttributeInfo {
+                    name: it.name,
+                    entries: it.entries,
+                    least: it.range.map(|(least, _)| least),
+                    greatest: it.range.map(|(_, greatest)| greatest),
+                })
+                .collect(),
             last_operation: self.log(1)?.pop(),
         })
     }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use chereme_sign::text::fold;
-use chereme_sign::{Inventory, inventory};
+use chereme_sign::{Inventory, InventoryValue, inventory};
 use rusqlite::Connection;
 use serde_json::Value;
 
@@ -55,7 +55,8 @@ pub(crate) fn store(connection: &Connection, inventory: &Inventory) -> Result<i6
 
 /// Returns an inventory that a file brings with the values that the corpus has of it already.
 ///
-/// A value that is there in another spelling stays as it is; a name that means another value is left out.
+/// Ids that differ in case or accents are two values, unless one of them is a further spelling of a value that is
+/// there; a value or a name that means another value is left out.
 pub(crate) fn joined(before: Option<&Inventory>, new: Inventory) -> Inventory {
     let mut all = before.map_or_else(Vec::new, |before| before.values.clone());
     let mut meant: BTreeMap<String, String> = BTreeMap::new();
@@ -70,7 +71,12 @@ pub(crate) fn joined(before: Option<&Inventory>, new: Inventory) -> Inventory {
             let other = meant.get(&fold(text.trim()));
             other.is_none_or(|other| *other == value.id)
         };
-        if !free(&value.id) {
+        let spelt =
+            |it: &InventoryValue| it.id != value.id && it.spellings().any(|text| text == value.id);
+        let apart = meant
+            .get(&fold(value.id.trim()))
+            .is_some_and(|other| fold(other.trim()) == fold(value.id.trim()));
+        if all.iter().any(spelt) || !(apart || free(&value.id)) {
             continue;
         }
         let names = std::mem::take(&mut value.names);
@@ -133,7 +139,6 @@ pub(crate) fn read(row: rows::InventoryRow) -> Result<StoredInventory> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use chereme_sign::InventoryValue;
 
     fn inventory(values: &[(&str, &str)]) -> Inventory {
         let value = |(id, name): &(&str, &str)| InventoryValue {
@@ -162,6 +167,7 @@ mod tests {
             [
                 ("B-spread", Some("open hand")),
                 ("cap", Some("a cap")),
+                ("b-SPREAD", Some("five")),
                 ("hat", None)
             ]
         );

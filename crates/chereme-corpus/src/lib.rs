@@ -49,10 +49,10 @@ use std::sync::Arc;
 use db::Store;
 
 pub use chereme_formats::roles::{Hands, Mapping, MappingError};
-pub use chereme_formats::table::annotations::Moment;
+pub use chereme_formats::table::annotations::{Moment, TimeUnit};
 pub use chereme_sign::query::HELP as QUERY_HELP;
 pub use chereme_sign::tier::spans::Mode;
-pub use chereme_sign::{Stereotype, TierRole};
+pub use chereme_sign::{Stereotype, TierRole, TierTopic};
 
 pub use address::{Address, Name, Stretch};
 pub use animate::Staging;
@@ -85,7 +85,7 @@ pub use import::{
     FileReport, FileStatus, ImportOptions, ImportReport, Outcome, OwnEdit, OwnEdits, ReportFinding,
     Saying, Unread,
 };
-pub use info::{Info, InventoryInfo, SignerInfo};
+pub use info::{AttributeInfo, Info, InventoryInfo, SignerInfo};
 pub use inventories::StoredInventory;
 pub use kept::{KeptSearch, kept_like};
 pub use kinematics::Curves;

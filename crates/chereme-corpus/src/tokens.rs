@@ -7,7 +7,7 @@ use chereme_sign::token::{ComponentSpan, owner, readings};
 use chereme_sign::{Component, Field, HandRef, Handedness, Phase, Reading};
 use rusqlite::Connection;
 
-use crate::db::recordings::{self, RecordingRow};
+use crate::db::recordings::{self, RecordingRow, SignerRow};
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::Result;
@@ -125,11 +125,14 @@ fn write_token(
 struct Gloss {
     row: AnnotationRow,
     hand: Option<String>,
+    participant: Option<String>,
 }
 
 /// What the tiers of a recording say, by time.
 struct Said {
     handedness: Handedness,
+    /// That of the participants of tiers who are signers.
+    of_participants: BTreeMap<String, Handedness>,
     glosses: Vec<Gloss>,
     components: Vec<Coded>,
     /// The components of each gloss, by the row of its annotation.
@@ -142,6 +145,7 @@ struct Coded {
     span: ComponentSpan,
     annotation: i64,
     inventory: Option<i64>,
+    participant: Option<String>,
 }
 
 impl Said {
@@ -159,6 +163,7 @@ impl Said {
         };
         let mut said = Self {
             handedness: handedness(connection, recording)?,
+            of_participants: of_participants(connection, &all)?,
             glosses: Vec::new(),
             components: Vec::new(),
             owned: BTreeMap::new(),
@@ -237,20 +242,27 @@ impl Said {
             };
             self.components.push(Coded {
                 span: ComponentSpan {
-                    field: resolved(field, self.handedness),
+                    field: resolved(field, self.handedness_of(tier.participant.as_deref())),
                     span: span(row),
                     reading: reading.clone(),
                 },
                 annotation: row.id,
                 inventory: tier.inventory_id,
+                participant: tier.participant.clone(),
             });
         }
+    }
+
+    fn handedness_of(&self, participant: Option<&str>) -> Handedness {
+        let own = participant.and_then(|name| self.of_participants.get(name));
+        own.copied().unwrap_or(self.handedness)
     }
 
     fn values(&self, gloss: &Gloss) -> Vec<TokenValueRow> {
         let own = span(&gloss.row);
         let hand: Option<HandRef> = gloss.hand.as_deref().and_then(|hand| hand.parse().ok());
-        let hand = hand.map(|hand| HandRef::from(hand.resolve(self.handedness)));
+        let handedness = self.handedness_of(gloss.participant.as_deref());
+        let hand = hand.map(|hand| HandRef::from(hand.resolve(handedness)));
         let owned: Vec<&Coded> = self
             .owned
             .get(&gloss.row.id)
@@ -265,18 +277,25 @@ impl Said {
             .collect()
     }
 
-    /// Gives each component to the gloss that it belongs to, among those of each hand.
+    /// Gives each component to the gloss that it belongs to, among those of each hand of each participant; what
+    /// is said of one participant belongs to no gloss of another.
     fn give(&mut self, progress: &mut Progress<'_>) -> Result<()> {
-        let mut hands: BTreeMap<Option<&str>, Vec<&Gloss>> = BTreeMap::new();
+        type Whose<'g> = (Option<&'g str>, Option<&'g str>);
+        let mut hands: BTreeMap<Whose<'_>, Vec<&Gloss>> = BTreeMap::new();
         for gloss in &self.glosses {
-            hands.entry(gloss.hand.as_deref()).or_default().push(gloss);
+            let whose = (gloss.participant.as_deref(), gloss.hand.as_deref());
+            hands.entry(whose).or_default().push(gloss);
         }
         let mut owned: BTreeMap<i64, Vec<usize>> = BTreeMap::new();
-        for glosses in hands.values() {
+        for ((participant, _), glosses) in &hands {
             let spans: Vec<Span> = glosses.iter().map(|gloss| span(&gloss.row)).collect();
             let longest = spans.iter().map(|span| span.micros()).max().unwrap_or(0);
             for (at, coded) in self.components.iter().enumerate() {
                 step(progress, at)?;
+                let other = coded.participant.as_deref().zip(*participant);
+                if other.is_some_and(|(one, other)| one != other) {
+                    continue;
+                }
                 let said = coded.span.span;
                 let from = said.start().shifted(-longest);
                 let first = spans.partition_point(|span| span.start() < from);
@@ -337,12 +356,30 @@ fn handedness(connection: &Connection, recording: &RecordingRow) -> Result<Hande
         Some(id) => recordings::signer(connection, id)?,
         None => None,
     };
-    let left = signer.and_then(|signer| signer.handedness).as_deref() == Some("left");
-    Ok(if left {
-        Handedness::Left
-    } else {
-        Handedness::Right
-    })
+    Ok(dominant(signer.as_ref()))
+}
+
+fn dominant(signer: Option<&SignerRow>) -> Handedness {
+    match signer.and_then(|signer| signer.handedness.as_deref()) {
+        Some("left") => Handedness::Left,
+        _ => Handedness::Right,
+    }
+}
+
+/// Returns the handedness of the participants of tiers who are signers of the corpus.
+fn of_participants(
+    connection: &Connection,
+    tiers: &[TierRow],
+) -> Result<BTreeMap<String, Handedness>> {
+    let mut found = BTreeMap::new();
+    for name in tiers.iter().filter_map(|tier| tier.participant.as_ref()) {
+        if !found.contains_key(name)
+            && let Some(signer) = recordings::find_signer(connection, name)?
+        {
+            found.insert(name.clone(), dominant(Some(&signer)));
+        }
+    }
+    Ok(found)
 }
 
 fn annotations(
@@ -377,7 +414,12 @@ fn glosses<'t>(
         for row in annotations(connection, tier, within)? {
             if row.state == "value" && !row.value.trim().is_empty() {
                 let hand = tier.hand.clone();
-                glosses.push(Gloss { row, hand });
+                let participant = tier.participant.clone();
+                glosses.push(Gloss {
+                    row,
+                    hand,
+                    participant,
+                });
             }
         }
     }

@@ -7,7 +7,7 @@
 use crate::finding::Finding;
 use crate::table::{TableError, decode};
 use crate::tally::Findings;
-use chereme_sign::hamnosys::{Notated, in_plain_symbols, parse_lenient, symbol::Symbol};
+use chereme_sign::hamnosys::{Notated, in_plain_symbols, mended, parse_lenient, symbol::Symbol};
 
 /// How many bytes at most are looked at to tell whether a file holds HamNoSys.
 const LOOKED_AT: usize = 1 << 16;
@@ -53,6 +53,9 @@ pub fn read(bytes: &[u8]) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
     })?;
     let mut entries = Vec::new();
     for (line, text) in (1..).zip(text.lines()) {
+        if mended(text).is_some() {
+            findings.add("symbols in a wrong encoding", || tell_mended(line));
+        }
         let text = &*in_plain_symbols(text);
         match begin(text) {
             Some(at) => entries.push(entry(line, text.split_at(at), &mut findings)),
@@ -80,6 +83,15 @@ pub fn holds_some(bytes: &[u8]) -> bool {
     }
     let text = decode(seen, &mut Findings::default());
     text.is_ok_and(|text| text.lines().any(holds_symbols))
+}
+
+/// Returns the finding that symbols were mended.
+pub(crate) fn tell_mended(line: u64) -> Finding {
+    Finding::note(
+        line,
+        "HamNoSys had been saved as UTF-8 and read as Latin-1 or Windows-1252; its symbols were mended",
+    )
+    .with_remedy("nothing needs to be done; a new export of the source as UTF-8 would be clean")
 }
 
 /// Tells whether a line or a cell holds a symbol, however it is written.
@@ -244,6 +256,18 @@ mod tests {
             ));
         }
         assert!(holds_some(b"x\ny hamfist") && !holds_some(b"a hamster") && !holds_some(b"\0"));
+    }
+
+    #[test]
+    fn lines_in_a_wrong_encoding_are_mended_and_told() {
+        let text = "MERCI\t\u{e001}\u{e020}\u{e03c}\n";
+        let latin: String = text.bytes().map(char::from).collect();
+        let (entries, findings) = read(latin.as_bytes()).expect("read");
+        assert_eq!(
+            entries[0].sign.text.as_deref(),
+            Some("\u{e001}\u{e020}\u{e03c}")
+        );
+        assert!(findings[0].message.contains("mended"), "{findings:?}");
     }
 
     #[test]

@@ -1,11 +1,11 @@
 //! Tables of changes to annotations.
 
 use chereme_formats::table::TableError;
-use chereme_formats::table::annotations::{Moment, read};
+use chereme_formats::table::annotations::{Moment, TimeUnit, read};
 
 /// Reads a table and shows each row or fault as a line.
 fn shown(text: &str) -> String {
-    let (table, _) = read(text.as_bytes()).expect("a table");
+    let (table, _) = read(text.as_bytes(), None).expect("a table");
     let time = |moment: Option<Moment>| match moment {
         None => "-".to_owned(),
         Some(Moment::Frame(frame)) => format!("f{frame}"),
@@ -80,11 +80,14 @@ fn faults_name_line_and_column() {
 
 #[test]
 fn what_is_no_table_is_refused() {
-    assert_eq!(read(b""), Err(TableError::Empty));
-    assert_eq!(read(b"\n \n"), Err(TableError::Empty));
-    assert_eq!(read(b"tier\n\0"), Err(TableError::NotText { line: 2 }));
+    assert_eq!(read(b"", None), Err(TableError::Empty));
+    assert_eq!(read(b"\n \n", None), Err(TableError::Empty));
+    assert_eq!(
+        read(b"tier\n\0", None),
+        Err(TableError::NotText { line: 2 })
+    );
     assert!(matches!(
-        read(b"start,end\n1,2\n"),
+        read(b"start,end\n1,2\n", None),
         Err(TableError::Missing {
             needed: "tier or id",
             ..
@@ -92,20 +95,128 @@ fn what_is_no_table_is_refused() {
     ));
     let wide = ",".repeat(5000) + "tier";
     assert!(matches!(
-        read(wide.as_bytes()),
+        read(wide.as_bytes(), None),
         Err(TableError::Columns { found: 5001, .. })
     ));
 }
 
 #[test]
 fn odd_columns_are_found() {
-    let (_, findings) = read(b"teir,tier,tier\nx,y,z\n").expect("a table");
+    let (_, findings) = read(b"teir,tier,tier\nx,y,z\n", None).expect("a table");
     let messages: Vec<&str> = findings.iter().map(|it| &*it.message).collect();
     assert_eq!(
         messages,
         [
-            "the column \"teir\" is not used; did you mean \"tier\"?",
-            "the column \"tier\" is there twice; the first counts"
+            "the column \"tier\" is there twice; the first counts",
+            "the column \"teir\" is not used; did you mean \"tier\"?"
         ]
+    );
+}
+
+/// Returns the annotations that a table adds: tier, start and end in milliseconds, value.
+fn added(text: &str, unit: Option<TimeUnit>) -> Vec<(String, i64, i64, String)> {
+    let (table, _) = read(text.as_bytes(), unit).expect(text);
+    assert_eq!(table.faults, [], "{text}");
+    let millis = |moment: Option<Moment>| match moment {
+        Some(Moment::Time(time)) => time.micros() / 1000,
+        Some(Moment::Frame(frame)) => -i64::try_from(frame).expect("few"),
+        None => i64::MIN,
+    };
+    let row = |row: chereme_formats::table::annotations::Row| {
+        let (tier, value) = (row.tier.expect("a tier"), row.value.unwrap_or_default());
+        (tier, millis(row.start), millis(row.end), value)
+    };
+    table.rows.into_iter().map(row).collect()
+}
+
+#[test]
+fn units_stand_in_titles_or_come_with_the_table() {
+    let want = [("A".to_owned(), 35_100, 35_200, "x".to_owned())];
+    for text in [
+        "tier,start_ms,end_ms,value\nA,35100,35200,x\n",
+        "tier,start (ms),end [ms],value\nA,35100,35200,x\n",
+        "tier,Start in ms,duration_ms,value\nA,35100,100,x\n",
+        "tier,start [s],end [s],value\nA,35.1,35.2,x\n",
+        "tier,start_ms,end_ms,value\nA,35.1s,0:35.2,x\n",
+        "tier,start,end,value\nA,35100ms,35200ms,x\n",
+    ] {
+        assert_eq!(added(text, None), want, "{text}");
+    }
+    let bare = "tier,start,end,value\nA,35100,35200,x\n";
+    assert_eq!(added(bare, Some(TimeUnit::Milliseconds)), want);
+    assert_eq!(added(bare, Some(TimeUnit::Seconds))[0].1, 35_100_000);
+    assert_eq!(added(bare, Some(TimeUnit::Frames))[0].1, -35_100);
+    assert_eq!(
+        added("tier,start_frame,end_frame\nA,12,24\n", None)[0].2,
+        -24
+    );
+}
+
+#[test]
+fn whole_numbers_too_long_for_seconds_are_refused_and_others_are_not() {
+    for (rows, refused) in [
+        ("A,35100,35200,x\n", true),
+        ("A,100,900,x\nA,1000,1900,y\n", true),
+        ("A,0,1,x\nA,20000,20001,y\n", true),
+        ("A,1,2,x\nA,3,40,y\n", false),
+        ("A,100,161,x\nA,161.5,170,y\n", false),
+        ("A,100s,900s,x\n", false),
+        ("A,,,x\n", false),
+    ] {
+        let text = format!("tier,start,end,value\n{rows}");
+        let read = read(text.as_bytes(), None);
+        let told = matches!(&read, Err(error @ TableError::Implausible { .. }) if error.to_string().contains("start_ms"));
+        assert_eq!(told, refused, "{rows}: {read:?}");
+    }
+}
+
+#[test]
+fn what_elan_exports_is_understood() {
+    let want = [
+        ("Gloss".to_owned(), 1_040, 2_330, "HAUS".to_owned()),
+        ("Gloss".to_owned(), 3_200, 5_050, "5".to_owned()),
+    ];
+    let titles = "Tier\tParticipant\tBegin Time - hh:mm:ss.ms\tBegin Time - ss.msec\tBegin Time - msec\t\
+                  End Time - hh:mm:ss.ms\tEnd Time - ss.msec\tEnd Time - msec\tDuration - hh:mm:ss.ms\t\
+                  Duration - ss.msec\tDuration - msec\tAnnotation\n";
+    let rows = "Gloss\tP1\t00:00:01.040\t1.040\t1040\t00:00:02.330\t2.330\t2330\t00:00:01.290\t1.290\t1290\tHAUS\n\
+                Gloss\tP1\t00:00:03.200\t3.200\t3200\t00:00:05.050\t5.050\t5050\t00:00:01.850\t1.850\t1850\t5\n";
+    let part = |columns: &[usize]| -> String {
+        let line = |line: &str| {
+            let cells: Vec<&str> = line.split('\t').collect();
+            let kept: Vec<&str> = columns.iter().map(|&at| cells[at]).collect();
+            kept.join("\t") + "\n"
+        };
+        rows.lines().map(line).collect()
+    };
+    let all = [
+        format!("{titles}{rows}"),
+        rows.to_owned(),
+        part(&[0, 1, 2, 5, 8, 11]),
+        part(&[0, 1, 3, 6, 9, 11]),
+        part(&[0, 4, 7, 11]),
+        part(&[0, 4, 10, 11]),
+        part(&[0, 2, 5, 11]),
+        "Begin Time - msec\tEnd Time - msec\tGloss\tMouthing\n1040\t2330\tHAUS\t\n3200\t5050\t5\t\n".to_owned(),
+    ];
+    for text in all {
+        assert_eq!(added(&text, None), want, "{text}");
+    }
+    let spread = "Begin Time - msec\tEnd Time - msec\tGloss\tMouthing\n1040\t2330\tHAUS\thau\n";
+    assert_eq!(added(spread, None).len(), 2, "an annotation for each tier");
+    let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        eprintln!("CHEREME_SHARED_DATA is not set: the export of others was not tried");
+        return;
+    };
+    let file = std::path::Path::new(&data).join("annotation/eaf/neocl-speach/test.eaf.tsv");
+    let text = std::fs::read_to_string(file).expect("the file");
+    let rows = added(&text, None);
+    assert_eq!(
+        rows.len(),
+        text.lines().filter(|line| !line.trim().is_empty()).count()
+    );
+    assert_eq!(
+        (&*rows[0].0, rows[0].1, rows[0].2),
+        ("Person1 (Utterance)", 1_040, 2_330)
     );
 }

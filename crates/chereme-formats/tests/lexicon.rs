@@ -151,10 +151,14 @@ fn columns_by_title_and_mapping() {
         lexicon.entries[0].translations,
         [("en".to_owned(), "Y".to_owned())]
     );
-    assert_eq!(lexicon.columns[3].meaning, Meaning::Note);
+    assert_eq!(lexicon.columns[3].meaning, Meaning::Attribute);
+    assert_eq!(
+        lexicon.entries[0].attributes,
+        [("Remarks".to_owned(), "hm".to_owned())]
+    );
     assert_eq!(
         findings,
-        ["the column \"Remarks\" is not understood; it is kept as a note"]
+        ["the column \"Remarks\" is kept as an attribute of each sign"]
     );
     assert_eq!(
         codings(&lexicon, 0),
@@ -183,6 +187,62 @@ fn columns_by_title_and_mapping() {
 }
 
 #[test]
+fn columns_of_measures_are_attributes_and_never_components() {
+    let text = "EntryID\tHandshape.2.0\tHandshape.2.0Frequency\tMajorLocation.2.0\tMajorLocation.2.0Frequency\t\
+                Movement.2.0Frequency\tRepeatedMovement.2.0\tSignFrequency(M)\tIconicity(M)\tGlossConfidence\t\
+                LexicalClass\nabout\topen_b\t0.12\thead\t0.457\t0.345\t1\t4,19\t1.50\t0.9\tMinor\n\
+                above\t5\t0.2\tneutral\t0.1\t0.2\t0\t3\t\t1\tNoun\n";
+    let (lexicon, findings) = read(text);
+    assert_eq!(
+        codings(&lexicon, 0),
+        [
+            "dominant.configuration=open_b",
+            "placement=head",
+            "movement.repeated=1"
+        ]
+    );
+    let own: Vec<String> = (lexicon.entries[0].attributes.iter())
+        .map(|(name, text)| format!("{name}={text}"))
+        .collect();
+    assert_eq!(
+        own,
+        [
+            "Handshape.2.0Frequency=0.12",
+            "MajorLocation.2.0Frequency=0.457",
+            "Movement.2.0Frequency=0.345",
+            "SignFrequency(M)=4,19",
+            "Iconicity(M)=1.50",
+            "GlossConfidence=0.9",
+            "LexicalClass=Minor"
+        ]
+    );
+    assert_eq!(
+        lexicon.entries[1].attributes.len(),
+        6,
+        "an empty cell gives none"
+    );
+    assert_eq!(findings.len(), 1, "{findings:?}");
+    assert!(findings[0].contains("\"LexicalClass\" are kept as attributes"));
+    let mapping = r#"{"columns": {"*Frequency": "note", "LexicalClass": "translation", "MajorLocation.2.0": "attribute"}}"#;
+    let mapping = Mapping::from_json(mapping).expect("a mapping");
+    let (lexicon, _) = lexicon::read(text.as_bytes(), &mapping).expect("a table");
+    assert_eq!(lexicon.columns[2].meaning, Meaning::Note);
+    assert_eq!(lexicon.columns[3].meaning, Meaning::Attribute);
+    assert_eq!(lexicon.entries[1].translations[0].1, "Noun");
+}
+
+#[test]
+fn symbols_in_a_wrong_encoding_are_mended_before_blanks_are_cut() {
+    let symbols = "\u{e001}\u{e03c}\u{e0e0}";
+    let latin: String = symbols.bytes().map(char::from).collect();
+    let (lexicon, findings) = read(&format!("gloss\tHamNoSys\nA\t{latin}\nB\t{symbols}\n"));
+    for entry in &lexicon.entries {
+        assert_eq!(entry.notation.as_deref(), Some(symbols), "{}", entry.gloss);
+    }
+    assert_eq!(findings.len(), 1, "{findings:?}");
+}
+
+#[test]
 fn odd_tables() {
     let (lexicon, findings) = read(
         "\u{feff}gloss,Location\r\n\"A, \"\"B\"\"\",chin\r\nSHORT\r\n,chin\r\nC,chin,more\r\nC,nose\r\n",
@@ -199,7 +259,7 @@ fn odd_tables() {
             "the row has 1 cells and the first row 2; the rest was taken as empty",
             "the row has 3 cells and the first row 2; the rest was left out",
             "the row has no gloss; it was left out",
-            "the gloss \"C\" stands in line 5 too",
+            "the gloss \"C\" stands in line 5 too; this row is kept as another entry of that sign",
         ]
     );
     let (latin, findings) =
@@ -337,8 +397,8 @@ fn slips_are_pointed_out() {
     assert_eq!(
         findings,
         [
-            "configuration: \"C-spreid\" stands 1 times, \"C-spread\" 30 times; is it the same?",
-            "configuration: \"c-spread\" stands 1 times, \"C-spread\" 30 times; is it the same?",
+            "configuration: \"C-spreid\" (once) and \"C-spread\" (30 times) are kept as two values",
+            "configuration: \"c-spread\" (once) and \"C-spread\" (30 times) are kept as two values",
         ]
     );
 }
@@ -426,7 +486,7 @@ proptest! {
     #[test]
     fn any_bytes_are_a_table_or_an_error(bytes in proptest::collection::vec(any::<u8>(), 0..400)) {
         let _ = lexicon::read(&bytes, &Mapping::default());
-        let _ = chereme_formats::table::annotations::read(&bytes);
+        let _ = chereme_formats::table::annotations::read(&bytes, None);
         let _ = chereme_formats::eaf::read(&bytes);
     }
 

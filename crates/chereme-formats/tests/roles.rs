@@ -77,6 +77,12 @@ fn names_of_several_projects_and_languages() {
         ("Mctr", "nonmanual.mouth"),
         ("non-dominant handshape", "weak.configuration"),
         ("P-Gloss", "gloss"),
+        ("Non-dominant POS", "weak.free"),
+        ("Gloss RH part of speech", "right.free"),
+        ("Wortart", "free"),
+        ("Non-dominant mood", "weak.?"),
+        ("RH S1", "right.gloss"),
+        ("left A", "left.gloss"),
         ("W-RGph", "?"),
         ("default", "?"),
         ("", "?"),
@@ -106,11 +112,12 @@ fn types_and_parents_help() {
             name: "tier 2",
             kind: "handshape",
             parent: Some(0),
+            ..TierName::default()
         },
         TierName {
             name: "brows",
-            kind: "",
             parent: Some(0),
+            ..TierName::default()
         },
     ];
     let guesses = guess_roles(&tiers, &Mapping::default());
@@ -152,5 +159,69 @@ fn a_mapping_overrides() {
     assert_eq!(
         guesses[1].role.as_ref().map(|role| role.name()).as_deref(),
         Some("free")
+    );
+}
+
+#[test]
+fn a_letter_of_a_type_is_no_hand_and_a_word_is() {
+    for (kind, hand) in [
+        ("d", None),
+        ("g", None),
+        ("r", None),
+        ("default-lt", None),
+        ("right hand", Some("right")),
+        ("main gauche", Some("left")),
+    ] {
+        let tier = TierName {
+            name: "Gloss",
+            kind,
+            ..TierName::default()
+        };
+        let guess = &guess_roles(&[tier], &Mapping::default())[0];
+        assert_eq!(guess.hand.map(|hand| hand.name()), hand, "{kind}");
+    }
+}
+
+#[test]
+fn glosses_one_to_one_below_glosses_are_another_reading_of_the_same_signs() {
+    let tier = |name, parent| TierName {
+        name,
+        kind: "",
+        parent,
+        one_to_one: parent.is_some(),
+    };
+    let below = TierName {
+        one_to_one: false,
+        ..tier("Signs of the left hand", Some(0))
+    };
+    let tiers = [
+        tier("Lexem_Gebärde_r_A", None),
+        tier("Lexeme_Sign_r_A", Some(0)),
+        tier("Gebärde_r_A", Some(0)),
+        tier("Sign_r_A", Some(2)),
+        below,
+    ];
+    let roles = |mapping: &str| -> Vec<String> {
+        let mapping = Mapping::from_json(mapping).expect("a mapping");
+        let guesses = guess_roles(&tiers, &mapping);
+        let role =
+            |guess: &chereme_formats::roles::TierGuess| guess.role.clone().map(|role| role.name());
+        guesses.iter().filter_map(role).collect()
+    };
+    assert_eq!(
+        roles("{}"),
+        [
+            "gloss",
+            "translation",
+            "translation",
+            "translation",
+            "gloss"
+        ]
+    );
+    let said = r#"{"tiers": {"Lexem_*": "comment", "Sign_r_A": "right.gloss"}}"#;
+    assert_eq!(
+        roles(said),
+        ["comment", "gloss", "gloss", "gloss", "gloss"],
+        "what a mapping says goes before"
     );
 }

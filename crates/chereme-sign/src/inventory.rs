@@ -160,6 +160,19 @@ impl Inventory {
         })
     }
 
+    /// Tells whether every text means a value, and no two that differ in case or accents only mean the same one.
+    #[must_use]
+    pub fn tells_apart<'t>(&self, texts: impl IntoIterator<Item = &'t str>) -> bool {
+        let mut meant: BTreeMap<(String, &str), &str> = BTreeMap::new();
+        texts.into_iter().all(|text| {
+            let found = self.find(text);
+            found.is_some_and(|value| {
+                let other = meant.insert((key(text), &value.id), text.trim());
+                other.is_none_or(|other| other == text.trim())
+            })
+        })
+    }
+
     /// Returns the ids of up to five values that somebody who wrote `text` may have meant, the
     /// likeliest first.
     #[must_use]

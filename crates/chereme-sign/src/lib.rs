@@ -53,6 +53,6 @@ pub use component::{Component, Field, FieldError, HandRef, Handedness, Phase, Re
 pub use inventory::{Inventory, InventoryError, InventoryValue};
 pub use relation::{Relation, RelationError};
 pub use tier::{
-    Annotation, AnnotationId, Change, Edit, EditError, Seam, Stereotype, Tier, TierId, TierRole,
-    TierSet, Violation, check, plan,
+    Annotation, AnnotationId, Change, Edit, EditError, Hands, RoleError, Seam, Stereotype, Tier,
+    TierId, TierRole, TierSet, TierTopic, Violation, check, plan,
 };

@@ -23,6 +23,7 @@ mod check;
 mod error;
 mod merge;
 mod plan;
+mod role;
 pub mod spans;
 #[cfg(test)]
 mod tests;
@@ -30,13 +31,13 @@ mod tests;
 pub use check::{MAX_DEPTH, Named, Violation, check, check_tiers};
 pub use error::EditError;
 pub use plan::plan;
+pub use role::{Hands, RoleError, TierRole, TierTopic};
 
-use crate::component::{Component, Field, HandRef, Reading};
+use crate::component::{Field, HandRef, Reading};
 use chereme_motion::Span;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
-use std::str::FromStr;
 
 /// Names one tier within a corpus.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -57,70 +58,6 @@ impl fmt::Display for TierId {
 impl fmt::Display for AnnotationId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "annotation:{}", self.0)
-    }
-}
-
-/// What the annotations of a tier say.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum TierRole {
-    /// Which sign is made; each annotation is a token.
-    Gloss,
-    /// One component of the sign, or one feature of it.
-    Component {
-        /// The component.
-        component: Component,
-        /// The feature, such as `brows` or `palm`, or nothing for the whole.
-        #[serde(default, skip_serializing_if = "Option::is_none")]
-        feature: Option<String>,
-    },
-    /// What is said, in a spoken language.
-    Translation,
-    /// Remarks of the annotators.
-    Comment,
-    /// Anything else.
-    #[default]
-    Free,
-}
-
-impl TierRole {
-    /// Returns the role as text: `gloss`, `translation`, `comment`, `free`, or the component as a
-    /// query spells it, such as `configuration` or `nonmanual.brows`.
-    #[must_use]
-    pub fn name(&self) -> String {
-        match self {
-            Self::Gloss => "gloss".to_owned(),
-            Self::Component { component, feature } => {
-                let field = Field::new(*component);
-                feature
-                    .iter()
-                    .fold(field, |field, feature| field.of(feature))
-                    .to_string()
-            }
-            Self::Translation => "translation".to_owned(),
-            Self::Comment => "comment".to_owned(),
-            Self::Free => "free".to_owned(),
-        }
-    }
-}
-
-impl FromStr for TierRole {
-    type Err = crate::component::FieldError;
-
-    /// Reads what [`name`](Self::name) writes; a hand or phase in a component's name is dropped.
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        Ok(match text {
-            "gloss" => Self::Gloss,
-            "translation" => Self::Translation,
-            "comment" => Self::Comment,
-            "free" => Self::Free,
-            _ => {
-                let Field {
-                    component, feature, ..
-                } = text.parse()?;
-                Self::Component { component, feature }
-            }
-        })
     }
 }
 

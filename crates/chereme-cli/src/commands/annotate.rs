@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Result;
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
-    Corpus, Error, Find, Mode, Moment, Name, Progress, ReportFinding, TierName, Within,
+    Corpus, Error, Find, Mode, Moment, Name, Progress, ReportFinding, TierName, TimeUnit, Within,
 };
 use clap::{Subcommand, ValueEnum};
 
@@ -164,10 +164,15 @@ enum Action {
     },
     /// Make the changes of a table, all of them or none
     ///
-    /// Columns: recording, tier, start, end, value, action (add, set, remove), id, parent.
+    /// Columns: recording, tier, start, end, duration, value, action (add, set, remove), id, parent. The unit of
+    /// times stands in the title (start_ms, end [s]), with the number (1500ms), or in --unit; else they are
+    /// seconds. The tab-delimited text that ELAN exports is such a table, with and without titles.
     From {
-        /// The table (.csv or .tsv); - is standard input
+        /// The table (.csv, .tsv or .txt); - is standard input
         file: PathBuf,
+        /// The unit of bare numbers: s, ms or frames
+        #[arg(long)]
+        unit: Option<TimeUnit>,
     },
     #[command(flatten)]
     Other(tiers::Action),
@@ -183,7 +188,11 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         ..AnnotateOptions::default()
     };
     let actions = match &args.action {
-        Action::From { file } => {
+        Action::From { file, unit } => {
+            let options = AnnotateOptions {
+                unit: *unit,
+                ..options
+            };
             let (report, findings) = table(&mut corpus, file, recording, &options)?;
             for finding in &findings {
                 let line = finding

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::Result;
 use chereme_corpus::words::counted_in;
-use chereme_corpus::{Info, ListFilter, ListKind, cell_text};
+use chereme_corpus::{AttributeInfo, Info, ListFilter, ListKind, cell_text};
 
 use crate::args::Cli;
 use crate::output::Output;
@@ -134,6 +134,16 @@ fn print(info: &Info, output: &mut Output) -> Result<()> {
         .map(|it| format!("{} ({})", it.id, it.values))
         .collect();
     output.line(format!("inventories: {}", named.join(", ")))?;
+    if !info.attributes.is_empty() {
+        let one = |it: &AttributeInfo| match (it.least, it.greatest) {
+            (Some(least), Some(greatest)) => {
+                format!("{} ({}, {least} to {greatest})", it.name, it.entries)
+            }
+            _ => format!("{} ({})", it.name, it.entries),
+        };
+        let named: Vec<String> = info.attributes.iter().map(one).collect();
+        output.line(format!("attributes of signs: {}", named.join(", ")))?;
+    }
     if let Some(last) = &info.last_operation {
         output.line(format!(
             "last change: {} by {}: {} {}",

@@ -3,7 +3,7 @@
 use anyhow::Result;
 use chereme_corpus::{
     Address, Copied, Corpus, Hands, Name, NewTier, RecordingChange, Scheme, SignChange,
-    SignerChange, Stereotype, TierChange, TierName, TierRole, Values,
+    SignerChange, Stereotype, TierChange, TierName, TierTopic, Values,
 };
 use clap::{Subcommand, ValueEnum};
 
@@ -18,10 +18,10 @@ pub(super) enum Action {
         /// Its name
         name: String,
         /// What its annotations say: gloss, translation, comment, free, or a component such as
-        /// placement or nonmanual.brows
-        #[arg(long, default_value = "free", value_parser = role)]
-        role: TierRole,
-        /// Whose hand they are about
+        /// right.placement or nonmanual.brows; a hand before it says whose hand they are about
+        #[arg(long, default_value = "free")]
+        role: TierTopic,
+        /// Whose hand they are about, where the role does not say it
         #[arg(long, value_enum)]
         hand: Option<HandWord>,
         /// The tier above
@@ -34,6 +34,8 @@ pub(super) enum Action {
         /// The inventory its values come from; the usual one of its component where none is named
         #[arg(long)]
         inventory: Option<String>,
+        #[command(flatten)]
+        people: People,
     },
     /// Add the usual tiers to the recording named by --in, or those of another recording
     ///
@@ -52,15 +54,18 @@ pub(super) enum Action {
         /// Its new name
         #[arg(long)]
         name: Option<String>,
-        /// What its annotations say
-        #[arg(long, value_parser = role)]
-        role: Option<TierRole>,
-        /// Whose hand they are about
+        /// What its annotations say; a hand before it, as in right.placement, says whose hand they are
+        /// about
+        #[arg(long)]
+        role: Option<TierTopic>,
+        /// Whose hand they are about, where the role does not say it
         #[arg(long, value_enum)]
         hand: Option<HandWord>,
         /// The inventory its values come from
         #[arg(long)]
         inventory: Option<String>,
+        #[command(flatten)]
+        people: People,
     },
     /// Copy a tier under another name
     CopyTier {
@@ -136,6 +141,42 @@ pub(super) enum Action {
     },
 }
 
+/// Whom and what language a tier is about; an empty text removes what was said.
+#[derive(Debug, clap::Args)]
+pub(super) struct People {
+    /// Who is annotated: the signer whom `signer=` finds; \"\" for nobody
+    #[arg(long, value_name = "NAME")]
+    participant: Option<String>,
+    /// Who annotates; \"\" for nobody
+    #[arg(long, value_name = "NAME")]
+    annotator: Option<String>,
+    /// The language of its values, such as de; \"\" for none
+    #[arg(long)]
+    language: Option<String>,
+}
+
+/// Returns what is given, where it is more than blanks.
+fn filled(text: &Option<String>) -> Option<String> {
+    let text = text.as_deref().map(str::trim);
+    text.filter(|text| !text.is_empty()).map(str::to_owned)
+}
+
+/// Returns the hand that a role or an option names, and nothing where neither does.
+fn hand_of(topic: Option<&TierTopic>, word: Option<HandWord>) -> Result<Option<Option<Hands>>> {
+    let said = word.map(HandWord::hands);
+    match (topic.and_then(|topic| topic.hand), said) {
+        (Some(own), Some(said)) if Some(own) != said => {
+            let other = said.map_or("none", Hands::name);
+            let wrong = format!("--role names the {own} hand, and --hand says {other}");
+            Err(chereme_corpus::Error::wrong(wrong)
+                .advise("name the hand once")
+                .into())
+        }
+        (Some(own), _) => Ok(Some(Some(own))),
+        (None, said) => Ok(said),
+    }
+}
+
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(super) enum HandWord {
     Right,
@@ -159,15 +200,6 @@ impl HandWord {
             Self::None => return None,
         })
     }
-}
-
-fn role(text: &str) -> Result<TierRole, String> {
-    text.parse().map_err(|_| {
-        format!(
-            "{text:?} is no role; roles are gloss, translation, comment, free, or a component such as \
-             right.configuration or nonmanual.brows"
-        )
-    })
 }
 
 fn stereotype(text: &str) -> Result<Stereotype, String> {
@@ -201,9 +233,13 @@ pub(super) fn run(
             parent,
             stereotype,
             inventory,
+            people,
         } => {
-            let mut tier = NewTier::new(needed()?, name.clone(), role.clone());
-            tier.hand = hand.and_then(HandWord::hands);
+            let mut tier = NewTier::new(needed()?, name.clone(), role.role.clone());
+            tier.hand = hand_of(Some(role), *hand)?.flatten();
+            tier.participant = filled(&people.participant);
+            tier.annotator = filled(&people.annotator);
+            tier.language = filled(&people.language);
             tier.parent = parent.clone().zip(*stereotype);
             if let Some(inventory) = inventory {
                 tier.values = Values::Inventory(inventory.clone());
@@ -229,12 +265,16 @@ pub(super) fn run(
             role,
             hand,
             inventory,
+            people,
         } => {
             let change = TierChange {
                 name: name.clone(),
-                role: role.clone(),
-                hand: hand.map(HandWord::hands),
+                role: role.as_ref().map(|topic| topic.role.clone()),
+                hand: hand_of(role.as_ref(), *hand)?,
                 values: inventory.clone().map(Values::Inventory),
+                participant: people.participant.clone().map(Some),
+                annotator: people.annotator.clone().map(Some),
+                language: people.language.clone().map(Some),
                 ..TierChange::default()
             };
             let row = corpus.change_tier(&TierName::read(tier, recording)?, &change)?;

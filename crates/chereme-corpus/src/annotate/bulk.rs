@@ -1,5 +1,6 @@
 //! Changes of annotations from a table.
 
+use chereme_formats::table::TableError;
 use chereme_formats::table::annotations::{self, Action, Fault, Row};
 
 use super::{
@@ -29,8 +30,15 @@ impl Corpus {
         options: &AnnotateOptions,
         progress: &mut Progress<'_>,
     ) -> Result<(AnnotateReport, Vec<ReportFinding>)> {
-        let (table, findings) =
-            annotations::read(bytes).map_err(|error| Error::wrong(error.to_string()).at(name))?;
+        let (table, findings) = annotations::read(bytes, options.unit).map_err(|error| {
+            let wrong = Error::wrong(error.to_string()).at(name);
+            match error {
+                TableError::Implausible { .. } => wrong.advise(
+                    "or name the unit with the table: --unit ms, --unit s or --unit frames",
+                ),
+                _ => wrong,
+            }
+        })?;
         let only = recordings::recordings(self.store.read())?;
         let only = match only.as_slice() {
             [one] => Some(Name::Number(one.id)),
@@ -58,6 +66,13 @@ impl Corpus {
                 });
             }
             Err(Error::Several { mut errors }) => {
+                // A column that is not understood may be the one that the rows lack.
+                let unused = findings.iter().filter(|it| it.line == Some(1));
+                errors.extend(unused.map(|finding| {
+                    Error::wrong(finding.message.clone())
+                        .at(format!("{name}, line 1"))
+                        .advise("the columns are recording, tier, start, end, duration, value, action, id, parent")
+                }));
                 errors.sort_by_key(line_of);
                 return Err(Error::Several { errors });
             }

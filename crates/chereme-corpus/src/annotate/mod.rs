@@ -20,7 +20,7 @@ mod write;
 
 use std::collections::BTreeMap;
 
-use chereme_formats::table::annotations::Moment;
+use chereme_formats::table::annotations::{Moment, TimeUnit};
 use chereme_motion::{Instant, Span};
 use chereme_sign::tier::spans::Mode;
 use chereme_sign::tier::{AnnotationId, Change, Seam, TierId, plan};
@@ -167,6 +167,8 @@ pub struct AnnotateOptions {
     /// What becomes of annotations that are in the way of one that is added or moved: in normal mode
     /// the change is refused.
     pub mode: Mode,
+    /// The unit of bare numbers in a table whose titles name none; seconds where nothing is said.
+    pub unit: Option<TimeUnit>,
 }
 
 /// What became of a list of changes.

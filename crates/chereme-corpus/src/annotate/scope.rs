@@ -17,6 +17,9 @@ use crate::inventories::{self, StoredInventory};
 /// How far after the end of the movement an annotation may end: times of files are milliseconds.
 const LENIENCE: i64 = 1000;
 
+/// The latest end of an annotation in a recording without movement, unless it is longer already: six hours.
+const LONGEST: i64 = 6 * 3_600_000_000;
+
 /// A recording whose annotations are being changed.
 pub(super) struct Scope {
     pub(super) recording: RecordingRow,
@@ -129,6 +132,12 @@ impl Scope {
                 "{start} is before the start of the recording {name:?}"
             ))
             .advise("times are counted from the start of the recording"));
+        }
+        if self.clock.is_none() && end.micros() > LONGEST.max(length.micros()) {
+            return Err(Error::wrong(format!(
+                "{end} is later than the recording {name:?} can be long, and it has no movement to say how long it is"
+            ))
+            .advise("a bare number counts in seconds; write 1500ms for milliseconds, or name a column start_ms"));
         }
         if self.clock.is_some() && end > length.shifted(LENIENCE) {
             return Err(Error::wrong(format!(

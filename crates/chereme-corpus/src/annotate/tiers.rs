@@ -14,6 +14,7 @@ use super::scope::sign_tier;
 use crate::Corpus;
 use crate::address::{self, Name};
 use crate::db::edits;
+use crate::db::recordings;
 use crate::db::tiers::{self as rows, TierRow};
 use crate::error::{Error, Result};
 use crate::inventories::{self, StoredInventory};
@@ -89,6 +90,12 @@ pub struct TierChange {
     pub parent: Option<Option<(String, Stereotype)>>,
     /// Its place among the tiers of the recording, from 0; past the end is the end.
     pub place: Option<u32>,
+    /// Who is annotated, or nobody; a signer that is not there is made.
+    pub participant: Option<Option<String>>,
+    /// Who annotates, or nobody.
+    pub annotator: Option<Option<String>>,
+    /// The language of its values, or that none is said.
+    pub language: Option<Option<String>>,
 }
 
 /// What went with a tier.
@@ -110,13 +117,15 @@ impl Corpus {
         self.store.operation("add tier", |connection| {
             let recording = address::recording(connection, &tier.recording)?;
             let row = new_row(connection, recording.id, tier)?;
+            know(connection, row.participant.as_deref())?;
             let id = rows::insert_tier(connection, &row)?;
             let summary = format!("{:?} to {}", row.name, recording.name);
             Ok((TierRow { id, ..row }, summary))
         })
     }
 
-    /// Changes the name, role, hand, inventory, parent or place of a tier; tokens follow.
+    /// Changes the name, role, hand, inventory, parent, place, participant, annotator or language of a
+    /// tier; tokens follow.
     ///
     /// A tier that gets another component loses its inventory unless one is given.
     ///
@@ -133,6 +142,9 @@ impl Corpus {
                 row = arrange::hang(connection, &row, parent.as_ref())?;
             }
             let recording = old.recording_id;
+            if row.participant != old.participant {
+                know(connection, row.participant.as_deref())?;
+            }
             if row != old {
                 rows::update_tier(connection, &row)?;
                 tokens::derive(connection, recording, None, &inventories)?;
@@ -141,7 +153,7 @@ impl Corpus {
                 arrange::place(connection, &row, place)?;
                 row = rows::tier(connection, row.id)?;
             }
-            let recording = crate::db::recordings::recording(connection, recording)?.name;
+            let recording = recordings::recording(connection, recording)?.name;
             let summary = format!("{:?} of {recording}", row.name);
             Ok((row, summary))
         })
@@ -167,7 +179,7 @@ impl Corpus {
             }
             let inventories = inventories::load_of(connection, tier.recording_id)?;
             tokens::derive(connection, tier.recording_id, None, &inventories)?;
-            let recording = crate::db::recordings::recording(connection, tier.recording_id)?.name;
+            let recording = recordings::recording(connection, tier.recording_id)?.name;
             let summary = format!(
                 "{} with {} from {recording}",
                 removed.tiers.join(", "),
@@ -176,6 +188,14 @@ impl Corpus {
             Ok((removed, summary))
         })
     }
+}
+
+/// Makes a participant of a tier a signer of the corpus, where none has that name.
+fn know(connection: &Connection, participant: Option<&str>) -> Result<()> {
+    if let Some(name) = participant {
+        recordings::signer_named(connection, name, None)?;
+    }
+    Ok(())
 }
 
 /// Returns a tier and all below it, parents first.
@@ -223,7 +243,7 @@ pub(super) fn new_row(connection: &Connection, recording: i64, tier: &NewTier) -
         .advise("make it Symbolic_Subdivision or Symbolic_Association"));
     }
     check_name(&all, &row)?;
-    set_role(&mut row, &tier.role);
+    row.set_role(&tier.role);
     let inventories = inventories::load(connection)?;
     row.inventory_id = inventory(&inventories, &row, &tier.values)?.map(|stored| stored.id);
     let set = TierSet::new(all.iter().chain([&row]).map(sign_tier), []);
@@ -247,8 +267,18 @@ fn changed_row(
     if let Some(hand) = change.hand {
         row.hand = hand.map(|hand| hand.name().to_owned());
     }
+    for (said, change) in [
+        (&mut row.participant, &change.participant),
+        (&mut row.annotator, &change.annotator),
+        (&mut row.language, &change.language),
+    ] {
+        if let Some(new) = change {
+            let text = new.as_deref().map(str::trim);
+            *said = text.filter(|text| !text.is_empty()).map(str::to_owned);
+        }
+    }
     if let Some(role) = &change.role {
-        set_role(&mut row, role);
+        row.set_role(role);
     }
     let other = (&row.component, &row.feature) != (&old.component, &old.feature);
     match &change.values {
@@ -279,19 +309,6 @@ pub(super) fn check_name(all: &[TierRow], row: &TierRow) -> Result<()> {
         ),
         None => Ok(()),
     }
-}
-
-fn set_role(row: &mut TierRow, role: &TierRole) {
-    (row.component, row.feature) = match role {
-        TierRole::Component { component, feature } => {
-            (Some(component.name().to_owned()), feature.clone())
-        }
-        _ => (None, None),
-    };
-    row.role = match role {
-        TierRole::Component { .. } => "component".to_owned(),
-        other => other.name(),
-    };
 }
 
 fn inventory<'i>(

@@ -10,7 +10,7 @@ use super::open;
 use crate::error::Result;
 
 /// The tables that a reader of the data wants, in the order in which they build on each other.
-pub(crate) const TABLES: [&str; 22] = [
+pub(crate) const TABLES: [&str; 23] = [
     "meta",
     "signer",
     "skeleton",
@@ -29,6 +29,7 @@ pub(crate) const TABLES: [&str; 22] = [
     "token",
     "token_value",
     "notation",
+    "attribute",
     "recipe",
     "recipe_input",
     "kept_search",

@@ -89,10 +89,21 @@ pub(crate) fn update_signer(connection: &Connection, row: &SignerRow) -> Result<
     Ok(())
 }
 
-/// Returns the recordings of a signer.
+/// Gives the tiers of a participant another name for that person.
+pub(crate) fn rename_participant(connection: &Connection, old: &str, new: &str) -> Result<()> {
+    connection
+        .prepare_cached("UPDATE tier SET participant = ?2 WHERE participant = ?1")?
+        .execute([old, new])?;
+    Ok(())
+}
+
+/// Returns the recordings that show a signer: those of that signer, and those with tiers of that participant.
 pub(crate) fn recordings_of_signer(connection: &Connection, signer: i64) -> Result<Vec<i64>> {
-    let mut statement =
-        connection.prepare_cached("SELECT id FROM recording WHERE signer_id = ?1 ORDER BY id")?;
+    let mut statement = connection.prepare_cached(
+        "SELECT id FROM recording WHERE signer_id = ?1
+         UNION SELECT i.recording_id FROM tier i JOIN signer g ON g.name = i.participant
+         WHERE g.id = ?1 ORDER BY 1",
+    )?;
     let ids = statement
         .query_map([signer], |row| row.get(0))?
         .collect::<rusqlite::Result<_>>()?;

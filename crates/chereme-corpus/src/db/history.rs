@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 
 /// The tables whose rows are recorded, and for each the columns that refer to a row with a uid.
-const TRACKED: [(&str, &[(&str, &str)]); 21] = [
+const TRACKED: [(&str, &[(&str, &str)]); 22] = [
     ("meta", &[]),
     ("signer", &[]),
     ("skeleton", &[]),
@@ -65,6 +65,7 @@ const TRACKED: [(&str, &[(&str, &str)]); 21] = [
         "notation",
         &[("token_id", "token"), ("source_file_id", "source_file")],
     ),
+    ("attribute", &[("token_id", "token")]),
     ("recipe", &[("recording_id", "recording")]),
     (
         "recipe_input",
@@ -78,7 +79,7 @@ const TRACKED: [(&str, &[(&str, &str)]); 21] = [
 ];
 
 /// Changes that alter what the search index holds of tokens: table, event, and which tokens.
-const TOUCHING: [(&str, &str, &str); 7] = [
+const TOUCHING: [(&str, &str, &str); 9] = [
     ("sign", "UPDATE", "WHERE t.sign_id = NEW.id"),
     ("sign_text", "INSERT", "WHERE t.sign_id = NEW.sign_id"),
     ("sign_text", "UPDATE", "WHERE t.sign_id = NEW.sign_id"),
@@ -86,8 +87,19 @@ const TOUCHING: [(&str, &str, &str); 7] = [
     ("recording", "UPDATE", "WHERE t.recording_id = NEW.id"),
     (
         "signer",
+        "INSERT",
+        "WHERE t.recording_id IN (SELECT recording_id FROM main.tier WHERE participant = NEW.name)",
+    ),
+    (
+        "signer",
         "UPDATE",
-        "JOIN main.recording r ON r.id = t.recording_id WHERE r.signer_id = NEW.id",
+        "WHERE t.recording_id IN (SELECT id FROM main.recording WHERE signer_id = NEW.id
+         UNION SELECT recording_id FROM main.tier WHERE participant IN (OLD.name, NEW.name))",
+    ),
+    (
+        "signer",
+        "DELETE",
+        "WHERE t.recording_id IN (SELECT recording_id FROM main.tier WHERE participant = OLD.name)",
     ),
     ("tier", "UPDATE", "WHERE t.recording_id = NEW.recording_id"),
 ];

@@ -7,7 +7,7 @@ use rusqlite::Connection;
 use crate::error::Result;
 use crate::info::{InventoryInfo, SignerInfo};
 
-const KINDS: [(&str, &str); 15] = [
+const KINDS: [(&str, &str); 16] = [
     ("recordings", "recording"),
     ("tracks", "track"),
     ("curves", "curve"),
@@ -20,6 +20,7 @@ const KINDS: [(&str, &str); 15] = [
     ("inventories", "inventory"),
     ("values", "inventory_value"),
     ("notations", "notation"),
+    ("attributes", "attribute"),
     ("recipes", "recipe"),
     ("searches", "kept_search"),
     ("operations", "operation"),
@@ -127,7 +128,8 @@ pub(crate) fn bytes(connection: &Connection) -> Result<BTreeMap<&'static str, u6
 /// Returns the signers by name.
 pub(crate) fn signers(connection: &Connection) -> Result<Vec<SignerInfo>> {
     let mut statement = connection.prepare_cached(
-        "SELECT name, handedness, (SELECT count(*) FROM recording r WHERE r.signer_id = g.id)
+        "SELECT name, handedness, (SELECT count(*) FROM recording r WHERE r.signer_id = g.id
+             OR EXISTS (SELECT 1 FROM tier i WHERE i.recording_id = r.id AND i.participant = g.name))
          FROM signer g ORDER BY name",
     )?;
     let rows = statement.query_map([], |row| {

@@ -134,6 +134,13 @@ pub(crate) const SIGNS: Table = Table {
             ),
             None,
         ),
+        json(
+            "attributes",
+            "(SELECT json_group_object(a.name, a.text) FROM attribute a JOIN token t ON t.id = a.token_id
+              WHERE t.sign_id = s.id HAVING count(*) > 0)",
+            "(SELECT group_concat(a.name || '=' || a.text, ' ') FROM attribute a
+              JOIN token t ON t.id = a.token_id WHERE t.sign_id = s.id)",
+        ),
         text("notes", "s.notes"),
     ],
     from: "sign s",
@@ -162,7 +169,9 @@ pub(crate) const TOKENS: Table = Table {
         ),
     ],
     from: "token t JOIN sign s ON s.id = t.sign_id LEFT JOIN recording r ON r.id = t.recording_id
-           LEFT JOIN signer g ON g.id = r.signer_id",
+           LEFT JOIN annotation a ON a.id = t.annotation_id LEFT JOIN tier i ON i.id = a.tier_id
+           LEFT JOIN signer p ON p.name = i.participant
+           LEFT JOIN signer g ON g.id = coalesce(p.id, r.signer_id)",
     order: "t.id",
 };
 
@@ -274,11 +283,15 @@ pub(crate) const SIGNERS: Table = Table {
         text("handedness", "g.handedness"),
         number(
             "recordings",
-            "(SELECT count(*) FROM recording r WHERE r.signer_id = g.id)",
+            "(SELECT count(*) FROM recording r WHERE r.signer_id = g.id
+              OR EXISTS (SELECT 1 FROM tier i WHERE i.recording_id = r.id AND i.participant = g.name))",
         ),
         number(
             "tokens",
-            "(SELECT count(*) FROM token t JOIN recording r ON r.id = t.recording_id WHERE r.signer_id = g.id)",
+            "(SELECT count(*) FROM token t JOIN recording r ON r.id = t.recording_id
+              LEFT JOIN annotation a ON a.id = t.annotation_id LEFT JOIN tier i ON i.id = a.tier_id
+              LEFT JOIN signer p ON p.name = i.participant
+              WHERE coalesce(p.id, r.signer_id) = g.id)",
         ),
         text("notes", "g.notes"),
     ],
@@ -471,10 +484,13 @@ pub(crate) fn token_ids(connection: &Connection) -> Result<Vec<i64>> {
     ids(connection, "SELECT id FROM token ORDER BY id", [])
 }
 
-/// Returns the tokens of a signer's recordings, by recording and time.
+/// Returns the tokens of a signer, by recording and time: those on tiers of that participant, and those of the
+/// signer's recordings on tiers of no participant who is a signer.
 pub(crate) fn token_ids_of_signer(connection: &Connection, signer: i64) -> Result<Vec<i64>> {
     let sql = "SELECT t.id FROM token t JOIN recording r ON r.id = t.recording_id
-               WHERE r.signer_id = ?1 ORDER BY r.id, t.start_us, t.id";
+               LEFT JOIN annotation a ON a.id = t.annotation_id LEFT JOIN tier i ON i.id = a.tier_id
+               LEFT JOIN signer p ON p.name = i.participant
+               WHERE coalesce(p.id, r.signer_id) = ?1 ORDER BY r.id, t.start_us, t.id";
     ids(connection, sql, [signer])
 }
 

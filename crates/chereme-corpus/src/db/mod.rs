@@ -3,6 +3,7 @@
 //! [`Store`] is one open connection. Every change goes through [`Store::operation`], which runs it
 //! in one transaction, records the rows before and after, and brings the search index along.
 
+pub(crate) mod attributes;
 pub(crate) mod check;
 pub(crate) mod contents;
 pub(crate) mod curves;

@@ -193,9 +193,10 @@ pub(crate) fn update_token(connection: &Connection, row: &TokenRow) -> Result<()
     Ok(())
 }
 
-/// Deletes a token with its values and its notation.
+/// Deletes a token with its values, its attributes and its notation.
 pub(crate) fn delete_token(connection: &Connection, id: i64) -> Result<()> {
     super::notations::delete(connection, id)?;
+    super::attributes::set(connection, id, &[])?;
     connection
         .prepare_cached("DELETE FROM token_value WHERE token_id = ?1")?
         .execute([id])?;

@@ -44,17 +44,19 @@ pub struct TierRow {
 impl TierRow {
     /// Returns what its annotations say.
     pub(crate) fn role(&self) -> TierRole {
-        let component = self.component.as_deref().and_then(|name| name.parse().ok());
-        match (self.role.as_str(), component) {
-            ("component", Some(component)) => TierRole::Component {
-                component,
-                feature: self.feature.clone(),
-            },
-            ("gloss", _) => TierRole::Gloss,
-            ("translation", _) => TierRole::Translation,
-            ("comment", _) => TierRole::Comment,
-            _ => TierRole::Free,
-        }
+        TierRole::of_parts(
+            &self.role,
+            self.component.as_deref(),
+            self.feature.as_deref(),
+        )
+    }
+
+    /// Writes what its annotations say into its columns.
+    pub(crate) fn set_role(&mut self, role: &TierRole) {
+        role.kind().clone_into(&mut self.role);
+        let (component, feature) = role.component().unzip();
+        self.component = component.map(|component| component.name().to_owned());
+        self.feature = feature.flatten().map(str::to_owned);
     }
 
     /// Tells whether it cuts movement into phases; these are of a stretch of signing, not of a sign.

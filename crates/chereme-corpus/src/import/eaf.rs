@@ -57,6 +57,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     report.understand("tiers", &guesses);
     let target = target::find(job, &transcript, &mut report)?;
     let recording = recording(job, &transcript, target.recording, &mut report)?;
+    know_participants(job, &transcript)?;
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
     let there = standing_tiers(job, recording, &transcript)?;
     if let Some(base) = target.base.as_ref().filter(|base| base.hash == job.hash) {
@@ -358,16 +359,31 @@ fn media(job: &mut Job<'_>, recording: i64, transcript: &Transcript) -> Result<(
 
 /// The one participant of all tiers, where there is one.
 fn participant(transcript: &Transcript) -> Option<String> {
-    let all: BTreeSet<&str> = transcript
-        .tiers
-        .iter()
-        .filter_map(|tier| tier.participant.as_deref())
-        .filter(|name| !name.trim().is_empty())
-        .collect();
+    let all = participants(transcript);
     let mut all = all.into_iter();
     all.next()
         .filter(|_| all.next().is_none())
         .map(str::to_owned)
+}
+
+fn participants(transcript: &Transcript) -> BTreeSet<&str> {
+    let tiers = transcript.tiers.iter();
+    let named = tiers.filter_map(|tier| tier.participant.as_deref());
+    named.filter(|name| !name.trim().is_empty()).collect()
+}
+
+/// Makes the participants of a file of several people signers; a single one is the recording's signer.
+fn know_participants(job: &mut Job<'_>, transcript: &Transcript) -> Result<()> {
+    let all = participants(transcript);
+    if all.len() < 2 {
+        return Ok(());
+    }
+    for name in all {
+        let new = recordings::find_signer(job.connection, name)?.is_none();
+        job.count("signers", usize::from(new));
+        recordings::signer_named(job.connection, name, None)?;
+    }
+    Ok(())
 }
 
 /// The tiers of the recording, where the file is one that they came from and some of them are in it.

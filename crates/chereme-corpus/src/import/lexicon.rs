@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 
 use chereme_formats::lexicon::{self, Coding, Entry, Lexicon, Meaning};
 use chereme_formats::table::TableError;
-use chereme_sign::text::fold;
+use chereme_sign::query::number;
 use chereme_sign::{Component, Inventory, InventoryValue, Phase, Reading};
 use serde_json::{Map, Value, json};
 
 use super::notation::{Text, Words};
 use super::report::ReportFinding;
 use super::{FileReport, FileStatus, Job};
+use crate::db::attributes::{self, AttributeRow};
 use crate::db::notations;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::error::{Error, Result};
@@ -60,8 +61,9 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     let stored = job.inventories.clone();
     let words = Words::new(&stored);
     let total = Some(table.entries.len() as u64);
+    let mut earlier = Earlier::default();
     for (done, entry) in table.entries.iter().enumerate() {
-        let token = import_entry(job, &table, entry, &inventories)?;
+        let token = import_entry(job, &table, entry, &inventories, &mut earlier)?;
         if let Some(text) = &entry.notation {
             let notation = Text {
                 token,
@@ -104,10 +106,41 @@ fn map_columns(job: &mut Job<'_>, table: &Lexicon) -> bool {
 
 type Part = (Component, Option<String>);
 
-/// The row of the inventory for a part, and the value that each folded spelling stands for.
+/// The row of the inventory for a part, and the value that each spelling of the table stands for.
 struct Known {
     row: i64,
     values: BTreeMap<String, String>,
+}
+
+/// Entries of a file of the same name that was imported before, by gloss, the last one first.
+#[derive(Default)]
+struct Earlier(BTreeMap<String, Vec<i64>>);
+
+impl Earlier {
+    /// Returns the entry that the next row with this gloss stands for; entries of other files are others.
+    fn next(&mut self, job: &Job<'_>, gloss: &str, tokens: &[TokenRow]) -> Result<Option<i64>> {
+        if let Some(known) = self.0.get_mut(gloss) {
+            return Ok(known.pop());
+        }
+        let mut own = Vec::new();
+        for token in tokens.iter().filter(|token| token.origin == "lexicon") {
+            let source: Value = token
+                .source
+                .as_deref()
+                .and_then(|text| serde_json::from_str(text).ok())
+                .unwrap_or_default();
+            let same = source["file"].as_str() == Some(&job.file_name);
+            // A sign of a SiGML file is an entry of its own.
+            let notation = notations::of_token(job.connection, token.id)?;
+            if same && notation.is_none_or(|notation| notation.system == "hamnosys") {
+                own.push(token.id);
+            }
+        }
+        own.sort_unstable_by(|a, b| b.cmp(a));
+        let next = own.pop();
+        self.0.insert(gloss.to_owned(), own);
+        Ok(next)
+    }
 }
 
 /// Stores the values that the table uses, unless an inventory of the corpus has them all.
@@ -119,33 +152,24 @@ fn store_inventories(job: &mut Job<'_>, table: &Lexicon) -> Result<BTreeMap<Part
             (inventory.component, &inventory.feature) == (used.component, &used.feature)
         };
         let complete = job.inventories.iter().find(|stored| {
-            same(&stored.inventory)
-                && used
-                    .values
-                    .keys()
-                    .all(|value| stored.inventory.find(value).is_some())
+            let values = used.values.keys().map(String::as_str);
+            same(&stored.inventory) && stored.inventory.tells_apart(values)
         });
-        let (row, values) = match complete {
-            Some(stored) => {
-                let find = |value: &String| stored.inventory.find(value).map(|it| it.id.clone());
-                let pairs = used
-                    .values
-                    .keys()
-                    .filter_map(|value| Some((fold(value), find(value)?)));
-                (stored.id, pairs.collect())
-            }
+        let (row, inventory) = match complete {
+            Some(stored) => (stored.id, stored.inventory.clone()),
             None => {
                 let own = own_inventory(&job.stem, &used);
                 let mut stored = job.inventories.iter().map(|it| &it.inventory);
                 let before = stored.find(|it| it.id == own.id);
+                let is_new = before.is_none();
                 let inventory = inventories::joined(before, own);
-                let ids = inventory.values.iter();
-                let values = ids.map(|it| (fold(&it.id), it.id.clone())).collect();
                 let row = inventories::store(job.connection, &inventory)?;
-                job.count("inventories", 1);
-                (row, values)
+                job.count("inventories", usize::from(is_new));
+                (row, inventory)
             }
         };
+        let meant = |value: &String| Some((value.clone(), inventory.find(value)?.id.clone()));
+        let values = used.values.keys().filter_map(meant).collect();
         known.insert(part, Known { row, values });
     }
     Ok(known)
@@ -183,6 +207,7 @@ fn import_entry(
     table: &Lexicon,
     entry: &Entry,
     inventories: &BTreeMap<Part, Known>,
+    earlier: &mut Earlier,
 ) -> Result<i64> {
     let connection = job.connection;
     let is_new = signs::find_sign(connection, &entry.gloss)?.is_none();
@@ -191,28 +216,40 @@ fn import_entry(
         signs::add_text(connection, sign, language, text)?;
     }
     let tokens = signs::tokens_of_sign(connection, sign)?;
-    let mut known = None;
-    for token in tokens.iter().filter(|token| token.origin == "lexicon") {
-        // A sign of a SiGML file is an entry of its own.
-        let notation = notations::of_token(connection, token.id)?;
-        if known.is_none() && notation.is_none_or(|notation| notation.system == "hamnosys") {
-            known = Some(token.id);
-        }
-    }
+    let known = earlier.next(job, &entry.gloss, &tokens)?;
+    let known = known.and_then(|id| tokens.iter().find(|token| token.id == id));
+    let source = Some(cells(table, entry, &job.file_name).to_string());
     let token = match known {
-        Some(token) => token,
+        Some(token) => {
+            if token.source != source {
+                let row = TokenRow {
+                    source,
+                    ..token.clone()
+                };
+                signs::update_token(connection, &row)?;
+            }
+            token.id
+        }
         None => {
             let row = TokenRow {
                 sign_id: sign,
                 origin: "lexicon".to_owned(),
                 citation: !tokens.iter().any(|token| token.citation),
-                source: Some(cells(table, entry, &job.file_name).to_string()),
+                source,
                 ..TokenRow::default()
             };
             job.count("tokens", 1);
             signs::insert_token(connection, &row)?
         }
     };
+    let own: Vec<AttributeRow> = (entry.attributes.iter())
+        .map(|(name, text)| AttributeRow {
+            name: name.clone(),
+            text: text.clone(),
+            number: number(text),
+        })
+        .collect();
+    attributes::set(connection, token, &own)?;
     let values: Vec<TokenValueRow> = entry
         .codings
         .iter()
@@ -235,7 +272,7 @@ fn value_row(coding: &Coding, inventories: &BTreeMap<Part, Known>) -> TokenValue
         Some(Phase::Final) => (Some("final"), 0),
     };
     let value = coding.reading.value().map(|value| {
-        let same = known.and_then(|known| known.values.get(&fold(value)));
+        let same = known.and_then(|known| known.values.get(value));
         same.cloned().unwrap_or_else(|| value.to_owned())
     });
     let is_value = matches!(coding.reading, Reading::Value(_));

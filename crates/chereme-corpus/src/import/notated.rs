@@ -7,7 +7,7 @@ use chereme_formats::{Finding, sigml};
 use chereme_sign::hamnosys::Notated;
 use serde_json::json;
 
-use super::notation::{Words, document, lost};
+use super::notation::{Words, document, lost, uncoded};
 use super::report::ReportFinding;
 use super::{FileReport, FileStatus, Job};
 use crate::db::notations::{self, NotationRow};
@@ -164,7 +164,12 @@ fn import_sign(
         Some(token) => token,
         None => insert_token(job, &gloss, row)?,
     };
-    let mapped = words.map(sign);
+    let mut mapped = words.map(sign);
+    let text = sign.text.as_deref().filter(|_| place.form == Form::Lines);
+    if let Some(finding) = text.and_then(|text| uncoded(&gloss, line, text)) {
+        report.findings.push(finding);
+        mapped.values.clear();
+    }
     signs::set_values(job.connection, token, &words.rows(&mapped))?;
     let row = NotationRow {
         token_id: token,

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use chereme_formats::Finding;
+use chereme_formats::hns::holds_some;
 use chereme_sign::hamnosys::components::{Mapped, MappedValue, Mapper};
-use chereme_sign::hamnosys::{Notated, parse_lenient};
+use chereme_sign::hamnosys::{Notated, is_garbled, parse_lenient};
 use chereme_sign::{Component, Phase};
 
 use super::report::ReportFinding;
@@ -31,6 +32,10 @@ impl Text<'_> {
         words: &Words<'_>,
         report: &mut FileReport,
     ) -> Result<()> {
+        if let Some(finding) = uncoded(self.gloss, self.line, self.text) {
+            report.findings.push(finding);
+            return Ok(());
+        }
         let read = parse_lenient(self.text);
         for found in &read.findings {
             let (gloss, index) = (self.gloss, found.index);
@@ -75,6 +80,29 @@ impl Text<'_> {
         report.findings.extend(lost(self.gloss, self.line, &mapped));
         Ok(())
     }
+}
+
+/// Returns why a text is no notation to code a sign by, where it is none: it was garbled, or holds no symbol.
+pub(super) fn uncoded(gloss: &str, line: u64, text: &str) -> Option<ReportFinding> {
+    let (message, remedy) = if is_garbled(text) {
+        (
+            format!(
+                "{gloss}: its HamNoSys was saved as UTF-8 and read as Latin-1, and parts of it are lost; \
+                 the sign was left uncoded"
+            ),
+            "export the source again as UTF-8, and import that",
+        )
+    } else if !holds_some(text.as_bytes()) {
+        (
+            format!("{gloss}: {text:?} holds no HamNoSys; the sign was left uncoded by it"),
+            "if the column holds something else, say so in a mapping: {\"columns\": {\"NAME\": \"attribute\"}}",
+        )
+    } else {
+        return None;
+    };
+    let mut finding = ReportFinding::warning(message, remedy);
+    finding.line = Some(line);
+    Some(finding)
 }
 
 /// Returns a notated sign as it is stored.

@@ -50,7 +50,7 @@ impl Beside {
             What::Whole(field, _) | What::Words(field, _) | What::Fuzzy { field, .. } => {
                 texts_beside(ask, test, *field)?
             }
-            What::Property(..) | What::Time(..) => Vec::new(),
+            What::Property(..) | What::Time(..) | What::Attribute(..) => Vec::new(),
         };
         Ok(Self { relation, other })
     }

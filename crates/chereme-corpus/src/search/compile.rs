@@ -16,6 +16,7 @@ use tantivy::query::{ExistsQuery, Query, RangeQuery};
 use tantivy::{Searcher, Term};
 
 use super::any_term::AnyTerm;
+use super::attributes;
 use super::beside::Beside;
 use super::component::ComponentTest;
 use super::docs::{self, Docs};
@@ -184,6 +185,7 @@ pub(crate) fn test(ask: &Ask<'_>, test: &Test) -> Asked<Plan> {
         What::Words(..) | What::Fuzzy { .. } => whole::words_plan(ask, test),
         What::Tier(..) => Ok(Plan::Beside(Box::new(Beside::new(ask, None, test)?))),
         What::Time(field, times) => Ok(Plan::index(self::times(ask, *field, *times))),
+        What::Attribute(name, wanted) => attributes::plan(ask, test, name, wanted),
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod answer;
 mod any_term;
+mod attributes;
 mod beside;
 mod compile;
 mod component;

@@ -5,6 +5,7 @@ use crate::hns::holds_symbols;
 use crate::roles::{Hands, Mapping, Target, normal};
 use crate::table::Row;
 use crate::tally::Findings;
+use chereme_sign::query::number;
 use chereme_sign::{Component, Phase, TierRole};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -51,6 +52,8 @@ pub enum Meaning {
     },
     /// The sign as HamNoSys.
     Notation,
+    /// A number or a text that belongs to the sign and is no component: frequency, iconicity, word class.
+    Attribute,
     /// Something else, kept as it is.
     Note,
 }
@@ -119,9 +122,38 @@ const NAMES: [&str; 16] = [
     "gebaar",
 ];
 
+/// Words of titles of what is measured, as pieces of folded words.
+const MEASURES: [&str; 24] = [
+    "frequency",
+    "freq",
+    "count",
+    "mean",
+    "median",
+    "sd",
+    "rating",
+    "iconicity",
+    "score",
+    "percent",
+    "zipf",
+    "log",
+    "accuracy",
+    "rt",
+    "density",
+    "age",
+    "frequence",
+    "haufigkeit",
+    "frequentie",
+    "iconicite",
+    "ikonizitat",
+    "probability",
+    "number",
+    "rank",
+];
+
 /// Returns what each column is taken for. The first gloss column names the sign; further ones are
-/// translations. Of columns that no title tells, those with HamNoSys's symbols are notation; where none
-/// is called a gloss, one that is called a name or a word is, else the first one beside the notation.
+/// translations. Of columns that no title explains, those with HamNoSys's symbols are notation, the others
+/// attributes; where none is called a gloss, one that is called a name or a word is, else the first one next to
+/// the notation. A column of measures is an attribute even where a component stands in its title.
 pub(super) fn meanings(
     header: &[String],
     rows: &[Row],
@@ -135,6 +167,14 @@ pub(super) fn meanings(
             column.meaning = Meaning::Notation;
             column.confidence = 0.9;
             "its cells hold HamNoSys's symbols".clone_into(&mut column.why);
+        }
+        if (1e-9..0.9).contains(&column.confidence)
+            && !matches!(column.meaning, Meaning::Note)
+            && measures(rows, at, &column.title)
+        {
+            column.meaning = Meaning::Attribute;
+            column.confidence = 0.8;
+            "its cells are numbers that measure".clone_into(&mut column.why);
         }
         if let Meaning::Gloss { language } = &column.meaning {
             if gloss {
@@ -162,15 +202,7 @@ pub(super) fn meanings(
     for column in &mut columns {
         let title = &column.title;
         if column.why.is_empty() {
-            findings.add("unknown columns", || {
-                Finding::note(
-                    1,
-                    format!("the column {title:?} is not understood; it is kept as a note"),
-                )
-                .with_remedy(format!(
-                    "say what it is in a mapping: {{\"columns\": {{{title:?}: \"placement\"}}}}"
-                ))
-            });
+            column.meaning = Meaning::Attribute;
             "no word of its title is known".clone_into(&mut column.why);
         }
         if !seen.insert(title.clone()) {
@@ -179,7 +211,67 @@ pub(super) fn meanings(
             });
         }
     }
+    tell_attributes(&columns, findings);
     columns
+}
+
+/// Names the columns that become attributes, all in one.
+fn tell_attributes(columns: &[Column], findings: &mut Findings) {
+    const NAMED: usize = 12;
+    let guessed =
+        |column: &&Column| column.meaning == Meaning::Attribute && column.confidence < 1.0;
+    let titles: Vec<&str> = (columns.iter().filter(guessed))
+        .map(|column| column.title.as_str())
+        .collect();
+    let Some(first) = titles.first() else { return };
+    let shown: Vec<String> = titles
+        .iter()
+        .take(NAMED)
+        .map(|it| format!("{it:?}"))
+        .collect();
+    let more = match titles.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        count => format!(" and {count} more"),
+    };
+    let (columns, are) = match titles.len() {
+        1 => ("column", "is kept as an attribute"),
+        _ => ("columns", "are kept as attributes"),
+    };
+    let (shown, example) = (
+        shown.join(", "),
+        format!("{{\"columns\": {{{first:?}: \"translation\"}}}}"),
+    );
+    findings.add("attributes", || {
+        Finding::note(1, format!("the {columns} {shown}{more} {are} of each sign")).with_remedy(format!(
+            "queries find them, as in attribute({first:?})=*; to take one for something else, say so in a \
+             mapping: {example}"
+        ))
+    });
+}
+
+/// Tells whether a column holds measures: its cells are numbers, and its title says so or some have decimals.
+fn measures(rows: &[Row], column: usize, title: &str) -> bool {
+    let cells = rows.iter().filter_map(|row| row.cells.get(column));
+    let cells = cells
+        .map(|cell| cell.trim())
+        .filter(|cell| !cell.is_empty());
+    let (mut all, mut numbers, mut parts) = (0usize, 0usize, 0usize);
+    for cell in cells {
+        all += 1;
+        let read = number(cell);
+        numbers += usize::from(read.is_some());
+        parts += usize::from(read.is_some_and(|number| number.fract() != 0.0));
+    }
+    let whole = normal(title);
+    let said = whole.split(' ').any(|word| {
+        let letters = word.trim_start_matches(|c: char| c.is_ascii_digit());
+        MEASURES.iter().any(|measure| match measure.len() {
+            ..=4 => letters == *measure,
+            _ => letters.contains(measure),
+        })
+    });
+    // A word here and there, such as NA, stands for what is missing.
+    all > 0 && numbers * 10 >= all * 9 && (said || parts > 0)
 }
 
 /// Returns the column that names the sign where none is called a gloss.
@@ -275,6 +367,9 @@ fn language(title: &str) -> Option<(String, &str)> {
 
 fn meaning(target: &Target, language: Option<String>) -> Meaning {
     let language = target.language.clone().or(language);
+    if target.attribute {
+        return Meaning::Attribute;
+    }
     match &target.role {
         Some(TierRole::Gloss) => Meaning::Gloss { language },
         Some(TierRole::Translation) => Meaning::Translation { language },

@@ -25,11 +25,11 @@ mod values;
 pub use columns::{Column, Meaning};
 
 use crate::finding::Finding;
-use crate::hns::holds_symbols;
+use crate::hns::{holds_symbols, tell_mended};
 use crate::roles::{Hands, Mapping};
 use crate::table::{Cells, Row, TableError};
 use crate::tally::Findings;
-use chereme_sign::hamnosys::in_plain_symbols;
+use chereme_sign::hamnosys::{in_plain_symbols, mended};
 use chereme_sign::text::{edit_distance, fold};
 use chereme_sign::{Component, Field, Phase, Reading};
 use serde::Serialize;
@@ -61,6 +61,8 @@ pub struct Entry {
     pub codings: Vec<Coding>,
     /// The sign as HamNoSys, blanks at its ends left out.
     pub notation: Option<String>,
+    /// What the table says of the sign beyond its components, as title and cell; empty cells give nothing.
+    pub attributes: Vec<(String, String)>,
     /// The cells as they are, one a column.
     pub cells: Vec<String>,
 }
@@ -120,8 +122,8 @@ pub struct Inventory {
 ///
 /// The delimiter (tab, comma, semicolon, bar) is found from the first row; quotes, byte-order marks,
 /// line ends of Windows and UTF-16 are understood, and what is not UTF-8 is read as Windows-1252.
-/// Rows without a gloss are left out; rows of another width, glosses given twice, columns that
-/// are not understood and values that look like slips are told.
+/// Rows without a gloss are left out, and a finding says so; findings also name rows of another width, glosses
+/// given twice, columns that become attributes and values that look like slips.
 ///
 /// # Errors
 /// [`TableError`] where the bytes are no table or no column is a gloss.
@@ -157,12 +159,25 @@ pub fn read(bytes: &[u8], mapping: &Mapping) -> Result<(Lexicon, Vec<Finding>), 
         let first = *lines.entry(name.to_owned()).or_insert(line);
         if first != line {
             findings.add("glosses given twice", || {
-                Finding::warning(
+                Finding::note(
                     line,
-                    format!("the gloss {name:?} stands in line {first} too"),
+                    format!(
+                        "the gloss {name:?} stands in line {first} too; this row is kept as another entry of \
+                         that sign"
+                    ),
                 )
-                .with_remedy("tell homonyms apart by a suffix, such as -A and -B")
+                .with_remedy(format!(
+                    "if these are two signs, write {:?} and {:?}",
+                    format!("{name}-A"),
+                    format!("{name}-B")
+                ))
             });
+        }
+        let garbled = |(column, cell): (&Column, &String)| {
+            column.meaning == Meaning::Notation && mended(cell).is_some()
+        };
+        if columns.iter().zip(&row.cells).any(garbled) {
+            findings.add("symbols in a wrong encoding", || tell_mended(line));
         }
         entries.push(entry(row, gloss, &columns));
     }
@@ -238,6 +253,7 @@ fn entry(row: Row, gloss: usize, columns: &[Column]) -> Entry {
         translations: Vec::new(),
         codings: Vec::new(),
         notation: None,
+        attributes: Vec::new(),
         cells: Vec::new(),
     };
     for (at, (column, cell)) in columns.iter().zip(&row.cells).enumerate() {
@@ -246,8 +262,12 @@ fn entry(row: Row, gloss: usize, columns: &[Column]) -> Entry {
                 let language = language.clone().unwrap_or_default();
                 entry.translations.push((language, cell.trim().to_owned()));
             }
+            // The blanks of a garbled cell may be parts of symbols.
             Meaning::Notation if !cell.trim().is_empty() && entry.notation.is_none() => {
-                entry.notation = Some(in_plain_symbols(cell.trim()).into_owned());
+                entry.notation = Some(in_plain_symbols(cell).trim().to_owned());
+            }
+            Meaning::Attribute if !cell.trim().is_empty() => {
+                entry.attributes.push((column.title.clone(), cell.clone()));
             }
             Meaning::Coding {
                 hand,
@@ -299,9 +319,17 @@ fn slips(lexicon: &Lexicon, findings: &mut Findings) {
             findings.add("values that may be slips", || {
                 let name = Field { hand: None, component: inventory.component, feature: inventory.feature.clone(), phase: None };
                 let line = first_line(lexicon, inventory, value);
-                Finding::note(line, format!("{name}: {value:?} stands {count} times, {common:?} {uses} times; is it the same?"))
+                Finding::note(line, format!("{name}: {value:?} ({}) and {common:?} ({}) are kept as two values", times(*count), times(*uses)))
+                    .with_remedy(format!("if they are one: chereme inventory CORPUS merge-value INVENTORY {value:?} {common:?}"))
             });
         }
+    }
+}
+
+fn times(count: usize) -> String {
+    match count {
+        1 => "once".to_owned(),
+        count => format!("{count} times"),
     }
 }
 

@@ -1,8 +1,8 @@
 //! A file by which people say what their tiers and columns are.
 
-use super::{Hands, normal, same, words};
+use super::{Hands, same};
 use chereme_sign::text::{did_you_mean, nearest};
-use chereme_sign::{Component, Field, Phase, TierRole};
+use chereme_sign::{Phase, RoleError, TierRole, TierTopic};
 use serde_json::Value;
 
 /// What tiers and columns are, by name or pattern.
@@ -18,7 +18,7 @@ use serde_json::Value;
 ///
 /// `*` stands for any text and `?` for one character; case and accents do not count. An entry
 /// without a pattern comes before those with one, and among patterns the first counts. A value is
-/// `gloss`, `translation`, `comment`, `free` (or `note` of a column), or a component as queries
+/// `gloss`, `translation`, `comment`, `free` (or `note` and `attribute` of a column), or a component as queries
 /// spell it, with a hand before it and a feature after it where there is one: `both.gloss`,
 /// `nonmanual.brows`, `weak.configuration`, `translation.en` of a column.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -38,6 +38,8 @@ pub struct Target {
     pub phase: Option<Phase>,
     /// The language of a gloss or translation, of a column.
     pub language: Option<String>,
+    /// Whether a column holds an attribute of the sign, a number or a text.
+    pub attribute: bool,
 }
 
 /// Why a mapping file could not be read.
@@ -62,14 +64,12 @@ pub enum MappingError {
         nearest: Option<String>,
     },
     /// An entry's value is not understood.
-    #[error("{entry:?}: {text:?} is no role; write gloss, translation, comment, free, or a component such as right.configuration or nonmanual.brows{}", did_you_mean(nearest.as_deref()))]
+    #[error("{entry:?}: {source}")]
     Role {
         /// The entry's name or pattern.
         entry: String,
-        /// What it says.
-        text: String,
-        /// The word that was meant, perhaps.
-        nearest: Option<String>,
+        /// What is wrong with what it says.
+        source: RoleError,
     },
 }
 
@@ -98,7 +98,11 @@ impl Mapping {
             };
             for (name, value) in entries.as_object().ok_or_else(|| form(key))? {
                 let text = value.as_str().ok_or_else(|| form(name))?;
-                list.push((name.clone(), Target::parse(name, text)?));
+                let target = match &**key {
+                    "columns" => Target::of_column(name, text)?,
+                    _ => Target::parse(name, text)?,
+                };
+                list.push((name.clone(), target));
             }
         }
         Ok(mapping)
@@ -175,73 +179,39 @@ impl Target {
         Self::parse(title, title).ok()
     }
 
+    /// Reads what the entry `entry` says of a column.
+    fn of_column(entry: &str, text: &str) -> Result<Self, MappingError> {
+        if text.trim().eq_ignore_ascii_case("attribute") {
+            return Ok(Self {
+                attribute: true,
+                ..Self::default()
+            });
+        }
+        Self::parse(entry, text)
+    }
+
     /// Reads what the entry `entry` says.
     pub(crate) fn parse(entry: &str, text: &str) -> Result<Self, MappingError> {
-        let lower = text.trim().to_lowercase();
-        let (first, rest) = lower.split_once('.').unwrap_or((&lower, ""));
-        let word = |word: &str| match word {
-            "gloss" => Some(TierRole::Gloss),
-            "translation" => Some(TierRole::Translation),
-            "comment" | "note" => Some(TierRole::Comment),
-            "free" | "ignore" => Some(TierRole::Free),
-            _ => None,
-        };
-        if let Some(role) = word(first) {
-            let language = (!rest.is_empty()).then(|| rest.to_owned());
+        if let Some((first, language)) = text.trim().split_once('.')
+            && let Ok(role) = first.parse::<TierRole>()
+            && role.component().is_none()
+        {
             return Ok(Self {
                 role: Some(role),
-                language,
+                language: Some(language.to_lowercase()),
                 ..Self::default()
             });
         }
-        if let (Some(hand), Some(role)) = (words::hands(first), word(rest)) {
-            return Ok(Self {
-                role: Some(role),
-                hand: Some(hand),
-                ..Self::default()
-            });
-        }
-        let (hand, field) = match lower.strip_prefix("both.") {
-            Some(field) => (Some(Hands::Both), field),
-            None => (None, &*lower),
-        };
-        let field: Field = field.parse().map_err(|_| unknown(entry, text))?;
+        let (topic, phase) = TierTopic::with_phase(text).map_err(|source| MappingError::Role {
+            entry: entry.to_owned(),
+            source,
+        })?;
         Ok(Self {
-            hand: hand.or(field.hand.map(Hands::One)),
-            phase: field.phase,
-            role: Some(TierRole::Component {
-                component: field.component,
-                feature: field.feature,
-            }),
-            language: None,
+            role: Some(topic.role),
+            hand: topic.hand,
+            phase,
+            ..Self::default()
         })
-    }
-}
-
-fn unknown(entry: &str, text: &str) -> MappingError {
-    let known = Component::ALL.iter().flat_map(|it| it.names()).copied();
-    let others = [
-        "gloss",
-        "translation",
-        "comment",
-        "free",
-        "note",
-        "right",
-        "left",
-        "dominant",
-        "weak",
-        "both",
-    ];
-    let words: Vec<&str> = known.chain(others).collect();
-    let normal = normal(text);
-    let wrong = normal
-        .split(' ')
-        .find(|word| !words.contains(word))
-        .unwrap_or_default();
-    MappingError::Role {
-        entry: entry.to_owned(),
-        text: text.to_owned(),
-        nearest: nearest(wrong, words.iter().copied()).map(str::to_owned),
     }
 }
 

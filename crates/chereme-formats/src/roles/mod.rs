@@ -6,67 +6,16 @@
 mod mapping;
 mod words;
 
+pub use chereme_sign::Hands;
 pub use mapping::{Mapping, MappingError, Target};
 pub(crate) use words::normal;
 
 use crate::eaf::Transcript;
 use chereme_sign::text::fold;
-use chereme_sign::{Component, HandRef, TierRole};
+use chereme_sign::{Component, HandRef, Stereotype, TierRole};
 use serde::Serialize;
 use std::collections::BTreeSet;
-use std::fmt;
 use words::{Match, TABLE};
-
-/// Whose hand something is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
-#[serde(into = "&'static str")]
-pub enum Hands {
-    /// One hand.
-    One(HandRef),
-    /// Both hands at once.
-    Both,
-}
-
-impl Hands {
-    /// Returns `right`, `left`, `dominant`, `weak` or `both`.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::One(hand) => hand.name(),
-            Self::Both => "both",
-        }
-    }
-
-    /// Returns the hands of that name.
-    #[must_use]
-    pub fn of(name: &str) -> Option<Self> {
-        match name {
-            "both" => Some(Self::Both),
-            one => one.parse().ok().map(Self::One),
-        }
-    }
-
-    /// Returns the one hand, where it is one.
-    #[must_use]
-    pub fn one(self) -> Option<HandRef> {
-        match self {
-            Self::One(hand) => Some(hand),
-            Self::Both => None,
-        }
-    }
-}
-
-impl From<Hands> for &'static str {
-    fn from(hands: Hands) -> Self {
-        hands.name()
-    }
-}
-
-impl fmt::Display for Hands {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
 
 /// A tier as far as its role can be guessed from it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -77,6 +26,9 @@ pub struct TierName<'a> {
     pub kind: &'a str,
     /// The tier above, as an index into the list.
     pub parent: Option<usize>,
+    /// Whether each of its annotations belongs to one of the tier above, with its time (ELAN's
+    /// Symbolic_Association).
+    pub one_to_one: bool,
 }
 
 /// What a tier is taken for.
@@ -101,6 +53,7 @@ pub fn guess_tiers(transcript: &Transcript, mapping: &Mapping) -> Vec<TierGuess>
         name: &tier.name,
         kind: &tier.kind,
         parent: tier.parent,
+        one_to_one: tier.stereotype == Some(Stereotype::SymbolicAssociation),
     });
     guess_roles(&names.collect::<Vec<_>>(), mapping)
 }
@@ -110,7 +63,8 @@ pub fn guess_tiers(transcript: &Transcript, mapping: &Mapping) -> Vec<TierGuess>
 /// The mapping comes first, then the words of the tier's own name, then those of its type. A tier
 /// that names only a hand is a gloss tier; one without a hand has that of the tier above. `MD` is
 /// the right hand (*main droite*) unless other tiers name the weak one `MND`, and `D` likewise
-/// beside `ND`.
+/// beside `ND`. A gloss tier that stands one to one below another one reads the same signs once more, as a
+/// rule in another language: it is a translation, so that each sign stays one token.
 #[must_use]
 pub fn guess_roles(tiers: &[TierName<'_>], mapping: &Mapping) -> Vec<TierGuess> {
     let context = Context::new(tiers);
@@ -118,6 +72,23 @@ pub fn guess_roles(tiers: &[TierName<'_>], mapping: &Mapping) -> Vec<TierGuess> 
         .iter()
         .map(|tier| guess(tier, mapping, &context))
         .collect();
+    for (at, tier) in tiers.iter().enumerate() {
+        let above = tier.parent.filter(|_| tier.one_to_one);
+        let above = above
+            .filter(|above| *above != at)
+            .and_then(|above| guesses.get(above));
+        if let Some(above) = above.filter(|above| above.reads_signs())
+            && guesses[at].role == Some(TierRole::Gloss)
+            && guesses[at].confidence < 1.0
+        {
+            let why = format!(
+                "{}, but each is one of the glosses above, {:?}",
+                guesses[at].why, above.tier
+            );
+            let guess = &mut guesses[at];
+            (guess.role, guess.hand, guess.why) = (Some(TierRole::Translation), None, why);
+        }
+    }
     for (at, tier) in tiers.iter().enumerate() {
         let manual = matches!(&guesses[at].role, Some(TierRole::Component { component, .. }) if component.is_manual());
         let above = tier
@@ -132,6 +103,14 @@ pub fn guess_roles(tiers: &[TierName<'_>], mapping: &Mapping) -> Vec<TierGuess> 
         }
     }
     guesses
+}
+
+impl TierGuess {
+    /// Tells whether it holds glosses, or what reads them once more.
+    fn reads_signs(&self) -> bool {
+        self.role == Some(TierRole::Gloss)
+            || (self.role == Some(TierRole::Translation) && self.why.contains("glosses above"))
+    }
 }
 
 /// Which abbreviations the tiers of one file use.
@@ -177,7 +156,9 @@ fn guess(tier: &TierName<'_>, mapping: &Mapping, context: &Context) -> TierGuess
         };
     }
     let own = TABLE.find(tier.name, |word| context.hand(word));
-    let kind = TABLE.find(tier.kind, |word| context.hand(word));
+    // A letter such as "d" or "g" in the name of a type is no hand.
+    let spelt = |word: &str| context.hand(word).filter(|_| word.chars().count() > 2);
+    let kind = TABLE.find(tier.kind, spelt);
     let hand = own
         .hand
         .as_ref()
@@ -201,7 +182,7 @@ fn guess(tier: &TierName<'_>, mapping: &Mapping, context: &Context) -> TierGuess
             0.4,
             "a code used for this in other corpora".to_owned(),
         )
-    } else if let Some((_, word)) = &own.hand {
+    } else if let Some((_, word)) = own.hand.as_ref().filter(|_| own.unknown.is_empty()) {
         (
             Some(TierRole::Gloss),
             0.5,
@@ -231,7 +212,8 @@ fn guess(tier: &TierName<'_>, mapping: &Mapping, context: &Context) -> TierGuess
 
 /// Returns the role that the words of a name make together, and the word that decides.
 ///
-/// A comment on anything is a comment, a translation a translation; a placement may be on the
+/// A comment on anything is a comment, a translation a translation, and what is said of signs as words (their
+/// part of speech) is free; a placement may be on the
 /// head, other movements and orientations of the head are non-manual; a component's gloss is the
 /// component.
 fn role_of(found: &Match) -> Option<(TierRole, String)> {
@@ -251,7 +233,8 @@ fn role_of(found: &Match) -> Option<(TierRole, String)> {
         } => 5,
         TierRole::Component { .. } => 6,
         TierRole::Gloss => 7,
-        TierRole::Free => 8,
+        // Parts of speech of glosses are no glosses.
+        TierRole::Free => 0,
     };
     let mut roles: Vec<&(TierRole, String)> = found.roles.iter().collect();
     roles.sort_by_key(|(role, word)| (rank(role), std::cmp::Reverse(word.chars().count())));

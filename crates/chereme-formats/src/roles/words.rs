@@ -1,8 +1,8 @@
 //! The table of words that names are made of.
 
 use super::Hands;
+use chereme_sign::TierRole;
 use chereme_sign::text::fold;
-use chereme_sign::{HandRef, TierRole};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
@@ -25,6 +25,8 @@ pub(super) struct Words {
 pub(super) struct Match {
     pub(super) hand: Option<(Hands, String)>,
     pub(super) roles: Vec<(TierRole, String)>,
+    /// Words that are not known; letters and whatever holds a digit number or name people and takes.
+    pub(super) unknown: Vec<String>,
 }
 
 #[derive(serde::Deserialize)]
@@ -40,7 +42,7 @@ impl Words {
         let file: File = serde_json::from_str(text).map_err(|error| error.to_string())?;
         let mut table = Self::default();
         for (name, words) in file.hands {
-            let hand = hands(&name).ok_or_else(|| format!("{name} is no hand"))?;
+            let hand = Hands::of(&name).ok_or_else(|| format!("{name} is no hand"))?;
             table
                 .hands
                 .extend(words.into_iter().map(|word| (word, hand)));
@@ -88,7 +90,7 @@ impl Words {
                 true
             })
         };
-        let mut at = 0;
+        let (mut at, mut unknown) = (0, Vec::new());
         while at < pieces.len() {
             let joined = |n: usize| pieces.get(at..at + n).map(|pieces| pieces.concat());
             if let Some(n) = [3, 2]
@@ -99,12 +101,17 @@ impl Words {
                 continue;
             }
             if !take(&pieces[at]) {
-                for word in self.split(&pieces[at], &hand).unwrap_or_default() {
-                    take(word);
+                match self.split(&pieces[at], &hand) {
+                    Some(words) => words.into_iter().for_each(|word| _ = take(word)),
+                    None => unknown.push(pieces[at].clone()),
                 }
             }
             at += 1;
         }
+        let plain = |word: &String| {
+            word.chars().count() > 1 && !word.contains(|c: char| c.is_ascii_digit())
+        };
+        found.unknown = unknown.into_iter().filter(plain).collect();
         found
     }
 
@@ -141,15 +148,6 @@ impl Words {
     }
 }
 
-/// Returns the hand or hands of this name.
-pub(super) fn hands(name: &str) -> Option<Hands> {
-    if name == "both" {
-        Some(Hands::Both)
-    } else {
-        name.parse::<HandRef>().ok().map(Hands::One)
-    }
-}
-
 /// Splits a name into its words: folded, at everything that is no letter or digit, and without
 /// the number that ends a word of four letters or more.
 pub(super) fn pieces(name: &str) -> Vec<String> {
@@ -182,6 +180,7 @@ pub(crate) fn normal(name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use chereme_sign::HandRef;
 
     #[test]
     fn the_shipped_table_is_whole_and_each_word_has_one_meaning() {

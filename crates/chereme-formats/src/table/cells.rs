@@ -44,6 +44,19 @@ pub enum TableError {
         /// How many columns the first row has.
         width: usize,
     },
+    /// Bare numbers would be annotations longer or later than any, were they seconds.
+    #[error(
+        "line {line}: from {start} to {end} without a unit would be seconds, and no annotation is so long or so \
+         late; if these are milliseconds, call the columns start_ms and end_ms, else start_s and end_s"
+    )]
+    Implausible {
+        /// The line, counted from 1.
+        line: u64,
+        /// The start as it is written.
+        start: String,
+        /// The end as it is written.
+        end: String,
+    },
     /// A column that has to be there is not.
     #[error("no column of the first row ({found}) is {needed}; {remedy}")]
     Missing {

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use super::error::{Finding, HamnosysError};
+use super::garbled::mended;
 use super::symbol::{Kind, Symbol};
 
 /// The most symbols of one transcription; the longest known has 104.
@@ -148,9 +149,17 @@ fn in_characters(text: &str, lenient: bool) -> Result<InCharacters<'_>, Hamnosys
 
 /// Returns the text with symbols that are given by the numbers of their characters as characters, as
 /// programs write what they cannot show: `U+E001`, `\uE001`, `&#xE001;`, `0xE001`, or two and more
-/// numbers side by side, `E001 E020`; the backslash of TeX before a name is left out.
+/// numbers side by side, `E001 E020`; the backslash of TeX before a name is left out. What was read in
+/// another encoding than it was written in is [`mended`].
 #[must_use]
 pub fn in_plain_symbols(text: &str) -> Cow<'_, str> {
+    match mended(text) {
+        Some(mended) => Cow::Owned(from_numbers(&mended).into_owned()),
+        None => from_numbers(text),
+    }
+}
+
+fn from_numbers(text: &str) -> Cow<'_, str> {
     const ESCAPES: [&str; 6] = ["u+", "\\u{", "\\u", "\\x{", "&#x", "0x"];
     let begins = |pair: &[u8]| matches!(pair, [b'e' | b'E', b'0'] | [b'0', b'x' | b'X']);
     if !text.contains(['\\', '&', '+']) && !text.as_bytes().windows(2).any(begins) {

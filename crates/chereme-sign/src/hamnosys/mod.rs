@@ -64,6 +64,7 @@ pub mod direction;
 pub mod drawing;
 mod error;
 pub mod face;
+mod garbled;
 pub mod language;
 mod lex;
 pub mod nonmanual;
@@ -77,6 +78,7 @@ pub mod tree;
 
 pub use direction::{Compass, Direction};
 pub use error::{Finding, HamnosysError};
+pub use garbled::{is_garbled, mended};
 pub use language::{BodyLanguage, LanguageChanges, LanguageError};
 pub use lex::{MAX_SYMBOLS, from_names, in_plain_symbols, to_names};
 pub use nonmanual::{Act, Nonmanual, NonmanualPart, NonmanualTier, TierEnd, TierKind, TierStart};

@@ -179,7 +179,7 @@ impl Inventory {
     }
 
     /// Checks what [`from_json`](Self::from_json) checks beyond the form: that spellings are
-    /// unique and broader values exist.
+    /// unique, but for ids that differ in case or accents only, and broader values exist.
     ///
     /// # Errors
     /// The first [`InventoryError`] found.
@@ -194,6 +194,11 @@ impl Inventory {
             let own: BTreeSet<String> = value.spellings().map(key).collect();
             for text in own {
                 if let Some(other) = seen.get(&text) {
+                    // Ids that differ in case or accents are two values.
+                    let apart = *other != value.id && key(other) == text && key(&value.id) == text;
+                    if apart {
+                        continue;
+                    }
                     let other = (*other).to_owned();
                     return Err(InventoryError::Duplicate {
                         place: place("id"),

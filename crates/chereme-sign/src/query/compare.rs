@@ -4,7 +4,7 @@ use super::lex::{Cursor, Place};
 use super::tree::{At, Comparison, Operator, Property, Test, TextField, Value, Wanted, What};
 use super::values::{filled_word, list, value};
 use super::words::{self, Simple};
-use super::{Pattern, QueryError, times};
+use super::{Pattern, QueryError, attributes, times};
 use crate::component::{Component, Field, HandRef, Phase};
 use crate::text::nearest;
 use std::str::FromStr;
@@ -17,16 +17,31 @@ pub(super) fn test(cursor: &mut Cursor<'_>) -> Result<Test, QueryError> {
         Some(Simple::Text(field)) => text_test(cursor, field)?,
         Some(Simple::Property(property)) => property_test(cursor, property)?,
         Some(Simple::Time(field)) => What::Time(field, times::time_test(cursor, field)?),
-        None => {
-            let field = component(cursor, subject_at)?;
-            What::Component(field, comparison(cursor, Colon::Refused)?)
-        }
+        None => match attribute(cursor, &name, subject_at)? {
+            Some(what) => what,
+            None => {
+                let field = component(cursor, subject_at)?;
+                What::Component(field, comparison(cursor, Colon::Refused)?)
+            }
+        },
     };
     Ok(Test {
         at: cursor.at(subject_at.start),
         subject_at,
         what,
     })
+}
+
+/// Reads the comparison of an attribute, where the name before it is one: it says so, or no field has it and a
+/// number follows.
+fn attribute(cursor: &mut Cursor<'_>, name: &str, at: At) -> Result<Option<What>, QueryError> {
+    if let Some(name) = attributes::prefixed(name) {
+        return attributes::test(cursor, name.to_owned()).map(Some);
+    }
+    if name.contains('.') || !attributes::follows(cursor) || component(cursor, at).is_ok() {
+        return Ok(None);
+    }
+    attributes::test(cursor, name.to_owned()).map(Some)
 }
 
 /// Reads `("name")` and the comparison after the word `tier`, which stands at `at`.
@@ -268,6 +283,16 @@ fn property_test(cursor: &mut Cursor<'_>, property: Property) -> Result<What, Qu
         }
     }
     Ok(What::Property(property, comparison))
+}
+
+/// Reads the operator and the values after the name of an attribute.
+pub(super) fn comparison_of_attribute(cursor: &mut Cursor<'_>) -> Result<Comparison, QueryError> {
+    let comparison = comparison(cursor, Colon::Equals)?;
+    let mut values = comparison.values.iter();
+    match values.find(|value| matches!(value.wanted, Wanted::Features(_))) {
+        Some(value) => Err(no_features(value.at)),
+        None => Ok(comparison),
+    }
 }
 
 fn no_features(at: At) -> QueryError {

@@ -24,7 +24,8 @@
 //! | alternatives | *terms* { `or` *terms* } |
 //! | terms | *term* { \[`and`\] *term* } |
 //! | term | `not` *term*, `(` *alternatives* `)`, *comparison*, *relation comparison*, *example*, *text* |
-//! | comparison | *component* (`=` `!=` `==`) *values*; *property* (`=` `:` `!=` `==`) *values*; *textfield* (`=` `!=` `==`) *values*; *textfield* `:` *text* { `,` *text* }; *textfield* `~` *text* \[`~1` `~2`\]; *timefield* (`<` `<=` `>` `>=` `=`) *time*; *timefield* `=` \[*time*\]`..`\[*time*\]; `tier(`*text*`)` (`=` `!=` `==`) *values* |
+//! | comparison | *component* (`=` `!=` `==`) *values*; *property* (`=` `:` `!=` `==`) *values*; *textfield* (`=` `!=` `==`) *values*; *textfield* `:` *text* { `,` *text* }; *textfield* `~` *text* \[`~1` `~2`\]; *timefield* (`<` `<=` `>` `>=` `=`) *time*; *timefield* `=` \[*time*\]`..`\[*time*\]; `tier(`*text*`)` (`=` `!=` `==`) *values*; *attribute* (`=` `!=` `==`) *values*; *attribute* (`<` `<=` `>` `>=`) *number*; *attribute* `=` \[*number*\]`..`\[*number*\] |
+//! | attribute | `attribute.`*name*, `attribute(`*text*`)`; the *name* alone before a number |
 //! | component | \[*phase*`.`\] \[*hand*`.`\] (`configuration` `placement` `movement` `orientation` `nonmanual`) \[`.`*part*\] |
 //! | phase, hand | `initial` `middle` `final`; `right` `left` `dominant` `weak` |
 //! | property | `origin` `signer` `recording` `sign` `token` `tier` `inventory` `hand` |
@@ -43,6 +44,7 @@
 //! only in lower case, because glosses are written in capitals. A relation is said of the token
 //! itself: `gloss=CHAT overlaps nonmanual.brows=raised` is two terms, both of which must hold.
 
+mod attributes;
 mod compare;
 mod complete;
 mod error;
@@ -59,6 +61,7 @@ mod tree;
 mod values;
 mod words;
 
+pub use attributes::{AttributeTest, number};
 pub use complete::{Completion, Expected, complete};
 pub use error::{QueryError, unknown_value};
 pub use meant::{guessed, meant};
@@ -109,6 +112,9 @@ Texts: gloss, translation, comment, text (all three)
 
 Times: duration, start, end, in s, ms or min
   duration<0.8s   duration=0.5s..1s   start>=2min
+
+Attributes of the sign, as its table has them
+  frequency>0.4   attribute.class=Noun   attribute("Sign Frequency")=2..5
 
 The token as a whole
   origin=captured,made,lexicon,generated

@@ -3,7 +3,7 @@
 use super::lex::{Cursor, Place, Word, is_quote};
 use super::tree::{At, Example, Expr, Like, Query, Related, Test, TextField, Weighted, What};
 use super::words::{self, Joint};
-use super::{MAX_CHARS, MAX_DEPTH, QueryError, compare, times};
+use super::{MAX_CHARS, MAX_DEPTH, QueryError, attributes, compare, times};
 use crate::relation::Relation;
 use crate::text::nearest;
 
@@ -196,6 +196,9 @@ fn worded(cursor: &mut Cursor<'_>) -> Result<Expr, QueryError> {
     if name == words::TIER && opens(cursor) {
         return Ok(Expr::Test(compare::tier_test(cursor, word.at)?));
     }
+    if attributes::opens_name(&name) && opens(cursor) {
+        return Ok(Expr::Test(attributes::in_parentheses(cursor, word.at)?));
+    }
     if operator_follows(cursor) {
         *cursor = start;
         return Ok(Expr::Test(compare::test(cursor)?));
@@ -310,7 +313,10 @@ fn related(cursor: &mut Cursor<'_>, at: At, relation: Relation) -> Result<Expr, 
         cursor.pos = start;
         compare::test(cursor)?
     };
-    if matches!(other.what, What::Property(..) | What::Time(..)) {
+    if matches!(
+        other.what,
+        What::Property(..) | What::Time(..) | What::Attribute(..)
+    ) {
         return Err(QueryError::new(
             other.subject_at,
             "this is no annotation that could stand in a relation of time",

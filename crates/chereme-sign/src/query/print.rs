@@ -5,7 +5,7 @@ use super::tree::{
     Comparison, Example, Expr, Feature, Like, Operator, Query, Related, Test, TextField, TimeTest,
     Value, Wanted, What,
 };
-use super::{Pattern, words};
+use super::{Pattern, attributes, words};
 use std::fmt::{self, Display, Formatter, Write};
 
 impl Display for Query {
@@ -66,6 +66,10 @@ impl Display for Test {
                 write!(f, "){comparison}")
             }
             What::Time(field, test) => write!(f, "{}{test}", field.name()),
+            What::Attribute(name, test) => {
+                attributes::write_name(f, name)?;
+                test.fmt(f)
+            }
         }
     }
 }
@@ -187,7 +191,7 @@ fn bare(pattern: &Pattern) -> Option<String> {
     plain.then(|| pattern.segments().join("*"))
 }
 
-fn write_quoted(f: &mut impl Write, pattern: &Pattern) -> fmt::Result {
+pub(super) fn write_quoted(f: &mut impl Write, pattern: &Pattern) -> fmt::Result {
     f.write_char('"')?;
     for (count, segment) in pattern.segments().iter().enumerate() {
         if count > 0 {

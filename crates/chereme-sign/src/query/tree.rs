@@ -1,6 +1,6 @@
 //! The syntax tree of a query.
 
-use super::Pattern;
+use super::{AttributeTest, Pattern};
 use crate::component::{Field, Reading};
 use crate::relation::Relation;
 use std::ops::{Bound, Range, RangeBounds};
@@ -187,6 +187,8 @@ pub enum What {
     Tier(Pattern, Comparison),
     /// A length or a moment: `duration<0.8s`.
     Time(TimeField, TimeTest),
+    /// A number or a text that a table says of the sign: `frequency>0.4`, `attribute.class=Noun`.
+    Attribute(String, AttributeTest),
 }
 
 /// An operator with the values on its right.

@@ -1,5 +1,6 @@
 //! The words that mean something in a query, with their synonyms.
 
+use super::attributes;
 use super::tree::{Missing, Property, TextField, TimeField};
 use crate::component::{Component, HandRef};
 use crate::relation::Relation;
@@ -176,7 +177,10 @@ pub(super) fn is_reserved(word: &str) -> bool {
 
 /// Tells whether an opening parenthesis right after this word is not part of a word.
 pub(super) fn opens_group(word: &str) -> bool {
-    joint(word).is_some() || plain_relation(word).is_some() || word == TIER
+    joint(word).is_some()
+        || plain_relation(word).is_some()
+        || word == TIER
+        || attributes::opens_name(word)
 }
 
 /// Returns the relation that a lower-case word nearly is.

@@ -39,7 +39,7 @@ pub(crate) enum Work {
     /// Gives a recording the tiers of a scheme.
     AddTiers(Name, Scheme),
     /// Changes a tier.
-    ChangeTier(TierName, TierChange),
+    ChangeTier(TierName, Box<TierChange>),
     /// Copies a tier under another name.
     CopyTier(TierName, String, Copied),
     /// Puts the tiers of a recording in an order.

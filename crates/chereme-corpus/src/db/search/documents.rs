@@ -70,8 +70,10 @@ pub(crate) fn each(
 }
 
 const TOKEN: &str = "
-    SELECT t.id, t.sign_id, t.recording_id, t.start_us, t.end_us, t.origin, t.hand, a.tier_id
-    FROM token t LEFT JOIN annotation a ON a.id = t.annotation_id";
+    SELECT t.id, t.sign_id, t.recording_id, t.start_us, t.end_us, t.origin, t.hand, a.tier_id,
+        p.id, p.handedness
+    FROM token t LEFT JOIN annotation a ON a.id = t.annotation_id
+    LEFT JOIN tier i ON i.id = a.tier_id LEFT JOIN signer p ON p.name = i.participant";
 
 const VALUE: &str = "
     SELECT token_id, hand, component, feature, phase, position, state, value, inventory_id
@@ -85,6 +87,8 @@ struct TokenFields {
     origin: String,
     hand: Option<String>,
     tier: Option<i64>,
+    /// The participant of its tier, as a signer, and whether that one is left-handed.
+    participant: Option<(i64, bool)>,
 }
 
 impl TokenFields {
@@ -98,6 +102,9 @@ impl TokenFields {
             origin: row.get(5)?,
             hand: row.get(6)?,
             tier: row.get(7)?,
+            participant: row
+                .get::<_, Option<i64>>(8)?
+                .zip(Some(row.get_ref(9)?.as_str() == Ok("left"))),
         })
     }
 }
@@ -228,12 +235,17 @@ impl<'c> Reader<'c> {
     fn document(&mut self, token: &TokenFields, values: &mut Values<'_>) -> Result<TokenDocument> {
         let sign = self.sign(token.sign)?;
         let around = token.recording.map(|id| self.around(id)).transpose()?;
-        let left_handed = around.as_ref().is_some_and(|around| around.left_handed);
+        let whole = around.as_ref();
+        let left_handed = match token.participant {
+            Some((_, left_handed)) => left_handed,
+            None => whole.is_some_and(|around| around.left_handed),
+        };
+        let signer = token.participant.map(|(signer, _)| signer);
         let mut document = TokenDocument {
             id: token.id,
             sign: token.sign,
             recording: token.recording,
-            signer: around.as_ref().and_then(|around| around.signer),
+            signer: signer.or(whole.and_then(|around| around.signer)),
             gloss: sign.gloss.clone(),
             translations: sign.translations.clone(),
             comments: sign.notes.iter().cloned().collect(),

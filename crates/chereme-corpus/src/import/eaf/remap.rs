@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use chereme_formats::eaf::convert::Transcript;
 use chereme_formats::roles::TierGuess;
-use chereme_sign::TierRole;
 
 use super::vocabulary::tier_inventory;
 use super::{FileReport, Job, coded};
@@ -80,16 +79,6 @@ fn recode(job: &Job<'_>, tier: &TierRow, guess: &TierGuess) -> Result<()> {
 
 /// Writes down what a tier is taken for.
 pub(super) fn set_role(row: &mut TierRow, guess: &TierGuess) {
-    let role = guess.role.clone().unwrap_or_default();
-    (row.component, row.feature) = match &role {
-        TierRole::Component { component, feature } => {
-            (Some(component.name().to_owned()), feature.clone())
-        }
-        _ => (None, None),
-    };
-    row.role = match role {
-        TierRole::Component { .. } => "component".to_owned(),
-        other => other.name(),
-    };
+    row.set_role(&guess.role.clone().unwrap_or_default());
     row.hand = guess.hand.map(|hand| hand.name().to_owned());
 }

@@ -31,9 +31,7 @@ pub(super) fn tier_inventory(
         .collect();
     let fits = |stored: &&StoredInventory| {
         let it = &stored.inventory;
-        it.component == *component
-            && it.feature == *feature
-            && said.iter().all(|value| it.find(value).is_some())
+        it.component == *component && it.feature == *feature && it.tells_apart(said.iter().copied())
     };
     let vocabulary = tier.vocabulary.as_ref().and_then(|id| {
         transcript
@@ -44,11 +42,7 @@ pub(super) fn tier_inventory(
     let builtin =
         |stored: &&StoredInventory| inventory::builtin_by_id(&stored.inventory.id).is_some();
     let listed = |stored: &&StoredInventory| {
-        vocabulary.is_none_or(|it| {
-            entry_ids(it)
-                .iter()
-                .all(|id| stored.inventory.find(id).is_some())
-        })
+        vocabulary.is_none_or(|it| stored.inventory.tells_apart(entry_ids(it)))
     };
     let known = job
         .inventories
@@ -96,7 +90,10 @@ fn of_vocabulary(
     component: Component,
     feature: Option<String>,
 ) -> (Inventory, Vec<String>) {
-    let (mut seen, mut dropped, mut values) = (BTreeSet::new(), Vec::new(), Vec::new());
+    let (mut dropped, mut values) = (Vec::new(), Vec::new());
+    let (mut ids, mut seen) = (BTreeSet::new(), BTreeSet::new());
+    let first = |entry: &Entry| entry.values.first().map(|value| fold(value.value.trim()));
+    let folded: BTreeSet<String> = vocabulary.entries.iter().filter_map(first).collect();
     for entry in &vocabulary.entries {
         let Some(id) = entry
             .values
@@ -105,7 +102,7 @@ fn of_vocabulary(
         else {
             continue;
         };
-        if id.is_empty() || !seen.insert(fold(&id)) {
+        if id.is_empty() || seen.contains(&fold(&id)) || !ids.insert(id.clone()) {
             dropped.push(id);
             continue;
         }
@@ -113,7 +110,10 @@ fn of_vocabulary(
         for value in &entry.values {
             let text = value.value.trim();
             let own = fold(text) == fold(&id);
-            if !text.is_empty() && !value.language.is_empty() && (own || seen.insert(fold(text))) {
+            if !text.is_empty()
+                && !value.language.is_empty()
+                && (own || (!folded.contains(&fold(text)) && seen.insert(fold(text))))
+            {
                 names.insert(value.language.clone(), text.to_owned());
             }
         }

@@ -17,7 +17,7 @@ pub(super) fn show(
 ) {
     let row = &tier.row;
     let change = |out: &mut Outbox, change: TierChange| {
-        out.work(Work::ChangeTier(TierName::Number(row.id), change));
+        out.work(Work::ChangeTier(TierName::Number(row.id), Box::new(change)));
     };
     grid(ui, "tier", |ui| {
         let key = Id::unique(("tier name", row.id));

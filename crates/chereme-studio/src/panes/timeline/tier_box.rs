@@ -180,9 +180,9 @@ impl TierBox {
                     hand: (self.hand != before.hand).then_some(self.hand),
                     values: (self.role != before.role).then(Default::default),
                     parent: (self.parent != before.parent).then(|| self.parent.clone()),
-                    place: None,
+                    ..TierChange::default()
                 };
-                Work::ChangeTier(TierName::Number(*id), change)
+                Work::ChangeTier(TierName::Number(*id), Box::new(change))
             }
             What::Remove(id) | What::Copy(id) => Work::RemoveTier(TierName::Number(*id)),
         })
@@ -500,7 +500,7 @@ mod tests {
             parent: Some(None),
             ..TierChange::default()
         };
-        assert_eq!(change, want);
+        assert_eq!(*change, want);
     }
 
     #[test]

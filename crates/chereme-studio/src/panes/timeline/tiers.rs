@@ -88,7 +88,7 @@ pub(super) fn act(
                 place: Some(place),
                 ..TierChange::default()
             };
-            out.work(Work::ChangeTier(TierName::Number(id), change));
+            out.work(Work::ChangeTier(TierName::Number(id), Box::new(change)));
             return Acted::Yes;
         }
         Action::HideTier => {

@@ -1,0 +1,274 @@
+//! What rows of lexicons become: homonyms, spellings, attributes, notation in a wrong encoding; and whose tokens
+//! those of several participants are.
+
+use super::*;
+use crate::{ListFilter, ListKind, Name, SignerChange, TierChange, TierName};
+
+fn total(corpus: &mut Corpus, query: &str) -> usize {
+    let answer = corpus.search(query, &SearchOptions::default());
+    answer.expect(query).total
+}
+
+#[test]
+fn rows_of_one_gloss_are_entries_of_one_sign_also_when_the_table_comes_again() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let rows = "drag\tB\t0.5\ndrag\tS\t2.5\nsee\tU\t1\n";
+    let table = desk.file("lex.tsv", &format!("gloss\tHandshape\tFrequency\n{rows}"));
+    let report = import(&mut corpus, &table, "{}");
+    let told = report
+        .findings
+        .iter()
+        .find(|it| it.message.contains("line 2 too"));
+    assert_eq!(
+        told.map(|it| it.line),
+        Some(Some(3)),
+        "{:?}",
+        report.findings
+    );
+    assert_eq!(total(&mut corpus, ""), 3);
+    assert_eq!(total(&mut corpus, "gloss=drag"), 2);
+    assert_eq!(
+        total(&mut corpus, "gloss=drag configuration=S frequency>2"),
+        1
+    );
+    assert_eq!(
+        total(&mut corpus, "gloss=drag configuration=B frequency>2"),
+        0
+    );
+    let rows = "drag\tB\t0.5\ndrag\tC\t3\nsee\tU\t1\nsee\tU\t9\n";
+    let again = desk.file("lex.tsv", &format!("gloss\tHandshape\tFrequency\n{rows}"));
+    import(&mut corpus, &again, "{}");
+    for (query, wanted) in [
+        ("", 4),
+        ("gloss=drag", 2),
+        ("configuration=S", 0),
+        ("configuration=C frequency=3..3", 1),
+        ("gloss=see frequency>5", 1),
+    ] {
+        assert_eq!(total(&mut corpus, query), wanted, "{query}");
+    }
+    assert_whole(&mut corpus);
+    let other = desk.file("other.tsv", "gloss\tHandshape\ndrag\tV\n");
+    import(&mut corpus, &other, "{}");
+    assert_eq!(
+        total(&mut corpus, "gloss=drag"),
+        3,
+        "another file has entries of its own"
+    );
+    assert_eq!(
+        total(&mut corpus, "gloss=drag frequency>=0"),
+        3,
+        "those of its sign count"
+    );
+}
+
+#[test]
+fn spellings_that_differ_in_case_stay_as_they_are() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let table = desk.file(
+        "lex.tsv",
+        "gloss\tHandedness\tHandshape\nA\t2s\tb\nC\t2s\tB\nD\t2S\tb\n",
+    );
+    import(&mut corpus, &table, "{}");
+    for (query, wanted) in [
+        ("configuration.handedness==2s", 2),
+        ("configuration.handedness==2S", 1),
+        ("configuration.handedness=2s", 3),
+        ("dominant.configuration==b", 2),
+        ("dominant.configuration==B", 1),
+    ] {
+        assert_eq!(total(&mut corpus, query), wanted, "{query}");
+    }
+    let again = desk.file(
+        "lex.tsv",
+        "gloss\tHandedness\tHandshape\nA\t2S\tb\nC\t2s\tB\nD\t2S\tb\n",
+    );
+    import(&mut corpus, &again, "{}");
+    assert_eq!(total(&mut corpus, "configuration.handedness==2s"), 1);
+    assert_whole(&mut corpus);
+}
+
+#[test]
+fn attributes_are_kept_listed_and_found_and_can_be_undone() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let table = desk.file(
+        "lex.tsv",
+        "gloss\tMajorLocation.2.0\tMajorLocation.2.0Frequency\tSign Frequency\tClass\n\
+         A\thead\t0.457\t4.10\tNoun\nB\tneutral\t0.1\t2\tVerb\nC\thead\t0.457\t\tminor verb\n",
+    );
+    let eaf = desk.file("take.eaf", &eaf(&[("Gloss", 0, 500, "A")]));
+    import(&mut corpus, &table, "{}");
+    import(&mut corpus, &eaf, "{}");
+    for (query, wanted) in [
+        ("attribute.MajorLocation.2.0Frequency>0.4", 3),
+        ("attribute(\"sign frequency\")=4.1", 2),
+        ("attribute.sign-frequency=2..4.1", 3),
+        ("attribute.SignFrequency<4 origin=lexicon", 1),
+        ("attribute.class=*verb", 2),
+        ("class>1 or attribute.class=noun origin=captured", 1),
+        ("attribute.class!=noun", 2),
+        ("attribute.sign_frequency=unset", 1),
+        ("not attribute.class=verb", 3),
+        ("placement=0.457", 0),
+        ("placement=*", 3),
+    ] {
+        let answer = corpus.search(query, &SearchOptions::default());
+        match answer {
+            Ok(answer) => assert_eq!(answer.total, wanted, "{query}"),
+            Err(error) => assert_eq!(wanted, 0, "{query}: {error}"),
+        }
+    }
+    let error = corpus
+        .search("attribute.clas=noun", &SearchOptions::default())
+        .expect_err("no such attribute");
+    let told = format!("{error} {}", error.remedy().unwrap_or_default());
+    assert!(
+        told.contains("attribute.Class") && told.contains("Sign Frequency"),
+        "{told}"
+    );
+    let listed = corpus
+        .list(ListKind::Signs, &ListFilter::default().with("gloss", "A"))
+        .expect("listed");
+    assert_eq!(
+        listed.rows[0]["attributes"]["Sign Frequency"], "4.10",
+        "letter by letter"
+    );
+    let info = corpus.info().expect("info").attributes;
+    let told: Vec<_> = info
+        .iter()
+        .map(|it| (&*it.name, it.entries, it.greatest))
+        .collect();
+    assert_eq!(
+        told,
+        [
+            ("MajorLocation.2.0Frequency", 3, Some(0.457)),
+            ("Sign Frequency", 2, Some(4.1)),
+            ("Class", 3, None)
+        ]
+    );
+    assert_whole(&mut corpus);
+    corpus.undo().expect("undone");
+    corpus.undo().expect("undone");
+    assert_eq!(corpus.info().expect("info").attributes, []);
+}
+
+#[test]
+fn notation_in_a_wrong_encoding_is_mended_or_left_uncoded() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let symbols = "\u{e000}\u{e020}\u{e03c}\u{e049}\u{e0d1}";
+    let latin: String = symbols.bytes().map(char::from).collect();
+    let twice: String = latin.bytes().map(char::from).collect();
+    let table = desk.file(
+        "lex.tsv",
+        &format!(
+            "gloss\tHamNoSys\nA\t{symbols}\nB\t{latin}\nC\t{twice}\nD\tîîî\nE\tsee the film\nF\t\n"
+        ),
+    );
+    let report = import(&mut corpus, &table, "{}");
+    assert_eq!(total(&mut corpus, ""), 6);
+    let coded = total(&mut corpus, "configuration=*");
+    assert_eq!((coded, total(&mut corpus, "placement=*")), (3, 3));
+    let told: Vec<&str> = report.findings.iter().map(|it| &*it.message).collect();
+    for (start, wanted) in [("D: its HamNoSys was saved", 1), ("E: \"see the film\"", 1)] {
+        let count = told.iter().filter(|it| it.starts_with(start)).count();
+        assert_eq!(count, wanted, "{start}: {told:?}");
+    }
+    let mended = told.iter().filter(|it| it.contains("were mended")).count();
+    assert_eq!(mended, 2, "{told:?}");
+    assert_whole(&mut corpus);
+}
+
+fn of_two_people() -> String {
+    let tiers = [
+        ("Gloss A", 0, 500, "BOL"),
+        ("Gloss B", 0, 500, "CHAT"),
+        ("Handshape A", 0, 500, "S"),
+        ("Handshape B", 0, 500, "U"),
+    ];
+    let mut text = eaf(&tiers);
+    for (name, _, _, _) in tiers {
+        let who = if name.ends_with('A') {
+            "ber-12"
+        } else {
+            "ber-13"
+        };
+        let tier = format!("TIER_ID=\"{name}\"");
+        assert!(text.contains(&tier), "{text}");
+        text = text.replace(&tier, &format!("{tier} PARTICIPANT=\"{who}\""));
+    }
+    text
+}
+
+#[test]
+fn participants_of_a_file_are_signers_of_their_own_tokens() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    import(&mut corpus, &desk.file("talk.eaf", &of_two_people()), "{}");
+    for (query, wanted) in [
+        ("", 2),
+        ("signer=ber-12", 1),
+        ("participant=ber-13 gloss=CHAT", 1),
+        ("signer=ber-13 gloss=BOL", 0),
+        ("gloss=BOL configuration=S", 1),
+        ("gloss=BOL configuration=U", 0),
+        ("gloss=CHAT configuration=U", 1),
+    ] {
+        assert_eq!(total(&mut corpus, query), wanted, "{query}");
+    }
+    let signers = corpus
+        .list(ListKind::Signers, &ListFilter::default())
+        .expect("listed");
+    let told: Vec<_> = (signers.rows.iter())
+        .map(|row| {
+            (
+                row["name"].as_str(),
+                row["recordings"].as_i64(),
+                row["tokens"].as_i64(),
+            )
+        })
+        .collect();
+    assert_eq!(
+        told,
+        [
+            (Some("ber-12"), Some(1), Some(1)),
+            (Some("ber-13"), Some(1), Some(1))
+        ]
+    );
+    let change = SignerChange {
+        name: Some("Anna".into()),
+        ..SignerChange::default()
+    };
+    corpus
+        .change_signer(&Name::Text("ber-12".into()), &change)
+        .expect("renamed");
+    assert_eq!(total(&mut corpus, "signer=Anna gloss=BOL"), 1);
+    let change = TierChange {
+        participant: Some(Some(" Zoë ".into())),
+        annotator: Some(Some("me".into())),
+        language: Some(Some("fr".into())),
+        ..TierChange::default()
+    };
+    let recording = Name::Number(1);
+    let tier = TierName::read("Gloss B", Some(&recording)).expect("a name");
+    let row = corpus.change_tier(&tier, &change).expect("changed");
+    assert_eq!(
+        [row.participant, row.annotator, row.language].map(Option::unwrap_or_default),
+        ["Zoë", "me", "fr"]
+    );
+    assert_eq!(total(&mut corpus, "signer=zoe gloss=CHAT"), 1);
+    let row = corpus
+        .change_tier(
+            &tier,
+            &TierChange {
+                participant: Some(None),
+                ..TierChange::default()
+            },
+        )
+        .expect("changed");
+    assert_eq!(row.participant, None);
+    assert_whole(&mut corpus);
+}

@@ -1,0 +1,290 @@
+//! Which column of a table of annotations is what: by the titles, or as ELAN writes a table without any.
+
+use super::super::cells::{Cells, Row, TableError};
+use super::NAMES;
+use super::moment::{Moment, TimeUnit, is_bare};
+use crate::finding::Finding;
+use crate::roles::normal;
+use crate::tally::Findings;
+use chereme_sign::text::{did_you_mean, nearest};
+
+/// An annotation that lasts longer, in microseconds, was meant in another unit than seconds.
+const LONG: i64 = 60_000_000;
+/// One that ends later than this, in microseconds, too.
+const LATE: i64 = 3 * 3_600_000_000;
+/// How many rows at most are looked at to see what columns hold.
+const LOOKED_AT: usize = 200;
+
+/// A column of times.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Time {
+    pub(super) column: usize,
+    /// The unit of its bare numbers, where its title or its form says it.
+    pub(super) unit: Option<TimeUnit>,
+}
+
+/// What the columns of a table are.
+#[derive(Debug, Default)]
+pub(super) struct Columns {
+    /// Those of [`NAMES`], but for the times.
+    pub(super) at: [Option<usize>; 8],
+    pub(super) start: Option<Time>,
+    pub(super) end: Option<Time>,
+    pub(super) duration: Option<Time>,
+    /// Columns that are tiers, each cell an annotation.
+    pub(super) tiers: Vec<(usize, String)>,
+}
+
+/// What a title means.
+enum Title {
+    Named(usize),
+    Start(Option<TimeUnit>),
+    End(Option<TimeUnit>),
+    Duration(Option<TimeUnit>),
+    /// The value in ELAN's exports, else the id.
+    Annotation,
+    /// Known, and not used.
+    Idle,
+}
+
+impl Columns {
+    /// Returns what the titles say, and names in findings those that are not used.
+    pub(super) fn of_titles(header: &[String], findings: &mut Findings) -> Self {
+        let mut found = Self::default();
+        let (mut unknown, mut annotation) = (Vec::new(), None);
+        for (column, title) in header.iter().enumerate() {
+            let time = |unit| Time { column, unit };
+            let twice = match meaning(title) {
+                Some(Title::Named(at)) => put(&mut found.at[at], column),
+                Some(Title::Start(unit)) => put(&mut found.start, time(unit)) && unit.is_none(),
+                Some(Title::End(unit)) => put(&mut found.end, time(unit)) && unit.is_none(),
+                Some(Title::Duration(unit)) => {
+                    put(&mut found.duration, time(unit)) && unit.is_none()
+                }
+                Some(Title::Annotation) => put(&mut annotation, column),
+                Some(Title::Idle) => false,
+                None => {
+                    unknown.push((column, title.clone()));
+                    false
+                }
+            };
+            if twice {
+                findings.add("columns given twice", || {
+                    Finding::warning(
+                        1,
+                        format!("the column {title:?} is there twice; the first counts"),
+                    )
+                });
+            }
+        }
+        if let Some(column) = annotation {
+            // Where rows name an action, they name the annotation that it is about.
+            let value = found.at[4].is_none() && found.at[5].is_none();
+            put(&mut found.at[if value { 4 } else { 6 }], column);
+        }
+        let timed = found.start.is_some() && (found.end.is_some() || found.duration.is_some());
+        let named = [1, 4, 6].into_iter().any(|at| found.at[at].is_some());
+        if timed && !named {
+            found.tiers = unknown;
+            return found;
+        }
+        for (_, title) in unknown {
+            findings.add("unknown columns", || {
+                let names = NAMES.into_iter().chain(["duration"]);
+                let meant = did_you_mean(nearest(&normal(&title), names));
+                Finding::warning(1, format!("the column {title:?} is not used{meant}"))
+            });
+        }
+        found
+    }
+
+    /// Returns what the columns are of a table without titles, as ELAN exports it: the tier, perhaps the
+    /// participant, begin, end and duration in one or several forms, the annotation; nothing for other tables.
+    pub(super) fn of_export(table: &Cells) -> Option<Self> {
+        let times = table
+            .header
+            .iter()
+            .skip(1)
+            .filter(|cell| form(cell).is_some());
+        if times.count() < 2 {
+            return None;
+        }
+        let rows: Vec<&[String]> = std::iter::once(table.header.as_slice())
+            .chain(table.rows.iter().map(|row| row.cells.as_slice()))
+            .take(LOOKED_AT)
+            .collect();
+        let form = |column: usize| {
+            let mut cells = rows.iter().filter_map(|row| row.get(column));
+            let first = form(cells.next()?)?;
+            cells.all(|cell| form(cell) == Some(first)).then_some(first)
+        };
+        let width = table.header.len();
+        let begin = (1..width).find(|&column| form(column).is_some())?;
+        let run = (begin..width).take_while(|&column| form(column).is_some());
+        let mut times: Vec<(usize, Form)> = run
+            .filter_map(|column| Some((column, form(column)?)))
+            .collect();
+        // The annotations may all be numbers.
+        if begin + times.len() == width {
+            times.pop();
+        }
+        let value = begin + times.len();
+        let alike = |wanted: Form| -> Vec<usize> {
+            let own = times.iter().filter(|(_, form)| *form == wanted);
+            own.map(|(column, _)| *column).collect()
+        };
+        let (form, columns) = [Form::Millis, Form::Seconds, Form::Clock]
+            .map(|form| (form, alike(form)))
+            .into_iter()
+            .find(|(_, columns)| columns.len() >= 2)?;
+        let time = |column: usize| Time {
+            column,
+            unit: form.unit(),
+        };
+        let ends = columns.len() > 2
+            || rows.iter().all(|row| {
+                let at = |column: usize| micros(row.get(column)?, form);
+                at(columns[0]) <= at(columns[1])
+            });
+        let second = Some(time(columns[1]));
+        let mut found = Self {
+            start: Some(time(columns[0])),
+            end: second.filter(|_| ends),
+            duration: second.filter(|_| !ends),
+            ..Self::default()
+        };
+        found.at[1] = Some(0);
+        found.at[4] = (value < width).then_some(value);
+        Some(found)
+    }
+
+    /// Refuses bare whole numbers that would be annotations longer or later than any, as milliseconds that are
+    /// taken for seconds.
+    pub(super) fn check_plausible(&self, rows: &[Row]) -> Result<(), TableError> {
+        let (Some(start), Some(end)) = (self.start, self.end) else {
+            return Ok(());
+        };
+        if start.unit.is_some() || end.unit.is_some() {
+            return Ok(());
+        }
+        let mut odd = None;
+        for row in rows {
+            let cells = row.cells.get(start.column).zip(row.cells.get(end.column));
+            let Some((from, to)) = cells.map(|(from, to)| (from.trim(), to.trim())) else {
+                continue;
+            };
+            if from.is_empty() || to.is_empty() {
+                continue;
+            }
+            if !is_bare(from) || !is_bare(to) || from.contains('.') || to.contains('.') {
+                return Ok(());
+            }
+            let at = |text: &str| micros(text, Form::Seconds).unwrap_or_default();
+            if odd.is_none() && (at(to) - at(from) > LONG || at(to) > LATE) {
+                odd = Some(TableError::Implausible {
+                    line: row.line,
+                    start: from.to_owned(),
+                    end: to.to_owned(),
+                });
+            }
+        }
+        odd.map_or(Ok(()), Err)
+    }
+}
+
+/// Puts a column where there is none yet, and tells whether there was one.
+fn put<T>(place: &mut Option<T>, column: T) -> bool {
+    if place.is_some() {
+        return true;
+    }
+    *place = Some(column);
+    false
+}
+
+fn meaning(title: &str) -> Option<Title> {
+    let whole = normal(title);
+    let known = |name: &str| NAMES.iter().position(|known| *known == name);
+    match &*whole {
+        "annotation" => return Some(Title::Annotation),
+        "annotation id" => return Some(Title::Named(6)),
+        "gloss" | "text" | "annotation value" => return Some(Title::Named(4)),
+        "tier name" => return Some(Title::Named(1)),
+        "participant" | "annotator" => return Some(Title::Idle),
+        _ => {}
+    }
+    let (name, unit) = unit(&whole);
+    match name {
+        "start" | "begin" | "start time" | "begin time" | "onset" | "debut" | "anfang" => {
+            Some(Title::Start(unit))
+        }
+        "end" | "stop" | "end time" | "stop time" | "fin" | "ende" => Some(Title::End(unit)),
+        "duration" | "length" | "duree" | "dauer" => Some(Title::Duration(unit)),
+        _ => known(&whole).map(Title::Named),
+    }
+}
+
+/// Returns what stands before the unit of a title, and the unit.
+fn unit(title: &str) -> (&str, Option<TimeUnit>) {
+    for (end, unit) in [
+        (" hh mm ss ms", None),
+        (" hh mm ss msec", None),
+        (" ss msec", Some(TimeUnit::Seconds)),
+        (" ss ms", Some(TimeUnit::Seconds)),
+    ] {
+        if let Some(name) = title.strip_suffix(end) {
+            // Clock times have no bare numbers; the unit tells that the form is known.
+            return (name, unit.or(Some(TimeUnit::Seconds)));
+        }
+    }
+    let (name, last) = title.rsplit_once(' ').unwrap_or((title, ""));
+    let last = last.strip_prefix("in ").unwrap_or(last);
+    match TimeUnit::of_word(last) {
+        Some(unit) => (name.strip_suffix(" in").unwrap_or(name), Some(unit)),
+        None => (title, None),
+    }
+}
+
+/// The forms in which ELAN writes times.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Clock,
+    Seconds,
+    Millis,
+}
+
+impl Form {
+    fn unit(self) -> Option<TimeUnit> {
+        match self {
+            Self::Clock => None,
+            Self::Seconds => Some(TimeUnit::Seconds),
+            Self::Millis => Some(TimeUnit::Milliseconds),
+        }
+    }
+}
+
+fn form(cell: &str) -> Option<Form> {
+    let cell = cell.trim();
+    let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    if digits(cell) {
+        return Some(Form::Millis);
+    }
+    if let Some((whole, part)) = cell.split_once('.')
+        && digits(whole)
+        && digits(part)
+    {
+        return Some(Form::Seconds);
+    }
+    let clock = cell.split(':').count() == 3;
+    let plain = cell
+        .bytes()
+        .all(|b| b.is_ascii_digit() || matches!(b, b':' | b'.'));
+    (clock && plain && cell.parse::<Moment>().is_ok()).then_some(Form::Clock)
+}
+
+fn micros(cell: &str, form: Form) -> Option<i64> {
+    let unit = form.unit().unwrap_or(TimeUnit::Seconds);
+    match Moment::read(cell, unit).ok()? {
+        Moment::Time(time) => Some(time.micros()),
+        Moment::Frame(_) => None,
+    }
+}

@@ -1,0 +1,258 @@
+//! Changes to annotations in bulk, a row each.
+//!
+//! ```csv
+//! recording,tier,start,end,value,action,id
+//! NGT Thanks,Gloss RH,0.5,1.2s,THANKS,,
+//! NGT Thanks,RH_config,f60,f144,B,add,
+//! NGT Thanks,Gloss RH,,,DANK,set,a12
+//! NGT Thanks,Gloss RH,0:01.500,,,remove,
+//! ```
+
+mod columns;
+mod moment;
+
+pub use moment::{Moment, MomentError, TimeUnit};
+
+use super::cells::{Cells, Row as RawRow, TableError};
+use crate::finding::Finding;
+use crate::tally::Findings;
+use chereme_motion::Instant;
+use chereme_sign::text::{did_you_mean, nearest};
+use columns::{Columns, Time};
+use serde::Serialize;
+
+/// What a row asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Action {
+    /// A new annotation.
+    #[default]
+    Add,
+    /// An annotation less.
+    Remove,
+    /// Another value, or another time, for an annotation.
+    Set,
+}
+
+/// One change.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Row {
+    /// The line of the table, counted from 1.
+    pub line: u64,
+    /// The recording's name or address; nothing where the table has no such column or cell.
+    pub recording: Option<String>,
+    /// The tier's name.
+    pub tier: Option<String>,
+    /// The start.
+    pub start: Option<Moment>,
+    /// The end.
+    pub end: Option<Moment>,
+    /// The value; nothing for an empty cell.
+    pub value: Option<String>,
+    /// What to do.
+    pub action: Action,
+    /// The id of the annotation to change or remove, or of the new one.
+    pub id: Option<String>,
+    /// The id of the annotation above, on a symbolic tier.
+    pub parent: Option<String>,
+}
+
+/// A row that cannot be carried out.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, thiserror::Error)]
+#[error("line {line}, {column}: {message}")]
+pub struct Fault {
+    /// The line of the table, counted from 1.
+    pub line: u64,
+    /// The column.
+    pub column: &'static str,
+    /// What is wrong and what would be right.
+    pub message: String,
+}
+
+/// The rows of a table, those that cannot be carried out apart.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+pub struct Annotations {
+    /// The changes in the order of the table.
+    pub rows: Vec<Row>,
+    /// What is wrong with the others.
+    pub faults: Vec<Fault>,
+}
+
+/// The columns by name; times are told apart by their titles.
+const NAMES: [&str; 8] = [
+    "recording",
+    "tier",
+    "start",
+    "end",
+    "value",
+    "action",
+    "id",
+    "parent",
+];
+
+/// Reads a table of changes; columns may stand in any order.
+///
+/// A time is in seconds (`1.5`, `1.5s`), milliseconds (`1500ms`), minutes (`0:01.500`, `1:02:03.5`)
+/// or frames (`f12`). Bare numbers count in `unit`, or in the unit that stands in the title of their column
+/// (`start_ms`, `start [s]`, ELAN's `Begin Time - msec`), else in seconds. `action` is `add` (where nothing is
+/// said), `remove` or `set`. An added annotation needs a tier and either both times, a start and a `duration`,
+/// or a parent; a changed or removed one its id, or its tier and start.
+///
+/// What ELAN exports as tab-delimited text is such a table, with titles and without, with a row for each
+/// annotation or a column for each tier.
+///
+/// # Errors
+/// [`TableError`] where the bytes are no table, no column names a tier or an id, or bare whole numbers would be
+/// annotations longer than any. Faults of single rows are in the result.
+pub fn read(
+    bytes: &[u8],
+    unit: Option<TimeUnit>,
+) -> Result<(Annotations, Vec<Finding>), TableError> {
+    let mut findings = Findings::default();
+    let mut table = Cells::read(bytes, &mut findings)?;
+    let columns = match Columns::of_export(&table) {
+        Some(columns) => {
+            let cells = std::mem::take(&mut table.header);
+            table.rows.insert(0, RawRow { line: 1, cells });
+            findings.add("no titles", || {
+                Finding::note(
+                    1,
+                    "the table has no titles; it was read as ELAN exports it: tier, begin, end, annotation",
+                )
+            });
+            columns
+        }
+        None => Columns::of_titles(&table.header, &mut findings),
+    };
+    if columns.at[1].is_none() && columns.at[6].is_none() && columns.tiers.is_empty() {
+        return Err(TableError::Missing {
+            found: table.header.join(", "),
+            needed: "tier or id",
+            remedy: "name the columns recording, tier, start, end, value, action, id",
+        });
+    }
+    let mut annotations = Annotations::default();
+    let mut take = |read: Result<Row, Fault>| match read {
+        Ok(row) => annotations.rows.push(row),
+        Err(fault) => annotations.faults.push(fault),
+    };
+    for raw in &table.rows {
+        if columns.tiers.is_empty() {
+            take(row(raw, &columns, unit, None));
+        }
+        for (at, tier) in &columns.tiers {
+            if raw.cells.get(*at).is_some_and(|cell| !cell.is_empty()) {
+                take(row(raw, &columns, unit, Some((*at, tier))));
+            }
+        }
+    }
+    if unit.is_none() {
+        columns.check_plausible(&table.rows)?;
+    }
+    Ok((annotations, findings.finish()))
+}
+
+fn row(
+    raw: &RawRow,
+    columns: &Columns,
+    unit: Option<TimeUnit>,
+    tier: Option<(usize, &str)>,
+) -> Result<Row, Fault> {
+    let cell_at = |column: Option<usize>| {
+        let text = column.and_then(|column| raw.cells.get(column));
+        text.map(|cell| cell.trim()).filter(|text| !text.is_empty())
+    };
+    let cell = |at: usize| cell_at(columns.at[at]);
+    let fault = |at: usize, message: String| Fault {
+        line: raw.line,
+        column: NAMES[at],
+        message,
+    };
+    let moment = |at: usize, time: Option<Time>| {
+        let Some(time) = time else { return Ok(None) };
+        let unit = time.unit.or(unit).unwrap_or(TimeUnit::Seconds);
+        let read = |text| Moment::read(text, unit).map_err(|error| fault(at, error.to_string()));
+        cell_at(Some(time.column)).map(read).transpose()
+    };
+    let owned = |at: usize| cell(at).map(str::to_owned);
+    let value = tier.map(|(at, _)| at).or(columns.at[4]);
+    let value = value
+        .and_then(|column| raw.cells.get(column))
+        .filter(|text| !text.is_empty());
+    let start = moment(2, columns.start)?;
+    let mut end = moment(3, columns.end)?;
+    if end.is_none() {
+        end = match (start, moment(3, columns.duration)?) {
+            (Some(Moment::Time(start)), Some(Moment::Time(length))) => {
+                Some(Moment::Time(start.shifted(length.micros())))
+            }
+            (Some(Moment::Frame(start)), Some(Moment::Frame(length))) => {
+                Some(Moment::Frame(start.saturating_add(length)))
+            }
+            _ => None,
+        };
+    }
+    let row = Row {
+        line: raw.line,
+        recording: owned(0),
+        tier: tier.map(|(_, name)| name.to_owned()).or_else(|| owned(1)),
+        start,
+        end,
+        value: value.cloned(),
+        action: cell(5).map_or(Ok(Action::Add), |text| {
+            action(text).map_err(|message| fault(5, message))
+        })?,
+        id: owned(6),
+        parent: owned(7),
+    };
+    if let (Some(Moment::Time(start)), Some(Moment::Time(end))) = (row.start, row.end)
+        && end <= start
+    {
+        return Err(fault(
+            3,
+            format!("the end {end} is not after the start {start}"),
+        ));
+    }
+    if let (Some(Moment::Frame(start)), Some(Moment::Frame(end))) = (row.start, row.end)
+        && end <= start
+    {
+        return Err(fault(
+            3,
+            format!("the end f{end} is not after the start f{start}"),
+        ));
+    }
+    match row.action {
+        Action::Add if row.tier.is_none() => {
+            Err(fault(1, "an added annotation needs a tier".into()))
+        }
+        Action::Add if row.parent.is_none() && row.start.is_none() => Err(fault(
+            2,
+            "an added annotation needs a start, or a parent on a symbolic tier".into(),
+        )),
+        Action::Add if row.parent.is_none() && row.end.is_none() => {
+            Err(fault(3, "an added annotation needs an end".into()))
+        }
+        Action::Remove | Action::Set
+            if row.id.is_none() && (row.tier.is_none() || row.start.is_none()) =>
+        {
+            Err(fault(
+                6,
+                "name the annotation by its id, or by its tier and start".into(),
+            ))
+        }
+        _ => Ok(row),
+    }
+}
+
+fn action(text: &str) -> Result<Action, String> {
+    let names = ["add", "remove", "set"];
+    match &*text.to_lowercase() {
+        "add" => Ok(Action::Add),
+        "remove" | "delete" => Ok(Action::Remove),
+        "set" | "change" => Ok(Action::Set),
+        _ => Err(format!(
+            "{text:?} is no action: add, remove or set{}",
+            did_you_mean(nearest(text, names))
+        )),
+    }
+}

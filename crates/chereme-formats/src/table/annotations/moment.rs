@@ -1,0 +1,189 @@
+//! Points in time as people and programs write them.
+
+use chereme_motion::Instant;
+use serde::Serialize;
+use std::fmt;
+use std::str::FromStr;
+
+/// A point in time as a table gives it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Moment {
+    /// A time from the start of the recording.
+    Time(Instant),
+    /// A frame of the recording, counted from 0.
+    Frame(u64),
+}
+
+/// A text that is no [`Moment`].
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{text:?} is no time: write 1.5, 1.5s, 1500ms, 0:01.500 or f12{}",
+    comma(text)
+)]
+pub struct MomentError {
+    /// The text.
+    pub text: String,
+}
+
+fn comma(text: &str) -> &'static str {
+    if text.contains(',') {
+        "; write a point before the decimals"
+    } else {
+        ""
+    }
+}
+
+impl FromStr for Moment {
+    type Err = MomentError;
+
+    /// Reads seconds (`1.5`, `1.5s`), milliseconds (`1500ms`), minutes (`0:01.500`, `1:02:03.5`) or
+    /// a frame (`f12`).
+    fn from_str(text: &str) -> Result<Self, MomentError> {
+        moment(text).ok_or_else(|| MomentError {
+            text: text.to_owned(),
+        })
+    }
+}
+
+/// The unit of times that are bare numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub enum TimeUnit {
+    /// Seconds.
+    #[serde(rename = "s")]
+    Seconds,
+    /// Milliseconds.
+    #[serde(rename = "ms")]
+    Milliseconds,
+    /// Frames of the recording, counted from 0.
+    #[serde(rename = "frames")]
+    Frames,
+}
+
+impl TimeUnit {
+    /// The units.
+    pub const ALL: [Self; 3] = [Self::Seconds, Self::Milliseconds, Self::Frames];
+
+    /// Returns `s`, `ms` or `frames`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Seconds => "s",
+            Self::Milliseconds => "ms",
+            Self::Frames => "frames",
+        }
+    }
+
+    /// Returns the unit that a word means.
+    pub(super) fn of_word(word: &str) -> Option<Self> {
+        match word {
+            "s" | "sec" | "secs" | "second" | "seconds" | "seconde" | "secondes" | "sekunden" => {
+                Some(Self::Seconds)
+            }
+            "ms" | "msec" | "msecs" | "millis" | "millisecond" | "milliseconds"
+            | "millisecondes" | "millisekunden" => Some(Self::Milliseconds),
+            "f" | "frame" | "frames" => Some(Self::Frames),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for TimeUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+impl FromStr for TimeUnit {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        Self::of_word(&text.trim().to_lowercase())
+            .ok_or_else(|| format!("{text:?} is no unit of time: write s, ms or frames"))
+    }
+}
+
+impl Moment {
+    /// Reads a moment whose bare number counts in `unit`; a text with a unit of its own, or with colons, says
+    /// itself what it is.
+    ///
+    /// # Errors
+    /// [`MomentError`] where the text is no moment.
+    pub fn read(text: &str, unit: TimeUnit) -> Result<Self, MomentError> {
+        let bare = text.trim();
+        if !is_bare(bare) {
+            return text.parse();
+        }
+        let read = match unit {
+            TimeUnit::Frames => bare.parse().ok().map(Self::Frame),
+            TimeUnit::Milliseconds => decimal(bare, 3).map(time),
+            TimeUnit::Seconds => decimal(bare, 6).map(time),
+        };
+        read.ok_or_else(|| MomentError {
+            text: text.to_owned(),
+        })
+    }
+}
+
+fn time(micros: i64) -> Moment {
+    Moment::Time(Instant::from_micros(micros))
+}
+
+/// Tells whether a time is a number without a unit.
+pub(super) fn is_bare(text: &str) -> bool {
+    let digits = text.strip_prefix('-').unwrap_or(text);
+    !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit() || b == b'.')
+}
+
+fn moment(text: &str) -> Option<Moment> {
+    let lower = text.trim().to_lowercase();
+    if let Some(frame) = lower.strip_prefix('f') {
+        return frame.trim().parse().map(Moment::Frame).ok();
+    }
+    let micros = if let Some(millis) = lower.strip_suffix("ms") {
+        decimal(millis.trim(), 3)
+    } else if let Some(seconds) = lower.strip_suffix('s') {
+        decimal(seconds.trim(), 6)
+    } else {
+        clock(&lower)
+    };
+    Some(Moment::Time(Instant::from_micros(micros?)))
+}
+
+/// Reads `S.S`, `M:SS.S` or `H:MM:SS.S` as microseconds.
+fn clock(text: &str) -> Option<i64> {
+    let (rest, seconds) = text
+        .rsplit_once(':')
+        .map_or((None, text), |(rest, seconds)| (Some(rest), seconds));
+    let micros = decimal(seconds, 6)?;
+    let Some(rest) = rest else {
+        return Some(micros);
+    };
+    let (hours, minutes) = rest.split_once(':').unwrap_or(("0", rest));
+    let whole = |text: &str| text.parse::<u32>().ok().map(i64::from);
+    let minutes = whole(hours)?
+        .checked_mul(60)?
+        .checked_add(whole(minutes)?)?;
+    (0..60_000_000).contains(&micros).then_some(())?;
+    minutes.checked_mul(60_000_000)?.checked_add(micros)
+}
+
+/// Reads a decimal number times ten to the `shift`, further decimals rounded.
+fn decimal(text: &str, shift: usize) -> Option<i64> {
+    let (sign, digits) = text
+        .strip_prefix('-')
+        .map_or((1, text), |digits| (-1, digits));
+    let (whole, part) = digits.split_once('.').unwrap_or((digits, ""));
+    let plain = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
+    if (whole.is_empty() && part.is_empty()) || !plain(whole) || !plain(part) || whole.len() > 12 {
+        return None;
+    }
+    let kept: String = part
+        .chars()
+        .chain(std::iter::repeat('0'))
+        .take(shift)
+        .collect();
+    let up = part.as_bytes().get(shift).is_some_and(|b| *b >= b'5');
+    let value: i64 = format!("{whole}{kept}").parse().ok()?;
+    Some(sign * (value + i64::from(up)))
+}

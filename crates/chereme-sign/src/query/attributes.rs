@@ -1,0 +1,241 @@
+//! Comparisons of attributes, the numbers and texts that tables say of a sign: `frequency>0.4`,
+//! `attribute.class=Noun`, `attribute("Sign Frequency")=2..5`.
+
+use super::QueryError;
+use super::compare::{comparison_of_attribute, operator_place};
+use super::lex::{Cursor, Place};
+use super::tree::{At, Comparison, Test, What};
+use std::fmt::{self, Display, Formatter};
+use std::ops::{Bound, RangeBounds};
+
+/// What an attribute is to be.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AttributeTest {
+    /// A number within bounds.
+    Number(Bound<f64>, Bound<f64>),
+    /// One of the values, or none of them; a value that is a number equals the same number written otherwise.
+    Value(Comparison),
+}
+
+impl AttributeTest {
+    /// Tells whether a number lies within the bounds; nothing else does.
+    #[must_use]
+    pub fn accepts(&self, number: f64) -> bool {
+        match self {
+            Self::Number(least, most) => (*least, *most).contains(&number),
+            Self::Value(_) => false,
+        }
+    }
+}
+
+impl Display for AttributeTest {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Value(comparison) => comparison.fmt(f),
+            Self::Number(Bound::Excluded(least), _) => write!(f, ">{least}"),
+            Self::Number(_, Bound::Excluded(most)) => write!(f, "<{most}"),
+            Self::Number(Bound::Included(least), Bound::Included(most)) => {
+                write!(f, "={least}..{most}")
+            }
+            Self::Number(Bound::Included(least), _) => write!(f, ">={least}"),
+            Self::Number(_, Bound::Included(most)) => write!(f, "<={most}"),
+            Self::Number(Bound::Unbounded, Bound::Unbounded) => f.write_str("=*"),
+        }
+    }
+}
+
+/// The word that opens the name of an attribute.
+pub(super) const ATTRIBUTE: &str = "attribute";
+/// The same in French.
+const ATTRIBUT: &str = "attribut";
+
+/// Tells whether a word opens the name of an attribute in parentheses.
+pub(super) fn opens_name(word: &str) -> bool {
+    word == ATTRIBUTE || word == ATTRIBUT
+}
+
+/// Returns the name after `attribute.`, where a word is one.
+pub(super) fn prefixed(word: &str) -> Option<&str> {
+    let (first, name) = word.split_once('.')?;
+    Some(name).filter(|name| opens_name(&first.to_lowercase()) && !name.is_empty())
+}
+
+/// Tells whether a number of the name's own follows, as in `frequency>0.4` or `frequency=0.2..0.5`; the cursor
+/// stands before the operator.
+pub(super) fn follows(cursor: &Cursor<'_>) -> bool {
+    let mut ahead = cursor.clone();
+    let at = operator_place(&mut ahead);
+    let operator = ahead.text(at);
+    ahead.skip_blanks();
+    let chunk = ahead.chunk();
+    let text = ahead.text(chunk);
+    match &*operator {
+        "<" | "<=" | "=<" | "≤" | ">" | ">=" | "=>" | "≥" => number(&text).is_some(),
+        "=" => text.split_once("..").is_some_and(|(from, to)| {
+            let bound = |text: &str| text.is_empty() || number(text).is_some();
+            bound(from) && bound(to) && text.len() > 2
+        }),
+        _ => false,
+    }
+}
+
+/// Reads `("name")` and the comparison after the word `attribute`, which stands at `at`.
+pub(super) fn in_parentheses(cursor: &mut Cursor<'_>, at: At) -> Result<Test, QueryError> {
+    const REMEDY: &str = r#"write for example attribute("Sign Frequency")>2"#;
+    cursor.skip_blanks();
+    let open = cursor.next(1);
+    cursor.pos = open.end;
+    cursor.skip_blanks();
+    let word = cursor.word(Place::Value)?;
+    let name = word.pattern.as_literal().unwrap_or_default().trim();
+    if name.is_empty() {
+        return Err(QueryError::new(
+            word.at,
+            "the name of an attribute should stand here",
+            REMEDY,
+        ));
+    }
+    cursor.skip_blanks();
+    if !cursor.eat(')') {
+        let remedy = "write ) after the name; a name with blanks needs quotes";
+        return Err(QueryError::new(
+            open,
+            "this parenthesis is not closed",
+            remedy,
+        ));
+    }
+    let subject_at = cursor.at(at.start);
+    cursor.skip_blanks();
+    if cursor.operator().is_none() {
+        let message = "a comparison should follow the attribute";
+        return Err(QueryError::new(cursor.next(0), message, REMEDY));
+    }
+    let what = test(cursor, name.to_owned())?;
+    Ok(Test {
+        at: cursor.at(at.start),
+        subject_at,
+        what,
+    })
+}
+
+/// Reads the operator and what stands on its right.
+pub(super) fn test(cursor: &mut Cursor<'_>, name: String) -> Result<What, QueryError> {
+    let start = cursor.clone();
+    let at = operator_place(cursor);
+    let operator = cursor.text(at);
+    cursor.skip_blanks();
+    let chunk = cursor.chunk();
+    let text = cursor.text(chunk);
+    let needed = |text: &str| {
+        number(text).ok_or_else(|| {
+            let message = format!("{text:?} is no number");
+            QueryError::new(chunk, message, "write a number such as 0.4")
+        })
+    };
+    let (least, most) = match &*operator {
+        "<" => (Bound::Unbounded, Bound::Excluded(needed(&text)?)),
+        "<=" | "=<" | "≤" => (Bound::Unbounded, Bound::Included(needed(&text)?)),
+        ">" => (Bound::Excluded(needed(&text)?), Bound::Unbounded),
+        ">=" | "=>" | "≥" => (Bound::Included(needed(&text)?), Bound::Unbounded),
+        _ => match text.split_once("..") {
+            Some((from, to)) if operator == "=" && follows(&start) => {
+                let bound = |text: &str| number(text).map_or(Bound::Unbounded, Bound::Included);
+                (bound(from), bound(to))
+            }
+            _ => {
+                *cursor = start;
+                let comparison = comparison_of_attribute(cursor)?;
+                return Ok(What::Attribute(name, AttributeTest::Value(comparison)));
+            }
+        },
+    };
+    if let (Bound::Included(from), Bound::Included(to)) = (least, most)
+        && from > to
+    {
+        return Err(QueryError::new(
+            chunk,
+            "this range ends before it starts",
+            "the lesser number stands first",
+        )
+        .suggest(Some(format!("{to}..{from}"))));
+    }
+    Ok(What::Attribute(name, AttributeTest::Number(least, most)))
+}
+
+/// Reads a number as people and tables write it: `0.4`, `-1`, `1e3`, `0,4`.
+#[must_use]
+pub fn number(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let numeral = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | 'e' | 'E');
+    let point = match text.split_once(',') {
+        Some((whole, part)) if !part.is_empty() && part.bytes().all(|b| b.is_ascii_digit()) => {
+            format!("{whole}.{part}")
+        }
+        _ => text.to_owned(),
+    };
+    let parsed = point.parse::<f64>().ok();
+    parsed.filter(|number| number.is_finite() && point.chars().all(numeral))
+}
+
+/// Writes the name of an attribute as a query spells it.
+pub(super) fn write_name(f: &mut Formatter<'_>, name: &str) -> fmt::Result {
+    let plain = |c: char| c.is_alphanumeric() || "-_.".contains(c);
+    if name.chars().all(plain) && !name.starts_with('.') {
+        write!(f, "{ATTRIBUTE}.{name}")
+    } else {
+        write!(f, "{ATTRIBUTE}(")?;
+        super::print::write_quoted(f, &super::Pattern::literal(name))?;
+        f.write_str(")")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Query;
+
+    #[test]
+    fn attributes_are_compared_with_numbers_and_values() {
+        for (text, canonical) in [
+            ("frequency>0.4", "attribute.frequency>0.4"),
+            (
+                "frequency >= 2 placement=chin",
+                "attribute.frequency>=2 placement=chin",
+            ),
+            ("Iconicity(M)<3,5", "attribute(\"Iconicity(M)\")<3.5"),
+            ("frequency=0.2..0.5", "attribute.frequency=0.2..0.5"),
+            ("not frequency=..3", "not attribute.frequency<=3"),
+            (
+                "attribute.MajorLocation.2.0Frequency>-1",
+                "attribute.MajorLocation.2.0Frequency>-1",
+            ),
+            ("attribute.class=Noun,Verb", "attribute.class=Noun,Verb"),
+            (
+                "attribut.class!=\"two words\"",
+                "attribute.class!=\"two words\"",
+            ),
+            (
+                "attribute(\"Sign Frequency\")=unset",
+                "attribute(\"Sign Frequency\")=unset",
+            ),
+            ("attribute.n=2", "attribute.n=2"),
+            ("attribute.x=*", "attribute.x=*"),
+        ] {
+            let query: Query = text.parse().expect(text);
+            assert_eq!(query.to_string(), canonical, "{text}");
+            assert_eq!(canonical.parse::<Query>(), Ok(query), "{canonical}");
+        }
+        for (text, message) in [
+            ("attribute.x>much", "\"much\" is no number"),
+            ("attribute.x=5..2", "ends before it starts"),
+            ("attribute(\"\")>2", "name of an attribute"),
+            ("attribute(x>2", "not closed"),
+            ("attribute(x)", "a comparison should follow"),
+            ("attribute.x=[a]", "only components have features"),
+            ("durration>0.8s", "there is no field"),
+            ("overlaps frequency>2", "no annotation"),
+        ] {
+            let error = text.parse::<Query>().expect_err(text);
+            assert!(error.message.contains(message), "{text}: {error:?}");
+        }
+    }
+}

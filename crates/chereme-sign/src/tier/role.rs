@@ -1,0 +1,337 @@
+//! What the annotations of a tier say, and of which hand: one reader and one writer for every file, command and row.
+
+use crate::component::{Component, Field, HandRef, Phase};
+use crate::text::{did_you_mean, fold, nearest};
+use serde::{Deserialize, Serialize};
+use std::fmt;
+use std::str::FromStr;
+
+/// What the annotations of a tier say.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum TierRole {
+    /// Which sign is made; each annotation is a token.
+    Gloss,
+    /// One component of the sign, or one feature of it.
+    Component {
+        /// The component.
+        component: Component,
+        /// The feature, such as `brows` or `palm`, or nothing for the whole.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        feature: Option<String>,
+    },
+    /// What is said, in a spoken language.
+    Translation,
+    /// Remarks of the annotators.
+    Comment,
+    /// Anything else.
+    #[default]
+    Free,
+}
+
+impl TierRole {
+    /// Returns the kind of role without its component: `gloss`, `component`, `translation`, `comment` or `free`.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Gloss => "gloss",
+            Self::Component { .. } => "component",
+            Self::Translation => "translation",
+            Self::Comment => "comment",
+            Self::Free => "free",
+        }
+    }
+
+    /// Returns the component that is coded, and the feature of it.
+    #[must_use]
+    pub fn component(&self) -> Option<(Component, Option<&str>)> {
+        match self {
+            Self::Component { component, feature } => Some((*component, feature.as_deref())),
+            _ => None,
+        }
+    }
+
+    /// Returns the role of a [`kind`](Self::kind) with the component and feature that belong to it; a kind that is
+    /// not known, or a component that is missing, gives [`Free`](Self::Free).
+    #[must_use]
+    pub fn of_parts(kind: &str, component: Option<&str>, feature: Option<&str>) -> Self {
+        let component = component.and_then(|name| name.parse().ok());
+        match (kind, component) {
+            ("component", Some(component)) => Self::Component {
+                component,
+                feature: feature.map(str::to_owned),
+            },
+            _ => word(kind).unwrap_or_default(),
+        }
+    }
+
+    /// Returns the role as text: `gloss`, `translation`, `comment`, `free`, or the component as a
+    /// query spells it, such as `configuration` or `nonmanual.brows`.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match self.component() {
+            Some((component, feature)) => {
+                let field = Field::new(component);
+                feature
+                    .into_iter()
+                    .fold(field, |field, feature| field.of(feature))
+                    .to_string()
+            }
+            None => self.kind().to_owned(),
+        }
+    }
+}
+
+/// Returns the role that one word names, besides components.
+fn word(text: &str) -> Option<TierRole> {
+    match text {
+        "gloss" => Some(TierRole::Gloss),
+        "translation" => Some(TierRole::Translation),
+        "comment" | "note" => Some(TierRole::Comment),
+        "free" | "ignore" => Some(TierRole::Free),
+        _ => None,
+    }
+}
+
+impl FromStr for TierRole {
+    type Err = RoleError;
+
+    /// Reads what [`name`](Self::name) writes. A hand is refused, since a role has none: [`TierTopic`] keeps it.
+    fn from_str(text: &str) -> Result<Self, RoleError> {
+        let topic: TierTopic = text.parse()?;
+        match topic.hand {
+            None => Ok(topic.role),
+            Some(hand) => Err(RoleError::Hand {
+                text: text.to_owned(),
+                hand,
+            }),
+        }
+    }
+}
+
+/// Whose hand something is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(into = "&'static str")]
+pub enum Hands {
+    /// One hand.
+    One(HandRef),
+    /// Both hands at once.
+    Both,
+}
+
+impl Hands {
+    /// Returns `right`, `left`, `dominant`, `weak` or `both`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::One(hand) => hand.name(),
+            Self::Both => "both",
+        }
+    }
+
+    /// Returns the hands of that name.
+    #[must_use]
+    pub fn of(name: &str) -> Option<Self> {
+        match name {
+            "both" => Some(Self::Both),
+            one => one.parse().ok().map(Self::One),
+        }
+    }
+
+    /// Returns the one hand, where it is one.
+    #[must_use]
+    pub fn one(self) -> Option<HandRef> {
+        match self {
+            Self::One(hand) => Some(hand),
+            Self::Both => None,
+        }
+    }
+}
+
+impl From<Hands> for &'static str {
+    fn from(hands: Hands) -> Self {
+        hands.name()
+    }
+}
+
+impl fmt::Display for Hands {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// What the annotations of a tier say, and whose hand they are about: `right.configuration`, `both.gloss`,
+/// `nonmanual.brows`, `translation`.
+///
+/// What is printed reads back as the same.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct TierTopic {
+    /// What the annotations say.
+    pub role: TierRole,
+    /// Whose hand they are about, if a hand's.
+    pub hand: Option<Hands>,
+}
+
+impl TierTopic {
+    /// Reads a topic that may say which of successive values it holds, as the title of a column may:
+    /// `final.dominant.configuration`.
+    ///
+    /// # Errors
+    /// [`RoleError`] where the text is no role.
+    pub fn with_phase(text: &str) -> Result<(Self, Option<Phase>), RoleError> {
+        let lower = text.trim().to_lowercase();
+        let (first, rest) = lower.split_once('.').unwrap_or((&lower, ""));
+        let hand = Hands::of(first).filter(|_| !rest.is_empty());
+        let named = word(&lower).map(|role| (None, role));
+        let handed = || Some((Some(hand?), word(rest)?));
+        if let Some((hand, role)) = named.or_else(handed) {
+            return Ok((Self { role, hand }, None));
+        }
+        let (both, field) = match hand {
+            Some(Hands::Both) => (hand, rest),
+            _ => (None, &*lower),
+        };
+        let field: Field = field.parse().map_err(|_| unknown(text))?;
+        if both.is_some() && (field.hand.is_some() || !field.component.is_manual()) {
+            return Err(unknown(text));
+        }
+        let topic = Self {
+            role: TierRole::Component {
+                component: field.component,
+                feature: field.feature,
+            },
+            hand: both.or(field.hand.map(Hands::One)),
+        };
+        Ok((topic, field.phase))
+    }
+}
+
+impl FromStr for TierTopic {
+    type Err = RoleError;
+
+    fn from_str(text: &str) -> Result<Self, RoleError> {
+        match Self::with_phase(text)? {
+            (topic, None) => Ok(topic),
+            (_, Some(phase)) => Err(RoleError::Phase {
+                text: text.to_owned(),
+                phase,
+            }),
+        }
+    }
+}
+
+impl fmt::Display for TierTopic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(hand) = self.hand {
+            write!(f, "{hand}.")?;
+        }
+        f.write_str(&self.role.name())
+    }
+}
+
+/// A text that is no role of a tier or column.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum RoleError {
+    /// No word of it is known, or the words do not go together.
+    #[error("{text:?} is no role; write gloss, translation, comment, free, or a component such as right.configuration or nonmanual.brows{}", did_you_mean(nearest.as_deref()))]
+    Unknown {
+        /// The text.
+        text: String,
+        /// The word that was meant, perhaps.
+        nearest: Option<String>,
+    },
+    /// It names a hand where only a role has a place.
+    #[error("{text:?} names the {hand} hand; a role alone has none")]
+    Hand {
+        /// The text.
+        text: String,
+        /// The hand.
+        hand: Hands,
+    },
+    /// It names one of successive values, which a tier has no need of.
+    #[error("{text:?} names a phase, {phase}; a tier holds successive values one after another")]
+    Phase {
+        /// The text.
+        text: String,
+        /// The phase.
+        phase: Phase,
+    },
+}
+
+fn unknown(text: &str) -> RoleError {
+    let known = Component::ALL.iter().flat_map(|it| it.names()).copied();
+    let hands = HandRef::ALL.iter().flat_map(|it| it.names()).copied();
+    let others = ["gloss", "translation", "comment", "free", "note", "both"];
+    let words: Vec<&str> = known.chain(hands).chain(others).collect();
+    let folded = fold(text);
+    let wrong = folded
+        .split(|c: char| !c.is_alphanumeric())
+        .find(|word| !word.is_empty() && !words.contains(word))
+        .unwrap_or_default();
+    RoleError::Unknown {
+        text: text.to_owned(),
+        nearest: nearest(wrong, words.iter().copied()).map(str::to_owned),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_topic_keeps_its_hand_and_reads_back_as_it_is_printed() {
+        for (text, printed, hand) in [
+            ("gloss", "gloss", None),
+            ("left.gloss", "left.gloss", Some("left")),
+            ("both.gloss", "both.gloss", Some("both")),
+            ("right.handshape", "right.configuration", Some("right")),
+            (" RH.Location ", "right.placement", Some("right")),
+            ("both.movement", "both.movement", Some("both")),
+            (
+                "weak.orientation.palm",
+                "weak.orientation.palm",
+                Some("weak"),
+            ),
+            ("nonmanual.brows", "nonmanual.brows", None),
+            ("note", "comment", None),
+            ("right.translation", "right.translation", Some("right")),
+        ] {
+            let topic: TierTopic = text.parse().expect(text);
+            assert_eq!(topic.to_string(), printed, "{text}");
+            assert_eq!(topic.hand.map(Hands::name), hand, "{text}");
+            assert_eq!(printed.parse(), Ok(topic.clone()), "{text}");
+            let role = &topic.role;
+            let parts = role.component();
+            let again = TierRole::of_parts(
+                role.kind(),
+                parts.map(|(component, _)| component.name()),
+                parts.and_then(|(_, feature)| feature),
+            );
+            assert_eq!(again, topic.role, "{text}");
+            assert_eq!(role.name().parse(), Ok(topic.role), "{text}");
+        }
+        let (topic, phase) = TierTopic::with_phase("final.weak.configuration").expect("a column");
+        assert_eq!(
+            (topic.to_string().as_str(), phase),
+            ("weak.configuration", Some(Phase::Final))
+        );
+    }
+
+    #[test]
+    fn what_is_no_role_says_what_would_be() {
+        for (text, message) in [
+            ("right.configurtion", "did you mean \"configuration\"?"),
+            ("rigth.gloss", "is no role; write gloss, translation"),
+            ("right.nonmanual.brows", "is no role"),
+            ("both.right.placement", "is no role"),
+            ("", "is no role"),
+            ("right", "is no role"),
+            ("initial.placement", "names a phase, initial"),
+        ] {
+            let error = text.parse::<TierTopic>().expect_err(text).to_string();
+            assert!(error.contains(message), "{text}: {error}");
+        }
+        let error = "right.placement".parse::<TierRole>().expect_err("a hand");
+        assert!(error.to_string().contains("names the right hand"));
+    }
+}
