@@ -40,6 +40,7 @@ mod starter;
 mod suggest;
 mod tokens;
 mod transcribe;
+mod values;
 pub mod words;
 
 use std::cell::RefCell;
@@ -103,6 +104,7 @@ pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions, guessed, meant
 pub use starter::{starter_files, unpack_starter};
 pub use suggest::{Partner, Suggestions};
 pub use transcribe::{Transcribed, TranscribedFeature, TranscribedStage, TranscribedValue};
+pub use values::MergedValues;
 
 /// An open corpus.
 pub struct Corpus {

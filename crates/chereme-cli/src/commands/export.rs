@@ -31,8 +31,8 @@ Examples:
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// What: all, a gloss, token:41, recording:3, tier:12, or query:'right.configuration=U'; several are written
-    /// together
+    /// What: all, a gloss, token:41, recording:3, tier:12, inventory:configurations (as .json), or
+    /// query:'right.configuration=U'; several are written together
     #[arg(required = true)]
     what: Vec<String>,
     /// The file or folder to write; - is standard output
@@ -104,6 +104,9 @@ fn what(corpus: &mut Corpus, words: &[String]) -> Result<ExportWhat> {
         [one] => {
             if let Some(query) = one.strip_prefix("query:") {
                 return Ok(ExportWhat::Tokens(found(corpus, query)?));
+            }
+            if let Some(name) = one.strip_prefix("inventory:") {
+                return Ok(ExportWhat::Inventory(name.to_owned()));
             }
             return Ok(ExportWhat::Address(one.parse()?));
         }

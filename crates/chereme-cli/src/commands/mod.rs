@@ -8,6 +8,7 @@ mod demo;
 mod export;
 mod history;
 mod import;
+mod inventory;
 mod keys;
 mod list;
 mod new;
@@ -40,6 +41,7 @@ pub(crate) enum Command {
     Info(list::InfoArgs),
     List(list::Args),
     Annotate(annotate::Args),
+    Inventory(inventory::Args),
     Search(search::Args),
     Recombine(recombine::Args),
     Animate(animate::Args),
@@ -66,6 +68,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Info(args) => list::info(cli, args, output),
         Command::List(args) => list::list(cli, args, output),
         Command::Annotate(args) => annotate::run(cli, args, output),
+        Command::Inventory(args) => inventory::run(cli, args, output),
         Command::Export(args) => export::run(cli, args, output).map_err(offer_force),
         Command::New(args) => new::run(cli, args, output),
         Command::Import(args) => return import::run(cli, args, output),

@@ -86,3 +86,61 @@ pub(crate) fn store_value(
         .execute(params![inventory, key, position as i64, document])?;
     Ok(())
 }
+
+/// Deletes a value of an inventory.
+pub(crate) fn delete_value(connection: &Connection, inventory: i64, key: &str) -> Result<()> {
+    connection
+        .prepare_cached("DELETE FROM inventory_value WHERE inventory_id = ?1 AND key = ?2")?
+        .execute(params![inventory, key])?;
+    Ok(())
+}
+
+/// Gives the entries of lexicons that have a value of an inventory another one, and returns how many did.
+pub(crate) fn revalue(
+    connection: &Connection,
+    inventory: i64,
+    from: &str,
+    into: &str,
+) -> Result<u64> {
+    let changed = connection
+        .prepare_cached(
+            "UPDATE token_value SET value = ?3
+             WHERE inventory_id = ?1 AND value = ?2 AND annotation_id IS NULL",
+        )?
+        .execute(params![inventory, from, into])?;
+    Ok(changed as u64)
+}
+
+/// Returns what the annotations of tiers say whose values come from an inventory, each text once.
+pub(crate) fn texts(connection: &Connection, inventory: i64) -> Result<Vec<String>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT DISTINCT a.value FROM annotation a JOIN tier t ON t.id = a.tier_id
+         WHERE t.inventory_id = ?1 AND a.state = 'value' ORDER BY a.value",
+    )?;
+    let texts = statement
+        .query_map([inventory], |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(texts)
+}
+
+/// Lets the annotations of such tiers that say one text say another, and returns how many did.
+pub(crate) fn say(connection: &Connection, inventory: i64, old: &str, new: &str) -> Result<u64> {
+    let changed = connection
+        .prepare_cached(
+            "UPDATE annotation SET value = ?3 WHERE state = 'value' AND value = ?2
+             AND tier_id IN (SELECT id FROM tier WHERE inventory_id = ?1)",
+        )?
+        .execute(params![inventory, old, new])?;
+    Ok(changed as u64)
+}
+
+/// Returns the recordings with tiers whose values come from an inventory.
+pub(crate) fn recordings_with(connection: &Connection, inventory: i64) -> Result<Vec<i64>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT DISTINCT recording_id FROM tier WHERE inventory_id = ?1 ORDER BY 1",
+    )?;
+    let recordings = statement
+        .query_map([inventory], |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(recordings)
+}

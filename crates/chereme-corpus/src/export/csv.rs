@@ -10,6 +10,7 @@ use std::io::Write;
 use ::csv::{Writer, WriterBuilder};
 use rusqlite::Connection;
 
+use crate::db::attributes;
 use crate::db::notations;
 use crate::db::recordings;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
@@ -42,7 +43,7 @@ const FIXED: [&str; 9] = [
     "citation",
 ];
 
-/// Writes a token a row, with all its components.
+/// Writes a token a row, with all its components and its own attributes.
 pub(super) fn tokens(
     connection: &Connection,
     tokens: &[i64],
@@ -57,11 +58,20 @@ pub(super) fn tokens(
     let mut unclear = 0;
     let mut signs: BTreeSet<i64> = BTreeSet::new();
     let mut notated = false;
+    let mut named: Vec<String> = Vec::new();
     for (part, ids) in tokens.chunks(signs::AT_ONCE).enumerate() {
         for values in signs::values_of(connection, ids)?.values() {
             columns.extend(cells(values, &mut unclear).into_keys());
         }
         notated |= notations::any(connection, ids)?;
+        for row in attributes::of_tokens(connection, ids)?
+            .into_values()
+            .flatten()
+        {
+            if !named.contains(&row.name) {
+                named.push(row.name);
+            }
+        }
         signs.extend(
             signs::tokens(connection, ids)?
                 .values()
@@ -89,11 +99,15 @@ pub(super) fn tokens(
     let notation = notated.then(|| "hamnosys".to_owned());
     let titles = titles.chain(translations).chain(notation);
     let titles = titles.chain(columns.iter().map(title));
+    let titles: Vec<String> = titles.collect();
+    named.retain(|name| !titles.contains(name));
+    let titles = titles.into_iter().chain(named.iter().cloned());
     table.write_record(titles).map_err(fault)?;
     for (part, ids) in tokens.chunks(signs::AT_ONCE).enumerate() {
         let rows = signs::tokens(connection, ids)?;
         let values = signs::values_of(connection, ids)?;
         let notations = notation::of_tokens(connection, ids)?;
+        let said = attributes::of_tokens(connection, ids)?;
         for id in ids {
             let token = rows
                 .get(id)
@@ -118,6 +132,11 @@ pub(super) fn tokens(
                     .iter()
                     .map(|column| cells.remove(column).unwrap_or_default()),
             );
+            let own = said.get(id).map_or(&[][..], Vec::as_slice);
+            row.extend(named.iter().map(|name| {
+                let found = own.iter().find(|it| it.name == *name);
+                found.map_or_else(String::new, |it| it.text.clone())
+            }));
             table.write_record(row).map_err(fault)?;
         }
         tell(

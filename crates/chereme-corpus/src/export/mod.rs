@@ -27,6 +27,7 @@ use crate::db::search as rows;
 use crate::db::{list, recordings, signs};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
+use crate::values;
 use crate::words::counted;
 
 /// What to export.
@@ -38,6 +39,8 @@ pub enum ExportWhat {
     Tokens(Vec<i64>),
     /// What several addresses name.
     Several(Vec<Address>),
+    /// The inventory of this name.
+    Inventory(String),
     /// Everything.
     All,
 }
@@ -84,6 +87,7 @@ impl Corpus {
     /// | `.sigml` | notated tokens as gestural SiGML |
     /// | `.hsigml` | notated tokens as H-SiGML, HamNoSys's symbols as elements |
     /// | `.hns`, `.txt` | notated tokens as HamNoSys text, a sign a line: the gloss, a tab, the text |
+    /// | `.json` | an inventory, as it can be imported again |
     /// | none | everything, as a folder of files that anyone can read |
     /// | none, with a format | a folder with a file of that format for each recording or token |
     ///
@@ -205,6 +209,7 @@ enum Format {
     Curves(u8),
     Eaf,
     Bvh,
+    Json,
     Notation(notation::Form),
 }
 
@@ -215,6 +220,7 @@ impl Format {
             "tsv" => Some(Self::Table(b'\t')),
             "eaf" => Some(Self::Eaf),
             "bvh" => Some(Self::Bvh),
+            "json" => Some(Self::Json),
             "sigml" => Some(Self::Notation(notation::Form::Gestural)),
             "hsigml" => Some(Self::Notation(notation::Form::Symbols)),
             "hns" | "txt" => Some(Self::Notation(notation::Form::Text)),
@@ -247,6 +253,18 @@ fn write_file(
     progress: &mut Progress<'_>,
 ) -> Result<()> {
     match (format, what) {
+        (Format::Json, ExportWhat::Inventory(name)) => {
+            let text = values::named(connection, name)?.inventory.to_json();
+            let fault = |error: io::Error| Error::wrong(error.to_string());
+            out.write_all(text.as_bytes()).map_err(fault)
+        }
+        (Format::Json, _) => Err(Error::wrong("only an inventory is written as JSON").advise(
+            "name one, such as inventory:configurations; tokens go into .csv or .tsv, everything into a folder",
+        )),
+        (_, ExportWhat::Inventory(name)) => {
+            Err(Error::wrong(format!("the inventory {name:?} is written as JSON"))
+                .advise("end the name of the file in .json"))
+        }
         (Format::Table(delimiter), ExportWhat::Address(Address::Tier(tier))) => {
             csv::annotations(connection, *tier, delimiter, out)
         }
@@ -279,8 +297,8 @@ fn write_file(
 
 fn no_format(to: &Path, message: &str) -> Error {
     Error::wrong(message).at(to.display().to_string()).advise(
-        "end the name in .csv, .tsv, .curves.csv, .eaf, .bvh, .sigml, .hsigml or .hns; a name without a dot is a \
-         folder of everything, or with --format of a file for each recording or token",
+        "end the name in .csv, .tsv, .curves.csv, .eaf, .bvh, .json (an inventory), .sigml, .hsigml or .hns; a name \
+         without a dot is a folder of everything, or with --format of a file for each recording or token",
     )
 }
 
@@ -289,6 +307,7 @@ fn tokens(connection: &Connection, what: &ExportWhat) -> Result<Vec<i64>> {
     let ids = |rows: Vec<signs::TokenRow>| rows.into_iter().map(|row| row.id).collect();
     match what {
         ExportWhat::All => list::token_ids(connection),
+        ExportWhat::Inventory(_) => Ok(Vec::new()),
         ExportWhat::Tokens(tokens) => Ok(tokens.clone()),
         ExportWhat::Several(addresses) => {
             let mut all = Vec::new();
@@ -339,6 +358,7 @@ fn stretch(connection: &Connection, what: &ExportWhat) -> Result<Stretch> {
             [one] => address::stretch(connection, one),
             all => Err(several(all.len(), "recordings and tokens")),
         },
+        ExportWhat::Inventory(_) => Err(several(0, "recordings")),
         ExportWhat::All => match recordings::recordings(connection)?.as_slice() {
             [one] => address::stretch(connection, &Address::Recording(Name::Number(one.id))),
             all => Err(several(all.len(), "recordings")),

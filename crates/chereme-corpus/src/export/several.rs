@@ -83,6 +83,9 @@ fn each(
                 }
             }
         }
+        ExportWhat::Inventory(_) => {
+            return Err(Error::wrong("an inventory is one file").advise("end its name in .json"));
+        }
         ExportWhat::Tokens(ids) => {
             for id in ids {
                 all.extend(token(*id)?);

@@ -112,7 +112,7 @@ struct Known {
     values: BTreeMap<String, String>,
 }
 
-/// Entries of a file of the same name that was imported before, by gloss, the last one first.
+/// Entries of the file at the same place that was imported before, by gloss, the last one first.
 #[derive(Default)]
 struct Earlier(BTreeMap<String, Vec<i64>>);
 
@@ -129,7 +129,10 @@ impl Earlier {
                 .as_deref()
                 .and_then(|text| serde_json::from_str(text).ok())
                 .unwrap_or_default();
-            let same = source["file"].as_str() == Some(&job.file_name);
+            let same = match source["path"].as_str() {
+                Some(path) => path == job.place,
+                None => source["file"].as_str() == Some(&job.file_name),
+            };
             // A sign of a SiGML file is an entry of its own.
             let notation = notations::of_token(job.connection, token.id)?;
             if same && notation.is_none_or(|notation| notation.system == "hamnosys") {
@@ -218,7 +221,7 @@ fn import_entry(
     let tokens = signs::tokens_of_sign(connection, sign)?;
     let known = earlier.next(job, &entry.gloss, &tokens)?;
     let known = known.and_then(|id| tokens.iter().find(|token| token.id == id));
-    let source = Some(cells(table, entry, &job.file_name).to_string());
+    let source = Some(cells(job, table, entry).to_string());
     let token = match known {
         Some(token) => {
             if token.source != source {
@@ -290,7 +293,7 @@ fn value_row(coding: &Coding, inventories: &BTreeMap<Part, Known>) -> TokenValue
 }
 
 /// The row as the table has it, so that nothing is lost.
-fn cells(table: &Lexicon, entry: &Entry, file: &str) -> Value {
+fn cells(job: &Job<'_>, table: &Lexicon, entry: &Entry) -> Value {
     let cells: Map<String, Value> = table
         .columns
         .iter()
@@ -300,5 +303,5 @@ fn cells(table: &Lexicon, entry: &Entry, file: &str) -> Value {
         })
         .map(|(column, cell)| (column.title.clone(), Value::from(cell.as_str())))
         .collect();
-    json!({ "file": file, "line": entry.line, "cells": cells })
+    json!({ "file": job.file_name, "path": job.place, "line": entry.line, "cells": cells })
 }

@@ -90,6 +90,18 @@ fn parse(text: &str) -> Result<BTreeMap<String, Target>, String> {
     Ok(table)
 }
 
+/// Titles of what a table of tokens says of them as tokens, not as signs.
+const OWN: [&str; 8] = [
+    "token",
+    "recording",
+    "start_s",
+    "end_s",
+    "origin",
+    "signer",
+    "hand",
+    "citation",
+];
+
 /// Titles of columns that hold HamNoSys, as folded words.
 const NOTATION: [&str; 8] = [
     "hamnosys",
@@ -304,6 +316,10 @@ fn column(title: &str, mapping: &Mapping) -> Column {
         );
     }
     let whole = normal(title);
+    if OWN.contains(&title) {
+        let why = "a table of tokens that Chereme wrote has it".to_owned();
+        return column(None, None, 1.0, why);
+    }
     if NOTATION.contains(&whole.as_str()) {
         return Column {
             meaning: Meaning::Notation,

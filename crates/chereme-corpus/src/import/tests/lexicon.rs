@@ -49,7 +49,8 @@ fn rows_of_one_gloss_are_entries_of_one_sign_also_when_the_table_comes_again() {
         assert_eq!(total(&mut corpus, query), wanted, "{query}");
     }
     assert_whole(&mut corpus);
-    let other = desk.file("other.tsv", "gloss\tHandshape\ndrag\tV\n");
+    fs::create_dir(desk.folder.path().join("b")).expect("made");
+    let other = desk.file("b/lex.tsv", "gloss\tHandshape\ndrag\tV\n");
     import(&mut corpus, &other, "{}");
     assert_eq!(
         total(&mut corpus, "gloss=drag"),
@@ -150,6 +151,20 @@ fn attributes_are_kept_listed_and_found_and_can_be_undone() {
         ]
     );
     assert_whole(&mut corpus);
+    let out = desk.folder.path().join("tokens.csv");
+    let mut hear = unheard;
+    corpus
+        .export(
+            &ExportWhat::All,
+            &out,
+            &ExportOptions::default(),
+            &mut Progress::new(&mut hear),
+        )
+        .expect("exported");
+    let mut elsewhere = desk.corpus("d.chereme");
+    import(&mut elsewhere, &out, "{}");
+    let again = elsewhere.info().expect("info").attributes;
+    assert_eq!(again, info, "a table of tokens holds them, too");
     corpus.undo().expect("undone");
     corpus.undo().expect("undone");
     assert_eq!(corpus.info().expect("info").attributes, []);

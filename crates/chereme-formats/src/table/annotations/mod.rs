@@ -16,7 +16,6 @@ pub use moment::{Moment, MomentError, TimeUnit};
 use super::cells::{Cells, Row as RawRow, TableError};
 use crate::finding::Finding;
 use crate::tally::Findings;
-use chereme_motion::Instant;
 use chereme_sign::text::{did_you_mean, nearest};
 use columns::{Columns, Time};
 use serde::Serialize;

@@ -1,0 +1,112 @@
+//! `chereme inventory`.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_sign::InventoryValue;
+use clap::Subcommand;
+
+use crate::args::Cli;
+use crate::output::Output;
+
+/// Add values to an inventory, or merge two into one
+///
+/// Each call is one operation that `chereme undo` takes back. `chereme list CORPUS inventories` names the
+/// inventories; `chereme export CORPUS inventory:NAME --to x.json` writes one, and `import` reads it again.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    #[command(subcommand)]
+    action: Action,
+}
+
+#[derive(Debug, Subcommand)]
+enum Action {
+    /// Add a value
+    AddValue {
+        /// The inventory, such as configurations
+        inventory: String,
+        /// The value, as annotations and queries spell it
+        value: String,
+        /// What it is called in a spoken language, such as en="bent hand"
+        #[arg(long, value_name = "LANGUAGE=NAME", value_parser = named)]
+        name: Vec<(String, String)>,
+        /// Another spelling
+        #[arg(long)]
+        alias: Vec<String>,
+        /// The value that holds this one, as head holds chin
+        #[arg(long)]
+        broader: Option<String>,
+        /// What it is made of, such as index or spread
+        #[arg(long)]
+        feature: Vec<String>,
+        /// Its symbols in HamNoSys, by name
+        #[arg(long)]
+        hamnosys: Option<String>,
+        /// Remarks
+        #[arg(long)]
+        notes: Option<String>,
+    },
+    /// Make one value of two: what says the first says the second from then on
+    ///
+    /// The spelling of the first becomes another one of the second, so that a table that is imported again
+    /// means the same.
+    MergeValue {
+        /// The inventory
+        inventory: String,
+        /// The value that goes
+        from: String,
+        /// The value that stays
+        into: String,
+    },
+}
+
+fn named(text: &str) -> Result<(String, String), String> {
+    let (language, name) = text
+        .split_once('=')
+        .ok_or("write LANGUAGE=NAME, such as fr=poing")?;
+    Ok((language.trim().to_owned(), name.trim().to_owned()))
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let mut corpus = cli.open(&args.corpus)?;
+    match &args.action {
+        Action::AddValue {
+            inventory,
+            value,
+            name,
+            alias,
+            broader,
+            feature,
+            hamnosys,
+            notes,
+        } => {
+            let new = InventoryValue {
+                id: value.clone(),
+                names: name.iter().cloned().collect(),
+                aliases: alias.clone(),
+                broader: broader.clone(),
+                features: feature.iter().cloned().collect(),
+                hamnosys: hamnosys.clone(),
+                notes: notes.clone(),
+                ..InventoryValue::default()
+            };
+            corpus.add_value(inventory, &new)?;
+            output.line(format!("added {value:?} to {inventory}"))?;
+            output.document(serde_json::json!({ "inventory": inventory, "value": value }))
+        }
+        Action::MergeValue {
+            inventory,
+            from,
+            into,
+        } => {
+            let merged = corpus.merge_values(inventory, from, into)?;
+            output.line(format!(
+                "{from:?} is {:?} from now on: {} annotations and {} entries of lexicons changed",
+                merged.value, merged.annotations, merged.entries
+            ))?;
+            output.document(merged)
+        }
+    }
+}
