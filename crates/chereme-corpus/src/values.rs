@@ -192,7 +192,7 @@ mod tests {
         let table = folder.path().join("lex.tsv");
         let text = "gloss\tHandedness\nA\t2s\nB\t2S\nC\t1\n";
         import(&mut corpus, &table, text);
-        let mut total = |corpus: &mut Corpus, query: &str| {
+        let total = |corpus: &mut Corpus, query: &str| {
             corpus
                 .search(query, &SearchOptions::default())
                 .expect(query)
