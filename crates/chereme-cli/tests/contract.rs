@@ -426,7 +426,7 @@ fn each_command_keeps_to_its_exit_code_and_its_json() {
 #[test]
 fn an_import_that_takes_nothing_leaves_no_corpus() {
     let desk = Desk::new();
-    for file in ["@more/broken.sigml", "@in/none.bvh", "@in/notes.txt"] {
+    for file in ["@more/broken.sigml", "@in/none.bvh", "@in/notes.txt", "-"] {
         let done = desk.run(&desk.words(&format!("import @d/new.chereme {file}")));
         assert_eq!(done.status.code(), Some(1), "{file}");
         let left = fs::read_dir(desk.folder.path().join("empty")).expect("a folder");

@@ -118,6 +118,7 @@ fn unit(text: &str) -> Result<f64, String> {
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCode> {
     let options = options(args)?;
+    let (files, _stands) = files(args)?;
     let scratch = tempfile_for(args)?;
     let path = scratch.as_ref().map_or(&args.corpus, |scratch| &scratch.1);
     let fresh = !path.exists();
@@ -128,7 +129,6 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
     };
     let mut bar = Bar::new();
     let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
-    let (files, _stands) = files(args)?;
     let report = corpus.import(&files, &options, &mut Progress::new(&mut hear));
     drop(bar);
     let empty = |report: &ImportReport| {

@@ -6,7 +6,7 @@ pub(super) fn of(english: &str) -> Option<&'static str> {
     found.map(|(_, french)| *french)
 }
 
-const HELP: [(&str, &str); 175] = [
+const HELP: &[(&str, &str)] = &[
     (
         "A corpus database for signed movement: import, search, recombine, look at and export signs",
         "Une base de corpus pour le mouvement signé : importer, chercher, recombiner, regarder et exporter des signes",

@@ -6,7 +6,7 @@
 use super::Language;
 
 /// Messages and remedies as English and French.
-const MESSAGES: [(&str, &str); 58] = [
+const MESSAGES: &[(&str, &str)] = &[
     (
         "{path}: there is nothing of this name",
         "{path} : rien ne porte ce nom",
@@ -239,7 +239,7 @@ mod tests {
             names.sort();
             names
         };
-        for (english, french) in MESSAGES {
+        for (english, french) in MESSAGES.iter().copied() {
             assert_eq!(blanks(english), blanks(french), "{english}");
             let same = carried(english, english, english);
             assert_eq!(same.as_deref(), Some(english), "it is of its own form");
