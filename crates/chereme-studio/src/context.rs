@@ -64,8 +64,13 @@ impl Shown {
         }
     }
 
-    /// Lets go of annotations that are gone, and selects again those that came back, as by undoing.
-    pub(crate) fn follow(&mut self, snapshot: &Snapshot) {
+    /// Lets go of annotations that are gone, and selects again those that came back, as by undoing; the selected time
+    /// goes along where it is that of the selected annotations, as `before` has them.
+    pub(crate) fn follow(&mut self, before: Option<&Snapshot>, snapshot: &Snapshot) {
+        let was = before.and_then(|it| hull(it, &self.annotations));
+        if was.is_some() && was == self.span {
+            self.span = hull(snapshot, &self.annotations).or(self.span);
+        }
         let there = |id: &i64| snapshot.annotation(*id).is_some();
         let before = std::mem::take(&mut self.annotations);
         let (kept, gone): (BTreeSet<i64>, BTreeSet<i64>) = before.into_iter().partition(there);
@@ -86,6 +91,14 @@ impl Shown {
             .then(|| self.annotations.first().copied())
             .flatten()
     }
+}
+
+/// Returns the time from the first of annotations to the end of the last, as far as they are there.
+fn hull(snapshot: &Snapshot, annotations: &BTreeSet<i64>) -> Option<Span> {
+    let found = annotations.iter().filter_map(|id| snapshot.annotation(*id));
+    found
+        .map(|it| it.tier.annotations.span(it.at))
+        .reduce(|a, b| Span::between(a.start().min(b.start()), a.end().max(b.end())))
 }
 
 /// What a pane sees while it draws.
@@ -159,5 +172,53 @@ impl Outbox {
 
     pub(crate) fn take(&mut self) -> Vec<Command> {
         std::mem::take(&mut self.commands)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Opened;
+    use crate::panes::timeline::contents_of;
+
+    fn snapshot(spans: &[(i64, i64, i64)]) -> Snapshot {
+        Snapshot {
+            open: Some(Arc::new(Opened::new(contents_of(spans)))),
+            ..Snapshot::default()
+        }
+    }
+
+    fn span(start: i64, end: i64) -> Option<Span> {
+        let micros = Instant::from_micros;
+        Some(Span::between(micros(start), micros(end)))
+    }
+
+    #[test]
+    fn the_selected_time_goes_along_with_what_is_selected() {
+        let moved = snapshot(&[(1, 30, 40), (2, 50, 60)]);
+        let undone = snapshot(&[(1, 10, 20), (2, 50, 60)]);
+        let shown = |annotations: &[i64], span| Shown {
+            annotations: annotations.iter().copied().collect(),
+            span,
+            ..Shown::default()
+        };
+        for (annotations, before, after) in [
+            (&[1][..], span(30, 40), span(10, 20)),
+            (&[1, 2], span(30, 60), span(10, 60)),
+            // A time of one's own stays, and so does that of what did not move.
+            (&[1], span(31, 40), span(31, 40)),
+            (&[2], span(50, 60), span(50, 60)),
+            (&[], span(30, 40), span(30, 40)),
+        ] {
+            let mut shown = shown(annotations, before);
+            shown.follow(Some(&moved), &undone);
+            assert_eq!(shown.span, after, "{annotations:?} {before:?}");
+        }
+        // What is gone and comes back has its time again.
+        let mut shown = shown(&[1], span(30, 40));
+        let without = snapshot(&[(2, 50, 60)]);
+        shown.follow(Some(&moved), &without);
+        shown.follow(Some(&without), &moved);
+        assert_eq!((shown.span, shown.annotation()), (span(30, 40), Some(1)));
     }
 }

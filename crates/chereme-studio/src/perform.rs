@@ -579,7 +579,7 @@ impl Studio {
                 .shown
                 .tier
                 .filter(|id| tiers.iter().any(|it| it.row.id == *id));
-            self.shown.follow(&snapshot);
+            self.shown.follow(self.snapshot.as_ref(), &snapshot);
         }
         let wanted = self.panes.timeline.wants();
         let wanted = wanted.filter(|id| snapshot.recording(*id).is_some());

@@ -4,7 +4,7 @@
 
 use eframe::egui::{
     Color32, Context, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Style,
-    TextStyle, Theme, ThemePreference, Vec2,
+    TextStyle, Theme, ThemePreference, Vec2, epaint::Hsva,
 };
 
 use crate::settings::{Settings, ThemeChoice};
@@ -24,6 +24,9 @@ pub(crate) struct Colours {
     pub(crate) free: Color32,
     /// Text on annotations.
     pub(crate) on_annotation: Color32,
+    /// Annotations that are selected, whatever their tier, and text on them.
+    pub(crate) chosen: Color32,
+    pub(crate) on_chosen: Color32,
     /// Lines between tiers, and every other tier.
     pub(crate) rule: Color32,
     pub(crate) stripe: Color32,
@@ -40,6 +43,8 @@ const LIGHT: Colours = Colours {
     words: Color32::from_rgb(0x9D, 0xD8, 0xC3),
     free: Color32::from_rgb(0xD5, 0xD2, 0xDB),
     on_annotation: Color32::from_rgb(0x16, 0x1B, 0x22),
+    chosen: Color32::from_rgb(0x7A, 0x2A, 0x04),
+    on_chosen: Color32::WHITE,
     rule: Color32::from_rgb(0xD3, 0xD8, 0xE0),
     stripe: Color32::from_rgb(0xEE, 0xF1, 0xF4),
     trouble: Color32::from_rgb(0xA8, 0x32, 0x00),
@@ -55,6 +60,8 @@ const DARK: Colours = Colours {
     words: Color32::from_rgb(0x3E, 0xAF, 0x8A),
     free: Color32::from_rgb(0x83, 0x87, 0x93),
     on_annotation: Color32::from_rgb(0x0C, 0x0F, 0x14),
+    chosen: Color32::from_rgb(0xFF, 0xF1, 0xE2),
+    on_chosen: Color32::from_rgb(0x0C, 0x0F, 0x14),
     rule: Color32::from_rgb(0x33, 0x3A, 0x46),
     stripe: Color32::from_rgb(0x20, 0x25, 0x2D),
     trouble: Color32::from_rgb(0xFF, 0x9A, 0x70),
@@ -75,6 +82,19 @@ impl Colours {
             _ => self.free,
         }
     }
+}
+
+/// Returns the colours of the right hand and of the left as the figure has them, strong enough for lines and
+/// words.
+pub(crate) fn hands(dark: bool) -> [Color32; 2] {
+    let palette = chereme_figure::Palette::default();
+    [palette.right, palette.left].map(|hand| {
+        let [r, g, b] = hand.back.0;
+        let hue = Hsva::from(Color32::from_rgb(r, g, b));
+        let (s, v) = if dark { (0.42, 0.95) } else { (0.80, 0.62) };
+        let s = hue.s.max(s);
+        Hsva { s, v, ..hue }.into()
+    })
 }
 
 /// Gives a context our fonts and spacing, and shapes that are cheap to draw, once.
@@ -190,6 +210,46 @@ pub(crate) fn is_dark(ctx: &Context) -> bool {
 mod tests {
     use super::*;
     use eframe::egui::{FontId, RawInput};
+
+    /// Returns how many times lighter one colour is than the other, as WCAG counts it.
+    fn contrast(a: Color32, b: Color32) -> f32 {
+        let light = |it: Color32| {
+            let it = eframe::egui::Rgba::from(it);
+            0.2126 * it.r() + 0.7152 * it.g() + 0.0722 * it.b() + 0.05
+        };
+        let (a, b) = (light(a), light(b));
+        a.max(b) / a.min(b)
+    }
+
+    #[test]
+    fn what_is_selected_stands_out_from_every_tier_by_lightness() {
+        for dark in [false, true] {
+            let colours = Colours::of(dark);
+            for role in ["gloss", "component", "translation", "free"] {
+                let apart = contrast(colours.chosen, colours.role(role));
+                assert!(apart >= 1.8, "{dark} {role}: {apart}");
+            }
+            assert!(contrast(colours.chosen, colours.on_chosen) >= 4.5);
+        }
+    }
+
+    #[test]
+    fn lines_of_the_hands_are_seen_and_told_apart() {
+        for (dark, ground) in [(false, 0xF7), (true, 0x1A)] {
+            let [right, left] = hands(dark);
+            for hand in [right, left] {
+                assert!(
+                    contrast(hand, Color32::from_gray(ground)) >= 3.0,
+                    "{dark} {hand:?}"
+                );
+            }
+            let warm = |it: Color32| i32::from(it.r()) - i32::from(it.b());
+            assert!(
+                warm(right) > 40 && warm(left) < -40,
+                "{dark} {right:?} {left:?}"
+            );
+        }
+    }
 
     #[test]
     fn phonetic_letters_and_all_that_the_window_says_can_be_drawn() {

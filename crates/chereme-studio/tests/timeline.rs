@@ -381,6 +381,36 @@ fn lanes_of_movement_are_measured_beside_the_window() {
 }
 
 #[test]
+fn lanes_are_folded_and_leave_the_tiers_in_sight() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path());
+    for key in [Key::F5, Key::F6, Key::F7, Key::F8] {
+        press(&mut window, CTRL, key);
+    }
+    for size in [[1280.0, 800.0], [1024.0, 640.0]] {
+        window.set_size(eframe::egui::vec2(size[0], size[1]));
+        window.run_steps(4);
+        until(&mut window, "the speed", |it| {
+            it.query_by_label_contains("Wrist speed R").is_some()
+        });
+        let speed = window.get_by_label_contains("Wrist speed R").rect();
+        assert!(speed.height() <= 28.0, "{size:?}: {}", speed.height());
+        for tier in ["Tier Gloss", "Tier Translation FR"] {
+            let tier = rect(&window, tier);
+            assert!(tier.bottom() <= size[1] - 20.0, "{size:?}: {tier:?}");
+        }
+    }
+    let before = rect(&window, "Tier Gloss").top();
+    for lane in ["Wrist speed", "Aperture", "Palm"] {
+        click(&mut window, &format!("Fold {lane}"));
+    }
+    assert!(window.query_by_label_contains("Wrist speed R").is_none());
+    assert!(rect(&window, "Tier Gloss").top() < before);
+    click(&mut window, "Unfold Wrist speed");
+    assert!(window.query_by_label_contains("Wrist speed R").is_some());
+}
+
+#[test]
 fn tiers_are_folded_and_hidden_and_shown_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = opened(folder.path());

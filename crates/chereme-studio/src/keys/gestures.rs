@@ -60,6 +60,7 @@ gestures! {
     Edit Drag CARD_HANDLE MOVE_CARD;
     Annotation Click ANNOTATION SELECT;
     Annotation [Ctrl] Click ANNOTATION ALSO;
+    Annotation [Alt] Click ANNOTATION ALSO;
     Annotation [Shift] Click ANNOTATION UP_TO;
     Annotation [Shift] Drag LANE FRAME;
     Annotation RightClick LANE MENU_OF_ANNOTATION;

@@ -6,7 +6,8 @@
 //! | drag a selected annotation, or any with Alt | moves it, or its edge |
 //! | Alt and drag where nothing is | makes an annotation |
 //! | Shift and drag | selects what is in the frame |
-//! | Ctrl and click, Shift and click | adds to the selection; selects up to there |
+//! | Ctrl and click, or Alt and click | adds to the selection, or takes out of it |
+//! | Shift and click | selects up to there |
 //! | double click | types the value, or makes an annotation on the selection |
 
 use std::collections::BTreeSet;
@@ -251,7 +252,7 @@ impl Drawing<'_, '_> {
         let under = data::at(&tier.annotations, here.micros());
         let chosen = &self.seen.shown.annotations;
         match under {
-            Some(under) if modifiers.command => {
+            Some(under) if modifiers.command || modifiers.alt => {
                 let mut chosen = chosen.clone();
                 super::ways::toggle(&mut chosen, tier.annotations.ids[under]);
                 self.out.send(Command::Tier(Some(tier.row.id)));

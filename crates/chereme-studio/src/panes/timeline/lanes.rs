@@ -8,6 +8,7 @@ use chereme_motion::{Instant, Rate, Span};
 use serde::{Deserialize, Serialize};
 
 use super::data::Window;
+use super::lane_shape;
 use crate::action::Action;
 use crate::context::Outbox;
 use crate::words::{Text, timeline as words};
@@ -41,17 +42,6 @@ impl Lane {
         (Self::Face, Action::LaneFace, words::LANE_FACE),
     ];
 
-    /// Returns what its lower and upper edge stand for, given the largest number there is.
-    pub(crate) fn range(self, largest: f32) -> (f32, f32) {
-        match self {
-            Self::Speed => (0.0, largest.max(0.5)),
-            Self::Aperture => (0.3, 1.05),
-            Self::Palm => (-1.05, 1.05),
-            Self::Distance => (0.0, largest.max(0.3)),
-            Self::Face => (0.0, 1.0),
-        }
-    }
-
     /// Returns how many curves it has: one for each hand, or one of both.
     pub(crate) fn curves(self) -> usize {
         match self {
@@ -70,6 +60,9 @@ pub(crate) struct Source {
     pub(crate) rate: Rate,
     pub(crate) offset: i64,
 }
+
+/// Frames beside each other: where each is, in points from the left edge, and its number.
+pub(super) type Run = Vec<(f32, f32)>;
 
 /// A number for each frame of a piece, with the least and largest of every few.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -246,6 +239,47 @@ impl Curves {
         )
     }
 
+    /// Returns the frames of a curve in sight as runs without a gap, each from left to right: where each frame is,
+    /// in points, and its number. Nothing where frames are too narrow to be told apart.
+    pub(super) fn runs(&self, of: (Lane, usize), window: &Window, width: f32) -> Option<Vec<Run>> {
+        self.through(|piece| piece.series.get(&of), window, width)
+    }
+
+    /// Returns the same of a stored curve.
+    pub(super) fn stored_runs(&self, name: &str, window: &Window, width: f32) -> Option<Vec<Run>> {
+        self.through(|piece| piece.stored.get(name), window, width)
+    }
+
+    fn through<'a>(
+        &'a self,
+        series: impl Fn(&'a Piece) -> Option<&'a Series>,
+        window: &Window,
+        width: f32,
+    ) -> Option<Vec<Run>> {
+        let source = self.source?;
+        let time = |frame: usize| (source.rate.instant(frame).micros() + source.offset) as f64;
+        if source.frames < 2 || !lane_shape::is_wide(window.x(time(1)) - window.x(time(0))) {
+            return None;
+        }
+        let first = source.frame(window.micros(0.0) as i64).saturating_sub(1);
+        let last = (source.frame(window.micros(width) as i64) + 2).min(source.frames);
+        let mut runs = vec![Run::new()];
+        for frame in first..last {
+            let piece = self.pieces.get(&(frame / PIECE));
+            let value = piece.and_then(&series);
+            match value.and_then(|it| it.values.get(frame % PIECE)) {
+                Some(value) => {
+                    if let Some(run) = runs.last_mut() {
+                        run.push((window.x(time(frame)), *value));
+                    }
+                }
+                None => runs.push(Run::new()),
+            }
+        }
+        runs.retain(|run| run.len() > 1);
+        Some(runs)
+    }
+
     /// Returns whether nothing was measured yet.
     pub(super) fn is_bare(&self) -> bool {
         self.pieces.is_empty()
@@ -417,6 +451,25 @@ mod tests {
         assert_eq!(curves.columns((Lane::Speed, 1), &past, 1), [None]);
         assert_eq!(curves.largest(Lane::Speed), 9.0);
         assert_eq!(curves.at((Lane::Speed, 0), 50_030_000), Some(9.0));
+    }
+
+    #[test]
+    fn wide_frames_are_a_line_with_a_gap_where_nothing_is_measured() {
+        let mut curves = measured(5_000, |frame| frame as f64);
+        let window = |start: f64, scale: f64| Window { start, scale };
+        // 10 milliseconds are 5 points.
+        let runs = curves.runs((Lane::Speed, 0), &window(11.9e6, 2_000.0), 200.0);
+        let runs = runs.expect("wide frames");
+        assert_eq!(runs.len(), 1, "the seam of two pieces is no gap");
+        assert!(runs[0][0].0 <= 0.0 && runs[0].last().expect("one").0 >= 200.0);
+        for pair in runs[0].windows(2) {
+            assert!((pair[1].0 - pair[0].0 - 5.0).abs() < 1e-2 && pair[1].1 - pair[0].1 == 1.0);
+        }
+        curves.pieces.remove(&1);
+        let runs = curves.runs((Lane::Speed, 0), &window(11.9e6, 2_000.0), 200.0);
+        assert_eq!(runs.expect("wide frames").len(), 1);
+        let narrow = curves.runs((Lane::Speed, 0), &window(0.0, 20_000.0), 200.0);
+        assert_eq!(narrow, None, "columns are drawn there");
     }
 
     #[test]

@@ -7,7 +7,7 @@
 //! | `spans`, `hold`, `snap` | where annotations go when they are dragged |
 //! | `changes` | what is asked of the corpus |
 //! | `values` | what can be said on a tier, and the digits |
-//! | `lanes`, `lanes_ui` | movement as lanes |
+//! | `lanes`, `lane_shape`, `lanes_ui` | movement as lanes |
 //! | `overview` | the whole recording in a strip |
 //! | `ways` | modes and switches that are remembered |
 //! | `edit`, `select`, `tiers`, `beside` | what actions do |
@@ -30,6 +30,7 @@ mod editor;
 mod gesture;
 mod go;
 mod hold;
+mod lane_shape;
 pub(crate) mod lanes;
 mod lanes_ui;
 mod menu;
@@ -67,6 +68,16 @@ use data::Window;
 use edit::Scene;
 use editor::{Editing, Target};
 pub(crate) use ways::Ways;
+
+/// Returns a recording with one tier of annotations, each by its row, start and end.
+#[cfg(test)]
+pub(crate) fn contents_of(annotations: &[(i64, i64, i64)]) -> chereme_corpus::Contents {
+    let with_parents = annotations
+        .iter()
+        .map(|(id, start, end)| (*id, *start, *end, None));
+    let all: Vec<_> = with_parents.collect();
+    hold::tests::contents(&[(1, None, "", &all)])
+}
 
 /// The pane.
 #[derive(Default)]

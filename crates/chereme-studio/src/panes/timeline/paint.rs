@@ -2,6 +2,7 @@
 
 use chereme_corpus::{TierContents, ValueState};
 use chereme_motion::{Instant, Span};
+use eframe::egui::text::{LayoutJob, TextWrapping};
 use eframe::egui::{
     Align2, Color32, FontId, Painter, Pos2, Rect, Response, Rgba, Shape, Stroke, StrokeKind, Ui,
     pos2, vec2,
@@ -77,10 +78,14 @@ pub(super) fn bar(
     let chosen = bar.count == 1 && seen.shown.annotations.contains(&id);
     let missing = bar.count == 1 && tier.annotations.states[bar.at] != ValueState::Value;
     let colour = colours.role(&tier.row.role);
-    let fill = match (faint, missing) {
-        (true, _) => colour.gamma_multiply(0.15),
-        (_, true) => colour.gamma_multiply(0.35),
-        _ => colour,
+    let (fill, ink) = match (faint, chosen, missing) {
+        (true, ..) => (colour.gamma_multiply(0.15), colours.on_annotation),
+        (_, true, _) => (colours.chosen, colours.on_chosen),
+        (.., true) => (
+            colour.gamma_multiply(0.35),
+            painter.ctx().global_style().visuals.text_color(),
+        ),
+        _ => (colour, colours.on_annotation),
     };
     let (width, edge) = match (faint, chosen) {
         (true, _) => (1.0, colours.rule),
@@ -103,20 +108,17 @@ pub(super) fn bar(
     }
     let text = bar_text(tier, bar, seen);
     if rect.width() >= TEXT && !text.is_empty() && !faint {
-        let ink = if missing {
-            painter.ctx().global_style().visuals.text_color()
-        } else {
-            colours.on_annotation
-        };
         inside(painter, rect, text, font, ink);
     }
 }
 
-/// Paints text into a bar, at its start or where the bar comes into sight.
+/// Paints text into a bar, at its start or where the bar comes into sight; what has no room ends in an ellipsis.
 fn inside(painter: &Painter, rect: Rect, text: String, font: &FontId, ink: Color32) {
     let room = rect.shrink2(vec2(2.0, 0.0)).intersect(painter.clip_rect());
     let left = rect.left().max(painter.clip_rect().left()) + 5.0;
-    let galley = painter.layout_no_wrap(text, font.clone(), ink);
+    let mut job = LayoutJob::simple_singleline(text, font.clone(), ink);
+    job.wrap = TextWrapping::truncate_at_width((room.right() - left).max(0.0));
+    let galley = painter.layout_job(job);
     let at = pos2(left, rect.center().y - galley.size().y / 2.0);
     // What has an edge of its own to be cut off at is drawn by itself.
     if left + galley.size().x <= room.right() {

@@ -21,6 +21,8 @@ pub(crate) struct Ways {
     pub(crate) snaps: Snaps,
     /// Which lanes of movement are shown.
     pub(crate) lanes: BTreeSet<Lane>,
+    /// Which of them are folded to their names.
+    pub(crate) folded_lanes: BTreeSet<Lane>,
     /// Whether the whole recording is shown in a strip while only a part is to be seen.
     pub(crate) overview: bool,
     /// Names of tiers whose children are folded away.
@@ -35,6 +37,7 @@ impl Default for Ways {
             mode: Mode::default(),
             snaps: Snaps::default(),
             lanes: BTreeSet::new(),
+            folded_lanes: BTreeSet::new(),
             overview: true,
             folded: BTreeSet::new(),
             hidden: BTreeSet::new(),
