@@ -6,6 +6,7 @@
 mod arrange;
 mod bulk;
 mod copies;
+mod deeds;
 pub mod hold;
 mod make_room;
 mod names;
@@ -41,7 +42,7 @@ use crate::error::{Error, Result};
 use crate::inventories::StoredInventory;
 use crate::progress::{Progress, Step, Unit};
 use crate::tokens;
-use crate::words::counted;
+use deeds::Deeds;
 use scope::Scope;
 
 /// One change of annotations.
@@ -226,30 +227,11 @@ impl Corpus {
                     })?;
                 }
             }
+            let deeds = std::mem::take(&mut work.deeds);
             let report = work.finish(changes.len())?;
-            let summary = report.summary();
+            let summary = deeds.summary(&report);
             Ok((report, summary))
         })
-    }
-}
-
-impl AnnotateReport {
-    fn summary(&self) -> String {
-        let counts = [
-            (self.added, "added"),
-            (self.changed, "changed"),
-            (self.removed, "removed"),
-        ];
-        let counts: Vec<String> = counts
-            .iter()
-            .filter(|(count, _)| *count > 0)
-            .map(|(count, what)| format!("{count} {what}"))
-            .collect();
-        let place = match self.recordings.as_slice() {
-            [one] => one.clone(),
-            several => counted(several.len() as u64, "recordings"),
-        };
-        format!("{} in {place}", counts.join(", "))
     }
 }
 
@@ -261,6 +243,7 @@ struct Work<'a> {
     /// Annotations by the labels of the changes that added them; nothing for changes that failed.
     labels: BTreeMap<String, Option<i64>>,
     faults: Vec<Error>,
+    deeds: Deeds,
     report: AnnotateReport,
 }
 
@@ -273,6 +256,7 @@ impl<'a> Work<'a> {
             scopes: BTreeMap::new(),
             labels: BTreeMap::new(),
             faults: Vec::new(),
+            deeds: Deeds::default(),
             report: AnnotateReport::default(),
         })
     }
@@ -327,6 +311,10 @@ impl<'a> Work<'a> {
     }
 
     fn act(&mut self, change: &AnnotationChange) -> Result<i64> {
+        use AnnotationAction::{Add, Remove, Reorder};
+        if let Add { .. } | Reorder { .. } | Remove { .. } = change.action {
+            self.deeds.does_else();
+        }
         match &change.action {
             AnnotationAction::Add { .. } => self.add(&change.action),
             AnnotationAction::Set {
@@ -351,6 +339,7 @@ impl<'a> Work<'a> {
                 let at = self.scope_of(row.tier_id)?.instant(*at, snap)?;
                 let annotation = handle(row.id);
                 let added = self.carry_out(row.tier_id, &Change::Split { annotation, at }, None)?;
+                self.deeds.splits(row.id);
                 Ok(added.unwrap_or(row.id))
             }
             AnnotationAction::Merge {
@@ -369,6 +358,7 @@ impl<'a> Work<'a> {
                     seam: if *join { Seam::Join } else { Seam::Keep },
                 };
                 self.carry_out(first.tier_id, &change, None)?;
+                self.deeds.merges(first.id, second.id);
                 Ok(first.id)
             }
             AnnotationAction::Remove { annotation } => {
@@ -447,17 +437,24 @@ impl<'a> Work<'a> {
     ) -> Result<i64> {
         let annotation = handle(row.id);
         let tier = self.tier_row(row.tier_id)?;
+        let text = value;
         let reading = value.map(|text| self.reading(&tier, text)).transpose()?;
         if start.is_some() || end.is_some() {
             let still = |micros| Moment::Time(Instant::from_micros(micros));
             let start = start.unwrap_or_else(|| still(row.start_us));
             let end = end.unwrap_or_else(|| still(row.end_us));
             let span = self.span(row.tier_id, start, end)?;
-            if span != span_of(row) && !self.moved_with_others(row, &tier, span)? {
-                self.carry_out(row.tier_id, &Change::Move { annotation, span }, None)?;
+            if span != span_of(row) {
+                if !self.moved_with_others(row, &tier, span)? {
+                    self.carry_out(row.tier_id, &Change::Move { annotation, span }, None)?;
+                }
+                self.deeds.moves(row.id);
             }
         }
         if let Some(value) = reading {
+            let says = value.value().or(text).map_or("", str::trim);
+            let says = if says.is_empty() { "unset" } else { says };
+            self.deeds.says(&tier, row.id, says);
             self.carry_out(row.tier_id, &Change::SetValue { annotation, value }, None)?;
         }
         Ok(row.id)

@@ -569,6 +569,31 @@ fn a_list_is_carried_out_whole_or_not_at_all() {
 }
 
 #[test]
+fn the_history_names_what_was_done() {
+    let (_folder, mut corpus) = corpus();
+    let said = "add G 0-100 A; add G 100-200 B; add G 200-300 C; add C 0-50 V";
+    annotate(&mut corpus, said).expect(said);
+    for (changes, want) in [
+        (
+            "set 1 = HOUSE; set 2 = HOUSE",
+            "2 glosses changed to HOUSE in Take 1",
+        ),
+        (
+            "set 1 = A; set 2 = B",
+            "2 annotations say something else in Take 1",
+        ),
+        ("set 4 = U", "1 handshape changed to U in Take 1"),
+        ("set 3 200-290", "1 annotation moved in Take 1"),
+        ("merge 1 2 = A", "2 annotations merged in Take 1"),
+        ("split 1 50", "1 annotation split in Take 1"),
+        ("remove 3", "1 removed in Take 1"),
+    ] {
+        annotate(&mut corpus, changes).expect(changes);
+        assert_eq!(corpus.log(1).expect("log")[0].summary, want, "{changes}");
+    }
+}
+
+#[test]
 fn tables_are_carried_out_or_told_row_by_row() {
     let good = "tier,start,end,value,action,id,parent\n\
                 G,0,1,BOL,,g1,\n\

@@ -81,6 +81,11 @@ impl Store {
         &self.path
     }
 
+    /// Writes all of it to a new file.
+    pub(crate) fn copy(&self, to: &Path) -> Result<()> {
+        open::copy(&self.connection, to)
+    }
+
     /// Returns the connection, to read.
     pub(crate) fn read(&self) -> &Connection {
         &self.connection

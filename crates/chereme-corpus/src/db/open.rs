@@ -56,6 +56,20 @@ pub(super) fn create(
     open(path)
 }
 
+/// Writes all that `connection` reads to a new corpus file at `path`, whole or not at all, also where the file that
+/// it reads is gone from its folder.
+pub(super) fn copy(connection: &Connection, path: &Path) -> Result<()> {
+    if path.exists() {
+        return Err(Error::file(path, ErrorKind::AlreadyExists.into()));
+    }
+    let making = Making::beside(path);
+    super::dump::copy(connection, &making.0)?;
+    let copy = Connection::open(&making.0)?;
+    copy.pragma_update(None, "journal_mode", "WAL")?;
+    copy.close().map_err(|(_, error)| error)?;
+    making.publish(path)
+}
+
 fn make(path: &Path, fill: impl FnOnce(&Connection) -> Result<()>) -> Result<()> {
     let flags = OpenFlags::SQLITE_OPEN_READ_WRITE
         | OpenFlags::SQLITE_OPEN_CREATE

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use super::{Language, Text, fill};
+use super::{Language, Text, deeds, fill};
 use crate::OperationRow;
 
 texts! {
@@ -42,6 +42,11 @@ texts! {
     ONE_CHANGED: "{n} annotation changed", "{n} annotation modifiée";
     REMOVED: "{n} removed", "{n} supprimées";
     ONE_REMOVED: "{n} annotation removed", "{n} annotation supprimée";
+    ONE_RESTORED: "{n} annotation restored in {place}", "{n} annotation rétablie dans {place}";
+    RESTORED: "{n} annotations restored in {place}", "{n} annotations rétablies dans {place}";
+    TAKEN_BACK: "Undone: {what}", "Annulé : {what}";
+    DONE_AGAIN: "Done again: {what}", "Rétabli : {what}";
+    BY_OTHERS: "{who} changed the corpus in another program: {what}", "{who} a modifié le corpus dans un autre programme : {what}";
     DID_ADD_TIER: "Tier {tier} added to {place}", "Acteur {tier} ajouté à {place}";
     DID_CHANGE_TIER: "Tier {tier} of {place} changed", "Acteur {tier} de {place} modifié";
     DID_REMOVE_TIER: "Tier removed: {what}", "Acteur supprimé : {what}";
@@ -88,11 +93,45 @@ pub fn sentence(it: &OperationRow, language: Language) -> String {
     known.unwrap_or_else(|| format!("{}: {summary}", it.name))
 }
 
-/// Returns `2 added, 1 changed in X` as a sentence.
+/// Returns what came of taking an operation back, as a sentence: what it had removed is restored.
+#[must_use]
+pub fn taken_back(it: &OperationRow, language: Language) -> String {
+    let restored = || {
+        let (counts, place) = it.summary.rsplit_once(" in ")?;
+        let (n, what) = counts.split_once(' ')?;
+        let text = if n == "1" { ONE_RESTORED } else { RESTORED };
+        let values: [(&str, &dyn Display); 2] = [("n", &n), ("place", &place)];
+        (it.name == "annotate" && what == "removed").then(|| fill(text.of(language), &values))
+    };
+    let whole = || {
+        fill(
+            TAKEN_BACK.of(language),
+            &[("what", &sentence(it, language))],
+        )
+    };
+    restored().unwrap_or_else(whole)
+}
+
+/// Returns `2 added, 1 changed in X`, or the names of what was done, as a sentence.
 fn annotated(summary: &str, language: Language) -> Option<String> {
     let (counts, place) = summary.rsplit_once(" in ")?;
     let mut said = Vec::new();
-    for part in counts.split(", ") {
+    let mut rest = Some(counts);
+    while let Some(now) = rest {
+        // What a value says comes last, and may hold commas.
+        if let Some(whole) = deeds::told(now, language) {
+            said.push(whole);
+            break;
+        }
+        let (part, after) = match now.split_once(", ") {
+            Some((part, after)) => (part, Some(after)),
+            None => (now, None),
+        };
+        rest = after;
+        if let Some(part) = deeds::told(part, language) {
+            said.push(part);
+            continue;
+        }
         let (count, what) = part.split_once(' ')?;
         let text = match (what, count == "1") {
             ("added", true) => ONE_ADDED,
@@ -150,12 +189,55 @@ mod tests {
                 "LIMACE made: ESCARGOT | swap",
                 "LIMACE composé : ESCARGOT | swap",
             ),
+            (
+                "annotate",
+                "3 handshapes changed to U in Un",
+                "3 handshapes changed to U in Un",
+                "3 configurations changées en U dans Un",
+            ),
+            (
+                "annotate",
+                "1 annotation moved, 2 glosses changed to A, moved in B in Un",
+                "1 annotation moved, 2 glosses changed to A, moved in B in Un",
+                "1 annotation déplacée, 2 gloses changées en A, moved in B dans Un",
+            ),
+            (
+                "annotate",
+                "2 annotations merged in Un",
+                "2 annotations merged in Un",
+                "2 annotations fusionnées dans Un",
+            ),
             ("import", "a.bvh", "Imported: a.bvh", "Importé : a.bvh"),
             ("novel", "x", "novel: x", "novel: x"),
         ] {
             let row = row(1, OperationKind::Do, None, name, summary);
             assert_eq!(sentence(&row, Language::English), english);
             assert_eq!(sentence(&row, Language::French), french);
+        }
+    }
+
+    #[test]
+    fn what_was_removed_is_restored_by_undoing() {
+        for (summary, english, french) in [
+            (
+                "3 removed in Un",
+                "3 annotations restored in Un",
+                "3 annotations rétablies dans Un",
+            ),
+            (
+                "1 removed in Un",
+                "1 annotation restored in Un",
+                "1 annotation rétablie dans Un",
+            ),
+            (
+                "2 annotations merged in Un",
+                "Undone: 2 annotations merged in Un",
+                "Annulé : 2 annotations fusionnées dans Un",
+            ),
+        ] {
+            let row = row(2, OperationKind::Undo, Some(1), "annotate", summary);
+            assert_eq!(taken_back(&row, Language::English), english);
+            assert_eq!(taken_back(&row, Language::French), french);
         }
     }
 }

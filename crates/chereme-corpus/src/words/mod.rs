@@ -23,6 +23,7 @@ macro_rules! texts {
 }
 
 mod count;
+pub mod deeds;
 pub mod history;
 mod messages;
 pub mod trouble;
@@ -97,7 +98,7 @@ pub fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 2] = [history::ALL, trouble::ALL];
+    const TABLES: [&[(&str, Text)]; 3] = [deeds::ALL, history::ALL, trouble::ALL];
 
     fn blanks(text: &str) -> Vec<&str> {
         let mut names: Vec<&str> = text

@@ -1,0 +1,101 @@
+//! Whether the file of an open corpus still stands where it was opened, and a copy of it where it does not.
+
+use std::fs::Metadata;
+use std::path::{Path, PathBuf};
+
+use crate::Corpus;
+use crate::error::Result;
+
+/// The file at a path, as it was at one moment.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    path: PathBuf,
+    /// By what the system knows the file, where it tells.
+    id: Option<(u64, u64)>,
+}
+
+impl Place {
+    /// Returns the file that is at `path` now.
+    #[must_use]
+    pub fn of(path: &Path) -> Self {
+        Self {
+            path: path.to_owned(),
+            id: path.metadata().ok().as_ref().and_then(id),
+        }
+    }
+
+    /// Returns whether that file is still there: neither deleted, nor moved, nor another in its place.
+    #[must_use]
+    pub fn stands(&self) -> bool {
+        match self.path.metadata() {
+            Ok(now) => self.id.is_none() || id(&now) == self.id,
+            Err(error) => error.kind() != std::io::ErrorKind::NotFound,
+        }
+    }
+}
+
+/// Returns the device and the number of a file.
+#[cfg(unix)]
+fn id(file: &Metadata) -> Option<(u64, u64)> {
+    use std::os::unix::fs::MetadataExt as _;
+    Some((file.dev(), file.ino()))
+}
+
+/// Other systems keep a file that is open in its place.
+#[cfg(not(unix))]
+fn id(_: &Metadata) -> Option<(u64, u64)> {
+    None
+}
+
+impl Corpus {
+    /// Writes all of the corpus to a new file, also where its own was deleted while it is open.
+    ///
+    /// # Errors
+    /// [`Error::File`](crate::Error::File) where something is there already, and where the disk or the database
+    /// fails; then nothing is left there.
+    pub fn save_copy(&self, to: &Path) -> Result<()> {
+        self.store.copy(to)
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    fn made(folder: &Path) -> Corpus {
+        let mut corpus = Corpus::create(&folder.join("a.chereme"), "A").expect("made");
+        let query = crate::KeptSearch {
+            name: "mine".into(),
+            query: "configuration=U".into(),
+        };
+        corpus.keep_searches(&[query]).expect("kept");
+        corpus
+    }
+
+    #[test]
+    fn what_was_deleted_while_it_is_open_is_saved_whole() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let corpus = made(folder.path());
+        let path = corpus.path().to_owned();
+        let place = Place::of(&path);
+        assert!(place.stands());
+        let moved = folder.path().join("moved.chereme");
+        std::fs::rename(&path, &moved).expect("moved");
+        assert!(!place.stands());
+        std::fs::rename(&moved, &path).expect("moved back");
+        assert!(place.stands());
+        std::fs::remove_file(&path).expect("deleted");
+        std::fs::write(&path, "another").expect("written");
+        assert!(!place.stands(), "it is another file");
+        assert!(corpus.save_copy(&path).is_err(), "nothing is written over");
+        std::fs::remove_file(&path).expect("deleted");
+        assert!(!place.stands());
+        corpus.save_copy(&path).expect("saved");
+        drop(corpus);
+        let again = Corpus::open(&path, "A").expect("opened");
+        let overview = again.overview(10).expect("read");
+        assert_eq!(overview.searches.len(), 1);
+        assert_eq!(overview.operations.len(), 1);
+        assert!(!overview.inventories.is_empty());
+    }
+}

@@ -1,0 +1,73 @@
+//! What was done to annotations, as sentences; the English ones are what the history stores.
+
+use std::fmt::Display;
+
+use super::{Language, Text, fill};
+
+texts! {
+    ONE_HANDSHAPE: "{n} handshape changed to {value}", "{n} configuration changée en {value}";
+    HANDSHAPES: "{n} handshapes changed to {value}", "{n} configurations changées en {value}";
+    ONE_PLACEMENT: "{n} placement changed to {value}", "{n} emplacement changé en {value}";
+    PLACEMENTS: "{n} placements changed to {value}", "{n} emplacements changés en {value}";
+    ONE_MOVEMENT: "{n} movement changed to {value}", "{n} mouvement changé en {value}";
+    MOVEMENTS: "{n} movements changed to {value}", "{n} mouvements changés en {value}";
+    ONE_ORIENTATION: "{n} orientation changed to {value}", "{n} orientation changée en {value}";
+    ORIENTATIONS: "{n} orientations changed to {value}", "{n} orientations changées en {value}";
+    ONE_GLOSS: "{n} gloss changed to {value}", "{n} glose changée en {value}";
+    GLOSSES: "{n} glosses changed to {value}", "{n} gloses changées en {value}";
+    ONE_VALUE: "{n} annotation changed to {value}", "{n} annotation changée en {value}";
+    VALUES: "{n} annotations changed to {value}", "{n} annotations changées en {value}";
+    ONE_SAYS: "{n} annotation says something else", "{n} annotation dit autre chose";
+    SAY: "{n} annotations say something else", "{n} annotations disent autre chose";
+    ONE_MOVED: "{n} annotation moved", "{n} annotation déplacée";
+    MOVED: "{n} annotations moved", "{n} annotations déplacées";
+    MERGED: "{n} annotations merged", "{n} annotations fusionnées";
+    ONE_SPLIT: "{n} annotation split", "{n} annotation coupée";
+    SPLIT: "{n} annotations split", "{n} annotations coupées";
+}
+
+/// Returns the sentence for so many annotations of a role and component that were given a value: one of a single
+/// annotation, and one of several.
+#[must_use]
+pub fn valued(role: &str, component: Option<&str>) -> [Text; 2] {
+    match (role, component) {
+        ("gloss", _) => [ONE_GLOSS, GLOSSES],
+        (_, Some("configuration")) => [ONE_HANDSHAPE, HANDSHAPES],
+        (_, Some("placement")) => [ONE_PLACEMENT, PLACEMENTS],
+        (_, Some("movement")) => [ONE_MOVEMENT, MOVEMENTS],
+        (_, Some("orientation")) => [ONE_ORIENTATION, ORIENTATIONS],
+        _ => [ONE_VALUE, VALUES],
+    }
+}
+
+/// Returns a sentence of this table, given in English, in a language; nothing where it is none.
+pub(super) fn told(english: &str, language: Language) -> Option<String> {
+    let all = [
+        [ONE_HANDSHAPE, HANDSHAPES],
+        [ONE_PLACEMENT, PLACEMENTS],
+        [ONE_MOVEMENT, MOVEMENTS],
+        [ONE_ORIENTATION, ORIENTATIONS],
+        [ONE_GLOSS, GLOSSES],
+        [ONE_VALUE, VALUES],
+        [ONE_SAYS, SAY],
+        [ONE_MOVED, MOVED],
+        [MERGED, MERGED],
+        [ONE_SPLIT, SPLIT],
+    ];
+    all.into_iter().flatten().find_map(|text| {
+        let (n, value) = read(text.en, english)?;
+        let values: [(&str, &dyn Display); 2] = [("n", &n), ("value", &value)];
+        Some(fill(text.of(language), &values))
+    })
+}
+
+/// Returns the number and the value that fill a sentence.
+fn read<'a>(sentence: &str, text: &'a str) -> Option<(u64, &'a str)> {
+    let (n, rest) = text.split_once(' ')?;
+    let wanted = sentence.strip_prefix("{n} ")?;
+    let value = match wanted.strip_suffix("{value}") {
+        Some(before) => rest.strip_prefix(before)?,
+        None => (rest == wanted).then_some("")?,
+    };
+    Some((n.parse().ok()?, value))
+}
