@@ -9,7 +9,7 @@ use eframe::egui::{self, CentralPanel, Context, Frame, Panel, Response, Ui, View
 use egui_tiles::{Behavior, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse};
 
 use crate::Options;
-use crate::choose::{Chooser, Chosen};
+use crate::choose::{Choose, Chooser, Chosen};
 use crate::clipboard::Clipboard;
 use crate::command::Command;
 use crate::context::{Outbox, Seen, Shown};
@@ -24,7 +24,7 @@ use crate::panes::{PaneKind, Panes};
 use crate::script::fonts::Untold;
 use crate::settings::{Folders, Settings};
 use crate::start::Start;
-use crate::words::Text;
+use crate::words::{Text, fill};
 use crate::work::begin::{Begin, Beginning};
 use crate::work::desk::{Desk, News, Wake};
 use crate::work::{Lane, Outcome, Work};
@@ -40,6 +40,10 @@ pub struct Studio {
     pub(crate) keys: Keys,
     pub(crate) desk: Option<Desk>,
     pub(crate) beginning: Option<Beginning>,
+    /// The open corpus, where it was made only to take files in.
+    pub(crate) made_for: Option<PathBuf>,
+    /// Whether the file of the open corpus is gone from its place.
+    pub(crate) gone: bool,
     /// Nothing before the corpus was first read.
     pub(crate) snapshot: Option<Snapshot>,
     pub(crate) shown: Shown,
@@ -106,6 +110,8 @@ impl Studio {
             settings,
             desk: None,
             beginning: None,
+            made_for: None,
+            gone: false,
             snapshot: None,
             shown: Shown::default(),
             reel: Reel::default(),
@@ -244,10 +250,17 @@ impl Studio {
     fn listen(&mut self) {
         let ended = self.beginning.as_mut().and_then(Beginning::ended);
         if let Some(ended) = ended {
-            self.beginning = None;
+            let begun = self.beginning.take();
+            let (look, made) = begun.map(|it| (it.look, it.made)).unwrap_or_default();
             let task = crate::words::shell::TASK_OPENING;
             match ended {
-                Ok(path) => self.open(&path),
+                Ok(path) => {
+                    self.open(&path);
+                    self.made_for = made;
+                    if !look.is_empty() {
+                        self.out.send(Command::Import(look));
+                    }
+                }
                 Err(error) => {
                     self.overlays
                         .notices
@@ -264,6 +277,8 @@ impl Studio {
                         .notices
                         .trouble(&error, None, self.settings.language)
                 }
+                News::Stands(stands) => self.stands(stands),
+                News::Copied(saved) => self.copied(saved),
                 News::Far(..) => {}
                 News::Ended(id, ended, about) => {
                     if self.little.hear(id, &ended) {
@@ -279,6 +294,50 @@ impl Studio {
         }
     }
 
+    /// Tells at once that the file of the corpus is gone, and how all of it is saved.
+    fn stands(&mut self, stands: bool) {
+        self.gone = !stands;
+        let language = self.settings.language;
+        self.overlays.notices.withdraw();
+        if stands {
+            let text = crate::words::shell::BACK_AGAIN.of(language);
+            return self.overlays.notices.hint(text);
+        }
+        let Some(path) = self.corpus().cloned() else {
+            return;
+        };
+        let words = crate::words::shell::GONE.of(language);
+        let text = fill(words, &[("path", &path.display())]);
+        let mut offers = vec![(
+            crate::words::shell::SAVE_COPY,
+            Command::Choose(Choose::Copy),
+        )];
+        if !path.exists() && path.parent().is_some_and(std::path::Path::is_dir) {
+            let back = (crate::words::shell::PUT_BACK, Command::SaveCopy(path));
+            offers.insert(0, back);
+        }
+        let remedy = crate::words::shell::GONE_REMEDY.of(language);
+        self.overlays.notices.offer(text, remedy, offers);
+    }
+
+    /// Goes on in a copy that was saved.
+    fn copied(&mut self, saved: Result<PathBuf, chereme_corpus::Error>) {
+        let language = self.settings.language;
+        match saved {
+            Ok(path) => {
+                self.overlays.notices.withdraw();
+                let words = crate::words::shell::COPY_SAVED.of(language);
+                let text = fill(words, &[("path", &path.display())]);
+                self.overlays.notices.hint(text);
+                self.out.send(Command::Begin(Begin::Open(path)));
+            }
+            Err(error) => {
+                let task = Some(crate::words::shell::TASK_COPY);
+                self.overlays.notices.trouble(&error, task, language);
+            }
+        }
+    }
+
     /// Hears what was chosen.
     fn hear_chooser(&mut self, ctx: &Context) {
         let now = ctx.input(|input| input.time);
@@ -286,7 +345,7 @@ impl Studio {
             Some(Chosen::Command(command)) => self.out.send(command),
             Some(Chosen::NoChooser) => {
                 let words = crate::words::shell::NO_CHOOSER.of(self.settings.language);
-                self.overlays.notices.hint(words);
+                self.overlays.notices.warn(words);
             }
             Some(Chosen::Nothing) | None => {}
         }
@@ -359,6 +418,7 @@ impl Studio {
             Some(path) if self.desk.is_none() && path.is_dir() => {
                 Command::Begin(Begin::Folder(path))
             }
+            _ if self.desk.is_none() => Command::Begin(Begin::Files(dropped)),
             _ => Command::Import(dropped),
         });
     }
@@ -404,6 +464,7 @@ impl Studio {
                 under: None,
             };
             tree.ui(&mut workbench, ui);
+            layout::settle(tree);
             let under = workbench.under;
             carry::show(ui.ctx(), &seen, out);
             if let Some(pane) = sprung.follow(under, ui.input(|input| input.time)) {
@@ -508,6 +569,7 @@ impl Drop for Studio {
     /// What was zoomed to is written when the window closes.
     fn drop(&mut self) {
         self.keep_view(true);
+        self.leave();
         if self.settings != self.saved
             && let Some(file) = self.folders.settings_file()
         {

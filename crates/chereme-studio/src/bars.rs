@@ -17,6 +17,29 @@ const MARGIN: f32 = 60.0;
 /// The room that the three layouts want beside the menus.
 const LAYOUTS: f32 = 280.0;
 
+/// The entries that begin a group of a menu.
+const GROUPS: [Action; 19] = [
+    Action::SplitAnnotation,
+    Action::DeleteAnnotation,
+    Action::CopyToTier,
+    Action::NextAnnotation,
+    Action::AlsoNext,
+    Action::ToSelection,
+    Action::StartEarlier,
+    Action::SelectFromHere,
+    Action::ModeNormal,
+    Action::SnapFrames,
+    Action::AddTier,
+    Action::TierUp,
+    Action::FoldTier,
+    Action::StageSplit,
+    Action::OrbitLeft,
+    Action::Nearer,
+    Action::FrameBack,
+    Action::Slower,
+    Action::NextRecording,
+];
+
 impl Studio {
     pub(crate) fn menus(&mut self, ui: &mut Ui) {
         let language = self.settings.language;
@@ -67,6 +90,9 @@ impl Studio {
     fn menu(&mut self, ui: &mut Ui, menu: Menu) {
         let open = self.snapshot.is_some();
         for row in ACTIONS.iter().filter(|row| row.menu == menu) {
+            if GROUPS.contains(&row.action) {
+                ui.separator();
+            }
             let locked = row.action.changes() && self.is_read_only();
             let counts = (open || row.context == Context::Everywhere) && !locked;
             let name = row.name.of(self.settings.language);
@@ -135,7 +161,7 @@ impl Studio {
                     words::NOTHING_OPEN
                 };
                 ui.weak(text.of(language));
-                self.overlays.notices.line(ui);
+                self.overlays.notices.line(ui, language);
                 return;
             };
             let name = desk.path.file_name().unwrap_or_default().to_string_lossy();
@@ -170,7 +196,7 @@ impl Studio {
                     self.out.send(Command::Stop(*id));
                 }
             }
-            self.overlays.notices.line(ui);
+            self.overlays.notices.line(ui, language);
         });
     }
 }

@@ -20,6 +20,8 @@ pub(crate) enum Choose {
     Corpus,
     /// Where a new corpus is made.
     NewCorpus,
+    /// Where a copy of the open corpus is saved.
+    Copy,
     /// A folder that becomes a corpus.
     CorpusOfFolder,
     /// Files to take into the open corpus.
@@ -108,6 +110,7 @@ impl Choose {
             Self::Media(recording, track) => {
                 return Some(Command::Media(recording, track, paths.swap_remove(0)));
             }
+            Self::Copy => return Some(Command::SaveCopy(paths.swap_remove(0))),
             _ => paths.swap_remove(0),
         };
         Some(Command::Begin(match self {
@@ -131,9 +134,14 @@ fn native(what: Choose, language: Language) -> Paths {
                 .pick_file();
             Box::pin(async move { one(file.await) })
         }
-        Choose::NewCorpus => {
+        Choose::NewCorpus | Choose::Copy => {
+            let title = if what == Choose::Copy {
+                words::SAVE_COPY
+            } else {
+                words::START_NEW
+            };
             let file = dialog
-                .set_title(words::START_NEW.of(language))
+                .set_title(title.of(language))
                 .add_filter(corpora[0], &corpora[1..])
                 .set_file_name("corpus.chereme")
                 .save_file();
@@ -186,6 +194,10 @@ mod tests {
         is(Choose::Corpus, Begin::Open("a".into()));
         is(Choose::NewCorpus, Begin::New("a".into()));
         is(Choose::CorpusOfFolder, Begin::Folder("a".into()));
+        assert!(matches!(
+            ended(one, Choose::Copy, 1.0),
+            Chosen::Command(Command::SaveCopy(path)) if path.as_os_str() == "a"
+        ));
         assert!(matches!(
             ended(one, Choose::Files, 1.0),
             Chosen::Command(Command::Import(paths)) if paths == [PathBuf::from("a")]

@@ -84,10 +84,12 @@ pub(crate) enum Command {
     Stage(Box<StageWays>),
     /// Change what is remembered.
     Settings(Box<Settings>),
+    /// Say why something cannot be done, which goes away by itself.
+    Cannot(Text),
     /// Say something that goes away by itself.
-    Hint(Text),
-    /// The same, filled in already.
     Say(String),
+    /// Save a copy of the corpus there and go on in it.
+    SaveCopy(PathBuf),
     /// Put a text on the clipboard.
     Copy(String),
     /// Say something that stays, with what helps.

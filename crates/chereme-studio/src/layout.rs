@@ -103,10 +103,50 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
     tree
 }
 
+/// Gives every pane the room that it had beside the others when one was put among them or taken away: one that comes
+/// takes as much as its new neighbours have on average, and beside several it takes as much as one of them.
+pub(crate) fn settle(tree: &mut Tree<PaneKind>) {
+    let ids: Vec<TileId> = tree.tiles.tile_ids().collect();
+    for id in ids {
+        let Some(Tile::Container(Container::Linear(linear))) = tree.tiles.get(id) else {
+            continue;
+        };
+        let known = |child: &TileId| linear.shares.iter().any(|(it, _)| it == child);
+        let shares: Vec<(TileId, f32)> = if linear.children.iter().any(known) {
+            let children = linear.children.iter();
+            children.map(|it| (*it, linear.shares[*it])).collect()
+        } else {
+            let weight = |it: &TileId| (*it, groups(tree, *it).clamp(1, 3) as f32);
+            linear.children.iter().map(weight).collect()
+        };
+        let mean = shares.iter().map(|it| it.1).sum::<f32>() / shares.len().max(1) as f32;
+        let even = (mean - 1.0).abs() < 1e-3 && linear.children.iter().all(known);
+        if even || mean <= 0.0 {
+            continue;
+        }
+        if let Some(Tile::Container(Container::Linear(linear))) = tree.tiles.get_mut(id) {
+            for (child, share) in shares {
+                linear.shares.set_share(child, share / mean);
+            }
+        }
+    }
+}
+
+/// Returns how many panes stand beside each other below a tile, those behind each other counted once.
+fn groups(tree: &Tree<PaneKind>, id: TileId) -> usize {
+    match tree.tiles.get(id) {
+        Some(Tile::Container(Container::Linear(linear))) => {
+            linear.children.iter().map(|it| groups(tree, *it)).sum()
+        }
+        _ => 1,
+    }
+}
+
 fn shares(tiles: &mut Tiles<PaneKind>, dir: LinearDir, parts: &[(TileId, f32)]) -> TileId {
     let mut linear = Linear::new(dir, parts.iter().map(|(tile, _)| *tile).collect());
     for (tile, share) in parts {
-        linear.shares.set_share(*tile, *share);
+        // A pane that comes has a share of 1: as much as these have on average.
+        linear.shares.set_share(*tile, *share * parts.len() as f32);
     }
     tiles.insert_container(Container::Linear(linear))
 }
@@ -204,6 +244,57 @@ mod tests {
                 assert_eq!(as_usual(Some(&tree)), tree);
             }
         }
+    }
+
+    /// Returns the shares of the width that the panes beside each other above the timeline have.
+    fn widths(tree: &Tree<PaneKind>) -> Vec<f32> {
+        let stage = tree.tiles.find_pane(&PaneKind::Stage).expect("a stage");
+        let tabs = tree.tiles.parent_of(stage).expect("tabs");
+        let row = tree.tiles.parent_of(tabs).expect("a row");
+        match tree.tiles.get(row) {
+            Some(Tile::Container(Container::Linear(row))) => row.shares.split(&row.children, 1.0),
+            _ => Vec::new(),
+        }
+    }
+
+    #[test]
+    fn panes_keep_their_proportions_when_one_is_put_among_them() {
+        let mut tree = of(Busy::Annotating, false);
+        settle(&mut tree);
+        assert_eq!(
+            tree,
+            of(Busy::Annotating, false),
+            "nothing is to be settled"
+        );
+        let before = widths(&tree);
+        let history = tree.tiles.find_pane(&PaneKind::History).expect("a history");
+        let stage = tree.tiles.find_pane(&PaneKind::Stage).expect("a stage");
+        let tabs = tree.tiles.parent_of(stage).expect("tabs");
+        let row = tree.tiles.parent_of(tabs).expect("a row");
+        tree.move_tile_to_container(history, row, 3, false);
+        settle(&mut tree);
+        let after = widths(&tree);
+        assert_eq!(after.len(), 4);
+        assert!(after[3] < 0.3, "it takes its part, not half: {after:?}");
+        for (a, b) in before.iter().zip(&after) {
+            assert!(
+                (b / a - after[0] / before[0]).abs() < 1e-3,
+                "{before:?} {after:?}"
+            );
+        }
+        // Beside all others it takes as much as one of them.
+        let mut tree = of(Busy::Annotating, false);
+        let root = tree.root().expect("a root");
+        let history = tree.tiles.find_pane(&PaneKind::History).expect("a history");
+        let both = Linear::new(LinearDir::Horizontal, vec![root, history]);
+        let both = tree.tiles.insert_container(Container::Linear(both));
+        tree.root = Some(both);
+        settle(&mut tree);
+        let Some(Tile::Container(Container::Linear(both))) = tree.tiles.get(both) else {
+            panic!("a row");
+        };
+        let split = both.shares.split(&both.children, 1.0);
+        assert!((split[1] - 0.25).abs() < 1e-3, "{split:?}");
     }
 
     #[test]

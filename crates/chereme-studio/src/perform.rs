@@ -19,6 +19,7 @@ use crate::little::Figures;
 use crate::model::Snapshot;
 use crate::model::made::Made;
 use crate::model::reel::Reel;
+use crate::panes::history::data as history;
 use crate::panes::{Carried, PaneKind, recombine};
 use crate::player::Player;
 use crate::settings::{ThemeChoice, View, view_of};
@@ -154,9 +155,14 @@ impl Studio {
                 self.settings = *settings;
                 self.keys = Keys::new(self.settings.keymap, &self.settings.keys);
             }
-            Command::Hint(text) => {
+            Command::Cannot(text) => {
                 let text = self.keys.named(text.of(self.settings.language));
-                self.overlays.notices.hint(text);
+                self.overlays.notices.warn(text);
+            }
+            Command::SaveCopy(path) => {
+                if let Some(desk) = &self.desk {
+                    desk.save_copy(crate::work::begin::with_extension(path));
+                }
             }
             Command::Say(text) => self.overlays.notices.hint(text),
             Command::Copy(text) => self.clipboard.put(ctx, text),
@@ -177,8 +183,12 @@ impl Studio {
         if self.act_on_window(action, ctx) || self.act_on_player(action) || self.desk.is_none() {
             return;
         }
+        if action.changes() && self.gone {
+            self.out.send(Command::Cannot(words::GONE_WHY));
+            return;
+        }
         if action.changes() && self.is_read_only() {
-            self.out.send(Command::Hint(words::READ_ONLY_WHY));
+            self.out.send(Command::Cannot(words::READ_ONLY_WHY));
             return;
         }
         match action {
@@ -266,7 +276,7 @@ impl Studio {
         };
         match carried.or_else(notated).or_else(selected) {
             Some(carried) => self.out.send(Command::Use(carried)),
-            None => self.out.send(Command::Hint(words::NEEDS_SIGN)),
+            None => self.out.send(Command::Cannot(words::NEEDS_SIGN)),
         }
     }
 
@@ -284,7 +294,7 @@ impl Studio {
             let said = panes.act(action, &seen, &mut out);
             if let Some(text) = said {
                 let text = self.keys.named(text.of(self.settings.language));
-                self.overlays.notices.hint(text);
+                self.overlays.notices.warn(text);
             }
         }
         (self.panes, self.out) = (panes, out);
@@ -533,11 +543,26 @@ impl Studio {
         }
     }
 
+    /// Closes the corpus; one that was made only to take files in, and took none, does not stay.
+    pub(crate) fn leave(&mut self) {
+        let untouched = |it: &Snapshot| it.overview.operations.is_empty();
+        let unused = self.snapshot.as_ref().is_some_and(untouched);
+        let made = self.made_for.take().filter(|_| unused && !self.gone);
+        self.desk = None;
+        if let Some(path) = made {
+            self.settings.recent.retain(|it| *it != path);
+            // Where it cannot go, an empty corpus stays.
+            drop(std::fs::remove_file(path));
+        }
+    }
+
     fn close(&mut self) {
         self.keep_view(true);
         self.start.leave();
         self.view = None;
-        self.desk = None;
+        self.leave();
+        self.gone = false;
+        self.overlays.notices.withdraw();
         self.drafts = Drafts::default();
         self.snapshot = None;
         self.shown = Shown::default();
@@ -549,9 +574,19 @@ impl Studio {
 
     /// Takes a newer snapshot in; what is gone from it is not selected any more.
     pub(crate) fn take_snapshot(&mut self, snapshot: Snapshot, own: bool) {
-        if !own && self.snapshot.is_some() {
-            let words = words::NOTICE_CHANGED_ELSEWHERE.of(self.settings.language);
-            self.overlays.notices.hint(words);
+        let older = |it: &&Snapshot| it.overview.generation != snapshot.overview.generation;
+        if let Some(before) = self.snapshot.as_ref().filter(older) {
+            let operations = [&before.overview, &snapshot.overview].map(|it| &it.operations[..]);
+            let language = self.settings.language;
+            match history::news(operations, own, language) {
+                Some(text) if own => self.overlays.notices.did(text),
+                Some(text) => self.overlays.notices.warn(text),
+                None if !own => {
+                    let words = words::NOTICE_CHANGED_ELSEWHERE.of(language);
+                    self.overlays.notices.warn(words);
+                }
+                None => {}
+            }
         }
         if let Some(before) = &self.snapshot
             && !Arc::ptr_eq(&before.overview, &snapshot.overview)
@@ -592,7 +627,7 @@ impl Studio {
         }
         if self.snapshot.is_none() && snapshot.is_read_only() {
             let words = words::READ_ONLY_OPENED.of(self.settings.language);
-            self.overlays.notices.hint(words);
+            self.overlays.notices.warn(words);
         }
         self.snapshot = Some(snapshot);
         if let (None, Some(first)) = (self.shown.recording, first) {

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use eframe::egui::epaint::RectShape;
 use eframe::egui::{
-    Button, Key, ProgressBar, Response, RichText, ScrollArea, Shape, StrokeKind, TextEdit, Ui,
+    Button, Key, ProgressBar, Response, RichText, Role, ScrollArea, Shape, StrokeKind, TextEdit,
+    Ui, WidgetInfo, vec2,
 };
 
 use crate::action::Action;
@@ -13,7 +14,7 @@ use crate::app::Studio;
 use crate::choose::Choose;
 use crate::command::Command;
 use crate::panes::list_row;
-use crate::words::{Language, Text, shell as words};
+use crate::words::{Language, Text, fill, shell as words};
 use crate::work::begin::Begin;
 
 /// What is typed on the page.
@@ -52,6 +53,8 @@ const KEYS: [Key; 4] = [Key::ArrowDown, Key::ArrowUp, Key::Enter, Key::Space];
 const WIDE: f32 = 620.0;
 /// How many recent corpora are on the page; the others are in the menu.
 const RECENT: usize = 4;
+/// The room beside a recent corpus for what forgets it.
+const FORGET: f32 = 36.0;
 /// A window lower than this has no room to spare.
 const LOW: f32 = 680.0;
 
@@ -195,12 +198,29 @@ impl Studio {
             } else {
                 format!("{folder} · {}", words::START_GONE.of(language))
             };
-            let row = ui.add_enabled_ui(there, |ui| offer(ui, 40.0, &name, &about));
+            let label = fill(words::START_FORGET.of(language), &[("name", &name)]);
+            let (row, forget) = ui
+                .horizontal(|ui| {
+                    let wide = (ui.available_width() - FORGET).max(0.0);
+                    let size = vec2(wide, 40.0);
+                    let row = ui.allocate_ui(size, |ui| {
+                        ui.add_enabled_ui(there, |ui| offer(ui, 40.0, &name, &about))
+                    });
+                    let button = ui.button("×");
+                    button.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
+                    (row.inner.inner, button.on_hover_text(&label).clicked())
+                })
+                .inner;
             if there && !std::mem::replace(&mut self.start.come, true) {
-                row.inner.request_focus();
+                row.request_focus();
             }
-            if row.inner.clicked() {
+            if row.clicked() {
                 self.out.send(Command::Begin(Begin::Open(path.clone())));
+            }
+            if forget {
+                let mut settings = self.settings.clone();
+                settings.recent.retain(|it| it != path);
+                self.out.send(Command::Settings(Box::new(settings)));
             }
         }
     }

@@ -31,6 +31,8 @@ pub(crate) struct Colours {
     pub(crate) rule: Color32,
     pub(crate) stripe: Color32,
     pub(crate) trouble: Color32,
+    /// What is to be noted, and is no fault.
+    pub(crate) warning: Color32,
     pub(crate) good: Color32,
 }
 
@@ -48,6 +50,7 @@ const LIGHT: Colours = Colours {
     rule: Color32::from_rgb(0xD3, 0xD8, 0xE0),
     stripe: Color32::from_rgb(0xEE, 0xF1, 0xF4),
     trouble: Color32::from_rgb(0xA8, 0x32, 0x00),
+    warning: Color32::from_rgb(0x8A, 0x5C, 0x00),
     good: Color32::from_rgb(0x00, 0x6B, 0x4F),
 };
 
@@ -65,6 +68,7 @@ const DARK: Colours = Colours {
     rule: Color32::from_rgb(0x33, 0x3A, 0x46),
     stripe: Color32::from_rgb(0x20, 0x25, 0x2D),
     trouble: Color32::from_rgb(0xFF, 0x9A, 0x70),
+    warning: Color32::from_rgb(0xF5, 0xC9, 0x4B),
     good: Color32::from_rgb(0x5F, 0xD0, 0xA8),
 };
 
@@ -91,7 +95,7 @@ pub(crate) fn hands(dark: bool) -> [Color32; 2] {
     [palette.right, palette.left].map(|hand| {
         let [r, g, b] = hand.back.0;
         let hue = Hsva::from(Color32::from_rgb(r, g, b));
-        let (s, v) = if dark { (0.42, 0.95) } else { (0.80, 0.62) };
+        let (s, v) = if dark { (0.42, 0.95) } else { (0.80, 0.33) };
         let s = hue.s.max(s);
         Hsva { s, v, ..hue }.into()
     })
@@ -148,6 +152,10 @@ fn refine(style: &mut Style, dark: bool) {
     style.spacing.item_spacing = Vec2::new(8.0, 6.0);
     style.spacing.button_padding = Vec2::new(8.0, 4.0);
     style.spacing.interact_size.y = 24.0;
+    // Lists show their last entry, and what can be scrolled says so.
+    style.spacing.combo_height = 420.0;
+    style.spacing.scroll.dormant_handle_opacity = 0.45;
+    style.spacing.scroll.dormant_background_opacity = 0.15;
     let visuals = &mut style.visuals;
     visuals.selection.bg_fill = colours.selection;
     visuals.selection.stroke.color = if dark {

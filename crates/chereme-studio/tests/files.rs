@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use eframe::egui::{Key, Modifiers};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Role, pos2};
 use egui_kittest::kittest::Queryable;
 
 fn type_into(window: &mut Window<'_>, label: &str, text: &str) {
@@ -75,6 +75,8 @@ fn files_are_looked_at_before_anything_is_written_and_then_taken_in() {
     click(&mut window, "Take in");
     idle(&mut window);
     assert!(shows(&window, "Undo takes it all back"));
+    until(&mut window, "what was done", |it| shows(it, "Imported: "));
+    assert!(!shows(&window, "another program"), "it is one's own work");
     window.key_press_modifiers(Modifiers::SHIFT, Key::F1);
     until(&mut window, "the new recording", |window| {
         has(window, "bol")
@@ -116,4 +118,71 @@ fn what_is_shown_is_exported_to_a_place_that_is_typed() {
     window.key_press(Key::Escape);
     window.run_steps(3);
     assert!(!has(&window, "Where to"));
+}
+
+#[test]
+fn a_folder_of_the_start_page_is_looked_at_first_and_leaves_nothing_where_it_is_not_taken_in() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = folder.path().join("takes");
+    chereme_corpus::unpack_starter(&files).expect("unpacked");
+    let path = folder.path().join("takes.chereme");
+    let mut window = window(options(folder.path()));
+    window.run_steps(2);
+    for takes in [false, true] {
+        let field = window.get_by_role_and_label(Role::TextInput, "Or type a path");
+        field.focus();
+        field.type_text(&files.display().to_string());
+        window.run_steps(2);
+        click(&mut window, "Import");
+        until(&mut window, "the look", |it| {
+            shows(it, "nothing is written yet")
+        });
+        idle(&mut window);
+        let corpus = chereme_corpus::Corpus::open(&path, "B").expect("opened");
+        assert!(corpus.overview(1).expect("read").recordings.is_empty());
+        drop(corpus);
+        if takes {
+            click(&mut window, "Take in");
+            idle(&mut window);
+            assert!(shows(&window, "Undo takes it all back"));
+        }
+        window.key_press_modifiers(Modifiers::COMMAND, Key::W);
+        window.run_steps(3);
+        assert_eq!(path.exists(), takes, "an empty corpus does not stay");
+    }
+}
+
+#[test]
+fn remedies_name_things_of_the_window_and_a_joint_is_said_by_a_click_on_the_body() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    let whole = std::fs::read_to_string(folder.path().join("files/escargot.bvh")).expect("there");
+    // A hand whose name says nothing.
+    let odd = folder.path().join("odd.bvh");
+    std::fs::write(&odd, whole.replace("Head", "Thing")).expect("written");
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::I);
+    window.run_steps(3);
+    type_into(&mut window, "File or folder", &odd.display().to_string());
+    click(&mut window, "Look at it first");
+    idle(&mut window);
+    assert!(shows(&window, "up is the file's Y axis"));
+    assert!(!shows(&window, "--") && !shows(&window, "roles file"));
+    let map = window.get_by_label_contains("parts found").rect();
+    // The head is a share of 0.08 below the top, in the middle.
+    let head = pos2(map.center().x, map.top() + map.height() * 0.08);
+    window.hover_at(head);
+    window.run_steps(3);
+    for pressed in [true, false] {
+        window.event(Event::PointerButton {
+            pos: head,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+        window.step();
+    }
+    until(&mut window, "the joints", |it| {
+        it.query_by_label("Joint of: head")
+            .is_some_and(|it| it.is_focused())
+    });
 }

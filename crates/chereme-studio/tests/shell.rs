@@ -97,6 +97,9 @@ fn the_start_page_is_walked_by_keys_and_goes_on_with_what_was_open() {
     window.key_press(Key::ArrowDown);
     window.run_steps(2);
     assert!(focused(&window, "Open the starter corpus"));
+    click(&mut window, "Forget starter; its file stays");
+    window.run_steps(2);
+    assert!(!has(&window, "starter"), "it is not offered any more");
     drop(window);
     let corpus = Some(path);
     let mut window = self::window(Options {
@@ -162,6 +165,37 @@ fn another_programs_change_is_noticed() {
     until(&mut window, "the new recording", |window| {
         has(window, "LIMACE")
     });
+    let said = "B changed the corpus in another program: LIMACE made";
+    until(&mut window, "who did what", |it| {
+        it.query_by_label_contains(said).is_some()
+    });
+}
+
+#[cfg(unix)]
+#[test]
+fn a_corpus_that_is_deleted_while_it_is_open_is_noticed_and_saved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_small(folder.path());
+    let path = window.state().corpus().expect("open").clone();
+    for end in ["", "-wal", "-shm"] {
+        // What is not there need not go.
+        drop(std::fs::remove_file(format!("{}{end}", path.display())));
+    }
+    until(&mut window, "the notice", |it| has(it, "Put it back"));
+    assert!(has(&window, "Save a copy…") && has(&window, "Error"));
+    assert!(
+        window
+            .query_by_label_contains("The corpus file is gone")
+            .is_some()
+    );
+    click(&mut window, "Put it back");
+    until(&mut window, "the file", |_| path.is_file());
+    until(&mut window, "the corpus", |it| {
+        !has(it, "Put it back") && has(it, "escargot")
+    });
+    idle(&mut window);
+    let corpus = Corpus::open(&path, "B").expect("opened");
+    assert_eq!(corpus.overview(1).expect("read").recordings.len(), 1);
 }
 
 #[test]

@@ -199,6 +199,11 @@ fn several_are_selected_by_click_and_frame_and_changed_together() {
     click_with(&mut window, "Gloss: c", CTRL);
     assert!(has(&window, "2 selected"));
     click(&mut window, "Gloss: a");
+    click_with(&mut window, "Gloss: b", ALT);
+    assert!(has(&window, "2 selected"), "Alt and a click add too");
+    click_with(&mut window, "Gloss: b", ALT);
+    assert!(!has(&window, "2 selected"), "and take out again");
+    click(&mut window, "Gloss: a");
     click_with(&mut window, "Gloss: c", Modifiers::SHIFT);
     assert!(has(&window, "3 selected"));
     let (a, b) = (rect(&window, "Gloss: a"), rect(&window, "Gloss: b"));
@@ -217,6 +222,10 @@ fn several_are_selected_by_click_and_frame_and_changed_together() {
     stored(&mut window, before);
     assert_eq!(values(&window, "Gloss"), ["x", "x", "c"]);
     assert_eq!(operations(&window), before + 1);
+    until(&mut window, "what was done", |it| {
+        it.query_by_label_contains("2 glosses changed to x in ")
+            .is_some()
+    });
     let old = says(&window, "Gloss");
     press(&mut window, CTRL | ALT, Key::U);
     stored(&mut window, before + 1);

@@ -4,6 +4,7 @@ pub(crate) mod export;
 pub(crate) mod keys;
 pub(crate) mod notices;
 pub(crate) mod palette;
+pub(crate) mod remedy;
 pub(crate) mod settings;
 pub(crate) mod steps;
 pub(crate) mod trouble;

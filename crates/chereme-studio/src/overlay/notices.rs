@@ -3,10 +3,10 @@
 use std::fmt::Display;
 
 use chereme_corpus::{Cause, CheckReport, Error};
-use eframe::egui::text::{LayoutJob, TextFormat};
+use eframe::egui::text::{LayoutJob, TextFormat, TextWrapping};
 use eframe::egui::{
-    Align, Align2, Area, Context, Frame, Id, Label, Layout, Order, RichText, Role, ScrollArea,
-    Style, TextStyle, Ui, WidgetInfo, vec2,
+    Align, Align2, Area, Color32, Context, Frame, Id, Label, Layout, Order, RichText, Role,
+    ScrollArea, Sense, Shape, Stroke, Style, TextStyle, Ui, Vec2, WidgetInfo, vec2,
 };
 
 use super::trouble;
@@ -22,10 +22,44 @@ const SHORT: f64 = 5.0;
 /// How many are shown at once.
 const MOST: usize = 4;
 
+/// Of what kind a notice is: each has a colour, and a shape that is known without it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// It was done.
+    Done,
+    /// It is to be noted: what cannot be done now, or what others did.
+    Warning,
+    /// It failed.
+    Error,
+}
+
+impl Kind {
+    fn colour(self, colours: &Colours) -> Color32 {
+        match self {
+            Self::Done => colours.good,
+            Self::Warning => colours.warning,
+            Self::Error => colours.trouble,
+        }
+    }
+
+    fn name(self) -> Text {
+        match self {
+            Self::Done => words::KIND_DONE,
+            Self::Warning => words::KIND_WARNING,
+            Self::Error => words::KIND_ERROR,
+        }
+    }
+}
+
 /// A notice.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub(crate) struct Notice {
     id: u64,
+    pub(crate) kind: Kind,
+    /// Whether it only stands in the status line, as it tells what one did oneself.
+    quiet: bool,
+    /// What can be done about it.
+    offers: Vec<(Text, Command)>,
     pub(crate) text: String,
     pub(crate) remedy: Option<String>,
     /// What the corpus itself said.
@@ -48,14 +82,41 @@ pub(crate) struct Notices {
 }
 
 impl Notices {
-    /// Says something that goes away by itself.
+    /// Says what was done; it goes away by itself.
     pub(crate) fn hint(&mut self, text: impl Into<String>) {
-        self.add(text.into(), None, false);
+        self.add(Kind::Done, text.into(), None, false);
+    }
+
+    /// Says what a person did, at the end of the status line only.
+    pub(crate) fn did(&mut self, text: impl Into<String>) {
+        self.hint(text);
+        if let Some(notice) = self.all.last_mut() {
+            notice.quiet = true;
+        }
+    }
+
+    /// Says what is to be noted, such as why something cannot be done; it goes away by itself.
+    pub(crate) fn warn(&mut self, text: impl Into<String>) {
+        self.add(Kind::Warning, text.into(), None, false);
     }
 
     /// Says something that stays.
     pub(crate) fn say(&mut self, text: &str, remedy: Option<&str>) {
-        self.add(text.to_owned(), remedy.map(str::to_owned), true);
+        let remedy = remedy.map(str::to_owned);
+        self.add(Kind::Warning, text.to_owned(), remedy, true);
+    }
+
+    /// Says what went wrong and stays, with what can be done about it at once.
+    pub(crate) fn offer(&mut self, text: String, remedy: &str, offers: Vec<(Text, Command)>) {
+        self.add(Kind::Error, text, Some(remedy.to_owned()), true);
+        if let Some(notice) = self.all.last_mut() {
+            notice.offers = offers;
+        }
+    }
+
+    /// Puts away what offers something.
+    pub(crate) fn withdraw(&mut self) {
+        self.all.retain(|notice| notice.offers.is_empty());
     }
 
     /// Tells what went wrong, and what helps.
@@ -67,7 +128,7 @@ impl Notices {
         let told = trouble::told(error, task, language);
         self.all
             .retain(|notice| notice.detail != told.detail || told.detail.is_none());
-        self.add(told.text, told.remedy, true);
+        self.add(Kind::Error, told.text, told.remedy, true);
         if let Some(notice) = self.all.last_mut() {
             notice.detail = told.detail;
             notice.passes = matches!(error.cause(), Some(Cause::Full | Cause::Busy));
@@ -77,6 +138,7 @@ impl Notices {
     /// Tells that the settings could not be written.
     pub(crate) fn unsaved(&mut self, error: &dyn Display, language: Language) {
         self.add(
+            Kind::Error,
             words::SETTINGS_UNSAVED.of(language).to_owned(),
             Some(error.to_string()),
             true,
@@ -99,9 +161,7 @@ impl Notices {
             Outcome::Recombined(made) => {
                 fill(words::NOTICE_STORED.of(language), &[("gloss", &made.gloss)])
             }
-            Outcome::Undone(row) => {
-                fill(words::NOTICE_UNDONE.of(language), &[("what", &row.summary)])
-            }
+            Outcome::Undone(row) => history::taken_back(row, language),
             Outcome::Walked { back, steps } => {
                 let text = if *back {
                     history::WALKED_BACK
@@ -116,7 +176,8 @@ impl Notices {
             ),
             Outcome::Checked(report) => return self.checked(report, language),
             Outcome::Redone(row) => {
-                fill(words::NOTICE_REDONE.of(language), &[("what", &row.summary)])
+                let what = history::sentence(row, language);
+                fill(history::DONE_AGAIN.of(language), &[("what", &what)])
             }
             Outcome::Exported(report) => {
                 let text = super::export::written_text(report);
@@ -138,6 +199,9 @@ impl Notices {
             (words::CHECKED_FAULTS, report.faults.len())
         };
         self.say(&fill(text.of(language), &[("n", &n)]), None);
+        if let (false, Some(notice)) = (report.ok, self.all.last_mut()) {
+            notice.kind = Kind::Error;
+        }
         let faults = report.faults.iter();
         let faults = faults.map(|it| format!("{}: {} ({})", it.place, it.message, it.remedy));
         let lines: Vec<String> = report.mended.iter().cloned().chain(faults).collect();
@@ -150,7 +214,7 @@ impl Notices {
         self.all.retain(|notice| notice.id != id);
     }
 
-    fn add(&mut self, text: String, remedy: Option<String>, stays: bool) {
+    fn add(&mut self, kind: Kind, text: String, remedy: Option<String>, stays: bool) {
         self.all.retain(|notice| {
             // One hint follows another; what is to be put away stays.
             notice.text != text && (stays || notice.stays || notice.since.is_none())
@@ -158,6 +222,9 @@ impl Notices {
         self.next += 1;
         self.all.push(Notice {
             id: self.next,
+            kind,
+            quiet: false,
+            offers: Vec::new(),
             text,
             remedy,
             detail: None,
@@ -170,32 +237,32 @@ impl Notices {
         }
     }
 
-    /// Shows the newest hint at the end of the status line, where there is room for it.
-    pub(crate) fn line(&mut self, ui: &mut Ui) {
+    /// Shows the newest hint at the end of the status line, where there is room for it; what one did oneself is cut
+    /// where there is little.
+    pub(crate) fn line(&mut self, ui: &mut Ui, language: Language) {
         self.in_line = None;
         let Some(notice) = self.all.iter().rev().find(|it| !it.stays) else {
             return;
         };
-        let colours = Colours::of(theme::is_dark(ui.ctx()));
-        let mut job = LayoutJob::default();
         let font = TextStyle::Body.resolve(ui.style());
-        let dot = TextFormat::simple(font.clone(), colours.good);
-        job.append("●", 0.0, dot);
         let strong = ui.visuals().strong_text_color();
-        job.append(
-            &notice.text.replace('`', ""),
-            8.0,
-            TextFormat::simple(font, strong),
-        );
+        let text = notice.text.replace('`', "");
+        let mut job = LayoutJob::simple_singleline(text, font, strong);
+        let room = ui.available_width() - MARK - 24.0;
+        if notice.quiet {
+            job.wrap = TextWrapping::truncate_at_width(room.max(0.0));
+        }
         let galley = ui.painter().layout_job(job);
-        if galley.rows.len() > 1 || galley.size().x + 16.0 > ui.available_width() {
+        if galley.size().x > room || room < 40.0 {
             return;
         }
         self.in_line = Some(notice.id);
-        let label = notice.text.clone();
+        let (label, kind) = (notice.text.clone(), notice.kind);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let said = ui.add(Label::new(galley));
             said.widget_info(|| WidgetInfo::labeled(Role::Label, true, &label));
+            said.on_hover_text(&label);
+            mark(ui, kind, language);
         });
     }
 
@@ -213,7 +280,7 @@ impl Notices {
         }
         ctx.request_repaint_after(std::time::Duration::from_millis(500));
         let in_line = self.in_line;
-        let elsewhere = |notice: &&Notice| Some(notice.id) != in_line;
+        let elsewhere = |notice: &&Notice| Some(notice.id) != in_line && !notice.quiet;
         if !self.all.iter().any(|it| elsewhere(&it)) {
             return;
         }
@@ -222,16 +289,10 @@ impl Notices {
             .anchor(Align2::RIGHT_BOTTOM, vec2(-16.0, -44.0));
         area.show(ctx, |ui| {
             ui.set_max_width(420.0);
-            let colours = Colours::of(theme::is_dark(ctx));
             for notice in self.all.iter().filter(elsewhere) {
                 Frame::popup(ui.style()).show(ui, |ui| {
-                    let edge = if notice.stays {
-                        colours.trouble
-                    } else {
-                        colours.good
-                    };
-                    ui.horizontal_wrapped(|ui| {
-                        ui.label(RichText::new("●").color(edge));
+                    ui.horizontal(|ui| {
+                        mark(ui, notice.kind, language);
                         ui.label(with_code(ui.style(), &notice.text, false));
                     });
                     if let Some(remedy) = &notice.remedy {
@@ -243,13 +304,54 @@ impl Notices {
                             ui.label(RichText::new(detail).small().weak());
                         });
                     }
-                    if notice.stays && ui.button(words::CLOSE.of(language)).clicked() {
-                        out.send(Command::Dismiss(notice.id));
-                    }
+                    ui.horizontal_wrapped(|ui| {
+                        for (text, command) in &notice.offers {
+                            if ui.button(text.of(language)).clicked() {
+                                out.send(command.clone());
+                            }
+                        }
+                        if notice.stays && ui.button(words::CLOSE.of(language)).clicked() {
+                            out.send(Command::Dismiss(notice.id));
+                        }
+                    });
                 });
             }
         });
     }
+}
+
+/// How large the mark of a notice is.
+const MARK: f32 = 14.0;
+
+/// Paints of what kind a notice is: a tick in a disc, an exclamation mark in a triangle, or a cross in a square.
+fn mark(ui: &mut Ui, kind: Kind, language: Language) {
+    let colours = Colours::of(theme::is_dark(ui.ctx()));
+    let (rect, response) = ui.allocate_exact_size(Vec2::splat(MARK), Sense::hover());
+    let name = kind.name().of(language);
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
+    let (centre, colour) = (rect.center(), kind.colour(colours));
+    let ink = Stroke::new(1.8, ui.visuals().panel_fill);
+    let painter = ui.painter();
+    let at = |x: f32, y: f32| centre + vec2(x, y);
+    match kind {
+        Kind::Done => {
+            painter.circle_filled(centre, 6.5, colour);
+            painter.line_segment([at(-3.0, 0.2), at(-0.8, 2.6)], ink);
+            painter.line_segment([at(-0.8, 2.6), at(3.2, -2.4)], ink);
+        }
+        Kind::Warning => {
+            let points = vec![at(0.0, -6.5), at(7.0, 6.0), at(-7.0, 6.0)];
+            painter.add(Shape::convex_polygon(points, colour, Stroke::NONE));
+            painter.line_segment([at(0.0, -2.6), at(0.0, 1.8)], ink);
+            painter.line_segment([at(0.0, 3.2), at(0.0, 4.8)], ink);
+        }
+        Kind::Error => {
+            painter.rect_filled(rect.shrink(0.5), 2.0, colour);
+            painter.line_segment([at(-3.0, -3.0), at(3.0, 3.0)], ink);
+            painter.line_segment([at(-3.0, 3.0), at(3.0, -3.0)], ink);
+        }
+    }
+    response.on_hover_text(name);
 }
 
 /// Lays a text out with what stands between backticks as code, without them.
@@ -313,5 +415,51 @@ mod tests {
             notices.hint(at.to_string());
         }
         assert_eq!(notices.all.len(), MOST);
+    }
+
+    #[test]
+    fn what_was_done_is_named_and_each_kind_is_told_from_the_others() {
+        let mut notices = Notices::default();
+        let row = |summary: &str| chereme_corpus::OperationRow {
+            id: 2,
+            at: "2026-01-02T03:04:05Z".into(),
+            author: "A".into(),
+            kind: chereme_corpus::OperationKind::Undo,
+            target: Some(1),
+            name: "annotate".into(),
+            summary: summary.into(),
+            changes: 1,
+            stands: true,
+        };
+        for (outcome, want) in [
+            (
+                Outcome::Undone(row("3 removed in Un")),
+                "3 annotations restored in Un",
+            ),
+            (
+                Outcome::Redone(row("3 handshapes changed to U in Un")),
+                "Done again: 3 handshapes changed to U in Un",
+            ),
+        ] {
+            notices.of(&outcome, Language::English);
+            let last = notices.all.last().expect("a notice");
+            assert_eq!((last.text.as_str(), last.kind), (want, Kind::Done));
+        }
+        notices.warn("no");
+        assert_eq!(notices.all.last().map(|it| it.kind), Some(Kind::Warning));
+        notices.trouble(&Error::wrong("no"), None, Language::English);
+        assert_eq!(notices.all.last().map(|it| it.kind), Some(Kind::Error));
+        for dark in [false, true] {
+            let colours = Colours::of(dark);
+            let all = [Kind::Done, Kind::Warning, Kind::Error].map(|it| it.colour(colours));
+            assert!(all[0] != all[1] && all[1] != all[2] && all[0] != all[2]);
+        }
+        notices.offer(
+            "gone".into(),
+            "copy",
+            vec![(words::SAVE_COPY, Command::StopBeginning)],
+        );
+        notices.withdraw();
+        assert!(notices.all.iter().all(|it| it.text != "gone"));
     }
 }

@@ -78,7 +78,8 @@ impl Palette {
             .title_bar(false)
             .resizable(false)
             .anchor(Align2::CENTER_TOP, vec2(0.0, 72.0))
-            .fixed_size(vec2(440.0, 360.0));
+            .min_size(vec2(440.0, 0.0))
+            .max_size(vec2(440.0, 380.0));
         window.show(ctx, |ui| {
             let field = TextEdit::singleline(&mut self.text)
                 .hint_text(words::PALETTE_HINT.of(language))
@@ -97,7 +98,9 @@ impl Palette {
             if rows.is_empty() {
                 ui.weak(words::PALETTE_NONE.of(language));
             }
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            // No higher than what it found.
+            let area = ScrollArea::vertical().auto_shrink([false, true]);
+            area.max_height(320.0).show(ui, |ui| {
                 for (at, row) in rows.iter().enumerate() {
                     let button = Button::selectable(at == self.chosen, row.name.of(language))
                         .shortcut_text(keys.text(row.action))

@@ -69,7 +69,7 @@ impl SettingsWindow {
                     }
                     ui.end_row();
                     ui.label(words::KEYMAP.of(language));
-                    ui.horizontal_wrapped(|ui| {
+                    ui.horizontal(|ui| {
                         for (it, text) in Keymap::ALL {
                             ui.selectable_value(&mut changed.keymap, it, text.of(language));
                         }

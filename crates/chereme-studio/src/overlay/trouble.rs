@@ -5,6 +5,7 @@ use std::io::ErrorKind;
 
 use chereme_corpus::{Cause, Error};
 
+use super::remedy;
 use crate::words::{Language, Text, fill, trouble as words};
 
 /// What is told of a failure.
@@ -22,15 +23,16 @@ pub(crate) fn told(error: &Error, task: Option<Text>, language: Language) -> Tol
         let text = crate::words::shell::REMEDY.of(language);
         fill(text, &[("remedy", &remedy)])
     };
+    let of_corpus = || remedy::here(&error.remedy()?, language);
     if language == Language::English {
         let own = remedy_here(error).map(|it| it.of(language).to_owned());
         return Told {
             text: error.to_string(),
-            remedy: own.or_else(|| error.remedy()).map(|it| helps(&it)),
+            remedy: own.or_else(of_corpus).map(|it| helps(&it)),
             detail: None,
         };
     }
-    let said = match error.remedy() {
+    let said = match of_corpus() {
         Some(remedy) => format!("{error}\n({remedy})"),
         None => error.to_string(),
     };

@@ -158,6 +158,26 @@ impl Panes {
     }
 }
 
+/// Returns how wide the longest word of texts is: a column that holds them is never narrower, so that they break
+/// between words.
+pub(crate) fn longest_word<'a>(ui: &Ui, texts: impl Iterator<Item = &'a str>) -> f32 {
+    let words = texts.flat_map(str::split_whitespace);
+    words.map(|it| wide(ui, it)).fold(0.0, f32::max).ceil()
+}
+
+/// Returns how wide a button of that text is.
+pub(crate) fn button_width(ui: &Ui, text: &str) -> f32 {
+    wide(ui, text) + 2.0 * ui.spacing().button_padding.x + 2.0
+}
+
+fn wide(ui: &Ui, text: &str) -> f32 {
+    let font = TextStyle::Body.resolve(ui.style());
+    let galley = ui
+        .painter()
+        .layout_no_wrap(text.to_owned(), font, Color32::WHITE);
+    galley.size().x
+}
+
 /// Returns how far a list of rows of one height is scrolled so that the row `at` is in sight.
 pub(crate) fn scrolled_to(at: usize, height: f32, now: f32, room: f32) -> f32 {
     let top = at as f32 * height;

@@ -70,6 +70,19 @@ pub(crate) fn label(value: &InventoryValue, language: Language) -> String {
     }
 }
 
+/// Returns what a value says where there is room for one word: its id, and in other languages than English its name
+/// where the id is an English word, such as `hand-back`, and not a letter or a sign.
+pub(crate) fn said(value: &InventoryValue, language: Language) -> &str {
+    let english = fold(value.name(Language::English.code()));
+    let mut words = value.id.split(['-', '_', ' ']);
+    let is_word = words.all(|word| word.len() > 2 && english.contains(&fold(word)));
+    if language != Language::English && is_word {
+        value.name(language.code())
+    } else {
+        &value.id
+    }
+}
+
 /// Returns the places of the values that `filter` fits, those that are called so first.
 pub(crate) fn fitting(inventory: &Inventory, filter: &str) -> Vec<usize> {
     let wanted = fold(filter.trim());
@@ -179,6 +192,30 @@ mod tests {
             .into_iter()
             .map(|at| inventory.values[at].id.as_str())
             .collect()
+    }
+
+    #[test]
+    fn values_that_are_english_words_are_said_in_french() {
+        for (id, english, french, want) in [
+            (
+                "hand-back",
+                "back of the hand",
+                "dos de la main",
+                "dos de la main",
+            ),
+            ("neutral", "neutral space", "espace neutre", "espace neutre"),
+            ("U", "U", "U", "U"),
+            ("5_folded", "folded 5", "5 plié", "5_folded"),
+        ] {
+            let names = [("en", english), ("fr", french)];
+            let value = InventoryValue {
+                id: id.into(),
+                names: names.map(|(a, b)| (a.to_owned(), b.to_owned())).into(),
+                ..InventoryValue::default()
+            };
+            assert_eq!(said(&value, Language::French), want);
+            assert_eq!(said(&value, Language::English), id);
+        }
     }
 
     #[test]

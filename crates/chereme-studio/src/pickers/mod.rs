@@ -37,6 +37,9 @@ use cells::{Cell, Cells};
 use data::Kind;
 use keys::Pressed;
 
+/// A pane narrower than this, in points, has no room for a picker of its own.
+const LEAST: f32 = 240.0;
+
 /// The state of a picker.
 #[derive(Debug, Default)]
 pub(crate) struct Picker {
@@ -153,7 +156,15 @@ pub(crate) fn button(
     let popup = Popup::from_toggle_button_response(&response)
         .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
         .accessible_name(name);
-    let width = data::width(data::kind(inventory)).min(screen.x - 48.0);
+    // It stays within its pane, so that the stage, where what is picked is seen, stays free.
+    let pane = ui.clip_rect();
+    let wide = data::width(data::kind(inventory)).min(screen.x - 48.0);
+    let room = pane.width() - 24.0;
+    let width = if room >= LEAST { wide.min(room) } else { wide };
+    let left = response.rect.left().min(pane.right() - width - 20.0);
+    let left = left.max(pane.left().max(4.0));
+    let below = Rect::from_x_y_ranges(left..=left + width, response.rect.y_range());
+    let popup = popup.anchor(below);
     let id = popup.get_id();
     if std::mem::take(&mut picker.opens) {
         Popup::open_id(ui.ctx(), id);
@@ -278,7 +289,7 @@ fn face(
 ) -> Response {
     let value = chosen.and_then(|id| inventory.find(id));
     let text = match (value, chosen) {
-        (Some(value), _) => value.id.clone(),
+        (Some(value), _) => data::said(value, seen.language).to_owned(),
         (None, Some(chosen)) => chosen.to_owned(),
         (None, None) => seen.say(words::CHOOSE).to_owned(),
     };

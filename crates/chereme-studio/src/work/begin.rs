@@ -20,8 +20,11 @@ pub(crate) enum Begin {
     New(PathBuf),
     /// The starter corpus, made in this folder where it is not there yet.
     Starter(PathBuf),
-    /// A new one beside this folder, with all that is in it.
+    /// The one beside this folder, made empty where there is none, to take in what is in the folder once that was
+    /// looked at.
     Folder(PathBuf),
+    /// The same for files, in the folder of the first.
+    Files(Vec<PathBuf>),
 }
 
 /// An opening that has not ended.
@@ -29,6 +32,10 @@ pub(crate) struct Beginning {
     news: Receiver<Telling>,
     pub(crate) far: Far,
     stop: Arc<AtomicBool>,
+    /// What is to be looked at in the import then.
+    pub(crate) look: Vec<PathBuf>,
+    /// The corpus that is made only to take it in.
+    pub(crate) made: Option<PathBuf>,
 }
 
 enum Telling {
@@ -39,6 +46,7 @@ enum Telling {
 impl Beginning {
     /// Begins on a thread of its own.
     pub(crate) fn start(begin: Begin, author: &str, wake: &Wake) -> Self {
+        let (look, made) = begin.look();
         let (tell, news) = channel();
         let (author, wake) = (author.to_owned(), wake.clone());
         let stop = Arc::new(AtomicBool::new(false));
@@ -61,6 +69,8 @@ impl Beginning {
             news,
             far: Far::default(),
             stop,
+            look,
+            made,
         }
     }
 
@@ -89,13 +99,45 @@ impl Begin {
                 Corpus::create(&path, author).map(|_| path)
             }
             Self::Starter(folder) => starter(&folder, author, progress),
-            Self::Folder(folder) => {
-                let name = folder.file_name().unwrap_or_default();
-                let path = with_extension(folder.with_file_name(name));
-                filled(&path, &folder, author, progress)?;
-                Ok(path)
+            Self::Folder(ref folder) if !folder.is_dir() => {
+                Err(Error::file(folder, std::io::ErrorKind::NotFound.into()))
+            }
+            Self::Folder(_) | Self::Files(_) => {
+                let path = self.target();
+                let open = if path.is_file() {
+                    Corpus::open(&path, author)
+                } else {
+                    Corpus::create(&path, author)
+                };
+                open.map(|_| path)
             }
         }
+    }
+
+    /// Returns what is to be looked at when it is open, and the corpus that is made only for it.
+    fn look(&self) -> (Vec<PathBuf>, Option<PathBuf>) {
+        let look = match self {
+            Self::Folder(folder) => vec![folder.clone()],
+            Self::Files(files) => files.clone(),
+            _ => return (Vec::new(), None),
+        };
+        let path = self.target();
+        let made = (!path.exists()).then(|| std::path::absolute(&path).unwrap_or(path));
+        (look, made)
+    }
+
+    /// Returns the corpus for files that are to be taken in.
+    fn target(&self) -> PathBuf {
+        let path = match self {
+            Self::Folder(folder) => folder.clone(),
+            Self::Files(files) => {
+                let folder = files.first().and_then(|it| it.parent());
+                let folder = folder.unwrap_or(Path::new(""));
+                folder.join(folder.file_name().unwrap_or_default())
+            }
+            Self::Open(path) | Self::New(path) | Self::Starter(path) => path.clone(),
+        };
+        with_extension(path)
     }
 }
 
@@ -126,7 +168,8 @@ fn filled(path: &Path, folder: &Path, author: &str, progress: &mut Progress<'_>)
     done.map(|_| ())
 }
 
-fn with_extension(path: PathBuf) -> PathBuf {
+/// Returns the path with the ending of a corpus.
+pub(crate) fn with_extension(path: PathBuf) -> PathBuf {
     if path
         .extension()
         .is_some_and(|extension| extension == "chereme")
@@ -161,11 +204,33 @@ mod tests {
     #[test]
     fn a_stopped_import_leaves_no_corpus_behind() {
         let folder = tempfile::tempdir().expect("a folder");
+        let mut stop = |_: Step<'_>| ControlFlow::Break(());
+        let starter = Begin::Starter(folder.path().to_owned());
+        let done = starter.carry_out("A", &mut Progress::new(&mut stop));
+        assert!(matches!(done, Err(Error::Stopped)));
+        assert!(!folder.path().join("starter.chereme").exists());
+    }
+
+    #[test]
+    fn a_folder_and_files_are_looked_at_before_anything_is_taken_in() {
+        let folder = tempfile::tempdir().expect("a folder");
         let files = folder.path().join("mine");
         unpack_starter(&files).expect("unpacked");
-        let mut stop = |_: Step<'_>| ControlFlow::Break(());
-        let done = Begin::Folder(files).carry_out("A", &mut Progress::new(&mut stop));
-        assert!(matches!(done, Err(Error::Stopped)));
-        assert!(!folder.path().join("mine.chereme").exists());
+        let file = files.join("escargot.bvh");
+        for (what, look, name) in [
+            (Begin::Folder(files.clone()), &files, "mine.chereme"),
+            (Begin::Files(vec![file.clone()]), &file, "mine/mine.chereme"),
+        ] {
+            let want = folder.path().join(name);
+            assert_eq!(what.look(), (vec![look.clone()], Some(want.clone())));
+            assert_eq!(begin(what.clone()).expect("made"), want);
+            let corpus = Corpus::open(&want, "A").expect("opened");
+            let overview = corpus.overview(10).expect("read");
+            assert!(overview.recordings.is_empty() && overview.operations.is_empty());
+            // One that is there already is gone on with.
+            assert_eq!(what.look().1, None);
+            assert_eq!(begin(what).expect("opened"), want);
+        }
+        assert!(begin(Begin::Folder(folder.path().join("gone"))).is_err());
     }
 }

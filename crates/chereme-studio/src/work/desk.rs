@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use chereme_corpus::{Corpus, Error, Progress, Step};
+use chereme_corpus::{Corpus, Error, Place, Progress, Step};
 
 use super::carry::carry;
 use super::{Ended, Far, Lane, Work, WorkId};
@@ -31,6 +31,10 @@ pub(crate) enum News {
     Read(Snapshot, bool),
     /// It could not be read.
     Unread(Error),
+    /// Its file is gone from its place, or there again.
+    Stands(bool),
+    /// A copy of it was saved there, or why not.
+    Copied(Result<PathBuf, Error>),
     /// A piece of work is that far.
     Far(WorkId, Far),
     /// A piece of work ended.
@@ -66,6 +70,8 @@ enum Wish {
     Again,
     /// Read this recording too.
     Recording(Option<i64>),
+    /// Save a copy there.
+    Copy(PathBuf),
 }
 
 /// An open corpus with its threads; dropping it waits for what was typed to be stored.
@@ -87,6 +93,8 @@ impl Desk {
             author: author.to_owned(),
             tell,
             wake: wake.clone(),
+            place: Place::of(path),
+            edits: Arc::default(),
         };
         let (reader, wishes) = channel();
         let mut threads = Vec::new();
@@ -143,6 +151,14 @@ impl Desk {
         }
     }
 
+    /// Has a copy of the corpus saved, also where its file is gone.
+    pub(crate) fn save_copy(&self, to: PathBuf) {
+        if let Some(reader) = &self.reader {
+            // A reader that is gone has said why.
+            let _ = reader.send(Wish::Copy(to));
+        }
+    }
+
     /// Returns what came in since it was last asked.
     pub(crate) fn news(&mut self) -> Vec<News> {
         let mut all = Vec::new();
@@ -185,6 +201,10 @@ struct Station {
     author: String,
     tell: Sender<News>,
     wake: Wake,
+    /// The corpus file as it was opened.
+    place: Place,
+    /// How often this window began and ended to change the corpus: odd while it does.
+    edits: Arc<AtomicU64>,
 }
 
 impl Station {
@@ -199,8 +219,14 @@ impl Station {
         while let Ok(order) = orders.recv() {
             let Order { id, work, stop } = *order;
             let (task, quiet) = (work.task(), work.is_quiet());
+            let edits = lane == Lane::Edit;
+            // One lane edits, so that this counts begins and ends in turn.
+            if edits {
+                self.edits.fetch_add(1, Ordering::SeqCst);
+            }
             let ended = self.carry_out(&mut corpus, id, work, &stop);
-            if lane == Lane::Edit {
+            if edits {
+                self.edits.fetch_add(1, Ordering::SeqCst);
                 let _ = reader.send(Wish::Again);
             }
             self.say(News::Ended(id, ended, About { task, quiet }));
@@ -216,6 +242,9 @@ impl Station {
     ) -> Ended {
         if stop.load(Ordering::Relaxed) {
             return Err(Error::Stopped);
+        }
+        if (work.lane() == Lane::Edit || corpus.is_none()) && !self.place.stands() {
+            return Err(Error::file(&self.path, std::io::ErrorKind::NotFound.into()));
         }
         let corpus = match corpus {
             Some(corpus) => corpus,
@@ -247,20 +276,32 @@ impl Station {
             seen: None,
             snapshot: Snapshot::default(),
         };
-        let mut own = true;
+        let (mut stood, mut before) = (true, 0);
         loop {
+            let stands = self.place.stands();
+            if std::mem::replace(&mut stood, stands) != stands {
+                self.say(News::Stands(stands));
+            }
+            let begun = self.edits.load(Ordering::SeqCst);
             match reading.again() {
-                Ok(true) => self.say(News::Read(reading.snapshot.clone(), own)),
+                Ok(true) => {
+                    let own = is_own(before, self.edits.load(Ordering::SeqCst));
+                    self.say(News::Read(reading.snapshot.clone(), own));
+                }
                 Ok(false) => {}
                 Err(error) => self.say(News::Unread(error)),
             }
-            own = false;
+            // What goes on is not over yet.
+            before = begun & !1;
             let mut next = wishes.recv_timeout(LOOK);
             while let Ok(wish) = next {
-                own = true;
                 match wish {
                     Wish::Again => {}
                     Wish::Recording(recording) => reading.recording = recording,
+                    Wish::Copy(to) => {
+                        let saved = reading.corpus.save_copy(&to).map(|()| to);
+                        self.say(News::Copied(saved));
+                    }
                 }
                 next = wishes.try_recv().map_err(|error| match error {
                     std::sync::mpsc::TryRecvError::Empty => RecvTimeoutError::Timeout,
@@ -272,6 +313,12 @@ impl Station {
             }
         }
     }
+}
+
+/// Returns whether what changed between two readings may be this window's own work: it began, ended or went on
+/// meanwhile, as the counts of its begins and ends tell.
+fn is_own(before: u64, now: u64) -> bool {
+    now != before || now % 2 == 1
 }
 
 /// What the reading thread knows.
@@ -304,5 +351,24 @@ impl Reading {
         };
         self.seen = Some(now);
         Ok(true)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_read_while_or_after_this_window_works_is_its_own() {
+        for (before, now, own) in [
+            (0, 0, false),
+            (0, 1, true),
+            (1, 1, true),
+            (1, 2, true),
+            (0, 2, true),
+            (2, 2, false),
+        ] {
+            assert_eq!(is_own(before, now), own, "{before} {now}");
+        }
     }
 }

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use chereme_corpus::{OperationKind, OperationRow};
 use chereme_sign::text::fold;
 
-use crate::words::Language;
-use crate::words::history::sentence;
+use crate::words::history::{self as words, sentence};
+use crate::words::{Language, fill};
 
 /// Whether an operation stands, and how it is reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -93,6 +93,29 @@ pub(crate) fn next(operations: &[OperationRow], back: bool, language: Language) 
     Some(sentence(found, language))
 }
 
+/// Returns what was done since `before`, as a sentence; of others it says who did it, and of one's own work nothing
+/// where that is told otherwise.
+pub(crate) fn news(
+    [before, now]: [&[OperationRow]; 2],
+    own: bool,
+    language: Language,
+) -> Option<String> {
+    let newest = now.first()?;
+    if before.first().is_some_and(|it| it.id >= newest.id) {
+        return None;
+    }
+    if own {
+        let told = newest.kind != OperationKind::Do || newest.name.starts_with("recombine");
+        return (!told).then(|| sentence(newest, language));
+    }
+    let what = match newest.kind {
+        OperationKind::Undo => words::taken_back(newest, language),
+        _ => sentence(newest, language),
+    };
+    let values: [(&str, &dyn std::fmt::Display); 2] = [("who", &newest.author), ("what", &what)];
+    Some(fill(words::BY_OTHERS.of(language), &values))
+}
+
 /// Returns how many operations stand.
 pub(crate) fn standing(operations: &[OperationRow]) -> usize {
     let all = standings(operations);
@@ -146,6 +169,36 @@ mod tests {
             [(7, Stands(0)), (3, Gone), (2, Stands(1)), (1, Stands(2))]
         );
         assert_eq!(standing(&all), 3);
+    }
+
+    #[test]
+    fn what_is_new_names_what_was_done_and_who_else_did_it() {
+        let before = [row(1, OperationKind::Do, None, "import", "a.bvh")];
+        let summary = "3 handshapes changed to U in Un";
+        let did = row(2, OperationKind::Do, None, "annotate", summary);
+        let undid = row(
+            3,
+            OperationKind::Undo,
+            Some(2),
+            "annotate",
+            "2 removed in Un",
+        );
+        let made = row(2, OperationKind::Do, None, "recombine", "A = B");
+        let said = |now: &OperationRow, own| {
+            let now = [now.clone(), before[0].clone()];
+            news([&before, &now], own, Language::English)
+        };
+        assert_eq!(said(&did, true).as_deref(), Some(summary));
+        assert_eq!(
+            said(&did, false).as_deref(),
+            Some("Zoé changed the corpus in another program: 3 handshapes changed to U in Un")
+        );
+        assert_eq!(
+            said(&undid, false).as_deref(),
+            Some("Zoé changed the corpus in another program: 2 annotations restored in Un")
+        );
+        assert_eq!((said(&undid, true), said(&made, true)), (None, None));
+        assert_eq!(news([&before, &before], true, Language::English), None);
     }
 
     #[test]

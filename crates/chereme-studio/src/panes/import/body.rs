@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use eframe::egui::{Color32, Pos2, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
+use eframe::egui::{Color32, CursorIcon, Pos2, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, vec2};
 
+use super::people;
 use crate::context::Seen;
 use crate::words::{fill, import as words};
 
@@ -72,11 +73,16 @@ pub(super) fn marks(found: &BTreeMap<String, String>) -> Vec<Mark> {
     all
 }
 
-/// Shows the map.
-pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, found: &BTreeMap<String, String>) {
+/// Shows the map; returns the part that was clicked, where its joint can be said.
+pub(super) fn show(
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    found: &BTreeMap<String, String>,
+    points: bool,
+) -> Option<String> {
     let marks = marks(found);
     let height = 170.0;
-    let (rect, response) = ui.allocate_exact_size(vec2(height * 0.72, height), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(vec2(height * 0.72, height), Sense::click());
     let there = marks.iter().filter(|mark| mark.found).count();
     let values: [(&str, &dyn std::fmt::Display); 2] = [("n", &there), ("all", &marks.len())];
     let label = fill(seen.say(words::BODY_MAP), &values);
@@ -133,16 +139,25 @@ pub(super) fn show(ui: &mut Ui, seen: &Seen<'_>, found: &BTreeMap<String, String
     let near = ui
         .input(|input| input.pointer.hover_pos())
         .filter(|at| rect.contains(*at));
-    if let Some(mark) = near.and_then(|at| nearest(&marks, |mark| place(mark.at).distance(at))) {
-        let joint = found
-            .iter()
-            .find(|(part, _)| **part == mark.part || part.starts_with(&format!("{} ", mark.part)));
-        let text = match joint {
-            Some((_, joint)) => format!("{} = {joint}", mark.part),
-            None => fill(seen.say(words::PART_MISSING), &[("part", &mark.part)]),
-        };
+    let mark = near.and_then(|at| nearest(&marks, |mark| place(mark.at).distance(at)))?;
+    let joint = found
+        .iter()
+        .find(|(part, _)| **part == mark.part || part.starts_with(&format!("{} ", mark.part)));
+    let named = people::part(&mark.part, seen.language);
+    let text = match joint {
+        Some((_, joint)) => format!("{named} = {joint}"),
+        None => fill(seen.say(words::PART_MISSING), &[("part", &named)]),
+    };
+    if !points {
         response.on_hover_text_at_pointer(text);
+        return None;
     }
+    let ring = Stroke::new(2.0, seen.colours().accent);
+    ui.painter().circle_stroke(place(mark.at), 7.0, ring);
+    let clicked = response.clicked();
+    let response = response.on_hover_cursor(CursorIcon::PointingHand);
+    response.on_hover_text_at_pointer(format!("{text}\n{}", seen.say(words::POINT)));
+    clicked.then(|| mark.part.clone())
 }
 
 fn nearest(marks: &[Mark], far: impl Fn(&Mark) -> f32) -> Option<&Mark> {

@@ -7,7 +7,8 @@ use chereme_motion::Axes;
 use chereme_motion::anatomy::Roles;
 use serde_json::Value;
 
-use crate::words::{Text, import as words};
+use super::people;
+use crate::words::{Language, Text, fill, import as words};
 
 /// Returns what became of a file, in words.
 pub(crate) fn status_text(status: FileStatus) -> Text {
@@ -20,18 +21,28 @@ pub(crate) fn status_text(status: FileStatus) -> Text {
     }
 }
 
-/// Returns how a file's movement was understood: unit, axes, rate, joints; nothing of other files.
-pub(crate) fn movement(file: &FileReport) -> Vec<(Text, String)> {
+/// Returns how a file's movement was understood, in people's words: unit, axes, rate, joints; nothing of other files.
+pub(crate) fn movement(file: &FileReport, language: Language) -> Vec<(Text, String)> {
     let said = |key: &str| file.understood.get(key).map(chereme_corpus::cell_text);
-    let unit = said("unit").map(|unit| match said("metres_per_unit") {
-        Some(metres) => format!("{unit} ({metres} m)"),
-        None => unit,
+    let unit = said("unit").map(|unit| {
+        let name = people::unit(&unit, language).map_or(unit, str::to_owned);
+        match said("metres_per_unit") {
+            Some(metres) => format!("{name} ({metres} m)"),
+            None => name,
+        }
     });
     let sure = file.understood.get("confidence").and_then(Value::as_f64);
-    let axes = said("axes");
-    let unit = unit
-        .zip(sure)
-        .map(|(unit, sure)| format!("{unit} · {:.0} %", sure * 100.0));
+    let axes = said("axes").map(|text| match text.parse() {
+        Ok(axes) => people::axes(axes, language),
+        Err(_) => text,
+    });
+    let unit = unit.zip(sure).map(|(unit, sure)| {
+        let sure = format!("{:.0}", sure * 100.0);
+        format!(
+            "{unit} · {}",
+            fill(words::SURE.of(language), &[("n", &sure)])
+        )
+    });
     [
         (words::UNIT, unit),
         (words::AXES, axes),
@@ -285,8 +296,8 @@ mod tests {
             "roles": [{ "part": "right hand", "joint": "RHand", "by": "name" }],
         }));
         assert_eq!(
-            movement(&file),
-            [(words::UNIT, "cm (0.01 m) · 90 %".to_owned())]
+            movement(&file, Language::English),
+            [(words::UNIT, "centimetres (0.01 m) · 90 % sure".to_owned())]
         );
         assert_eq!(parts(&file).expect("a body")["right hand"], "RHand");
         assert_eq!(counts(&file), [0, 1, 0]);

@@ -3,12 +3,13 @@
 use std::path::Path;
 
 use chereme_corpus::{FileReport, FileStatus};
-use eframe::egui::{CollapsingHeader, ComboBox, Grid, Id, RichText, Role, Ui, WidgetInfo};
+use eframe::egui::{Align, CollapsingHeader, ComboBox, Grid, Id, RichText, Role, Ui, WidgetInfo};
 
 use super::known::Said;
-use super::{body, data};
+use super::{body, data, people};
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
+use crate::overlay::remedy;
 use crate::panes::complete::{Line, complete, fitting};
 use crate::words::{fill, import as words, shell};
 
@@ -62,12 +63,14 @@ pub(super) fn show(
 }
 
 fn understood(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport, dry: bool) {
-    let lines = data::movement(file);
+    let lines = data::movement(file, seen.language);
     let parts = data::parts(file);
     if !lines.is_empty() || parts.is_some() {
         ui.horizontal_top(|ui| {
             if let Some(parts) = &parts {
-                body::show(ui, seen, parts);
+                if let Some(part) = body::show(ui, seen, parts, dry) {
+                    ui.data_mut(|data| data.insert_temp(pointed(file), part));
+                }
             }
             ui.vertical(|ui| {
                 for (text, value) in &lines {
@@ -142,26 +145,41 @@ fn tier(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, guess: &data::Guess) {
         .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
 }
 
-/// Which joint each part of the body is, to be changed.
+/// Returns under what it is remembered which part of a file's body was clicked.
+fn pointed(file: &FileReport) -> Id {
+    Id::unique(("pointed", &file.path))
+}
+
+/// Which joint each part of the body is, to be changed; the part that was clicked on the body is turned to.
 fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport) {
     let rows = data::joint_rows(file);
     if rows.is_empty() {
         return;
     }
     let title = RichText::new(seen.say(words::JOINTS_ARE)).small();
-    let header = CollapsingHeader::new(title).id_salt(("joints", &file.path));
+    let pointed = pointed(file);
+    let part: Option<String> = ui.data(|data| data.get_temp(pointed));
+    let is_it = |name: &str| {
+        let part = part.as_deref();
+        part.is_some_and(|it| name == it || name.starts_with(&format!("{it} ")))
+    };
+    let wanted = rows.iter().position(|(part, _)| is_it(part));
+    let header = CollapsingHeader::new(title)
+        .id_salt(("joints", &file.path))
+        .open(wanted.map(|_| true));
     header.show(ui, |ui| {
         let names = data::joint_names(file);
         let candidates = |typed: &str| fitting(names.iter().copied(), typed);
         Grid::new(("joints", &file.path))
             .num_columns(2)
             .show(ui, |ui| {
-                for (part, joint) in &rows {
+                for (at, (part, joint)) in rows.iter().enumerate() {
                     let changed = said.joints.contains_key(part);
-                    let name = RichText::new(part).small();
+                    let named = people::part(part, seen.language);
+                    let name = RichText::new(&named).small();
                     ui.label(if changed { name.strong() } else { name });
                     let mut text = said.joints.get(part).unwrap_or(joint).clone();
-                    let label = fill(seen.say(words::JOINT_OF), &[("part", part)]);
+                    let label = fill(seen.say(words::JOINT_OF), &[("part", &named)]);
                     let line = Line {
                         name: &label,
                         hint: seen.say(words::NO_JOINT),
@@ -169,7 +187,14 @@ fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport) {
                         ..Line::default()
                     };
                     let id = Id::unique(("joint", &file.path, part));
-                    if complete(ui, id, line, &mut text, &candidates).changed {
+                    let typed = complete(ui, id, line, &mut text, &candidates);
+                    // It is there to be focused once its heading is open.
+                    if wanted == Some(at) && ui.is_visible() {
+                        typed.response.request_focus();
+                        typed.response.scroll_to_me(Some(Align::Center));
+                        ui.data_mut(|data| data.remove_temp::<String>(pointed));
+                    }
+                    if typed.changed {
                         if text == *joint {
                             said.joints.remove(part);
                         } else {
@@ -193,12 +218,14 @@ fn findings(ui: &mut Ui, seen: &Seen<'_>, file: &FileReport) {
             Some(line) => format!("{}: ", fill(seen.say(words::LINE), &[("n", &line)])),
             None => String::new(),
         };
-        let text = RichText::new(format!("{place}{}", finding.message))
+        let said = people::remark(&finding.message, seen.language);
+        let text = RichText::new(format!("{place}{said}"))
             .small()
             .color(colour);
         ui.label(text);
-        if let Some(remedy) = &finding.remedy {
-            let text = fill(seen.say(shell::REMEDY), &[("remedy", remedy)]);
+        let remedy = finding.remedy.as_deref();
+        if let Some(remedy) = remedy.and_then(|it| remedy::here(it, seen.language)) {
+            let text = fill(seen.say(shell::REMEDY), &[("remedy", &remedy)]);
             ui.label(RichText::new(text).small());
         }
     }

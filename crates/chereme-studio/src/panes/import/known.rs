@@ -6,7 +6,7 @@ use chereme_corpus::ImportOptions;
 use chereme_motion::Axes;
 use eframe::egui::{CollapsingHeader, ComboBox, Grid, Id, Role, Ui, WidgetInfo};
 
-use super::data;
+use super::{data, people};
 use crate::context::Seen;
 use crate::panes::complete::{Line, complete, fitting};
 use crate::words::{Text, fill, import as words};
@@ -115,8 +115,9 @@ fn joints(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>) {
             } else {
                 joint.trim()
             };
-            ui.small(format!("{part} = {joint}"));
-            let name = fill(seen.say(words::FORGET), &[("what", part)]);
+            let named = people::part(part, seen.language);
+            ui.small(format!("{named} = {joint}"));
+            let name = fill(seen.say(words::FORGET), &[("what", &named)]);
             let button = ui.small_button("×");
             button.widget_info(|| WidgetInfo::labeled(Role::Button, true, &name));
             if button.on_hover_text(&name).clicked() {
@@ -134,10 +135,7 @@ fn axes(ui: &mut Ui, seen: &Seen<'_>, value: &mut Option<Axes>) {
     ui.label(seen.say(words::AXES));
     let text = |axes: &Option<Axes>| match axes {
         None => seen.say(words::AS_UNDERSTOOD).to_owned(),
-        Some(axes) => {
-            let [up, left] = data::axes_parts(*axes);
-            fill(seen.say(words::AXES_ARE), &[("up", &up), ("left", &left)])
-        }
+        Some(axes) => people::axes(*axes, seen.language),
     };
     let combo = ComboBox::from_id_salt("axes")
         .selected_text(text(value))

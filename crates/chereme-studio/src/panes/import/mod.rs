@@ -6,6 +6,7 @@ mod data;
 mod files;
 mod known;
 mod paths;
+mod people;
 
 use std::path::PathBuf;
 
@@ -17,6 +18,7 @@ use super::complete::Line;
 use crate::choose::Choose;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
+use crate::overlay::remedy;
 use crate::words::{fill, import as words, shell};
 use crate::work::{Ended, Outcome, Work, WorkId};
 use known::Said;
@@ -35,7 +37,7 @@ pub(crate) struct Import {
     asked: Option<WorkId>,
     report: Option<ImportReport>,
     /// Why nothing could be looked at.
-    wrong: Option<String>,
+    wrong: Option<(String, Option<String>)>,
     /// The work was stopped.
     stopped: bool,
     /// Files were just given: look at them.
@@ -157,8 +159,8 @@ impl Import {
                     .any(|file| matches!(file.status, FileStatus::Imported | FileStatus::Updated))
             });
             let take = Button::new(RichText::new(seen.say(words::TAKE)).strong());
-            let take = ui.add_enabled(ready && looked && any, take);
-            let tip = if looked {
+            let take = ui.add_enabled(ready && looked && !changed && any, take);
+            let tip = if looked && !changed {
                 words::NOTHING_NEW
             } else {
                 words::LOOK_FIRST
@@ -206,8 +208,14 @@ impl Pane for Import {
         }
         known::show(&mut self.said, ui, seen);
         self.buttons(ui, seen, out);
-        if let Some(wrong) = &self.wrong {
+        if let Some((wrong, remedy)) = &self.wrong {
             ui.label(RichText::new(wrong).color(seen.colours().trouble));
+            let remedy = remedy
+                .as_deref()
+                .and_then(|it| remedy::here(it, seen.language));
+            if let Some(remedy) = remedy {
+                ui.label(fill(seen.say(shell::REMEDY), &[("remedy", &remedy)]));
+            }
         }
         if self.stopped {
             ui.label(seen.say(shell::STOPPED));
@@ -225,8 +233,7 @@ impl Pane for Import {
             Err(chereme_corpus::Error::Stopped) => self.stopped = true,
             Ok(_) => {}
             Err(error) => {
-                let remedy = error.remedy().map_or(String::new(), |it| format!("\n{it}"));
-                self.wrong = Some(format!("{error}{remedy}"));
+                self.wrong = Some((error.to_string(), error.remedy()));
             }
         }
     }

@@ -8,7 +8,8 @@ use crate::words::{Text, inspector as words};
 
 /// Shows what is called `text`, and what it says.
 pub(super) fn said(ui: &mut Ui, seen: &Seen<'_>, text: Text, value: &str) {
-    ui.weak(seen.say(text));
+    let name = RichText::new(seen.say(text)).weak();
+    ui.add(eframe::egui::Label::new(name).extend());
     ui.add(eframe::egui::Label::new(value).wrap());
     ui.end_row();
 }

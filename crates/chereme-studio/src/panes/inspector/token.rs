@@ -10,6 +10,7 @@ use super::{Inspector, Thing, data, notation};
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
 use crate::panes::library::origin_text;
+use crate::panes::longest_word;
 use crate::panes::recombine::recipe_of;
 use crate::panes::search::feature_text;
 use crate::pickers::hamnosys;
@@ -115,7 +116,8 @@ pub(super) fn hamnosys(ui: &mut Ui, seen: &Seen<'_>, text: &str) {
             grid(ui, "hamnosys parts", |ui| {
                 for (part, drawn) in &parts {
                     let names = notation::names(drawn);
-                    ui.weak(seen.say(*part));
+                    let name = RichText::new(seen.say(*part)).weak();
+                    ui.add(Label::new(name).extend());
                     ui.vertical(|ui| {
                         hamnosys::strip(ui, seen, drawn, hamnosys::EM);
                         ui.add(Label::new(RichText::new(&names).small().weak()).wrap());
@@ -124,6 +126,17 @@ pub(super) fn hamnosys(ui: &mut Ui, seen: &Seen<'_>, text: &str) {
                 }
             });
         });
+}
+
+/// Returns what a field of a token is called; what distinguishes fields of one component stands before whose hand they
+/// are of.
+fn field_name(seen: &Seen<'_>, field: &str) -> String {
+    let (texts, rest) = data::field_words(field);
+    let mut name: Vec<&str> = texts.iter().map(|text| seen.say(*text)).collect();
+    let after = name.len().min(1);
+    let rest = rest.into_iter().map(|it| feature_text(it, seen));
+    name.splice(after..after, rest);
+    name.join(" ")
 }
 
 /// What a token is coded as; what an annotation says can be changed.
@@ -140,20 +153,19 @@ fn coding(
         ui.weak(seen.say(words::UNSET_ALL));
         ui.end_row();
     }
-    for value in &token.values {
-        let (texts, rest) = data::field_words(&value.field);
-        // What tells fields of one component apart stands before whose hand they are of.
-        let mut name: Vec<&str> = texts.iter().map(|text| seen.say(*text)).collect();
-        let after = name.len().min(1);
-        let rest = rest.into_iter().map(|it| feature_text(it, seen));
-        name.splice(after..after, rest);
-        let name = name.join(" ");
+    let called: Vec<String> = token
+        .values
+        .iter()
+        .map(|it| field_name(seen, &it.field))
+        .collect();
+    let names = names.max(longest_word(ui, called.iter().map(String::as_str)));
+    for (value, name) in token.values.iter().zip(&called) {
         let now = match value.state.as_str() {
             "value" => value.value.clone().unwrap_or_default(),
             "not-applicable" => "n/a".to_owned(),
             other => other.to_owned(),
         };
-        let text = Label::new(RichText::new(&name).weak()).wrap();
+        let text = Label::new(RichText::new(name).weak()).wrap();
         let label = ui.scope(|ui| {
             ui.set_max_width(names);
             ui.add(text).id

@@ -177,7 +177,9 @@ fn trouble(error: &Error, stack: &Stack) -> Trouble {
         .unwrap_or(&text);
     Trouble {
         text: text.to_owned(),
-        remedy: error.remedy(),
+        remedy: error
+            .remedy()
+            .filter(|it| crate::overlay::remedy::is_of_the_window(it)),
         card: stack.card_at(path).map(|at| stack.cards()[at].id),
     }
 }

@@ -5,6 +5,7 @@ use eframe::egui::{Button, RichText, Ui};
 use super::Recombine;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
+use crate::panes::button_width;
 use crate::words::{fill, recombine as words};
 use crate::work::Work;
 
@@ -33,7 +34,9 @@ impl Recombine {
             } else {
                 words::STORE
             };
-            let width = (ui.available_width() - 128.0).max(70.0);
+            let button = button_width(ui, seen.say(text));
+            let gap = 2.0 * ui.spacing().item_spacing.x;
+            let width = (ui.available_width() - button - gap).max(70.0);
             let shown = crate::script::edit::line(ui, &mut self.gloss, |field| {
                 let hint = seen.say(words::GLOSS);
                 field.hint_text(hint).desired_width(width)

@@ -4,6 +4,7 @@ use chereme_corpus::{Address, Suggestions};
 use eframe::egui::{RichText, Ui};
 
 use crate::context::{Outbox, Seen};
+use crate::overlay::remedy;
 use crate::panes::list_row;
 use crate::words::{Text, fill, recombine as words};
 use crate::work::{Ended, Outcome, Work, WorkId};
@@ -112,7 +113,8 @@ impl Suggest {
         match ended {
             Ok(Outcome::Suggested(found)) => self.found = Some(found.clone()),
             Err(error) => {
-                let remedy = error.remedy().map_or(String::new(), |it| format!("; {it}"));
+                let remedy = error.remedy().filter(|it| remedy::is_of_the_window(it));
+                let remedy = remedy.map_or(String::new(), |it| format!("; {it}"));
                 self.wrong = Some(format!("{error}{remedy}"));
             }
             Ok(_) => {}

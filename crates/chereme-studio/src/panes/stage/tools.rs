@@ -60,9 +60,10 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
             if ui.add(button).on_hover_text(hint).clicked() {
                 out.send(Command::Do(action));
             }
-            if action == Action::StageTrails && on {
-                reach(stage, ui, seen);
-            }
+        }
+        // After them all: a button stays where it is when another is pressed.
+        if stage.shows.trails.is_some() {
+            reach(stage, ui, seen);
         }
         if stage.original.is_there() {
             ui.add_space(6.0);

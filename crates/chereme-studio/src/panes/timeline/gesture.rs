@@ -312,7 +312,7 @@ impl Drawing<'_, '_> {
     }
 
     pub(super) fn hint(&mut self, text: Text) {
-        self.out.send(Command::Hint(text));
+        self.out.send(Command::Cannot(text));
     }
 }
 

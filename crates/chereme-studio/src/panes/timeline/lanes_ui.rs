@@ -1,8 +1,8 @@
 //! The lanes of movement: their names with what they say at the playhead, and their curves.
 
 use eframe::egui::{
-    Align2, Color32, FontId, Mesh, Painter, PathStroke, Rect, Response, Role, ScrollArea, Sense,
-    Shape, Stroke, TextStyle, TextWrapMode, Ui, WidgetInfo, WidgetText, pos2, vec2,
+    Align2, Color32, FontId, Mesh, Painter, Rect, Response, Role, ScrollArea, Sense, Shape, Stroke,
+    TextStyle, TextWrapMode, Ui, WidgetInfo, WidgetText, pos2, vec2,
 };
 
 use super::edit::Scene;
@@ -324,7 +324,7 @@ impl Drawing<'_, '_> {
                     let place = |(x, value)| pos2(area.left() + x, y(value));
                     for run in &runs {
                         let points = lane_shape::smooth(run).into_iter().map(place).collect();
-                        painter.add(Shape::line(points, PathStroke::new(1.6, colour)));
+                        painter.add(Shape::line(points, Stroke::new(1.6, colour)));
                     }
                 }
                 None => {

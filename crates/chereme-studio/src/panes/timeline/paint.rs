@@ -12,7 +12,8 @@ use super::data::{self, Bar, Window};
 use super::drag::Sight;
 use super::snap::Catch;
 use crate::context::Seen;
-use crate::words::timeline as words;
+use crate::pickers::data as pickers;
+use crate::words::{Language, timeline as words};
 
 /// Narrower bars hold no text.
 const TEXT: f32 = 14.0;
@@ -62,7 +63,16 @@ pub(super) fn bar_text(tier: &TierContents, bar: &Bar, seen: &Seen<'_>) -> Strin
         ValueState::Unclear => seen.say(words::UNCLEAR),
         _ => "",
     };
-    data::value_text(&tier.annotations, bar.at, missing).to_owned()
+    let text = data::value_text(&tier.annotations, bar.at, missing);
+    if seen.language == Language::English {
+        return text.to_owned();
+    }
+    let mut all = seen.snapshot.overview.inventories.iter();
+    let stored = all.find(|it| Some(it.id) == tier.row.inventory_id);
+    let value = stored.and_then(|it| it.inventory.get(text));
+    value
+        .map_or(text, |it| pickers::said(it, seen.language))
+        .to_owned()
 }
 
 /// Paints a bar into `rect`, faintly where it is being dragged.

@@ -1,0 +1,75 @@
+//! What helps, as the window names it: the corpus speaks of options of its command line, which are not here.
+
+use crate::words::{Language, Text, import as words, shell};
+
+/// What a remedy of the command line speaks of, and what helps here instead.
+const HERE: [(&str, Text); 12] = [
+    ("--roles", words::HELP_ROLES),
+    ("roles file", words::HELP_ROLES),
+    ("--mend-root", words::HELP_ROOT),
+    ("--unit", words::HELP_UNIT),
+    ("--axes", words::HELP_AXES),
+    ("--map", words::HELP_TIERS),
+    ("mapping", words::HELP_TIERS),
+    ("--like", words::HELP_TEMPLATE),
+    ("--theirs", words::HELP_CHANGED),
+    ("check --mend", shell::HELP_CHECK),
+    ("transcribe", shell::HELP_NOTATION),
+    ("animate", shell::HELP_NOTATION),
+];
+
+/// Returns what helps in the window; nothing where only the command line could do it.
+pub(crate) fn here(remedy: &str, language: Language) -> Option<String> {
+    let known = HERE.iter().find(|(part, _)| remedy.contains(part));
+    if let Some((_, text)) = known {
+        return Some(text.of(language).to_owned());
+    }
+    is_of_the_window(remedy).then(|| remedy.to_owned())
+}
+
+/// Returns whether a remedy of the corpus speaks of nothing that only the command line has.
+pub(crate) fn is_of_the_window(remedy: &str) -> bool {
+    !remedy.contains("`chereme ") && !remedy.contains("--")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_helps_names_things_of_the_window() {
+        for (remedy, english) in [
+            (
+                "say which one in a roles file (--roles)",
+                "Click the wrong joint",
+            ),
+            (
+                "say the unit with --unit, such as --unit cm",
+                "Choose the unit",
+            ),
+            (
+                "say the axes with --axes, or name the joints",
+                "Choose the axes",
+            ),
+            ("import it with --mend-root to read it so", "Tick"),
+            (
+                "say which tier is what in a mapping file (--map), or with `chereme annotate`",
+                "Choose what",
+            ),
+        ] {
+            for language in [Language::English, Language::French] {
+                let told = here(remedy, language).expect("something");
+                assert!(!told.contains("--") && !told.contains('`'), "{told}");
+            }
+            let told = here(remedy, Language::English).expect("something");
+            assert!(told.starts_with(english), "{told}");
+        }
+        let plain = "correct the number in the file";
+        assert_eq!(here(plain, Language::English).as_deref(), Some(plain));
+        assert_eq!(
+            here("`chereme list CORPUS tokens`", Language::English),
+            None
+        );
+        assert_eq!(here("write it with --force", Language::French), None);
+    }
+}
