@@ -239,6 +239,7 @@ impl Pane for Import {
     }
 
     fn come(&mut self) {
-        self.come = true;
+        // What was given is looked at; a list of paths would lie over what is pressed next.
+        self.come = self.files().is_empty();
     }
 }
