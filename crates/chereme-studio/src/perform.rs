@@ -253,7 +253,7 @@ impl Studio {
             Some((recipe, name)) => self.out.send(Command::Recipe(recipe, Some(name))),
             None => self
                 .out
-                .send(Command::Hint(crate::words::actions::NO_RECIPE)),
+                .send(Command::Cannot(crate::words::actions::NO_RECIPE)),
         }
     }
 

@@ -36,6 +36,11 @@ texts! {
     MEND_ROOT: "Read root columns in the order in which they lie", "Lire les colonnes de la racine dans leur ordre réel";
     UNIT: "Unit", "Unité";
     AXES: "Axes", "Axes";
+    OWN_EDITS: "My edits of files that changed", "Mes modifications de fichiers changés";
+    EDITS_ASK: "refuse the file and list them", "refuser le fichier et les lister";
+    EDITS_MERGE: "merge with the file; both on one annotation: mine", "fusionner avec le fichier ; les deux sur une annotation : la mienne";
+    EDITS_THEIRS: "take the file", "prendre le fichier";
+    EDITS_MINE: "keep mine", "garder les miennes";
     AXES_ARE: "up is the file's {up}, the signer's left its {left}", "le haut est l’{up} du fichier, la gauche du signeur l’{left}";
     AXIS: "{axis} axis", "axe {axis}";
     AXIS_REVERSED: "{axis} axis reversed", "axe {axis} inversé";

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use chereme_corpus::ImportOptions;
+use chereme_corpus::{ImportOptions, OwnEdits};
 use chereme_motion::Axes;
 use eframe::egui::{CollapsingHeader, ComboBox, Grid, Id, Role, Ui, WidgetInfo};
 
@@ -20,6 +20,8 @@ pub(super) struct Said {
     metres_per_unit: Option<f64>,
     licence: String,
     mend_root: bool,
+    /// What becomes of one's own edits where a file changed.
+    own_edits: OwnEdits,
     axes: Option<Axes>,
     /// What tiers are, by name.
     pub(super) tiers: BTreeMap<String, String>,
@@ -36,6 +38,7 @@ impl Said {
             metres_per_unit: self.metres_per_unit,
             licence: text(&self.licence),
             mend_root: self.mend_root,
+            own_edits: self.own_edits,
             axes: self.axes,
             roles: data::roles(&self.joints),
             mapping: data::mapping(&self.tiers),
@@ -84,6 +87,13 @@ pub(super) fn show(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>) {
                 ];
                 list(ui, seen, words::UNIT, &mut said.metres_per_unit, &units);
                 axes(ui, seen, &mut said.axes);
+                let edits = [
+                    (OwnEdits::Ask, words::EDITS_ASK),
+                    (OwnEdits::Merge, words::EDITS_MERGE),
+                    (OwnEdits::Theirs, words::EDITS_THEIRS),
+                    (OwnEdits::Mine, words::EDITS_MINE),
+                ];
+                list(ui, seen, words::OWN_EDITS, &mut said.own_edits, &edits);
                 let label = ui.label(seen.say(words::LICENCE));
                 let none = |_: &str| Vec::new();
                 let line = Line {
@@ -178,4 +188,21 @@ fn list<T: PartialEq + Copy>(
         .response
         .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, &name));
     ui.end_row();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_becomes_of_own_edits_is_said_to_the_corpus() {
+        assert_eq!(Said::default().options(true).own_edits, OwnEdits::Ask);
+        for own_edits in [OwnEdits::Merge, OwnEdits::Theirs, OwnEdits::Mine] {
+            let said = Said {
+                own_edits,
+                ..Said::default()
+            };
+            assert_eq!(said.options(false).own_edits, own_edits);
+        }
+    }
 }
