@@ -409,6 +409,8 @@ fn lanes_are_folded_and_leave_the_tiers_in_sight() {
             assert!(tier.bottom() <= size[1] - 20.0, "{size:?}: {tier:?}");
         }
     }
+    window.set_size(eframe::egui::vec2(1280.0, 1040.0));
+    window.run_steps(4);
     let before = rect(&window, "Tier Gloss").top();
     for lane in ["Wrist speed", "Aperture", "Palm"] {
         click(&mut window, &format!("Fold {lane}"));
