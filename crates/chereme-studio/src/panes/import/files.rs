@@ -67,10 +67,10 @@ fn understood(said: &mut Said, ui: &mut Ui, seen: &Seen<'_>, file: &FileReport, 
     let parts = data::parts(file);
     if !lines.is_empty() || parts.is_some() {
         ui.horizontal_top(|ui| {
-            if let Some(parts) = &parts {
-                if let Some(part) = body::show(ui, seen, parts, dry) {
-                    ui.data_mut(|data| data.insert_temp(pointed(file), part));
-                }
+            if let Some(parts) = &parts
+                && let Some(part) = body::show(ui, seen, parts, dry)
+            {
+                ui.data_mut(|data| data.insert_temp(pointed(file), part));
             }
             ui.vertical(|ui| {
                 for (text, value) in &lines {
