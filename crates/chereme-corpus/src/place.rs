@@ -1,4 +1,4 @@
-//! Whether the file of an open corpus still stands where it was opened, and a copy of it where it does not.
+//! The place of an open corpus's file, which can be deleted or moved meanwhile, and a copy of the corpus.
 
 use std::fs::Metadata;
 use std::path::{Path, PathBuf};
@@ -10,7 +10,7 @@ use crate::error::Result;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
     path: PathBuf,
-    /// By what the system knows the file, where it tells.
+    /// The system's own number of the file, if it has one.
     id: Option<(u64, u64)>,
 }
 

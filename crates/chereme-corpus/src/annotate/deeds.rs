@@ -1,4 +1,4 @@
-//! What a list of changes did to annotations, in one line of the history.
+//! The line of the history that names the work of a list of changes.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -6,7 +6,7 @@ use super::AnnotateReport;
 use crate::db::tiers::TierRow;
 use crate::words::{Text, counted, deeds as words, fill};
 
-/// What was done, as far as it has a name of its own.
+/// Work on annotations that has a name of its own, such as a merge.
 #[derive(Debug, Default)]
 pub(super) struct Deeds {
     moved: BTreeSet<i64>,
@@ -14,7 +14,7 @@ pub(super) struct Deeds {
     split: BTreeSet<i64>,
     /// By the sentences for it and the value that was given.
     valued: BTreeMap<(&'static str, String), (Text, Text, BTreeSet<i64>)>,
-    /// Something was done that is told by how many annotations it added, changed and removed.
+    /// Whether the line counts annotations added, changed and removed instead.
     other: bool,
 }
 

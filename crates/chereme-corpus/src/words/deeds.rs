@@ -1,4 +1,4 @@
-//! What was done to annotations, as sentences; the English ones are what the history stores.
+//! Sentences for work on annotations; the history stores the English ones.
 
 use std::fmt::Display;
 
@@ -26,8 +26,7 @@ texts! {
     SPLIT: "{n} annotations split", "{n} annotations coupées";
 }
 
-/// Returns the sentence for so many annotations of a role and component that were given a value: one of a single
-/// annotation, and one of several.
+/// Returns the sentences for annotations of a role and component that were given a value: for one, and for several.
 #[must_use]
 pub fn valued(role: &str, component: Option<&str>) -> [Text; 2] {
     match (role, component) {
@@ -40,7 +39,7 @@ pub fn valued(role: &str, component: Option<&str>) -> [Text; 2] {
     }
 }
 
-/// Returns a sentence of this table, given in English, in a language; nothing where it is none.
+/// Returns a sentence of this table, given in English, in a language; nothing for any other text.
 pub(super) fn told(english: &str, language: Language) -> Option<String> {
     let all = [
         [ONE_HANDSHAPE, HANDSHAPES],

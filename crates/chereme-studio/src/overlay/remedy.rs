@@ -1,8 +1,8 @@
-//! What helps, as the window names it: the corpus speaks of options of its command line, which are not here.
+//! Remedies in words of the window, as the corpus names options of the command line.
 
 use crate::words::{Language, Text, import as words, shell};
 
-/// What a remedy of the command line speaks of, and what helps here instead.
+/// Words of remedies for the command line, each with the remedy in the window.
 const HERE: [(&str, Text); 12] = [
     ("--roles", words::HELP_ROLES),
     ("roles file", words::HELP_ROLES),

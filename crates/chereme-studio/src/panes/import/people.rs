@@ -129,7 +129,7 @@ const JOINTS: [(&str, Text); 4] = [
     ("end", text("last joint", "dernière articulation")),
 ];
 
-/// Returns what a part of the body is called, such as `right middle middle`; what is none as it is.
+/// Returns what a part of the body is called, such as `right middle middle`; any other text stays as it is.
 pub(super) fn part(name: &str, language: Language) -> String {
     let of = |all: &[(&str, Text)], name: &str| {
         let found = all.iter().find(|(it, _)| *it == name)?;
@@ -173,7 +173,7 @@ pub(super) fn axes(axes: Axes, language: Language) -> String {
     )
 }
 
-/// Returns what a unit of length is called; nothing where it has no name here.
+/// Returns the name of a unit of length, if it has one.
 pub(super) fn unit(name: &str, language: Language) -> Option<&'static str> {
     let text = match name {
         "m" => words::METRES,
@@ -187,8 +187,8 @@ pub(super) fn unit(name: &str, language: Language) -> Option<&'static str> {
     Some(text.of(language))
 }
 
-/// Returns a remark of the corpus about a file with people's words for parts of the body, in their language where
-/// it is one of those that every captured file has.
+/// Returns a remark of the corpus about a file with people's words for parts of the body; the usual remarks on captured
+/// files are in the language of the window.
 pub(super) fn remark(message: &str, language: Language) -> String {
     if let Some(list) = message.strip_prefix("not found in the skeleton: ") {
         let (list, more) = match list.split_once(" and ") {

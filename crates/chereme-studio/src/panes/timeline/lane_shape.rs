@@ -1,10 +1,9 @@
-//! What lanes look like, without a window: how high they are, what their scale says, and the line through
-//! their frames.
+//! The looks of lanes, without a window: their height, their scale, and the line through their frames.
 
 use super::lanes::Lane;
 use crate::words::{Language, timeline as words};
 
-/// How high a lane is where there is room, where there is little, and where it is folded; in points.
+/// The height of a lane, in points: with room, with little room, and folded.
 const HIGH: f32 = 28.0;
 const LOW: f32 = 18.0;
 pub(super) const FOLDED: f32 = 16.0;
