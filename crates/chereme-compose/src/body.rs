@@ -198,21 +198,23 @@ pub(crate) fn mean_point(work: &Work, sides: &[Side], point: HandPoint) -> Optio
     let each: Vec<DVec3> = sides
         .iter()
         .filter_map(|&side| {
-            let held = work.held(side, Component::Placement);
-            let frames = match (held.first(), held.last()) {
-                (Some(&first), Some(&last)) => {
-                    let span = |n: usize| work.rate.frames_in(work.notes[n].span);
-                    span(first).start..span(last).end.min(work.frames)
-                }
-                _ => 0..work.frames,
-            };
+            let frames = placed(work, side).unwrap_or(0..work.frames);
             mean(work, frames, |model| hand_point(work, model, side, point))
         })
         .collect();
     (!each.is_empty()).then(|| each.iter().sum::<DVec3>() / each.len() as f64)
 }
 
-fn mean(
+/// Returns the frames in which a hand holds its placements, from the first to the last, where any is told.
+pub(crate) fn placed(work: &Work, side: Side) -> Option<std::ops::Range<usize>> {
+    let held = work.held(side, Component::Placement);
+    let span = |n: usize| work.rate.frames_in(work.notes[n].span);
+    let (first, last) = (*held.first()?, *held.last()?);
+    Some(span(first).start..span(last).end.min(work.frames))
+}
+
+/// Returns the middle of what `at` finds in some frames; in all of them where there are none.
+pub(crate) fn mean(
     work: &Work,
     frames: std::ops::Range<usize>,
     at: impl Fn(&ModelPose) -> Option<DVec3>,

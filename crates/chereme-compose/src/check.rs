@@ -8,6 +8,8 @@ use crate::units::{Length, Seconds, towards};
 pub const DEEPEST: usize = 32;
 /// The most sources and operators.
 pub const MOST_PARTS: usize = 1000;
+/// The longest time in seconds that a recipe can name: that of a day.
+const LONGEST: f64 = 86_400.0;
 /// The most repetitions.
 pub const MOST_REPETITIONS: u32 = 1000;
 
@@ -154,7 +156,18 @@ fn count(parts: &mut usize, more: usize) -> Result<(), RecipeError> {
 fn check_step(step: &Step) -> Result<(), RecipeError> {
     let name = step.name();
     match step {
-        Step::Reverse | Step::Swap => Ok(()),
+        Step::Reverse | Step::Swap | Step::Trim => Ok(()),
+        Step::Span(cut) => {
+            time(name, "the start", cut.from, LONGEST)?;
+            time(name, "the end", cut.to, LONGEST)?;
+            let (from, to) = (cut.from.map_or(0.0, |it| it.0), cut.to.map(|it| it.0));
+            if to.is_some_and(|to| to <= from) || (cut.from.is_none() && to.is_none()) {
+                let what =
+                    "it ends before it begins; write the earlier time first, such as 0.4s..1.9s";
+                return Err(RecipeError::Empty { step: name, what });
+            }
+            Ok(())
+        }
         Step::Configure(configure) => {
             filled(name, &configure.values, "no value is given")?;
             configure

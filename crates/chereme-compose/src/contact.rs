@@ -5,12 +5,13 @@ use std::ops::Range;
 use chereme_motion::Side;
 use chereme_motion::glam::DVec3;
 
+use crate::recipe::HandPoint;
 use crate::work::Work;
 
 mod mend;
 mod points;
 
-pub(crate) use mend::{Keep, mend};
+pub(crate) use mend::{BLEND, Keep, blended, mend};
 use points::{Anchors, PLACES, POINTS, Tracks};
 
 /// How near points of hands are that touch, and a hand's point and a place on the body, in metres.
@@ -83,6 +84,45 @@ impl Contact {
             None => PLACES[self.place].to_owned(),
         };
         (point, place)
+    }
+}
+
+/// The moment at which a hand touches the body, and the hand's point that does.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Touch {
+    pub(crate) frame: usize,
+    pub(crate) point: HandPoint,
+    pub(crate) place: &'static str,
+}
+
+impl Contacts {
+    /// Returns the nearest contact of a hand with the body that has a frame in `frames`, if there is one.
+    pub(crate) fn with_body(&self, side: Side, frames: &Range<usize>) -> Option<Touch> {
+        let of_hand = self
+            .found
+            .iter()
+            .filter(|it| it.side == side && it.other.is_none());
+        let within = of_hand.filter_map(|contact| {
+            let start = contact.frames.start.max(frames.start);
+            let end = contact.frames.end.min(frames.end);
+            let far = |frame: &usize| contact.ways[frame - contact.frames.start].length();
+            let frame = (start..end).min_by(|a, b| far(a).total_cmp(&far(b)))?;
+            Some((far(&frame), contact, frame))
+        });
+        let (_, contact, frame) = within.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let points = [
+            HandPoint::Palm,
+            HandPoint::Thumb,
+            HandPoint::Index,
+            HandPoint::Middle,
+            HandPoint::Ring,
+            HandPoint::Little,
+        ];
+        Some(Touch {
+            frame,
+            point: points[contact.point],
+            place: PLACES[contact.place],
+        })
     }
 }
 

@@ -200,6 +200,27 @@ pub enum Cause {
         /// What it should have shown.
         what: &'static str,
     },
+    /// A part is asked for that the movement does not have.
+    #[error(
+        "the movement lasts {length:.2} s, so that nothing of it is left; name times within it"
+    )]
+    Cut {
+        /// The length of the movement in seconds.
+        length: f64,
+    },
+    /// Two pieces do not meet: what joins them would leap.
+    #[error(
+        "the two pieces do not meet: {what} would leap by {distance:.2} m, at {speed:.0} m/s; cut wrong first or last \
+         frames off (`| trim`, or `| span 0.2s..1.5s`), or give the way more time (`then via 0.4s`, `repeat 2 gap 0.3s`)"
+    )]
+    Torn {
+        /// What leaps: `the right hand`, `the body`.
+        what: String,
+        /// How far apart the two are, in metres.
+        distance: f64,
+        /// By how much their speeds differ, in metres per second.
+        speed: f64,
+    },
     /// The movement has no frame.
     #[error("{0:?} has no frames; name a recording with movement")]
     Empty(String),

@@ -22,7 +22,7 @@ use crate::work::{Group, Work};
 
 /// The version of the evaluator; it rises whenever the same resolved recipe gives other movement, so
 /// that a made sign stored with it can be told from one that would be made today.
-pub const ENGINE: u32 = 9;
+pub const ENGINE: u32 = 10;
 
 /// Makes the movement of a recipe.
 ///
@@ -103,7 +103,7 @@ fn carry(step: &Step, handedness: Handedness) -> Option<Carry> {
         Step::Swap => Some(Carry::Swapped),
         Step::Mirror(mirror) => Some(Carry::Copied(mirror.from.sides(handedness)[0])),
         Step::Retime(_) => Some(Carry::Anytime),
-        Step::Reverse | Step::Repeat(_) => None,
+        Step::Reverse | Step::Repeat(_) | Step::Span(_) | Step::Trim => None,
     }
 }
 
@@ -448,6 +448,8 @@ impl Evaluator<'_> {
                 }
             }
             Step::Reverse => ops::reverse::reverse(work).into(),
+            Step::Span(settings) => ops::cut::span(work, settings, text)?.into(),
+            Step::Trim => ops::cut::trim(work, text)?.into(),
             Step::Swap => ops::mirror::swap(work)?.into(),
             Step::Mirror(settings) => {
                 let from = settings.from.sides(work.handedness)[0];

@@ -225,11 +225,15 @@ pub enum Step {
     Nonmanual(Nonmanual),
     /// Makes a directional verb start or end elsewhere.
     Indicate(Indicate),
+    /// Keeps a part of the movement and leaves the rest out.
+    Span(Cut),
+    /// Keeps the activity: rest before and after it goes, odd first and last frames with it.
+    Trim,
 }
 
 impl Step {
     /// The word that begins each operator; directional verbs begin with either of the last two.
-    pub const WORDS: [&'static str; 13] = [
+    pub const WORDS: [&'static str; 15] = [
         "configure",
         "place",
         "reverse",
@@ -241,6 +245,8 @@ impl Step {
         "travel",
         "retime",
         "nonmanual",
+        "span",
+        "trim",
         "from",
         "to",
     ];
@@ -261,6 +267,8 @@ impl Step {
             Self::Retime(_) => "retime",
             Self::Nonmanual(_) => "nonmanual",
             Self::Indicate(_) => "indicate",
+            Self::Span(_) => "span",
+            Self::Trim => "trim",
         }
     }
 }
@@ -302,7 +310,8 @@ pub struct Place {
     pub hand: Hands,
     /// Where to.
     pub to: Goal,
-    /// The point of the hand that comes to the goal; without one the palm. `by` moves all points alike.
+    /// The point of the hand that comes to the goal; without one the point that touches the body in the sign, else
+    /// the palm. `by` moves all points alike.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub with: Option<HandPoint>,
     /// The way the arm's posture is found; `using fabrik`.
@@ -532,6 +541,18 @@ pub struct Indicate {
     /// Where the movement ends; without one where it did.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<Spot>,
+}
+
+/// Settings of `span 0.4s..1.9s`, `span 0.4s..`, `span ..1.9s`: the part of the movement that is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cut {
+    /// The time at which it begins; without one at the first frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub from: Option<Seconds>,
+    /// The time before which it ends; without one after the last frame.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub to: Option<Seconds>,
 }
 
 /// A place in the signing space that signs refer to.

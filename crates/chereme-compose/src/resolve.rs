@@ -414,7 +414,9 @@ impl Resolver<'_> {
             | Step::Mirror(_)
             | Step::Orient(_)
             | Step::Amplify(_)
-            | Step::Retime(_) => Ok(()),
+            | Step::Retime(_)
+            | Step::Span(_)
+            | Step::Trim => Ok(()),
         }
     }
 
@@ -526,6 +528,18 @@ fn place_of(material: &Material, place: &Place, setting: &Setting) -> Result<Pla
     place_of_sides(material, &shown, place.with)
 }
 
+/// Returns the placement that hands hold all through another sign, where one is told and no other.
+fn held_place(material: &Material, sides: &[Side]) -> Option<String> {
+    let dominant = material.handedness.dominant();
+    let told = material.held.iter().filter(|held| {
+        let of = sides.contains(&held.hand.unwrap_or(dominant));
+        of && held.component == Component::Placement && held.feature.is_none()
+    });
+    let mut values = told.filter_map(|held| held.value.value());
+    let first = values.next()?;
+    values.all(|value| value == first).then(|| first.to_owned())
+}
+
 /// Returns where hands are in the middle of another sign, relative to the signer's chest and arms.
 fn place_of_sides(
     material: &Material,
@@ -541,7 +555,7 @@ fn place_of_sides(
         return Err(Cause::NothingToTake { address, what });
     };
     Ok(PlaceInput {
-        value: None,
+        value: held_place(material, sides),
         from: material.address.clone(),
         at: frame.spatial(mean),
     })

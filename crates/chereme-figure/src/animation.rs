@@ -7,10 +7,11 @@ use std::borrow::Cow;
 use std::io::Write;
 use std::ops::ControlFlow;
 
+use chereme_motion::ends::Ends;
 use chereme_motion::{Anatomy, Clip, Face, Instant, ModelPose};
 
 use crate::body::Body;
-use crate::error::{FigureError, checked_size, checked_view};
+use crate::error::{FigureError, MAX_FRAMES, SPEEDS, checked_size, checked_view};
 use crate::image::Image;
 use crate::mesh::Mesh;
 use crate::palette::Palette;
@@ -30,7 +31,7 @@ pub struct AnimationOptions {
     pub height: usize,
     /// How long each picture stands, in hundredths of a second, 1 to 100; 4 gives 25 a second.
     pub centiseconds: u16,
-    /// How fast the movement is shown; 0.5 is half as fast as it was.
+    /// How fast the movement is shown, one of [`SPEEDS`]; 0.5 is half as fast as it was.
     pub speed: f64,
     /// The colours of the body.
     pub palette: Palette,
@@ -63,6 +64,7 @@ pub struct Animation<'a> {
     columns: Vec<usize>,
     size: [usize; 2],
     frames: usize,
+    start: Instant,
     mesh: Mesh,
     raster: Raster,
     pose: Option<ModelPose>,
@@ -72,10 +74,11 @@ pub struct Animation<'a> {
 const BAR: usize = 4;
 
 impl<'a> Animation<'a> {
-    /// Returns the animation of `clip`.
+    /// Returns the animation of `clip`, odd frames at its ends left out.
     ///
     /// # Errors
-    /// [`FigureError`] where the clip is empty, no view is asked for, or pictures would be too large.
+    /// [`FigureError`] where the clip is empty, no view is asked for, pictures would be too large or too many, or the
+    /// speed is none of [`SPEEDS`].
     pub fn new(
         clip: &'a Clip,
         anatomy: &'a Anatomy,
@@ -92,8 +95,17 @@ impl<'a> Animation<'a> {
             checked_view(column, options.height)?;
         }
         let size = checked_size(columns.iter().sum(), options.height)?;
-        let step = f64::from(options.centiseconds.clamp(1, 100)) / 100.0 * options.speed.max(1e-3);
-        let frames = ((clip.span().seconds() / step).ceil() as usize).max(1);
+        if !SPEEDS.contains(&options.speed) {
+            return Err(FigureError::Speed {
+                speed: options.speed,
+            });
+        }
+        let sound = clip.rate().span(Ends::of(clip, anatomy).sound);
+        let step = f64::from(options.centiseconds.clamp(1, 100)) / 100.0 * options.speed;
+        let frames = ((sound.seconds() / step).ceil() as usize).max(1);
+        if frames > MAX_FRAMES {
+            return Err(FigureError::Long { frames });
+        }
         Ok(Self {
             body: Body::with_palette(clip.skeleton(), anatomy, &options.palette),
             mesh: Mesh::default(),
@@ -102,6 +114,7 @@ impl<'a> Animation<'a> {
             clip,
             anatomy,
             framing,
+            start: sound.start(),
             options,
             columns,
             size,
@@ -125,7 +138,8 @@ impl<'a> Animation<'a> {
     #[must_use]
     pub fn instant(&self, frame: usize) -> Instant {
         let step = f64::from(self.options.centiseconds.clamp(1, 100)) / 100.0;
-        Instant::from_seconds(frame as f64 * step * self.options.speed.max(1e-3))
+        let from = Instant::from_seconds(frame as f64 * step * self.options.speed);
+        from.shifted(self.start.micros())
     }
 
     /// Draws picture `frame`.

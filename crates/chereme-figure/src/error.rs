@@ -1,5 +1,7 @@
 //! What keeps a picture from being made.
 
+use std::ops::RangeInclusive;
+
 /// The largest side of a picture, in pixels.
 pub const MAX_SIDE: usize = 16_384;
 /// The most pixels of a picture.
@@ -7,6 +9,11 @@ pub const MAX_PIXELS: usize = 64_000_000;
 
 /// The most pixels of one view of a figure, which is drawn several times larger.
 pub const MAX_VIEW_PIXELS: usize = 4_000_000;
+
+/// The speeds at which animations run, 1 being that of the movement.
+pub const SPEEDS: RangeInclusive<f64> = 0.05..=20.0;
+/// The most pictures of an animation.
+pub const MAX_FRAMES: usize = 12_000;
 
 /// What keeps a picture from being made.
 #[derive(Debug, thiserror::Error)]
@@ -39,6 +46,21 @@ pub enum FigureError {
         width: usize,
         /// The height in pixels.
         height: usize,
+    },
+    /// An animation would run at no speed that shows anything.
+    #[error("an animation cannot run at the speed {speed}; give a number from {} to {}", SPEEDS.start(), SPEEDS.end())]
+    Speed {
+        /// The speed.
+        speed: f64,
+    },
+    /// An animation would have too many pictures.
+    #[error(
+        "an animation of {frames} pictures is too long, at most {MAX_FRAMES} are drawn; draw a shorter stretch, or run \
+         it faster"
+    )]
+    Long {
+        /// The pictures there would be.
+        frames: usize,
     },
     /// The caller's progress function said to stop.
     #[error("stopped after {done} of {total} pictures")]

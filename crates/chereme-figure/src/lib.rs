@@ -66,7 +66,7 @@ pub mod writer;
 pub use animation::{Animation, AnimationOptions, write_gif};
 pub use body::Body;
 pub use chart::{ChartOptions, alignment_picture};
-pub use error::FigureError;
+pub use error::{FigureError, MAX_FRAMES, SPEEDS};
 pub use faces::face_sheet;
 pub use handshape::{HandView, HandshapeOptions, handshape_picture, handshape_sheet};
 pub use image::Image;

@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use chereme_motion::ends::Ends;
 use chereme_motion::{Anatomy, Clip, Face, Side};
 
 use crate::body::Body;
@@ -16,7 +17,8 @@ use crate::view::{Framing, View};
 /// Which frames of a clip are shown.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Frames {
-    /// So many, evenly spaced from the first to the last; all there are where that is fewer.
+    /// So many, evenly spaced from the first to the last, odd frames at both ends left out; all there are where that is
+    /// fewer.
     Spaced(usize),
     /// Exactly these.
     At(Vec<usize>),
@@ -93,7 +95,7 @@ pub fn contact_sheet(
     progress: Progress<'_>,
 ) -> Result<Image, FigureError> {
     let framing = Framing::of(clip, anatomy).ok_or(FigureError::Empty)?;
-    let frames = chosen(&options.frames, clip.frames())?;
+    let frames = chosen(&options.frames, clip, anatomy)?;
     if options.views.is_empty() {
         return Err(FigureError::Nothing { what: "view" });
     }
@@ -166,7 +168,8 @@ pub fn thumbnail(
 ) -> Result<Image, FigureError> {
     let framing = Framing::of(clip, anatomy).ok_or(FigureError::Empty)?;
     let size = checked_view(size[0], size[1])?;
-    let pose = clip.model_pose(clip.frames() / 2);
+    let sound = Ends::of(clip, anatomy).sound;
+    let pose = clip.model_pose(sound.start + sound.len() / 2);
     let mesh = Body::new(clip.skeleton(), anatomy).mesh(&pose);
     let aspect = size[0] as f32 / size[1] as f32;
     let camera = framing.camera(View::Addressee, aspect, &pose, anatomy);
@@ -180,13 +183,15 @@ fn label(clip: &Clip, frame: usize) -> String {
 }
 
 /// Returns the frames that are chosen of `count`.
-fn chosen(frames: &Frames, count: usize) -> Result<Vec<usize>, FigureError> {
-    let last = count.checked_sub(1).ok_or(FigureError::Empty)?;
+fn chosen(frames: &Frames, clip: &Clip, anatomy: &Anatomy) -> Result<Vec<usize>, FigureError> {
+    let last = clip.frames().checked_sub(1).ok_or(FigureError::Empty)?;
     let chosen = match frames {
         Frames::Spaced(wanted) => {
-            let wanted = (*wanted).min(count);
+            let sound = Ends::of(clip, anatomy).sound;
+            let (wanted, last) = ((*wanted).min(sound.len()), sound.len().saturating_sub(1));
             (0..wanted)
                 .map(|i| (2 * last * i + (wanted - 1)) / (2 * (wanted - 1).max(1)))
+                .map(|frame| sound.start + frame)
                 .collect()
         }
         Frames::At(frames) => frames.clone(),

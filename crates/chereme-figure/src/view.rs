@@ -1,5 +1,6 @@
 //! Presets of the camera, and the part of space a clip's signing takes.
 
+use chereme_motion::ends::Ends;
 use chereme_motion::{Anatomy, Clip, ModelPose, Part, Side};
 use glam::{Mat3, Vec3};
 
@@ -86,14 +87,14 @@ impl Framing {
     /// head with both arms wherever they go; all joints where the skeleton is no known body.
     #[must_use]
     pub fn of(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
-        Some(Self::around(&looks(clip)?, anatomy))
+        Some(Self::around(&looks(clip, anatomy)?, anatomy))
     }
 
     /// Returns the space of `clip` as [`signing`](Self::signing) has it and down to the hips, or
     /// nothing where it has no frame.
     #[must_use]
     pub fn of_signing(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
-        let poses = looks(clip)?;
+        let poses = looks(clip, anatomy)?;
         let mut framing = Self::signing(&poses, anatomy);
         if let (Some(hips), Some(_)) = (anatomy.joint(Part::Hips), anatomy.joint(Part::Head)) {
             let at =
@@ -270,11 +271,13 @@ impl Framing {
     }
 }
 
-/// Returns postures of a clip from its first to its last frame, evenly spaced where there are many.
-fn looks(clip: &Clip) -> Option<Vec<ModelPose>> {
-    let last = clip.frames().checked_sub(1)?;
-    let count = clip.frames().min(LOOKS);
-    let frames = (0..count).map(|i| last * i / (count - 1).max(1));
+/// Returns postures of a clip from its first to its last frame, evenly spaced where there are many; odd first and last
+/// frames are left out.
+fn looks(clip: &Clip, anatomy: &Anatomy) -> Option<Vec<ModelPose>> {
+    clip.frames().checked_sub(1)?;
+    let sound = Ends::of(clip, anatomy).sound;
+    let (last, count) = (sound.len() - 1, sound.len().min(LOOKS));
+    let frames = (0..count).map(|i| sound.start + last * i / (count - 1).max(1));
     Some(frames.map(|frame| clip.model_pose(frame)).collect())
 }
 

@@ -436,3 +436,50 @@ fn joints_in_one_place_or_very_far_away_do_no_harm() {
         assert!(thumbnail(&clip, &anatomy, [40, 40], &Style::default()).is_ok());
     }
 }
+
+#[test]
+fn an_animation_at_no_speed_or_of_endless_length_is_refused() {
+    let (clip, anatomy) = clip();
+    for speed in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-9, 1e9] {
+        let options = AnimationOptions {
+            speed,
+            ..AnimationOptions::default()
+        };
+        let refused = Animation::new(&clip, &anatomy, options).err();
+        let told = refused.map(|error| error.to_string()).unwrap_or_default();
+        assert!(told.contains("from 0.05 to 20"), "{speed}: {told}");
+    }
+    let long = clip.retimed(clip.rate(), 4_000_000 / 8, |_| {
+        chereme_motion::Instant::ZERO
+    });
+    let refused = Animation::new(&long, &anatomy, AnimationOptions::default()).err();
+    assert!(
+        matches!(refused, Some(FigureError::Long { .. })),
+        "{refused:?}"
+    );
+}
+
+#[test]
+fn odd_first_frames_are_in_no_picture_and_do_not_move_the_camera() {
+    let (sound, anatomy) = clip();
+    let (skeleton, rate) = (sound.skeleton().clone(), sound.rate());
+    let mut channels = sound.clone().into_channels();
+    let offset = skeleton.joint(0).offset;
+    let places = channels[0]
+        .translations
+        .get_or_insert_with(|| vec![offset; sound.frames()]);
+    places[0].x += 5.0;
+    let leaping = Clip::new(skeleton, rate, channels).expect("a clip");
+    let sheet = |clip: &Clip, frames| {
+        let options = SheetOptions { frames, ..small() };
+        contact_sheet(clip, &anatomy, &options, &mut go).expect("a sheet")
+    };
+    let spaced = sheet(&leaping, Frames::Spaced(2));
+    let last = sound.frames() - 1;
+    assert_eq!(spaced, sheet(&leaping, Frames::At(vec![1, last])));
+    let framing = |clip: &Clip| Framing::of(clip, &anatomy).expect("frames");
+    let (odd, whole) = (framing(&leaping), framing(&sound));
+    let pose = sound.model_pose(1);
+    let [a, b] = [odd, whole].map(|it| it.camera(View::Addressee, 1.0, &pose, &anatomy));
+    assert!((a.half_height - b.half_height).abs() < 0.02, "{a:?} {b:?}");
+}

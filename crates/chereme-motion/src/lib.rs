@@ -27,6 +27,7 @@
 //! | [`curves`] | named scalar channels: face parameters, analog signals |
 //! | [`column`] | the numbers of a channel exactly as a file gives them, gaps as gaps |
 //! | [`times`] | when the frames of a track are: at an even rate or each at its own time |
+//! | [`ends`] | odd first and last frames, and the movement between two rests |
 //! | [`euler`] | rotation orders and angles, as files write them |
 //! | [`axes`] | units and axes of a file, and the way to model space and back |
 //! | [`interpolation`] | the ways from one posture to another |
@@ -42,6 +43,7 @@ pub mod axes;
 pub mod clip;
 pub mod column;
 pub mod curves;
+pub mod ends;
 pub mod euler;
 pub mod face;
 pub mod hand;

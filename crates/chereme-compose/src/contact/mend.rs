@@ -12,7 +12,7 @@ use crate::work::{Columns, Group, Work};
 const SAME: f64 = 0.06;
 const MOST: f64 = 0.12;
 /// How long a wrist takes to and from a contact that was mended, in seconds.
-const BLEND: f64 = 0.2;
+pub(crate) const BLEND: f64 = 0.2;
 
 /// Which contacts an operator is to keep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -171,7 +171,7 @@ fn told(contact: &Contact, was: &(String, String), side: Side, most: f64) -> Str
 
 /// Fills in what is not said: from the nearest said before to the nearest after, each fading within
 /// `blend` frames.
-fn blended(shifts: &[Option<DVec3>], blend: usize) -> Vec<DVec3> {
+pub(crate) fn blended(shifts: &[Option<DVec3>], blend: usize) -> Vec<DVec3> {
     let blend = blend.max(1);
     let smooth = |share: f64| {
         let w = share.clamp(0.0, 1.0);

@@ -43,7 +43,7 @@ mod plan;
 mod rest;
 mod settle;
 mod solve;
-mod stage;
+pub(crate) mod stage;
 #[cfg(test)]
 mod tests;
 mod thumb;

@@ -414,7 +414,8 @@ const FRONT: f64 = 0.335;
 const BACK: f64 = 0.22;
 
 impl Torso {
-    fn of(body: Option<BodyFrame>, trunk: f64) -> Self {
+    /// Returns the trunk of a body in a posture, `trunk` being its length in metres.
+    pub(crate) fn of(body: Option<BodyFrame>, trunk: f64) -> Self {
         Self { body, trunk }
     }
 

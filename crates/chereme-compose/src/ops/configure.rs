@@ -9,6 +9,7 @@ use chereme_sign::{Component, Reading};
 use crate::course::Course;
 use crate::error::Cause;
 use crate::made::{About, Note};
+use crate::ops::say;
 use crate::poses::{self, HandPose};
 use crate::work::{Group, Work};
 
@@ -30,6 +31,20 @@ pub(crate) fn configure(
 ) -> Result<Vec<String>, Cause> {
     if !work.anatomy.has_fingers(side) {
         return Err(Cause::NoFingers(side));
+    }
+    if work.held(side, Component::Configuration).is_empty() && work.handedness.dominant() == side {
+        // What is said of the sign as a whole is said of the dominant hand.
+        for note in &mut work.notes {
+            let whole = note.about == About::Component(Component::Configuration, None);
+            note.hand = note
+                .hand
+                .or((whole && note.value.value().is_some()).then_some(side));
+        }
+    }
+    if values.iter().any(Option::is_some) {
+        say::withdraw(work, &[side], operator, |component, feature| {
+            component == Component::Configuration && feature.is_some_and(|it| it != "handedness")
+        });
     }
     let mut held = work.held(side, Component::Configuration);
     if held.is_empty() {

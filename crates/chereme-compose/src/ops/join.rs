@@ -1,7 +1,7 @@
 //! Movement after movement: the frames between them, and how well they meet.
 
-use chereme_motion::Side;
 use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Part, Side};
 
 use crate::course::{Course, Courses};
 use crate::error::Cause;
@@ -101,10 +101,35 @@ pub(crate) fn join(
             own.push(format!("then {}", from.join(" | ")));
         }
     }
-    Ok(Side::BOTH
+    let reports: Vec<JoinReport> = Side::BOTH
         .into_iter()
         .filter_map(|side| report(first, side, seam, what))
-        .collect())
+        .collect();
+    for report in &reports {
+        let name = || format!("the {} hand", report.hand.name());
+        whole(name, report.position, report.velocity)?;
+    }
+    let trunk = [Part::Chest, Part::Spine, Part::Hips];
+    let trunk = trunk.iter().find_map(|&part| first.anatomy.joint(part));
+    let [position, velocity, _] = breaks(first, trunk.unwrap_or(0), seam.body, seam.offset);
+    whole(|| "the body".to_owned(), position, velocity)?;
+    Ok(reports)
+}
+
+/// The farthest that what is joined may leap, in metres and in metres per second.
+const MOST: (f64, f64) = (0.5, 20.0);
+
+/// Refuses a join that tears the movement apart.
+fn whole(what: impl Fn() -> String, distance: f64, speed: f64) -> Result<(), Cause> {
+    if distance > MOST.0 || speed > MOST.1 {
+        let what = what();
+        return Err(Cause::Torn {
+            what,
+            distance,
+            speed,
+        });
+    }
+    Ok(())
 }
 
 fn extend(first: &mut Work, second: &Work, joint: usize, cut: Cut, offset: usize, course: &Course) {
@@ -199,20 +224,24 @@ fn report(work: &Work, side: Side, seam: &Seam, what: &str) -> Option<JoinReport
     let hand = work.anatomy.arm(side)?.hand;
     let cut = seam.cut(Group::Arm(side));
     let (leave, enter) = (cut.leave, seam.offset + cut.enter);
-    let path = near(
-        work,
-        hand,
-        leave.saturating_sub(4)..(enter + 5).min(work.frames),
-    );
-    let start = leave.saturating_sub(4);
-    let mut report = JoinReport {
+    let [position, velocity, acceleration] = breaks(work, hand, cut, seam.offset);
+    Some(JoinReport {
         what: what.to_owned(),
         hand: side,
         span: work.rate.span(leave + 1..enter),
-        position: 0.0,
-        velocity: 0.0,
-        acceleration: 0.0,
-    };
+        position,
+        velocity,
+        acceleration,
+    })
+}
+
+/// Measures how a joint goes through both ends of a transition: how far it is from where its speed would have brought
+/// it, and the changes of its velocity and acceleration; the larger of both ends.
+fn breaks(work: &Work, joint: usize, cut: Cut, offset: usize) -> [f64; 3] {
+    let (leave, enter) = (cut.leave, offset + cut.enter);
+    let start = leave.saturating_sub(4);
+    let path = near(work, joint, start..(enter + 5).min(work.frames));
+    let mut found: [f64; 3] = [0.0; 3];
     let per_second = work.rate.per_second();
     for frame in [leave, enter] {
         let first = (frame - start).checked_sub(2);
@@ -221,12 +250,12 @@ fn report(work: &Work, side: Side, seam: &Seam, what: &str) -> Option<JoinReport
         };
         let (before, after) = ((c - b) * per_second, (d - c) * per_second);
         let bend = |x: DVec3, y: DVec3, z: DVec3| (z - 2.0 * y + x) * (per_second * per_second);
-        report.position = report.position.max((d - (c + (c - b))).length());
-        report.velocity = report.velocity.max((after - before).length());
+        found[0] = found[0].max((d - (c + (c - b))).length());
+        found[1] = found[1].max((after - before).length());
         let change = bend(c, d, e) - bend(a, b, c);
-        report.acceleration = report.acceleration.max(change.length());
+        found[2] = found[2].max(change.length());
     }
-    Some(report)
+    found
 }
 
 /// Returns where `joint` is over some frames.

@@ -9,7 +9,7 @@
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Part, Side, Skeleton};
-use chereme_sign::Reading;
+use chereme_sign::{Component, Reading};
 
 use crate::error::Cause;
 use crate::made::{About, Note};
@@ -48,7 +48,21 @@ pub(crate) fn mirror(work: &mut Work, from: Side) -> Result<Vec<String>, Cause> 
         })
         .collect();
     work.notes.extend(copies);
-    work.changed(arms(&[from.other()]), &format!("mirror {}", from.name()));
+    let operator = format!("mirror {}", from.name());
+    // What is said of the sign as a whole is said of the dominant hand, and hands that are alike are two.
+    let copied = work.handedness.dominant() != from;
+    for note in work.notes.iter_mut().filter(|note| note.hand.is_none()) {
+        match &note.about {
+            About::Component(_, Some(feature)) if feature == "handedness" => {
+                note.value = Reading::Unset;
+            }
+            About::Component(component, _) if copied && *component != Component::NonManual => {
+                note.value = Reading::Unset;
+            }
+            _ => {}
+        }
+    }
+    work.changed(arms(&[from.other()]), &operator);
     Ok(did)
 }
 
@@ -90,8 +104,12 @@ fn arms(sides: &[Side]) -> Vec<Group> {
 
 /// Names the other hand, and the other side in values such as `high-left`.
 fn turn_over(note: &mut Note) {
-    let Some(side) = note.hand else { return };
-    note.hand = Some(side.other());
+    let manual = |component: &Component| *component != Component::NonManual;
+    match (note.hand, &note.about) {
+        (Some(side), _) => note.hand = Some(side.other()),
+        (None, About::Component(component, _)) if manual(component) => {}
+        _ => return,
+    }
     if let (About::Component(..), Reading::Value(value)) = (&note.about, &mut note.value) {
         let words = value.split_inclusive(['-', ' ', '_', '/']);
         let turned = words.map(|word| match word.trim_end_matches(['-', ' ', '_', '/']) {

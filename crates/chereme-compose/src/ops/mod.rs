@@ -1,6 +1,8 @@
 //! The operators, one module each.
 
+pub(crate) mod clear;
 pub(crate) mod configure;
+pub(crate) mod cut;
 pub(crate) mod join;
 pub(crate) mod mirror;
 pub(crate) mod nonmanual;
@@ -11,6 +13,7 @@ pub(crate) mod repeat;
 pub(crate) mod retarget;
 pub(crate) mod retime;
 pub(crate) mod reverse;
+pub(crate) mod say;
 pub(crate) mod shape;
 pub(crate) mod spell;
 pub(crate) mod then;

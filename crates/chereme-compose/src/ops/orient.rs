@@ -2,13 +2,12 @@
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{ModelPose, Side};
-use chereme_sign::{Component, Reading};
+use chereme_sign::Component;
 
 use crate::arm::{self, Reach};
 use crate::body::Frame;
 use crate::error::Cause;
-use crate::made::About;
-use crate::ops::place;
+use crate::ops::{place, say};
 use crate::recipe::{Orient, Solver};
 use crate::units::towards;
 use crate::work::{Columns, Group, Work};
@@ -52,15 +51,55 @@ pub(crate) fn orient(
             ));
         }
     }
-    for note in &mut work.notes {
-        let about = matches!(note.about, About::Component(Component::Orientation, _));
-        if about && note.hand.is_some_and(|side| sides.contains(&side)) {
-            note.value = Reading::Unset;
-            note.origin = format!("{} | {operator}", note.origin);
-        }
+    say::withdraw(work, sides, operator, |component, _| {
+        component == Component::Orientation
+    });
+    for &side in sides {
+        tell(work, &frame, side, operator);
     }
     work.changed(sides.iter().map(|&side| Group::Arm(side)), operator);
     Ok((did, worst.residual))
+}
+
+/// How far a hand may turn on from where it points in the middle of the sign and still be said to point there, in
+/// radians.
+const SAME: f64 = 0.5;
+
+/// Says where palm and fingers point about the middle of the movement.
+fn tell(work: &mut Work, frame: &Frame, side: Side, operator: &str) {
+    let ways = |work: &Work, at: usize| {
+        let model = ModelPose::of(&work.skeleton, &work.pose(at));
+        let fingers = work.anatomy.hand_direction(side, &model)?;
+        let palm = work.anatomy.palm_normal(side, &model)?;
+        Some([fingers, palm].map(|way| frame.to_body(way)))
+    };
+    let middle = work.frames / 2;
+    let Some([fingers, palm]) = ways(work, middle) else {
+        return;
+    };
+    let same = |at: &usize| {
+        ways(work, *at)
+            .is_some_and(|[f, p]| f.angle_between(fingers) < SAME && p.angle_between(palm) < SAME)
+    };
+    let start = middle - (0..middle).rev().take_while(same).count();
+    let end = middle + (middle..work.frames).take_while(same).count();
+    let values = [
+        ("fingers", say::direction(fingers)),
+        ("palm", say::palm(fingers, palm).map(str::to_owned)),
+    ];
+    for (feature, value) in values {
+        let what = (Component::Orientation, Some(feature));
+        if let Some(value) = value {
+            say::tell(
+                work,
+                side,
+                what,
+                &value,
+                start..end.max(start + 1),
+                operator,
+            );
+        }
+    }
 }
 
 /// Returns the largest angle between a forearm and its hand, in radians.

@@ -2,12 +2,14 @@
 
 use chereme_motion::Side;
 use chereme_motion::glam::DVec3;
-use chereme_sign::{Component, Reading};
+use chereme_sign::Component;
 
 use crate::arm::{self, HELP_FROM, Reach};
 use crate::body::{self, Frame};
+use crate::contact::{self, Touch};
 use crate::error::Cause;
 use crate::made::About;
+use crate::ops::{clear, say};
 use crate::recipe::{Goal, HandPoint, Place, Solver};
 use crate::resolve::PlaceInput;
 use crate::work::{Columns, Group, Work};
@@ -21,6 +23,8 @@ pub(crate) fn place(
 ) -> Result<(Vec<String>, f64, DVec3), Cause> {
     let sides = settings.hand.sides(work.handedness);
     let frame = frame(work, sides)?;
+    let mut frames = 0..work.frames;
+    let mut told_anchor = Vec::new();
     let by = match &settings.to {
         Goal::By(legs) => frame.sum(legs),
         to => {
@@ -32,21 +36,31 @@ pub(crate) fn place(
                 (_, Some(input)) => spatial(work, &frame, input, sides[0])?,
                 (_, None) => return Err(Cause::Input),
             };
-            let point = settings.with.unwrap_or(HandPoint::Palm);
-            let now = body::mean_point(work, sides, point).ok_or(Cause::NoArm(sides[0]))?;
+            let anchor = anchor(work, sides, settings.with);
+            let now = anchor.at(work, sides).ok_or(Cause::NoArm(sides[0]))?;
+            told_anchor.extend(anchor.told(work));
+            frames = anchor.frames;
             goal - now
         }
     };
-    let value = input.and_then(|input| input.value.clone());
-    let reach = shift(work, sides, by, settings.solver)?;
-    for note in &mut work.notes {
-        let moved = note.hand.is_some_and(|side| sides.contains(&side));
-        if moved
-            && by != DVec3::ZERO
-            && matches!(note.about, About::Component(Component::Placement, _))
-        {
-            note.value = value.clone().map_or(Reading::Unset, Reading::Value);
-            note.origin = format!("{} | {operator}", note.origin);
+    let near = matches!(&settings.to, Goal::Near { by, .. } if !by.is_empty());
+    let value = input
+        .and_then(|input| input.value.clone())
+        .filter(|_| !near);
+    let before = work.clone();
+    let mut reach = shift(work, sides, by, settings.solver)?;
+    let mut kept_out = Vec::new();
+    if !matches!(settings.to, Goal::By(_)) {
+        for &side in sides {
+            let cleared = clear::clear(work, &before, side, settings.solver);
+            let Some(cleared) = cleared else { continue };
+            reach.residual = reach.residual.max(cleared.at(&frames));
+            kept_out.push(cleared.told(work, side, &frames));
+        }
+    }
+    for &side in sides {
+        if by != DVec3::ZERO || value.is_some() {
+            say::placed(work, side, value.as_deref(), frames.clone(), operator);
         }
     }
     if by != DVec3::ZERO {
@@ -55,6 +69,8 @@ pub(crate) fn place(
     let moved = frame.to_body(by);
     let cm = moved * 100.0;
     let mut did = vec![format!("moved {}", directions(cm))];
+    did.extend(told_anchor);
+    did.extend(kept_out);
     if let Some(input) = input {
         did.push(format!("the place is from {}", input.from));
     }
@@ -74,6 +90,79 @@ fn directions(cm: DVec3) -> String {
         part(cm.z, "forward", "back"),
     ];
     parts.join(", ")
+}
+
+/// The moment of a sign whose place counts: frames, and the point of the hand in them.
+struct Anchor {
+    point: HandPoint,
+    frames: std::ops::Range<usize>,
+    /// What the hand touches then.
+    touch: Option<Touch>,
+}
+
+/// Finds the moment whose place counts. Of one hand it is the contact with the body that falls in the span of its own
+/// placement, or in the whole sign where none is told; else the stroke in that span, else the span, else the stroke.
+fn anchor(work: &Work, sides: &[Side], with: Option<HandPoint>) -> Anchor {
+    let whole = 0..work.frames;
+    let point = with.unwrap_or(HandPoint::Palm);
+    let [side] = *sides else {
+        let spans = sides.iter().filter_map(|&side| body::placed(work, side));
+        let frames = spans.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end));
+        return Anchor {
+            point,
+            frames: frames.unwrap_or(whole),
+            touch: None,
+        };
+    };
+    let placed = body::placed(work, side);
+    let within = placed.clone().unwrap_or(whole.clone());
+    if let Some(touch) = contact::touches(work).with_body(side, &within) {
+        return Anchor {
+            point: with.unwrap_or(touch.point),
+            frames: touch.frame..touch.frame + 1,
+            touch: Some(touch),
+        };
+    }
+    let about = About::Component(Component::Movement, Some("phase".to_owned()));
+    let strokes = work.notes.iter().filter(|note| {
+        let stroke = note.value.value() == Some("stroke");
+        stroke && note.about == about && say::is_of(work, note, &[side])
+    });
+    let strokes = strokes.filter_map(|note| {
+        let frames = work.rate.frames_in(note.span);
+        let frames = frames.start.max(within.start)..frames.end.min(within.end);
+        (!frames.is_empty()).then_some(frames)
+    });
+    let stroke = strokes.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end));
+    Anchor {
+        point,
+        frames: match placed {
+            Some(placed) => placed,
+            None => stroke.unwrap_or(whole),
+        },
+        touch: None,
+    }
+}
+
+impl Anchor {
+    /// Returns where the point is at that moment; of two hands the middle between them.
+    fn at(&self, work: &Work, sides: &[Side]) -> Option<DVec3> {
+        if sides.len() > 1 {
+            return body::mean_point(work, sides, self.point);
+        }
+        let point = |model: &_| body::hand_point(work, model, sides[0], self.point);
+        body::mean(work, self.frames.clone(), point)
+    }
+
+    fn told(&self, work: &Work) -> Option<String> {
+        let touch = self.touch?;
+        let at = work.rate.instant(touch.frame);
+        Some(format!(
+            "what counts is the contact at {at}, where the {} was at the {}",
+            self.point.name(),
+            touch.place
+        ))
+    }
 }
 
 fn spatial(work: &Work, frame: &Frame, input: &PlaceInput, side: Side) -> Result<DVec3, Cause> {

@@ -1,12 +1,14 @@
 //! `repeat`: the movement several times, growing or shrinking, faster or slower.
 
 use chereme_motion::Side;
+use chereme_sign::Component;
 
 use crate::contact::{self, Carry, Keep};
 use crate::course::Courses;
 use crate::error::Cause;
+use crate::made::About;
 use crate::ops::join::{self, Seam};
-use crate::ops::{retime, shape};
+use crate::ops::{retime, say, shape};
 use crate::recipe::Repeat;
 use crate::work::{Group, Work};
 
@@ -63,6 +65,7 @@ pub(crate) fn repeat(
     }
     if times > 1 {
         work.changed(Group::ALL, operator);
+        repeated(work, times, operator);
     }
     let times = format!("{times} times, {gap} frames between");
     done.did.insert(0, times);
@@ -73,4 +76,35 @@ pub(crate) fn repeat(
         ));
     }
     Ok(done)
+}
+
+/// Says how often each hand that has something to do moves, in the place of what was said of it.
+fn repeated(work: &mut Work, times: usize, operator: &str) {
+    let is_said = |about: &About| matches!(about, About::Component(Component::Movement, Some(it)) if it == "repetition");
+    let more = work.notes.iter().any(|note| {
+        let value = note.value.value();
+        is_said(&note.about) && value.is_some_and(|value| value != "once")
+    });
+    let value = if times == 2 && !more {
+        "twice"
+    } else {
+        "several"
+    };
+    work.notes.retain(|note| !is_said(&note.about));
+    let dominant = work.handedness.dominant();
+    let moves = |side: Side| {
+        let manual = |about: &About| matches!(about, About::Component(..));
+        let notes = work.notes.iter();
+        notes
+            .into_iter()
+            .any(|note| note.hand == Some(side) && manual(&note.about))
+    };
+    let sides: Vec<Side> = Side::BOTH
+        .into_iter()
+        .filter(|&side| side == dominant || moves(side))
+        .collect();
+    for side in sides {
+        let what = (Component::Movement, Some("repetition"));
+        say::tell(work, side, what, value, 0..work.frames, operator);
+    }
 }

@@ -191,13 +191,19 @@ fn root(work: &Work, out: &mut Work) {
             .or(anatomy.joint(Part::Foot(Side::Right)));
         foot.map(|foot| model.position(hips).y - model.position(foot).y)
     };
-    let scale = match (
-        height(&work.skeleton, &work.anatomy),
-        height(&out.skeleton, &out.anatomy),
-    ) {
-        (Some(from), Some(to)) if from > 1e-3 => to / from,
-        _ => 1.0,
+    // Legs that do not hang down at rest, as where every bone lies along one axis, tell by their length.
+    let size = |work: &Work| {
+        let measures = work.anatomy.measures()?;
+        let leg = leg_length(&work.skeleton, &work.anatomy);
+        Some(leg.unwrap_or(measures.stature * 0.49))
     };
+    let sizes = size(work).zip(size(out)).filter(|sizes| sizes.0 > 1e-3);
+    let sizes = sizes.map_or(1.0, |(from, to)| to / from);
+    let heights = height(&work.skeleton, &work.anatomy).zip(height(&out.skeleton, &out.anatomy));
+    let heights = heights.filter(|heights| heights.0 > 1e-3);
+    let scale = heights.map_or(sizes, |(from, to)| to / from);
+    let agree = (0.75..1.35).contains(&(scale / sizes));
+    let scale = if agree { scale } else { sizes };
     // The hips' height above the floor is scaled, wherever the two files have their roots.
     let hips = |work: &Work| work.anatomy.joint(Part::Hips).unwrap_or(0);
     let (from, to) = (hips(work), hips(out));
@@ -208,6 +214,19 @@ fn root(work: &Work, out: &mut Work) {
         .map(|(&at, &now)| offset + (at * scale - now))
         .collect();
     out.channels[0].translations = Some(places);
+}
+
+/// Returns the length of a leg's bones from hip to ankle.
+fn leg_length(skeleton: &Skeleton, anatomy: &Anatomy) -> Option<f64> {
+    Side::BOTH.into_iter().find_map(|side| {
+        let (foot, thigh) = (
+            anatomy.joint(Part::Foot(side))?,
+            anatomy.joint(Part::Thigh(side))?,
+        );
+        let bones = skeleton.ancestors(foot).take_while(|&joint| joint != thigh);
+        let length: f64 = bones.map(|j| skeleton.joint(j).offset.length()).sum();
+        (length > 1e-3).then_some(length)
+    })
 }
 
 /// Brings the wrists where they are relative to the shoulders' middle, in arms' lengths, so that hands

@@ -5,7 +5,7 @@ use chereme_sign::Component;
 
 use crate::error::Cause;
 use crate::made::About;
-use crate::ops::join;
+use crate::ops::{join, say};
 use crate::recipe::Pace;
 use crate::work::{Group, Work};
 
@@ -48,7 +48,13 @@ pub(crate) fn retime(
         old: bounds.iter().map(|&bound| bound as f64).collect(),
         new,
     };
+    let other = map.new.last() != map.old.last();
     warp(work, &map)?;
+    if other {
+        say::withdraw(work, &Side::BOTH, operator, |component, feature| {
+            component == Component::Movement && feature == Some("manner")
+        });
+    }
     work.changed(Group::ALL, operator);
     Ok(did)
 }

@@ -1,9 +1,10 @@
 //! `reverse`: the movement played backwards, an exact involution.
 
 use chereme_motion::Span;
-use chereme_sign::{Component, Reading};
+use chereme_sign::Reading;
 
 use crate::made::About;
+use crate::ops::say;
 use crate::work::{Group, Work};
 
 /// Plays all channels backwards; returns what one should know.
@@ -22,13 +23,19 @@ pub(crate) fn reverse(work: &mut Work) -> Vec<String> {
     for note in &mut work.notes {
         let span = note.span;
         note.span = Span::between(span.end(), span.start()).mirrored(end);
-        if matches!(note.about, About::Component(Component::Movement, _))
-            && let Some(value) = note.value.value()
-        {
-            did.push(format!(
-                "movement {value:?} is no longer told: it runs the other way"
-            ));
-            note.value = Reading::Unset;
+        let (About::Component(component, feature), Some(value)) = (&note.about, note.value.value())
+        else {
+            continue;
+        };
+        match say::backwards(*component, feature.as_deref(), value) {
+            Some(other) if other == value => {}
+            Some(other) => note.value = Reading::Value(other),
+            None => {
+                did.push(format!(
+                    "{component} {value:?} is no longer told: it runs the other way"
+                ));
+                note.value = Reading::Unset;
+            }
         }
     }
     work.notes.sort_by_key(|note| note.span.start());

@@ -2,14 +2,14 @@
 
 use chereme_motion::Side;
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_sign::{Component, Reading};
+use chereme_sign::Component;
 
 use crate::arm::{self, Reach};
 use crate::body::{Frame, arm_length};
 use crate::course::Course;
 use crate::error::Cause;
-use crate::made::About;
 use crate::ops::place::{self, told};
+use crate::ops::say;
 use crate::recipe::{Amplify, Indicate, Leg, Solver, Spot, Travel};
 use crate::resolve::PlaceInput;
 use crate::work::{Columns, Group, Work};
@@ -25,6 +25,9 @@ pub(crate) fn amplify(work: &mut Work, settings: &Amplify, operator: &str) -> Re
         return Ok((vec!["nothing to do".into()], 0.0));
     }
     let reach = scale(work, sides, factor)?;
+    say::withdraw(work, sides, operator, |component, feature| {
+        component == Component::Movement && feature == Some("size")
+    });
     work.changed(sides.iter().map(|&side| Group::Arm(side)), operator);
     let mut did = vec![format!(
         "the hands' ways are {:.0}% as large",
@@ -56,10 +59,15 @@ pub(crate) fn travel(
     let sides = settings.hand.sides(work.handedness);
     let frame = place::frame(work, sides)?;
     let way = way(work, &frame, &settings.path, course);
+    let before = work.clone();
     let reach = place::wrists(work, sides, Solver::Analytic, |_, frame, at| {
         at + way[frame]
     })?;
+    let still = sides.iter().all(|&side| is_still(&before, side));
     moved(work, sides, operator);
+    if still {
+        drawn(work, &frame, sides, &settings.path, operator);
+    }
     let length: f64 = settings
         .path
         .iter()
@@ -251,6 +259,15 @@ pub(crate) fn indicate(
         worst = worst.worse(reach);
     }
     moved(work, &sides, operator);
+    for (at, input) in places.into_iter().enumerate() {
+        let value = input.and_then(|input| input.value.as_deref());
+        let Some(value) = value else { continue };
+        for &side in &sides {
+            let frames = stays(work, side, at == 1)?;
+            let what = (Component::Placement, None);
+            say::tell(work, side, what, value, frames, operator);
+        }
+    }
     did.push(format!(
         "the way of {:.0} cm became {:.0} cm",
         start.distance(end) * 100.0,
@@ -258,6 +275,22 @@ pub(crate) fn indicate(
     ));
     did.extend(told(&worst));
     Ok((did, worst.residual))
+}
+
+/// Returns the frames at the start, or at the end, in which a wrist stays where it is then.
+fn stays(work: &Work, side: Side, end: bool) -> Result<std::ops::Range<usize>, Cause> {
+    let path = wrist_path(work, side)?;
+    let last = path.len().saturating_sub(1);
+    let near = |from: usize| {
+        let from = path[from];
+        move |at: &&DVec3| at.distance(from) < 2.0 * STILL
+    };
+    Ok(if end {
+        let count = path.iter().rev().take_while(near(last)).count();
+        path.len() - count..path.len()
+    } else {
+        0..path.iter().take_while(near(0)).count()
+    })
 }
 
 /// Returns the share of a path's length done at each frame; of its time where it has no length.
@@ -296,17 +329,41 @@ fn wrist_path(work: &Work, side: Side) -> Result<Vec<DVec3>, Cause> {
     Ok(Columns::of(work, [hand]).positions(hand).to_vec())
 }
 
-/// Says of the notes on hands that moved otherwise that their placement and movement are not told.
-fn moved(work: &mut Work, sides: &[Side], operator: &str) {
-    for note in &mut work.notes {
-        let about = matches!(
-            note.about,
-            About::Component(Component::Placement | Component::Movement, _)
-        );
-        if about && note.hand.is_some_and(|side| sides.contains(&side)) {
-            note.value = Reading::Unset;
-            note.origin = format!("{} | {operator}", note.origin);
+/// Tells whether a wrist stays where it is.
+fn is_still(work: &Work, side: Side) -> bool {
+    let path = wrist_path(work, side).unwrap_or_default();
+    path.iter().all(|at| at.distance(path[0]) < STILL)
+}
+
+/// Says of hands that did not move before what path they draw now: straight where it is one way.
+fn drawn(work: &mut Work, frame: &Frame, sides: &[Side], path: &[Leg], operator: &str) {
+    let all = 0..work.frames;
+    for &side in sides {
+        let one = match path {
+            [leg] => say::direction(frame.to_body(frame.leg(leg))),
+            _ => None,
+        };
+        let shape = if one.is_some() { "straight" } else { "path" };
+        let movement = Component::Movement;
+        say::tell(work, side, (movement, None), shape, all.clone(), operator);
+        if let Some(direction) = one {
+            let what = (movement, Some("direction"));
+            say::tell(work, side, what, &direction, all.clone(), operator);
         }
     }
+}
+
+/// Takes back what is said of the place and the movement of hands that move otherwise; phases stay what they are.
+fn moved(work: &mut Work, sides: &[Side], operator: &str) {
+    say::withdraw(
+        work,
+        sides,
+        operator,
+        |component, feature| match component {
+            Component::Placement => true,
+            Component::Movement => feature != Some("phase"),
+            _ => false,
+        },
+    );
     work.changed(sides.iter().map(|&side| Group::Arm(side)), operator);
 }

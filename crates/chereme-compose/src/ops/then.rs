@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
-use chereme_motion::glam::DQuat;
-use chereme_motion::{ModelPose, Side};
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{ModelPose, Part, Side};
+use chereme_sign::Component;
 
 use crate::contact::{self, Carry, Keep};
 use crate::course::Courses;
 use crate::error::Cause;
+use crate::made::{About, Note};
 use crate::ops::join::{self, Cut, Seam};
 use crate::ops::retarget;
 use crate::units::Seconds;
@@ -28,9 +30,11 @@ pub(crate) fn then(
     operator: &str,
 ) -> Result<join::Done, Cause> {
     let (mut did, mut contacts) = (Vec::new(), Vec::new());
-    let mut next = if Arc::ptr_eq(&work.skeleton, &next.skeleton) || work.skeleton == next.skeleton
-    {
-        next
+    let mut next = if one_body(work, &next) {
+        Work {
+            skeleton: Arc::clone(&work.skeleton),
+            ..next
+        }
     } else {
         did.push("the second signer's movement is put on the first one's body".to_owned());
         let touched = contact::touches(&next);
@@ -78,20 +82,58 @@ pub(crate) fn then(
     })
 }
 
+/// Tells whether two skeletons are one body: all that may differ is where joints are that both movements place.
+fn one_body(first: &Work, second: &Work) -> bool {
+    let (a, b) = (&first.skeleton, &second.skeleton);
+    if Arc::ptr_eq(a, b) || a == b {
+        return true;
+    }
+    let places = |work: &Work, joint: usize| work.channels[joint].translations.is_some();
+    a.len() == b.len()
+        && (0..a.len()).all(|n| {
+            let (one, other) = (a.joint(n), b.joint(n));
+            let placed = places(first, n) && places(second, n);
+            (&one.name, one.parent, one.rest) == (&other.name, other.parent, other.rest)
+                && (placed || one.offset == other.offset)
+        })
+}
+
+/// Where a body is in a posture and which way it faces, as far as its joints tell.
+fn standing(work: &Work, frame: usize) -> (DVec3, Option<DVec3>) {
+    let model = ModelPose::of(&work.skeleton, &work.pose(frame));
+    if let Some(body) = work.anatomy.body_frame(&model) {
+        return (body.origin, Some(body.forward));
+    }
+    let arms = Side::BOTH.map(|side| work.anatomy.joint(Part::UpperArm(side)));
+    let parts = [Part::Hips, Part::Chest, Part::Head].map(|part| work.anatomy.joint(part));
+    let at = |joint: usize| model.position(joint);
+    let origin = match arms {
+        [Some(right), Some(left)] => at(right).midpoint(at(left)),
+        [one, other] => {
+            let known = one.or(other).or(parts.into_iter().flatten().next());
+            at(known.unwrap_or(0))
+        }
+    };
+    (origin, None)
+}
+
+/// Bodies whose heights differ by more than this stand on other floors, in metres: none sits down between signs.
+const FLOOR: f64 = 0.6;
+
 /// Turns and moves the second movement on the floor so that it starts where the first ends, facing
-/// the same way.
+/// the same way, wherever their files have the root and whatever is above the hips.
 fn face_alike(first: &Work, second: &mut Work) {
-    let frame = |work: &Work, frame: usize| {
-        let model = ModelPose::of(&work.skeleton, &work.pose(frame));
-        work.anatomy.body_frame(&model)
-    };
-    let (Some(end), Some(start)) = (frame(first, first.frames - 1), frame(second, 0)) else {
-        return;
-    };
-    let yaw = |v: chereme_motion::glam::DVec3| v.x.atan2(v.z);
-    let turn = DQuat::from_rotation_y(yaw(end.forward) - yaw(start.forward));
-    let mut shift = end.origin - turn * start.origin;
-    shift.y = 0.0;
+    let (end, faced) = standing(first, first.frames - 1);
+    let (start, facing) = standing(second, 0);
+    let yaw = |v: DVec3| v.x.atan2(v.z);
+    let angle = faced
+        .zip(facing)
+        .map_or(0.0, |(to, from)| yaw(to) - yaw(from));
+    let turn = DQuat::from_rotation_y(angle);
+    let mut shift = end - turn * start;
+    if shift.y.abs() < FLOOR {
+        shift.y = 0.0;
+    }
     let moves = shift.length() > 1e-6 || turn.w.abs() < 1.0 - 1e-9;
     if !moves {
         return;
@@ -178,4 +220,22 @@ fn hold(first: &Work, second: &mut Work, side: Side, leave: usize) {
             second.channels[joint].rotations.fill(rotation);
         }
     }
+    // What the hand shows when the first sign leaves it, it shows on.
+    let end = first.rate.instant(leave + 1);
+    let shown = first.notes.iter().filter(|note| {
+        let about = matches!(
+            note.about,
+            About::Component(Component::Configuration | Component::Orientation, _)
+        );
+        note.hand == Some(side) && about && note.value.value().is_some()
+    });
+    let shown = shown.filter(|note| note.span.start() < end && note.span.end() >= end);
+    let span = second.span();
+    let shown = shown.map(|note| Note {
+        span,
+        ..note.clone()
+    });
+    let shown: Vec<Note> = shown.collect();
+    second.notes.retain(|note| note.hand != Some(side));
+    second.notes.extend(shown);
 }

@@ -6,6 +6,7 @@ mod draft;
 mod laws;
 mod operators;
 mod robust;
+mod values;
 
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Clip, Part, Side};

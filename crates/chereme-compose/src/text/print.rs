@@ -45,7 +45,7 @@ fn within(f: &mut Formatter<'_>, node: &Node, parentheses: bool) -> fmt::Result 
 }
 
 /// Words that mean something somewhere; as a name each is quoted.
-const RESERVED: [&str; 40] = [
+const RESERVED: [&str; 42] = [
     "spell",
     "point",
     "hamnosys",
@@ -82,6 +82,8 @@ const RESERVED: [&str; 40] = [
     "travel",
     "retime",
     "nonmanual",
+    "span",
+    "trim",
     "from",
     "to",
     "forwards",
@@ -237,7 +239,13 @@ impl Display for Step {
                 write!(f, "{}", configure.via)
             }
             Self::Place(place) => write!(f, "{place}"),
-            Self::Reverse | Self::Swap => f.write_str(self.name()),
+            Self::Reverse | Self::Swap | Self::Trim => f.write_str(self.name()),
+            Self::Span(cut) => {
+                f.write_str("span ")?;
+                list(f, cut.from, "")?;
+                f.write_str("..")?;
+                list(f, cut.to, "")
+            }
             Self::Mirror(mirror) if mirror.from == Hands::Dominant => f.write_str("mirror"),
             Self::Mirror(mirror) => write!(f, "mirror {}", mirror.from.name()),
             Self::Repeat(repeat) => {

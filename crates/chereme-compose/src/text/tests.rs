@@ -353,6 +353,11 @@ fn step() -> impl Strategy<Value = Step> {
         })),
         vec(pace, 1..3).prop_map(|paces| Step::Retime(Retime { paces })),
         name().prop_map(|from| Step::Nonmanual(Nonmanual { from })),
+        Just(Step::Trim),
+        (of(0.0f64..1.0), 1.1f64..5.0).prop_map(|(from, to)| Step::Span(Cut {
+            from: from.map(Seconds),
+            to: Some(Seconds(to)),
+        })),
         (hands(), spot(), of(spot())).prop_map(|(hand, from, to)| {
             Step::Indicate(Indicate {
                 hand,

@@ -1,0 +1,212 @@
+//! Hands that were placed, kept out of head and trunk.
+
+use std::ops::Range;
+
+use chereme_motion::glam::DVec3;
+use chereme_motion::{ModelPose, Part, Side};
+
+use crate::arm;
+use crate::contact::{BLEND, blended};
+use crate::notation::stage::Torso;
+use crate::recipe::Solver;
+use crate::work::{Columns, Group, Work};
+
+/// The head beside its height from chin to top: half its breadth, height and depth, a little within the places of the
+/// face, which hands touch; and where its middle is above the chin.
+const HEAD: [f64; 3] = [0.33, 0.49, 0.42];
+const MIDDLE: f64 = 0.5;
+/// How deep a joint of a finger may be in a body without skin, in metres.
+const SKIN: f64 = 0.01;
+/// How often hands are moved out before what is left is reported.
+const ROUNDS: usize = 4;
+
+/// How a hand was kept out of the body.
+pub(crate) struct Cleared {
+    /// How far it was moved in each frame.
+    ways: Vec<DVec3>,
+    /// How deep it still is, in metres.
+    deep: f64,
+}
+
+impl Cleared {
+    /// Returns how far the hand was moved away in the frames that count.
+    pub(crate) fn at(&self, frames: &Range<usize>) -> f64 {
+        let ways = self.ways.get(frames.clone()).unwrap_or_default();
+        ways.iter().map(|way| way.length()).fold(0.0, f64::max)
+    }
+
+    pub(crate) fn told(&self, work: &Work, side: Side, frames: &Range<usize>) -> String {
+        let (side, cm) = (side.name(), |metres: f64| metres * 100.0);
+        let moved = self.ways.iter().map(|way| way.length());
+        let count = moved.clone().filter(|way| *way > 1e-4).count();
+        let most = moved.fold(0.0, f64::max);
+        let mut told = format!(
+            "the {side} hand is kept out of head and trunk: moved by up to {:.1} cm in {count} frames",
+            cm(most)
+        );
+        if self.at(frames) > SKIN {
+            let at = work.rate.instant(frames.start);
+            told += &format!(
+                ", at {at} {:.1} cm away from its goal, as the hand would enter the body there; turn it with `orient`",
+                cm(self.at(frames))
+            );
+        }
+        if self.deep > SKIN {
+            told += &format!(", and still {:.1} cm in the body", cm(self.deep));
+        }
+        told
+    }
+}
+
+/// Moves the wrist of `side` out where the hand is deeper in head or trunk than it was before; nothing where it is
+/// nowhere.
+pub(crate) fn clear(work: &mut Work, before: &Work, side: Side, solver: Solver) -> Option<Cleared> {
+    let hand = work.anatomy.arm(side)?.hand;
+    let was = Depths::of(before, side);
+    let blend = (BLEND / work.rate.frame_time()).round() as usize;
+    let mut all = vec![DVec3::ZERO; work.frames];
+    let mut deep = 0.0;
+    for round in 0..=ROUNDS {
+        let now = Depths::of(work, side);
+        let ways: Vec<Option<DVec3>> = now
+            .0
+            .iter()
+            .zip(&was.0)
+            .map(|(now, was)| {
+                let allowed = was.length().max(SKIN);
+                let over = now.length() - allowed;
+                (over > 1e-4).then(|| now.normalize_or_zero() * over)
+            })
+            .collect();
+        deep = now
+            .0
+            .iter()
+            .zip(&was.0)
+            .map(|(now, was)| {
+                if now.length() > was.length().max(SKIN) {
+                    now.length()
+                } else {
+                    0.0
+                }
+            })
+            .fold(0.0, f64::max);
+        if round == ROUNDS || ways.iter().all(Option::is_none) {
+            break;
+        }
+        let ways = blended(&ways, blend);
+        let columns = Columns::of(work, [hand]);
+        let wrists = columns.positions(hand).iter().zip(&ways);
+        let targets: Vec<DVec3> = wrists.map(|(at, way)| *at + *way).collect();
+        arm::move_wrist(work, side, &columns, &targets, None, solver)?;
+        for (sum, way) in all.iter_mut().zip(ways) {
+            *sum += way;
+        }
+    }
+    if all.iter().all(|way| *way == DVec3::ZERO) {
+        return None;
+    }
+    work.changed([Group::Arm(side)], "kept out of the body");
+    Some(Cleared { ways: all, deep })
+}
+
+/// The longest way out of the body of any joint or tip of a hand, frame by frame.
+struct Depths(Vec<DVec3>);
+
+impl Depths {
+    fn of(work: &Work, side: Side) -> Self {
+        let mut joints = work.anatomy.fingers(side);
+        joints.extend(work.anatomy.arm(side).map(|arm| arm.hand));
+        let columns = Columns::of(work, joints.iter().copied());
+        let mut ways = Vec::with_capacity(work.frames);
+        for frame in 0..work.frames {
+            let solids = Solids::of(work, frame);
+            let mut longest = DVec3::ZERO;
+            for &joint in &joints {
+                let (at, turned) = (
+                    columns.positions(joint)[frame],
+                    columns.rotations(joint)[frame],
+                );
+                let tip = work.skeleton.joint(joint).tip.map(|tip| at + turned * tip);
+                for point in [Some(at), tip].into_iter().flatten() {
+                    let way = solids.way_out(point);
+                    if way.length_squared() > longest.length_squared() {
+                        longest = way;
+                    }
+                }
+            }
+            ways.push(longest);
+        }
+        Self(ways)
+    }
+}
+
+/// Head and trunk in one frame.
+struct Solids {
+    trunk: Torso,
+    head: Option<Skull>,
+}
+
+struct Skull {
+    middle: DVec3,
+    axes: [DVec3; 3],
+    half: [f64; 3],
+}
+
+impl Solids {
+    fn of(work: &Work, frame: usize) -> Self {
+        let pose = work.pose(frame);
+        let model = ModelPose::of(&work.skeleton, &pose);
+        let measures = work.anatomy.measures();
+        let body = work.anatomy.body_frame(&model);
+        let trunk = Torso::of(
+            body.filter(|_| measures.is_some()),
+            measures.map_or(0.5, |it| it.trunk),
+        );
+        Self {
+            trunk,
+            head: Skull::of(work, &model),
+        }
+    }
+
+    fn way_out(&self, at: DVec3) -> DVec3 {
+        let trunk = self.trunk.way_out(at, 0.0);
+        let head = self
+            .head
+            .as_ref()
+            .map_or(DVec3::ZERO, |head| head.way_out(at));
+        if head.length_squared() > trunk.length_squared() {
+            head
+        } else {
+            trunk
+        }
+    }
+}
+
+impl Skull {
+    fn of(work: &Work, model: &ModelPose) -> Option<Self> {
+        work.anatomy.joint(Part::Head)?;
+        let size = work.anatomy.measures()?.head;
+        let axes = work.anatomy.head_axes(model)?;
+        let top = work.anatomy.landmark(&work.skeleton, model, "head-top")?;
+        Some(Self {
+            middle: top - axes[1] * ((1.0 - MIDDLE) * size),
+            axes,
+            half: HEAD.map(|share| share * size),
+        })
+    }
+
+    /// Returns the way by which a point in the head leaves it, straight away from its middle.
+    fn way_out(&self, at: DVec3) -> DVec3 {
+        let way = at - self.middle;
+        let shares: [f64; 3] =
+            std::array::from_fn(|axis| way.dot(self.axes[axis]) / self.half[axis]);
+        let share = shares.iter().map(|it| it * it).sum::<f64>().sqrt();
+        if share >= 1.0 {
+            return DVec3::ZERO;
+        }
+        if share < 1e-6 {
+            return self.axes[2] * self.half[2];
+        }
+        way * (1.0 / share - 1.0)
+    }
+}

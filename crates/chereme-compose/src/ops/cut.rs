@@ -1,0 +1,87 @@
+//! `span` and `trim`: a part of the movement, and the movement without its rest.
+
+use std::ops::Range;
+
+use chereme_motion::ends::{self, Ends};
+use chereme_motion::{Clip, Instant, Span};
+
+use crate::error::Cause;
+use crate::recipe::Cut;
+use crate::work::{Group, Work};
+
+/// Keeps the frames that begin in a span.
+pub(crate) fn span(work: &mut Work, cut: &Cut, operator: &str) -> Result<Vec<String>, Cause> {
+    let whole = work.span();
+    let at = |seconds: f64| Instant::from_seconds(seconds);
+    let from = cut.from.map_or(whole.start(), |it| at(it.0));
+    let to = cut.to.map_or(whole.end(), |it| at(it.0));
+    let length = whole.seconds();
+    let none = || Cause::Cut { length };
+    let wanted = Span::new(from, to.max(from)).map_err(|_| none())?;
+    let wanted = wanted.intersection(whole).ok_or_else(none)?;
+    let frames = work.rate.frames_in(wanted);
+    let frames = frames.start..frames.end.min(work.frames);
+    if frames.is_empty() {
+        return Err(none());
+    }
+    let mut did = vec![told(work, &frames)];
+    if to > whole.end() {
+        did.push(format!("the movement ends at {}", whole.end()));
+    }
+    keep(work, frames, operator);
+    Ok(did)
+}
+
+/// Keeps the activity; a movement without rest stays as it is.
+pub(crate) fn trim(work: &mut Work, operator: &str) -> Result<Vec<String>, Cause> {
+    let channels = work.channels.clone();
+    let clip = Clip::new(work.skeleton.clone(), work.rate, channels)?;
+    let odd = Ends::of(&clip, &work.anatomy);
+    let active = ends::activity(&clip, &work.anatomy).unwrap_or(odd.sound.clone());
+    let mut did: Vec<String> = odd
+        .odd
+        .iter()
+        .map(|odd| format!("left out {odd}"))
+        .collect();
+    if active == (0..work.frames) {
+        did.push("the movement has no rest before or after it".to_owned());
+        return Ok(did);
+    }
+    did.push(told(work, &active));
+    keep(work, active, operator);
+    Ok(did)
+}
+
+fn told(work: &Work, frames: &Range<usize>) -> String {
+    let kept = work.rate.span(frames.clone());
+    format!(
+        "kept {} to {} of {}: frames {} to {}",
+        kept.start(),
+        kept.end(),
+        work.end(),
+        frames.start,
+        frames.end - 1
+    )
+}
+
+fn keep(work: &mut Work, frames: Range<usize>, operator: &str) {
+    for channel in &mut work.channels {
+        channel.rotations = channel.rotations[frames.clone()].to_vec();
+        if let Some(places) = &mut channel.translations {
+            *places = places[frames.clone()].to_vec();
+        }
+    }
+    for curve in &mut work.curves {
+        curve.values = curve.values[frames.clone()].to_vec();
+    }
+    let kept = work.rate.span(frames.clone());
+    let back = -kept.start().micros();
+    work.notes.retain_mut(|note| {
+        let left = note.span.intersection(kept);
+        let left = left.filter(|span| span.micros() > 0);
+        note.span = left.unwrap_or(kept).shifted(back);
+        left.is_some()
+    });
+    work.frames = frames.len();
+    work.changed(Group::ALL, operator);
+}

@@ -1,0 +1,252 @@
+//! What operators say of the sign they make: values that become true, and values that no longer are.
+
+use std::ops::Range;
+
+use chereme_motion::glam::DVec3;
+use chereme_motion::{Side, Span};
+use chereme_sign::hamnosys::orientation;
+use chereme_sign::{Component, Reading};
+
+use crate::made::{About, Note};
+use crate::work::Work;
+
+/// Tells whether a note is about what hands of `sides` do; one without a hand is about the dominant hand's.
+pub(crate) fn is_of(work: &Work, note: &Note, sides: &[Side]) -> bool {
+    let dominant = work.handedness.dominant();
+    sides.contains(&note.hand.unwrap_or(dominant))
+}
+
+/// Takes back what is said of hands where `about` finds a component, and perhaps its part, that is no longer true.
+pub(crate) fn withdraw(
+    work: &mut Work,
+    sides: &[Side],
+    operator: &str,
+    about: impl Fn(Component, Option<&str>) -> bool,
+) {
+    for n in 0..work.notes.len() {
+        let note = &work.notes[n];
+        let About::Component(component, feature) = &note.about else {
+            continue;
+        };
+        let told = note.value.value().is_some();
+        if told && is_of(work, note, sides) && about(*component, feature.as_deref()) {
+            let note = &mut work.notes[n];
+            note.value = Reading::Unset;
+            note.origin = format!("{} | {operator}", note.origin);
+        }
+    }
+}
+
+/// Says that a hand has a value of a component, or of a part of it, over some frames. What was said of the same thing
+/// at the time makes room.
+pub(crate) fn tell(
+    work: &mut Work,
+    side: Side,
+    (component, feature): (Component, Option<&str>),
+    value: &str,
+    frames: Range<usize>,
+    operator: &str,
+) {
+    let about = About::Component(component, feature.map(str::to_owned));
+    let span = work.rate.span(frames);
+    let mut left = Vec::with_capacity(work.notes.len() + 2);
+    for note in std::mem::take(&mut work.notes) {
+        if note.hand != Some(side) || note.about != about {
+            left.push(note);
+            continue;
+        }
+        let before = Span::between(note.span.start(), note.span.end().min(span.start()));
+        let after = Span::between(note.span.start().max(span.end()), note.span.end());
+        for part in [before, after] {
+            if part.micros() > 0 && note.span.intersection(part) == Some(part) {
+                left.push(Note {
+                    span: part,
+                    ..note.clone()
+                });
+            }
+        }
+    }
+    work.notes = left;
+    work.notes.push(Note {
+        hand: Some(side),
+        about,
+        value: Reading::from(value),
+        span,
+        origin: operator.to_owned(),
+    });
+}
+
+/// Says where a hand is after it was moved: at `value`, over the stretches of time in which a place was told, or over
+/// `frames` where none was. Without a value only what was told is taken back.
+pub(crate) fn placed(
+    work: &mut Work,
+    side: Side,
+    value: Option<&str>,
+    frames: Range<usize>,
+    operator: &str,
+) {
+    withdraw(work, &[side], operator, |component, feature| {
+        component == Component::Placement && feature.is_some()
+    });
+    let mut told = false;
+    let reading = value.map_or(Reading::Unset, Reading::from);
+    for n in 0..work.notes.len() {
+        let whole = work.notes[n].about == About::Component(Component::Placement, None);
+        if !whole || !is_of(work, &work.notes[n], &[side]) {
+            continue;
+        }
+        told = true;
+        let note = &mut work.notes[n];
+        note.value = reading.clone();
+        note.origin = format!("{} | {operator}", note.origin);
+    }
+    if let Some(value) = value.filter(|_| !told) {
+        let what = (Component::Placement, None);
+        tell(work, side, what, value, frames, operator);
+    }
+}
+
+/// The value of a component when it is played backwards; nothing where it would be another one that no word is known
+/// for.
+pub(crate) fn backwards(
+    component: Component,
+    feature: Option<&str>,
+    value: &str,
+) -> Option<String> {
+    if value.contains('>') {
+        let parts: Vec<&str> = value.split('>').map(str::trim).rev().collect();
+        return Some(parts.join(" > "));
+    }
+    let same = || Some(value.to_owned());
+    match (component, feature) {
+        (Component::Movement, Some("direction")) => Some(opposite(value)),
+        (Component::Movement, Some("phase")) => match value {
+            "preparation" => Some("retraction".to_owned()),
+            "retraction" => Some("preparation".to_owned()),
+            _ => same(),
+        },
+        (Component::Movement, Some("manner")) if ["halt", "rest"].contains(&value) => None,
+        (Component::Movement, Some("size" | "repetition" | "manner")) => same(),
+        (Component::Movement, None) => match value {
+            "opening" => Some("closing".to_owned()),
+            "closing" => Some("opening".to_owned()),
+            "hold" | "path" | "straight" | "arc" | "circle" | "zigzag" | "wavy" | "wrist"
+            | "nodding" | "swinging" | "twisting" | "stirring" | "finger" | "wiggle"
+            | "rubbing" | "contact" => same(),
+            _ => None,
+        },
+        (Component::Movement, Some(_)) => None,
+        (_, Some("change")) => match value {
+            "opening" => Some("closing".to_owned()),
+            "closing" => Some("opening".to_owned()),
+            _ => None,
+        },
+        (Component::NonManual, Some("mouthing")) if value != "none" => None,
+        _ => same(),
+    }
+}
+
+/// Returns a direction such as `up-left` turned round.
+fn opposite(value: &str) -> String {
+    let words = value.split('-').map(|word| match word {
+        "up" => "down",
+        "down" => "up",
+        "left" => "right",
+        "right" => "left",
+        "in" => "out",
+        "out" => "in",
+        other => other,
+    });
+    words.collect::<Vec<_>>().join("-")
+}
+
+/// Names the nearest of the 26 directions of body space (left, up, forward), as inventories have them.
+pub(crate) fn direction(way: DVec3) -> Option<String> {
+    let way = way.try_normalize()?;
+    let cells = (-1..=1).flat_map(|x| (-1..=1).flat_map(move |y| (-1..=1).map(move |z| [x, y, z])));
+    let nearest = cells.filter(|cell| *cell != [0; 3]).max_by(|a, b| {
+        let near = |cell: &[i32; 3]| DVec3::from(cell.map(f64::from)).normalize().dot(way);
+        near(a).total_cmp(&near(b))
+    })?;
+    let words = [
+        (nearest[1], ["down", "up"]),
+        (nearest[2], ["in", "out"]),
+        (nearest[0], ["right", "left"]),
+    ];
+    let words = words.into_iter().filter(|(sign, _)| *sign != 0);
+    let words: Vec<&str> = words
+        .map(|(sign, names)| names[usize::from(sign > 0)])
+        .collect();
+    Some(words.join("-"))
+}
+
+/// Names the side of eight to which a palm faces, both ways in body space, as notation tells it for fingers that point
+/// there.
+pub(crate) fn palm(fingers: DVec3, palm: DVec3) -> Option<&'static str> {
+    let (fingers, palm) = (fingers.try_normalize()?, palm.try_normalize()?);
+    let angle = orientation::palm_angle(fingers.to_array(), palm.to_array());
+    const NAMES: [&str; 8] = [
+        "down",
+        "down-right",
+        "right",
+        "up-right",
+        "up",
+        "up-left",
+        "left",
+        "down-left",
+    ];
+    let eighth = (angle / std::f64::consts::FRAC_PI_4).round() as i64;
+    Some(NAMES[eighth.rem_euclid(8) as usize])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_have_the_names_of_the_inventory() {
+        for (way, want) in [
+            ([0.0, 1.0, 0.0], "up"),
+            ([1.0, 1.0, 0.0], "up-left"),
+            ([-0.1, 0.0, 1.0], "out"),
+            ([-1.0, -1.0, -1.0], "down-in-right"),
+        ] {
+            assert_eq!(direction(way.into()).as_deref(), Some(want));
+        }
+        assert_eq!(palm(DVec3::Z, DVec3::NEG_Y), Some("down"));
+        assert_eq!(palm(DVec3::Y, DVec3::Z), Some("down"));
+        assert_eq!(palm(DVec3::Y, DVec3::X), Some("left"));
+    }
+
+    #[test]
+    fn backwards_every_value_is_the_opposite_itself_or_withdrawn() {
+        let movement = Component::Movement;
+        for (component, feature, value, want) in [
+            (
+                movement,
+                Some("direction"),
+                "up-out-left",
+                Some("down-in-right"),
+            ),
+            (movement, None, "arc", Some("arc")),
+            (movement, None, "opening", Some("closing")),
+            (movement, None, "grasp", None),
+            (movement, Some("phase"), "stroke", Some("stroke")),
+            (movement, Some("manner"), "halt", None),
+            (
+                Component::Placement,
+                None,
+                "head > chest",
+                Some("chest > head"),
+            ),
+            (Component::Configuration, None, "U", Some("U")),
+            (Component::NonManual, Some("mouthing"), "word", None),
+        ] {
+            assert_eq!(
+                backwards(component, feature, value).as_deref(),
+                want,
+                "{value}"
+            );
+        }
+    }
+}

@@ -1,0 +1,296 @@
+//! What operators say of the signs they make, and which moment a place is measured at.
+
+use super::*;
+use crate::body;
+use crate::recipe::HandPoint;
+use crate::work::Work;
+
+/// What is said of a hand: component, part, value, and the time in milliseconds.
+fn said(made: &Made, side: Side, component: Component) -> Vec<(String, String, i64, i64)> {
+    let of = |note: &crate::Note| {
+        let About::Component(found, feature) = &note.about else {
+            return None;
+        };
+        let value = note.value.value()?;
+        let here = *found == component && note.hand == Some(side);
+        let span = [note.span.start(), note.span.end()].map(|at| at.micros() / 1000);
+        let feature = feature.clone().unwrap_or_default();
+        here.then(|| (feature, value.to_owned(), span[0], span[1]))
+    };
+    let mut said: Vec<_> = made.notes.iter().filter_map(of).collect();
+    said.sort();
+    said
+}
+
+fn values(recipe: &str, side: Side, component: Component) -> Vec<String> {
+    let said = said(&made(recipe), side, component);
+    let value = |(feature, value, ..): (String, String, i64, i64)| match feature.as_str() {
+        "" => value,
+        feature => format!("{feature}={value}"),
+    };
+    said.into_iter().map(value).collect()
+}
+
+#[test]
+fn every_operator_says_what_it_makes_true_and_no_longer_what_it_makes_false() {
+    use Component::{Configuration, Movement, Orientation, Placement};
+    use Side::{Left, Right};
+    for (recipe, side, component, want) in [
+        (
+            "ESCARGOT | place right at chin",
+            Right,
+            Placement,
+            vec!["chin"],
+        ),
+        (
+            "LIMACE | place right at chin",
+            Right,
+            Placement,
+            vec!["chin"],
+        ),
+        ("ESCARGOT | place right by up 9cm", Right, Placement, vec![]),
+        (
+            "LIMACE | place right near ESCARGOT",
+            Right,
+            Placement,
+            vec!["chest"],
+        ),
+        (
+            "LIMACE | place right near ESCARGOT by up 9cm",
+            Right,
+            Placement,
+            vec![],
+        ),
+        (
+            "ESCARGOT | configure right U",
+            Right,
+            Configuration,
+            vec!["U"],
+        ),
+        (
+            "BOL | configure right U, _",
+            Right,
+            Configuration,
+            vec!["S", "U"],
+        ),
+        ("ESCARGOT | reverse", Right, Movement, vec!["arc"]),
+        ("ESCARGOT | swap", Left, Movement, vec!["arc"]),
+        ("ESCARGOT | swap", Right, Movement, vec![]),
+        ("BOL | swap", Right, Placement, vec!["high-right"]),
+        ("ESCARGOT | mirror right", Left, Configuration, vec!["Y"]),
+        (
+            "ESCARGOT | repeat 2",
+            Right,
+            Movement,
+            vec!["arc", "arc", "repetition=twice"],
+        ),
+        (
+            "ESCARGOT | repeat 2 | repeat 2",
+            Right,
+            Movement,
+            vec!["arc", "arc", "arc", "arc", "repetition=several"],
+        ),
+        ("ESCARGOT | travel right down 9cm", Right, Movement, vec![]),
+        ("ESCARGOT | travel right down 9cm", Right, Placement, vec![]),
+        (
+            "ESCARGOT | travel right down 9cm",
+            Right,
+            Configuration,
+            vec!["Y"],
+        ),
+        (
+            "ESCARGOT | from me to left with right",
+            Right,
+            Placement,
+            vec![],
+        ),
+        (
+            "ESCARGOT | from chin to left with right",
+            Right,
+            Placement,
+            vec!["chin"],
+        ),
+        (
+            "ESCARGOT | orient right palm down fingers forward",
+            Right,
+            Orientation,
+            vec!["fingers=out", "palm=down"],
+        ),
+    ] {
+        assert_eq!(values(recipe, side, component), want, "{recipe}");
+    }
+}
+
+#[test]
+fn a_hand_that_was_still_draws_the_path_it_travels() {
+    let recipe = "spell B | travel right down 20cm";
+    let want = ["straight", "direction=down"];
+    assert_eq!(values(recipe, Side::Right, Component::Movement), want);
+    let recipe = "spell B | travel right down 20cm then up 20cm";
+    assert_eq!(values(recipe, Side::Right, Component::Movement), ["path"]);
+}
+
+#[test]
+fn a_span_keeps_frames_and_what_is_said_of_them() {
+    let cut = made("ESCARGOT | span 0.4s..0.7s");
+    assert_eq!(cut.clip.frames(), 36);
+    assert_eq!(cut.clip.pose(0), source("ESCARGOT").pose(48));
+    let shape = said(&cut, Side::Right, Component::Configuration);
+    assert_eq!(shape, [(String::new(), "Y".to_owned(), 0, 300)]);
+    assert_eq!(made("ESCARGOT | span 0.5s..").clip.frames(), 60);
+    assert_eq!(made("ESCARGOT | span ..0.5s").clip.frames(), 60);
+    assert_eq!(
+        made("ESCARGOT | span 0.2s..0.8s | span 0.1s..0.3s").clip,
+        made("ESCARGOT | span 0.3s..0.5s").clip
+    );
+    let error = make("ESCARGOT | span 4s..5s").expect_err("beyond the end");
+    assert!(error.to_string().contains("lasts 1.00 s"), "{error}");
+    for wrong in ["span 1s..0.5s", "span ..", "span 1s", "span 1..2", "span"] {
+        assert!(
+            format!("A | {wrong}").parse::<crate::Recipe>().is_err(),
+            "{wrong}"
+        );
+    }
+}
+
+#[test]
+fn trim_leaves_what_has_no_rest_as_it_is() {
+    assert_eq!(made("ESCARGOT | trim").clip, source("ESCARGOT"));
+}
+
+#[test]
+fn the_hand_touches_the_place_at_its_contact_and_stays_out_of_the_body() {
+    // Made so that it touches the chin early, then goes away.
+    let touching = "ESCARGOT | place right at chin with index | travel right forward 30cm";
+    for (recipe, place) in [
+        (
+            format!("{touching} | place right at chin with index"),
+            "chin",
+        ),
+        (
+            "ESCARGOT | place right at chin with index".to_owned(),
+            "chin",
+        ),
+        ("ESCARGOT | place right at chin".to_owned(), "chin"),
+    ] {
+        let made = made(&recipe);
+        let step = made.report.steps.last().expect("a step");
+        let off = step.residual.expect("a target");
+        let work = Work {
+            channels: made.clip.channels().to_vec(),
+            ..Work::of(&Shelf::new().materials["ESCARGOT"])
+        };
+        let before = Work::of(&Shelf::new().materials["ESCARGOT"]);
+        let cleared = crate::ops::clear::clear(
+            &mut work.clone(),
+            &before,
+            Side::Right,
+            crate::recipe::Solver::Analytic,
+        );
+        let still = cleared.map_or(0.0, |it| it.at(&(0..work.frames)));
+        assert!(still < 0.01, "{recipe}: still {still} m in the body");
+        let near = (0..work.frames).map(|frame| {
+            let model = made.clip.model_pose(frame);
+            let at = work
+                .anatomy
+                .landmark(&work.skeleton, &model, place)
+                .expect("a head");
+            let points = HandPoint::ALL.iter();
+            let points =
+                points.filter_map(|&point| body::hand_point(&work, &model, Side::Right, point));
+            points
+                .map(|point| point.distance(at))
+                .fold(f64::MAX, f64::min)
+        });
+        let near = near.fold(f64::MAX, f64::min);
+        assert!(near < 0.12 + off, "{recipe}: {near} m, told {off}");
+    }
+}
+
+#[test]
+fn pieces_that_leap_are_refused_with_what_to_do() {
+    use crate::resolve;
+    let mut shelf = Shelf::new();
+    let bol = shelf.materials.get_mut("BOL").expect("a sign");
+    let (skeleton, rate) = (bol.clip.skeleton().clone(), bol.clip.rate());
+    let mut channels = bol.clip.clone().into_channels();
+    let places = channels[0]
+        .translations
+        .as_mut()
+        .expect("a root that moves");
+    let last = places.len() - 1;
+    places[last].x += 5.0;
+    bol.clip = Clip::new(skeleton, rate, channels).expect("a clip");
+    let make = |recipe: &str| {
+        let recipe: crate::Recipe = recipe.parse().expect(recipe);
+        evaluate(&resolve(&recipe, &shelf)?)
+    };
+    let error = make("BOL then ESCARGOT").expect_err("a leap of five metres");
+    assert!(matches!(error.cause, Cause::Torn { .. }), "{error}");
+    assert!(error.to_string().contains("| trim"), "{error}");
+    make("(BOL | trim) then ESCARGOT").expect("the odd frame is cut off");
+    make("(BOL | span ..0.9s) then ESCARGOT").expect("the odd frame is cut off");
+}
+
+#[test]
+fn the_second_piece_stands_where_the_first_ends_whatever_is_above_its_hips() {
+    use crate::resolve;
+    use chereme_motion::glam::DQuat;
+    use std::sync::Arc;
+    let mut shelf = Shelf::new();
+    let far = shelf.materials["BOL"].clone();
+    // A wrapper above the hips with a place, a turn and a movement of its own.
+    let mut joints = vec![chereme_motion::Joint::new("RootNode", None, DVec3::ZERO)];
+    joints.extend(
+        far.clip
+            .skeleton()
+            .joints()
+            .iter()
+            .cloned()
+            .map(|mut joint| {
+                joint.parent = Some(joint.parent.map_or(0, |parent| parent + 1));
+                joint
+            }),
+    );
+    let skeleton = Arc::new(chereme_motion::Skeleton::new(joints).expect("a tree"));
+    let frames = far.clip.frames();
+    let mut channels = vec![chereme_motion::Channel {
+        rotations: vec![DQuat::from_rotation_y(2.0); frames],
+        translations: Some(
+            (0..frames)
+                .map(|f| DVec3::new(35.0 + f as f64 * 1e-3, -3.0, 127.0))
+                .collect(),
+        ),
+    }];
+    channels.extend(far.clip.channels().iter().cloned());
+    let clip = Clip::new(skeleton.clone(), far.clip.rate(), channels).expect("a clip");
+    let anatomy = Arc::new(chereme_motion::Anatomy::detect(&skeleton));
+    let far = crate::Material {
+        clip,
+        anatomy,
+        address: "token:FAR".into(),
+        gloss: "FAR".into(),
+        ..far
+    };
+    shelf.materials.insert("FAR".into(), far);
+    for recipe in [
+        "ESCARGOT then FAR",
+        "FAR then ESCARGOT",
+        "FAR then FAR",
+        "LIMACE then FAR",
+    ] {
+        let parsed: crate::Recipe = recipe.parse().expect(recipe);
+        let made = evaluate(&resolve(&parsed, &shelf).expect(recipe)).expect(recipe);
+        let body = |frame: usize| {
+            made.anatomy
+                .body_frame(&made.clip.model_pose(frame))
+                .expect("a trunk")
+        };
+        for frame in 1..made.clip.frames() {
+            let step = body(frame).origin.distance(body(frame - 1).origin);
+            assert!(step < 0.05, "{recipe}: the body jumps {step} m at {frame}");
+        }
+        let (first, last) = (body(0), body(made.clip.frames() - 1));
+        assert!(first.forward.angle_between(last.forward) < 0.5, "{recipe}");
+    }
+}

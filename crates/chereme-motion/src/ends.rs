@@ -1,0 +1,479 @@
+//! The ends of a clip: bind poses, T-poses and jumps that are no part of the movement, and rest.
+//!
+//! Capture programs write calibration poses into first and last frames: every bone as the skeleton has it, the arms
+//! out to both sides, the body metres away or turned round. [`Ends`] finds them with their frames, so that measures
+//! and pictures can leave them out; [`activity`] finds the movement between two rests. Neither changes a clip.
+
+use std::fmt;
+use std::ops::Range;
+
+use glam::DVec3;
+
+use crate::anatomy::{Anatomy, Part};
+use crate::clip::Clip;
+use crate::hand::Side;
+use crate::pose::ModelPose;
+
+/// A run of frames at an end of a clip that is no part of its movement.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OddFrames {
+    /// The frames, counted from 0.
+    pub frames: Range<usize>,
+    /// The reason to leave them out.
+    pub what: Oddity,
+}
+
+/// The reason why frames are no part of a movement.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Oddity {
+    /// All joints are as the skeleton has them at rest, and leap from there.
+    Bind,
+    /// Both arms are straight and stretched out to the sides.
+    Tee,
+    /// The body is so many metres away from the next (or the last) frame.
+    Jump(f64),
+    /// The body is turned by so many radians against the next (or the last) frame.
+    Turn(f64),
+    /// A hand is so many metres away from the next (or the last) frame.
+    Leap(f64),
+}
+
+impl fmt::Display for Oddity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Bind => f.write_str("the skeleton's own posture (bind pose)"),
+            Self::Tee => f.write_str("a T-pose"),
+            Self::Jump(metres) => write!(f, "the body jumps {metres:.1} m"),
+            Self::Turn(angle) => write!(f, "the body turns by {:.0}° at once", angle.to_degrees()),
+            Self::Leap(metres) => write!(f, "a hand jumps {metres:.1} m"),
+        }
+    }
+}
+
+impl fmt::Display for OddFrames {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Range { start, end } = self.frames;
+        if end - start == 1 {
+            write!(f, "frame {start}: {}", self.what)
+        } else {
+            write!(f, "frames {start} to {}: {}", end - 1, self.what)
+        }
+    }
+}
+
+/// The sound frames of a clip, and the odd ones before and after them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ends {
+    /// The frames that are left; never empty where the clip has frames.
+    pub sound: Range<usize>,
+    /// The odd frames, in order of time.
+    pub odd: Vec<OddFrames>,
+}
+
+/// Jumps are looked for in this many seconds at each end, and in a quarter of the clip at most.
+const WINDOW: f64 = 1.0;
+/// The least jump of a body in metres, and its speed in metres per second.
+const JUMP: (f64, f64) = (0.5, 20.0);
+/// The least turn of a body in radians, and its speed in radians per second.
+const TURN: (f64, f64) = (0.8, 20.0);
+/// The least jump of a wrist against the body in metres, and its speed in metres per second.
+const LEAP: (f64, f64) = (0.2, 12.0);
+/// The least jump of a wrist that leaves a bind pose, in metres.
+const UNBIND: f64 = 0.05;
+/// Rotations within this angle of the rest posture, in radians, are that posture.
+const SAME: f64 = 1e-3;
+/// The share of its length over which the arm of a T-pose is stretched, and the cosine to the side.
+const TEE: (f64, f64) = (0.93, 0.9);
+/// How far below its shoulder a wrist at rest is, in lengths of the arm, and its greatest speed in metres per second.
+const REST: (f64, f64) = (0.7, 0.15);
+
+impl Ends {
+    /// Looks at both ends of `clip`; `anatomy` is its skeleton's.
+    #[must_use]
+    pub fn of(clip: &Clip, anatomy: &Anatomy) -> Self {
+        let all = clip.frames();
+        let window = (all / 4).min((WINDOW * clip.rate().per_second()).round() as usize);
+        let mut ends = Self {
+            sound: 0..all,
+            odd: Vec::new(),
+        };
+        if all < 4 {
+            return ends;
+        }
+        let looks = Looks { clip, anatomy };
+        ends.head(&looks, window.max(1));
+        let tail = ends.tail(&looks, window.max(1));
+        ends.odd.extend(tail);
+        ends
+    }
+
+    /// Returns whether no frame is odd.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        self.odd.is_empty()
+    }
+
+    fn head(&mut self, looks: &Looks<'_>, window: usize) {
+        let bound = looks.bound(0..self.sound.end);
+        let mut found = None;
+        let mut before = looks.at(0);
+        for frame in 0..window {
+            let after = looks.at(frame + 1);
+            if let Some(what) = looks.break_between(&before, &after) {
+                found = Some((frame + 1, what));
+            }
+            before = after;
+        }
+        if let Some((end, what)) = found {
+            self.odd.push(OddFrames {
+                frames: 0..end,
+                what: if bound >= end { Oddity::Bind } else { what },
+            });
+            self.sound.start = end;
+        } else if bound > 0 && bound <= window && looks.unbinds(bound) {
+            self.odd.push(OddFrames {
+                frames: 0..bound,
+                what: Oddity::Bind,
+            });
+            self.sound.start = bound;
+        }
+        let start = self.sound.start;
+        let tee = (start..self.sound.end)
+            .take_while(|&frame| looks.at(frame).tee)
+            .count();
+        if tee > 0 && tee < self.sound.len() / 2 {
+            self.odd.push(OddFrames {
+                frames: start..start + tee,
+                what: Oddity::Tee,
+            });
+            self.sound.start += tee;
+        }
+    }
+
+    fn tail(&mut self, looks: &Looks<'_>, window: usize) -> Vec<OddFrames> {
+        let mut odd = Vec::new();
+        let last = self.sound.end;
+        let first = last.saturating_sub(window + 1).max(self.sound.start);
+        let mut before = looks.at(first);
+        for frame in first + 1..last {
+            let after = looks.at(frame);
+            if let Some(what) = looks.break_between(&before, &after) {
+                odd.push(OddFrames {
+                    frames: frame..last,
+                    what,
+                });
+                self.sound.end = frame;
+                break;
+            }
+            before = after;
+        }
+        let end = self.sound.end;
+        let tee = self.sound.clone().rev();
+        let tee = tee.take_while(|&frame| looks.at(frame).tee).count();
+        if tee > 0 && tee < self.sound.len() / 2 {
+            let frames = end - tee..end;
+            odd.insert(
+                0,
+                OddFrames {
+                    frames,
+                    what: Oddity::Tee,
+                },
+            );
+            self.sound.end -= tee;
+        }
+        odd
+    }
+}
+
+/// The frames of a clip between the rest before its movement and the rest after it: a hand is at rest while it hangs
+/// or lies low and stays still. Odd frames at the ends are left out, and the way of the arms from a T-pose to the
+/// first rest with them. Nothing where no hand is ever active, or the skeleton has no arm.
+#[must_use]
+pub fn activity(clip: &Clip, anatomy: &Anatomy) -> Option<Range<usize>> {
+    let ends = Ends::of(clip, anatomy);
+    let looks = Looks { clip, anatomy };
+    let poses: Vec<Look> = (0..clip.frames()).map(|frame| looks.at(frame)).collect();
+    let step = ((clip.rate().per_second() * 0.05).round() as usize).max(1);
+    let speed = |side: usize, frame: usize| {
+        let near = frame.saturating_sub(step).max(ends.sound.start)
+            ..(frame + step + 1).min(ends.sound.end);
+        let (first, last) = (poses.get(near.start)?, poses.get(near.end.checked_sub(1)?)?);
+        let way = last.wrists[side]?.distance(first.wrists[side]?);
+        Some(way * clip.rate().per_second() / (near.len() - 1).max(1) as f64)
+    };
+    let idle = |frame: usize| {
+        (0..2).all(|side| match poses[frame].low[side] {
+            None => true,
+            Some(low) => low > REST.0 && speed(side, frame).is_none_or(|speed| speed < REST.1),
+        })
+    };
+    if poses
+        .iter()
+        .all(|look| look.low.iter().all(Option::is_none))
+    {
+        return None;
+    }
+    let tee = |range: &dyn Fn(&OddFrames) -> bool| {
+        ends.odd
+            .iter()
+            .any(|odd| range(odd) && matches!(odd.what, Oddity::Tee | Oddity::Bind))
+    };
+    let (mut start, mut end) = (ends.sound.start, ends.sound.end);
+    let half = start + ends.sound.len() / 2;
+    if tee(&|odd| odd.frames.end <= ends.sound.start)
+        && let Some(rest) = (start..half).find(|&frame| idle(frame))
+    {
+        start = rest;
+    }
+    if tee(&|odd| odd.frames.start >= ends.sound.end)
+        && let Some(rest) = (half..end).rev().find(|&frame| idle(frame))
+    {
+        end = rest + 1;
+    }
+    let first = (start..end).find(|&frame| !idle(frame))?;
+    let last = (first..end).rev().find(|&frame| !idle(frame))?;
+    Some(first..last + 1)
+}
+
+/// A body in one frame, as far as ends are told by it.
+struct Look {
+    body: DVec3,
+    left: Option<DVec3>,
+    /// Wrists against the body.
+    wrists: [Option<DVec3>; 2],
+    /// How far each wrist is below its shoulder, in lengths of the arm.
+    low: [Option<f64>; 2],
+    tee: bool,
+}
+
+struct Looks<'a> {
+    clip: &'a Clip,
+    anatomy: &'a Anatomy,
+}
+
+impl Looks<'_> {
+    fn at(&self, frame: usize) -> Look {
+        let model = self.clip.model_pose(frame);
+        let anatomy = self.anatomy;
+        let trunk = anatomy.body_frame(&model);
+        let hips = anatomy.joint(Part::Hips).map(|hips| model.position(hips));
+        let body = hips
+            .or(trunk.map(|trunk| trunk.origin))
+            .unwrap_or_else(|| model.position(0));
+        let arms = Side::BOTH.map(|side| anatomy.arm(side));
+        let up = trunk.map_or(DVec3::Y, |trunk| trunk.up);
+        let low = arms.map(|arm| {
+            let arm = arm?;
+            let [shoulder, elbow, wrist] =
+                [arm.upper, arm.forearm, arm.hand].map(|joint| model.position(joint));
+            let length = shoulder.distance(elbow) + elbow.distance(wrist);
+            (length > 1e-6).then(|| (shoulder - wrist).dot(up) / length)
+        });
+        Look {
+            body,
+            left: trunk.map(|trunk| trunk.left),
+            wrists: arms.map(|arm| Some(model.position(arm?.hand) - body)),
+            low,
+            tee: self.is_tee(&model),
+        }
+    }
+
+    fn is_tee(&self, model: &ModelPose) -> bool {
+        let Some(trunk) = self.anatomy.body_frame(model) else {
+            return false;
+        };
+        Side::BOTH.iter().all(|&side| {
+            let Some(arm) = self.anatomy.arm(side) else {
+                return false;
+            };
+            let [shoulder, elbow, wrist] =
+                [arm.upper, arm.forearm, arm.hand].map(|joint| model.position(joint));
+            let length = shoulder.distance(elbow) + elbow.distance(wrist);
+            let way = wrist - shoulder;
+            way.length() > TEE.0 * length
+                && way.normalize_or_zero().dot(trunk.left * side.sign()) > TEE.1
+        })
+    }
+
+    /// Returns what breaks between two frames that follow one another.
+    fn break_between(&self, a: &Look, b: &Look) -> Option<Oddity> {
+        let rate = self.clip.rate().per_second();
+        let beyond = |found: f64, (least, speed): (f64, f64)| found > least && found * rate > speed;
+        let jump = a.body.distance(b.body);
+        if beyond(jump, JUMP) {
+            return Some(Oddity::Jump(jump));
+        }
+        if let (Some(was), Some(is)) = (a.left, b.left) {
+            let turn = was.angle_between(is);
+            if beyond(turn, TURN) {
+                return Some(Oddity::Turn(turn));
+            }
+        }
+        let leap = (0..2)
+            .filter_map(|side| Some(a.wrists[side]?.distance(b.wrists[side]?)))
+            .fold(0.0, f64::max);
+        beyond(leap, LEAP).then_some(Oddity::Leap(leap))
+    }
+
+    /// Returns how many frames from the first on have all joints but the root at rest.
+    fn bound(&self, frames: Range<usize>) -> usize {
+        let skeleton = self.clip.skeleton();
+        let at_rest = |frame: &usize| {
+            (1..skeleton.len()).all(|joint| {
+                let turned = self.clip.channel(joint).rotations[*frame];
+                turned.angle_between(skeleton.joint(joint).rest) < SAME
+            })
+        };
+        frames.take_while(at_rest).count()
+    }
+
+    /// Returns whether a hand leaps from the last frame of a bind pose to the next.
+    fn unbinds(&self, bound: usize) -> bool {
+        let (a, b) = (self.at(bound - 1), self.at(bound));
+        let ways = (0..2).filter_map(|side| Some(a.wrists[side]?.distance(b.wrists[side]?)));
+        ways.fold(0.0, f64::max) > UNBIND
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use glam::DQuat;
+
+    use super::*;
+    use crate::anatomy::fixtures::{PLAIN, Wear, body, roles};
+    use crate::clip::Channel;
+    use crate::time::Rate;
+
+    /// A body with hanging arms that raises its right hand and lowers it again, over 100 frames.
+    fn clip(change: impl Fn(usize, usize, &mut Vec<DQuat>, &mut Vec<DVec3>)) -> (Clip, Anatomy) {
+        let skeleton = Arc::new(body(PLAIN));
+        let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");
+        let (count, rate) = (100, Rate::new(25, 1).expect("a rate"));
+        let raise = |frame: usize| match frame {
+            30..70 => ((frame - 30) as f64 / 39.0 * std::f64::consts::PI).sin() * 1.3,
+            _ => 0.0,
+        };
+        let mut channels: Vec<Channel> = Vec::new();
+        for (index, joint) in skeleton.joints().iter().enumerate() {
+            let part = anatomy.part_of(index);
+            let turned = |frame: usize| match part {
+                Some(Part::UpperArm(Side::Right)) => DQuat::from_rotation_z(1.4 - raise(frame)),
+                Some(Part::UpperArm(Side::Left)) => DQuat::from_rotation_z(-1.4),
+                _ => joint.rest,
+            };
+            let mut rotations: Vec<DQuat> = (0..count).map(turned).collect();
+            let mut places = vec![joint.offset; count];
+            change(index, count, &mut rotations, &mut places);
+            channels.push(Channel {
+                rotations,
+                translations: (index == 0).then_some(places),
+            });
+        }
+        (
+            Clip::new(skeleton, rate, channels).expect("a clip"),
+            anatomy,
+        )
+    }
+
+    #[test]
+    fn odd_first_and_last_frames_are_found_with_their_numbers() {
+        type Change = fn(usize, usize, &mut Vec<DQuat>, &mut Vec<DVec3>);
+        let cases: [(&str, Change, Range<usize>); 6] = [
+            ("", |_, _, _, _| {}, 0..100),
+            (
+                "frame 0: the skeleton's own posture (bind pose)",
+                |_, _, turned, _| turned[0] = DQuat::IDENTITY,
+                1..100,
+            ),
+            (
+                "frame 0: the body jumps 5.0 m",
+                |joint, _, _, places| {
+                    if joint == 0 {
+                        places[0].x += 5.0;
+                    }
+                },
+                1..100,
+            ),
+            (
+                "frame 0: the body turns by 180° at once",
+                |joint, _, turned, _| {
+                    if joint == 0 {
+                        turned[0] = DQuat::from_rotation_y(std::f64::consts::PI);
+                    }
+                },
+                1..100,
+            ),
+            (
+                "frames 97 to 99: the body jumps 3.0 m",
+                |joint, count, _, places| {
+                    if joint == 0 {
+                        for place in &mut places[count - 3..] {
+                            place.z -= 3.0;
+                        }
+                    }
+                },
+                0..97,
+            ),
+            (
+                "frames 0 to 4: a hand jumps",
+                |_, _, turned, _| {
+                    for turned in &mut turned[..5] {
+                        *turned = DQuat::from_rotation_y(1e-2);
+                    }
+                },
+                5..100,
+            ),
+        ];
+        for (want, change, sound) in cases {
+            let (clip, anatomy) = clip(change);
+            let ends = Ends::of(&clip, &anatomy);
+            let told: Vec<String> = ends.odd.iter().map(ToString::to_string).collect();
+            assert_eq!(ends.sound, sound, "{want}: {told:?}");
+            let told = told.join("; ");
+            assert!(
+                told.starts_with(want) && told.is_empty() == want.is_empty(),
+                "{told}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_t_pose_that_is_left_slowly_is_found() {
+        let (clip, anatomy) = clip(|joint, _, turned, _| {
+            let still = turned[25];
+            for (frame, turned) in turned[..25].iter_mut().enumerate() {
+                let share = (frame as f64 / 20.0).min(1.0);
+                if joint > 0 {
+                    *turned = DQuat::IDENTITY.slerp(still, share);
+                }
+            }
+        });
+        let ends = Ends::of(&clip, &anatomy);
+        assert!(
+            matches!(ends.odd.as_slice(), [odd] if odd.what == Oddity::Tee),
+            "{ends:?}"
+        );
+        let active = activity(&clip, &anatomy).expect("a raised hand");
+        assert!(active.start > 25 && active.start <= 31, "{active:?}");
+    }
+
+    #[test]
+    fn activity_is_between_two_rests_and_a_still_body_has_none() {
+        let (moving, anatomy) = clip(|_, _, _, _| {});
+        let active = activity(&moving, &anatomy).expect("a raised hand");
+        assert!(
+            (27..=31).contains(&active.start) && (69..=73).contains(&active.end),
+            "{active:?}"
+        );
+        let skeleton = Arc::new(body(Wear {
+            lowered: 1.4,
+            ..PLAIN
+        }));
+        let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");
+        let still = Clip::still(skeleton, Rate::new(25, 1).expect("a rate"), 50);
+        assert_eq!(activity(&still, &anatomy), None);
+        assert!(Ends::of(&still, &anatomy).is_sound());
+    }
+}
