@@ -7,7 +7,9 @@ use crate::made::Report;
 impl Display for Report {
     /// Writes the report as indented lines; a step without a residual has no target to miss.
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        writeln!(f, "steps")?;
+        let scaled = self.steps.iter().any(|step| step.residual.is_some());
+        let scale = " (residual: how far a wrist stays from its goal at most)";
+        writeln!(f, "steps{}", if scaled { scale } else { "" })?;
         for step in &self.steps {
             write!(f, "  {}", step.step)?;
             if let Some(residual) = step.residual {

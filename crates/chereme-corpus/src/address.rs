@@ -36,7 +36,7 @@ pub enum Address {
     Tier(i64),
     /// `annotation:…`, always a number.
     Annotation(i64),
-    /// A bare gloss: the sign's citation form.
+    /// A bare gloss: the sign's citation form; where movement is asked for and no sign is called so, a recording.
     Gloss(String),
 }
 
@@ -256,10 +256,16 @@ pub(crate) fn signer(connection: &Connection, name: &Name) -> Result<SignerRow> 
     })
 }
 
-/// Returns the stretch of movement that `address` names.
+/// Returns the stretch of movement that `address` names; a bare name that no sign has may be a recording's.
 pub(crate) fn stretch(connection: &Connection, address: &Address) -> Result<Stretch> {
-    if let Address::Recording(name) = address {
-        let recording = recording(connection, name)?;
+    let named = match address {
+        Address::Recording(name) => Some(recording(connection, name)?),
+        Address::Gloss(name) if sign(connection, name).is_err() => {
+            recordings::recording_named(connection, name)?
+        }
+        _ => None,
+    };
+    if let Some(recording) = named {
         let span = Span::between(Instant::ZERO, Instant::from_micros(recording.duration_us));
         return Ok(Stretch {
             recording,

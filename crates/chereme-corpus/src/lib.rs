@@ -69,6 +69,7 @@ pub use check::{CheckReport, Fault};
 pub use chereme_analysis::kinematics::{HandCurves, Kinematics};
 pub use chereme_analysis::{Score, ScoreOptions};
 pub use chereme_compose::Curve;
+pub use chereme_figure::SPEEDS;
 pub use contents::{
     AnnotationColumns, Contents, Overview, RecordingGlance, SignGlance, TierContents, ValueState,
 };

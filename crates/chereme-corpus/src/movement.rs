@@ -6,6 +6,7 @@ use std::ops::Range;
 use chereme_formats::bvh::convert::ClipBuilder;
 use chereme_formats::bvh::raw::{ChannelFix, Column, Hierarchy};
 use chereme_motion::anatomy::{Anatomy, Part, Roles};
+use chereme_motion::ends::{Ends, OddFrames};
 use chereme_motion::{Clip, Convention, Rate, Side, Skeleton, Span};
 use rusqlite::Connection;
 
@@ -243,7 +244,7 @@ impl Track {
     /// Returns what the skeleton's joints are, measured where the recording begins; made movement has the body of
     /// what it was made from, measured there.
     pub(crate) fn anatomy(&self, connection: &Connection) -> Result<Anatomy> {
-        let first = self.clip(connection, 0..1, &ChannelGroup::ALL)?;
+        let first = self.clip(connection, 0..self.head(), &ChannelGroup::ALL)?;
         let roles = self.row.roles.as_deref().map(str::parse::<Roles>);
         let place = format!("track {}", self.row.id);
         let roles = roles
@@ -258,13 +259,61 @@ impl Track {
         let own = self.row.recording_id;
         let body = recipes::body_of(connection, own, self.row.skeleton_id)?;
         let Some(body) = body.filter(|body| *body != own) else {
-            return Ok(anatomy.with_clip(&first));
+            return Ok(standing(anatomy, &first));
         };
-        let body = Self::of(connection, body)?.clip(connection, 0..1, &ChannelGroup::ALL)?;
+        let body = Self::of(connection, body)?;
+        let body = body.clip(connection, 0..body.head(), &ChannelGroup::ALL)?;
         let same = body.skeleton() == first.skeleton();
-        Ok(anatomy.with_clip(if same { &body } else { &first }))
+        Ok(standing(anatomy, if same { &body } else { &first }))
+    }
+
+    /// Returns how many frames from the first on are looked at for odd ones.
+    fn head(&self) -> usize {
+        let frames = (ENDS * self.rate.per_second()).ceil() as usize;
+        frames.clamp(1, BLOCK_FRAMES).min(self.frames().max(1))
+    }
+
+    /// Returns the odd frames at both ends of the recording.
+    pub(crate) fn odd_frames(
+        &self,
+        connection: &Connection,
+        anatomy: &Anatomy,
+    ) -> Result<Vec<OddFrames>> {
+        let (all, part) = (self.frames(), 4 * self.head());
+        let look = |frames: Range<usize>| -> Result<Vec<OddFrames>> {
+            let from = frames.start;
+            let clip = self.clip(connection, frames, &ChannelGroup::ALL)?;
+            let mut odd = Ends::of(&clip, anatomy).odd;
+            for odd in &mut odd {
+                odd.frames = odd.frames.start + from..odd.frames.end + from;
+            }
+            Ok(odd)
+        };
+        if all <= 2 * part {
+            return look(0..all);
+        }
+        let mut odd = look(0..part)?;
+        odd.retain(|odd| odd.frames.end < part);
+        let tail = look(all - part..all)?;
+        odd.extend(tail.into_iter().filter(|odd| odd.frames.start > all - part));
+        Ok(odd)
     }
 }
+
+/// Measures an anatomy in the first frame that is not odd, where the rest pose is none that a body takes.
+pub(crate) fn standing(anatomy: Anatomy, head: &Clip) -> Anatomy {
+    if anatomy.is_posed() || head.frames() == 0 {
+        return anatomy;
+    }
+    let first = anatomy.clone().with_clip(head);
+    match Ends::of(head, &first).sound.start {
+        0 => first,
+        sound => anatomy.with_reference(head.skeleton(), &head.model_pose(sound)),
+    }
+}
+
+/// How long odd frames at an end of a recording may be and still be found for measuring, in seconds.
+const ENDS: f64 = 2.5;
 
 /// Returns the clip with the root's places multiplied.
 fn scale_root(clip: Clip, scale: f64) -> Clip {

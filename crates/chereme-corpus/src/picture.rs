@@ -36,6 +36,8 @@ const SYMBOLS: &str = "hamnosys";
 /// What the faces of SiGML's non-manuals are called beside the inventories, and how large one is drawn.
 const FACES: &str = "faces";
 const FACE: usize = 160;
+/// How high one picture of movement is, in pixels.
+const HEIGHT: usize = 260;
 /// How high a symbol of notation is drawn, in pixels of a picture that can be shown at any size.
 const SYMBOL: f32 = 64.0;
 
@@ -46,9 +48,9 @@ pub struct PictureOptions {
     pub frames: usize,
     /// Whether the contact sheet shows the hands from close by, and the face where it does something.
     pub hands: bool,
-    /// How high one picture is, in pixels.
-    pub height: usize,
-    /// How fast an animation runs, 1 being the recorded speed.
+    /// How high one picture is, in pixels; without a number 260 for movement, 128 for a handshape, 160 for a face.
+    pub height: Option<usize>,
+    /// How fast an animation runs, 1 being the recorded speed; from 0.05 to 20.
     pub speed: f64,
     /// Whether a file that is there already is written over.
     pub force: bool,
@@ -59,7 +61,7 @@ impl Default for PictureOptions {
         Self {
             frames: 8,
             hands: true,
-            height: 260,
+            height: None,
             speed: 1.0,
             force: false,
         }
@@ -285,7 +287,7 @@ impl Corpus {
             return written(&chart, SYMBOLS, Symbol::all().len(), to, options.force);
         }
         if inventory == FACES && value.is_none() {
-            return draw_faces(to, options.force);
+            return draw_faces(to, options);
         }
         let all = inventories::load(self.store.read())?;
         let ids: Vec<&str> = all.iter().map(|it| it.inventory.id.as_str()).collect();
@@ -304,10 +306,11 @@ impl Corpus {
         let pose = |value: &chereme_sign::inventory::InventoryValue| {
             value.hand_pose(&configurations.inventory)
         };
-        let shape = HandshapeOptions {
+        let mut shape = HandshapeOptions {
             side,
             ..HandshapeOptions::default()
         };
+        shape.size = options.height.unwrap_or(shape.size);
         let (image, title, frames) = match value {
             Some(text) => {
                 let found = stored.inventory.find(text);
@@ -393,7 +396,7 @@ pub fn draw_clip(
             let mut sheet = SheetOptions {
                 title: title.to_owned(),
                 frames: chereme_figure::Frames::Spaced(options.frames),
-                cell_height: options.height,
+                cell_height: options.height.unwrap_or(HEIGHT),
                 ..SheetOptions::default()
             };
             if options.hands && Side::BOTH.iter().any(|&side| anatomy.has_fingers(side)) {
@@ -413,7 +416,7 @@ pub fn draw_clip(
         "gif" => {
             let settings = AnimationOptions {
                 views: vec![View::Addressee, View::Left],
-                height: options.height,
+                height: options.height.unwrap_or(HEIGHT),
                 speed: options.speed,
                 faces: faces.to_vec(),
                 ..AnimationOptions::default()
@@ -468,7 +471,7 @@ fn told(to: &Path, title: &str, bytes: u64, frames: usize) -> Picture {
 }
 
 /// Draws every listed face of SiGML on the program's own body.
-fn draw_faces(to: &Path, force: bool) -> Result<Picture> {
+fn draw_faces(to: &Path, options: &PictureOptions) -> Result<Picture> {
     if extension(to) != "png" {
         return Err(ending(to, "faces are drawn to a .png"));
     }
@@ -479,8 +482,11 @@ fn draw_faces(to: &Path, force: bool) -> Result<Picture> {
     };
     let faces: Vec<_> = Expression::listed().filter_map(face).collect();
     let (clip, anatomy) = built_in_body()?;
-    let image = face_sheet((&clip, &anatomy), &faces, 8, FACE).map_err(figure)?;
-    let bytes = write(to, force, |out| write_png(&image, out).map_err(figure))?;
+    let size = options.height.unwrap_or(FACE);
+    let image = face_sheet((&clip, &anatomy), &faces, 8, size).map_err(figure)?;
+    let bytes = write(to, options.force, |out| {
+        write_png(&image, out).map_err(figure)
+    })?;
     Ok(told(to, FACES, bytes, faces.len()))
 }
 

@@ -77,11 +77,13 @@ impl<'a> CorpusSources<'a> {
         if stretch.span.micros() > LONGEST {
             let seconds = stretch.span.seconds();
             return Err(Error::wrong(format!(
-                "{:?} lasts {seconds:.0} s; a recipe takes stretches of at most {} s",
+                "{:?} is {:.0} min long, and a recipe takes {} min at most; annotate the part on a gloss tier and name \
+                 its token",
                 stretch.recording.name,
-                LONGEST / 1_000_000
+                seconds / 60.0,
+                LONGEST / 60_000_000
             ))
-            .advise("name a token in it"));
+            .advise("annotate the part on a gloss tier and name its token"));
         }
         let track = Track::of(self.connection, stretch.recording.id)?;
         let mut material = movement(self.connection, &track, stretch)?;
@@ -433,7 +435,9 @@ fn missing(sources: &CorpusSources<'_>, address: &str, error: &Error) -> SourceE
         None if parsed.is_none() => unreadable(error),
         None => {
             let glosses = signs::glosses(sources.connection).unwrap_or_default();
-            let near = nearest(address, glosses.iter().map(String::as_str));
+            let recordings = recordings::recordings(sources.connection).unwrap_or_default();
+            let names = recordings.iter().map(|row| row.name.as_str());
+            let near = nearest(address, glosses.iter().map(String::as_str).chain(names));
             SourceError::Missing {
                 address: own,
                 nearest: near.map(str::to_owned),

@@ -75,12 +75,16 @@ pub struct Framing {
     high: Vec3,
     /// The length of a hand from wrist to fingertip, in metres.
     hand: f32,
+    /// The joint against which corners are, where the body travels: the camera goes with it.
+    follow: Option<usize>,
 }
 
 /// How many frames of a clip are looked at to find what it takes.
 const LOOKS: usize = 400;
 /// The eye's distance beside half the height of what it sees: a long lens.
 const DISTANCE: f32 = 7.0;
+/// How far a body goes from its middle before the camera goes with it, in metres.
+const TRAVELS: f32 = 0.6;
 
 impl Framing {
     /// Returns the space of `clip`, or nothing where it has no frame: from the hips to above the
@@ -97,8 +101,7 @@ impl Framing {
         let poses = looks(clip, anatomy)?;
         let mut framing = Self::signing(&poses, anatomy);
         if let (Some(hips), Some(_)) = (anatomy.joint(Part::Hips), anatomy.joint(Part::Head)) {
-            let at =
-                |pose: &ModelPose| (framing.axes.transpose() * pose.position(hips).as_vec3()).y;
+            let at = |pose: &ModelPose| (framing.axes.transpose() * framing.against(pose, hips)).y;
             let hips = poses.iter().map(at).fold(f32::INFINITY, f32::min);
             framing.low.y = framing.low.y.min(hips - framing.hand * 0.3);
         }
@@ -115,9 +118,10 @@ impl Framing {
         let known = arms.iter().flatten().next().is_some();
         let arm = |side: usize| arms[side].map_or(0.0, |arm| arm_length(&poses[0], arm));
         let size = arm(0).max(arm(1)) / 0.53;
+        let follow = travelling(poses, anatomy);
         for pose in poses {
             let mut add = |joint: usize, margin: Vec3| {
-                let at = to_own * pose.position(joint).as_vec3();
+                let at = to_own * (pose.position(joint).as_vec3() - based(follow, pose));
                 found.add(at - margin);
                 found.add(at + margin);
             };
@@ -164,6 +168,7 @@ impl Framing {
             } else {
                 (high - low).max_element() * 0.2
             },
+            follow,
         }
     }
 
@@ -184,7 +189,7 @@ impl Framing {
             return whole;
         };
         let to_own = whole.axes.transpose();
-        let at = |pose: &ModelPose, joint| to_own * pose.position(joint).as_vec3();
+        let at = |pose: &ModelPose, joint| to_own * whole.against(pose, joint);
         let (mut always, mut hands) = (Bounds::default(), Bounds::default());
         for pose in poses {
             if let Some(head) = anatomy.joint(Part::Head) {
@@ -233,7 +238,7 @@ impl Framing {
             return self.place(target, [towards, up], half_height);
         }
         let half = (self.high - self.low) * 0.5;
-        let middle = self.axes * ((self.high + self.low) * 0.5);
+        let middle = self.axes * ((self.high + self.low) * 0.5) + based(self.follow, pose);
         let right = up.cross(towards).normalize_or(Vec3::X);
         let tall = half.dot(right.cross(towards).abs());
         let wide = half.dot(right.abs());
@@ -250,6 +255,11 @@ impl Framing {
             half_height,
             near: 0.0,
         }
+    }
+
+    /// Returns where a joint is against what the camera follows.
+    fn against(&self, pose: &ModelPose, joint: usize) -> Vec3 {
+        pose.position(joint).as_vec3() - based(self.follow, pose)
     }
 
     /// Returns the signer's left, up and forwards in model space.
@@ -269,6 +279,23 @@ impl Framing {
         let right = up.cross(towards).normalize_or(Vec3::X);
         half.dot(right.abs()) / half.dot(right.cross(towards).abs()).max(1e-6)
     }
+}
+
+/// Returns where what the camera follows is; the origin where it stands still.
+fn based(follow: Option<usize>, pose: &ModelPose) -> Vec3 {
+    follow.map_or(Vec3::ZERO, |joint| pose.position(joint).as_vec3())
+}
+
+/// Returns the joint that carries the body, where the body travels farther than signers sway.
+fn travelling(poses: &[ModelPose], anatomy: &Anatomy) -> Option<usize> {
+    let parts = [Part::Hips, Part::Spine, Part::Chest];
+    let joint = parts.iter().find_map(|&part| anatomy.joint(part))?;
+    let mut bounds = Bounds::default();
+    for pose in poses {
+        bounds.add(pose.position(joint).as_vec3());
+    }
+    let (low, high) = bounds.0?;
+    ((high - low).length() * 0.5 > TRAVELS).then_some(joint)
 }
 
 /// Returns postures of a clip from its first to its last frame, evenly spaced where there are many; odd first and last

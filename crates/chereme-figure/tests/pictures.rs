@@ -483,3 +483,87 @@ fn odd_first_frames_are_in_no_picture_and_do_not_move_the_camera() {
     let [a, b] = [odd, whole].map(|it| it.camera(View::Addressee, 1.0, &pose, &anatomy));
     assert!((a.half_height - b.half_height).abs() < 0.02, "{a:?} {b:?}");
 }
+
+/// The example's clip with the root somewhere else in each frame.
+fn elsewhere(way: impl Fn(usize) -> DVec3) -> (Clip, Anatomy) {
+    let (clip, anatomy) = clip();
+    let (skeleton, rate) = (clip.skeleton().clone(), clip.rate());
+    let mut channels = clip.clone().into_channels();
+    let offset = skeleton.joint(0).offset;
+    let places = channels[0]
+        .translations
+        .get_or_insert_with(|| vec![offset; clip.frames()]);
+    for (frame, place) in places.iter_mut().enumerate() {
+        *place += way(frame);
+    }
+    (
+        Clip::new(skeleton, rate, channels).expect("a clip"),
+        anatomy,
+    )
+}
+
+#[test]
+fn a_figure_far_from_the_origin_or_on_its_way_is_framed_like_one_that_stands() {
+    let (still, anatomy) = clip();
+    let size = |clip: &Clip, frame: usize| {
+        let pose = clip.model_pose(frame);
+        let framing = Framing::of(clip, &anatomy).expect("frames");
+        let camera = framing.camera(View::Addressee, 1.0, &pose, &anatomy);
+        let head = anatomy.joint(chereme_motion::Part::Head).expect("a head");
+        let aside = camera.target.x - pose.position(head).as_vec3().x;
+        (camera.half_height, aside.abs())
+    };
+    let (height, _) = size(&still, 0);
+    let last = still.frames() - 1;
+    let (far, _) = elsewhere(|_| DVec3::new(4.0, 0.0, -1.0));
+    let (walking, _) = elsewhere(|frame| DVec3::X * (6.0 * frame as f64 / last as f64));
+    for (name, clip) in [("far", far), ("walking", walking)] {
+        for frame in [0, last / 2, last] {
+            let (own, aside) = size(&clip, frame);
+            assert!(
+                (own / height - 1.0).abs() < 0.15,
+                "{name} {frame}: {own} for {height}"
+            );
+            assert!(aside < 0.4, "{name} {frame}: {aside} m beside the head");
+        }
+    }
+}
+
+#[test]
+fn a_body_without_spine_hips_or_neck_keeps_its_trunk() {
+    use chereme_motion::{Part, Side};
+    let (clip, whole) = clip();
+    let skeleton = clip.skeleton();
+    let pose = clip.model_pose(0);
+    let trunk = |anatomy: &Anatomy| {
+        let mesh = Body::new(skeleton, anatomy).mesh(&pose);
+        let group = chereme_figure::group::TORSO;
+        let of = mesh.vertices.iter().filter(|vertex| vertex.group == group);
+        let (mut low, mut high) = (f32::MAX, f32::MIN);
+        for vertex in of {
+            low = low.min(vertex.position.y);
+            high = high.max(vertex.position.y);
+        }
+        high - low
+    };
+    let all = trunk(&whole);
+    for missing in [
+        vec![Part::Hips, Part::Spine],
+        vec![Part::Neck, Part::Head],
+        vec![
+            Part::Hips,
+            Part::Spine,
+            Part::Chest,
+            Part::Thigh(Side::Right),
+            Part::Thigh(Side::Left),
+        ],
+    ] {
+        let roles = missing.iter().map(|&part| (part, String::new())).collect();
+        let anatomy = Anatomy::with_roles(skeleton, &chereme_motion::Roles(roles)).expect("roles");
+        let height = trunk(&anatomy);
+        assert!(
+            (0.6..1.4).contains(&(height / all)),
+            "{missing:?}: {height} m of {all} m"
+        );
+    }
+}

@@ -13,6 +13,7 @@ use crate::streams;
 const RECIPES: &str = "\
 What a recipe begins with
   ESCARGOT  token:41  sign:LIMACE         a sign of the corpus, with movement or as notation
+  take-1  recording:3                     a whole recording, by its name where no sign is called so
   spell LSF left hold 0.2s                a word in a manual alphabet
   point right at 30cm,140cm,50cm          reaching for a point: to the left, up from the floor, forward
   hamnosys \"...\"  sigml HUIS.sigml        notation
@@ -30,6 +31,7 @@ What is done to it, step by step, each after |
   from me to left                         a directional verb between other places
   retime 150%   retime to 2s              slower, faster
   nonmanual from BOL                      head and face of another sign
+  span 0.4s..1.9s   trim                  a part of it; rest and odd first and last frames cut off
 
 One after the other, with transitions
   BOL then ESCARGOT then via sigmoid 0.3s CHAT
@@ -37,6 +39,7 @@ One after the other, with transitions
 Examples:
   chereme recombine mine.chereme 'ESCARGOT | configure right U' --as LIMACE
   chereme recombine mine.chereme 'AIMER | reverse | repeat 2' --explain
+  chereme recombine mine.chereme 'take-1 | trim' --as HELLO
   chereme recombine mine.chereme 'spell LSF | travel right down 20cm then up 20cm' --draw lsf.gif";
 
 /// Make a new sign from stored ones, and store it

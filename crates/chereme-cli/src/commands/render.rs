@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{Address, Picture, PictureOptions, Progress};
+use chereme_corpus::{Address, Picture, PictureOptions, Progress, SPEEDS};
 
 use crate::args::{Cli, SideWord};
 use crate::output::{Bar, Output};
@@ -11,7 +11,7 @@ use crate::streams;
 
 /// Draw movement as a contact sheet (.png) or an animation (.gif), handshapes (.png), or notation (.svg)
 ///
-/// WHAT is a gloss, token:41, recording:3, recording:"NGT Thanks", or inventory:configurations and
+/// WHAT is a gloss, a recording's name, token:41, recording:3, recording:"NGT Thanks", or inventory:configurations and
 /// inventory:configurations/U for handshapes. A sign that is there as notation only is animated first.
 /// The symbols of HamNoSys are drawn by the program, no font is needed: inventory:hamnosys shows all.
 /// What a face does for each non-manual of SiGML is seen in inventory:faces.
@@ -38,11 +38,11 @@ pub(crate) struct Args {
     /// How many pictures a contact sheet has side by side, from 1 to 64
     #[arg(long, default_value_t = 8, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
     frames: u16,
-    /// How high one picture is, in pixels, from 32 to 2000
-    #[arg(long, default_value_t = 260, value_name = "PIXELS", value_parser = clap::value_parser!(u16).range(32..=2000))]
-    height: u16,
-    /// How fast an animation runs; 1 is the recorded speed
-    #[arg(long, default_value_t = 1.0, value_name = "FACTOR")]
+    /// How high one picture is, in pixels, from 32 to 2000; without it 260, for handshapes 128, for faces 160
+    #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u16).range(32..=2000))]
+    height: Option<u16>,
+    /// How fast an animation runs, from 0.05 to 20; 1 is the recorded speed
+    #[arg(long, default_value_t = 1.0, value_name = "FACTOR", value_parser = speed, allow_negative_numbers = true)]
     speed: f64,
     /// Leave out the pictures of hands and face from close by
     #[arg(long)]
@@ -55,12 +55,24 @@ pub(crate) struct Args {
     force: bool,
 }
 
+/// Reads a speed at which animations run.
+fn speed(text: &str) -> Result<f64, String> {
+    let speed: Option<f64> = text.parse().ok();
+    speed.filter(|speed| SPEEDS.contains(speed)).ok_or_else(|| {
+        format!(
+            "a speed is a number from {} to {}",
+            SPEEDS.start(),
+            SPEEDS.end()
+        )
+    })
+}
+
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
     let options = PictureOptions {
         frames: usize::from(args.frames),
         hands: !args.no_hands,
-        height: usize::from(args.height),
+        height: args.height.map(usize::from),
         speed: args.speed,
         force: args.force,
     };

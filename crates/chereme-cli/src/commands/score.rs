@@ -38,9 +38,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     };
     let normalized = score
         .normalized
-        .map_or("none".to_owned(), |it| format!("{it:.4}"));
+        .map_or("none".to_owned(), |it| format!("{it:.2}"));
     output.line(format!(
-        "distance {:.4}, a step {normalized}",
+        "distance {:.1} in all, {normalized} for each aligned pair of frames (0: the same movement; each part is in its \
+         own scale)",
         score.distance
     ))?;
     let rows: Vec<Vec<String>> = score

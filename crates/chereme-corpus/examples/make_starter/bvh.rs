@@ -60,6 +60,7 @@ fn raw_joint(clip: &Clip, joint: usize) -> RawJoint {
             .chain(rotations)
             .collect(),
         end_sites: it.tip.map(offset).into_iter().collect(),
+        placed: None,
     }
 }
 

@@ -169,6 +169,26 @@ pub(crate) fn skeleton_stored(
     Ok(connection.last_insert_rowid())
 }
 
+/// Gives a track another skeleton; the one before goes where no track has it any more.
+pub(crate) fn set_skeleton(connection: &Connection, track: i64, skeleton: i64) -> Result<()> {
+    let former: i64 = connection
+        .prepare_cached("SELECT skeleton_id FROM track WHERE id = ?1")?
+        .query_row([track], |row| row.get(0))?;
+    if former == skeleton {
+        return Ok(());
+    }
+    connection
+        .prepare_cached("UPDATE track SET skeleton_id = ?2 WHERE id = ?1")?
+        .execute([track, skeleton])?;
+    connection
+        .prepare_cached(
+            "DELETE FROM skeleton WHERE id = ?1
+             AND NOT EXISTS (SELECT 1 FROM track WHERE skeleton_id = ?1)",
+        )?
+        .execute([former])?;
+    Ok(())
+}
+
 /// Returns the document of a skeleton.
 pub(crate) fn skeleton_document(connection: &Connection, id: i64) -> Result<String> {
     Ok(connection

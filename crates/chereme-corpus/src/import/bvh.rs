@@ -3,9 +3,11 @@
 use std::fs::File;
 use std::sync::Arc;
 
+use chereme_formats::bvh::bones::Bones;
 use chereme_formats::bvh::convert::{self, ClipBuilder};
 use chereme_formats::bvh::raw::{Block, ChannelFix, Hierarchy, Options, Reader};
 use chereme_motion::anatomy::{Anatomy, ConventionGuess, Evidence, Part};
+use chereme_motion::ends::Ends;
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Clip, Convention, ModelPose, Rate, Side, Skeleton};
 use serde_json::json;
@@ -16,7 +18,7 @@ use super::{FileReport, FileStatus, Job};
 use crate::db::motion::hex;
 use crate::db::recordings::{self, MotionTrackRow, RecordingRow};
 use crate::error::{Error, Result};
-use crate::movement::{self, BLOCK_FRAMES, ChannelGroup};
+use crate::movement::{self, BLOCK_FRAMES, ChannelGroup, Track};
 use crate::progress::{Progress, Step, Unit};
 
 pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
@@ -35,7 +37,10 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     let mut block = Block::default();
     let mut more = reader.next_block(&mut block).map_err(wrong)?;
     let mut report = FileReport::new(job.path, FileStatus::Imported);
-    let hierarchy = reader.hierarchy().clone();
+    let mut hierarchy = reader.hierarchy().clone();
+    let mut bones = Bones::new(&hierarchy);
+    bones.push(&block);
+    bones.place(&mut hierarchy);
     let frame_time = reader.header().frame_time.clone();
     let rate = convert::rate(frame_time.as_ref()).map_err(|error| {
         Error::wrong(error.to_string()).advise("correct the line `Frame Time:` of the file")
@@ -72,8 +77,12 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
             unit: Unit::Bytes,
         })?;
         more = reader.next_block(&mut block).map_err(wrong)?;
+        if more {
+            bones.push(&block);
+        }
     }
     let summary = reader.finish();
+    place_joints(job, track, &bones, &mut hierarchy, &mut report)?;
     finish(job, recording, track, summary.frames, rate)?;
     report
         .findings
@@ -81,6 +90,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     let first = first_frame(&hierarchy, &found.first, rate, summary.root_fix)?;
     let scale = root_scale(&first, &found.anatomy, found.convention.axes.up().vector());
     mend_root(job, track, summary.root_fix, scale, &mut report)?;
+    tell_odd_frames(job, recording, &mut report)?;
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
     Ok(report)
 }
@@ -137,6 +147,71 @@ fn compare(job: &Job<'_>, report: &mut FileReport) -> Result<()> {
     Ok(())
 }
 
+/// Stores where the whole movement puts joints, and tells of offsets that say otherwise.
+fn place_joints(
+    job: &Job<'_>,
+    track: i64,
+    bones: &Bones,
+    hierarchy: &mut Hierarchy,
+    report: &mut FileReport,
+) -> Result<()> {
+    let moved = bones.place(hierarchy);
+    let (hash, document) = stored_as(hierarchy)?;
+    let joints = hierarchy.joints.len();
+    let skeleton = recordings::skeleton_stored(job.connection, &hash, joints, &document)?;
+    recordings::set_skeleton(job.connection, track, skeleton)?;
+    let names: Vec<&str> = moved
+        .iter()
+        .map(|&joint| hierarchy.joints[joint].name.as_str())
+        .collect();
+    report.understand("placed_by_movement", &names);
+    if !names.is_empty() {
+        report.findings.push(ReportFinding::note(format!(
+            "the offsets of {} are not where the movement puts {}: the movement counts, the numbers stay the file's",
+            listed(&names),
+            if names.len() == 1 { "it" } else { "them" }
+        )));
+    }
+    Ok(())
+}
+
+/// Names a few things, and says how many more there are.
+fn listed(names: &[&str]) -> String {
+    let shown = names.iter().take(6).copied().collect::<Vec<_>>().join(", ");
+    match names.len().saturating_sub(6) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
+}
+
+/// Tells of bind poses, T-poses and jumps at the ends of a recording.
+fn tell_odd_frames(job: &Job<'_>, recording: i64, report: &mut FileReport) -> Result<()> {
+    let stored = Track::of(job.connection, recording)?;
+    let anatomy = stored.anatomy(job.connection)?;
+    let odd = stored.odd_frames(job.connection, &anatomy)?;
+    let told: Vec<String> = odd.iter().map(ToString::to_string).collect();
+    report.understand("odd_frames", &told);
+    if !told.is_empty() {
+        report.findings.push(ReportFinding {
+            severity: "note",
+            line: None,
+            message: format!(
+                "no part of the movement, and left out of measures and pictures: {}",
+                told.join("; ")
+            ),
+            remedy: Some("a recipe cuts them off: `| trim`, or `| span 0.2s..`".to_owned()),
+        });
+    }
+    Ok(())
+}
+
+/// Returns the hash and the JSON under which a skeleton is stored.
+fn stored_as(hierarchy: &Hierarchy) -> Result<(String, String)> {
+    let document =
+        serde_json::to_string(hierarchy).map_err(|error| Error::wrong(error.to_string()))?;
+    Ok((hex(&Sha256::digest(document.as_bytes())), document))
+}
+
 fn wrong(error: chereme_formats::bvh::raw::BvhError) -> Error {
     let (remedy, line) = (error.kind.remedy(), error.line);
     Error::wrong(error.kind.to_string())
@@ -169,8 +244,7 @@ fn understand(
     let anatomy = Anatomy::with_roles(skeleton, &roles).map_err(|error| {
         Error::wrong(error.to_string()).advise("correct the roles file (--roles), or leave it out")
     })?;
-    let pose: Option<ModelPose> = (first.frames() > 0).then(|| first.model_pose(0));
-    let guess = anatomy.convention(skeleton, pose.as_ref());
+    let guess = convention(&anatomy, skeleton, &first, hierarchy, block, rate)?;
     let convention = Convention {
         metres_per_unit: options
             .metres_per_unit
@@ -213,15 +287,50 @@ fn understand(
     })
 }
 
+/// Guesses the unit and axes from the first frame that is not odd: a bind pose may face another way.
+fn convention(
+    anatomy: &Anatomy,
+    skeleton: &Skeleton,
+    first: &Clip,
+    hierarchy: &Hierarchy,
+    block: &Block,
+    rate: Rate,
+) -> Result<ConventionGuess> {
+    let pose: Option<ModelPose> = (first.frames() > 0).then(|| first.model_pose(0));
+    let guess = anatomy.convention(skeleton, pose.as_ref());
+    let head = guess
+        .convention
+        .clip(&frames(hierarchy, block, rate, None, block.frames)?);
+    let sound = Ends::of(&head, &anatomy.clone().with_clip(&head))
+        .sound
+        .start;
+    if sound == 0 {
+        return Ok(guess);
+    }
+    let pose = frames(hierarchy, block, rate, None, sound + 1)?.model_pose(sound);
+    Ok(anatomy.convention(skeleton, Some(&pose)))
+}
+
 fn first_frame(
     hierarchy: &Hierarchy,
     block: &Block,
     rate: Rate,
     fix: Option<ChannelFix>,
 ) -> Result<Clip> {
+    frames(hierarchy, block, rate, fix, 1)
+}
+
+/// Returns the first frames of a block, in the file's unit and axes.
+fn frames(
+    hierarchy: &Hierarchy,
+    block: &Block,
+    rate: Rate,
+    fix: Option<ChannelFix>,
+    count: usize,
+) -> Result<Clip> {
     let mut builder =
         ClipBuilder::new(hierarchy, fix).map_err(|error| Error::wrong(error.to_string()))?;
-    builder.push(0..block.frames.min(1), |at| block.columns.get(at));
+    builder.push(0..block.frames.min(count), |at| block.columns.get(at));
     builder.finish(rate).map_err(|error| {
         Error::wrong(error.to_string())
             .advise("a joint is placed beyond what a number can hold; correct the number")
@@ -285,6 +394,16 @@ fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, anatomy: &Anat
             remedy: Some("if a joint is one of these, say so in a roles file (--roles)".into()),
         });
         report.understand("missing", missing);
+    }
+    let markers: Vec<String> = anatomy.markers().iter().map(|&joint| name(joint)).collect();
+    report.understand("markers", &markers);
+    if !markers.is_empty() {
+        let names: Vec<&str> = markers.iter().map(String::as_str).collect();
+        report.findings.push(ReportFinding::note(format!(
+            "{} optical markers stand beside the skeleton and are taken for no joint: {}",
+            markers.len(),
+            listed(&names)
+        )));
     }
     for ambiguity in anatomy.ambiguous() {
         report.findings.push(ReportFinding::warning(
@@ -370,9 +489,7 @@ fn insert_track(
     frame_time: Option<String>,
     found: &Understood,
 ) -> Result<i64> {
-    let document =
-        serde_json::to_string(hierarchy).map_err(|error| Error::wrong(error.to_string()))?;
-    let hash = hex(&Sha256::digest(document.as_bytes()));
+    let (hash, document) = stored_as(hierarchy)?;
     let joints = hierarchy.joints.len();
     let skeleton_id = recordings::skeleton_stored(job.connection, &hash, joints, &document)?;
     let groups: std::collections::BTreeMap<&str, &Vec<usize>> = found

@@ -206,6 +206,25 @@ fn colours(palette: &Palette, side: Side) -> crate::palette::HandColours {
     }
 }
 
+/// Points of a trunk that has no joints there, below the middle of the shoulders.
+struct Hang {
+    joint: usize,
+    at: Vec3,
+    turn: glam::Quat,
+    from: Vec3,
+    up: Vec3,
+}
+
+impl Hang {
+    /// Returns the point so many metres below the shoulders.
+    fn below(&self, down: f32) -> Point {
+        Point {
+            joint: self.joint,
+            local: self.turn * (self.from - self.up * down - self.at),
+        }
+    }
+}
+
 struct Builder<'a> {
     skeleton: &'a Skeleton,
     anatomy: &'a Anatomy,
@@ -281,20 +300,28 @@ impl Builder<'_> {
     fn torso(&mut self) {
         let paint = Paint::plain(self.palette.torso, group::TORSO);
         let upper = Side::BOTH.map(|side| self.joint(Part::UpperArm(side)));
-        let neck = self.joint(Part::Neck).or(self.joint(Part::Head));
-        let ([Some(right), Some(left)], Some(neck)) = (upper, neck) else {
+        let [Some(right), Some(left)] = upper else {
             return;
         };
-        let hips = self.joint(Part::Hips).unwrap_or(0);
-        let middle = self.spine_middle(hips, neck);
         let size = self.size;
-        let section = |middle: &[(usize, f32)], half: f32, measures: [f32; 4]| {
+        let hang = self.hang(right, left);
+        let top = self.joint(Part::Neck).or(self.joint(Part::Head));
+        let neck = top.map_or_else(|| hang.below(-0.09 * size), Point::at);
+        let hips = self
+            .joint(Part::Hips)
+            .filter(|&hips| place(self.rest, hips).distance(hang.from) > 0.25 * size);
+        let middle = match (hips, top) {
+            (Some(hips), Some(top)) => Point::at(self.spine_middle(hips, top)),
+            (Some(hips), None) => {
+                let far = place(self.rest, hips).distance(hang.from);
+                hang.below(far * 0.5)
+            }
+            (None, _) => hang.below(0.25 * size),
+        };
+        let section = |middle: &[(Point, f32)], half: f32, measures: [f32; 4]| {
             let [beyond, front, back, shift] = measures.map(|measure| measure * size);
             let point = |sign: f32| {
-                let mut mix: Vec<(Point, f32)> = middle
-                    .iter()
-                    .map(|&(j, weight)| (Point::at(j), weight))
-                    .collect();
+                let mut mix: Vec<(Point, f32)> = middle.to_vec();
                 mix.push((Point::at(left), sign * half));
                 mix.push((Point::at(right), -sign * half));
                 mix
@@ -308,14 +335,14 @@ impl Builder<'_> {
         };
         let thighs = Side::BOTH.map(|side| self.joint(Part::Thigh(side)));
         let seat = match thighs {
-            [Some(r), Some(l)] => vec![(r, 0.5), (l, 0.5)],
-            _ => vec![(hips, 1.0)],
+            [Some(r), Some(l)] => vec![(Point::at(r), 0.5), (Point::at(l), 0.5)],
+            _ => vec![(hips.map_or_else(|| hang.below(0.5 * size), Point::at), 1.0)],
         };
         let between = |share: f32| {
             vec![
                 (middle, 1.0 - share),
-                (left, share / 2.0),
-                (right, share / 2.0),
+                (Point::at(left), share / 2.0),
+                (Point::at(right), share / 2.0),
             ]
         };
         let sections = vec![
@@ -327,7 +354,7 @@ impl Builder<'_> {
             section(&between(0.85), 0.38, [0.030, 0.100, 0.098, 0.0]),
             section(&between(1.0), 0.34, [0.020, 0.068, 0.078, 0.03]),
             section(
-                &[(left, 0.3), (right, 0.3), (neck, 0.4)],
+                &[(Point::at(left), 0.3), (Point::at(right), 0.3), (neck, 0.4)],
                 0.18,
                 [0.045, 0.048, 0.06, 0.025],
             ),
@@ -342,12 +369,28 @@ impl Builder<'_> {
         );
         for shoulder in [left, right] {
             let rod = Rod {
-                ends: [Point::at(shoulder), Point::at(neck)],
+                ends: [Point::at(shoulder), neck],
                 radii: [0.046 * size, 0.050 * size, 0.040 * size],
                 facing: (shoulder, Vec3::Z),
                 columns: 20,
             };
             self.out.rod(rod, paint);
+        }
+    }
+
+    /// Returns what the trunk hangs on where joints of it are missing: the joint that carries both arms.
+    fn hang(&self, right: usize, left: usize) -> Hang {
+        let above: Vec<usize> = self.skeleton.ancestors(right).collect();
+        let shared = self.skeleton.ancestors(left).find(|it| above.contains(it));
+        let joint = self.joint(Part::Chest).or(shared).unwrap_or(0);
+        let up = self.anatomy.body_frame(self.rest);
+        let up = up.map_or(Vec3::Y, |frame| frame.up.as_vec3());
+        Hang {
+            joint,
+            at: place(self.rest, joint),
+            turn: rotation(self.rest, joint).inverse(),
+            from: (place(self.rest, right) + place(self.rest, left)) * 0.5,
+            up,
         }
     }
 

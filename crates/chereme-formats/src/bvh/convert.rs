@@ -18,14 +18,18 @@ use super::raw::{Channel, ChannelFix, Column, Decimal, Hierarchy, Number, RawJoi
 const UNTIMED: (u32, u32) = (30, 1);
 
 /// Returns the skeleton of a hierarchy, in the file's unit and axes; of several End Sites of a
-/// joint the first is its tip.
+/// joint the first is its tip. A joint is where its movement puts it, else at its offset.
 ///
 /// # Errors
 /// [`SkeletonError`] where the joints are no tree; a hierarchy that was read is always one.
 pub fn skeleton(hierarchy: &Hierarchy) -> Result<Skeleton, SkeletonError> {
     let joint = |raw: &RawJoint| Joint {
         tip: raw.end_sites.first().map(place),
-        ..Joint::new(raw.name.clone(), raw.parent, place(&raw.offset))
+        ..Joint::new(
+            raw.name.clone(),
+            raw.parent,
+            place(raw.placed.as_ref().unwrap_or(&raw.offset)),
+        )
     };
     Skeleton::new(hierarchy.joints.iter().map(joint).collect())
 }
@@ -53,6 +57,8 @@ pub fn rate(frame_time: Option<&Number>) -> Result<Rate, RateError> {
 /// Puts a clip together from the columns of a file, block by block.
 pub struct ClipBuilder {
     skeleton: Arc<Skeleton>,
+    /// Where joints are without position channels; axes that have none stay there.
+    offsets: Vec<DVec3>,
     layouts: Vec<Layout>,
     movements: Vec<Movement>,
 }
@@ -109,6 +115,11 @@ impl ClipBuilder {
             .collect();
         Ok(Self {
             skeleton,
+            offsets: hierarchy
+                .joints
+                .iter()
+                .map(|joint| place(&joint.offset))
+                .collect(),
             layouts,
             movements,
         })
@@ -138,7 +149,7 @@ impl ClipBuilder {
             let Some(translations) = &mut movement.translations else {
                 continue;
             };
-            let offset = self.skeleton.joint(index).offset;
+            let offset = self.offsets[index];
             let positions: Vec<(Axis, &Column)> = layout
                 .positions
                 .iter()
@@ -180,6 +191,7 @@ pub fn hierarchy(skeleton: &Skeleton, decimals: u8) -> Hierarchy {
                 offset: numbers(joint.offset),
                 channels: positions.chain(ROTATIONS).collect(),
                 end_sites: joint.tip.into_iter().map(numbers).collect(),
+                placed: None,
             }
         })
         .collect();
@@ -191,7 +203,7 @@ fn writable(name: &str) -> String {
     name.trim().replace(['{', '}', '\n', '\r'], "_")
 }
 
-fn number(value: f64, decimals: u8) -> Number {
+pub(super) fn number(value: f64, decimals: u8) -> Number {
     let large = || value.to_string().parse().unwrap_or(Number::ZERO);
     Decimal::rounded(value, decimals).map_or_else(large, Number::Decimal)
 }

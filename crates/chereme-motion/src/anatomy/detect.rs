@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::markers;
 use super::names::{self, Digit, Label, Segment, Word};
 use super::part::Part;
 use super::{Ambiguity, Anatomy, Evidence};
@@ -12,6 +13,7 @@ use crate::skeleton::Skeleton;
 pub(super) struct Detected {
     pub(super) found: BTreeMap<Part, (usize, Evidence)>,
     pub(super) ambiguous: Vec<Ambiguity>,
+    pub(super) markers: Vec<usize>,
 }
 
 /// Finds the parts; `said` is the user's word, nothing for a part the skeleton does not have.
@@ -32,6 +34,7 @@ pub(super) fn detect(skeleton: &Skeleton, said: &BTreeMap<Part, Option<usize>>) 
     Detected {
         found: finder.found,
         ambiguous: finder.ambiguous,
+        markers: finder.markers,
     }
 }
 
@@ -41,6 +44,7 @@ pub(super) struct Finder<'a> {
     said: &'a BTreeMap<Part, Option<usize>>,
     pub(super) found: BTreeMap<Part, (usize, Evidence)>,
     pub(super) ambiguous: Vec<Ambiguity>,
+    markers: Vec<usize>,
 }
 
 impl<'a> Finder<'a> {
@@ -49,7 +53,9 @@ impl<'a> Finder<'a> {
         let names: Vec<&str> = joints.map(|joint| joint.name.as_str()).collect();
         let mut labels = names::read_all(&names);
         let told: Vec<usize> = said.values().copied().flatten().collect();
-        for joint in told {
+        let mut markers = markers::find(skeleton, &names, &labels);
+        markers.retain(|joint| !told.contains(joint));
+        for joint in told.into_iter().chain(markers.iter().copied()) {
             labels[joint] = None;
         }
         let mut finder = Self {
@@ -61,6 +67,7 @@ impl<'a> Finder<'a> {
                 .filter_map(|(&part, joint)| Some((part, ((*joint)?, Evidence::Roles))))
                 .collect(),
             ambiguous: Vec::new(),
+            markers,
         };
         finder.inherit_sides();
         finder

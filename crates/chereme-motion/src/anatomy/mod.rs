@@ -20,6 +20,7 @@
 //! | `part` | the parts of the body and their names |
 //! | `names` | what joint names say, over the conventions people meet |
 //! | `detect` | parts found by name |
+//! | `markers` | optical markers beside a skeleton, which are no parts |
 //! | `topology` | parts found by how joints hang together |
 //! | `roles` | the user's word on it |
 //! | `measures` | the size of the body, the frame of the trunk |
@@ -31,6 +32,7 @@ mod convention;
 mod detect;
 mod fingers;
 mod landmarks;
+mod markers;
 mod measures;
 mod names;
 mod part;
@@ -103,6 +105,7 @@ pub struct Anatomy {
     parts: Vec<Option<Part>>,
     ambiguous: Vec<Ambiguity>,
     parents: Vec<Option<usize>>,
+    markers: Vec<usize>,
     hands: [Option<fingers::HandFrame>; 2],
     hand_tips: [Option<DVec3>; 2],
     measures: Option<Measures>,
@@ -141,6 +144,7 @@ impl Anatomy {
             parents: (0..skeleton.len()).map(|j| skeleton.parent(j)).collect(),
             found: detected.found,
             ambiguous: detected.ambiguous,
+            markers: detected.markers,
             parts,
             hands: [None, None],
             hand_tips: [None, None],
@@ -278,6 +282,12 @@ impl Anatomy {
     #[must_use]
     pub fn ambiguous(&self) -> &[Ambiguity] {
         &self.ambiguous
+    }
+
+    /// Returns the joints that are optical markers beside the skeleton, in order: they play no part's role.
+    #[must_use]
+    pub fn markers(&self) -> &[usize] {
+        &self.markers
     }
 
     /// Returns the arm of `side` where shoulder, elbow and wrist are found and hang together.

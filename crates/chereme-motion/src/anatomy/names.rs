@@ -95,7 +95,7 @@ pub(super) fn read_all(names: &[&str]) -> Vec<Option<Label>> {
 }
 
 /// Cuts off namespaces and the prefixes of well-known rigs.
-fn without_rig(name: &str) -> &str {
+pub(super) fn without_rig(name: &str) -> &str {
     let name = name.rsplit([':', '|']).next().unwrap_or(name);
     for rig in [
         "mixamorig",

@@ -75,6 +75,12 @@ texts! {
     MIRROR_HINT: "one arm copies the other", "un bras copie l’autre";
     RETIME: "Speed", "Vitesse";
     RETIME_HINT: "slower or faster", "plus lent ou plus vite";
+    SPAN: "Part", "Extrait";
+    SPAN_HINT: "a part of the movement", "une partie du mouvement";
+    SPAN_FROM: "from", "à partir de";
+    SPAN_TO: "to", "jusqu’à";
+    TRIM: "Trim", "Rogner";
+    TRIM_HINT: "without rest and odd first and last frames", "sans repos ni images fausses au début et à la fin";
     INDICATE: "Direct", "Diriger";
     INDICATE_HINT: "between other places, as a directional verb", "entre d’autres lieux, comme un verbe directionnel";
     NONMANUAL: "Face and head", "Visage et tête";

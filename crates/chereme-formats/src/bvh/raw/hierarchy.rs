@@ -60,6 +60,10 @@ pub struct RawJoint {
     pub channels: Vec<Channel>,
     /// The offsets of the End Sites: one on a leaf as a rule, but files have none, or have them beside children.
     pub end_sites: Vec<[Number; 3]>,
+    /// Where the position channels put the joint in its parent's frame (the median over the movement), where that is
+    /// not where the offset has it; no file says it. See [`Bones`](crate::bvh::bones::Bones).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub placed: Option<[Number; 3]>,
 }
 
 /// What a column of the motion holds; positions in the file's unit, rotations in degrees, scales as factors.

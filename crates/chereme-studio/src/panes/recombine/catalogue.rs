@@ -1,9 +1,9 @@
 //! Every source and operator with what it is called, what it does, and one to begin with.
 
 use chereme_corpus::recipe::{
-    Amplify, Choice, Configure, Direction, Factor, Goal, Hands, Indicate, Leg, Length, Mirror,
-    Node, Nonmanual, Notation, Orient, Pace, Place, Point, Repeat, Retime, Solver, Spell, Spot,
-    Step, Transition, Travel,
+    Amplify, Choice, Configure, Cut, Direction, Factor, Goal, Hands, Indicate, Leg, Length, Mirror,
+    Node, Nonmanual, Notation, Orient, Pace, Place, Point, Repeat, Retime, Seconds, Solver, Spell,
+    Spot, Step, Transition, Travel,
 };
 
 use super::stack::What;
@@ -46,7 +46,7 @@ pub(super) fn sources() -> [(Text, Node); 5] {
 }
 
 /// Returns what each operator is called and does, with one that does something to see.
-pub(super) fn operators() -> [(Text, Text, Step); 12] {
+pub(super) fn operators() -> [(Text, Text, Step); 14] {
     let leg = |towards, cm: f64| Leg {
         towards: vec![towards],
         distance: Length::Metres(cm / 100.0),
@@ -126,6 +126,15 @@ pub(super) fn operators() -> [(Text, Text, Step); 12] {
                 paces: vec![Pace::Times(Factor(1.5))],
             }),
         ),
+        (
+            words::SPAN,
+            words::SPAN_HINT,
+            Step::Span(Cut {
+                from: Some(Seconds(0.2)),
+                to: None,
+            }),
+        ),
+        (words::TRIM, words::TRIM_HINT, Step::Trim),
         (
             words::INDICATE,
             words::INDICATE_HINT,

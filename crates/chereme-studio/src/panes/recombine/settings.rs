@@ -195,7 +195,13 @@ fn operator(ui: &mut Ui, seen: &Seen<'_>, at: At, step: &mut Step) -> bool {
             return step_as_text(ui, seen, at.id, step);
         }
         Step::Place(it) => return operators::place(ui, seen, at, it),
-        Step::Reverse | Step::Swap => {}
+        Step::Reverse | Step::Swap | Step::Trim => {}
+        Step::Span(it) => {
+            ui.horizontal_wrapped(|ui| {
+                changed |= fields::time(ui, seen, words::SPAN_FROM, &mut it.from, 0.2);
+                changed |= fields::time(ui, seen, words::SPAN_TO, &mut it.to, 1.0);
+            });
+        }
         Step::Mirror(it) => {
             ui.horizontal_wrapped(|ui| {
                 caption(ui, seen, words::COPIED);

@@ -73,6 +73,10 @@ impl What {
                 Node::Pipe(_) | Node::Then(_) => true,
             },
             Self::Step(step) => match step {
+                Step::Span(cut) => {
+                    let from = cut.from.map_or(0.0, |from| from.0);
+                    cut.to.map_or(cut.from.is_some(), |to| to.0 > from)
+                }
                 Step::Configure(it) => !it.values.is_empty() && it.values.iter().all(chosen),
                 Step::Place(it) => match &it.to {
                     Goal::By(legs) => !legs.is_empty(),

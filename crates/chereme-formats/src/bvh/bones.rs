@@ -1,0 +1,183 @@
+//! Bones as the movement has them: where position channels put a joint, however wrong its offset is.
+//!
+//! Capture programs write position channels for every joint, and some leave offsets that nobody looks at: fingertips
+//! 60 cm from their fingers. Movement is right all the same, as position channels replace the offset; but lengths and
+//! postures at rest come from offsets.
+
+use chereme_motion::glam::DVec3;
+
+use super::convert::number;
+use super::raw::{Block, Hierarchy};
+
+/// The most frames of which a median is taken.
+const MOST: usize = 2048;
+/// By how much a joint is elsewhere than its offset says, as a share of the longer of both.
+const OFF: f64 = 0.15;
+/// How far a joint goes from its median in the middle, as a share of its bone, and is still a bone's end.
+const SPREAD: f64 = 0.25;
+/// Decimals of numbers in the file's unit.
+const DECIMALS: u8 = 6;
+
+/// Gathers where position channels put joints while a file is read.
+#[derive(Debug, Clone)]
+pub struct Bones {
+    joints: Vec<Placed>,
+    /// Every so many frames one is looked at.
+    step: u64,
+}
+
+/// A joint that is not the root and has position channels.
+#[derive(Debug, Clone)]
+struct Placed {
+    joint: usize,
+    offset: DVec3,
+    columns: Vec<(usize, usize)>,
+    found: Vec<DVec3>,
+}
+
+impl Bones {
+    /// Begins for a hierarchy. Joints that carry most of the body are left out: they are placed in the room.
+    #[must_use]
+    pub fn new(hierarchy: &Hierarchy) -> Self {
+        let count = hierarchy.joints.len();
+        let mut below = vec![1_usize; count];
+        for joint in (0..count).rev() {
+            if let Some(parent) = hierarchy.joints[joint].parent {
+                below[parent] += below[joint];
+            }
+        }
+        let joints = hierarchy.joints.iter().zip(hierarchy.columns()).enumerate();
+        let joints = joints.filter(|(joint, _)| *joint > 0 && below[*joint] * 2 <= count);
+        let joints = joints.filter_map(|(joint, (raw, columns))| {
+            let columns = raw.channels.iter().zip(columns);
+            let columns: Vec<(usize, usize)> = columns
+                .filter(|(channel, _)| channel.is_position())
+                .map(|(channel, column)| (channel.axis(), column))
+                .collect();
+            (!columns.is_empty()).then(|| Placed {
+                joint,
+                offset: DVec3::from_array([0, 1, 2].map(|axis| raw.offset[axis].to_f64())),
+                columns,
+                found: Vec::new(),
+            })
+        });
+        Self {
+            joints: joints.collect(),
+            step: 1,
+        }
+    }
+
+    /// Looks at a block of frames; blocks come in order.
+    pub fn push(&mut self, block: &Block) {
+        for row in 0..block.frames {
+            let frame = block.first_frame + row as u64;
+            if !frame.is_multiple_of(self.step) {
+                continue;
+            }
+            for placed in &mut self.joints {
+                let mut at = placed.offset;
+                for &(axis, column) in &placed.columns {
+                    if let Some(column) = block.columns.get(column) {
+                        at[axis] = column.value(row);
+                    }
+                }
+                placed.found.push(at);
+            }
+            if self.joints.first().is_some_and(|it| it.found.len() >= MOST) {
+                self.step *= 2;
+                for placed in &mut self.joints {
+                    let mut nth = 0;
+                    placed.found.retain(|_| {
+                        nth += 1;
+                        nth % 2 == 1
+                    });
+                }
+            }
+        }
+    }
+
+    /// Tells the hierarchy where the movement puts joints whose offsets say otherwise; returns these joints.
+    pub fn place(&self, hierarchy: &mut Hierarchy) -> Vec<usize> {
+        let mut moved = Vec::new();
+        for placed in &self.joints {
+            let at = placed.median();
+            hierarchy.joints[placed.joint].placed =
+                at.map(|at| at.to_array().map(|value| number(value, DECIMALS)));
+            moved.extend(at.map(|_| placed.joint));
+        }
+        moved
+    }
+}
+
+impl Placed {
+    /// Returns where the joint is in the middle, where it stays about there and the offset says otherwise.
+    fn median(&self) -> Option<DVec3> {
+        let at = DVec3::from_array([0, 1, 2].map(|axis| {
+            let mut values: Vec<f64> = self.found.iter().map(|at| at[axis]).collect();
+            values.sort_by(f64::total_cmp);
+            values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+        }));
+        if !at.is_finite() || at.abs().max_element() > 1e9 {
+            return None;
+        }
+        let length = at.length().max(self.offset.length());
+        let mut far: Vec<f64> = self.found.iter().map(|it| it.distance(at)).collect();
+        far.sort_by(f64::total_cmp);
+        let spread = far.get(far.len() / 2).copied().unwrap_or_default();
+        let off = at.distance(self.offset) > OFF * length;
+        (off && spread < SPREAD * at.length().max(1e-9)).then_some(at)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bvh::convert::skeleton;
+    use crate::bvh::raw::{Block, Reader};
+
+    /// Hips, a chest with position channels, and a fingertip whose offset is 60 cm off; a marker that moves in the room.
+    fn file(frames: usize) -> String {
+        let six = "CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation";
+        let mut text = format!(
+            "HIERARCHY\nROOT Hips\n{{\nOFFSET 0 0 0\n{six}\nJOINT Chest\n{{\nOFFSET 0 40 0\n{six}\n\
+             JOINT Finger\n{{\nOFFSET 5 0 0\n{six}\nJOINT Tip\n{{\nOFFSET 60 3 0\n{six}\n}}\n}}\n}}\n\
+             JOINT Marker\n{{\nOFFSET 1 1 1\n{six}\n}}\n}}\nMOTION\nFrames: {frames}\nFrame Time: 0.01\n"
+        );
+        for frame in 0..frames {
+            let marker = (frame % 50) as f64 * 4.0;
+            text += &format!(
+                "0 90 0 0 0 0  0 40 0.1 0 0 0  5 0 0 0 0 0  2.{} 0 0 0 0 0  {marker} {marker} 3 0 0 0\n",
+                frame % 3
+            );
+        }
+        text
+    }
+
+    #[test]
+    fn a_joint_is_where_its_movement_puts_it() {
+        for frames in [1, 700, 5000] {
+            let text = file(frames);
+            let mut reader = Reader::open(text.as_bytes()).expect("a file");
+            let mut hierarchy = reader.hierarchy().clone();
+            let mut bones = Bones::new(&hierarchy);
+            let mut block = Block::default();
+            while reader.next_block(&mut block).expect("rows") {
+                bones.push(&block);
+            }
+            let moved = bones.place(&mut hierarchy);
+            assert!(
+                moved.contains(&3) && !moved.contains(&2),
+                "{frames}: {moved:?}"
+            );
+            assert_eq!(
+                moved.contains(&4),
+                frames == 1,
+                "a marker that moves is no bone"
+            );
+            let skeleton = skeleton(&hierarchy).expect("a tree");
+            let tip = skeleton.joint(3).offset;
+            assert!(tip.distance(DVec3::new(2.1, 0.0, 0.0)) < 0.2, "{tip}");
+            assert_eq!(hierarchy.joints[3].offset[0].to_string(), "60");
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! Optical markers that stand beside a skeleton: leaves in the root's space, which no part of the body is.
+//!
+//! Capture programs export them together with the skeleton that was solved from them. Some are called like joints
+//! (`RTOE`, `RMID0`, `C7`), so that names alone would give them the parts of toes, fingers and neck.
+
+use super::names::{self, Label, Word};
+use crate::skeleton::Skeleton;
+
+/// Labels of markers that stand on both sides, after their `L` or `R`: those of Plug-in Gait, of the set of 41 markers
+/// that CMU used, of Helen Hayes, and of hands.
+const SIDED: [&str; 51] = [
+    "FHD", "BHD", "SHO", "UPA", "ELB", "IEL", "OEL", "MEL", "FRM", "FRA", "WRA", "WRB", "IWR",
+    "OWR", "WRI", "FIN", "HND", "ASI", "PSI", "ILC", "FWT", "BWT", "THI", "KNE", "KNI", "MKN",
+    "TIB", "SHN", "ANK", "MAN", "HEE", "HEL", "TOE", "MT1", "MT5", "ARM", "BAK", "CLA", "SCA",
+    "TH", "THM", "IN", "IDX", "MID", "RIN", "RNG", "PIN", "PNK", "LIT", "MCP", "PIP",
+];
+/// Labels of markers of the middle.
+const MIDDLE: [&str; 16] = [
+    "C7", "T8", "T10", "T12", "L5", "CLAV", "STRN", "SACR", "ARIEL", "MFHD", "MBHD", "TOPHEAD",
+    "VSACRAL", "BACK", "TSPN", "LSPN",
+];
+/// The fewest markers that names tell of: single leaves with such names may be joints.
+const FEWEST: usize = 4;
+/// The fewest joints of the skeleton of a whole body.
+const WHOLE: usize = 10;
+
+/// Returns the markers: leaves beside the root of a whole body's skeleton, whatever they are called, and leaves below
+/// the root or the hips that have names of markers, where there are several.
+pub(super) fn find(skeleton: &Skeleton, names: &[&str], labels: &[Option<Label>]) -> Vec<usize> {
+    let leaf = |joint: usize| skeleton.children(joint).is_empty();
+    let body = body(skeleton, labels);
+    let below = body.map(|body| skeleton.subtree(body));
+    let beside = |joint: usize| {
+        let (Some(body), Some(below)) = (body, &below) else {
+            return false;
+        };
+        let above = skeleton.ancestors(body).any(|it| it == joint);
+        below.len() >= WHOLE && !above && !below.contains(&joint)
+    };
+    let carries = |joint: usize| {
+        let label = labels[joint].map(|label| label.word);
+        label.is_none_or(|word| matches!(word, Word::Root | Word::Hips))
+    };
+    let named: Vec<usize> = (1..skeleton.len())
+        .filter(|&joint| leaf(joint) && is_marker(names[joint]))
+        .filter(|&joint| skeleton.parent(joint).is_some_and(carries))
+        .collect();
+    let several = named.len() >= FEWEST;
+    (1..skeleton.len())
+        .filter(|&joint| leaf(joint))
+        .filter(|joint| beside(*joint) || (several && named.contains(joint)))
+        .collect()
+}
+
+/// Returns the joint from which both arms, and legs where there are any, hang.
+fn body(skeleton: &Skeleton, labels: &[Option<Label>]) -> Option<usize> {
+    let limb = |joint: &usize| {
+        let inner = !skeleton.children(*joint).is_empty();
+        inner
+            && labels[*joint].is_some_and(|label| {
+                let limb = matches!(
+                    label.word,
+                    Word::UpperArm
+                        | Word::Forearm
+                        | Word::Wrist
+                        | Word::Hand
+                        | Word::Thigh
+                        | Word::Shin
+                        | Word::Leg
+                        | Word::Foot
+                );
+                label.side.is_some() && limb
+            })
+    };
+    let limbs: Vec<usize> = (0..skeleton.len()).filter(limb).collect();
+    let sides = [crate::hand::Side::Right, crate::hand::Side::Left];
+    let on = |side| {
+        limbs
+            .iter()
+            .any(|&it| labels[it].is_some_and(|label| label.side == Some(side)))
+    };
+    if !sides.into_iter().all(on) {
+        return None;
+    }
+    let mut above: Vec<usize> = skeleton.ancestors(*limbs.first()?).collect();
+    for &limb in &limbs {
+        let own: Vec<usize> = skeleton.ancestors(limb).collect();
+        above.retain(|joint| own.contains(joint));
+    }
+    above.first().copied()
+}
+
+/// Tells whether a name is one of a marker: `LFHD`, `NS:C7`, `RMID6`, `R.Shoulder.1` is none.
+fn is_marker(name: &str) -> bool {
+    let bare = names::without_rig(name).trim();
+    if bare.is_empty() || bare.chars().any(|c| c.is_lowercase()) {
+        return false;
+    }
+    let plain: String = bare.chars().filter(|c| c.is_alphanumeric()).collect();
+    if MIDDLE.contains(&plain.as_str()) {
+        return true;
+    }
+    let sided = plain.strip_prefix('L').or(plain.strip_prefix('R'));
+    sided.is_some_and(|rest| {
+        let label = rest.trim_end_matches(|c: char| c.is_ascii_digit());
+        SIDED.contains(&rest) || (SIDED.contains(&label) && rest.len() - label.len() < 3)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::super::fixtures::{PLAIN, body, renamed};
+    use super::super::{Anatomy, Part};
+    use super::*;
+    use crate::hand::{Finger, Side};
+    use crate::skeleton::Joint;
+
+    /// The body with markers below `parent` of a wrapper (0) or of the hips (1), as capture programs write them.
+    fn with_markers(wrapped: bool, space: &str) -> Skeleton {
+        let plain = renamed(&body(PLAIN), |_, name| {
+            let words = name.split(' ').map(|word| {
+                let mut letters = word.chars();
+                let first = letters.next().map(|c| c.to_ascii_uppercase());
+                first.into_iter().chain(letters).collect::<String>()
+            });
+            format!("{space}{}", words.collect::<String>())
+        });
+        let marker =
+            |name: &str, at: [f64; 3]| Joint::new(format!("{space}{name}"), Some(0), at.into());
+        let mut joints = vec![];
+        if wrapped {
+            joints.push(Joint::new("RootNode", None, DVec3::ZERO));
+        }
+        let markers = [
+            marker("C7", [0.0, 1.5, -0.1]),
+            marker("RTOE", [-0.1, 0.05, 0.2]),
+            marker("LTOE", [0.1, 0.05, 0.2]),
+            marker("RMID0", [-0.8, 1.4, 0.0]),
+            marker("RMID6", [-0.85, 1.4, 0.0]),
+            marker("LFHD", [0.1, 1.7, 0.1]),
+        ];
+        if wrapped {
+            joints.extend(markers.clone());
+        }
+        let start = joints.len();
+        joints.extend(plain.joints().iter().cloned().map(|mut joint| {
+            joint.parent = match joint.parent {
+                Some(parent) => Some(parent + start),
+                None => wrapped.then_some(0),
+            };
+            joint
+        }));
+        if !wrapped {
+            joints.extend(markers);
+        }
+        Skeleton::new(joints).expect("a tree")
+    }
+
+    #[test]
+    fn markers_beside_a_skeleton_play_no_part() {
+        for (wrapped, space) in [(true, ""), (true, "Anna:"), (false, ""), (false, "NS:")] {
+            let skeleton = with_markers(wrapped, space);
+            let anatomy = Anatomy::detect(&skeleton);
+            let markers = anatomy
+                .markers()
+                .iter()
+                .map(|&it| skeleton.joint(it).name.as_str());
+            let markers: Vec<&str> = markers.collect();
+            let want: Vec<String> = ["C7", "RTOE", "LTOE", "RMID0", "RMID6", "LFHD"]
+                .map(|it| format!("{space}{it}"))
+                .to_vec();
+            assert_eq!(markers, want, "{wrapped} {space:?}");
+            for (part, name) in [
+                (Part::Neck, "Neck"),
+                (Part::Toes(Side::Right), "RightToes"),
+                (
+                    Part::Finger(Side::Right, Finger::Middle, 1),
+                    "RightMiddleBase",
+                ),
+                (
+                    Part::Finger(Side::Right, Finger::Middle, 3),
+                    "RightMiddleEnd",
+                ),
+            ] {
+                let joint = anatomy
+                    .joint(part)
+                    .map(|it| skeleton.joint(it).name.clone());
+                assert_eq!(joint, Some(format!("{space}{name}")), "{part}");
+            }
+            assert!(anatomy.ambiguous().is_empty(), "{:?}", anatomy.ambiguous());
+        }
+    }
+
+    #[test]
+    fn joints_with_short_names_are_no_markers() {
+        let skeleton = body(PLAIN);
+        assert!(Anatomy::detect(&skeleton).markers().is_empty());
+        for (name, want) in [
+            ("LFHD", true),
+            ("Subject1:RMID6", true),
+            ("R_TH2", true),
+            ("C7", true),
+            ("LeftToe", false),
+            ("lMid2", false),
+            ("Root", false),
+            ("RIGHTHAND", false),
+            ("", false),
+        ] {
+            assert_eq!(is_marker(name), want, "{name}");
+        }
+    }
+}

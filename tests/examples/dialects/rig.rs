@@ -1,0 +1,386 @@
+//! A capture put on the skeleton of a dialect, and written as BVH.
+
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::Path;
+use std::sync::Arc;
+
+use chereme_corpus::Moving;
+use chereme_formats::bvh::convert;
+use chereme_formats::bvh::raw::{Block, Channel as Column, Number, Writer};
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{
+    Channel, Clip, Finger, FingerAngles, HandAngles, Joint, ModelPose, Part, Pose, Side, Skeleton,
+};
+
+use crate::Result;
+use crate::dialect::Dialect;
+use crate::read::{SIDE, shapes};
+
+/// How many frames each handshape is held.
+const HOLD: usize = 4;
+
+/// The capture with every handshape on its right hand, and the frames in which each is read.
+pub(crate) struct Staged {
+    pub(crate) clip: Clip,
+    pub(crate) frames: Vec<usize>,
+}
+
+/// Puts every handshape of the inventory on the right hand, each in another frame of the capture.
+pub(crate) fn staged(source: &Moving) -> Result<Staged> {
+    let (clip, anatomy) = (&source.clip, &source.anatomy);
+    let active = chereme_motion::ends::activity(clip, anatomy).unwrap_or(0..clip.frames());
+    let shapes = shapes();
+    let (mut poses, mut frames) = (Vec::new(), Vec::new());
+    for (n, (_, angles)) in shapes.iter().enumerate() {
+        let frame = active.start + n * (active.len() - 1) / shapes.len().max(1);
+        let mut pose = clip.pose(frame);
+        if !anatomy.set_hand_angles(clip.skeleton(), SIDE, angles, &mut pose) {
+            return Err("the capture has no fingers".into());
+        }
+        frames.push(poses.len() + HOLD / 2);
+        poses.extend(vec![pose; HOLD]);
+    }
+    let clip = Clip::from_poses(clip.skeleton().clone(), clip.rate(), &poses)?;
+    Ok(Staged { clip, frames })
+}
+
+/// A joint of the dialect's skeleton.
+struct Bone {
+    name: String,
+    parent: Option<usize>,
+    /// The joint of the capture with which it turns.
+    of: usize,
+    /// Where it is in that joint's space.
+    at: DVec3,
+    tip: Option<DVec3>,
+    finger: bool,
+}
+
+/// Writes the movement in a dialect; returns how many frames come before it.
+pub(crate) fn write(
+    source: &Moving,
+    staged: &Staged,
+    dialect: &Dialect,
+    path: &Path,
+) -> Result<usize> {
+    let clip = &staged.clip;
+    let bones = bones(source, dialect);
+    let rest = rest(source, dialect);
+    let mut models: Vec<ModelPose> = (0..clip.frames()).map(|f| clip.model_pose(f)).collect();
+    let prefix = if dialect.odd { 2 } else { 0 };
+    for _ in 0..prefix {
+        models.insert(0, t_pose_far_away(source, &clip.pose(0)));
+    }
+    let turn = if dialect.z_up {
+        DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2)
+    } else {
+        DQuat::IDENTITY
+    };
+    let unit = |v: DVec3| turn * v * dialect.unit;
+    let place = |model: &ModelPose, bone: &Bone| unit(model.point(bone.of, bone.at));
+    // The wrapper is somewhere else and turned; what is below it makes up for that.
+    let more = usize::from(dialect.wrapped);
+    let (wrap, wrapped_turn) = match dialect.wrapped {
+        true => (
+            unit(DVec3::new(0.4, 0.1, -1.3)),
+            DQuat::from_rotation_y(0.6),
+        ),
+        false => (DVec3::ZERO, DQuat::IDENTITY),
+    };
+    let mut joints: Vec<Joint> = Vec::new();
+    if dialect.wrapped {
+        joints.push(Joint::new("RootNode", None, DVec3::ZERO));
+    }
+    for bone in &bones {
+        let at = place(&rest, bone);
+        let from = bone
+            .parent
+            .map_or(DVec3::ZERO, |parent| place(&rest, &bones[parent]));
+        let parent = bone.parent.map(|parent| parent + more);
+        joints.push(Joint {
+            tip: bone.tip.map(|tip| {
+                let joint = rest.rotation(bone.of);
+                unit(joint * tip)
+            }),
+            ..Joint::new(
+                format!("{}{}", dialect.space, bone.name),
+                parent.or(dialect.wrapped.then_some(0)),
+                at - from,
+            )
+        });
+    }
+    let body = joints.len();
+    let markers = if dialect.markers {
+        markers(source)
+    } else {
+        Vec::new()
+    };
+    for (name, joint) in &markers {
+        let at = unit(rest.position(*joint));
+        joints.push(Joint::new(format!("{}{name}", dialect.space), Some(0), at));
+    }
+    let mut noise = Noise(17);
+    let mut channels: Vec<Channel> = joints.iter().map(|_| Channel::default()).collect();
+    for model in &models {
+        // How each bone is turned against rest, in the file's axes.
+        let turned: Vec<DQuat> = bones
+            .iter()
+            .map(|bone| {
+                let world = model.rotation(bone.of) * rest.rotation(bone.of).inverse();
+                turn * world * turn.inverse() * noise.turn(dialect.noise)
+            })
+            .collect();
+        let mut push = |joint: usize, rotation: DQuat, at: DVec3| {
+            channels[joint].rotations.push(rotation.normalize());
+            channels[joint]
+                .translations
+                .get_or_insert_default()
+                .push(at);
+        };
+        if dialect.wrapped {
+            push(0, wrapped_turn, wrap);
+        }
+        for (n, bone) in bones.iter().enumerate() {
+            let at = place(model, bone);
+            let (above, from) = match bone.parent {
+                Some(parent) => (turned[parent], place(model, &bones[parent])),
+                None => (wrapped_turn, wrap),
+            };
+            push(
+                n + more,
+                above.inverse() * turned[n],
+                above.inverse() * (at - from),
+            );
+        }
+        for (n, (_, joint)) in markers.iter().enumerate() {
+            let at = unit(model.position(*joint) + DVec3::new(0.0, 0.02, 0.03));
+            push(
+                body + n,
+                DQuat::IDENTITY,
+                wrapped_turn.inverse() * (at - wrap),
+            );
+        }
+    }
+    let file = Arc::new(Skeleton::new(joints)?);
+    let placed = |joint: usize| {
+        let root = file.parent(joint).is_none_or(|parent| parent < more);
+        root || dialect.broken || joint >= body
+    };
+    for (joint, channel) in channels.iter_mut().enumerate() {
+        if !placed(joint) {
+            channel.translations = None;
+        }
+    }
+    let clip = Clip::new(file.clone(), clip.rate(), channels)?;
+    let mut hierarchy = convert::hierarchy(&file, 6);
+    for (joint, raw) in hierarchy.joints.iter_mut().enumerate() {
+        let positions = [Column::Xposition, Column::Yposition, Column::Zposition];
+        raw.channels.retain(|channel| !channel.is_position());
+        if placed(joint) {
+            raw.channels.splice(0..0, positions);
+        }
+    }
+    let columns = convert::columns(&clip, &hierarchy, 6)?;
+    if dialect.broken {
+        for (joint, _) in bones.iter().enumerate().filter(|(_, bone)| bone.finger) {
+            let last = bones.iter().all(|other| other.parent != Some(joint));
+            if last || joint % 3 == 0 {
+                let wrong =
+                    [60.0, -7.0, 13.0].map(|cm: f64| (cm / 100.0 * dialect.unit).to_string());
+                for (slot, text) in hierarchy.joints[joint + more].offset.iter_mut().zip(wrong) {
+                    *slot = text.parse::<Number>()?;
+                }
+            }
+        }
+    }
+    let time: Number = format!("{:.9}", clip.rate().frame_time()).parse()?;
+    let motion = Some((Some(&time), clip.frames() as u64));
+    let mut writer = Writer::new(BufWriter::new(File::create(path)?), &hierarchy, motion)?;
+    writer.block(&Block {
+        first_frame: 0,
+        frames: clip.frames(),
+        columns,
+    })?;
+    writer.finish()?;
+    Ok(prefix)
+}
+
+/// Returns the joints of the dialect: the capture's, with what the dialect adds.
+fn bones(source: &Moving, dialect: &Dialect) -> Vec<Bone> {
+    let (skeleton, anatomy) = (source.clip.skeleton(), &source.anatomy);
+    let mut bones: Vec<Bone> = Vec::new();
+    let mut known: Vec<Option<usize>> = vec![None; skeleton.len()];
+    for (index, joint) in skeleton.joints().iter().enumerate() {
+        let part = anatomy.part_of(index);
+        // What is no part and ends a chain is an end of a bone, not a joint.
+        if part.is_none() && skeleton.children(index).is_empty() {
+            continue;
+        }
+        let mut parent = joint.parent.and_then(|parent| known[parent]);
+        if let Some(Part::Finger(side, finger, 1)) = part
+            && dialect.metacarpals
+            && anatomy.joint(Part::Finger(side, finger, 0)).is_none()
+            && let Some(hand) = anatomy.joint(Part::Hand(side))
+        {
+            bones.push(Bone {
+                name: (dialect.part)(Part::Finger(side, finger, 0)),
+                parent,
+                of: hand,
+                at: joint.offset * 0.3,
+                tip: None,
+                finger: false,
+            });
+            parent = Some(bones.len() - 1);
+        }
+        let digit = matches!(part, Some(Part::Thumb(..) | Part::Finger(..)));
+        let tip = joint.tip.or_else(|| {
+            let [child] = *skeleton.children(index) else {
+                return None;
+            };
+            let ends = anatomy.part_of(child).is_none() && skeleton.children(child).is_empty();
+            ends.then(|| skeleton.joint(child).offset)
+        });
+        let tip = tip.or_else(|| {
+            let last = skeleton.children(index).is_empty() && digit;
+            let back = anatomy.is_posed() || joint.rest == DQuat::IDENTITY;
+            (last && back).then(|| joint.offset * 0.8)
+        });
+        let ends = dialect.ends
+            && digit
+            && skeleton
+                .children(index)
+                .iter()
+                .all(|&c| anatomy.part_of(c).is_none());
+        bones.push(Bone {
+            name: part.map_or_else(|| format!("helper{index}"), dialect.part),
+            parent,
+            of: index,
+            at: DVec3::ZERO,
+            tip: tip.filter(|_| !ends),
+            finger: digit,
+        });
+        known[index] = Some(bones.len() - 1);
+        if let Some(tip) = tip.filter(|_| ends) {
+            let name = match part {
+                Some(Part::Finger(side, finger, n)) => {
+                    (dialect.part)(Part::Finger(side, finger, n + 1))
+                }
+                Some(Part::Thumb(side, n)) => (dialect.part)(Part::Thumb(side, n + 1)),
+                _ => format!("end{index}"),
+            };
+            bones.push(Bone {
+                name,
+                parent: known[index],
+                of: index,
+                at: tip,
+                tip: None,
+                finger: true,
+            });
+        }
+    }
+    bones
+}
+
+/// Returns the rest posture of the dialect: arms out to the sides and lowered, fingers bent.
+fn rest(source: &Moving, dialect: &Dialect) -> ModelPose {
+    let (skeleton, anatomy) = (source.clip.skeleton(), &source.anatomy);
+    let mut pose = t_pose(source, &source.clip.pose(0), dialect.lowered);
+    for side in Side::BOTH {
+        let bent = FingerAngles {
+            spread: 0.0,
+            flexion: [dialect.bent; 3],
+        };
+        let mut angles = HandAngles {
+            fingers: [bent; 4],
+            ..HandAngles::default()
+        };
+        angles.thumb.radial = 0.5 * (1.0 - dialect.bent).max(0.0);
+        angles.thumb.palmar = 0.4 * dialect.bent;
+        angles.thumb.flexion = [0.5 * dialect.bent; 2];
+        anatomy.set_hand_angles(skeleton, side, &angles, &mut pose);
+    }
+    ModelPose::of(skeleton, &pose)
+}
+
+/// Stretches the arms of a posture out to the sides, lowered by an angle.
+fn t_pose(source: &Moving, from: &Pose, lowered: f64) -> Pose {
+    let (skeleton, anatomy) = (source.clip.skeleton(), &source.anatomy);
+    let mut pose = from.clone();
+    for side in Side::BOTH {
+        let Some(arm) = anatomy.arm(side) else {
+            continue;
+        };
+        for (joint, end) in [(arm.upper, arm.forearm), (arm.forearm, arm.hand)] {
+            let model = ModelPose::of(skeleton, &pose);
+            let Some(body) = anatomy.body_frame(&model) else {
+                continue;
+            };
+            let out = body.left * side.sign();
+            let to = out * lowered.cos() - body.up * lowered.sin();
+            let is = (model.position(end) - model.position(joint)).normalize_or(to);
+            let turned = DQuat::from_rotation_arc(is, to) * model.rotation(joint);
+            let above = skeleton
+                .parent(joint)
+                .map_or(DQuat::IDENTITY, |it| model.rotation(it));
+            pose.rotations[joint] = (above.inverse() * turned).normalize();
+        }
+        let model = ModelPose::of(skeleton, &pose);
+        if let Some(body) = anatomy.body_frame(&model) {
+            let out = body.left * side.sign();
+            let to = out * lowered.cos() - body.up * lowered.sin();
+            let palm = -body.up * lowered.cos() - out * lowered.sin();
+            if let Some(turned) = anatomy.hand_rotation(side, to, palm) {
+                let above = model.rotation(arm.forearm);
+                pose.rotations[arm.hand] = (above.inverse() * turned).normalize();
+            }
+        }
+    }
+    pose
+}
+
+fn t_pose_far_away(source: &Moving, from: &Pose) -> ModelPose {
+    let mut pose = t_pose(source, from, 0.0);
+    let turn = DQuat::from_rotation_y(std::f64::consts::PI);
+    pose.rotations[0] = turn * pose.rotations[0];
+    pose.translations[0] = turn * pose.translations[0] + DVec3::new(5.0, 0.0, 0.0);
+    ModelPose::of(source.clip.skeleton(), &pose)
+}
+
+/// Returns optical markers with the joint that each goes with.
+fn markers(source: &Moving) -> Vec<(&'static str, usize)> {
+    let middle = |side| Part::Finger(side, Finger::Middle, 2);
+    let all = [
+        ("C7", Part::Neck),
+        ("LFHD", Part::Head),
+        ("RFHD", Part::Head),
+        ("CLAV", Part::Chest),
+        ("RTOE", Part::Foot(Side::Right)),
+        ("LTOE", Part::Foot(Side::Left)),
+        ("RMID0", middle(Side::Right)),
+        ("RMID6", middle(Side::Right)),
+        ("LMID0", middle(Side::Left)),
+        ("RTHM3", Part::Thumb(Side::Right, 1)),
+        ("RIDX3", Part::Finger(Side::Right, Finger::Index, 2)),
+    ];
+    let joint = |(name, part): (&'static str, Part)| Some((name, source.anatomy.joint(part)?));
+    all.into_iter().filter_map(joint).collect()
+}
+
+/// Noise that is the same every time.
+struct Noise(u64);
+
+impl Noise {
+    fn next(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
+    }
+
+    fn turn(&mut self, size: f64) -> DQuat {
+        let [x, y, z] = [0; 3].map(|_| self.next() * size);
+        DQuat::from_scaled_axis(DVec3::new(x, y, z))
+    }
+}
