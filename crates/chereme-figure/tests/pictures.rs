@@ -529,6 +529,9 @@ fn a_figure_far_from_the_origin_or_on_its_way_is_framed_like_one_that_stands() {
     }
 }
 
+/// The number of torso, shoulders and neck among the groups of a body's surface.
+const TORSO: u8 = 1;
+
 #[test]
 fn a_body_without_spine_hips_or_neck_keeps_its_trunk() {
     use chereme_motion::{Part, Side};
@@ -537,8 +540,7 @@ fn a_body_without_spine_hips_or_neck_keeps_its_trunk() {
     let pose = clip.model_pose(0);
     let trunk = |anatomy: &Anatomy| {
         let mesh = Body::new(skeleton, anatomy).mesh(&pose);
-        let group = chereme_figure::group::TORSO;
-        let of = mesh.vertices.iter().filter(|vertex| vertex.group == group);
+        let of = mesh.vertices.iter().filter(|vertex| vertex.group == TORSO);
         let (mut low, mut high) = (f32::MAX, f32::MIN);
         for vertex in of {
             low = low.min(vertex.position.y);
