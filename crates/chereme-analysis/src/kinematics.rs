@@ -8,10 +8,10 @@ use crate::strokes::{place_in, smoothed, speeds};
 
 /// A minimum of speed counts where the speed rises on both of its sides to this many times it.
 const RISE: f64 = 1.25;
-/// Speeds below this, in metres per second, are rest: no minimum of them tells anything.
+/// Speeds below this, in metres per second, are rest: their minima carry no information.
 const REST: f64 = 0.02;
 
-/// Curves of a clip; each has a number for every frame, or none where the skeleton does not tell.
+/// Curves of a clip; each has a number for every frame, or is absent if the skeleton does not show it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Kinematics {
     /// Those of the right hand, then of the left.
@@ -135,7 +135,7 @@ fn aperture(clip: &Clip, anatomy: &Anatomy, side: Side, poses: &[ModelPose]) -> 
 pub fn minima(speed: &[f64]) -> Vec<usize> {
     let mut found = Vec::new();
     let floor = |frame: usize| speed[frame].max(REST);
-    // A rest that was there from the first frame ends, but nothing tells where it began.
+    // A rest that lasts since the first frame ends here, but its beginning is unknown.
     let mut lowest = speed.first().filter(|first| **first <= REST).map(|_| 0);
     let (mut fell, mut top) = (false, 0.0_f64);
     for (frame, &now) in speed.iter().enumerate() {

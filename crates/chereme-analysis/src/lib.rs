@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`dtw`] | dynamic time warping: alignments, distances, nearest neighbours |
 //! | [`kinematics`](mod@kinematics) | how hands move, frame by frame |
-//! | [`measure`](mod@measure) | the size and time of movements whose kind is told |
+//! | [`measure`](mod@measure) | the size and duration of movements of a known kind |
 //! | [`score`](mod@score) | how alike two performances are, component by component, with their alignment |
 //! | [`strokes`](mod@strokes) | transitions of wrists and fingers between two minima of their speed |
 //! | [`transcribe`](mod@transcribe) | the notation of a sign: HamNoSys with residuals |

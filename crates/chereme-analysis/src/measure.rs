@@ -1,4 +1,5 @@
-//! The size and time of movements whose kind someone has told: what a signer's body language is made of.
+//! Measures the size and duration of movements whose kind is already annotated: the data of a signer's
+//! body language.
 
 use std::ops::Range;
 
@@ -10,14 +11,15 @@ use crate::transcribe::way::{self, Way};
 
 /// The least peak of speed of a stroke, in metres per second: small ones are slow.
 const LEAST: f64 = 0.05;
-/// A stroke shorter than this share of the longest beside it is none, but the hand coming to rest.
+/// A stroke shorter than this share of the longest stroke next to it is not counted: the hand comes to
+/// rest.
 const AMONG: f64 = 1.0 / 3.0;
 /// A speed below this share of the peak is a hold.
 const STILL: f64 = 0.1;
 /// This share of a stroke lies in the stretch that it is looked for in.
 const INSIDE: f64 = 2.0 / 3.0;
 
-/// What kind of movement is measured.
+/// The kind of movement to measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     /// The wrist goes from place to place, straight or curved.
@@ -32,7 +34,7 @@ pub enum Kind {
     Transition,
 }
 
-/// What a movement measures.
+/// The measurements of one movement.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Measured {
     /// How long it takes; of a [`Kind::Round`] one turn.
@@ -45,17 +47,18 @@ pub struct Measured {
     pub radius: f64,
     /// How far the hand turns against the trunk from start to end, in radians.
     pub turn: f64,
-    /// How many strokes there were of about its size; what is measured is the first.
+    /// The number of strokes of about the same size; only the first one is measured.
     pub strokes: usize,
 }
 
 /// Measures the movement of one hand that lies in `within`; the frames around it show where strokes
 /// begin and end.
 ///
-/// A stroke lies between two minima of the wrist's speed; where there are several in the stretch the
-/// first one is measured, so that repetitions and ways back do not count. What goes round or in
-/// waves is measured over the stretch without the holds at its ends, a transition over the stretch itself. Lengths are those of the wrist in the
-/// space of the trunk. Nothing where the skeleton has no such hand, or the movement is not of that kind.
+/// A stroke lies between two minima of the wrist's speed; where there are several in the stretch the first
+/// one is measured, so that repetitions and ways back do not count. Circling and waving movements are
+/// measured over the stretch without the holds at its ends, a transition over the stretch itself. Lengths
+/// are those of the wrist in the space of the trunk. `None` if the skeleton has no such hand, or the
+/// movement is not of that kind.
 #[must_use]
 pub fn measure(
     clip: &Clip,

@@ -9,8 +9,8 @@
 //! | orientation | unit vectors out of the palm and along the hand, in the trunk's axes | 0.73: both turned by 30 degrees |
 //! | configuration | the 21 angles of thumb and fingers, in radians | 1.6: all off by 20 degrees |
 //!
-//! The numbers are those of the body, not of the skeleton, so clips of different skeletons, sizes
-//! and places on the floor compare; what one of them lacks is left out and said. The points are
+//! The numbers are those of the body, not of the skeleton, so clips of different skeletons, sizes and
+//! places on the floor compare; channels that one of them lacks are left out and reported. The points are
 //! aligned by [dynamic time warping](crate::dtw).
 
 use std::collections::BTreeMap;
@@ -95,7 +95,7 @@ pub struct Score {
     pub alignment: Vec<(usize, usize)>,
     /// Whether the policy for missing paths was needed.
     pub made: Made,
-    /// What could not be compared, because one or both of the skeletons do not show it.
+    /// The components that were not compared, because one or both of the skeletons do not show them.
     pub left_out: Vec<LeftOut>,
     /// Joints of the first clip without a counterpart in the second, by name.
     pub only_in_first: Vec<String>,
@@ -295,7 +295,7 @@ fn filled(rows: Vec<Option<Vec<f64>>>) -> Option<Vec<Vec<f64>>> {
     Some(columns)
 }
 
-/// Returns the rate of change per second, over neighbours on both sides where there are such.
+/// Returns the rate of change per second, over neighbours on both sides where both exist.
 fn velocity(column: &[f64], rate: Rate) -> Vec<f64> {
     let reach = (rate.per_second() * VELOCITY_SECONDS).round().max(1.0) as usize;
     (0..column.len())

@@ -18,12 +18,12 @@ const REST: f64 = 0.1;
 const STROKE: (f64, f64) = (0.15, 0.05);
 const SHAPE: (f64, f64) = (0.5, 0.349);
 
-/// What makes a transition.
+/// The body part that moves in a transition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mover {
-    /// The wrist goes from place to place, told by its speed in the space of the trunk.
+    /// The wrist, which goes from place to place. Found by its speed in the space of the trunk.
     Wrist,
-    /// The fingers go from shape to shape, told by the root of the mean square of their joints'
+    /// The fingers, which go from shape to shape. Found by the root of the mean square of their joints'
     /// angular speeds.
     Fingers,
 }

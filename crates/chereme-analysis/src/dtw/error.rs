@@ -1,4 +1,4 @@
-//! What cannot be aligned, and what would be right.
+//! Reasons why two series cannot be aligned, with remedies.
 
 use std::fmt;
 
@@ -30,7 +30,7 @@ impl fmt::Display for Obstacle {
     }
 }
 
-/// What cannot be aligned, and what would be right.
+/// The reason why two series cannot be aligned, with a remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DtwError {
     /// A series has no frame or no channel.
@@ -110,7 +110,7 @@ pub enum DtwError {
         reference: usize,
         /// What is in the way.
         reason: Obstacle,
-        /// What would give a path.
+        /// A change of pattern, window or lengths under which a path exists.
         remedy: String,
     },
     /// The table is larger than the limits allow.

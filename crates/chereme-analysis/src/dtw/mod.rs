@@ -16,9 +16,9 @@
 //! # Ok::<(), chereme_analysis::dtw::DtwError>(())
 //! ```
 //!
-//! **Where no path exists** (a window narrower than the difference in length, a pattern that
-//! cannot stretch so far) there is no distance either. [`Policy`] says what happens then; the
-//! default refuses, and whatever else was done is told in [`Cost::made`].
+//! **Where no path exists** (a window narrower than the difference in length, a pattern that cannot
+//! stretch so far) there is no distance either. [`Policy`] says what happens then; the default refuses,
+//! and [`Cost::made`] reports any other policy that was applied.
 
 mod error;
 mod nearest;
@@ -53,7 +53,7 @@ pub enum Local {
     SquaredEuclidean,
 }
 
-/// What to do where no path exists under the asked pattern and window.
+/// The policy for series that no path connects under the requested pattern and window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Policy {
@@ -63,8 +63,8 @@ pub enum Policy {
     /// Bring the reference to the query's length by linear interpolation and align that, under the
     /// same pattern and window; always possible. The path names the nearest original frames.
     Resample,
-    /// Exchange the window for a slanted band at least as wide (and wide enough for the lengths);
-    /// what the step pattern itself forbids is still refused.
+    /// Exchange the window for a slanted band at least as wide (and wide enough for the lengths); a series
+    /// that the step pattern itself forbids is still refused.
     SlantedBand,
 }
 
@@ -128,8 +128,8 @@ pub enum Made {
 pub struct Cost {
     /// Weighted sum of the local distances along the path.
     pub distance: f64,
-    /// The distance by the path's total weight (the query's length, or both lengths together, of
-    /// which the reference counts up to the path's end); nothing for symmetric1.
+    /// The distance divided by the path's total weight: the query's length, or the sum of both lengths,
+    /// counting the reference only up to the end of the path. `None` for symmetric1, which has no norm.
     pub normalized: Option<f64>,
     /// Whether the policy for missing paths was needed.
     pub made: Made,

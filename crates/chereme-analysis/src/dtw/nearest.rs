@@ -22,7 +22,7 @@ pub struct Neighbour {
     pub distance: f64,
 }
 
-/// The candidates nearest to a query, and what was done to find them.
+/// The candidates nearest to a query, and counts of the work done to find them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Nearest {
     /// Nearest first, equal distances by index; fewer than asked for where fewer have a path.

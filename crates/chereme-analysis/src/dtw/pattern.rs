@@ -29,7 +29,7 @@ pub enum StepPattern {
     TypeIiiC,
 }
 
-/// What an alignment's cost is divided by to be comparable between lengths.
+/// The divisor that makes the costs of alignments of different lengths comparable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Norm {
     /// Path weights depend on the path: there is no norm.
@@ -40,8 +40,8 @@ pub(crate) enum Norm {
     Both,
 }
 
-/// One way to reach a cell: where it comes from, and the cells passed since then with their
-/// weights, each as an amount back along the query and along the reference.
+/// One step that reaches a cell: its origin, and the cells passed on the way with their weights. Cells are
+/// given as offsets back along the query and along the reference.
 pub(crate) struct Production {
     pub(crate) from: (usize, usize),
     pub(crate) via: &'static [(usize, usize, f64)],
@@ -122,8 +122,7 @@ impl StepPattern {
         }
     }
 
-    /// Tells whether steps of this pattern can lead over `query` by `reference` frames without a
-    /// window.
+    /// Returns whether steps of this pattern can cover `query` by `reference` frames without a window.
     pub(crate) fn spans(self, query: usize, reference: usize) -> bool {
         let (n, m) = (query.saturating_sub(1), reference.saturating_sub(1));
         match self {

@@ -11,7 +11,8 @@ const PAD: usize = 2;
 /// Columns whose local distance is found together.
 const CHUNK: usize = 16;
 
-/// What is left of a filled table: the costs of its last row, and each cell's step if kept.
+/// The parts of a filled table that are kept: the costs of its last row, and each cell's step if
+/// requested.
 pub(super) struct Table {
     /// Least cost of reaching each frame of the reference with the query's last; infinite where
     /// no path leads.
@@ -115,7 +116,7 @@ impl pulp::NullaryFnOnce for Fill<'_> {
     }
 }
 
-/// One row of the table: what it is made from. Slices begin [`PAD`] columns early.
+/// The inputs of one row of the table. Slices begin [`PAD`] columns early.
 struct Row<'a> {
     range: Range<usize>,
     /// Whether the row's first cell is the fixed start of every path.

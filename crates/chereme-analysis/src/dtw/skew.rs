@@ -44,7 +44,7 @@ impl Reversed {
     }
 }
 
-/// What a run of the kernel is asked for.
+/// The request for one run of the kernel.
 pub(super) struct Ask<'a> {
     /// Columns that each row may reach.
     pub(super) rows: &'a [Range<usize>],

@@ -58,7 +58,7 @@ impl Window {
     }
 }
 
-/// Tells whether single steps along, up and across can lead from the first to the last cell.
+/// Returns whether single steps along, up and across can lead from the first to the last cell.
 pub(crate) fn connected(rows: &[Range<usize>], m: usize) -> bool {
     let first = rows.first().is_some_and(|row| row.contains(&0));
     let last = rows.last().is_some_and(|row| row.contains(&(m - 1)));

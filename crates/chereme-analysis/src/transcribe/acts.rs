@@ -1,4 +1,5 @@
-//! What a hand does, act after act: cut at minima of speed, named, repetitions folded.
+//! Segments and classifies the movement of one hand: cuts it at minima of speed, names each act and folds
+//! repetitions.
 
 mod cuts;
 mod fold;
@@ -22,56 +23,60 @@ use sway::{play, wrist};
 pub(super) use cuts::{LAP, signing};
 pub(super) use sway::{Sway, wrist_name};
 
-/// A hand that turns by this, or whose angles change by that, ends in another posture; in radians.
+/// A hand that turns by at least this angle (rad) during an act ends it in another orientation.
 const TURNED: f64 = 0.3;
+/// A hand whose finger angles change by at least this (rad, root of the mean square) ends in another
+/// handshape.
 const RESHAPED: f64 = 0.07;
-/// What is done again and again may be smaller, by this share.
+/// Changes that are repeated may be smaller than [`TURNED`] and [`RESHAPED`] by this factor.
 const AGAIN: f64 = 1.0 / 3.0;
-/// A hand that goes to and fro turns about a point at most so far off, in metres.
+/// A hand that turns to and fro does so about a point at most this far away (m per radian of the turn).
 const LEVER: f64 = 0.1;
-/// However wide it sways, its point goes no farther about that than this, in metres.
+/// However far the hand turns, a point it turns about moves by less than this (m).
 const SWAYS: f64 = 0.06;
-/// The time in which a part of the hand that was at something lets go of it, in seconds.
+/// Seconds in which a part of the hand lets go of its contact at the start of a movement.
 pub(super) const LETS_GO: f64 = 0.15;
-/// The least time in which a hand may do something else than go a way, in seconds.
+/// Stretches between two paths that are shorter than this (s) hold no act of their own.
 const GAP: f64 = 0.1;
-/// What sways or plays as a hand goes has done so before and after it where that lasts no longer than this, in
-/// seconds: hands set out and arrive slowly.
+/// Wrist or finger movement before or after a path belongs to that path if the stretch lasts less than
+/// this (s): hands set out and arrive slowly.
 const LULL: f64 = 0.3;
-/// A part of the hand that is less likely meant by so many nepers must have a way that is nearer by a factor of e.
+/// A hand part this many nepers less likely must fit e times better to be chosen.
 const PER: f64 = 10.0;
-/// What a made way is off the nearest course of notation counts by this share; what is captured goes on courses of its
-/// own.
+/// Weight of the distance between a path and the nearest path that notation can write. Below 1, because
+/// hands deviate from the notated directions; captured hands count still less, by their `loose`ness.
 const ASIDE: f64 = 0.5;
 
-/// Something a hand does.
+/// One act of a hand: a path, a movement of wrist or fingers, or a change of posture.
 #[derive(Debug, Clone)]
 pub(super) struct Act {
-    /// Its first and last frame, the first time it is done.
+    /// First and last frame of its first execution.
     pub(super) frames: RangeInclusive<usize>,
     pub(super) kind: Kind,
-    /// What it does besides.
+    /// The movement of wrist or fingers that goes on during the path.
     pub(super) with: Option<Sway>,
-    /// It ends with the hand turned otherwise, or in another shape.
+    /// Whether the hand ends in another orientation.
     pub(super) turned: bool,
+    /// Whether the hand ends in another handshape.
     pub(super) reshaped: bool,
-    /// How it is repeated, and how often it is done altogether.
+    /// How the act is repeated.
     pub(super) repeat: Option<Repeat>,
+    /// The number of executions.
     pub(super) times: usize,
-    /// Whether it grows, or shrinks, from each time to the next.
+    /// Whether its size grows (true) or shrinks (false) from each execution to the next.
     pub(super) grows: Option<bool>,
-    /// Its last frame with all repetitions.
+    /// Last frame of the last execution.
     pub(super) until: usize,
 }
 
-/// What it does with the hand.
+/// The kinds of acts.
 #[derive(Debug, Clone)]
 pub(super) enum Kind {
-    /// The hand goes a way.
+    /// The hand moves along a path.
     Way(Box<Fitted>),
-    /// Wrist or fingers go to and fro where the hand is.
+    /// Wrist or fingers move to and fro while the hand stays in place.
     Sway(Sway),
-    /// The hand takes another posture where it is.
+    /// The hand changes orientation or handshape while it stays in place.
     Change,
 }
 
@@ -85,33 +90,35 @@ impl Act {
     }
 }
 
-/// What is known of the parts of a hand.
+/// Queries about the parts of a hand that may be meant, and tolerances.
 pub(super) struct Seeing<'a> {
-    /// Returns where the parts are, in the second frame, that are at the body or the other hand in the first.
+    /// Returns the positions in the second frame of the parts that touch the body or the other hand in the
+    /// first frame.
     pub(super) parts: &'a dyn Fn(usize, usize) -> Vec<DVec3>,
-    /// As it, of parts that may be meant instead, each with how much less likely that is in nepers.
+    /// Like `parts`, for less likely parts, each with its penalty in nepers.
     pub(super) others: &'a dyn Fn(usize, usize) -> Vec<(DVec3, f64)>,
-    /// In how many frames a part of the hand lets go of what it was at.
+    /// The number of frames in which a part of the hand lets go of its contact.
     pub(super) lets_go: usize,
-    /// How loosely hands do what is meant, against made ones.
+    /// How loosely the hands follow the notated goals: 1 for synthesised movement, more for captured
+    /// hands.
     pub(super) loose: f64,
 }
 
-/// A hand with the points of it whose ways are looked at: those that may be meant, and others that the
-/// hand may turn about.
+/// A hand with the trajectories of some of its points: those that notation may refer to, and others that
+/// the hand may turn about.
 pub(super) struct Mover<'a> {
     pub(super) track: &'a Track,
     points: Vec<Vec<DVec3>>,
-    /// How many of them may be meant.
+    /// The number of leading `points` that notation may refer to.
     meant: usize,
     seen: Seeing<'a>,
-    /// What was asked of it, in the hand's own space.
+    /// Answers of `seen.parts` by (contact frame, frame), in the hand's own space.
     known: RefCell<BTreeMap<(usize, usize), Vec<DVec3>>>,
 }
 
 impl<'a> Mover<'a> {
-    /// Takes the parts that are at something where the sign begins or ends, and the palm; and what the hand
-    /// may turn about: the wrist and other parts.
+    /// Tracks the parts that are in contact where the sign begins or ends, and the palm; also possible
+    /// pivots: the wrist and `pivots`, each a position and its frame.
     pub(super) fn new(
         track: &'a Track,
         ends: [usize; 2],
@@ -139,7 +146,7 @@ impl<'a> Mover<'a> {
         }
     }
 
-    /// Returns the plainest way of a point that may be meant.
+    /// Returns the path with the lowest score among the points that notation may refer to.
     fn fit(&self, first: usize, last: usize) -> Fitted {
         let fits = self.points[..self.meant]
             .iter()
@@ -148,9 +155,9 @@ impl<'a> Mover<'a> {
             .unwrap_or_else(|| fit(&self.track.palm[first..=last], self.exact()))
     }
 
-    /// As [`fit`](Self::fit); where the hand turns or takes another shape on the way, another part of it may be
-    /// meant at the end than at the beginning, and what goes is first the one and more and more the other, or
-    /// soon the other.
+    /// Like [`fit`](Self::fit), but if the hand turns or changes its shape on the way, the path may begin
+    /// at one part of the hand and end at another. The reference point then passes from the one to the
+    /// other in step with the turn, or within the first [`LETS_GO`] seconds.
     fn fit_passing(&self, first: usize, last: usize) -> Fitted {
         let plain = self.fit(first, last);
         let track = self.track;
@@ -191,7 +198,8 @@ impl<'a> Mover<'a> {
                 let weight = (less / PER).exp();
                 let mut take = |way: Vec<DVec3>| {
                     let found = fit(&way, self.exact());
-                    // Nobody goes round by one part after the other; and parts that are guessed at only make it plainer.
+                    // No signer draws a circle with one part after the other; and less likely parts count
+                    // only if they make the path straight.
                     let taken = match found.way {
                         Way::Straight { .. } => true,
                         Way::Circle { .. } => false,
@@ -216,7 +224,7 @@ impl<'a> Mover<'a> {
                 };
                 take(passes(&by_turn, false));
                 take(passes(&by_time, false));
-                // A hand that leaves what it was at goes on as a whole: the palm's way counts from where it lets go.
+                // A hand that leaves a contact moves on as a whole: the palm's path counts from there.
                 if *b == to[0].0 {
                     take(passes(&by_time, true));
                 }
@@ -225,26 +233,27 @@ impl<'a> Mover<'a> {
         best
     }
 
-    /// Returns how far off a way may be, in metres, before what it takes to say it counts.
+    /// Returns the error of a path (m) below which simpler kinds are preferred.
     fn exact(&self) -> f64 {
         EXACT * self.seen.loose * self.seen.loose
     }
 
-    /// Returns how far off a way is, with what it takes to say it counted against it.
+    /// Returns the score of a path: its error (m), weighted by how much notation it takes; lower is
+    /// better.
     fn score(&self, fitted: &Fitted) -> f64 {
         let aside = ASIDE * aside(&fitted.way) / self.seen.loose.powi(4);
         (fitted.residual.hypot(aside) + self.exact()) * plain(&fitted.way)
     }
 
-    /// Returns parts that may be meant in one frame besides, where they are in another in the hand's own space, and
-    /// how much less likely they are.
+    /// Returns the less likely parts of frame `meant`, as positions in frame `frame` in the hand's own
+    /// space, each with its penalty in nepers.
     fn other_parts(&self, meant: usize, frame: usize) -> Vec<(DVec3, f64)> {
         let (at, less): (Vec<_>, Vec<_>) = (self.seen.others)(meant, frame).into_iter().unzip();
         own(self.track, &at, frame).into_iter().zip(less).collect()
     }
 
-    /// Returns where the parts are in one frame that may be meant in another, the palm first, in the hand's own
-    /// space.
+    /// Returns the palm, then the parts in contact in frame `meant`, as positions in frame `frame` in the
+    /// hand's own space.
     fn own_parts(&self, meant: usize, frame: usize) -> Vec<DVec3> {
         let track = self.track;
         let mut all = own(track, &[track.palm[frame]], frame);
@@ -256,22 +265,22 @@ impl<'a> Mover<'a> {
         all
     }
 
-    /// Returns the length of the shortest way of a point.
+    /// Returns the length of the shortest trajectory among the points, in metres.
     fn shortest(&self, first: usize, last: usize) -> f64 {
         let lengths = self.points.iter().map(|way| length(&way[first..=last]));
         lengths.fold(f64::MAX, f64::min)
     }
 }
 
-/// Returns places in a hand's own space in a frame.
+/// Converts positions of a frame to the hand's own space.
 fn own(track: &Track, at: &[DVec3], frame: usize) -> Vec<DVec3> {
     let back = track.turned[frame].inverse();
     let from = track.wrist[frame];
     at.iter().map(|at| back * (*at - from)).collect()
 }
 
-/// Returns how far a way is from the same one whose course is one that notation has: the root of the mean square
-/// of the distance, in metres.
+/// Returns the distance between a path and the same one along the nearest direction that notation has: the
+/// root of the mean square over the path, in metres.
 fn aside(way: &Way) -> f64 {
     let course = way.line().normalize_or(DVec3::Z);
     let off = aim::nearest(course, false).residual.to_radians().sin();
@@ -281,7 +290,7 @@ fn aside(way: &Way) -> f64 {
     }
 }
 
-/// How much a residual counts more for a way that takes more to say.
+/// Factor on the error of a path for the notation it takes; 1 for a straight path.
 fn plain(way: &Way) -> f64 {
     match way {
         Way::Straight { .. } => 1.0,
@@ -294,7 +303,7 @@ fn plain(way: &Way) -> f64 {
 
 /// Returns what a hand does in a stretch of frames, in order of time.
 ///
-/// The frame is the one in which it leaves the posture that it begins with.
+/// The frame is the one in which the hand leaves its first posture.
 pub(super) fn acts(
     scene: &Scene<'_>,
     mover: &Mover<'_>,
@@ -344,7 +353,8 @@ pub(super) fn acts(
     (found, start.filter(|_| first.is_some()))
 }
 
-/// Tells whether what a hand does for some frames before or after a way is what it does on that way besides.
+/// Returns whether the acts in the `frames` before or after a path only continue the movement of wrist or
+/// fingers during that path.
 fn lulls(scene: &Scene<'_>, way: &Act, beside: &[Act], frames: usize) -> bool {
     let same = |act: &Act| match (&act.kind, &way.with) {
         (Kind::Sway(Sway::Play { .. }), Some(Sway::Play { .. })) => true,
@@ -354,7 +364,7 @@ fn lulls(scene: &Scene<'_>, way: &Act, beside: &[Act], frames: usize) -> bool {
     scene.seconds(frames) < LULL && beside.iter().all(same)
 }
 
-/// Tells whether all that the hand does is to go to and fro about the wrist, or a point near it.
+/// Returns whether the hand does nothing but turn to and fro about the wrist, or about a point near it.
 fn sways(scene: &Scene<'_>, mover: &Mover<'_>, first: usize, last: usize) -> bool {
     let Some(Sway::Wrist { angle, cycles, .. }) = wrist(scene, mover.track, first, last) else {
         return false;
@@ -377,13 +387,14 @@ fn going(
     let track = mover.track;
     let often = |sway: &Sway| matches!(sway, Sway::Wrist { cycles, .. } if *cycles >= 1.4);
     let wrist = wrist(scene, track, first, last).filter(often);
-    // A hand that sways as it goes is carried by its wrist.
+    // The wrist carries a hand that moves to and fro on its path.
     let fitted = match &wrist {
         Some(_) => fit(&track.wrist[first..=last], mover.exact()),
         None => mover.fit_passing(first, last),
     };
     let with = plays.cloned().or(wrist);
-    // Hands that sway are turned where they end farther off than swaying takes them.
+    // Such a hand ends in another orientation only if it ends farther off than the movement itself takes
+    // it.
     let least = match &with {
         Some(Sway::Wrist { angle, .. }) => TURNED.max(1.3 * angle),
         _ => TURNED,
@@ -401,7 +412,7 @@ fn going(
     }
 }
 
-/// Returns what a hand does that goes nowhere.
+/// Returns the acts of a hand that stays in place.
 fn on_the_spot(
     scene: &Scene<'_>,
     track: &Track,
@@ -453,8 +464,8 @@ fn on_the_spot(
     found
 }
 
-/// Returns small changes of a hand that goes nowhere, where they are done again and again: once they would be
-/// none.
+/// Returns small changes of a hand that stays in place, if at least three of them alternate. A single one
+/// would be too small to count.
 fn to_and_fro(
     scene: &Scene<'_>,
     track: &Track,

@@ -1,4 +1,4 @@
-//! Directions: where the hand's axis points, and where its palm faces about that axis.
+//! Directions of the hand's axis, and of the palm about that axis.
 
 mod wrist;
 
@@ -12,24 +12,26 @@ use super::Found;
 
 pub(super) use wrist::Wrist;
 
-/// By how much what is less likely by one neper must be nearer where only a direction is told, in radians.
+/// Without a palm to judge by, a direction this much nearer (rad) outweighs one neper.
 const PLAIN: f64 = 0.035;
-/// Half-way between two directions is so much less likely to be meant than one of them, in nepers: between
-/// neighbours, those 60 degrees apart, and those at a right angle; half-way between two palms.
+/// Penalty (nepers) for a direction half-way between two: neighbours, those 60 degrees apart, those at a
+/// right angle.
 const HALF: [f64; 3] = [1.5, 2.2, 3.5];
+/// Penalty (nepers) for a palm half-way between two.
 const HALF_PALM: f64 = 1.2;
-/// A hand hardly has a direction without a symbol of its own: it is so much less likely.
+/// Penalty (nepers) for one of the 26 directions without a symbol of its own.
 const CORNER: f64 = 5.0;
-/// How far hands are from what is meant, in degrees: shares of normal distributions in three dimensions. Most
-/// hold it, some nearly, and of the others anything may be expected.
+/// Distribution of a hand's error in orientation: shares and standard deviations (degrees) of normal
+/// distributions in three dimensions. Most hands hold the orientation, some nearly, and the rest may be
+/// anywhere.
 const SPREAD: [(f64, f64); 3] = [(0.75, 1.0), (0.12, 4.0), (0.13, 15.0)];
-/// The narrower of them are the wider the looser hands are, by so many powers of that.
+/// Each standard deviation is multiplied by this power of the looseness of the hands.
 const WIDER: [i32; 3] = [2, 1, 0];
-/// Directions farther from what is measured than this are not looked at, in radians.
+/// Directions farther from the measured one than this (rad) are not considered.
 const LOOKED_AT: f64 = 1.3;
-/// What is beyond the end of wrist and forearm is the less likely meant by a neper for so many degrees.
+/// Degrees beyond the joint limit that cost one neper.
 const BEYOND: f64 = 8.0;
-/// Two directions may be joined that are at most so far apart, in radians: a right angle.
+/// Largest angle (rad) between two directions that notation may join: a right angle.
 const APART: f64 = 1.58;
 
 /// Returns the unit vector of an aim: left, up, forward.
@@ -53,7 +55,8 @@ pub(super) fn wrapped(angle: f64) -> f64 {
     (angle + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) - std::f64::consts::PI
 }
 
-/// Returns the shortest turn from pointing out to a direction; to pointing in it goes over up.
+/// Returns the shortest rotation from pointing forward to a direction; for the direction backward it turns
+/// over the top.
 pub(super) fn from_out(direction: DVec3) -> DQuat {
     if direction.z < -1.0 + 1e-9 {
         return DQuat::from_rotation_x(std::f64::consts::PI);
@@ -61,15 +64,16 @@ pub(super) fn from_out(direction: DVec3) -> DQuat {
     DQuat::from_rotation_arc(DVec3::Z, direction)
 }
 
-/// A direction that may be meant.
+/// A direction that notation can write.
 struct Pointing {
     aim: Aim<Direction>,
     at: DVec3,
-    /// How much less likely it is than another one, in nepers.
+    /// Its penalty in nepers.
     cost: f64,
 }
 
-/// Returns the 26 directions, and what is half-way between two that have symbols and says another one.
+/// Returns the 26 directions, and the directions half-way between two that have symbols, if not among the
+/// 26.
 fn pointings() -> &'static [Pointing] {
     static ALL: OnceLock<Vec<Pointing>> = OnceLock::new();
     ALL.get_or_init(|| {
@@ -94,7 +98,7 @@ fn pointings() -> &'static [Pointing] {
                 pairs.extend((apart < APART).then_some((apart, aim)));
             }
         }
-        // What several pairs say is said by those nearest to each other.
+        // If several pairs give the same direction, the pair nearest to each other is written.
         pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
         for (apart, aim) in pairs {
             let at = vector(&aim);
@@ -108,13 +112,13 @@ fn pointings() -> &'static [Pointing] {
     })
 }
 
-/// Returns the directions that may be told, half-way ones or not.
+/// Returns the candidate directions, with or without those half-way between two.
 fn told(between: bool) -> impl Iterator<Item = &'static Pointing> {
     let all = pointings().iter();
     all.filter(move |it| between || it.aim.second.is_none())
 }
 
-/// Returns the palms that may be told, with their angles and how much less likely they are.
+/// Returns the candidate palms, with their angles (rad) and penalties (nepers).
 fn palms(between: bool) -> Vec<(Aim<Compass>, f64, f64)> {
     let whole = Compass::ALL.map(|palm| (Aim::at(palm), palm.angle(), 0.0));
     let half = (0..8).map(|n| {
@@ -131,7 +135,7 @@ fn palms(between: bool) -> Vec<(Aim<Compass>, f64, f64)> {
     whole.into_iter().chain(half).collect()
 }
 
-/// Names what is half-way by the nearer one first.
+/// Orders the two directions of a half-way direction: the nearer one first.
 fn nearer_first(aim: &Aim<Direction>, to: DVec3) -> Aim<Direction> {
     let off = |direction: Direction| DVec3::from(direction.vector()).angle_between(to);
     match aim.second {
@@ -156,27 +160,27 @@ pub(super) fn nearest(direction: DVec3, between: bool) -> Found<Aim<Direction>> 
     Found::of(found.collect()).degrees()
 }
 
-/// How directions are told.
+/// Settings for reading directions.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct How {
-    /// Whether half-way between two may be said.
+    /// Whether directions half-way between two are candidates.
     pub(super) between: bool,
-    /// How loosely hands are turned, against made ones.
+    /// How loosely hands keep their orientation: 1 for synthesised movement.
     pub(super) loose: f64,
 }
 
-/// How a hand is turned.
+/// A reading of a hand's orientation.
 #[derive(Debug, Clone)]
 pub(super) struct Turned {
     pub(super) extended: Found<Aim<Direction>>,
     pub(super) palm: Found<Aim<Compass>>,
-    /// By how many degrees what is told is beyond the end of wrist or forearm, where the hand stopped there.
+    /// Degrees by which the reading lies beyond the limit of wrist or forearm at which the hand stopped.
     pub(super) beyond: f64,
-    /// How much less likely it is than the likeliest, in nepers.
+    /// Penalty against the likeliest reading, in nepers.
     pub(super) less: f64,
 }
 
-/// A direction and palm that may be meant.
+/// A candidate direction and palm.
 #[derive(Clone, Copy)]
 struct Meant {
     pointing: &'static Pointing,
@@ -185,14 +189,13 @@ struct Meant {
     score: f64,
 }
 
-/// Returns the directions and palms that a hand may be meant to have, the two together, the likeliest first, `most`
-/// of them.
+/// Returns the likeliest pairs of direction and palm for a hand, at most `most` of them, the likeliest
+/// first. The palm is the angle about the hand's axis, as
+/// [`orientation`](chereme_sign::hamnosys::orientation) counts it. Residuals are the hand's distance from
+/// them, in degrees.
 ///
-/// The palm is the angle about the hand's axis, as [`orientation`](chereme_sign::hamnosys::orientation) counts it.
-/// Residuals are how far the hand is from them, in degrees.
-///
-/// A hand that stops where its wrist or forearm ends may be meant to be turned farther: it is then as near to
-/// what would stop there as to what it shows.
+/// A hand that stops at the limit of its wrist or forearm may be meant to be turned farther: such a
+/// candidate is compared with the orientation at which it would stop.
 pub(super) fn turned(
     along: DVec3,
     normal: DVec3,
@@ -248,8 +251,8 @@ pub(super) fn turned(
     all.iter().take(most).map(as_told).collect()
 }
 
-/// Returns how likely a hand is turned as it is that was meant to be turned otherwise, as a logarithm, and by
-/// how many degrees it stopped before.
+/// Returns the log-likelihood of an observed orientation given the intended one, and by how many degrees a
+/// joint limit stopped the hand before it.
 fn likely(own: [DVec3; 2], meant: [DVec3; 2], wrist: Option<&Wrist>, loose: f64) -> (f64, f64) {
     let of = |off: f64| {
         let parts = SPREAD.iter().zip(WIDER);
@@ -272,7 +275,8 @@ fn likely(own: [DVec3; 2], meant: [DVec3; 2], wrist: Option<&Wrist>, loose: f64)
     })
 }
 
-/// Returns the angle of the turn between two hands, each an axis and a palm across it, in degrees.
+/// Returns the angle of the rotation between two orientations, each an axis and a palm at a right angle to
+/// it, in degrees.
 fn apart([a, p]: [DVec3; 2], [b, q]: [DVec3; 2]) -> f64 {
     let trace = a.dot(b) + p.dot(q) + a.cross(p).dot(b.cross(q));
     ((trace - 1.0) / 2.0).clamp(-1.0, 1.0).acos().to_degrees()
@@ -353,7 +357,7 @@ mod tests {
         let wrist = Wrist::of(arm, false, chereme_sign::hamnosys::BodyLanguage::usual());
         let meant = [DVec3::Y, DVec3::X];
         let stopped = wrist.map_or_else(Vec::new, |wrist| wrist.stopped(meant));
-        // Thumb up, it does not bend so far.
+        // With the thumb up, it does not bend that far.
         let [along, normal] = stopped[0];
         assert!(along.angle_between(DVec3::Y) > 0.2);
         let found = likeliest(along, normal, wrist.as_ref(), EXACTLY);

@@ -1,4 +1,4 @@
-//! How the two hands go together: one alone, both alike by a symmetry, or each for itself.
+//! Relation of the two hands: one alone, both alike by a symmetry, or each for itself.
 
 use std::ops::RangeInclusive;
 
@@ -8,41 +8,42 @@ use glam::DVec3;
 use super::acts::LAP;
 use super::scene::{Scene, Track};
 
-/// A hand that goes no farther from where it begins than this, in arm lengths, stays where it is.
+/// A hand that stays within this distance of its start (arm lengths) does not move.
 const STAYS: f64 = 0.05;
-/// Ways are alike where what differs is less than this share of what they have.
+/// Movements are alike if their difference is less than this share of them.
 const ALIKE: f64 = 0.3;
-/// Postures are alike where hands point within this angle, in radians, and fingers within that.
+/// Postures are alike if the hands' axes differ by less than this (rad).
 const POINTS: f64 = 0.6;
+/// Postures are alike if the finger angles differ by less than this (rad).
 const SHAPED: f64 = 0.4;
-/// Hands that are as much parallel as mirrored are told to be mirrored: parallel ones must fit better by this.
+/// Penalty for parallel hands: movement that fits mirrored and parallel hands alike is read as mirrored.
 const PARALLEL: f64 = 0.02;
-/// Places mirror each other where they differ by less than this, in arm lengths.
+/// Places mirror each other if they differ by less than this (arm lengths).
 const PLACED: f64 = 0.22;
 
-/// How the other hand goes with the dominant one.
+/// The relation of the other hand to the dominant one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Relation {
     pub(super) kind: RelationKind,
-    /// What differs, as a share of what there is.
+    /// The part of the movement that the relation does not explain, as a share of the whole.
     pub(super) residual: f64,
-    /// The next best, with its share.
+    /// The second best relation, with its residual.
     pub(super) runner_up: Option<(RelationKind, f64)>,
 }
 
-/// The kinds of it.
+/// The kinds of relations.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum RelationKind {
-    /// It rests.
+    /// The other hand rests.
     Alone,
-    /// It follows by a symmetry.
+    /// The other hand follows by a symmetry.
     Alike(Symmetry),
-    /// It is held, or moves for itself.
+    /// The other hand is held, or moves for itself.
     Unlike { moves: bool },
 }
 
 impl RelationKind {
-    /// Returns it in a few words.
+    /// Returns a short description.
     pub(super) fn words(&self) -> String {
         match self {
             Self::Alone => "one hand".to_owned(),
@@ -70,7 +71,7 @@ impl RelationKind {
     }
 }
 
-/// Returns the signs that a symmetry gives left, up and forward.
+/// Returns the factors (1 or -1) that a symmetry applies to left, up and forward.
 pub(super) fn signs(symmetry: &Symmetry) -> DVec3 {
     let sign = |mirrored: bool| if mirrored { -1.0 } else { 1.0 };
     DVec3::new(
@@ -80,7 +81,7 @@ pub(super) fn signs(symmetry: &Symmetry) -> DVec3 {
     )
 }
 
-/// The symmetries that are tried, the commoner first.
+/// The candidate symmetries, the more common first.
 fn symmetries() -> impl Iterator<Item = Symmetry> {
     let of = |left_right, up_down, out_in| Symmetry {
         left_right,
@@ -107,8 +108,8 @@ fn symmetries() -> impl Iterator<Item = Symmetry> {
     })
 }
 
-/// Returns the hand that signs where only one does: the other one, 1, where the dominant arm is lacking or rests
-/// all the time.
+/// Returns the index of the hand that signs if only one does: 1, the other one, if the dominant arm is
+/// missing or rests all the time; 0 otherwise.
 pub(super) fn lead(scene: &Scene<'_>) -> usize {
     let rests = scene.hands.each_ref().map(|track| {
         let track = track.as_ref();
@@ -117,7 +118,7 @@ pub(super) fn lead(scene: &Scene<'_>) -> usize {
     usize::from(scene.hands[0].is_none() || rests == [true, false])
 }
 
-/// Returns how the other hand goes with the dominant one in a stretch of frames.
+/// Returns the relation of the other hand to the dominant one in a stretch of frames.
 pub(super) fn relation(scene: &Scene<'_>, frames: &RangeInclusive<usize>) -> Relation {
     let alone = Relation {
         kind: RelationKind::Alone,
@@ -175,7 +176,7 @@ pub(super) fn relation(scene: &Scene<'_>, frames: &RangeInclusive<usize>) -> Rel
     }
 }
 
-/// Returns how much hands that stay differ from a symmetry: 0 where they mirror each other.
+/// Returns the difference of two still hands from a symmetry; 0 if they mirror each other.
 fn held_alike(
     scene: &Scene<'_>,
     [a, b]: [&Track; 2],
@@ -191,7 +192,7 @@ fn held_alike(
     (apart < 1.0).then_some(off.max(0.25 * apart) + parallel(symmetry))
 }
 
-/// Returns how much two postures differ from a symmetry; nothing where they are unlike.
+/// Returns the difference of two postures from a symmetry; `None` if they are unlike.
 fn posture_off([a, b]: [&Track; 2], frame: usize, symmetry: &Symmetry) -> Option<f64> {
     let signs = signs(symmetry);
     let along = (a.along[frame] * signs).angle_between(b.along[frame]);
@@ -201,8 +202,8 @@ fn posture_off([a, b]: [&Track; 2], frame: usize, symmetry: &Symmetry) -> Option
     (off < 1.0).then_some(ALIKE * off)
 }
 
-/// Returns how much the ways of two hands differ from a symmetry, as a share of what they are; for
-/// ways that more than one symmetry fits, their postures decide.
+/// Returns the difference of two hands' movements from a symmetry, as a share of them. If the movements
+/// fit several symmetries, the postures decide.
 fn moved_alike([a, b]: [&Track; 2], first: usize, last: usize, symmetry: &Symmetry) -> Option<f64> {
     let signs = signs(symmetry) * if symmetry.out_of_phase { -1.0 } else { 1.0 };
     let (mut off, mut all) = (0.0, 0.0);
@@ -213,13 +214,13 @@ fn moved_alike([a, b]: [&Track; 2], first: usize, last: usize, symmetry: &Symmet
     }
     let off = off / all.max(1e-12);
     let posture = posture_off([a, b], first, symmetry).unwrap_or(ALIKE);
-    // Of symmetries that fit the ways alike, the plainer and the one that postures have.
+    // Of symmetries that fit the movements equally well, the simplest one that the postures have.
     let marks = [symmetry.up_down, symmetry.out_in, symmetry.out_of_phase];
     let marks = marks.iter().filter(|mark| **mark).count() as f64;
     Some(off + 0.1 * posture + 0.01 * marks + parallel(symmetry))
 }
 
-/// What it costs that hands do not mirror each other: where both fit, they are meant to.
+/// Returns the penalty for hands that do not mirror each other; if both relations fit, mirroring is meant.
 fn parallel(symmetry: &Symmetry) -> f64 {
     if symmetry.left_right { 0.0 } else { PARALLEL }
 }

@@ -1,23 +1,23 @@
-//! From movement to notation: the signs of HamNoSys that a captured or made sign would be written with.
+//! Transcribes movement: infers the HamNoSys with which a captured or synthesised sign would be written.
 //!
-//! [`transcribe`] looks at one token (a few seconds of a clip) and tells each feature of notation with
-//! how far the movement is from it and what would have come next: handshapes by joint angles, the
-//! hand's axis and palm by directions, places by distance to those the animator would go to, movement
-//! by what is between minima of speed. What the categories mean in numbers comes from the same tables
-//! that notation is animated with ([`chereme_sign::hamnosys::angles`], [`sites`] and the
-//! [`BodyLanguage`]), so that the one is the other's inverse.
+//! [`transcribe`] reads one token (a few seconds of a clip) and returns each feature of the notation with
+//! its residual and its runner-up: handshapes by joint angles, the hand's axis and palm by directions,
+//! places by the distance to where the animator would put the hand, movement by the stretches between
+//! minima of speed. The meaning of each category in numbers comes from the tables that the animator uses
+//! ([`chereme_sign::hamnosys::angles`], [`sites`] and the [`BodyLanguage`]), so that transcription inverts
+//! animation.
 //!
 //! [`sites`]: chereme_sign::hamnosys::sites
 //!
 //! | module | holds |
 //! |---|---|
-//! | `scene` | the hands in the signer's own space, frame by frame |
-//! | `steady` | joints that tremble from frame to frame are smoothed |
+//! | `scene` | trajectories of the hands in the signer's own space, frame by frame |
+//! | `steady` | smoothing of joints that tremble from frame to frame |
 //! | `shape`, `aim`, `place` | the nearest handshape, direction, palm, place |
-//! | `way`, `acts` | ways through space; what a hand does, act after act |
-//! | `hands` | symmetry of the two |
+//! | `way`, `acts` | paths through space; the acts of a hand |
+//! | `hands` | symmetry of the two hands |
 //! | `tree` | the sign's tree and its features |
-//! | `proof` | where hands are told to be, proven by performing it |
+//! | `proof` | verification of hand placement by re-synthesis |
 
 mod acts;
 mod aim;
@@ -40,26 +40,26 @@ use serde::Serialize;
 
 pub use proof::MOST_POSTURES;
 
-/// How a token is transcribed.
+/// Settings of a transcription.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// The dominant hand. Notation of a left-handed signer is that of a right-handed one: left and right
-    /// are exchanged.
+    /// The dominant hand. The notation of a left-handed signer is that of a right-handed one: left and
+    /// right are exchanged.
     pub dominant: Side,
-    /// What the categories of notation mean in numbers.
+    /// The body language: the meaning of each category of notation in numbers.
     pub language: BodyLanguage,
-    /// Whether half-way between two directions or palms may be said.
+    /// Whether directions or palms half-way between two are candidates.
     pub between: bool,
     /// The longest token in seconds.
     pub longest: f64,
-    /// How near a hand comes to a place that is meant, in metres: the body's places, some of them an average
-    /// person's, and the signer's care. Notation that takes more to say must be nearer by a share of this.
+    /// Expected distance (m) between a hand and its intended place: some of the body's places are an
+    /// average person's, and signers are not exact. Longer notation must be nearer by a share of this.
     pub slack: f64,
 }
 
 impl Default for Options {
-    /// A captured signer: right-handed, the program's own body language, half-way directions, 60 seconds, and
-    /// 2 cm about places.
+    /// Settings for a captured signer: right-handed, the program's own body language, half-way directions,
+    /// tokens of at most 60 seconds, and 2 cm of slack about places.
     fn default() -> Self {
         Self {
             dominant: Side::Right,
@@ -72,7 +72,7 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Returns those for made movement, whose hands are at their places to 4 mm.
+    /// Returns the settings for synthesised movement, whose hands are within 4 mm of their places.
     #[must_use]
     pub fn made() -> Self {
         Self {
@@ -82,116 +82,116 @@ impl Options {
     }
 }
 
-/// How near made hands come to their places, in metres.
+/// Expected distance (m) between the hand and its place in synthesised movement.
 const MADE: f64 = 0.004;
 
-/// Why a token cannot be transcribed.
+/// The reason why a token cannot be transcribed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TranscribeError {
-    /// The clip has no frame.
+    /// The clip has no frames.
     #[error("the clip has no frames; transcribe a stretch of at least one")]
     Empty,
-    /// It is longer than a token.
+    /// The clip is longer than a token may be.
     #[error(
         "{seconds:.0} s are too long for one sign; give the span of a token of at most {most:.0} s"
     )]
     TooLong {
-        /// How long it is.
+        /// Its length in seconds.
         seconds: f64,
-        /// How long it may be.
+        /// The longest length in seconds.
         most: f64,
     },
-    /// The skeleton shows no arm on a trunk.
+    /// The skeleton has no arm on a trunk.
     #[error(
         "the skeleton has no arm with shoulder, elbow and wrist on a trunk; name them in a roles file"
     )]
     NoBody,
 }
 
-/// The notation of a token, with how sure each of its features is.
+/// The notation of a token, with the error of each feature.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Transcription {
     /// The notation.
     pub sign: Sign,
-    /// What was told, in the order of the notation.
+    /// The features, in the order of the notation.
     pub features: Vec<Feature>,
-    /// The posture at the beginning and what is done after it, in the order of the notation.
+    /// The first posture and then each action, in the order of the notation.
     pub stages: Vec<Stage>,
-    /// The frames of the sign itself, ways from and to rest cut off: its first, and the one after
-    /// its last.
+    /// The frames of the sign itself, without the paths from and to rest: its first, and the one after its
+    /// last.
     pub frames: (usize, usize),
-    /// What could not be told, and why.
+    /// Warnings: features that could not be read, with the reasons.
     pub findings: Vec<String>,
 }
 
-/// The posture that a sign begins with, or something that is done.
+/// The posture that a sign begins with, or one of its actions.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Stage {
-    /// The number of the action, from 1; nothing for the posture at the beginning.
+    /// The number of the action, from 1; `None` for the first posture.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub action: Option<usize>,
-    /// The hand, where each does something for itself.
+    /// The hand, if each hand acts for itself.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hand: Option<Side>,
-    /// Its first frame, and the one after its last, all repetitions counted in.
+    /// Its first frame, and the one after its last, repetitions included.
     pub frames: (usize, usize),
     /// Its HamNoSys.
     pub text: String,
 }
 
-/// A feature of the notation.
+/// One feature of the notation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Feature {
-    /// What it is about.
+    /// The kind of feature.
     pub kind: FeatureKind,
-    /// The hand, where it is about one.
+    /// The hand; `None` if the feature concerns both.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hand: Option<Side>,
-    /// The frame in which it is seen, or the first frame of what it is about.
+    /// The frame in which it was measured, or the first frame of a movement.
     pub frame: usize,
     /// The frames of the posture or action that it belongs to: the first, and the one after the last.
     pub frames: (usize, usize),
-    /// The number of the action it belongs to, from 1; nothing for the posture at the beginning.
+    /// The number of the action it belongs to, from 1; `None` for the first posture.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub action: Option<usize>,
-    /// What it is, in words.
+    /// The value in words.
     pub value: String,
-    /// Its HamNoSys; empty where that is to write nothing.
+    /// Its HamNoSys; empty if the value is written by omission.
     pub text: String,
-    /// How far the movement is from it.
+    /// The distance between the movement and this value, in [`unit`](Self::unit).
     pub residual: f64,
     /// The unit of residuals.
     pub unit: Unit,
-    /// What would have come next.
+    /// The second best value.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub runner_up: Option<RunnerUp>,
 }
 
-/// What a feature is about.
+/// The kinds of features.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FeatureKind {
-    /// Which hands act, and by which symmetry.
+    /// The hands that act, and their symmetry.
     Hands,
     /// The handshape.
     Handshape,
-    /// Where the hand's axis points.
+    /// The direction of the hand's axis.
     Direction,
-    /// Where the palm faces.
+    /// The direction of the palm.
     Palm,
     /// The place.
     Location,
-    /// How near the hand comes to it, or the hands to each other.
+    /// The distance of the hand from its place, or of the hands from each other.
     Contact,
     /// The kind of movement.
     Movement,
-    /// Where a movement goes, or the axis of a circle.
+    /// The direction of a movement, or the axis of a circle.
     Course,
     /// The size of a movement.
     Size,
-    /// In which manner it is done.
+    /// The manner of a movement: fast, slow, tense, sudden stop, after a rest.
     Manner,
-    /// How often it is done.
+    /// The number of repetitions.
     Repetition,
 }
 
@@ -224,13 +224,13 @@ pub enum Unit {
     /// Centimetres.
     #[serde(rename = "cm")]
     Centimetres,
-    /// A share of what it is compared with.
+    /// A fraction of the value that it is compared with.
     #[serde(rename = "share")]
     Share,
 }
 
 impl Unit {
-    /// Returns its sign.
+    /// Returns the unit's symbol.
     #[must_use]
     pub fn sign(self) -> &'static str {
         match self {
@@ -241,21 +241,21 @@ impl Unit {
     }
 }
 
-/// What would have come next.
+/// The second best value of a feature.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RunnerUp {
-    /// What it is, in words.
+    /// The value in words.
     pub value: String,
     /// Its HamNoSys.
     pub text: String,
-    /// How far the movement is from it, in the unit of the feature.
+    /// The distance between the movement and this value, in the unit of the feature.
     pub residual: f64,
 }
 
 /// Returns the notation of a token: of the whole clip, which should hold one sign and little else.
 ///
-/// `anatomy` belongs to the clip's skeleton. Ways from and to hands at rest are left out; where the
-/// clip begins within the sign, everything is taken for it.
+/// `anatomy` belongs to the clip's skeleton. Paths from and to hands at rest are left out; a clip that
+/// begins within the sign is read as a whole.
 ///
 /// # Errors
 /// [`TranscribeError`]: no frames, longer than a token, or no arm on a trunk.
@@ -267,32 +267,35 @@ pub fn transcribe(
     looked_at(clip, anatomy, options, None)
 }
 
-/// Makes movement of notation on the body that is transcribed.
+/// Synthesises movement from notation, on the body that is transcribed.
 pub trait Performs {
-    /// Returns the body as it is when the first posture of a sign is reached, as a clip of one frame; nothing where
-    /// that cannot be made.
+    /// Returns the body at the moment when it reaches the first posture of a sign, as a clip of one frame;
+    /// `None` if that cannot be synthesised.
     fn begins(&self, sign: &Sign) -> Option<Clip>;
 
-    /// As [`begins`](Self::begins), of each of many signs, some of them at the same time where that can be.
+    /// Like [`begins`](Self::begins), for many signs; implementations may work on several at once.
     fn begin_all(&self, signs: &[Sign]) -> Vec<Option<Clip>> {
         signs.iter().map(|sign| self.begins(sign)).collect()
     }
 
-    /// Returns the movement of a sign without the ways from and to rest, likewise.
+    /// Returns the movement of a sign without the paths from and to rest; `None` if that cannot be
+    /// synthesised.
     fn performs(&self, sign: &Sign) -> Option<Clip>;
 }
 
-/// As [`transcribe`], of movement that was made from notation: where hands are told to be is proven by performing
-/// it.
+/// Like [`transcribe`], for movement that was synthesised from notation: verifies hand placement by
+/// re-synthesis.
 ///
-/// A hand that should touch the trunk is moved out of it, one that is turned too far stops, one that has room
-/// gives way to its arm: it is not at its place then, but where performing what is meant brings it. Where what is
-/// told would bring it elsewhere, what may be meant instead is performed, [`MOST_POSTURES`] at most, and told if it
-/// brings the hand to within millimetres of where it is. Nobody else's movement comes back so exactly: captured signs
-/// are for [`transcribe`].
+/// The animator pushes a hand out of the trunk that should touch it, stops a hand at its joint limits, and
+/// lets a hand give way to its arm within the room of its place. Such a hand is not at its notated place,
+/// but re-synthesis of the right notation puts it exactly at the observed position. If the first reading
+/// misses it, alternative readings are synthesised, at most [`MOST_POSTURES`], and one that puts the hand
+/// within millimetres of the observed position is reported. Captured movement is never reproduced that
+/// exactly: use [`transcribe`] for it.
 ///
 /// # Errors
-/// As there.
+///
+/// The same as [`transcribe`]'s.
 pub fn transcribe_proven(
     clip: &Clip,
     anatomy: &Anatomy,
@@ -321,8 +324,8 @@ fn looked_at(
     Ok(found)
 }
 
-/// Tells whether two handshapes look the same: their angles differ by less than a degree, so that no
-/// measurement tells them apart.
+/// Returns whether two handshapes look the same: their angles differ by less than a degree, which is below
+/// the error of measurement.
 #[must_use]
 pub fn looks_the_same(
     a: &chereme_sign::hamnosys::Handshape,
@@ -332,13 +335,8 @@ pub fn looks_the_same(
     shape::is_same(a, b, language)
 }
 
-/// Returns how far a hand is in a frame from a place that notation names, in metres, and how far the
-/// places are from each other where a hand would be sent to; `symmetric` where both hands act alike.
-///
-/// Nothing where the skeleton lacks the hand or the place.
-///
-/// # Errors
-/// As [`transcribe`]'s.
+/// Returns the distance (m) between a hand in a frame and a notated place, and the distance between the
+/// goals of that place and of a second one; `symmetric` if both hands act alike.
 pub fn off_place(
     clip: &Clip,
     anatomy: &Anatomy,
@@ -351,7 +349,7 @@ pub fn off_place(
     Ok(tree::off_place(&scene, options, frame, places, symmetric))
 }
 
-/// The best of many, with how far off it is and what came next.
+/// The best of many candidates, with its residual and the runner-up.
 #[derive(Debug, Clone, PartialEq)]
 struct Found<T> {
     best: T,
@@ -360,7 +358,7 @@ struct Found<T> {
 }
 
 impl<T: Clone> Found<T> {
-    /// Picks the lowest score among values with residuals and scores; there is at least one.
+    /// Picks the lowest score among values with residuals and scores; the list must not be empty.
     fn of(mut all: Vec<(T, f64, f64)>) -> Self {
         all.sort_by(|a, b| a.2.total_cmp(&b.2));
         Self {
@@ -370,7 +368,7 @@ impl<T: Clone> Found<T> {
         }
     }
 
-    /// Turns radians into degrees.
+    /// Converts the residuals from radians to degrees.
     fn degrees(self) -> Self {
         Self {
             residual: self.residual.to_degrees(),

@@ -1,4 +1,5 @@
-//! Where hands are: the nearest place on the body or in space, what touches, the two by each other.
+//! Places of the hands: the nearest place on the body or in space, contacts, and constellations of the two
+//! hands.
 
 mod choice;
 mod hand;
@@ -23,39 +24,39 @@ use spread::Spread;
 pub(super) use hand::named;
 pub(super) use together::Together;
 
-/// A hand touches the head or an arm where it is nearer than the first, the trunk where nearer than
-/// the second, the other hand where nearer than the third; in arm lengths.
+/// A hand touches the head or an arm below the first distance, the trunk below the second, the other hand
+/// below the third (arm lengths).
 const TOUCH: [f64; 3] = [0.05, 0.11, 0.045];
-/// How much less likely hands are so near to a place, before the trunk and before the head: close, in the
-/// middle, far, touching.
+/// Penalty (nepers) of each nearness, before the trunk and before the head: close, usual distance, arm
+/// extended, touching.
 const NEARNESS: [[f64; 4]; 2] = [[0.0, 0.4, 2.5, 1.5], [0.5, 1.5, 3.5, 1.5]];
-/// How much less likely it is that a part of the hand is named, close to the trunk, close to the head, and where
-/// it touches; and for each step that it is less likely meant than others.
+/// Penalty (nepers) for naming a part of the hand: close to the trunk, close to the head, and touching.
 const SAID: [f64; 3] = [6.5, 3.5, 1.0];
+/// Additional penalty (nepers) for each step of a part's [`rank`](hand::rank).
 const STEP: f64 = 1.5;
-/// What touches is hardly left unsaid.
+/// Penalty (nepers) for a contact without a named part: annotators mostly name it.
 const UNSAID: f64 = 1.5;
-/// How much less likely a side is said where two hands are meant, each at its own.
+/// Penalty (nepers) for naming a side if both hands are meant, each on its own side.
 const OWN_SIDES: f64 = 1.0;
-/// Parts of the hand are thought of as meant that are no less likely than by this, in nepers.
+/// Parts of the hand with a higher penalty (nepers) than this are not considered.
 const RATHER_NOT: f64 = 8.0;
 
-/// A place that was found, with the distance to it.
+/// The place found for a hand, with its errors.
 #[derive(Debug, Clone)]
 pub(super) struct Placed {
     pub(super) place: BodyPlace,
-    /// From what a hand would be that is there, in metres.
+    /// Distance between the hand and the goal that the place gives it, in metres.
     pub(super) residual: f64,
     pub(super) runner_up: Option<(BodyPlace, f64)>,
-    /// How much less likely it is than what is plain and exact, in nepers.
+    /// Its penalty against the simplest and exact reading, in nepers.
     pub(super) score: f64,
-    /// The part of it that comes of where the hand is.
+    /// The part of `score` that comes from the hand's position.
     pub(super) unlikely: f64,
-    /// From the hand to the body there, in metres.
+    /// Distance between the hand and the body at that place, in metres.
     pub(super) distance: f64,
-    /// Whether a part of the hand is meant, and not the whole.
+    /// Whether the place refers to a part of the hand rather than the whole hand.
     pub(super) small: bool,
-    /// The parts of the hand that touch it, or come nearest to it.
+    /// The parts of the hand that touch the place, or come nearest to it.
     parts: Vec<HandPoint>,
 }
 
@@ -64,31 +65,31 @@ pub(super) struct Body<'a> {
     scene: &'a Scene<'a>,
     axes: Axes,
     model: ModelPose,
-    /// The dominant hand and the other.
+    /// The dominant hand, then the other.
     hands: [Option<Hand>; 2],
     spread: Spread,
     choices: [OnceCell<Vec<Choice>>; 2],
 }
 
-/// A place that a hand may be at, and how far it is from there.
+/// A candidate place for a hand, with the hand's distance from it.
 struct Candidate<'c> {
     choice: &'c Choice,
     contact: Option<Contact>,
-    /// The parts of the hand, where they must be said.
+    /// The parts of the hand that the notation must name.
     said: Option<&'c [HandPoint]>,
     residual: f64,
-    /// How much less likely it is than what is plain and exact, in nepers.
+    /// Its penalty against the simplest and exact reading, in nepers.
     score: f64,
-    /// The part of it that comes of where the hand is.
+    /// The part of `score` that comes from the hand's position.
     unlikely: f64,
     distance: f64,
-    /// Whether a part of the hand is meant, and not the whole.
+    /// Whether it refers to a part of the hand rather than the whole hand.
     small: bool,
-    /// The part of the hand that is meant where none is said.
+    /// The part of the hand that notation refers to if it names no part.
     meant: HandPoint,
 }
 
-/// Whether places are thought of that are rarely meant, or that a hand was pushed out of, by any part of it.
+/// Whether to consider rare places too, and places that a hand was pushed out of, by any of its parts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Wide {
     No,
@@ -129,8 +130,8 @@ impl Candidate<'_> {
 }
 
 impl<'a> Body<'a> {
-    /// Looks at one frame; nothing where the skeleton tells no trunk there. `shapes` are those of the
-    /// dominant hand and the other.
+    /// Reads one frame; `None` if the skeleton shows no trunk there. `shapes` are the handshapes of the
+    /// dominant hand and of the other.
     pub(super) fn of(
         scene: &'a Scene<'a>,
         frame: usize,
@@ -149,14 +150,14 @@ impl<'a> Body<'a> {
         })
     }
 
-    /// Takes hand `n` to be elsewhere by so much.
+    /// Moves hand `n` by an offset, in metres.
     pub(super) fn shift(&mut self, n: usize, by: DVec3) {
         if let Some(hand) = &mut self.hands[n] {
             hand.shift(by);
         }
     }
 
-    /// Returns every place that is told apart, as hand `n` would be sent there.
+    /// Returns every candidate place, as goals of hand `n`.
     fn choices(&self, n: usize) -> &[Choice] {
         self.choices[n].get_or_init(|| choice::all(|site| self.spot(n, site)))
     }
@@ -165,7 +166,7 @@ impl<'a> Body<'a> {
         let scene = self.scene;
         let acting = [scene.dominant, scene.dominant.other()][n];
         let found = body_site(site, acting, scene.dominant == Half::Left);
-        // A hand is always by its own arm.
+        // A hand is always near its own arm.
         if found.region == Region::Arm(acting) {
             return None;
         }
@@ -173,7 +174,7 @@ impl<'a> Body<'a> {
         let root = scene
             .anatomy
             .landmark(scene.clip.skeleton(), &self.model, &found.landmark)?;
-        // The top of a shoulder is where that shoulder is.
+        // The top of a shoulder is a point of that shoulder's joint.
         let shoulder = found.landmark.ends_with("-shoulder");
         let root = match found.region {
             Region::Trunk if !shoulder => self.axes.on_trunk(root),
@@ -195,8 +196,8 @@ impl<'a> Body<'a> {
         })
     }
 
-    /// Returns where hand `n` is: the nearest place of all; with `symmetric` the hands are taken to be
-    /// apart where nothing is said of sides.
+    /// Returns the likeliest place of hand `n`. With `symmetric`, places without a side keep the hands
+    /// apart.
     pub(super) fn place(&self, n: usize, symmetric: bool) -> Option<Placed> {
         let hand = self.hands[n].as_ref()?;
         self.placed(n, hand, symmetric)
@@ -219,8 +220,8 @@ impl<'a> Body<'a> {
         })
     }
 
-    /// Returns the places where hand `n` may be meant to be, the likeliest first, `most` of them: also those that
-    /// it was pushed out of, by any of its parts.
+    /// Returns the likeliest places of hand `n`, at most `most` of them, the likeliest first. Includes
+    /// places that the hand was pushed out of, by any of its parts.
     pub(super) fn likeliest(&self, n: usize, symmetric: bool, most: usize) -> Vec<Placed> {
         let hand = self.hands[n].as_ref();
         hand.map_or_else(Vec::new, |hand| self.likeliest_of(n, hand, symmetric, most))
@@ -248,7 +249,7 @@ impl<'a> Body<'a> {
         all
     }
 
-    /// Weighs a place for a hand: touched, close, or before it.
+    /// Scores a place for a hand, at each possible nearness.
     fn weigh<'c>(
         &self,
         n: usize,
@@ -324,8 +325,8 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// Returns where the meant point of hand `n` is for a place, in metres from it; `None` where the
-    /// skeleton lacks what is needed.
+    /// Returns the distance (m) between the part of hand `n` that a place refers to and its goal; `None`
+    /// if the skeleton lacks the joints.
     pub(super) fn off(&self, n: usize, place: &BodyPlace, symmetric: bool) -> Option<f64> {
         let hand = self.hands[n].as_ref()?;
         let spot = self.named_spot(n, place)?;
@@ -354,7 +355,7 @@ impl<'a> Body<'a> {
         })
     }
 
-    /// Returns where the meant point of a hand is that is at a place.
+    /// Returns the goal that a place gives to the part of the hand that it refers to.
     pub(super) fn goal_of(&self, n: usize, place: &BodyPlace, symmetric: bool) -> Option<DVec3> {
         let spot = self.named_spot(n, place)?;
         Some(self.goal(&spot, place.contact, n, symmetric))
@@ -380,7 +381,7 @@ impl<'a> Body<'a> {
         self.before(spot, far * self.scene.arm, near, n, symmetric)
     }
 
-    /// Returns where a hand is that is so far before a place.
+    /// Returns the goal of a hand at a distance before a place.
     fn before(&self, spot: &Spot, far: f64, near: bool, n: usize, symmetric: bool) -> DVec3 {
         let scene = self.scene;
         let beside = spot.beside;
@@ -416,8 +417,8 @@ impl<'a> Body<'a> {
         found
     }
 
-    /// Returns parts of a hand that may be meant instead, each with how much less likely that is, in nepers, than
-    /// what is likeliest: those of other places and other pairs of parts.
+    /// Returns less likely parts of a hand, each with its penalty in nepers against the likeliest one:
+    /// those of other places and other pairs of parts.
     pub(super) fn other_parts(&self, n: usize) -> Vec<(Vec<HandPoint>, f64)> {
         let Some(hand) = self.hands[n].as_ref() else {
             return Vec::new();
@@ -443,14 +444,14 @@ impl<'a> Body<'a> {
         found
     }
 
-    /// Returns where parts of a hand are.
+    /// Returns the positions of parts of a hand.
     pub(super) fn where_are(&self, n: usize, parts: &[Vec<HandPoint>]) -> Vec<DVec3> {
         let hand = self.hands[n].iter();
         hand.flat_map(|hand| parts.iter().map(|points| hand.mean(points)))
             .collect()
     }
 
-    /// Returns where the tips of a hand are that it may turn about.
+    /// Returns the positions of the fingertips that the hand may turn about.
     pub(super) fn tips(&self, n: usize) -> Vec<DVec3> {
         let tips = [Digit::Thumb, Digit::Index, Digit::Middle];
         let tips = tips.map(|digit| HandPoint::Tip(digit, Face::Middle));
@@ -463,7 +464,7 @@ impl<'a> Body<'a> {
 }
 
 impl Placed {
-    /// Returns the place as a choice among places.
+    /// Returns the place with its residual and runner-up.
     pub(super) fn found(&self) -> Found<BodyPlace> {
         Found {
             best: self.place.clone(),

@@ -1,8 +1,10 @@
-//! Where hands are is proven by performing it: what comes back there is told.
+//! Verifies hand placement by re-synthesis: candidates are animated, and the one that puts the hand at
+//! its observed position is reported.
 //!
-//! What a hand is at is told from where it is. But a hand that should touch the trunk is led out of it, one that
-//! is turned too far stops, one that has room gives way to its arm. Performed by the same rules, what is meant brings the
-//! hand to where it is, to a fraction of a millimetre, and little else does.
+//! The first reading comes from the hand's position alone. But the animator pushes a hand out of the trunk
+//! that should touch it, stops a hand at its joint limits, and lets a hand give way to its arm. The right
+//! notation, animated by the same rules, puts the hand within a fraction of a millimetre of the observed
+//! position, and few others do.
 
 use std::cell::Cell;
 use std::ops::Range;
@@ -17,27 +19,31 @@ use super::scene::Axes;
 use super::tree::{self, Begun, Picked, Sight, Stand};
 use super::{Performs, Transcription};
 
-/// The places that are tried for a hand, the likeliest first: the next ones where none of these is it.
+/// Ranks of the candidate places of a hand that are tried in turn; the next range is tried only if no
+/// place of the one before fits.
 const PLACES: [Range<usize>; 3] = [0..40, 40..120, 120..300];
-/// So many places are tried for two hands by each other, and so many pairs of parts of them.
+/// The number of candidate places to try for two hands in a constellation.
 const SHARED: usize = 100;
+/// The number of pairs of hand parts to try.
 const PAIRS: usize = 8;
-/// So many ways to be turned are tried at so many places.
+/// The number of orientations to try at each place.
 const TURNS: usize = 12;
+/// The number of places at which other orientations are tried.
 const TURNED_AT: usize = 24;
-/// More postures than this are not tried of a sign.
+/// The most postures that are synthesised for one sign.
 pub const MOST_POSTURES: usize = 1000;
-/// Of those that come nearest so many are performed to the end.
+/// The number of best postures that are synthesised to the end of the sign.
 const FINALISTS: usize = 12;
-/// Hands are where they are performed that are so near to there, in metres; and when only the posture is taken up.
+/// Distance (m) within which a hand matches after re-synthesis of the whole sign.
 const EXACT: f64 = 0.001;
+/// Distance (m) within which a hand matches after re-synthesis of the first posture only.
 const NEARLY: f64 = 0.0025;
-/// How near to there what is told otherwise brings them at least.
+/// An alternative reading is accepted only if its error is below this (m).
 const ALMOST: f64 = 0.0035;
-/// How much less likely it is that a hand is not where what is told of it would bring it, in nepers.
+/// Penalty (nepers) for a reading whose re-synthesis misses the observed hand.
 const INEXACT: f64 = 6.0;
 
-/// Writes down what the hands do; with `performs`, it is proven where they are.
+/// Writes the notation of a scene; with `performs`, verifies the places by re-synthesis.
 pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>) -> Transcription {
     let (told, begun) = tree::written(sight, Picked::default());
     let (Some(begun), Some(performs)) = (begun, performs) else {
@@ -63,7 +69,7 @@ pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>)
     let mut found = told.clone();
     if let Some(picked) = picked {
         found = tree::written(sight, picked).0;
-        // What was tried may have left out what is done after, or said it in other words.
+        // The trial may have left out the actions or written them in other words.
         let whole = performs.performs(&found.sign);
         off = whole.and_then(|clip| proof.off(&clip)).unwrap_or(off);
     }
@@ -81,23 +87,24 @@ pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>)
     found
 }
 
-/// Something that may be told.
+/// An alternative reading of the first posture.
 #[derive(Clone)]
 struct Trial {
     stand: Stand,
     turned: [Option<Turned>; 2],
-    /// Whether the hands mirror each other to begin with, and each does for itself what is done after.
+    /// Whether the hands mirror each other at first, but act separately afterwards.
     mirrored: bool,
-    /// Whether what is done after counts for nothing.
+    /// Whether to leave out the actions.
     still: bool,
 }
 
-/// A trial that was performed.
+/// A trial with the result of its re-synthesis.
 struct Tried {
     trial: Trial,
-    /// How much less likely it is than what is plain and exact, in nepers.
+    /// Its penalty against the simplest and exact reading, in nepers.
     total: f64,
-    /// How far either hand is from where it is performed, in metres.
+    /// The error of each hand: the distance between its observed and its re-synthesised position, in
+    /// metres.
     off: [f64; 2],
 }
 
@@ -109,7 +116,7 @@ impl Trial {
         }
     }
 
-    /// Returns how much less likely it is meant than what is plain, in nepers.
+    /// Returns the penalty (nepers) of the notation itself.
     fn cost(&self) -> f64 {
         let own = |placed: &Placed| placed.score - placed.unlikely;
         let stand: f64 = match &self.stand {
@@ -122,7 +129,8 @@ impl Trial {
         stand + turned.sum::<f64>()
     }
 
-    /// Returns how much less likely either hand is where it is, than exactly there, if it is there otherwise.
+    /// Returns the penalty (nepers) of each hand's distance from its place, for a hand that re-synthesis
+    /// does not explain.
     fn otherwise(&self) -> [f64; 2] {
         match &self.stand {
             Stand::One(_, placed) | Stand::Together(_, placed) => [placed.unlikely; 2],
@@ -133,7 +141,7 @@ impl Trial {
         }
     }
 
-    /// Returns what is told with this in place of what it tells.
+    /// Returns the sign `told` with this trial's places and orientations.
     fn sign(&self, told: &Sign) -> Sign {
         fn put<T>(each: &mut Each<T>, n: usize, value: T) {
             match each {
@@ -163,7 +171,7 @@ impl Trial {
 }
 
 impl Tried {
-    /// Returns what is told of it, and how far either hand is then from where it is performed.
+    /// Returns the readings that the trial fixes, and the error of each hand (m).
     fn told(self) -> (Option<Picked>, [f64; 2]) {
         let middle = |placed: &Placed| {
             let mut sites = placed.place.site.iter().chain(&placed.place.second);
@@ -192,13 +200,13 @@ struct Proof<'a, 'p> {
     begun: &'p Begun,
     told: &'p Sign,
     body: Body<'a>,
-    /// So many postures may still be tried.
+    /// The number of postures that may still be synthesised.
     left: Cell<usize>,
 }
 
 impl Proof<'_, '_> {
-    /// Returns what is told better otherwise, if anything, and how far either hand is from where it is performed;
-    /// nothing where what is told comes back, or cannot be performed.
+    /// Returns a better reading, if any, and the error of each hand (m); `None` if the first reading is
+    /// already right, or cannot be synthesised.
     fn best(&self) -> Option<(Option<Picked>, [f64; 2])> {
         let first = Trial {
             stand: self.begun.stand.clone(),
@@ -229,7 +237,7 @@ impl Proof<'_, '_> {
                 2
             };
             self.moved(&mut other, &PLACES[..far]);
-            // The other hand alone may be there by chance.
+            // A match of the other hand alone may be chance.
             let [open, before] = [other.off, best.off].map(|off| self.open(off));
             if open.len() < before.len() && !open.contains(&0) {
                 best = other;
@@ -242,7 +250,7 @@ impl Proof<'_, '_> {
             }
         }
         if !self.open(best.off).is_empty() {
-            // What a hand does after may be told wrong, and pull at it.
+            // A wrong reading of the actions may displace the hand.
             let still = Trial {
                 still: true,
                 ..best.trial.clone()
@@ -263,7 +271,8 @@ impl Proof<'_, '_> {
         Some(best.told())
     }
 
-    /// Returns what is told without a word of where hands are, where that brings them to where they are.
+    /// Returns the reading without any place, if re-synthesis of it puts the hands where they were
+    /// observed.
     fn unsaid(&self, first: &Trial) -> Option<(Option<Picked>, [f64; 2])> {
         let begun = self.begun_as(first.with(Stand::Unsaid))?;
         if !self.open(begun.off).is_empty() {
@@ -281,7 +290,8 @@ impl Proof<'_, '_> {
         self.tried(trial, &clip, NEARLY)
     }
 
-    /// Moves hands that are not where they are performed to other places, and returns how near they came there.
+    /// Tries other places for hands that miss their observed position, updates `best`, and returns the
+    /// trials of each hand.
     fn moved(&self, best: &mut Tried, places: &[Range<usize>]) -> [Vec<Tried>; 2] {
         let mut near: [Vec<Tried>; 2] = Default::default();
         for (n, near) in near.iter_mut().enumerate() {
@@ -300,12 +310,13 @@ impl Proof<'_, '_> {
         near
     }
 
-    /// Returns the hands that are not where they are performed.
+    /// Returns the hands that miss their observed position.
     fn open(&self, off: [f64; 2]) -> Vec<usize> {
         self.beyond(off, NEARLY)
     }
 
-    /// Returns the hands whose place is told and does not bring all to where they are that go with them.
+    /// Returns the hands whose reading is responsible for a miss, of their own or of the hands that follow
+    /// them.
     fn amiss(&self, tried: &Tried) -> Vec<usize> {
         let open = self.open(tried.off);
         match &tried.trial.stand {
@@ -317,7 +328,8 @@ impl Proof<'_, '_> {
         }
     }
 
-    /// Returns the hands that are farther off than so many metres, of those of which it is told where they are.
+    /// Returns the hands whose error is above `within` metres; a hand at rest, which has no notation, does
+    /// not count.
     fn beyond(&self, off: [f64; 2], within: f64) -> Vec<usize> {
         let told = |n: &usize| match &self.begun.stand {
             Stand::One(own, _) if self.begun.alone => own == n,
@@ -326,7 +338,7 @@ impl Proof<'_, '_> {
         (0..2).filter(told).filter(|&n| off[n] > within).collect()
     }
 
-    /// Returns what hand `n` may be meant at, or both, the likeliest first, all else as it is.
+    /// Returns trials with other places for hand `n`, or for both in a constellation, the likeliest first.
     fn places(&self, from: &Trial, n: usize) -> Vec<Trial> {
         let [.., last] = PLACES;
         let symmetric = self.begun.symmetric || from.mirrored;
@@ -354,7 +366,8 @@ impl Proof<'_, '_> {
         }
     }
 
-    /// Returns other forms in which it may be told where two hands are: by each other, or not.
+    /// Returns trials with the other forms of notation for the places of two hands: as a constellation, or
+    /// separately.
     fn other_forms(&self, from: &Trial) -> Vec<Trial> {
         if self.begun.alone {
             return Vec::new();
@@ -383,7 +396,7 @@ impl Proof<'_, '_> {
         mirrored.into_iter().chain(all).collect()
     }
 
-    /// Returns other ways in which hand `n` may be turned where it came nearest.
+    /// Returns trials with other orientations of hand `n`, at the places where it came nearest.
     fn turned(&self, mut near: Vec<Tried>, n: usize) -> Vec<Trial> {
         let Some(track) = self.sight.scene.hands[n]
             .as_ref()
@@ -407,8 +420,8 @@ impl Proof<'_, '_> {
         each.collect()
     }
 
-    /// Performs trials, all of them to their first posture and those nearest to the end; keeps the best, and returns
-    /// how near all came.
+    /// Synthesises the first posture of all trials and the whole sign of the nearest ones; updates `best`,
+    /// and returns the trials with their errors.
     fn try_all(&self, trials: Vec<Trial>, best: &mut Tried) -> Vec<Tried> {
         let likely = trials.into_iter().filter(|trial| trial.cost() < best.total);
         let likely = likely.take_while(|_| {
@@ -453,10 +466,10 @@ impl Proof<'_, '_> {
         })
     }
 
-    /// Returns how far either hand is from where it is in a clip's first frame, in metres.
+    /// Returns the distance (m) between each hand in a clip's first frame and its observed position.
     fn off(&self, clip: &Clip) -> Option<[f64; 2]> {
         let scene = self.sight.scene;
-        // Where the clip begins with the sign so does what is performed.
+        // If the observed clip begins within the sign, so does the synthesised one.
         let frame = if self.begun.first == 0 {
             0
         } else {

@@ -1,4 +1,4 @@
-//! What the hands do in the signer's own space, frame by frame.
+//! Trajectories of the hands in the signer's own space, frame by frame.
 
 use chereme_motion::{Anatomy, Clip, HandAngles, ModelPose, Part, Side};
 use chereme_sign::hamnosys::BodyLanguage;
@@ -10,42 +10,44 @@ use super::{MADE, Options, TranscribeError};
 /// The signer, with the dominant hand first.
 ///
 /// Vectors are to the signer's left, up and forward, level with the ground, in metres from the middle of
-/// the shoulders. For a left-handed signer left and right are exchanged, so that everything reads as
-/// if the right hand were dominant.
+/// the shoulders. For a left-handed signer left and right are exchanged, so that the dominant hand is
+/// always a right hand.
 pub(super) struct Scene<'a> {
     pub(super) clip: &'a Clip,
     pub(super) anatomy: &'a Anatomy,
     pub(super) language: &'a BodyLanguage,
     pub(super) dominant: Side,
-    /// How near hands come to what is meant, in metres.
+    /// Expected distance (m) between a hand and its goal.
     pub(super) slack: f64,
-    /// How much less what hands do is exactly what is meant than in made movement: the root of the ratio of
-    /// slacks, 1 for that.
+    /// How loosely the hands follow the notated goals: the square root of the slack relative to that of
+    /// synthesised movement; 1 for synthesised movement.
     pub(super) loose: f64,
-    /// The arm's length, the shoulders' width and the hand's length in metres.
+    /// The arm's length in metres.
     pub(super) arm: f64,
+    /// The width of the shoulders in metres.
     pub(super) shoulders: f64,
+    /// The hand's length in metres.
     pub(super) hand: f64,
-    /// The side of the only arm that signs, where the other rests.
+    /// The side of the only arm that signs, if the other rests.
     pub(super) alone: Option<Side>,
     pub(super) hands: [Option<Track>; 2],
 }
 
-/// One hand through time.
+/// The trajectory of one hand.
 pub(super) struct Track {
     pub(super) side: Side,
     pub(super) wrist: Vec<DVec3>,
-    /// The shoulder and the elbow.
+    /// Positions of the shoulder and the elbow.
     pub(super) arm: Vec<[DVec3; 2]>,
-    /// The middle of the palm.
+    /// Position of the middle of the palm.
     pub(super) palm: Vec<DVec3>,
-    /// From the wrist to the middle knuckle, of unit length.
+    /// Unit vector from the wrist to the middle knuckle.
     pub(super) along: Vec<DVec3>,
-    /// Out of the palm, of unit length.
+    /// Unit vector out of the palm.
     pub(super) normal: Vec<DVec3>,
-    /// Whether the skeleton tells where the palm faces.
+    /// Whether the skeleton shows where the palm faces.
     pub(super) faces: bool,
-    /// The hand's own axes as a rotation.
+    /// The hand's own axes, as a rotation.
     pub(super) turned: Vec<DQuat>,
     pub(super) angles: Vec<HandAngles>,
     pub(super) known: Known,
@@ -60,15 +62,15 @@ pub(super) struct Track {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Axes {
     origin: DVec3,
-    /// The middle of the shoulders where they are, from which landmarks of the trunk are measured.
+    /// The measured middle of the shoulders: the origin for landmarks of the trunk.
     shoulders: DVec3,
     left: DVec3,
     forward: DVec3,
 }
 
 impl Axes {
-    /// Looks at a posture; an arm that hangs pulls its shoulder down, so that `alone` tells which
-    /// shoulder to go by where the other arm rests.
+    /// Reads the axes from a posture. A hanging arm pulls its shoulder down: if only the arm `alone`
+    /// signs, its shoulder alone gives the height.
     pub(super) fn of(
         anatomy: &Anatomy,
         alone: Option<Side>,
@@ -93,17 +95,17 @@ impl Axes {
         })
     }
 
-    /// Returns a direction of model space to the left, up and forward.
+    /// Converts a direction of model space to left, up and forward.
     pub(super) fn direction(&self, v: DVec3) -> DVec3 {
         DVec3::new(v.dot(self.left), v.y, v.dot(self.forward))
     }
 
-    /// Returns a landmark of the trunk to the left, up and forward of the shoulders' middle.
+    /// Converts a landmark of the trunk to left, up and forward of the shoulders' middle.
     pub(super) fn on_trunk(&self, at: DVec3) -> DVec3 {
         self.direction(at - self.shoulders)
     }
 
-    /// Returns a place of model space to the left, up and forward of the shoulders' middle.
+    /// Converts a position of model space to left, up and forward of the shoulders' middle.
     pub(super) fn place(&self, at: DVec3) -> DVec3 {
         self.direction(at - self.origin)
     }
@@ -166,8 +168,8 @@ impl<'a> Scene<'a> {
         Ok(scene)
     }
 
-    /// Returns the side of the only arm that signs: the other rests at the beginning, in the middle or
-    /// at the end, twice at least.
+    /// Returns the side of the only arm that signs: the other rests in at least two of the first, middle
+    /// and last frame.
     fn lone_arm(&self) -> Option<Side> {
         let last = self.clip.frames() - 1;
         let mut resting = [0, 0];
@@ -196,7 +198,8 @@ impl<'a> Scene<'a> {
         let along = anatomy.hand_direction(side, model);
         let along = along.unwrap_or(DVec3::NEG_Y);
         let normal = anatomy.palm_normal(side, model).unwrap_or_else(|| {
-            // Without fingers: the same axis of the joint in every frame, one that lies across the hand.
+            // Without fingers, take an axis of the hand's joint that lies across the hand, the same one in
+            // every frame.
             let turned = model.rotation(arm.hand);
             let own = (turned.inverse() * along).abs();
             let across = if own.min_element() == own.x {
@@ -225,24 +228,24 @@ impl<'a> Scene<'a> {
         track.sticks.push(self.sticks(reach));
     }
 
-    /// Tells whether an arm hangs down.
+    /// Returns whether an arm hangs down.
     fn hangs(&self, reach: DVec3) -> bool {
         let way = reach.normalize_or(DVec3::NEG_Y);
         way.y < -0.78 && reach.length() > 0.8 * self.arm && reach.z < 0.35 * self.arm
     }
 
-    /// Tells whether an arm sticks out sideways, as both do in a reference posture.
+    /// Returns whether an arm sticks out sideways, as both do in a reference posture.
     fn sticks(&self, reach: DVec3) -> bool {
         let way = reach.normalize_or(DVec3::NEG_Y);
         way.x.abs() > 0.85 && reach.length() > 0.93 * self.arm && way.z.abs() < 0.4
     }
 
-    /// Returns frames for a time in seconds, one at least.
+    /// Converts a time in seconds to frames; at least one.
     pub(super) fn frames(&self, seconds: f64) -> usize {
         (seconds * self.clip.rate().per_second()).round().max(1.0) as usize
     }
 
-    /// Returns the time between two frames in seconds.
+    /// Converts a number of frames to seconds.
     pub(super) fn seconds(&self, frames: usize) -> f64 {
         frames as f64 * self.clip.rate().frame_time()
     }
@@ -270,7 +273,8 @@ impl Track {
         }
     }
 
-    /// Returns where a point of the hand goes that is at `at` in a frame, all fingers held.
+    /// Returns the trajectory of the hand point that is at `at` in a frame, as if the fingers did not
+    /// move.
     pub(super) fn carried(&self, at: DVec3, frame: usize) -> Vec<DVec3> {
         let own = self.turned[frame].inverse() * (at - self.wrist[frame]);
         self.wrist
@@ -280,14 +284,14 @@ impl Track {
             .collect()
     }
 
-    /// Returns by which rotation vector the hand turned between two frames, in its own space.
+    /// Returns the rotation vector (rad) of the hand between two frames, in its own space.
     pub(super) fn turn(&self, first: usize, last: usize) -> DVec3 {
         let turn = self.turned[first].inverse() * self.turned[last];
         scaled(turn)
     }
 
-    /// Returns how far the fingers' angles are apart in two frames: the root of the mean square over
-    /// the angles that are known, in radians.
+    /// Returns the difference of the finger angles between two frames: the root of the mean square over
+    /// the known angles, in radians.
     pub(super) fn reshaped(&self, first: usize, last: usize) -> f64 {
         self.known.apart(&self.angles[first], &self.angles[last])
     }
@@ -300,7 +304,7 @@ fn palm_name(side: Side) -> &'static str {
     }
 }
 
-/// Returns the axis of a turn as long as its angle in radians.
+/// Returns the rotation vector: the axis scaled by the angle in radians.
 pub(super) fn scaled(turn: DQuat) -> DVec3 {
     let turn = if turn.w < 0.0 { -turn } else { turn };
     turn.to_scaled_axis()
@@ -313,7 +317,7 @@ fn rotation(along: DVec3, normal: DVec3) -> DQuat {
     DQuat::from_mat3(&DMat3::from_cols(along, normal, along.cross(normal))).normalize()
 }
 
-/// Returns how long a way through points is.
+/// Returns the length of a polyline.
 pub(super) fn length(points: &[DVec3]) -> f64 {
     points
         .windows(2)

@@ -1,4 +1,4 @@
-//! Handshapes: the nearest of all forms by joint angles.
+//! Handshapes: finds the nearest form by joint angles.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -41,23 +41,24 @@ const BENDS: [Option<Bend>; 7] = [
 ];
 const OPENINGS: [Option<Opening>; 3] = [None, Some(Opening::Tight), Some(Opening::Slack)];
 
-/// How much each angle counts: the thumb's less than fingers', its opposition hardly, as skeletons
-/// differ in them; the fingers' end joints less, as they follow the middle ones; their spread more, as
-/// it is told by few degrees.
+/// Weights of the thumb's angles. Below those of the fingers, and lowest for opposition, as skeletons
+/// differ in them.
 const THUMB: [f64; 5] = [0.6, 0.6, 0.1, 0.35, 0.3];
+/// Weights of each finger's angles: the end joint counts less, as it follows the middle one; the spread
+/// counts more, as few degrees of it distinguish forms.
 const FINGER: [f64; 4] = [2.2, 1.0, 1.0, 0.35];
-/// Two forms are the same where they differ by less, in degrees.
+/// Two forms with a smaller difference than this (degrees) are the same.
 const SAME: f64 = 0.3;
-/// A residual is taken for so much more, in degrees, before what is said counts against it.
+/// Added to a residual (degrees) before it is multiplied by the penalties.
 const FLOOR: f64 = 0.6;
-/// What each thing said costs, as a share of the residual.
+/// Penalty of each addition to the notation, as a share of the residual.
 const COSTS: [(f64, &str); 3] = [(0.14, "between"), (0.06, "digits"), (0.16, "exception")];
-/// So many forms are tried with exceptions.
+/// The number of nearest forms that are tried with exceptions.
 const TRIED: usize = 16;
-/// A digit off by more than this, in degrees, may be an exception.
+/// A digit with a larger error than this (degrees) may be an exception.
 const ODD: f64 = 16.0;
 
-/// A form in the table, with its angles in degrees.
+/// An entry of the table: a form with its angles in degrees.
 #[derive(Debug)]
 struct Entry {
     shape: Handshape,
@@ -65,7 +66,8 @@ struct Entry {
     cost: f64,
 }
 
-/// Every form of every class, and half-way between any two of the plain ones.
+/// The table of all candidate handshapes: every form of every class, and half-way between any two of the
+/// plain ones.
 #[derive(Debug)]
 pub(super) struct Forms {
     language: BodyLanguage,
@@ -73,7 +75,7 @@ pub(super) struct Forms {
 }
 
 impl Forms {
-    /// Returns the table for a body language; the last one used is kept.
+    /// Returns the table for a body language; the last one is cached.
     pub(super) fn of(language: &BodyLanguage) -> Arc<Self> {
         static LAST: Mutex<Option<Arc<Forms>>> = Mutex::new(None);
         let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
@@ -125,10 +127,10 @@ impl Forms {
         }
     }
 
-    /// Returns the form nearest to a hand's angles, the runner-up being the next best that does not
-    /// share a form with it; residuals are weighted roots of mean squares in degrees.
+    /// Returns the form nearest to a hand's angles; the runner-up is the next best that shares no form
+    /// with it. Residuals are weighted roots of mean squares in degrees. Longer notation costs more, the
+    /// `loose`r the hands are. `None` if no angle is known.
     ///
-    /// What is said counts the more against it, the more `loose` hands are. Nothing where no angle is known.
     pub(super) fn nearest(
         &self,
         hand: &HandAngles,
@@ -186,7 +188,7 @@ impl Forms {
         })
     }
 
-    /// Returns the forms that come nearest when one or two fingers are left out of account.
+    /// Returns the forms that are nearest when one or two fingers are ignored.
     fn but_for_digits(&self, own: &[f64; HandAngles::LEN], known: &Known) -> Vec<usize> {
         let mut near: [Vec<(f64, usize)>; 2] = [Vec::new(), Vec::new()];
         for (n, entry) in self.entries.iter().enumerate() {
@@ -217,7 +219,7 @@ impl Forms {
         found
     }
 
-    /// Returns the same form with one more digit bent in its own way, where that is better.
+    /// Returns the same form with one digit as an exception, if that fits better.
     fn excepted(
         &self,
         from: &Tried,
@@ -260,7 +262,7 @@ impl Forms {
     }
 }
 
-/// A form that is weighed.
+/// A candidate form with its score.
 struct Tried {
     score: f64,
     residual: f64,
@@ -268,13 +270,13 @@ struct Tried {
     cost: f64,
 }
 
-/// Tells whether two handshapes look the same to within a fraction of a degree.
+/// Returns whether two handshapes look the same to within a fraction of a degree.
 pub(super) fn is_same(a: &Handshape, b: &Handshape, language: &BodyLanguage) -> bool {
     let degrees = |shape| hand_angles(shape, language).to_array().map(f64::to_degrees);
     apart(&degrees(a), &degrees(b)) < 1.0
 }
 
-/// Whether two handshapes have a form in common.
+/// Returns whether two handshapes have a form in common.
 fn related(a: &Handshape, b: &Handshape) -> bool {
     let forms = |shape: &Handshape| [Some(shape.form), shape.between];
     let shares = forms(a)
@@ -291,7 +293,7 @@ fn bare(form: Form) -> Handshape {
     }
 }
 
-/// Every class with every thumb position or opening and every bend, the simpler first.
+/// Returns every class with every thumb position or opening and every bend, the simpler first.
 fn plain() -> impl Iterator<Item = Form> {
     let with = |class: HandClass| -> Vec<(Option<ThumbPosition>, Option<Opening>)> {
         match class {
@@ -316,7 +318,7 @@ fn plain() -> impl Iterator<Item = Form> {
     })
 }
 
-/// The digits that may stand for a class's own.
+/// Returns the digits that may replace a class's own.
 fn other_digits(class: HandClass) -> Vec<Digits> {
     use Digit::{Index, Little, Middle, Ring};
     let sets: &[&[Digit]] = match class {
@@ -347,18 +349,18 @@ fn add(entries: &mut Vec<Entry>, entry: Entry) {
     }
 }
 
-/// The root of the mean square of the differences.
+/// Returns the root of the mean square of the differences.
 fn apart(a: &[f64; HandAngles::LEN], b: &[f64; HandAngles::LEN]) -> f64 {
     let squares: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
     (squares / HandAngles::LEN as f64).sqrt()
 }
 
-/// How much each of a hand's angles counts on a skeleton: nothing where it lacks the joint.
+/// The weight of each of a hand's angles on a skeleton: zero if the joint is missing.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Known([f64; HandAngles::LEN]);
 
 impl Known {
-    /// Returns what the hand of a side shows, and the parts it lacks.
+    /// Returns the weights for the hand of a side, and the joints it lacks.
     pub(super) fn of(anatomy: &Anatomy, side: Side) -> (Self, Vec<Part>) {
         let mut weights = [0.0; HandAngles::LEN];
         let mut missing = Vec::new();
@@ -389,8 +391,8 @@ impl Known {
         (Self(weights), missing)
     }
 
-    /// Returns how far two postures are apart: the root of the mean square of the angles that are
-    /// known, in radians.
+    /// Returns the difference of two postures: the root of the mean square over the known angles, in
+    /// radians.
     pub(super) fn apart(&self, a: &HandAngles, b: &HandAngles) -> f64 {
         let (a, b) = (a.to_array(), b.to_array());
         let squares = self.0.iter().zip(a.iter().zip(b));

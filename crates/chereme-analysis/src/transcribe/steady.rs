@@ -1,5 +1,5 @@
-//! Joints that tremble from frame to frame, as no person's do: noise of sensors, or of postures estimated one
-//! by one.
+//! Denoises joints that tremble from frame to frame, as no person's do: noise of sensors, or of postures
+//! estimated frame by frame.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -7,25 +7,24 @@ use std::sync::Arc;
 use chereme_motion::{Channel, Clip};
 use glam::{DQuat, DVec4};
 
-/// Joints that tremble by more than this are smoothed, to about half of it, in radians about each axis: 0.7
-/// degrees.
+/// Joints with more noise than this (rad about each axis; 0.7 degrees) are smoothed, to about half of it.
 const TREMBLES: f64 = 0.0122;
-/// The widest bell that smooths them, as a standard deviation in seconds: of hands that go to and fro four times
-/// a second it leaves eight tenths.
+/// Widest smoothing kernel, as a standard deviation in seconds: it keeps eight tenths of the amplitude of
+/// a hand that moves to and fro four times a second.
 const WIDEST: f64 = 0.05;
-/// The fewest frames of which noise can be told.
+/// The fewest frames from which noise can be estimated.
 const FEWEST: usize = 12;
 
 /// A clip whose trembling joints were smoothed.
 pub(super) struct Steadied {
     pub(super) clip: Clip,
-    /// By how much the worst of them trembled, in degrees.
+    /// The noise of the worst joint, in degrees.
     pub(super) most: f64,
-    /// How many they were.
+    /// The number of smoothed joints.
     pub(super) joints: usize,
 }
 
-/// Smooths the joints of a clip that tremble; nothing where none does.
+/// Smooths the joints of a clip that tremble; `None` if no joint does.
 pub(super) fn steadied(clip: &Clip) -> Option<Steadied> {
     let (mut most, mut joints) = (0.0_f64, 0);
     let mut channels = Vec::with_capacity(clip.channels().len());
@@ -37,7 +36,7 @@ pub(super) fn steadied(clip: &Clip) -> Option<Steadied> {
         }
         most = most.max(trembles.to_degrees());
         joints += 1;
-        // White noise under such a bell of n frames is less by the root of 32 n / 27 times that of pi.
+        // Such a kernel of n frames reduces white noise by the square root of 32 n / 27 times that of pi.
         let enough = (2.0 * trembles / TREMBLES).powi(2) * 27.0 / (32.0 * PI.sqrt());
         let wide = enough.min(WIDEST * clip.rate().per_second());
         channels.push(Channel {
@@ -52,10 +51,10 @@ pub(super) fn steadied(clip: &Clip) -> Option<Steadied> {
     Some(Steadied { clip, most, joints })
 }
 
-/// Returns by how much rotations tremble about each axis, in radians: by the median of their fourth differences,
-/// which movement has little of.
+/// Returns the noise of rotations about each axis (rad), by the median of their fourth differences, which
+/// hold little of real movement.
 fn noise(rotations: &[DQuat]) -> f64 {
-    // The median length in three dimensions against the deviation along one of them.
+    // Ratio of the median length in three dimensions to the standard deviation along one of them.
     const MEDIAN: f64 = 1.538;
     if rotations.len() < FEWEST {
         return 0.0;
@@ -73,12 +72,12 @@ fn noise(rotations: &[DQuat]) -> f64 {
         .collect();
     let middle = differences.len() / 2;
     let (_, median, _) = differences.select_nth_unstable_by(middle, f64::total_cmp);
-    // The squares of 1, 4, 6, 4, 1 are 70; a quaternion has half of the angle.
+    // The squares of 1, 4, 6, 4, 1 sum to 70; a quaternion has half of the angle.
     2.0 * *median / (MEDIAN * 70.0_f64.sqrt())
 }
 
-/// Returns rotations under a bell that is so many frames wide and leaves parabolas as they are (Wand and Jones,
-/// *Kernel smoothing*, 2.8: the Gaussian kernel of fourth order).
+/// Smooths rotations by a kernel `wide` frames wide that preserves parabolas (Wand and Jones, *Kernel
+/// smoothing*, 2.8: the Gaussian kernel of fourth order).
 fn smoothed(rotations: &[DQuat], wide: f64) -> Vec<DQuat> {
     let reach = (3.0 * wide).ceil() as usize;
     let bell: Vec<f64> = (0..=reach)
@@ -107,7 +106,7 @@ mod tests {
     use super::*;
     use glam::DVec3;
 
-    /// Numbers about 0 with a deviation of about 1.
+    /// Returns random numbers with mean 0 and standard deviation about 1.
     fn noisy(seed: &mut u64) -> f64 {
         let mut sum = -6.0;
         for _ in 0..12 {

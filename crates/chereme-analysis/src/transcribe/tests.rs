@@ -1,4 +1,4 @@
-//! Signs built in code from the tables that notation is animated with, and read back.
+//! Synthesises signs from the tables that the animator uses, and transcribes them.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use glam::{DQuat, DVec3};
 
 use super::*;
 
-/// Where a hand is in the signer's space, where it points and its palm faces, its shape.
+/// A hand's place in the signer's space, the directions of its axis and palm, and its shape.
 #[derive(Clone)]
 struct Held {
     at: DVec3,
@@ -106,8 +106,8 @@ fn body() -> Skeleton {
     Skeleton::new(joints).expect("a tree")
 }
 
-/// Makes a clip of half a second's hold, `seconds` of movement, and a hold; a hand of which nothing is
-/// said hangs at rest.
+/// Builds a clip: a hold of half a second, `seconds` of movement, and a hold. A hand that `at` leaves out
+/// hangs at rest.
 fn clip(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> (Clip, Anatomy) {
     let skeleton = Arc::new(body());
     let anatomy = Anatomy::detect(&skeleton);
@@ -131,7 +131,7 @@ fn clip(seconds: f64, at: impl Fn(f64) -> [Option<Held>; 2]) -> (Clip, Anatomy) 
             anatomy.set_hand_angles(&skeleton, side, &angles, &mut pose);
             let turn = anatomy.hand_rotation(side, held.along, held.palm);
             pose.rotations[arm.hand] = turn.expect("fingers");
-            // The wrist goes where the palm should be: the arm's bones are not looked at.
+            // The wrist follows the palm; nothing here reads the bones of the arm.
             let wrist = frame.origin + held.at - held.along * 0.05;
             pose.translations[arm.hand] = wrist - model.position(arm.forearm);
         }
@@ -465,9 +465,9 @@ fn what_captured_hands_do_besides_is_no_way_of_its_own() {
         let mut parts = found.sign.parts.into_iter();
         parts.next().expect("one part").actions
     };
-    // A drift of 2.5 cm while it is held.
+    // A drift of 2.5 cm during a hold.
     assert!(way(&|time| DVec3::Y * (0.025 * ease(time))).is_empty());
-    // It slows down half-way, and its way is bent by 7 mm.
+    // The movement slows down half-way, and its path is bent by 7 mm.
     let slowing = way(&|time| {
         let gone = time - 0.03 * (2.0 * TAU * time).sin();
         DVec3::new(0.3 * gone, 0.007 * (TAU / 2.0 * gone).sin(), 0.0)
@@ -488,7 +488,7 @@ fn hands_that_only_rest_are_said_to() {
         let found = transcribe(&clip, &anatomy, &Options::default()).expect("a posture");
         assert!(found.findings.iter().any(|it| it.contains("rest")));
         assert!(found.sign.parts[0].actions.is_empty());
-        // A hand is not told to be by its own arm.
+        // A hand is never placed at its own arm.
         let Some(Place::Body(place)) = &found.sign.parts[0].posture.place else {
             panic!("{:?}", found.sign);
         };
@@ -529,7 +529,7 @@ fn what_is_no_token_is_refused_and_what_is_missing_is_said() {
     let error = transcribe(&clip, &nothing, &Options::made());
     assert_eq!(error.map(|_| ()), Err(TranscribeError::NoBody));
 
-    // Fingers without their outer joints: all but those are told, and the lack is said.
+    // Fingers without their outer joints: the inner ones suffice, and the lack is reported.
     let keep = |joint: &Joint| !(joint.name.contains("Hand") && joint.name.ends_with(['3', '4']));
     let joints: Vec<Joint> = body().joints().to_vec();
     let kept: Vec<usize> = (0..joints.len()).filter(|&n| keep(&joints[n])).collect();
@@ -563,7 +563,7 @@ fn what_is_no_token_is_refused_and_what_is_missing_is_said() {
 #[test]
 fn manners_are_told_by_time_and_course() {
     let own = before_chest(HandClass::Fist);
-    // The peak of what is meant comes late.
+    // A meant movement peaks late.
     let late = |time: f64| ease(time.powf(1.25));
     let even = |time: f64| time;
     let manner = |seconds: f64, course: &dyn Fn(f64) -> f64| {

@@ -1,4 +1,4 @@
-//! The sign's tree, and its features in words.
+//! Builds the sign's tree, and its features in words.
 
 mod manner;
 mod posture;
@@ -31,10 +31,10 @@ pub(super) use posture::Stand;
 use posture::behind;
 pub(super) use sight::Sight;
 
-/// However far a hand is from every place, that counts no more against telling one for each, in nepers.
+/// Upper bound (nepers) on the penalty of a hand's separate place, however far it is from every place.
 const MOST_APART: f64 = 12.0;
 
-/// What is told of a hand is sure where it is no farther from it than this, in degrees.
+/// A reading of a hand is sure if its residual is at most this (degrees).
 const SURE: f64 = 4.0;
 
 /// The symmetry of hands that mirror each other.
@@ -46,44 +46,45 @@ const MIRRORED: Symmetry = Symmetry {
     real_space: false,
 };
 
-/// More actions than this are hardly one sign.
+/// More actions than this suggest that the clip holds several signs.
 const MOST: usize = 12;
 
-/// What is told of one hand in one frame.
+/// The readings of one hand in one frame.
 #[derive(Debug, Clone)]
 pub(super) struct Seen {
     shape: Option<Found<Handshape>>,
     extended: Found<Aim<Direction>>,
     palm: Option<Found<Aim<Compass>>>,
-    /// By how many degrees wrist or forearm stop it from being turned so.
+    /// Degrees by which the reading lies beyond the limit of wrist or forearm.
     beyond: f64,
 }
 
-/// Writes down what the hands of a scene do, and how that begins; what is picked is told.
+/// Writes the notation of a scene, and returns how the sign begins; `picked` readings are fixed.
 pub(super) fn written<'a>(sight: &'a Sight<'a>, picked: Picked) -> (Transcription, Option<Begun>) {
     Writer::new(sight, picked).written()
 }
 
-/// What is told whatever else is likelier.
+/// Readings fixed in advance; they override more likely ones.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Picked {
     pub(super) stand: Option<Stand>,
-    /// How either hand is turned.
+    /// The orientation of each hand.
     pub(super) turned: [Option<aim::Turned>; 2],
-    /// Whether hands that do not go together are told to mirror each other to begin with.
+    /// Whether the hands mirror each other at first, though their movements are unrelated.
     pub(super) mirrored: bool,
 }
 
-/// How a sign begins.
+/// The first posture of a sign, as it was read.
 #[derive(Debug, Clone)]
 pub(super) struct Begun {
-    /// The frame in which its posture is seen, and the first of the sign.
+    /// The frame in which its posture was read.
     pub(super) frame: usize,
+    /// The first frame of the sign.
     pub(super) first: usize,
     pub(super) stand: Stand,
     pub(super) symmetric: bool,
     pub(super) alone: bool,
-    /// By how much the other hand is elsewhere than where it began.
+    /// Offset (m) by which the other hand's place is shifted from its measured one.
     pub(super) behind: Option<DVec3>,
 }
 
@@ -99,7 +100,8 @@ impl Seen {
     }
 }
 
-/// Returns how far the hand that signs is from a place, and that place from another.
+/// Returns the distance of the signing hand from a place, and that of the place's goal from another
+/// place's.
 pub(super) fn off_place(
     scene: &Scene<'_>,
     options: &Options,
@@ -118,18 +120,21 @@ pub(super) fn off_place(
 struct Writer<'a> {
     scene: &'a Scene<'a>,
     sight: &'a Sight<'a>,
-    /// The hand that signs where only one does.
+    /// The index of the hand that signs if only one does.
     lead: usize,
     features: Vec<Feature>,
     stages: Vec<Stage>,
     findings: Vec<String>,
-    /// The number of the action that is written, and the frames of what is written.
+    /// The number of the current action.
     action: Option<usize>,
+    /// The frames of the current posture or action.
     frames: (usize, usize),
     picked: Picked,
-    /// By how much the other hand is elsewhere than where it began, the first frame of the sign, and how it begins.
+    /// Offset (m) by which the other hand's place is shifted from its measured one.
     behind: Option<DVec3>,
+    /// The first frame of the sign.
     first: usize,
+    /// How the sign begins, once it is written.
     begun: Option<Begun>,
 }
 
@@ -218,7 +223,7 @@ impl<'a> Writer<'a> {
         self.done(manual, first, last + 1)
     }
 
-    /// Returns which hands act; a skeleton with one arm signs with that.
+    /// Returns the hands that act; on a skeleton with one arm, that one.
     fn used(&self, kind: &RelationKind) -> HandsUsed {
         match kind {
             RelationKind::Alike(symmetry) => HandsUsed::Both(*symmetry),
@@ -242,7 +247,7 @@ impl<'a> Writer<'a> {
         (told, self.begun)
     }
 
-    /// Says what the skeleton does not show.
+    /// Reports what the skeleton does not show.
     fn lacks(&mut self) {
         for track in self.scene.hands.iter().flatten() {
             let side = track.side.name();
@@ -280,7 +285,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Says where nothing is signed: hands that hang, or arms that stick out, all the time.
+    /// Reports that nothing is signed: hands that hang, or arms that stick out, all the time.
     fn rests(&mut self) {
         let mut hands = self.scene.hands.iter().flatten();
         if hands.all(|track| track.rests.iter().all(|rests| *rests)) {
@@ -292,7 +297,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Writes what each hand does where they move for themselves.
+    /// Writes the acts of each hand, if they move for themselves.
     fn split(
         &mut self,
         first: usize,
@@ -342,7 +347,7 @@ impl<'a> Writer<'a> {
         vec![split(whole(a), whole(b))]
     }
 
-    /// Writes an act that begins so many frames after what was before.
+    /// Writes an act that begins `idle` frames after the one before.
     fn motion(
         &mut self,
         hand: usize,
@@ -418,7 +423,7 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// How two hands go together that mirror each other to begin with, and then do not.
+/// Returns the relation of two hands that mirror each other at first, and then do not.
 fn mirrored(relation: &Relation) -> Relation {
     Relation {
         kind: RelationKind::Alike(MIRRORED),
@@ -427,7 +432,8 @@ fn mirrored(relation: &Relation) -> Relation {
     }
 }
 
-/// Lets two hands mirror each other to begin with; the other one does nothing of what the dominant one does alone.
+/// Makes two hands mirror each other in the first posture; the other hand stays still while the dominant
+/// one acts.
 pub(super) fn mirror(part: &mut Manual) {
     part.hands = HandsUsed::Both(MIRRORED);
     for motion in &mut part.actions {
@@ -439,7 +445,7 @@ pub(super) fn mirror(part: &mut Manual) {
     }
 }
 
-/// Returns the joints that a handshape is told by.
+/// Returns the joints that define a handshape.
 fn joints(side: Side) -> impl Iterator<Item = Part> {
     let thumb = (0..3).map(move |n| Part::Thumb(side, n));
     let fingers = Finger::ALL.into_iter();
@@ -475,7 +481,7 @@ fn circular(
         },
         ellipse,
         ellipse_size: ellipse.and_then(|_| {
-            // The narrower, the bigger.
+            // A narrower ellipse is written as a bigger one.
             sized(
                 1.0 / narrow,
                 [l.ellipse_small, l.ellipse_normal, l.ellipse_big].map(|x| 1.0 / x),
@@ -492,7 +498,7 @@ fn circular(
     }
 }
 
-/// Returns the size nearest to a measure by ratio; the residual is the ratio's logarithm.
+/// Returns the size whose ratio to a measure is nearest to 1; the residual is the ratio's logarithm.
 fn sized(measure: f64, sizes: [f64; 3]) -> Found<Option<Size>> {
     let named = [Some(Size::Small), None, Some(Size::Big)];
     let off = |size: f64| (measure.max(1e-6) / size).ln().abs();

@@ -1,4 +1,4 @@
-//! Ways through space: straight, curved, in waves, or round and round.
+//! Paths through space: straight, curved, waves, circles.
 
 use std::f64::consts::TAU;
 
@@ -6,29 +6,30 @@ use glam::{DMat3, DVec3};
 
 use super::scene::length;
 
-/// A way is taken to be off by so much in made movement, in metres.
+/// Expected error of a path in synthesised movement, in metres.
 pub(crate) const EXACT: f64 = 0.002;
-/// Ways are looked at through so many points, evenly along them.
+/// The number of points, evenly spaced along a path, that fits use.
 const POINTS: usize = 48;
-/// An arc at least so deep against its chord is one: half of the shallowest that is notated.
+/// Smallest ratio of depth to chord of an arc: half of the shallowest that is notated.
 const CURVED: f64 = 0.075;
-/// A shallower one is an arc where it is so deep at least, in metres and against its chord, and off by no
-/// more than this share of what a straight way is.
+/// A shallower path is an arc if it is at least this deep (m), at least this deep against its chord, and
+/// its error is at most this share of the straight path's.
 const SHALLOW: (f64, f64, f64) = (0.015, 0.035, 0.15);
-/// A way round counts as a circle from this angle on: five sixths of a turn.
+/// Smallest angle (rad) of a full circle: five sixths of a turn.
 pub(super) const ROUND: f64 = TAU * 0.83;
-/// From this angle on it is part of a circle rather than an arc, of which the deepest is half a turn, where it
-/// is off by less than this share of the radius.
+/// Smallest angle (rad) of an incomplete circle; below it the path is an arc, of which the deepest is half
+/// a turn.
 const PART: f64 = TAU * 0.75;
+/// Largest error of an incomplete circle, as a share of its radius.
 const PART_OFF: f64 = 0.12;
 
-/// A way there and back that is narrower than this against its length is no ellipse.
+/// A path to and fro that is narrower than this share of its length is not an ellipse.
 const NARROW: f64 = 0.3;
 
-/// Part of a circle is hardly narrower than this.
+/// Smallest ratio of the radii of an incomplete circle.
 const WIDE: f64 = 0.7;
 
-/// A way that a hand goes; lengths in metres.
+/// The path of a hand; lengths in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Way {
     /// Straight.
@@ -43,43 +44,44 @@ pub(crate) enum Way {
         /// From the chord's middle to the arc's.
         bow: DVec3,
     },
-    /// To and fro across a way.
+    /// Zigzag or wave across the direction of movement.
     Wave {
         /// From start to end.
         chord: DVec3,
         /// Half the width.
         width: f64,
-        /// In waves, not in corners.
+        /// Whether it runs in waves; zigzag otherwise.
         wavy: bool,
     },
-    /// Round and round.
+    /// A circle or ellipse.
     Circle {
         /// The unit vector it turns about by the right-hand rule.
         axis: DVec3,
-        /// How many turns.
+        /// The number of turns.
         turns: f64,
         /// The longer radius and its direction.
         long: DVec3,
-        /// The shorter radius against the longer one.
+        /// The ratio of the shorter radius to the longer one.
         narrow: f64,
-        /// From the centre to where it begins, and to where it ends, of unit length.
+        /// Unit vector from the centre to its start.
         start: DVec3,
+        /// Unit vector from the centre to its end.
         end: DVec3,
     },
 }
 
-/// A way that was fitted, with how far off it is.
+/// A fitted path, with its error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Fitted {
     pub(crate) way: Way,
-    /// The root of the mean square of the distance in metres.
+    /// The root of the mean square of the distance, in metres.
     pub(super) residual: f64,
     /// The next simpler or deeper kind, with its residual.
     pub(super) runner_up: Option<(Way, f64)>,
 }
 
 impl Way {
-    /// Returns its kind in a word.
+    /// Returns the name of its kind.
     pub(super) fn kind(&self) -> &'static str {
         match self {
             Self::Straight { .. } => "straight",
@@ -90,7 +92,7 @@ impl Way {
         }
     }
 
-    /// Returns where it goes: its chord, or the axis it goes round.
+    /// Returns its direction: that of its chord, or the axis of a circle.
     pub(super) fn line(&self) -> DVec3 {
         match *self {
             Self::Circle { axis, .. } => axis,
@@ -98,7 +100,7 @@ impl Way {
         }
     }
 
-    /// Returns where it ends against where it began.
+    /// Returns the vector from its start to its end.
     pub(super) fn chord(&self) -> DVec3 {
         match *self {
             Self::Straight { chord } | Self::Arc { chord, .. } | Self::Wave { chord, .. } => chord,
@@ -107,8 +109,8 @@ impl Way {
     }
 }
 
-/// Fits every kind of way to points in order of time and returns the best, of a hand that may be off by
-/// `exact` metres: smaller bows and waves are none.
+/// Fits every kind of path to points in order of time and returns the best one. Hands may be off by
+/// `exact` metres: smaller bows and waves are ignored.
 pub(crate) fn fit(points: &[DVec3], exact: f64) -> Fitted {
     let points = evenly(points, POINTS);
     let (first, last) = (points[0], points[points.len() - 1]);
@@ -148,7 +150,7 @@ pub(crate) fn fit(points: &[DVec3], exact: f64) -> Fitted {
     }
 }
 
-/// Returns points evenly along the way through others.
+/// Returns `count` points evenly spaced along a polyline.
 pub(crate) fn evenly(points: &[DVec3], count: usize) -> Vec<DVec3> {
     let whole = length(points);
     if points.len() < 2 || whole <= 0.0 {
@@ -173,7 +175,7 @@ pub(crate) fn evenly(points: &[DVec3], count: usize) -> Vec<DVec3> {
     even
 }
 
-/// Returns the root of the mean square of the distance to what a share of the way gives.
+/// Returns the root of the mean square of the distance between the points and `at` (share of the path).
 fn off(points: &[DVec3], at: impl Fn(f64) -> DVec3) -> f64 {
     let last = (points.len() - 1) as f64;
     let squares = points
@@ -183,7 +185,7 @@ fn off(points: &[DVec3], at: impl Fn(f64) -> DVec3) -> f64 {
     (squares.sum::<f64>() / points.len() as f64).sqrt()
 }
 
-/// Returns where one is on the arc over a chord, `s` of its length done.
+/// Returns the point of the arc over a chord at the share `s` of its length.
 fn along_arc(chord: DVec3, bow: DVec3, s: f64) -> DVec3 {
     let (width, depth) = (chord.length(), bow.length());
     if depth < 1e-9 || width < 1e-9 {
@@ -195,7 +197,7 @@ fn along_arc(chord: DVec3, bow: DVec3, s: f64) -> DVec3 {
     chord * along + bow * ((radius * angle.cos() - (radius - depth)) / depth)
 }
 
-/// Fits a circle or ellipse; nothing where the way does not go round.
+/// Fits a circle or ellipse; `None` if the path does not go round.
 fn circle(points: &[DVec3], exact: f64) -> Option<(Way, f64)> {
     let mean = points.iter().sum::<DVec3>() / points.len() as f64;
     let area: DVec3 = points
@@ -280,7 +282,7 @@ fn centred(points: &[DVec3], axis: DVec3) -> Option<DVec3> {
     at.is_finite().then_some(at)
 }
 
-/// Fits a way to and fro; nothing where it does not go on along its chord or crosses it too rarely.
+/// Fits a zigzag or wave; `None` if the path does not advance along its chord or crosses it too rarely.
 fn wave(points: &[DVec3], exact: f64) -> Option<(Way, f64)> {
     let first = points[0];
     let chord = points[points.len() - 1] - first;
@@ -320,7 +322,7 @@ fn wave(points: &[DVec3], exact: f64) -> Option<(Way, f64)> {
         .iter()
         .map(|v| (*v - side * v.dot(side)).length_squared());
     let residual = (lift.sum::<f64>() / points.len() as f64).sqrt();
-    // A sine spends more of its way at its turns than corners do.
+    // A sine spends more of its path near its turns than corners do.
     let far = across.iter().filter(|x| x.abs() > 0.8 * width).count();
     let wavy = far as f64 / points.len() as f64 > 0.26;
     Some((Way::Wave { chord, width, wavy }, residual))

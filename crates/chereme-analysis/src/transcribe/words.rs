@@ -9,7 +9,7 @@ use chereme_sign::hamnosys::{
     Symbol, text_of,
 };
 
-/// A value in words and as HamNoSys; that is empty where nothing is written for it.
+/// A value in words and as HamNoSys, which is empty if the value is written by omission.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Said {
     pub(super) words: String,
@@ -24,7 +24,7 @@ impl Said {
         }
     }
 
-    /// A value with one symbol, or with none where the usual is not written.
+    /// Creates a value with one symbol, or without if the usual value is not written.
     fn marked(words: &str, mark: Option<Kind>) -> Self {
         let symbol = mark.and_then(Symbol::of).map(Symbol::char);
         Self::new(words, symbol.map(String::from).unwrap_or_default())
@@ -35,7 +35,7 @@ fn manual(part: Manual) -> String {
     text_of(&Sign { parts: vec![part] })
 }
 
-/// Returns the HamNoSys of a posture of those who act.
+/// Returns the HamNoSys of a posture of the acting hands.
 pub(super) fn begun(hands: HandsUsed, posture: Posture) -> String {
     manual(Manual {
         hands,
@@ -56,7 +56,7 @@ pub(super) fn motion(motion: &Motion) -> String {
     })
 }
 
-/// Returns the HamNoSys of which hands act.
+/// Returns the HamNoSys of the acting hands.
 pub(super) fn hands(hands: HandsUsed) -> String {
     manual(Manual {
         hands,
@@ -80,7 +80,7 @@ pub(super) fn palm(aim: &Aim<Compass>) -> Said {
     Said::new(aimed(aim), text)
 }
 
-/// Returns a direction that something goes, or the axis it goes round.
+/// Returns the direction of a movement, or its axis if it is `round`.
 pub(super) fn course(aim: &Aim<Direction>, round: bool) -> Said {
     let kind = if round { Kind::Circle } else { Kind::Move };
     let text = match aim.first.corner_parts() {
@@ -156,7 +156,7 @@ fn digits(digits: &Digits) -> String {
         .collect()
 }
 
-/// Returns a place without how near the hand comes to it.
+/// Returns a place without its contact.
 pub(super) fn place(place: &BodyPlace) -> Said {
     let neutral = || "neutral space".to_owned();
     let mut words = place.site.as_ref().map_or_else(neutral, site);
@@ -171,7 +171,7 @@ pub(super) fn place(place: &BodyPlace) -> Said {
     Said::new(words, placed(Place::Body(alone)))
 }
 
-/// Returns how near a hand comes to a place, with the part of it that is meant.
+/// Returns the contact at a place, with the part of the hand that is named.
 pub(super) fn nearness(place: &BodyPlace) -> Said {
     let alone = BodyPlace {
         contact: place.contact,
@@ -194,7 +194,7 @@ pub(super) fn nearness(place: &BodyPlace) -> Said {
     )
 }
 
-/// Returns how the two hands are by each other.
+/// Returns the constellation of the two hands.
 pub(super) fn together(hands: &Constellation) -> Said {
     let part = |site: &Option<HandSite>| site.as_ref().map(hand_site).unwrap_or_default();
     let words = format!(

@@ -1,4 +1,4 @@
-//! Where a hand's movement is cut: at rest, and at minima of its speed.
+//! Cuts a hand's movement: at rest, and at minima of its speed.
 
 use std::ops::RangeInclusive;
 
@@ -9,35 +9,42 @@ use super::super::way::Way;
 use super::{GAP, Mover, Seeing, TURNED};
 use crate::strokes::{between_minima, smoothed};
 
-/// The least peak of speed of a way in arm lengths a second, and of a turn in radians a second.
+/// Smallest peak of speed of a path (arm lengths per second) and of a turn (radians per second).
 pub(super) const LEAST: (f64, f64) = (0.12, 0.35);
-/// The least length of a way in arm lengths: a third of a small movement.
+/// Paths shorter than this (arm lengths) are ignored: a third of a small movement.
 const SHORT: f64 = 0.035;
-/// A small way that takes less time than this is none, in seconds: the fastest ones take twice as long.
+/// Small displacements shorter than this (s) are ignored; the fastest real ones take twice as long.
 const BRIEF: f64 = 0.11;
-/// A hand stops where it is slower than this share of its speed before and after.
+/// A hand stops between two paths if its speed there is below this share of its top speed on both.
 const STOPS: f64 = 0.2;
-/// It goes on round a corner above this share, where it comes back to where it began by another way: a circle
-/// that the body flattens. So near to whole turns, and so wide against its length, that is a loop.
+/// The hand goes on round a corner if its speed there is above this share of its top speed, provided that
+/// the joined path is a loop back to its start: a circle that the body flattens.
 const CORNERS: f64 = 0.12;
+/// A loop is closed if its angle differs from whole turns by less than this (turns).
 const CLOSED: f64 = 0.08;
+/// A loop's shorter radius is at least this share of its longer one.
 const ROUNDISH: f64 = 0.5;
+/// A flattened loop's error is below this share of its longer radius.
 const FLATTENED: f64 = 0.22;
-/// A hand that only slows down goes on, above this share of its speed before and after, where it goes on within so
-/// many radians: as it signs, and from and to rest.
+/// A hand that only slows down goes on if its speed stays above this share of its top speed before and
+/// after.
 const SLOWS: f64 = 0.35;
+/// Within a sign, such a hand goes on if it changes direction by less than this (rad).
 const ONWARD: f64 = 0.6;
+/// From and to rest, such a hand goes on if it changes direction by less than this (rad).
 const TURNS: f64 = 1.05;
-/// What loose hands do once must be as long as this share of a small movement.
+/// A single path of a loosely moving hand must be at least this share of a small movement long.
 const FAINT: f64 = 0.5;
-/// A way back goes back within so many radians, and its length differs by no more than this factor.
+/// A path leads back if its direction differs from the reverse by less than the first number (rad) and its
+/// length by at most the second number as a factor.
 const BACK: (f64, f64) = (0.8, 2.0);
-/// The height of hands that rest before the belly against the shoulders, and how far they come up from
-/// there, in arm lengths.
+/// Height below which a hand may rest in the lap or before the belly, relative to the shoulders (arm
+/// lengths).
 pub(in crate::transcribe) const LAP: f64 = -0.65;
+/// A hand leaves the lap if it rises by more than this (arm lengths).
 const RISE: f64 = 0.4;
 
-/// The frames in which a hand signs, ways from and to rest cut off.
+/// Returns the frames in which a hand signs, without its paths from and to rest.
 pub(in crate::transcribe) fn signing(scene: &Scene<'_>, track: &Track) -> RangeInclusive<usize> {
     let last = track.palm.len() - 1;
     let nothing = Seeing {
@@ -53,13 +60,13 @@ pub(in crate::transcribe) fn signing(scene: &Scene<'_>, track: &Track) -> RangeI
     };
     let mut first = 0;
     let mut end = last;
-    // Hands that lie in the lap or are folded before the belly rest, if they come up far from there.
+    // Hands in the lap or folded before the belly are at rest if they later rise far from there.
     let lies = |low: usize, high: usize| {
         let (low, high) = (track.palm[low].y, track.palm[high].y);
         low < LAP * scene.arm && high - low > RISE * scene.arm
     };
     let rests = |low: usize, high: usize| track.rests[low] || lies(low, high);
-    // A hand may stir while it rests, before it comes up or after it went down.
+    // A hand may stir while it rests, before it rises or after it sinks.
     let stirs = |way: &&RangeInclusive<usize>| {
         let mut ends = [*way.start(), *way.end()].into_iter();
         ends.all(|n| track.rests[n] || track.palm[n].y < LAP * scene.arm)
@@ -87,7 +94,8 @@ pub(in crate::transcribe) fn signing(scene: &Scene<'_>, track: &Track) -> RangeI
     first..=end.max(first)
 }
 
-/// Returns the stretches in which the hand goes somewhere, between minima of its speed, and the speeds.
+/// Returns the stretches in which the hand moves, cut at minima of its speed, and the speed (m/s) in each
+/// frame.
 pub(super) fn ways(
     scene: &Scene<'_>,
     mover: &Mover<'_>,
@@ -108,7 +116,7 @@ pub(super) fn ways(
     (found, speeds)
 }
 
-/// Cuts at minima of speed; speeds before and after are taken for zero.
+/// Cuts at minima of speed; before the first and after the last frame the speed is taken as zero.
 pub(super) fn cut(
     scene: &Scene<'_>,
     speeds: &[f64],
@@ -130,7 +138,8 @@ pub(super) fn cut(
         .collect()
 }
 
-/// Returns the ways that are long enough to be meant by hands as loose as these, or that are gone back and forth.
+/// Returns the paths that are long enough to be meant, given how loosely the hands move, and shorter ones
+/// that alternate back and forth.
 pub(super) fn sure(
     scene: &Scene<'_>,
     mover: &Mover<'_>,
@@ -155,13 +164,15 @@ pub(super) fn sure(
     kept.into_iter().map(|n| ways[n].clone()).collect()
 }
 
-/// Tells whether a way is too brief and short to be meant: the hand comes into its posture, or leaves it.
+/// Returns whether a path is too brief and short to be meant: the hand only settles into its posture, or
+/// leaves it.
 pub(super) fn is_brief(scene: &Scene<'_>, mover: &Mover<'_>, first: usize, last: usize) -> bool {
     scene.seconds(last - first) < BRIEF
         && mover.shortest(first, last) < scene.language.move_small * scene.arm
 }
 
-/// Joins stretches that together are a circle or a wave, and between which the hand does not stop.
+/// Joins stretches that together form a circle, a wave or one continued path, and between which the hand
+/// does not stop.
 pub(super) fn joined(
     scene: &Scene<'_>,
     mover: &Mover<'_>,
@@ -212,8 +223,8 @@ pub(super) fn joined(
     found
 }
 
-/// Tells whether a hand goes on from one way to the next, without being slower between them than a share of its
-/// speed on them.
+/// Returns whether a hand keeps moving from one path to the next: its speed between them stays above
+/// `share` of its top speed on both.
 fn slows(
     scene: &Scene<'_>,
     [before, next]: [&RangeInclusive<usize>; 2],
@@ -226,7 +237,7 @@ fn slows(
         && slowest > share * fastest(before).min(fastest(next))
 }
 
-/// Returns by what angle a hand goes on otherwise than before.
+/// Returns the angle (rad) between the directions of two successive paths.
 fn turn(track: &Track, ways: [&RangeInclusive<usize>; 2]) -> f64 {
     let [before, next] = ways.map(|way| track.palm[*way.end()] - track.palm[*way.start()]);
     before.angle_between(next)

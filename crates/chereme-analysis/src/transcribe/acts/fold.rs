@@ -1,4 +1,4 @@
-//! Repetitions folded: circles on end, there and back again, the same again.
+//! Folds repetitions: consecutive circles, to and fro, the same again.
 
 use chereme_sign::hamnosys::Repeat;
 use glam::DVec3;
@@ -7,20 +7,21 @@ use super::super::scene::{Scene, Track, scaled};
 use super::super::way::Way;
 use super::{Act, Kind};
 
-/// Two changes are the same, or each other's opposite, where they differ by less than this share.
+/// Two changes are the same, or opposite, if they differ by less than this share of the bigger one.
 const ALIKE: f64 = 0.5;
-/// What is done again grows where each time is by so much more than the one before: some half of what it
-/// grows by in notation.
+/// A repetition grows if each execution is at least this factor bigger than the one before: about half of
+/// the growth that notation means.
 const GROWS: f64 = 1.18;
 
-/// What an act changes, each part by what is usual: a way, a turn, the fingers.
+/// Returns the change that an act brings, as one vector: displacement, turn and finger angles, each in
+/// units of its usual size.
 fn change(scene: &Scene<'_>, track: &Track, act: &Act) -> Vec<f64> {
     let (first, last) = (act.first(), act.last());
     let chord = match &act.kind {
         Kind::Way(fitted) => fitted.way.chord() / (scene.language.move_normal * scene.arm),
         _ => DVec3::ZERO,
     };
-    // Forth and back are opposite only in one and the same frame: that of the body.
+    // Opposite turns cancel only in one common frame: that of the body.
     let turn = scaled(track.turned[last] * track.turned[first].inverse()) / 0.8;
     let mut all = chord.to_array().to_vec();
     if act.turned {
@@ -42,7 +43,7 @@ fn apart(a: &[f64], b: &[f64], sign: f64) -> f64 {
     norm(&off) / norm(a).max(norm(b)).max(1e-9)
 }
 
-/// Folds repetitions: circles on end, there and back again, and on and on.
+/// Folds repeated acts into one act each: consecutive circles, to and fro, the same again.
 pub(super) fn folded(scene: &Scene<'_>, track: &Track, acts: Vec<Act>) -> Vec<Act> {
     let changes: Vec<Vec<f64>> = acts.iter().map(|act| change(scene, track, act)).collect();
     let mut found: Vec<Act> = Vec::new();
@@ -90,12 +91,13 @@ pub(super) fn folded(scene: &Scene<'_>, track: &Track, acts: Vec<Act>) -> Vec<Ac
     found
 }
 
-/// Tells whether what is done again grows, or shrinks, from each time to the next; `step` counts ways back.
+/// Returns whether the executions grow (true) or shrink (false) in turn; with `step` 2 only every other
+/// one counts, as those between lead back.
 fn growth(changes: &[Vec<f64>], step: usize) -> Option<bool> {
     let sizes: Vec<f64> = changes.iter().step_by(step).map(|it| norm(it)).collect();
     let by = |least: fn(f64, f64) -> bool| sizes.windows(2).all(|pair| least(pair[0], pair[1]));
     match sizes.len() {
-        // Two that differ are no more than two that differ.
+        // Two executions are too few to show growth.
         0..=2 => None,
         _ if by(|a, b| b > GROWS * a) => Some(true),
         _ if by(|a, b| a > GROWS * b) => Some(false),
@@ -129,7 +131,7 @@ fn is_round(act: &Act) -> bool {
     turns(act).is_some()
 }
 
-/// Returns how many circles about one axis follow each other.
+/// Returns how many consecutive circles about one axis begin the list.
 fn rounds(acts: &[Act]) -> usize {
     let axis = |act: &Act| match &act.kind {
         Kind::Way(fitted) => match fitted.way {

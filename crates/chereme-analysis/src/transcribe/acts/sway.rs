@@ -1,26 +1,27 @@
-//! Hands that go to and fro about the wrist, and fingers that play.
+//! Finds hands that turn to and fro about the wrist, and fingers that play.
 
 use chereme_sign::hamnosys::{Digit, Digits, WristMotion};
 use glam::DVec3;
 
 use super::super::scene::{Scene, Track, scaled};
 
-/// The least range of a hand or finger that goes to and fro, in radians.
+/// Smallest range of a hand or finger that moves to and fro, in radians.
 const SWAY: f64 = 0.12;
-/// A hand sways about one axis while it turns about another one at least by this share of that turn.
+/// A hand turns to and fro about an axis only if that range is at least this share of its widest one about
+/// any axis.
 const BESIDES: f64 = 0.4;
 
-/// A hand or fingers that go to and fro.
+/// A movement to and fro of wrist or fingers.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::transcribe) enum Sway {
-    /// About the wrist, so far to either side in radians, so often.
+    /// About the wrist: by `angle` radians to either side, `cycles` times.
     Wrist {
         motion: WristMotion,
         angle: f64,
         cycles: f64,
         runner_up: Option<(WristMotion, f64)>,
     },
-    /// Fingers play, each so often.
+    /// Fingers play, each `cycles` times.
     Play { digits: Digits, cycles: f64 },
 }
 
@@ -33,7 +34,7 @@ impl Sway {
     }
 }
 
-/// Returns a movement of the wrist in a word.
+/// Returns the name of a wrist movement.
 pub(in crate::transcribe) fn wrist_name(motion: WristMotion) -> &'static str {
     match motion {
         WristMotion::Nodding => "nodding",
@@ -44,7 +45,8 @@ pub(in crate::transcribe) fn wrist_name(motion: WristMotion) -> &'static str {
     }
 }
 
-/// Returns how the hand sways about the wrist, from the middle of its range.
+/// Returns the movement of the hand to and fro about the wrist, measured from the middle of its range;
+/// `None` if there is no such movement.
 pub(super) fn wrist(scene: &Scene<'_>, track: &Track, first: usize, last: usize) -> Option<Sway> {
     let start = track.turned[first].inverse();
     let turns: Vec<DVec3> = (first..=last)
@@ -53,7 +55,7 @@ pub(super) fn wrist(scene: &Scene<'_>, track: &Track, first: usize, last: usize)
     let parts: [Vec<f64>; 3] = std::array::from_fn(|axis| turns.iter().map(|t| t[axis]).collect());
     let swings = parts.each_ref().map(|part| Swing::of(part));
     let widest = swings.iter().map(|swing| swing.range).fold(0.0, f64::max);
-    // A hand may turn to another posture while it sways about another axis.
+    // A hand may turn to another orientation about one axis while it moves to and fro about another.
     let sways = |swing: &Swing| {
         swing.range >= (SWAY * scene.loose).max(BESIDES * widest)
             && swing.turning >= 2
@@ -103,7 +105,7 @@ pub(super) fn wrist(scene: &Scene<'_>, track: &Track, first: usize, last: usize)
     })
 }
 
-/// Returns whether fingers play over the whole of a stretch, and which.
+/// Returns the fingers that play over the whole of a stretch, if any.
 pub(super) fn play(scene: &Scene<'_>, track: &Track, first: usize, last: usize) -> Option<Sway> {
     let column = |digit: usize| -> Vec<f64> {
         let at = |n: usize| match digit {
@@ -134,15 +136,15 @@ pub(super) fn play(scene: &Scene<'_>, track: &Track, first: usize, last: usize) 
     })
 }
 
-/// A number that goes to and fro.
+/// The statistics of a number that moves to and fro.
 #[derive(Debug, Clone, Copy)]
 struct Swing {
     range: f64,
-    /// How often it turns back.
+    /// The number of reversals.
     turning: usize,
-    /// Where in its range it starts, 0 to 1.
+    /// Where in its range it starts, from 0 to 1.
     start: f64,
-    /// From its start to its end.
+    /// The difference between its end and its start.
     net: f64,
 }
 

@@ -1,29 +1,31 @@
-//! What a wrist and forearm can do: a hand that should be turned farther stops at their end.
+//! Limits of wrist and forearm: a hand that should turn farther stops there.
 
 use chereme_sign::hamnosys::BodyLanguage;
 use glam::{DQuat, DVec3};
 
-/// A forearm whose hand may be turned only so far.
+/// A forearm with the limits of its hand's orientation.
 #[derive(Debug, Clone, Copy)]
 pub(in crate::transcribe) struct Wrist {
-    /// From elbow to wrist, and where the palm faces while the thumb is up; of unit length.
+    /// Unit vector from elbow to wrist.
     forearm: DVec3,
+    /// Unit vector that the palm faces while the thumb is up.
     inner: DVec3,
-    /// Makes a right hand of a left one.
+    /// Factors that turn a left hand into a right one.
     mirror: DVec3,
-    /// How far back and forth it bends, towards the little finger and the thumb, and turns palm down and
-    /// up; in radians.
+    /// Limits of bending, backward and forward (rad).
     flexion: [f64; 2],
+    /// Limits of bending towards the little finger and towards the thumb (rad).
     deviation: [f64; 2],
+    /// Limits of turning palm down and palm up (rad).
     turn: [f64; 2],
 }
 
-/// A hand's axis and where its palm faces, of unit length and at right angles.
+/// A hand's axis and the direction of its palm: unit vectors at right angles.
 pub(super) type Axes = [DVec3; 2];
 
 impl Wrist {
-    /// Looks at an arm by its shoulder, elbow and wrist to the left, up and forward; nothing where it is too
-    /// straight to tell how the forearm is turned. `left` where it is that of a left hand.
+    /// Takes the positions of shoulder, elbow and wrist (left, up, forward); `left` for a left hand.
+    /// Returns `None` if the arm is too straight to show how the forearm is turned.
     pub(in crate::transcribe) fn of(
         [shoulder, elbow, wrist]: [DVec3; 3],
         left: bool,
@@ -49,8 +51,9 @@ impl Wrist {
         })
     }
 
-    /// Returns how a hand may be turned that should be turned like this, if it cannot be: at the ends of wrist
-    /// and forearm, bent less in either way alike or the shortest way back, and turned to either end.
+    /// Returns the orientations at which a hand stops that cannot reach the `asked` one: at the limits of
+    /// wrist and forearm, with both bends reduced in proportion or to the nearest point of the limit, and
+    /// turned to either end. Empty if the hand can reach it.
     pub(super) fn stopped(&self, asked: Axes) -> Vec<Axes> {
         let [flexion, deviation, turn] = self.angles(asked.map(|axis| axis * self.mirror));
         let ends = [(flexion, self.flexion), (deviation, self.deviation)];
@@ -80,8 +83,8 @@ impl Wrist {
             .collect()
     }
 
-    /// Returns how a hand hangs on the forearm: towards its palm, towards its thumb, and turned palm up from
-    /// thumb up.
+    /// Returns the angles of a hand on the forearm (rad): towards its palm, towards its thumb, and the
+    /// turn from thumb up to palm up.
     fn angles(&self, [along, palm]: Axes) -> [f64; 3] {
         let forearm = self.forearm;
         let radial = along.cross(palm);
@@ -94,7 +97,7 @@ impl Wrist {
         [flexion, deviation, turn]
     }
 
-    /// Returns the hand that hangs like this: what [`angles`](Self::angles) takes apart.
+    /// Returns the axes of a hand with these angles: the inverse of [`angles`](Self::angles).
     fn hung(&self, [flexion, deviation, turn]: [f64; 3]) -> Axes {
         let palm = DQuat::from_axis_angle(self.forearm, turn) * self.inner;
         let radial = self.forearm.cross(palm);
@@ -107,8 +110,8 @@ impl Wrist {
     }
 }
 
-/// Returns the point of an ellipse about nothing with these half axes that is nearest to a point outside: by
-/// Newton's method for where the normal leads to the point (Eberly, *Distance from a point to an ellipse*).
+/// Returns the point of an ellipse about the origin with these half axes that is nearest to a point
+/// outside. Newton's method for the foot of the normal (Eberly, *Distance from a point to an ellipse*).
 fn nearest_on_ellipse(point: [f64; 2], ends: [f64; 2]) -> [f64; 2] {
     let at = |t: f64| -> [f64; 2] {
         std::array::from_fn(|n| ends[n] * point[n] / (t + ends[n] * ends[n]))

@@ -1,10 +1,11 @@
-//! The places that are told apart, alone and half-way between two.
+//! Candidate places: single ones, and those half-way between two.
 
 use chereme_sign::hamnosys::sites::Region;
 use chereme_sign::hamnosys::{BodyLocation, Contact, Side, Site};
 use glam::DVec3;
 
-/// Places that are told apart; those within them (teeth, eyelids) are said where one is surer.
+/// The places that a hand's position can distinguish; finer ones (teeth, eyelids) are beyond the
+/// measurement.
 const PLACES: [BodyLocation; 24] = [
     BodyLocation::Chest,
     BodyLocation::Shoulders,
@@ -39,59 +40,65 @@ const SIDES: [Option<Side>; 5] = [
     Some(Side::LeftBeside),
 ];
 
-/// How much less likely it is, in nepers, that half-way between two places is meant than one of them, and that
-/// they differ in height and side; a place that is rarely meant; half-way to the shoulder's top without touching
-/// it; the other side, and beside the body; the more, the farther two places are from each other; one at the trunk
-/// and one at the head.
+/// Penalty (nepers) for a place half-way between two.
 const BETWEEN: f64 = 1.2;
+/// Additional penalty (nepers) if the two differ in both height and side.
 const OBLIQUE: f64 = 1.0;
+/// Penalty (nepers) for a place that annotators rarely write.
 const RARE: f64 = 2.0;
+/// Penalty (nepers) for a place half-way to the top of the shoulder without contact.
 pub(super) const TOP: f64 = 1.0;
+/// Penalty (nepers) for the left side of the body.
 const ACROSS: f64 = 1.0;
+/// Penalty (nepers) for a place next to the body.
 const BESIDE: f64 = 1.5;
+/// Penalty (nepers) for the distance between the two places, per [`APART`].
 const WIDE: f64 = 0.6;
+/// Penalty (nepers) if one place is at the trunk and the other at the head.
 const REGIONS: f64 = 2.0;
-/// Half-way between places that another one lies between costs this besides: that one would be said.
+/// Extra penalty (nepers) if another place lies between the two: an annotator would write that one.
 const SKIPS: f64 = 2.0;
-/// Half-way between two that are farther from each other, or to either side, costs this besides.
+/// Extra penalty (nepers) if the two are farther apart than [`APART`], or on opposite sides.
 const DISTANT: f64 = 1.5;
-/// What lies nearer to the middle of two places than this share of the way to either lies between.
+/// A place lies between two others if its distance from their midpoint is below this share of half their
+/// distance.
 const BETWEEN_THEM: f64 = 0.6;
-/// Half-way between two places may be meant that are nearer to each other than this, in metres.
+/// Largest distance (m) between two places that notation usually joins.
 const APART: f64 = 0.2;
-/// As above, of one place and beside it.
+/// Largest distance (m) between a place and the same place at or next to its side.
 const ASIDE: f64 = 0.35;
-/// As above, where one is at the neck and the other at the head.
+/// Largest distance (m) between a place at the neck and one at the head.
 const ABOVE: f64 = 0.3;
 
-/// A place on the body: where it is, and where a hand is that is before it.
+/// A place on the body, with the normal along which a hand is put before it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Spot {
     pub(super) site: Site<BodyLocation>,
-    /// On the body; and its way out.
+    /// The point on the body, in metres (left, up, forward).
     pub(super) at: DVec3,
+    /// The outward unit normal there.
     pub(super) out: DVec3,
     pub(super) region: Region,
-    /// To the left of the middle, in shoulder widths.
+    /// Distance to the left of the middle, in shoulder widths.
     pub(super) lateral: f64,
     pub(super) beside: bool,
 }
 
-/// A place that may be meant: one, or half-way between two.
+/// A candidate place: a single one, or half-way between two.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Choice {
     pub(super) spot: Spot,
     pub(super) second: Option<Site<BodyLocation>>,
-    /// How much less likely it is to be meant than another one, in nepers.
+    /// Its penalty in nepers.
     pub(super) cost: f64,
     pub(super) top: bool,
-    /// Whether it is meant from near only.
+    /// Whether only hands close to it can refer to it.
     near: bool,
-    /// Whether the two are farther from each other than such as are mostly said.
+    /// Whether the two places are farther apart than those that notation usually joins.
     pub(super) far: bool,
 }
 
-/// Returns every place that is told apart; `spot` tells where one is.
+/// Returns every candidate place; `spot` returns the position of a single one.
 pub(super) fn all(spot: impl Fn(&Site<BodyLocation>) -> Option<Spot>) -> Vec<Choice> {
     let spots = spots(spot);
     let mut all = Vec::new();
@@ -119,7 +126,7 @@ pub(super) fn all(spot: impl Fn(&Site<BodyLocation>) -> Option<Spot>) -> Vec<Cho
                 all.push(both);
             };
             add(first, second);
-            // From where it is counted tells how far before it a hand is.
+            // The first of the two regions determines the usual distance of the hand.
             if first.region != second.region {
                 add(second, first);
             }
@@ -150,7 +157,8 @@ fn spots(spot: impl Fn(&Site<BodyLocation>) -> Option<Spot>) -> Vec<Spot> {
     spots
 }
 
-/// Whether a place half-way between two can be meant: of one region, or of the neck and the head.
+/// Returns whether the places half-way between two are usual: both in one region, or at the neck and the
+/// head.
 fn neighbours(a: &Spot, b: &Spot) -> bool {
     let apart = a.at.distance(b.at);
     let opposite = a.lateral * b.lateral < 0.0;
@@ -168,15 +176,15 @@ fn neighbours(a: &Spot, b: &Spot) -> bool {
     apart > 1e-3 && apart < most && !opposite && !arms
 }
 
-/// Whether a place half-way between two that are farther from each other may be meant: of one region, also to
-/// either side of the middle.
+/// Returns whether two distant places may be joined: both in one region, even on opposite sides of the
+/// middle.
 fn distant(a: &Spot, b: &Spot) -> bool {
     let apart = a.at.distance(b.at);
     let arms = matches!(a.region, Region::Arm(_));
     apart > 1e-3 && apart < ASIDE && a.region == b.region && !arms
 }
 
-/// Whether a plain place lies between two.
+/// Returns whether a common place lies between two.
 fn skips(a: &Spot, b: &Spot, plain: &[&Spot]) -> bool {
     let middle = a.at.midpoint(b.at);
     let reach = BETWEEN_THEM * a.at.distance(middle);
@@ -187,12 +195,13 @@ fn skips(a: &Spot, b: &Spot, plain: &[&Spot]) -> bool {
     near.next().is_some()
 }
 
-/// Whether a place is one that hands touch: they are hardly half-way before it.
+/// Returns whether a place is the top of the shoulder, which hands touch: they are hardly half-way to it
+/// without contact.
 fn is_top(spot: &Spot) -> bool {
     spot.site.at == BodyLocation::ShoulderTop
 }
 
-/// Whether a place is rarely meant: those beside it say as much.
+/// Returns whether annotators rarely write a place, because its neighbours mean nearly the same.
 fn is_rare(spot: &Spot) -> bool {
     matches!(
         spot.site.at,
@@ -204,7 +213,7 @@ fn is_rare(spot: &Spot) -> bool {
     )
 }
 
-/// Takes a place, or half-way to a second one.
+/// Builds the candidate for a place, or for the point half-way to a second one.
 fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
     let both = || [Some(first), second].into_iter().flatten();
     let sum = |cost: fn(&Spot) -> f64| both().map(cost).fold(0.0, f64::max);
@@ -227,7 +236,7 @@ fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
     }
 }
 
-/// Returns how much less likely a place is meant than the plainest.
+/// Returns the penalty (nepers) of a single place.
 fn said(spot: &Spot) -> f64 {
     let side = match spot.site.side {
         Some(Side::LeftAt) => ACROSS,
@@ -238,7 +247,7 @@ fn said(spot: &Spot) -> f64 {
     side + if is_rare(spot) { RARE } else { 0.0 }
 }
 
-/// How near a hand may be to a place.
+/// Returns the distances at which a hand may be before a place.
 pub(super) fn contacts(choice: &Choice) -> &'static [Option<Contact>] {
     const ALL: [Option<Contact>; 4] = [
         Some(Contact::Close),
@@ -248,7 +257,8 @@ pub(super) fn contacts(choice: &Choice) -> &'static [Option<Contact>] {
     ];
     match choice.spot.region {
         Region::Arm(_) => &[Some(Contact::Close), Some(Contact::Touch)],
-        // Small places of the head are not meant from afar, and below the chin is the chest.
+        // Small places of the head are not referred to from a distance, and the chest lies in front of the
+        // space below the chin.
         _ if choice.near => &[Some(Contact::Close), Some(Contact::Touch)],
         _ if choice.spot.beside && choice.spot.region == Region::Trunk => &ALL[..3],
         _ => &ALL,

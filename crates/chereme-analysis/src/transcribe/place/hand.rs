@@ -1,4 +1,4 @@
-//! The points of a hand in one posture, and what sites they are called.
+//! Points of a hand in one posture, and their names as sites.
 
 use chereme_motion::{ModelPose, Side as Half};
 use chereme_sign::hamnosys::sites::{
@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use super::super::scene::{Axes, Scene};
 
-/// A point of a hand where it is, with the way out of the hand there.
+/// A point of a hand with its position and its outward normal.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Spotted {
     pub(super) point: HandPoint,
@@ -17,20 +17,20 @@ pub(super) struct Spotted {
     pub(super) out: DVec3,
 }
 
-/// A hand in one posture, in the signer's level axes.
+/// A hand in one posture, in the signer's level axes (left, up, forward; metres).
 pub(super) struct Hand {
     pub(super) palm: DVec3,
-    /// Along the hand, out of its palm, towards its thumb.
+    /// Unit vectors: along the hand, out of its palm, towards its thumb.
     axes: [DVec3; 3],
     shape: Handshape,
     pub(super) points: Vec<Spotted>,
-    /// The parts that may be named, one or two digits together, and how many steps each is less likely meant.
+    /// The parts that notation may name, single or of two digits together, with their positions and ranks.
     named: Vec<(DVec3, Vec<HandPoint>, f64)>,
     slack: f64,
 }
 
 impl Hand {
-    /// Looks at hand `n` in one frame; `shape` is what it was told to be.
+    /// Reads hand `n` in one frame; `shape` is its transcribed handshape.
     pub(super) fn of(
         scene: &Scene<'_>,
         axes: &Axes,
@@ -40,7 +40,7 @@ impl Hand {
     ) -> Option<Self> {
         let track = scene.hands[n].as_ref()?;
         let (along, normal) = (track.along[frame], track.normal[frame]);
-        // The scene shows the dominant hand as a right one.
+        // The scene treats the dominant hand as a right one.
         let radial = along.cross(normal) * if n == 0 { 1.0 } else { -1.0 };
         let points = points(scene, axes, model, track.side);
         Some(Self {
@@ -53,7 +53,7 @@ impl Hand {
         })
     }
 
-    /// Takes it to be elsewhere by so much.
+    /// Moves the hand by an offset, in metres.
     pub(super) fn shift(&mut self, by: DVec3) {
         self.palm += by;
         for spotted in &mut self.points {
@@ -64,7 +64,7 @@ impl Hand {
         }
     }
 
-    /// A hand of which only a place is known.
+    /// Creates a hand from the position of its palm alone.
     pub(super) fn only(palm: DVec3) -> Self {
         Self {
             palm,
@@ -85,7 +85,8 @@ impl Hand {
         }
     }
 
-    /// Returns the point that is meant where none is said, for a place with the way `out` of it.
+    /// Returns the point that notation refers to if it names none, for a place with the outward normal
+    /// `out`.
     pub(super) fn meant(&self, out: DVec3, region: Region) -> Spotted {
         if self.points.is_empty() {
             return self.middle();
@@ -96,8 +97,8 @@ impl Hand {
         at.copied().unwrap_or_else(|| self.middle())
     }
 
-    /// Returns where the parts are that are nearest to a place, which they are, and how many steps less likely
-    /// they are meant than others. What is before the place, the way `pushed`, counts less.
+    /// Returns the nameable part nearest to a place: its position, its points and its rank. An offset
+    /// along `pushed`, the direction in which the trunk pushes hands out, counts less.
     pub(super) fn nearest(
         &self,
         to: DVec3,
@@ -112,13 +113,12 @@ impl Hand {
         nearest.map(|(at, parts, steps)| (*at, parts.as_slice(), *steps))
     }
 
-    /// Returns the parts that may be named: where they are, which they are, and how many steps less likely they
-    /// are meant than others.
+    /// Returns the parts that notation may name: positions, points and ranks.
     pub(super) fn nameable(&self) -> &[(DVec3, Vec<HandPoint>, f64)] {
         &self.named
     }
 
-    /// Returns where several points are, taken together.
+    /// Returns the mean position of several points.
     pub(super) fn mean(&self, points: &[HandPoint]) -> DVec3 {
         let known: Vec<DVec3> = self
             .points
@@ -133,17 +133,16 @@ impl Hand {
     }
 }
 
-/// A part of the hand counts as so much farther, as a share of how near hands come to what is meant, for each
-/// step that it is less likely meant.
+/// Added distance of a hand part for each step of its [`rank`], as a share of the slack.
 pub(super) const RANK: f64 = 0.5;
-/// What a part of the hand is before the trunk from which it was pushed counts less by this share.
+/// Share of a hand part's distance in front of the trunk that does not count, as the hand was pushed out.
 const BEFORE: f64 = 0.7;
-/// Two digits together are so many steps less likely.
+/// The rank of two digits together.
 const TWO: f64 = 1.0;
-/// They are meant together where they are nearer to each other than this, in metres.
+/// Two fingertips count as one part if they are nearer to each other than this, in metres.
 const PINCHED: f64 = 0.10;
 
-/// Returns the parts of a hand that are named, also tips and pads of the thumb and a finger together.
+/// Returns the parts of a hand that notation names, tips and pads of two digits together included.
 fn nameable(points: &[Spotted]) -> Vec<(DVec3, Vec<HandPoint>, f64)> {
     let mut all: Vec<_> = points
         .iter()
@@ -168,7 +167,7 @@ fn nameable(points: &[Spotted]) -> Vec<(DVec3, Vec<HandPoint>, f64)> {
     all
 }
 
-/// Returns points of a hand's outline.
+/// Returns points on the outline of a hand.
 fn points(scene: &Scene<'_>, axes: &Axes, model: &ModelPose, side: Half) -> Vec<Spotted> {
     const FACES: [Face; 5] = [
         Face::Middle,
@@ -248,7 +247,7 @@ fn points(scene: &Scene<'_>, axes: &Axes, model: &ModelPose, side: Half) -> Vec<
     points
 }
 
-/// Returns where a face of the hand or a digit looks to whose bone points along `bone`.
+/// Returns the outward normal of a face of the hand, or of a digit whose bone points along `bone`.
 fn facing(face: Face, [along, normal, radial]: [DVec3; 3], bone: DVec3) -> DVec3 {
     let out = along.cross(normal).cross(bone).normalize_or(normal);
     match face {
@@ -260,8 +259,8 @@ fn facing(face: Face, [along, normal, radial]: [DVec3; 3], bone: DVec3) -> DVec3
     }
 }
 
-/// The later, the less likely it is to be meant where another part is as near: tips of the first fingers
-/// and whole faces of the hand are named most.
+/// Returns the rank of a hand point: higher ones are less often named if another point is equally near.
+/// Tips of the first fingers and whole faces of the hand are named most.
 pub(super) fn rank(point: HandPoint) -> f64 {
     let digit = |digit: Digit| match digit {
         Digit::Thumb | Digit::Index | Digit::Middle => 0.0,
@@ -282,7 +281,7 @@ pub(super) fn rank(point: HandPoint) -> f64 {
     }
 }
 
-/// Returns the site of a hand that is called by a point, or by the same points of several digits.
+/// Returns the site that names a point, or the same point of several digits.
 pub(super) fn named_all(points: &[HandPoint]) -> HandSite {
     let mut sites = points.iter().map(|point| named(*point));
     let mut first = sites.next().unwrap_or_default();
@@ -292,7 +291,7 @@ pub(super) fn named_all(points: &[HandPoint]) -> HandSite {
     first
 }
 
-/// Returns the site of a hand that is called by a point.
+/// Returns the site that names a point.
 pub(in crate::transcribe) fn named(point: HandPoint) -> HandSite {
     let side = |face: Face| match face {
         Face::Middle => None,

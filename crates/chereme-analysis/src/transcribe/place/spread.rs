@@ -1,31 +1,32 @@
-//! How far hands are from where they are meant to be.
+//! Distributions of the distance between hands and their intended places.
 
 use glam::DVec3;
 
 use super::super::scene::Scene;
 
-/// The shares of hands that are where they are meant to be, that are shifted within the room of their place or
-/// pushed out of the trunk, and of which anything may be expected.
+/// Shares of hands that are exactly at their place, that are shifted within the room of the place or
+/// pushed out of the trunk, and that may be anywhere.
 const SHARES: [f64; 3] = [0.75, 0.2, 0.05];
-/// The same of hands that touch the trunk.
+/// The same shares for hands that touch the trunk.
 const OF_TRUNK: [f64; 3] = [0.35, 0.55, 0.1];
-/// How much more room an arm takes that should reach far.
+/// Factor on the room of a hand whose arm should reach far.
 const SHORT: f64 = 1.7;
-/// Most of the first are nearer still where places are known so well: against as many metres of slack.
+/// When `slack` is below this (m), the first mixture component is narrowed in proportion.
 const EXACT: f64 = 0.016;
-/// How far the last are off, in arm lengths: before a place, and touching one.
+/// Standard deviation of the last component (arm lengths): before a place, and touching one.
 const ANYWHERE: [f64; 2] = [0.12, 0.06];
-/// How far a hand is pushed out of the trunk, on average, in arm lengths; and how far aside against that.
+/// Mean distance by which a hand is pushed out of the trunk, in arm lengths.
 const PUSHED: f64 = 0.04;
+/// Sideways shift of a hand that is pushed out, as a share of that distance.
 const SLIDES: f64 = 0.5;
-/// How far hands are from each other that should be at each other, besides those that are there, in arm lengths.
+/// Spread (arm lengths) of the gap between two hands that should touch but do not.
 const MISSED: f64 = 0.02;
 
-/// How far hands are from where they are meant to be, as mixtures of normal distributions.
+/// Distributions of a hand's offset from its intended place, as mixtures of normal distributions.
 pub(super) struct Spread {
-    /// About the place, in metres.
+    /// Standard deviation about the place, in metres.
     about: f64,
-    /// Aside, up and forward; and aside, down and back.
+    /// Standard deviations of the room (m): sideways, up and forward; and sideways, down and back.
     room: [DVec3; 2],
     arm: f64,
 }
@@ -47,8 +48,8 @@ impl Spread {
         }
     }
 
-    /// Returns how much less likely it is that a hand before a place is so far off it (left, up, forward) than
-    /// exactly there, in nepers; arms that should reach `far` may fall short.
+    /// Returns the penalty (nepers) of a hand before a place at the offset `off` (left, up, forward;
+    /// metres), against a hand exactly there. With `far`, the arm should reach far and may fall short.
     pub(super) fn free(&self, off: DVec3, far: bool) -> f64 {
         let room = DVec3::new(
             self.room[0].x,
@@ -60,8 +61,8 @@ impl Spread {
         self.unlikely(SHARES, [normal(off, room), normal(off, anywhere)], off)
     }
 
-    /// As [`free`](Self::free), of a hand that touches a place with the way `out` of it. Hands that would be in
-    /// the trunk are pushed out of it.
+    /// Like [`free`](Self::free), for a hand that touches a place with the outward normal `out`. Hands
+    /// that would be in the trunk are pushed out of it.
     pub(super) fn touching(&self, off: DVec3, out: DVec3, trunk: bool) -> f64 {
         let anywhere = DVec3::splat(ANYWHERE[1] * self.arm);
         let missed = MISSED * self.arm + self.about;
@@ -84,7 +85,7 @@ impl Spread {
         self.unlikely(OF_TRUNK, [pushed, normal(off, anywhere)], off)
     }
 
-    /// As [`free`](Self::free), of a hand that is to be at a place by the other one.
+    /// Like [`free`](Self::free), for a hand that should be at the other hand.
     pub(super) fn together(&self, off: DVec3) -> f64 {
         let missed = DVec3::splat(MISSED * self.arm + self.about);
         let anywhere = DVec3::splat(ANYWHERE[1] * self.arm);
@@ -100,7 +101,8 @@ impl Spread {
     }
 }
 
-/// The density of a normal distribution with these spreads along the axes, a cubic metre.
+/// Returns the density (per cubic metre) of a normal distribution with these standard deviations along the
+/// axes.
 fn normal(off: DVec3, wide: DVec3) -> f64 {
     let root = std::f64::consts::TAU.sqrt();
     (-0.5 * (off / wide).length_squared()).exp() / (root.powi(3) * wide.x * wide.y * wide.z)

@@ -1,4 +1,4 @@
-//! The two hands by each other.
+//! Constellations: places of the two hands relative to each other.
 
 use chereme_sign::hamnosys::sites::{HandPoint, Region};
 use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Site};
@@ -7,50 +7,51 @@ use glam::DVec3;
 use super::hand::{Hand, RANK, Spotted, rank};
 use super::{Body, Placed, TOUCH};
 
-/// Hands are by each other where parts of them are nearer than this, in arm lengths.
+/// Parts of the two hands nearer to each other than this (arm lengths) may form a constellation.
 const TOGETHER: f64 = 0.125;
-/// So many pairs of parts of the hands are tried.
+/// The number of pairs of hand parts to consider.
 const PAIRS: usize = 8;
-/// The two hands by each other are told rather than each at its place where that is not so much likelier, in
-/// nepers: where they touch, and where they are close.
+/// A constellation is reported unless separate places are likelier by more than this (nepers): for
+/// touching hands, and for close ones.
 const RATHER: [f64; 2] = [2.0, 1.0];
-/// How much less likely it is that parts of the hands are named, and for each step that they are less likely
-/// meant than others.
+/// Penalty (nepers) for naming the parts of the hands.
 const PARTS: f64 = 1.5;
+/// Additional penalty (nepers) for each step of the parts' ranks.
 const STEP: f64 = 0.7;
-/// How much less likely it is that nothing is said of the parts.
+/// Penalty (nepers) for a constellation whose parts remain unnamed.
 const UNNAMED: f64 = 2.5;
-/// Hands of which parts are nearer to each other than this, in arm lengths, touch: it is so much less likely, in
-/// nepers, that they are meant to be close.
+/// Hands with parts nearer to each other than this (arm lengths) touch.
 const CONTACT: f64 = 0.025;
+/// Penalty (nepers) for reading touching hands as merely close.
 const TOUCHES: f64 = 3.0;
-/// Where hands are of which no place is said.
+/// The place of hands whose notation names no place.
 const NEUTRAL: Site<BodyLocation> = Site {
     at: BodyLocation::NeutralSpace,
     side: None,
     approx: false,
 };
 
-/// The two hands by each other.
+/// A constellation: one part of each hand, with their contact.
 #[derive(Debug, Clone)]
 pub(in crate::transcribe) struct Together {
-    /// The part of the dominant hand and of the other.
+    /// The part of the dominant hand, then that of the other.
     pub(in crate::transcribe) parts: [HandPoint; 2],
     pub(in crate::transcribe) distance: f64,
-    /// Where they are.
+    /// The positions of the parts.
     pub(in crate::transcribe) at: [DVec3; 2],
     pub(in crate::transcribe) contact: Contact,
-    /// How far they are from where they would be by that contact, in metres, and how much less likely that is
-    /// than exactly there.
+    /// Distance (m) between the hands' positions and those that the contact implies.
     off: f64,
+    /// The penalty (nepers) of that distance.
     unlikely: f64,
-    /// Whether the parts must be said, and whether they are.
+    /// Whether the parts differ from the implied ones, so that the notation must name them.
     said: bool,
+    /// Whether the notation names them.
     pub(in crate::transcribe) named: bool,
 }
 
 impl Together {
-    /// Returns how much less likely it is meant than what is plain, in nepers.
+    /// Returns the penalty (nepers) of the notation itself.
     pub(in crate::transcribe) fn cost(&self) -> f64 {
         match (self.named, self.said) {
             (false, _) => UNNAMED,
@@ -61,16 +62,15 @@ impl Together {
 }
 
 impl Body<'_> {
-    /// Returns how the two hands are by each other: the parts nearest to each other, their contact and
-    /// their distance in metres; nothing where they are apart.
+    /// Returns the constellation of the parts nearest to each other, with its contact and distance in
+    /// metres; `None` if the hands are apart.
     pub(in crate::transcribe) fn together(&self) -> Option<Together> {
-        // Whole faces of the hand are sooner meant than what lies within them.
+        // Annotators name whole faces of the hand rather than points within them.
         let near = |it: &Together| it.distance + RANK * self.scene.slack * ranks(it);
         self.pairs(1, near).into_iter().next()
     }
 
-    /// Returns the pairs of parts of the two hands that are near to each other, those first that are `better`
-    /// than others.
+    /// Returns at most `most` pairs of near parts of the two hands, those with the lowest `better` first.
     fn pairs(&self, most: usize, better: impl Fn(&Together) -> f64) -> Vec<Together> {
         let [Some(dominant), Some(other)] = &self.hands else {
             return Vec::new();
@@ -90,8 +90,8 @@ impl Body<'_> {
         all.into_iter().map(|(_, together)| together).collect()
     }
 
-    /// Returns the parts of a hand that may be at the other one, with how much less likely that is than the
-    /// likeliest, up to `most` nepers.
+    /// Returns the parts of a hand that may be at the other one, each with its penalty against the
+    /// likeliest; those above `most` nepers are left out.
     pub(super) fn other_pairs(&self, n: usize, most: f64) -> Vec<(HandPoint, f64)> {
         let unlikely = |it: &Together| it.unlikely + STEP * ranks(it);
         let all = self.pairs(4 * PAIRS, unlikely);
@@ -105,7 +105,7 @@ impl Body<'_> {
         let distance = apart.length();
         let arm = self.scene.arm;
         let near = self.scene.language.hands_near * arm;
-        // Beside each other where they mirror one another, else out of what is touched.
+        // Mirrored hands are next to each other; otherwise the gap lies along the outward normals.
         let facing = (other.out - own.out).normalize_or(DVec3::NEG_X);
         let ways = [DVec3::NEG_X, facing].map(|way| apart - way * near);
         let [aside, out] = ways.map(|off| self.spread.together(off));
@@ -132,8 +132,8 @@ impl Body<'_> {
         }
     }
 
-    /// Returns the pairs of parts that are meant where none are said: those that hands turn to each
-    /// other that mirror one another, or of which one comes upon the other.
+    /// Returns the pairs of parts that notation implies if it names no parts: the facing parts of mirrored
+    /// hands, and those of one hand upon the other.
     fn meant_pairs(&self) -> Vec<Together> {
         let [Some(dominant), Some(other)] = &self.hands else {
             return Vec::new();
@@ -155,8 +155,8 @@ impl Body<'_> {
             .collect()
     }
 
-    /// Returns how the two hands are by each other, and the place that they share, where that tells more
-    /// than the place of each, which are so much less likely as `apart` says.
+    /// Returns the likeliest constellation of the two hands with the place they share, if it is likelier
+    /// than separate places, whose penalty is `apart` (nepers).
     pub(in crate::transcribe) fn constellation(&self, apart: f64) -> Option<(Together, Placed)> {
         let mut all = self.meant_pairs();
         all.extend(self.pairs(PAIRS, |it| it.unlikely + STEP * ranks(it)));
@@ -182,7 +182,7 @@ impl Body<'_> {
         (score < rather + apart).then_some((together, placed))
     }
 
-    /// Returns how the two hands may be meant to be by each other, the likeliest first.
+    /// Returns the candidate constellations, the likeliest first.
     pub(in crate::transcribe) fn likeliest_pairs(&self) -> Vec<Together> {
         let mut all = self.meant_pairs();
         let unnamed = |it: &Together| Together {
@@ -195,7 +195,7 @@ impl Body<'_> {
         all
     }
 
-    /// Returns the places where the two hands may be meant to be, the likeliest first, `most` of them.
+    /// Returns the candidate places that the two hands share, at most `most` of them, the likeliest first.
     pub(in crate::transcribe) fn likeliest_shared(
         &self,
         together: &Together,
@@ -210,7 +210,7 @@ impl Body<'_> {
         all
     }
 
-    /// Returns the place nearest to a point that both hands share; no place where that is neutral space.
+    /// Returns the place nearest to a point that both hands share; empty in neutral space.
     fn shared(&self, at: DVec3) -> Option<Placed> {
         let mut placed = self.placed(0, &Hand::only(at), false)?;
         placed.place.by = None;
@@ -230,7 +230,7 @@ impl Body<'_> {
     }
 }
 
-/// Returns how many steps less likely two parts are meant than others.
+/// Returns the sum of the parts' ranks.
 fn ranks(together: &Together) -> f64 {
     let [own, other] = together.parts;
     rank(own) + rank(other)

@@ -1,4 +1,4 @@
-//! In which manner something is done: how long it takes against what is usual, and how it runs.
+//! Manner of an act: its duration against the usual one, and its course over time.
 
 use chereme_sign::hamnosys::symbol::{Kind as Symbol, Mark};
 use chereme_sign::hamnosys::{BodyLanguage, Manner};
@@ -6,15 +6,16 @@ use chereme_sign::hamnosys::{BodyLanguage, Manner};
 use super::super::scene::Scene;
 use super::*;
 
-/// A rest before an act is told from this share of a usual one on.
+/// A pause before an act is a rest if it lasts longer than this share of a usual rest.
 const RESTS: f64 = 0.8;
-/// A course that differs counts so much: how late half of the way is done, and how evenly it runs.
+/// Weight of a difference in `late`, the time at which half of the path is done.
 const LATE: f64 = 2.0;
+/// Weight of a difference in `even`, the share of time of the middle half of the path.
 const EVEN: f64 = 0.6;
-/// What it costs that something runs into contact as without one.
+/// Penalty for an act that ends in contact but runs like one without.
 const UNEXPECTED: f64 = 0.05;
 
-/// A manner that may be told.
+/// A candidate manner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Tempo {
     Usual,
@@ -47,7 +48,7 @@ impl Tempo {
         Some(Symbol::Manner(mark))
     }
 
-    /// Returns its share of the usual time, and what it costs to say it.
+    /// Returns its factor on the usual duration, and its penalty.
     fn factor(self, l: &BodyLanguage) -> (f64, f64) {
         match self {
             Self::Usual => (1.0, 0.0),
@@ -59,8 +60,9 @@ impl Tempo {
     }
 }
 
-/// How a course runs: the share of its time between a tenth and nine tenths of the way; when half of the
-/// way is done, and how long its middle half takes, against that.
+/// The course of an act over time: `span` is the share of its time between a tenth and nine tenths of the
+/// path; `late` (when half of the path is done) and `even` (how long its middle half takes) are shares of
+/// that span.
 #[derive(Debug, Clone, Copy)]
 struct Course {
     span: f64,
@@ -68,8 +70,8 @@ struct Course {
     even: f64,
 }
 
-/// The courses that the animator's controller gives: of what is meant, into contact, a sudden stop, a
-/// tense one, and round and round.
+/// The courses that the animator's controller produces: `TARGETTED` for a meant goal, then into contact,
+/// with a sudden stop, tense, and for circles.
 const TARGETTED: Course = course(0.50, 0.56, 0.52);
 const CONTACT: Course = course(0.39, 0.66, 0.48);
 const STOP: Course = course(0.38, 0.70, 0.48);
@@ -80,14 +82,14 @@ const fn course(span: f64, late: f64, even: f64) -> Course {
     Course { span, late, even }
 }
 
-/// How something ran: seconds from a tenth to nine tenths of it, and its course.
+/// The measured course of an act, with the seconds between a tenth and nine tenths of it.
 struct Ran {
     seconds: f64,
     course: Course,
 }
 
 impl Writer<'_> {
-    /// Tells in which manner an act is done that begins so many frames after what was before.
+    /// Infers the manner of an act that begins `idle` frames after the one before.
     pub(super) fn manner(
         &mut self,
         track: &Track,
@@ -147,7 +149,7 @@ fn tempo(scene: &Scene<'_>, track: &Track, act: &Act, into_contact: bool) -> Opt
         Tempo::Halt,
     ];
     let tempi = &all[..if into_contact || round { 4 } else { 5 }];
-    // A hand may come to rest at what it is not meant to meet.
+    // A hand may come to rest at a contact that is not meant.
     let own: &[(Course, f64)] = match (round, into_contact) {
         (true, _) => &[(ROUND, 0.0)],
         (false, true) => &[(CONTACT, 0.0), (TARGETTED, UNEXPECTED)],
@@ -188,7 +190,7 @@ fn nearest(
     Found::of(scored.collect())
 }
 
-/// Returns how long a hand or fingers go to and fro as usual, as often as they do, in seconds.
+/// Returns the usual duration (s) of the same number of movements of wrist or fingers.
 fn swayed(l: &BodyLanguage, sway: &Sway) -> f64 {
     match sway {
         Sway::Wrist { cycles, .. } => l.time_wrist * cycles.max(1.0),
@@ -196,8 +198,7 @@ fn swayed(l: &BodyLanguage, sway: &Sway) -> f64 {
     }
 }
 
-/// Returns how long such an act takes as usual, each with the least it can take, in seconds; and whether it
-/// goes round.
+/// Returns the usual durations of an act and their lower bounds, in seconds, and whether it is a circle.
 fn usual(scene: &Scene<'_>, track: &Track, act: &Act) -> Option<(Vec<(f64, f64)>, bool)> {
     let l = scene.language;
     let (first, last) = (*act.frames.start(), *act.frames.end());
@@ -205,7 +206,7 @@ fn usual(scene: &Scene<'_>, track: &Track, act: &Act) -> Option<(Vec<(f64, f64)>
     let gone = track.palm[first].distance(track.palm[last]) / scene.arm;
     // A posture taken at another place needs most of a transition.
     let taken = 0.6 * (l.time_transition + l.time_transition_arm * gone + l.time_turn * turn);
-    // The fastest moment of what is meant is 2.6 times its mean.
+    // A meant movement is at its fastest 2.6 times as fast as on average.
     let least = 2.6 * length(&track.palm[first..=last]) / (l.speed_most * scene.arm);
     let with_turn = |usual: f64| {
         let turned = (act.turned || act.reshaped).then_some((usual, taken));
@@ -223,12 +224,13 @@ fn usual(scene: &Scene<'_>, track: &Track, act: &Act) -> Option<(Vec<(f64, f64)>
         Kind::Change => (vec![(l.time_replace, 0.0), (l.time_replace, taken)], false),
         Kind::Sway(_) => return None,
     };
-    // What sways or plays besides takes its own time.
+    // A simultaneous movement of wrist or fingers takes its own time.
     all.extend(act.with.iter().map(|sway| (swayed(l, sway), least)));
     Some((all, round))
 }
 
-/// Returns how an act ran by the way that was done, the turning and the fingers, whichever it does.
+/// Returns the course of an act by its path, or by its turn and finger angles if it stays in place; `None`
+/// if it is too short.
 fn ran(scene: &Scene<'_>, track: &Track, act: &Act) -> Option<Ran> {
     let (first, last) = (*act.frames.start(), *act.frames.end());
     let step = |n: usize| match act.kind {

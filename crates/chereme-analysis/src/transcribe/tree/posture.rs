@@ -1,4 +1,4 @@
-//! The posture that a sign begins with: shape, direction, palm and place of the hands.
+//! Writes the posture that a sign begins with: shape, direction, palm and place of the hands.
 
 use super::*;
 
@@ -67,7 +67,7 @@ impl Writer<'_> {
         Posture { place, ..posture }
     }
 
-    /// Tells which of shape, direction and palm the other hand takes from the dominant one.
+    /// Returns which of shape, direction and palm the other hand shares with the dominant one.
     fn alike(&self, frame: usize, relation: &Relation, seen: &[Option<Seen>; 2]) -> [bool; 3] {
         let RelationKind::Alike(symmetry) = relation.kind else {
             return [false; 3];
@@ -91,7 +91,7 @@ impl Writer<'_> {
         [shaped, turned, turned]
     }
 
-    /// Chooses how it is told where hands are: the likeliest.
+    /// Chooses the likeliest form of notation for the hands' places.
     fn stand(&self, relation: &Relation, body: &Body<'_>) -> Option<Stand> {
         let alone = match relation.kind {
             RelationKind::Alone => {
@@ -105,7 +105,7 @@ impl Writer<'_> {
             let each = placed.iter().flatten();
             each.map(|placed| placed.score.min(MOST_APART)).sum()
         } else {
-            // What is said of the one is said of the other.
+            // A symmetric place applies to both hands.
             let [own, other] = &placed;
             let own = own.as_ref().map_or(f64::INFINITY, |it| it.score);
             own + other.as_ref().map_or(0.0, |it| it.unlikely)
@@ -120,7 +120,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Tells where hands are.
+    /// Records the places of the hands as features.
     fn told_stand(&mut self, frame: usize, stand: &Stand) {
         let scene = self.scene;
         match stand {
@@ -143,21 +143,21 @@ impl Writer<'_> {
     }
 }
 
-/// How it is told where hands are.
+/// The form of notation for the hands' places.
 #[derive(Debug, Clone)]
 pub(in crate::transcribe) enum Stand {
     /// One hand, or both alike, at a place.
     One(usize, Placed),
-    /// Each at its own.
+    /// Each hand at its own place.
     Each([Option<Placed>; 2]),
-    /// The two by each other, at a place.
+    /// A constellation of the two hands, at a place.
     Together(Together, Placed),
-    /// It is not: where they are at ease before the signer.
+    /// No place: the hands are relaxed in front of the signer.
     Unsaid,
 }
 
 impl Stand {
-    /// Takes what was likelier for what would have come next.
+    /// Records the likelier place as the runner-up.
     fn rather_than(mut self, likelier: &Self) -> Self {
         let next = |placed: &mut Placed, other: &Placed| {
             if placed.place != other.place {
@@ -193,7 +193,7 @@ impl Stand {
     }
 }
 
-/// Returns the two hands by each other.
+/// Converts a constellation to notation.
 fn constellation(together: &Together, at: &Placed) -> Constellation {
     let [dominant, other] = together
         .parts
@@ -207,8 +207,8 @@ fn constellation(together: &Together, at: &Placed) -> Constellation {
     }
 }
 
-/// Returns from where a hand that goes round half a turn behind the other is to where it is told to be: as
-/// if both began together.
+/// Returns the offset of a hand that circles half a turn behind the other: its place is written as if both
+/// began together.
 pub(super) fn behind(relation: &Relation, first: Option<&Act>) -> Option<DVec3> {
     let RelationKind::Alike(symmetry) = relation.kind else {
         return None;
@@ -224,7 +224,7 @@ pub(super) fn behind(relation: &Relation, first: Option<&Act>) -> Option<DVec3> 
     }
 }
 
-/// Tells whether it is sure that a hand is turned otherwise than the mirror image of the other.
+/// Returns whether a hand is surely not turned like the mirror image of the other.
 fn otherwise(one: &Seen, other: &Seen, signs: DVec3) -> bool {
     let told = |seen: &Seen| {
         let along = aim::vector(&seen.extended.best);

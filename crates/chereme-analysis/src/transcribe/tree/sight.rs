@@ -1,16 +1,16 @@
-//! What is seen of the hands, frame by frame: each thing is looked at once.
+//! Readings of the hands, frame by frame, each computed once.
 
 use std::rc::Rc;
 
 use super::*;
 
-/// The handshapes of hands in frames.
+/// Handshapes by hand and frame.
 type Shapes = BTreeMap<(Side, usize), Option<Found<Handshape>>>;
 
-/// A scene with what was seen of it.
+/// A scene with the cache of its readings.
 pub(in crate::transcribe) struct Sight<'a> {
     pub(in crate::transcribe) scene: &'a Scene<'a>,
-    /// The hand that signs where only one does.
+    /// The index of the hand that signs if only one does.
     pub(in crate::transcribe) lead: usize,
     pub(in crate::transcribe) options: &'a Options,
     forms: std::sync::Arc<Forms>,
@@ -30,7 +30,7 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// Returns what a hand does, and the frame in which it leaves its first posture.
+    /// Returns the acts of a hand, and the frame in which it leaves its first posture.
     pub(in crate::transcribe) fn acts(
         &self,
         hand: usize,
@@ -66,7 +66,7 @@ impl<'a> Sight<'a> {
         acts(self.scene, &mover, frames)
     }
 
-    /// Looks at the body in a frame.
+    /// Returns the body in a frame.
     pub(in crate::transcribe) fn body(&self, frame: usize) -> Option<Rc<Body<'a>>> {
         if let Some(known) = self.bodies.borrow().get(&frame) {
             return known.clone();
@@ -76,7 +76,7 @@ impl<'a> Sight<'a> {
         body
     }
 
-    /// As [`body`](Self::body), to be moved about.
+    /// Like [`body`](Self::body), but uncached, so that its hands can be shifted.
     pub(in crate::transcribe) fn look(&self, frame: usize) -> Option<Body<'a>> {
         let shapes = [0, 1].map(|n| {
             let track = self.scene.hands[n].as_ref()?;
@@ -85,7 +85,7 @@ impl<'a> Sight<'a> {
         Body::of(self.scene, frame, shapes.each_ref().map(Option::as_ref))
     }
 
-    /// Returns the handshape in a frame; each is looked up once.
+    /// Returns the handshape in a frame; computed once.
     fn shape(&self, track: &Track, frame: usize) -> Option<Found<Handshape>> {
         let key = (track.side, frame);
         if let Some(known) = self.shapes.borrow().get(&key) {
@@ -98,7 +98,7 @@ impl<'a> Sight<'a> {
         found
     }
 
-    /// Tells shape, direction and palm of a hand in a frame.
+    /// Reads shape, direction and palm of a hand in a frame.
     pub(in crate::transcribe) fn see(&self, track: &Track, frame: usize) -> Seen {
         let between = self.options.between;
         let along = track.along[frame];
@@ -120,14 +120,15 @@ impl<'a> Sight<'a> {
         }
     }
 
-    /// Tells how a hand is turned in a frame: the likeliest first, `most` of them.
+    /// Returns the likeliest orientations of a hand in a frame, at most `most` of them, the likeliest
+    /// first.
     pub(in crate::transcribe) fn turned(
         &self,
         track: &Track,
         frame: usize,
         most: usize,
     ) -> Vec<aim::Turned> {
-        // The scene shows the dominant hand as a right one.
+        // The scene treats the dominant hand as a right one.
         let left = track.side != self.scene.dominant;
         let [shoulder, elbow] = track.arm[frame];
         let arm = [shoulder, elbow, track.wrist[frame]];

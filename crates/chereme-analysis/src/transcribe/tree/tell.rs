@@ -1,4 +1,4 @@
-//! Features: what was told, in words and in symbols.
+//! Records features: readings in words and in symbols.
 
 use chereme_sign::hamnosys::{MotionKind, Repeat};
 
@@ -52,13 +52,13 @@ impl Writer<'_> {
         });
     }
 
-    /// Says which posture or action features belong to from here on.
+    /// Sets the posture or action that the next features belong to.
     pub(super) fn begins(&mut self, action: Option<usize>, frames: (usize, usize)) {
         self.action = action;
         self.frames = frames;
     }
 
-    /// Notes the HamNoSys of what features belonged to.
+    /// Records the HamNoSys of the current posture or action.
     pub(super) fn ends(&mut self, hand: Option<chereme_motion::Side>, text: String) {
         self.stages.push(Stage {
             action: self.action,
@@ -126,7 +126,7 @@ impl Writer<'_> {
         });
     }
 
-    /// Tells how the two hands are by each other.
+    /// Records the contact of the two hands as a feature.
     pub(super) fn told_together(&mut self, frame: usize, hands: &Constellation, distance: f64) {
         let contact = Found {
             best: hands,
@@ -156,7 +156,7 @@ impl Writer<'_> {
         });
     }
 
-    /// Tells the kind of a movement; `written` is the notation of a value.
+    /// Records the kind of a movement; `written` returns the notation of a value.
     pub(super) fn told_movement<T>(
         &mut self,
         track: &Track,

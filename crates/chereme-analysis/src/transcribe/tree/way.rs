@@ -1,11 +1,11 @@
-//! The motions of a hand: ways, swaying, and what changes on the way.
+//! Writes the motions of a hand: paths, wrist and finger movement, and changes on the way.
 
 use super::super::acts::wrist_name;
 use super::super::way::ROUND;
 use super::*;
 
 impl Writer<'_> {
-    /// Writes a way through space.
+    /// Writes a path through space.
     pub(super) fn way(&mut self, track: &Track, act: &Act) -> Motion {
         let Kind::Way(fitted) = &act.kind else {
             return Motion::new(MotionKind::Still);
@@ -28,7 +28,7 @@ impl Writer<'_> {
         Motion::new(super::way::written(scene, &fitted.way))
     }
 
-    /// Tells that a hand takes another posture where it is.
+    /// Records that a hand changes its posture in place.
     pub(super) fn told_change(&mut self, track: &Track, frame: usize) {
         let found = Found {
             best: (),
@@ -38,7 +38,7 @@ impl Writer<'_> {
         self.told_movement(track, frame, &found, |()| "replacement", |()| None);
     }
 
-    /// Writes a wrist or fingers going to and fro.
+    /// Writes a movement of wrist or fingers to and fro.
     pub(super) fn sway(&mut self, track: &Track, sway: &Sway, first: usize) -> Motion {
         let l = self.scene.language;
         match sway {
@@ -76,8 +76,8 @@ impl Writer<'_> {
                     angle.to_degrees() / usual,
                     [l.wrist_small, 1.0, l.wrist_big],
                 );
-                // The other way about the wrist is off by all that the hand sways.
-                // By the way of the fingertips that another movement would leave out.
+                // The opposite wrist movement is wrong by the whole angle, expressed as the path of the
+                // fingertips.
                 let found = Found {
                     best: *motion,
                     residual: 0.0,
@@ -101,7 +101,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Writes what is otherwise at the end of an act: shape, direction, palm.
+    /// Writes the changes at the end of an act: shape, direction, palm.
     pub(super) fn changed(
         &mut self,
         track: &Track,
@@ -136,7 +136,8 @@ impl Writer<'_> {
         posture
     }
 
-    /// Tells what is touched at the end of an act that was not at its beginning, or else brushed on the way.
+    /// Writes the place that a hand newly touches at the end of an act, or else one that it brushes on the
+    /// way.
     pub(super) fn reached(
         &mut self,
         hand: usize,
@@ -189,7 +190,7 @@ impl Writer<'_> {
     }
 }
 
-/// Returns a way in notation.
+/// Converts a path to notation.
 pub(super) fn written(scene: &Scene<'_>, way: &Way) -> MotionKind {
     let (l, arm) = (scene.language, scene.arm);
     let direction = aim::nearest(way.line().normalize_or(DVec3::Z), false)
@@ -217,7 +218,7 @@ pub(super) fn written(scene: &Scene<'_>, way: &Way) -> MotionKind {
             ..
         } => {
             let mut round = circular(direction, size, long, narrow, start, l);
-            // Where part of a circle ends must be said, and then where it begins as well.
+            // An incomplete circle needs its end in notation, and therefore its start as well.
             if turns * std::f64::consts::TAU < ROUND {
                 let back = aim::from_out(DVec3::from(direction.vector())).inverse();
                 let hour = |spoke: DVec3| {
@@ -250,7 +251,7 @@ pub(super) fn written(scene: &Scene<'_>, way: &Way) -> MotionKind {
     MotionKind::Directed(directed)
 }
 
-/// Returns the size of a way: of its chord, or of a circle's longer radius.
+/// Returns the size of a path: of its chord, or of a circle's longer radius.
 fn size(scene: &Scene<'_>, way: &Way) -> Found<Option<Size>> {
     let (l, arm) = (scene.language, scene.arm);
     match way {
