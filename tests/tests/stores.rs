@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::{
-    Corpus, ExportOptions, ExportWhat, ListFilter, ListKind, Progress, SearchOptions, unheard,
+    Corpus, ExportOptions, ExportWhat, ListFilter, ListKind, Name, Progress, SearchOptions, unheard,
 };
 use chereme_tests::{files, repository};
 
@@ -72,17 +72,79 @@ fn corpora_of_earlier_versions_open_whole() {
             let found = corpus.search("@chin", &SearchOptions::default());
             assert_eq!(found.expect("a kept search").total, 2, "version {version}");
         }
+        let tracks = usize::from(version >= 7);
+        if tracks > 0 {
+            let all = corpus
+                .tracks(&Name::Text("bowl and cat".to_owned()))
+                .expect("tracks");
+            let kinds: Vec<&str> = all.iter().map(|track| track.kind.name()).collect();
+            assert_eq!(
+                kinds,
+                ["skeleton", "media", "markers", "curves"],
+                "version {version}"
+            );
+        }
         let operations = corpus.log(usize::MAX).expect("log").len();
-        assert_eq!(operations, 6 + kept, "version {version}");
+        assert_eq!(operations, 6 + kept + tracks, "version {version}");
         corpus.redo().expect("what was undone is done again");
         corpus.undo().expect("and taken back");
         corpus.undo().expect("the made sign is taken back");
-        for _ in 0..kept {
-            corpus.undo().expect("the kept search is taken back");
+        for _ in 0..kept + tracks {
+            corpus
+                .undo()
+                .expect("kept search and tracks are taken back");
         }
         corpus.undo().expect("the import is taken back");
         assert!(corpus.undo().is_err(), "version {version}");
     }
+}
+
+/// Up to version 4 scalar curves were rows next to a skeleton's track; the corpus was made then, with a sign whose
+/// curves were taken away by making it again, and brought back by undo.
+#[test]
+fn curves_next_to_movement_become_tracks_and_their_history_goes_on() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("old.chereme");
+    let packed = fs::read(repository::root().join("tests/stores/0004-curves.chereme.zst"));
+    let bytes = zstd::decode_all(packed.expect("read").as_slice()).expect("unpacked");
+    fs::write(&path, bytes).expect("written");
+    let mut corpus = Corpus::open(&path, "reader").expect("opened");
+    let sound = |corpus: &mut Corpus| {
+        let check = corpus.check(false, &mut Progress::new(&mut unheard));
+        let check = check.expect("checked");
+        assert!(check.ok, "{:?}", check.faults);
+    };
+    sound(&mut corpus);
+    let tracks = |corpus: &Corpus| {
+        let filter = ListFilter::default();
+        let listing = corpus.list(ListKind::Tracks, &filter).expect("listed");
+        let text = |row: &serde_json::Map<String, serde_json::Value>| {
+            format!("{} {} {}", row["kind"], row["name"], row["frames"])
+        };
+        listing.rows.iter().map(text).collect::<Vec<_>>()
+    };
+    let both = tracks(&corpus);
+    assert_eq!(both.len(), 2, "{both:?}");
+    assert!(both[1].starts_with("\"curves\" \"nonmanuals\""), "{both:?}");
+    let sign = "VRAAG".parse().expect("an address");
+    let curves = corpus.curves_of(&sign).expect("curves");
+    assert_eq!(curves[0].name, "brows.RB");
+    let most = curves[0].values.iter().copied().fold(0.0, f64::max);
+    assert!(curves[0].values.len() > 512 && most > 0.9);
+    corpus.redo().expect("made again without curves");
+    assert_eq!(tracks(&corpus).len(), 1);
+    sound(&mut corpus);
+    corpus.undo().expect("taken back");
+    assert_eq!(
+        (tracks(&corpus), corpus.curves_of(&sign).expect("curves")),
+        (both, curves)
+    );
+    corpus.undo().expect("the sign is taken back");
+    assert_eq!(tracks(&corpus), Vec::<String>::new());
+    sound(&mut corpus);
+    corpus.redo().expect("and made again");
+    assert_eq!(tracks(&corpus).len(), 2);
+    assert!(corpus.undo().is_ok() && corpus.undo().is_err());
 }
 
 fn lists(corpus: &Corpus, version: usize) {

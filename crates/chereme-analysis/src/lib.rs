@@ -2,6 +2,7 @@
 //!
 //! | module | holds |
 //! |---|---|
+//! | [`align`](mod@align) | the shift at which two signals of one event are most alike |
 //! | [`dtw`] | dynamic time warping: alignments, distances, nearest neighbours |
 //! | [`kinematics`](mod@kinematics) | how hands move, frame by frame |
 //! | [`measure`](mod@measure) | the size and duration of movements of a known kind |
@@ -9,6 +10,7 @@
 //! | [`strokes`](mod@strokes) | transitions of wrists and fingers between two minima of their speed |
 //! | [`transcribe`](mod@transcribe) | the notation of a sign: HamNoSys with residuals |
 
+pub mod align;
 pub mod dtw;
 pub mod kinematics;
 pub mod measure;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use chereme_formats::bvh::raw::Hierarchy;
-use chereme_motion::{Instant, Span};
+use chereme_motion::{Column, Instant, Span};
 use chereme_sign::tier::{self, AnnotationId, Stereotype, TierId, TierSet};
 use chereme_sign::{HandRef, Reading};
 use rusqlite::Connection;
@@ -12,17 +12,17 @@ use sha2::{Digest, Sha256};
 
 use crate::Corpus;
 use crate::annotate::told;
-use crate::curves;
 use crate::db::check as rows;
 use crate::db::motion::hex;
 use crate::db::search::State;
-use crate::db::{notations, recordings, tiers};
+use crate::db::{notations, recordings, tiers, tracks};
 use crate::error::Result;
 use crate::inventories;
 use crate::movement::{ChannelGroup, Track};
 use crate::notation;
 use crate::progress::{Progress, Step, Unit};
 use crate::tokens;
+use crate::track::{self, TrackKind, TrackRow};
 
 /// What a check found.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -230,26 +230,29 @@ impl Looking<'_, '_> {
             }
             self.count("skeletons")?;
         }
-        for (id, name) in rows::moving_recordings(connection)? {
-            if let Err(error) = self.track(connection, id) {
+        for row in tracks::all_moving(connection)? {
+            if let Err(error) = self.track(connection, &row) {
                 if matches!(error, crate::Error::Stopped) {
                     return Err(error);
                 }
                 self.fault(
                     "movement",
-                    format!("recording {name:?}"),
+                    format!("track {} of recording:{}", row.id, row.recording_id),
                     error.to_string(),
                     BACKUP,
                 );
             }
-            self.count("motion tracks")?;
+            self.count("tracks")?;
         }
         Ok(())
     }
 
     /// Decodes every block of a track and looks for frames that are missing.
-    fn track(&mut self, connection: &Connection, recording: i64) -> Result<()> {
-        let track = Track::of(connection, recording)?;
+    fn track(&mut self, connection: &Connection, row: &TrackRow) -> Result<()> {
+        if row.kind != TrackKind::Skeleton {
+            return track::read::track(connection, row, None).map(|_| ());
+        }
+        let track = Track::of_row(connection, row.id)?;
         for group in ChannelGroup::ALL {
             if track.columns_of(group).is_empty() {
                 continue;
@@ -266,7 +269,7 @@ impl Looking<'_, '_> {
                         total: Some(track.frames() as u64),
                         unit: Unit::Frames,
                     })?;
-                    let frames = columns.first().map_or(0, |column| column.mantissas.len());
+                    let frames = columns.first().map_or(0, Column::len);
                     if first != next {
                         let what =
                             format!("frames {next} to {first} of {} are missing", group.name());
@@ -282,7 +285,6 @@ impl Looking<'_, '_> {
                 return Err(crate::Error::wrong(what));
             }
         }
-        curves::of_track(connection, &track, 0..track.frames())?;
         Ok(())
     }
 

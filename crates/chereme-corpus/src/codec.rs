@@ -1,56 +1,102 @@
-//! Blocks of motion as bytes: the columns of one channel group over some frames, without loss.
+//! Blocks of numbers as bytes: the columns of one channel group over some frames, without loss.
 //!
-//! A block is the byte 1, the frames and the columns (u32 each, little-endian), then each column:
-//! its decimals (u8), its coding (0 all equal, 1 pco), the length of its code (u32), the code, and
-//! its exceptions (u32 how many; each a frame u32, a length u32 and the number's own text). Coded
-//! are the mantissas: the number is mantissa / 10^decimals.
+//! Two layouts exist. Version 1 holds decimals without gaps, as movement of text files is: the byte 1, the
+//! frames and the columns (u32 each, little-endian), then each column: its decimals (u8), its coding (0 all
+//! equal, 1 pco), the length of its code (u32), the code, and its exceptions (u32 how many; each a frame u32,
+//! a length u32 and the number's own text). Coded are the mantissas: the number is mantissa / 10^decimals.
+//!
+//! Version 2 holds numbers of any form, with gaps. Each column begins with its form (u8): 0 decimals (then u8
+//! decimals), 1 f32, 2 f64, 3 integers (then zero and unit, f64 each), 4 f64 that are all f32 as well and are
+//! coded so. Coding, length and code follow as in version 1, for decimals the exceptions, and then the gaps
+//! (u32 how many; each the first frame u32 and the first frame after it u32).
 
-use chereme_formats::bvh::raw::Column;
+use std::ops::Range;
+
+use chereme_motion::Column;
+use chereme_motion::column::{Decimals, Gaps, Integers, Number, Numbers};
 use pco::ChunkConfig;
+use pco::data_types::Number as Coded;
 use pco::standalone::{simple_compress, simple_decompress_into};
 
-const VERSION: u8 = 1;
+const DECIMALS_ONLY: u8 = 1;
+const ANY_FORM: u8 = 2;
+
 const CONSTANT: u8 = 0;
 const PCO: u8 = 1;
 
-/// Returns the bytes of columns of `frames` numbers each.
+/// The forms of columns in version 2.
+mod form {
+    pub(super) const DECIMALS: u8 = 0;
+    pub(super) const SINGLES: u8 = 1;
+    pub(super) const DOUBLES: u8 = 2;
+    pub(super) const INTEGERS: u8 = 3;
+    pub(super) const SHORT_DOUBLES: u8 = 4;
+}
+
+/// Returns the bytes of columns of decimals without gaps, of `frames` numbers each.
 ///
 /// # Panics
-/// Where a column is longer or shorter.
-pub(crate) fn encode(frames: usize, columns: &[&Column]) -> Vec<u8> {
-    let config = ChunkConfig::default();
-    let mut bytes = vec![VERSION];
-    put(&mut bytes, frames);
-    put(&mut bytes, columns.len());
+/// If a column is longer or shorter.
+pub(crate) fn encode(frames: usize, columns: &[&Decimals]) -> Vec<u8> {
+    let mut bytes = begin(DECIMALS_ONLY, frames, columns.len());
     for column in columns {
-        assert_eq!(
-            column.mantissas.len(),
-            frames,
-            "a block's columns are equally long"
-        );
-        bytes.push(column.scale);
-        let first = column.mantissas.first().copied().unwrap_or_default();
-        let (coding, code) = if column.mantissas.iter().all(|&mantissa| mantissa == first) {
-            (CONSTANT, first.to_le_bytes().to_vec())
-        } else {
-            let code = simple_compress(&column.mantissas, &config);
-            (
-                PCO,
-                code.expect("the default configuration codes any integers"),
-            )
-        };
-        bytes.push(coding);
-        put(&mut bytes, code.len());
-        bytes.extend_from_slice(&code);
-        put(&mut bytes, column.exceptions.len());
-        for (frame, number) in &column.exceptions {
-            let text = number.to_string();
-            bytes.extend_from_slice(&frame.to_le_bytes());
-            put(&mut bytes, text.len());
-            bytes.extend_from_slice(text.as_bytes());
+        check_length(column.mantissas.len(), frames);
+        put_decimals(&mut bytes, column);
+    }
+    bytes
+}
+
+/// Returns the bytes of columns of any form, of `frames` numbers each; decimals without gaps get the bytes that
+/// [`encode`] gives them.
+///
+/// # Panics
+/// If a column is longer or shorter.
+pub(crate) fn encode_any(frames: usize, columns: &[Column]) -> Vec<u8> {
+    let plain = columns.iter().map(|column| match column.numbers() {
+        Numbers::Decimals(decimals) if column.gaps().is_empty() => Some(decimals),
+        _ => None,
+    });
+    if let Some(decimals) = plain.collect::<Option<Vec<&Decimals>>>() {
+        return encode(frames, &decimals);
+    }
+    let mut bytes = begin(ANY_FORM, frames, columns.len());
+    for column in columns {
+        check_length(column.len(), frames);
+        match column.numbers() {
+            Numbers::Decimals(decimals) => {
+                bytes.push(form::DECIMALS);
+                put_decimals(&mut bytes, decimals);
+            }
+            Numbers::Singles(values) => {
+                bytes.push(form::SINGLES);
+                put_code(&mut bytes, values);
+            }
+            Numbers::Doubles(values) => put_doubles(&mut bytes, values),
+            Numbers::Integers(Integers { values, zero, unit }) => {
+                bytes.push(form::INTEGERS);
+                bytes.extend_from_slice(&zero.to_le_bytes());
+                bytes.extend_from_slice(&unit.to_le_bytes());
+                put_code(&mut bytes, values);
+            }
+        }
+        put(&mut bytes, column.gaps().runs().len());
+        for run in column.gaps().runs() {
+            bytes.extend_from_slice(&run.start.to_le_bytes());
+            bytes.extend_from_slice(&run.end.to_le_bytes());
         }
     }
     bytes
+}
+
+fn begin(version: u8, frames: usize, columns: usize) -> Vec<u8> {
+    let mut bytes = vec![version];
+    put(&mut bytes, frames);
+    put(&mut bytes, columns);
+    bytes
+}
+
+fn check_length(length: usize, frames: usize) {
+    assert_eq!(length, frames, "a block's columns are equally long");
 }
 
 fn put(bytes: &mut Vec<u8>, number: usize) {
@@ -58,24 +104,103 @@ fn put(bytes: &mut Vec<u8>, number: usize) {
     bytes.extend_from_slice(&number.to_le_bytes());
 }
 
-/// Returns the columns that `bytes` hold, if they are `count` columns of `frames` numbers.
+fn put_decimals(bytes: &mut Vec<u8>, column: &Decimals) {
+    bytes.push(column.scale);
+    put_code(bytes, &column.mantissas);
+    put(bytes, column.exceptions.len());
+    for (frame, number) in &column.exceptions {
+        let text = number.to_string();
+        bytes.extend_from_slice(&frame.to_le_bytes());
+        put(bytes, text.len());
+        bytes.extend_from_slice(text.as_bytes());
+    }
+}
+
+fn put_doubles(bytes: &mut Vec<u8>, values: &[f64]) {
+    let short: Vec<f32> = values.iter().map(|value| *value as f32).collect();
+    let same = |(long, short): (&f64, &f32)| f64::from(*short).to_bits() == long.to_bits();
+    if values.iter().zip(&short).all(same) {
+        bytes.push(form::SHORT_DOUBLES);
+        put_code(bytes, &short);
+    } else {
+        bytes.push(form::DOUBLES);
+        put_code(bytes, values);
+    }
+}
+
+/// A number that is coded: its bytes tell it from every other, so that a nought keeps its sign.
+trait Plain: Coded + Default {
+    fn bytes(self) -> Vec<u8>;
+    fn of(bytes: &[u8]) -> Option<Self>;
+}
+
+macro_rules! plain {
+    ($($kind:ty),*) => {$(
+        impl Plain for $kind {
+            fn bytes(self) -> Vec<u8> {
+                self.to_le_bytes().to_vec()
+            }
+            fn of(bytes: &[u8]) -> Option<Self> {
+                Some(Self::from_le_bytes(bytes.try_into().ok()?))
+            }
+        }
+    )*};
+}
+
+plain!(i64, i32, f32, f64);
+
+fn put_code<T: Plain>(bytes: &mut Vec<u8>, values: &[T]) {
+    let first = values.first().copied().unwrap_or_default().bytes();
+    let (coding, code) = if values.iter().all(|value| value.bytes() == first) {
+        (CONSTANT, first)
+    } else {
+        let code = simple_compress(values, &ChunkConfig::default());
+        (
+            PCO,
+            code.expect("the default configuration codes any numbers"),
+        )
+    };
+    bytes.push(coding);
+    put(bytes, code.len());
+    bytes.extend_from_slice(&code);
+}
+
+/// Returns the columns that `bytes` hold if they are `count` columns of `frames` numbers.
 pub(crate) fn decode(bytes: &[u8], frames: usize, count: usize) -> Result<Vec<Column>, String> {
     let mut rest = bytes;
-    let [version] = take::<1>(&mut rest)?;
-    if version != VERSION {
+    match start(&mut rest, frames, count)? {
+        DECIMALS_ONLY => all(rest, count, |rest| {
+            take_decimals(rest, frames).map(Column::from)
+        }),
+        _ => all(rest, count, |rest| take_column(rest, frames)),
+    }
+}
+
+/// Reads the beginning of a block, and returns its version.
+fn start(rest: &mut &[u8], frames: usize, count: usize) -> Result<u8, String> {
+    let [version] = take::<1>(rest)?;
+    if ![DECIMALS_ONLY, ANY_FORM].contains(&version) {
         return Err(format!(
-            "its version is {version}, and this program reads {VERSION}"
+            "its version is {version}, and this program reads {DECIMALS_ONLY} and {ANY_FORM}"
         ));
     }
-    let (found_frames, found_count) = (take_u32(&mut rest)?, take_u32(&mut rest)?);
+    let (found_frames, found_count) = (take_u32(rest)?, take_u32(rest)?);
     if (found_frames, found_count) != (frames, count) {
         return Err(format!(
             "it holds {found_count} columns of {found_frames} frames, not {count} of {frames}"
         ));
     }
-    let mut columns = Vec::with_capacity(count.min(bytes.len()));
+    Ok(version)
+}
+
+fn all<T>(
+    mut rest: &[u8],
+    count: usize,
+    column: impl Fn(&mut &[u8]) -> Result<T, String>,
+) -> Result<Vec<T>, String> {
+    let mut columns = Vec::with_capacity(count.min(rest.len()));
     for _ in 0..count {
-        columns.push(decode_column(&mut rest, frames)?);
+        columns.push(column(&mut rest)?);
     }
     if rest.is_empty() {
         Ok(columns)
@@ -84,27 +209,46 @@ pub(crate) fn decode(bytes: &[u8], frames: usize, count: usize) -> Result<Vec<Co
     }
 }
 
-fn decode_column(rest: &mut &[u8], frames: usize) -> Result<Column, String> {
-    let [scale, coding] = take::<2>(rest)?;
-    let length = take_u32(rest)?;
-    let code = take_slice(rest, length)?;
-    let mantissas = match coding {
-        CONSTANT => {
-            let value = code.try_into().map_err(|_| "a constant is eight bytes")?;
-            vec![i64::from_le_bytes(value); frames]
+fn take_column(rest: &mut &[u8], frames: usize) -> Result<Column, String> {
+    let [form] = take::<1>(rest)?;
+    let numbers = match form {
+        form::DECIMALS => Numbers::Decimals(take_decimals(rest, frames)?),
+        form::SINGLES => Numbers::Singles(take_code(rest, frames)?),
+        form::DOUBLES => Numbers::Doubles(take_code(rest, frames)?),
+        form::SHORT_DOUBLES => {
+            let short: Vec<f32> = take_code(rest, frames)?;
+            Numbers::Doubles(short.into_iter().map(f64::from).collect())
         }
-        PCO => {
-            let mut mantissas = vec![0i64; frames];
-            let progress =
-                simple_decompress_into(code, &mut mantissas).map_err(|error| error.to_string())?;
-            if progress.n_processed != frames {
-                return Err(format!("a column has {} numbers", progress.n_processed));
-            }
-            mantissas
+        form::INTEGERS => {
+            let (zero, unit) = (take::<8>(rest)?, take::<8>(rest)?);
+            Numbers::Integers(Integers {
+                zero: f64::from_le_bytes(zero),
+                unit: f64::from_le_bytes(unit),
+                values: take_code(rest, frames)?,
+            })
         }
-        other => return Err(format!("the coding {other} is unknown")),
+        other => return Err(format!("the form {other} of numbers is unknown")),
     };
-    let mut exceptions = Vec::new();
+    let mut runs: Vec<Range<u32>> = Vec::new();
+    for _ in 0..take_u32(rest)? {
+        let run = u32::from_le_bytes(take(rest)?)..u32::from_le_bytes(take(rest)?);
+        if run.is_empty() || runs.last().is_some_and(|last| run.start <= last.end) {
+            return Err("its gaps are out of order".into());
+        }
+        runs.push(run);
+    }
+    let gaps = Gaps::of(runs);
+    let column = Column::new(numbers, gaps.clone()).map_err(|error| error.to_string())?;
+    if *column.gaps() != gaps {
+        return Err("a number is not finite".into());
+    }
+    Ok(column)
+}
+
+fn take_decimals(rest: &mut &[u8], frames: usize) -> Result<Decimals, String> {
+    let [scale] = take::<1>(rest)?;
+    let mantissas = take_code(rest, frames)?;
+    let mut exceptions: Vec<(u32, Number)> = Vec::new();
     for _ in 0..take_u32(rest)? {
         let frame = u32::from_le_bytes(take::<4>(rest)?);
         let length = take_u32(rest)?;
@@ -117,11 +261,33 @@ fn decode_column(rest: &mut &[u8], frames: usize) -> Result<Column, String> {
             .map_err(|_| format!("the exception {text:?} is no number"))?;
         exceptions.push((frame, number));
     }
-    Ok(Column {
+    Ok(Decimals {
         scale,
         mantissas,
         exceptions,
     })
+}
+
+fn take_code<T: Plain>(rest: &mut &[u8], frames: usize) -> Result<Vec<T>, String> {
+    let [coding] = take::<1>(rest)?;
+    let length = take_u32(rest)?;
+    let code = take_slice(rest, length)?;
+    match coding {
+        CONSTANT => {
+            let value = T::of(code).ok_or("a constant is not as long as its numbers")?;
+            Ok(vec![value; frames])
+        }
+        PCO => {
+            let mut values = vec![T::default(); frames];
+            let progress =
+                simple_decompress_into(code, &mut values).map_err(|error| error.to_string())?;
+            if progress.n_processed != frames {
+                return Err(format!("a column has {} numbers", progress.n_processed));
+            }
+            Ok(values)
+        }
+        other => Err(format!("the coding {other} is unknown")),
+    }
 }
 
 fn take_slice<'a>(rest: &mut &'a [u8], length: usize) -> Result<&'a [u8], String> {
@@ -143,20 +309,21 @@ fn take_u32(rest: &mut &[u8]) -> Result<usize, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
-    fn columns() -> Vec<Column> {
+    fn columns() -> Vec<Decimals> {
         vec![
-            Column {
+            Decimals {
                 scale: 6,
                 mantissas: (0..100).map(|i| i * i * 37 - 999_999).collect(),
                 exceptions: vec![],
             },
-            Column {
+            Decimals {
                 scale: 0,
                 mantissas: vec![-7; 100],
                 exceptions: vec![(3, "1e300".parse().expect("a number"))],
             },
-            Column {
+            Decimals {
                 scale: 18,
                 mantissas: (0..100)
                     .map(|i| if i % 2 == 0 { i64::MIN } else { i64::MAX })
@@ -171,25 +338,130 @@ mod tests {
         let columns = columns();
         let bytes = encode(100, &columns.iter().collect::<Vec<_>>());
         let back = decode(&bytes, 100, 3).expect("whole");
-        for (a, b) in columns.iter().zip(&back) {
+        for (a, b) in columns.iter().zip(back) {
+            let Numbers::Decimals(b) = b.into_numbers() else {
+                panic!("decimals are decimals");
+            };
             assert_eq!(
                 (a.scale, &a.mantissas, &a.exceptions),
                 (b.scale, &b.mantissas, &b.exceptions)
             );
         }
         assert!(decode(&bytes, 99, 3).is_err_and(|e| e.contains("3 columns of 100 frames")));
+        damage(&bytes, 100, 3);
+    }
+
+    /// Cuts and changes every byte; nothing may panic, and what is cut short is noticed.
+    fn damage(bytes: &[u8], frames: usize, count: usize) {
         for length in 0..bytes.len() {
-            assert!(decode(&bytes[..length], 100, 3).is_err(), "{length} bytes");
+            assert!(
+                decode(&bytes[..length], frames, count).is_err(),
+                "{length} bytes"
+            );
         }
         for at in 0..bytes.len() {
-            let mut broken = bytes.clone();
-            broken[at] ^= 0x55;
-            let _ = decode(&broken, 100, 3);
+            for flip in [0x55, 0xff] {
+                let mut broken = bytes.to_vec();
+                broken[at] ^= flip;
+                let _ = decode(&broken, frames, count);
+            }
         }
     }
 
     #[test]
     fn a_block_of_no_frames_or_no_columns_is_a_block() {
         assert!(decode(&encode(0, &[]), 0, 0).is_ok_and(|columns| columns.is_empty()));
+        let none = [Column::singles(Vec::new())];
+        let back = decode(&encode_any(0, &none), 0, 1).expect("whole");
+        assert_eq!(back, none);
+    }
+
+    /// Columns of every form, with gaps and without.
+    fn of_every_form() -> Vec<Column> {
+        let wave = |i: i32| f64::from(i).sin() * 1000.0;
+        let gaps = Gaps::of([3..7, 99..100]);
+        let integers = (0..100).map(|i| i * 317 - 30_000).collect();
+        let decimals =
+            (0..100).map(|i| (i % 9 != 4).then(|| Number::parse(b"1.250").ok()).flatten());
+        vec![
+            Column::singles((0..100).map(|i| wave(i) as f32).collect()),
+            Column::doubles((0..100).map(wave).collect()),
+            Column::doubles((0..100).map(|i| f64::from(wave(i) as f32)).collect()),
+            Column::doubles(vec![-0.0; 100]),
+            Column::singles(
+                (0..100)
+                    .map(|i| if i < 40 { f32::NAN } else { -0.0 })
+                    .collect(),
+            ),
+            Column::integers(integers, 12.5, 0.083_333)
+                .and_then(|it| it.with_gaps(&gaps))
+                .expect("a column"),
+            Column::decimals(decimals),
+        ]
+    }
+
+    fn bits(column: &Column) -> Vec<Option<u64>> {
+        column
+            .values()
+            .map(|value| value.map(f64::to_bits))
+            .collect()
+    }
+
+    #[test]
+    fn every_form_comes_back_bit_for_bit_with_its_gaps() {
+        let columns = of_every_form();
+        let bytes = encode_any(100, &columns);
+        let back = decode(&bytes, 100, columns.len()).expect("whole");
+        assert_eq!(back, columns);
+        for (a, b) in columns.iter().zip(&back) {
+            assert_eq!((bits(a), a.numbers().form()), (bits(b), b.numbers().form()));
+        }
+        let short = encode_any(100, &columns[2..3]).len();
+        assert!(
+            short < encode_any(100, &columns[1..2]).len(),
+            "f32 in f64 takes the room of f32"
+        );
+    }
+
+    #[test]
+    fn damaged_columns_of_any_form_are_refused_without_a_panic() {
+        let columns: Vec<Column> = of_every_form()
+            .iter()
+            .map(|column| column.slice(0..12))
+            .collect();
+        damage(&encode_any(12, &columns), 12, columns.len());
+    }
+
+    #[test]
+    fn decimals_without_gaps_keep_the_bytes_that_they_always_had() {
+        let columns = columns();
+        let plain = encode(100, &columns.iter().collect::<Vec<_>>());
+        let any: Vec<Column> = columns.into_iter().map(Column::from).collect();
+        assert_eq!(encode_any(100, &any), plain);
+        assert_eq!(decode(&plain, 100, 3).expect("whole"), any);
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+
+        #[test]
+        fn any_floats_and_integers_come_back(
+            bits in proptest::collection::vec(any::<u64>(), 0..80),
+            zero in -1e6..1e6f64,
+            unit in 1e-6..10f64,
+        ) {
+            let frames = bits.len();
+            let columns = vec![
+                Column::doubles(bits.iter().map(|bits| f64::from_bits(*bits)).collect()),
+                Column::singles(bits.iter().map(|bits| f32::from_bits(*bits as u32)).collect()),
+                Column::integers(bits.iter().map(|bits| *bits as i32).collect(), zero, unit)
+                    .expect("a column"),
+            ];
+            let back = decode(&encode_any(frames, &columns), frames, 3).expect("whole");
+            for (column, back) in columns.iter().zip(&back) {
+                prop_assert_eq!(self::bits(column), self::bits(back));
+                prop_assert_eq!(column.gaps(), back.gaps());
+            }
+        }
     }
 }

@@ -4,19 +4,20 @@ use std::io::Write;
 use std::ops::Range;
 
 use chereme_compose::Curve;
-use chereme_formats::bvh::raw::Column;
+use chereme_motion::column::{Column, Decimals};
+use chereme_motion::{Rate, Span, Times};
 use rusqlite::Connection;
 
 use crate::Corpus;
 use crate::address::{self, Address, Stretch};
-use crate::codec;
-use crate::db::{curves as rows, damaged, motion};
+use crate::db::upgrade::NONMANUALS;
+use crate::db::{motion, tracks};
 use crate::error::{Error, Result};
-use crate::movement::{BLOCK_FRAMES, Track};
+use crate::movement::Track;
+use crate::track::{self, NewTrack};
 
 /// Decimals of stored numbers.
 const DECIMALS: u8 = 6;
-const SCALE: f64 = 1e6;
 
 impl Corpus {
     /// Returns the scalar curves at an address, a number for each frame of its movement; none where it
@@ -32,12 +33,12 @@ impl Corpus {
     }
 }
 
-/// Stores the curves of a track with `frames` frames.
+/// Stores the curves of a made movement, a number for each of its frames, as a track of their own.
 pub(crate) fn store(
     connection: &Connection,
-    track: i64,
+    recording: i64,
     curves: &[Curve],
-    frames: usize,
+    (rate, frames): (Rate, usize),
 ) -> Result<()> {
     if curves.is_empty() {
         return Ok(());
@@ -48,72 +49,64 @@ pub(crate) fn store(
             "the curve {name:?} has {count} values for {frames} frames"
         )));
     }
-    let names: Vec<&str> = curves.iter().map(|curve| curve.name.as_str()).collect();
-    rows::insert_names(connection, track, &names)?;
-    for first in (0..frames).step_by(BLOCK_FRAMES) {
-        let own = first..frames.min(first + BLOCK_FRAMES);
-        let columns: Vec<Column> = curves
-            .iter()
-            .map(|curve| Column {
-                scale: DECIMALS,
-                mantissas: curve.values[own.clone()]
-                    .iter()
-                    .map(|value| (value * SCALE).round() as i64)
-                    .collect(),
-                exceptions: Vec::new(),
-            })
-            .collect();
-        let columns: Vec<&Column> = columns.iter().collect();
-        let data = codec::encode(own.len(), &columns);
-        rows::insert_block(connection, track, first, own.len(), &data)?;
-    }
+    let fault = |name: &str| Error::wrong(format!("the curve {name:?} has a number out of range"));
+    let column = |curve: &Curve| {
+        let values = curve.values.iter().copied();
+        let decimals = Decimals::rounded(values, DECIMALS).ok_or_else(|| fault(&curve.name))?;
+        Ok(chereme_motion::Curve::new(
+            curve.name.clone(),
+            Column::from(decimals),
+        ))
+    };
+    let all = curves.iter().map(column).collect::<Result<_>>()?;
+    let track = chereme_motion::Curves::new(Times::Even(rate), all)
+        .map_err(|error| Error::wrong(error.to_string()))?;
+    let new = NewTrack::new(NONMANUALS, track::Track::Curves(track));
+    track::store::store(connection, recording, &new)?;
     Ok(())
 }
 
-/// Returns the curves of a track over `frames`.
+/// Returns the curves of non-manuals that go with a movement, over `frames` of it: a number for each frame.
 pub(crate) fn of_track(
     connection: &Connection,
     track: &Track,
     frames: Range<usize>,
 ) -> Result<Vec<Curve>> {
-    let names = rows::names(connection, track.row.id)?;
-    let mut curves: Vec<Curve> = names
-        .into_iter()
-        .map(|name| Curve {
-            name,
+    let Some(row) = motion::nonmanuals(connection, track.row.id)? else {
+        return Ok(Vec::new());
+    };
+    let row = tracks::track(connection, row)?;
+    let same = (row.rate, row.offset_us) == (Some(track.rate), track.row.offset_us);
+    let frame = |frame: usize| track.rate.instant(frame).shifted(track.row.offset_us);
+    let span = Span::between(frame(frames.start), frame(frames.end));
+    if same && row.frames == Some(track.frames() as u64) {
+        let stored = track::read::curves(connection, &row, Some(span))?;
+        let all = stored.curves().iter().map(|curve| Curve {
+            name: curve.name.clone(),
+            values: curve
+                .values
+                .values()
+                .map(Option::unwrap_or_default)
+                .collect(),
+        });
+        return Ok(all.collect());
+    }
+    let stored = track::read::curves(connection, &row, None)?;
+    let mut all: Vec<Curve> = stored
+        .curves()
+        .iter()
+        .map(|curve| Curve {
+            name: curve.name.clone(),
             values: Vec::with_capacity(frames.len()),
         })
         .collect();
-    if curves.is_empty() {
-        return Ok(curves);
-    }
-    let mut next = frames.start;
-    for block in rows::blocks(connection, track.row.id, &frames)? {
-        let place = || format!("block {}", motion::hex(&block.hash));
-        if block.frames > BLOCK_FRAMES || block.first_frame > next {
-            return Err(damaged(place(), "the curves have a gap"));
+    for at in frames.map(frame) {
+        let values = stored.sample(at.shifted(-row.offset_us));
+        for (curve, value) in all.iter_mut().zip(values) {
+            curve.values.push(value.unwrap_or_default());
         }
-        let columns = codec::decode(&block.data, block.frames, curves.len())
-            .map_err(|reason| damaged(place(), reason))?;
-        let end = frames.end.min(block.first_frame + block.frames);
-        let own = next - block.first_frame..end.saturating_sub(block.first_frame);
-        for (curve, column) in curves.iter_mut().zip(&columns) {
-            let scale = 10f64.powi(i32::from(column.scale));
-            let values = column.mantissas.get(own.clone()).unwrap_or_default();
-            curve
-                .values
-                .extend(values.iter().map(|value| *value as f64 / scale));
-        }
-        next = end.max(next);
     }
-    if next < frames.end {
-        let place = format!("track {}", track.row.id);
-        return Err(damaged(
-            place,
-            format!("frame {next} of its curves is missing"),
-        ));
-    }
-    Ok(curves)
+    Ok(all)
 }
 
 /// Writes the curves of a stretch as a table: a frame a row, its time in seconds from the first one, and
@@ -171,7 +164,10 @@ mod tests {
         let mut corpus = Corpus::create(&path, "A").expect("made");
         let recipe = format!("sigml {:?} | repeat 8", file.display().to_string());
         let (_, made, _) = corpus.make(&recipe).expect("made");
-        assert!(made.clip.frames() > BLOCK_FRAMES, "more than one block");
+        assert!(
+            made.clip.frames() > crate::movement::BLOCK_FRAMES,
+            "more than one block"
+        );
         let most = made.curves[0].values.iter().copied().fold(0.0, f64::max);
         assert!(most > 0.9, "the brows are raised: {most}");
         corpus.recombine(&recipe, "VRAAG").expect("stored");
@@ -182,7 +178,7 @@ mod tests {
             assert_eq!(stored.name, made.name);
             assert_eq!(stored.values.len(), made.values.len());
             let pairs = stored.values.iter().zip(&made.values);
-            assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() <= 0.5 / SCALE));
+            assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() <= 0.5e-6));
         }
         let plain = "hamnosys \"hamflathand hamextfingeru hampalml hamchest\"";
         corpus.recombine_again(&sign, plain).expect("made anew");

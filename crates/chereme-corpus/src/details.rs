@@ -238,7 +238,7 @@ impl Corpus {
             media: self.media(&Name::Number(id))?,
             engine: recipes::of_recording(&reading, id)?.map(|it| it.engine),
         };
-        if recordings::motion_track(&reading, id)?.is_some() {
+        if recordings::body_track(&reading, id)?.is_some() {
             let track = Track::of(&reading, id)?;
             let anatomy = track.anatomy(&reading)?;
             let name = |joint: usize| track.hierarchy.joints[joint].name.clone();

@@ -22,6 +22,8 @@ pub struct Info {
     pub counts: BTreeMap<&'static str, u64>,
     /// Recordings by how they came about.
     pub recordings: BTreeMap<String, u64>,
+    /// Tracks by kind: `skeleton`, `markers`, `curves`, `media`.
+    pub tracks: BTreeMap<String, u64>,
     /// Tokens by how they came about.
     pub tokens: BTreeMap<String, u64>,
     /// Tiers by what they say.
@@ -94,6 +96,7 @@ impl Corpus {
             schema_version: SCHEMA_VERSION,
             counts: rows::counts(connection)?,
             recordings: rows::recordings(connection)?,
+            tracks: rows::tracks(connection)?,
             tokens: rows::tokens(connection)?,
             tiers: rows::tiers(connection)?,
             motion_hours: motion.seconds / 3600.0,

@@ -40,6 +40,7 @@ mod sources;
 mod starter;
 mod suggest;
 mod tokens;
+mod track;
 mod transcribe;
 mod values;
 pub mod words;
@@ -106,6 +107,9 @@ pub use recombine::{MadePart, NotationFinding, Recombination, TimedNote};
 pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions, guessed, meant};
 pub use starter::{starter_files, unpack_starter};
 pub use suggest::{Partner, Suggestions};
+pub use track::{
+    Alignment, MediaFile, NewTrack, Signal, SkeletonTrack, Track, TrackChange, TrackKind, TrackRow,
+};
 pub use transcribe::{Transcribed, TranscribedFeature, TranscribedStage, TranscribedValue};
 pub use values::MergedValues;
 

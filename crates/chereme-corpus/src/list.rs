@@ -24,6 +24,8 @@ use crate::notation;
 pub enum ListKind {
     /// Recordings.
     Recordings,
+    /// Tracks of recordings.
+    Tracks,
     /// Signs.
     Signs,
     /// Tokens.
@@ -46,8 +48,9 @@ pub enum ListKind {
 
 impl ListKind {
     /// Every kind.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Recordings,
+        Self::Tracks,
         Self::Signs,
         Self::Tokens,
         Self::Tiers,
@@ -64,6 +67,7 @@ impl ListKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::Recordings => "recordings",
+            Self::Tracks => "tracks",
             Self::Signs => "signs",
             Self::Tokens => "tokens",
             Self::Tiers => "tiers",
@@ -97,6 +101,7 @@ impl ListKind {
     fn table(self) -> &'static Table {
         match self {
             Self::Recordings => &rows::RECORDINGS,
+            Self::Tracks => &rows::TRACKS,
             Self::Signs => &rows::SIGNS,
             Self::Tokens => &rows::TOKENS,
             Self::Tiers => &rows::TIERS,

@@ -2,19 +2,25 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 use chereme_formats::bvh::convert::ClipBuilder;
 use chereme_formats::bvh::raw::{ChannelFix, Column, Hierarchy};
 use chereme_motion::anatomy::{Anatomy, Part, Roles};
+use chereme_motion::clip::Channel;
+use chereme_motion::column::{Column as Numbers, Numbers as Form};
 use chereme_motion::ends::{Ends, OddFrames};
-use chereme_motion::{Clip, Convention, Rate, Side, Skeleton, Span};
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Clip, Convention, Joint, Rate, Side, Skeleton, Span};
 use rusqlite::Connection;
+use serde::{Deserialize, Serialize};
 
 use crate::codec;
 use crate::db::damaged;
 use crate::db::motion::{self, BlockRow};
 use crate::db::recipes;
 use crate::db::recordings::{self, MotionTrackRow};
+use crate::db::tracks;
 use crate::error::{Error, Result};
 
 /// How many frames a block holds: long enough to be coded well, short enough to be read alone.
@@ -91,6 +97,100 @@ pub(crate) fn channel_groups(
     groups
 }
 
+/// How the track of a skeleton that came from no BVH holds its numbers: the unit quaternion of every joint (x, y, z, w),
+/// then, for joints that move, their place in their parent's space.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Layout {
+    rotations: RotationForm,
+    /// The joints that move.
+    moving: Vec<usize>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum RotationForm {
+    Quaternion,
+}
+
+impl Layout {
+    /// Returns the layout of a clip.
+    pub(crate) fn of(clip: &Clip) -> Self {
+        let moves = |joint: &usize| clip.channel(*joint).translations.is_some();
+        Self {
+            rotations: RotationForm::Quaternion,
+            moving: (0..clip.skeleton().len()).filter(moves).collect(),
+        }
+    }
+
+    /// Returns how many columns a joint has.
+    fn width(&self, joint: usize) -> usize {
+        if self.moving.binary_search(&joint).is_ok() {
+            7
+        } else {
+            4
+        }
+    }
+
+    /// Returns the columns of a joint.
+    pub(crate) fn columns(&self, clip: &Clip, joint: usize) -> Vec<Numbers> {
+        let channel = clip.channel(joint);
+        let turned = |axis: usize| {
+            channel
+                .rotations
+                .iter()
+                .map(|q| q.to_array()[axis])
+                .collect()
+        };
+        let mut columns: Vec<Numbers> = (0..4).map(|axis| Numbers::doubles(turned(axis))).collect();
+        if let Some(places) = &channel.translations {
+            let moved = |axis: usize| places.iter().map(|at| at[axis]).collect();
+            columns.extend((0..3).map(|axis| Numbers::doubles(moved(axis))));
+        }
+        columns
+    }
+
+    /// Appends the frames `rows` of a joint's columns to its channel.
+    fn push(&self, channel: &mut Channel, columns: &[&Numbers], rows: Range<usize>) -> Option<()> {
+        let value = |axis: usize, row: usize| columns.get(axis)?.value(row);
+        for row in rows {
+            let [x, y, z, w] = [
+                value(0, row)?,
+                value(1, row)?,
+                value(2, row)?,
+                value(3, row)?,
+            ];
+            channel.rotations.push(DQuat::from_xyzw(x, y, z, w));
+            if let Some(places) = &mut channel.translations {
+                places.push(DVec3::new(value(4, row)?, value(5, row)?, value(6, row)?));
+            }
+        }
+        Some(())
+    }
+}
+
+/// The rotations at rest of a skeleton's document.
+#[derive(Deserialize)]
+struct Rests {
+    joints: Vec<Rest>,
+}
+
+#[derive(Deserialize)]
+struct Rest {
+    rest: Option<[f64; 4]>,
+}
+
+/// Returns the skeleton of a document whose joints may be turned at rest.
+fn skeleton_of(hierarchy: &Hierarchy, document: &str) -> Option<Skeleton> {
+    let plain = chereme_formats::bvh::convert::skeleton(hierarchy).ok()?;
+    let rests: Rests = serde_json::from_str(document).ok()?;
+    let joints = plain.joints().iter().zip(rests.joints);
+    let joints = joints.map(|(joint, rest)| Joint {
+        rest: rest.rest.map_or(DQuat::IDENTITY, DQuat::from_array),
+        ..joint.clone()
+    });
+    Skeleton::new(joints.collect()).ok()
+}
+
 /// The motion track of a recording with all that is needed to read it.
 pub(crate) struct Track {
     pub(crate) row: MotionTrackRow,
@@ -99,12 +199,14 @@ pub(crate) struct Track {
     pub(crate) rate: Rate,
     fix: Option<ChannelFix>,
     groups: BTreeMap<ChannelGroup, Vec<usize>>,
+    /// How it holds its numbers, and its skeleton, if it came from no BVH.
+    exact: Option<(Layout, Arc<Skeleton>)>,
 }
 
 impl Track {
-    /// Returns the motion track of a recording.
+    /// Returns the motion track that is the body of a recording.
     pub(crate) fn of(connection: &Connection, recording: i64) -> Result<Self> {
-        let Some(row) = recordings::motion_track(connection, recording)? else {
+        let Some(row) = recordings::body_track(connection, recording)? else {
             let name = recordings::recording(connection, recording)?.name;
             return Err(
                 Error::wrong(format!("the recording {name:?} holds no movement"))
@@ -112,6 +214,20 @@ impl Track {
                     .advise("import the motion file of the same name"),
             );
         };
+        Self::read(connection, row)
+    }
+
+    /// Returns the motion track of that row.
+    pub(crate) fn of_row(connection: &Connection, track: i64) -> Result<Self> {
+        let row = recordings::skeleton_track(connection, track)?;
+        let place = format!("track {track}");
+        Self::read(
+            connection,
+            row.ok_or_else(|| damaged(place, "it holds no movement"))?,
+        )
+    }
+
+    fn read(connection: &Connection, row: MotionTrackRow) -> Result<Self> {
         let place = format!("track {}", row.id);
         let bad = |what: &str| damaged(place.clone(), format!("its {what} cannot be read"));
         let document = recordings::skeleton_document(connection, row.skeleton_id)?;
@@ -126,6 +242,14 @@ impl Track {
         if groups.values().flatten().any(|&joint| joint >= joints) {
             return Err(bad("channel groups"));
         }
+        let exact = match tracks::form(connection, row.id)?.layout {
+            None => None,
+            Some(text) => {
+                let layout = serde_json::from_str(&text).map_err(|_| bad("layout"))?;
+                let skeleton = skeleton_of(&hierarchy, &document).ok_or_else(|| bad("skeleton"))?;
+                Some((layout, Arc::new(skeleton)))
+            }
+        };
         let fix = match row.root_order.as_deref() {
             None => None,
             Some("rotation-before-position") => Some(ChannelFix::RotationBeforePosition),
@@ -140,6 +264,7 @@ impl Track {
             hierarchy,
             fix,
             groups,
+            exact,
             row,
         })
     }
@@ -149,12 +274,20 @@ impl Track {
         usize::try_from(self.row.frames).unwrap_or_default()
     }
 
+    /// Returns whether the numbers are those of a BVH, which can be written as they are.
+    pub(crate) fn is_of_bvh(&self) -> bool {
+        self.exact.is_none()
+    }
+
     /// Returns which columns of the file a group's joints have.
     pub(crate) fn columns_of(&self, group: ChannelGroup) -> Vec<usize> {
-        columns_of(
-            &self.hierarchy,
-            self.groups.get(&group).map_or(&[], Vec::as_slice),
-        )
+        let joints = self.groups.get(&group).map_or(&[][..], Vec::as_slice);
+        let Some((layout, _)) = &self.exact else {
+            return columns_of(&self.hierarchy, joints);
+        };
+        let first = |joint: usize| (0..joint).map(|it| layout.width(it)).sum::<usize>();
+        let own = |&joint: &usize| first(joint)..first(joint) + layout.width(joint);
+        joints.iter().flat_map(own).collect()
     }
 
     /// Returns the frames that start in `span`.
@@ -171,7 +304,7 @@ impl Track {
         connection: &Connection,
         groups: &[ChannelGroup],
         frames: &Range<usize>,
-        mut take: impl FnMut(&[usize], usize, Vec<Column>) -> Result<()>,
+        mut take: impl FnMut(&[usize], usize, Vec<Numbers>) -> Result<()>,
     ) -> Result<()> {
         for &group in groups {
             let columns = self.columns_of(group);
@@ -205,14 +338,46 @@ impl Track {
         frames: Range<usize>,
         groups: &[ChannelGroup],
     ) -> Result<Clip> {
+        let clip = self.raw(connection, frames, groups)?;
+        Ok(self.convention.clip(&clip))
+    }
+
+    /// Returns the movement of `frames` in the file's unit and axes.
+    pub(crate) fn raw_clip(&self, connection: &Connection, frames: Range<usize>) -> Result<Clip> {
+        self.raw(connection, frames, &ChannelGroup::ALL)
+    }
+
+    fn raw(
+        &self,
+        connection: &Connection,
+        frames: Range<usize>,
+        groups: &[ChannelGroup],
+    ) -> Result<Clip> {
         let frames = frames.start.min(self.frames())..frames.end.min(self.frames());
-        let mut blocks: BTreeMap<usize, BTreeMap<usize, Column>> = BTreeMap::new();
+        let mut blocks: BTreeMap<usize, BTreeMap<usize, Numbers>> = BTreeMap::new();
         self.blocks(connection, groups, &frames, |numbers, first, columns| {
             let block = blocks.entry(first).or_default();
             block.extend(numbers.iter().copied().zip(columns));
             Ok(())
         })?;
+        if let Some((layout, skeleton)) = &self.exact {
+            return self.exact_clip(layout, skeleton, &blocks, frames);
+        }
         let place = || format!("track {}", self.row.id);
+        let mut decimals: BTreeMap<usize, BTreeMap<usize, Column>> = BTreeMap::new();
+        for (first, columns) in blocks {
+            let plain = columns
+                .into_iter()
+                .map(|(at, column)| match column.into_numbers() {
+                    Form::Decimals(decimals) => Ok((at, decimals)),
+                    other => {
+                        let reason = format!("its numbers are {}, not decimals", other.form());
+                        Err(damaged(place(), reason))
+                    }
+                });
+            decimals.insert(first, plain.collect::<Result<_>>()?);
+        }
+        let blocks = decimals;
         let mut builder = ClipBuilder::new(&self.hierarchy, self.fix)
             .map_err(|error| damaged(place(), error.to_string()))?;
         let mut next = frames.start;
@@ -234,11 +399,61 @@ impl Track {
         let clip = builder
             .finish(self.rate)
             .map_err(|error| damaged(place(), error.to_string()))?;
-        let clip = match self.row.root_scale {
+        Ok(match self.row.root_scale {
             None => clip,
             Some(scale) => scale_root(clip, scale),
-        };
-        Ok(self.convention.clip(&clip))
+        })
+    }
+
+    /// Returns the clip of columns of quaternions and places; joints whose columns were not read stay at rest.
+    fn exact_clip(
+        &self,
+        layout: &Layout,
+        skeleton: &Arc<Skeleton>,
+        blocks: &BTreeMap<usize, BTreeMap<usize, Numbers>>,
+        frames: Range<usize>,
+    ) -> Result<Clip> {
+        let bad = |reason: String| damaged(format!("track {}", self.row.id), reason);
+        let mut next = frames.start;
+        let mut parts = Vec::new();
+        for (first, columns) in blocks {
+            let length = columns.values().next().map_or(0, Numbers::len);
+            let rows = next.saturating_sub(*first)..(frames.end - first).min(length);
+            if *first > next || rows.is_empty() {
+                return Err(bad(format!("frame {next} is missing")));
+            }
+            next = first + rows.end;
+            parts.push((columns, rows));
+        }
+        if next < frames.end {
+            return Err(bad(format!("frame {next} is missing")));
+        }
+        let mut from = 0;
+        let mut channels = Vec::with_capacity(skeleton.len());
+        for (joint, at) in skeleton.joints().iter().enumerate() {
+            let width = layout.width(joint);
+            let own = from..from + width;
+            from += width;
+            let mut channel = Channel {
+                rotations: Vec::with_capacity(frames.len()),
+                translations: (width > 4).then(Vec::new),
+            };
+            for (columns, rows) in &parts {
+                let found: Option<Vec<&Numbers>> = own.clone().map(|it| columns.get(&it)).collect();
+                let Some(found) = found else {
+                    channel.rotations.extend(rows.clone().map(|_| at.rest));
+                    if let Some(places) = &mut channel.translations {
+                        places.extend(rows.clone().map(|_| at.offset));
+                    }
+                    continue;
+                };
+                layout
+                    .push(&mut channel, &found, rows.clone())
+                    .ok_or_else(|| bad(format!("joint {:?} has a gap", at.name)))?;
+            }
+            channels.push(channel);
+        }
+        Clip::new(Arc::clone(skeleton), self.rate, channels).map_err(|error| bad(error.to_string()))
     }
 
     /// Returns what the skeleton's joints are, measured where the recording begins; made movement has the body of

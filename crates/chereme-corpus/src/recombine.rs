@@ -401,7 +401,7 @@ fn store_movement(
             .collect();
         movement::store_block(connection, track, &numbers, first, rows.len(), &part)?;
     }
-    curves::store(connection, track, &made.curves, clip.frames())?;
+    curves::store(connection, recording, &made.curves, (rate, clip.frames()))?;
     Ok(())
 }
 

@@ -158,7 +158,7 @@ impl<'a> CorpusSources<'a> {
         let (Some(recording), Some(start)) = (token.recording_id, token.start_us) else {
             return Ok(None);
         };
-        if recordings::motion_track(self.connection, recording)?.is_none() {
+        if recordings::body_track(self.connection, recording)?.is_none() {
             return Ok(None);
         }
         let signer = recordings::recording(self.connection, recording)?.signer;
@@ -275,7 +275,7 @@ impl Sources for CorpusSources<'_> {
             recordings.sort_by_key(|row| (rank(&row.origin), row.id));
             let mut spare = None;
             for recording in recordings {
-                if recordings::motion_track(self.connection, recording.id)?.is_none() {
+                if recordings::body_track(self.connection, recording.id)?.is_none() {
                     continue;
                 }
                 let material = standing(self.connection, recording)?;

@@ -9,7 +9,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use chereme_corpus::{Corpus, KeptSearch};
+use chereme_corpus::{Corpus, KeptSearch, Name, NewTrack, Track};
+use chereme_motion::column::{Column, Gaps};
+use chereme_motion::{Convention, Curve, Curves, Marker, Markers, Rate, Space, Times};
 use chereme_tests::{repository, workers};
 
 fn main() -> ExitCode {
@@ -29,7 +31,34 @@ fn main() -> ExitCode {
     }
 }
 
-/// Makes the corpus: imports, a made sign, something undone and something done again.
+/// Returns markers and curves, with numbers of several forms and gaps.
+fn tracks() -> Result<Vec<NewTrack>, Box<dyn Error>> {
+    let wave = |frame: u16, phase: f32| (f32::from(frame) * 0.05 + phase).sin();
+    let floats = |phase| Column::singles((0..600).map(|at| wave(at, phase)).collect());
+    let whole = (0..600).map(|at| (wave(at, 0.5) * 3000.0) as i32).collect();
+    let whole = Column::integers(whole, 0.0, 0.1)?.with_gaps(&Gaps::of([20..40]))?;
+    let point = |name, phase| {
+        Marker::new(
+            name,
+            vec![floats(phase), floats(phase + 1.0), whole.clone()],
+        )
+    };
+    let points = vec![point("LWRA", 0.0), point("RWRA", 2.0)];
+    let markers = Markers::new(
+        Times::Even(Rate::new(120, 1)?),
+        Space::World(Convention::MODEL),
+        points,
+    )?;
+    let seconds = (0..600).map(|at| f64::from(at) * 0.0167 + f64::from(at % 5) * 0.001);
+    let times = Times::listed(Column::doubles(seconds.collect()))?;
+    let curves = Curves::new(times, vec![Curve::new("JawOpen", floats(0.25))])?;
+    Ok(vec![
+        NewTrack::new("markers", Track::Markers(markers)),
+        NewTrack::new("face", Track::Curves(curves)),
+    ])
+}
+
+/// Makes the corpus: imports, tracks, a made sign, something undone and something done again.
 fn write(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     let desk = tempfile::tempdir()?;
     let path = workers::small_corpus(desk.path(), "store.chereme")?;
@@ -38,6 +67,7 @@ fn write(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
         name: "chin".to_owned(),
         query: "right.configuration=S placement=chin".to_owned(),
     }])?;
+    corpus.add_tracks(&Name::Text("bowl and cat".to_owned()), &tracks()?)?;
     corpus.recombine("BOL | reverse", "LOB")?;
     corpus.undo()?;
     corpus.redo()?;

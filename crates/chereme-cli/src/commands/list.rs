@@ -9,7 +9,7 @@ use chereme_corpus::{AttributeInfo, Info, ListFilter, ListKind, cell_text};
 use crate::args::Cli;
 use crate::output::Output;
 
-/// List rows: recordings, signs, tokens, tiers, annotations, inventories, values, signers, searches, operations
+/// List rows: recordings, tracks, signs, tokens, tiers, annotations, inventories, values, signers, searches, operations
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The corpus

@@ -266,7 +266,7 @@ fn check(
 ) -> Result<()> {
     let first = new.iter().map(|item| item.start).min().unwrap_or(0);
     let last = new.iter().map(|item| item.end).max().unwrap_or(0);
-    let moves = recordings::motion_track(connection, recording.id)?.is_some();
+    let moves = recordings::body_track(connection, recording.id)?.is_some();
     let over = if moves {
         last - recording.duration_us
     } else {

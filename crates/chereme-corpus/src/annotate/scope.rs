@@ -46,7 +46,7 @@ pub(super) struct Neighbourhood {
 
 impl Scope {
     pub(super) fn read(connection: &Connection, recording: i64) -> Result<Self> {
-        let track = recordings::motion_track(connection, recording)?;
+        let track = recordings::body_track(connection, recording)?;
         let clock = track.and_then(|track| {
             Some(Clock {
                 offset: track.offset_us,

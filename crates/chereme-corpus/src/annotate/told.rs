@@ -111,7 +111,7 @@ pub(super) fn refused(connection: &Connection, tier: i64, error: &EditError) -> 
         row.name,
         recording.name
     );
-    let moves = recordings::motion_track(connection, recording.id)?.is_some();
+    let moves = recordings::body_track(connection, recording.id)?.is_some();
     let length = moves.then_some(recording.duration_us);
     let free = free_near(connection, &row, &other, length)?;
     let remedy = if free.is_empty() {

@@ -45,18 +45,6 @@ pub(crate) fn blocks(
     Ok(())
 }
 
-/// Returns the names of the motion tracks' recordings with the recording's row.
-pub(crate) fn moving_recordings(connection: &Connection) -> Result<Vec<(i64, String)>> {
-    let mut statement = connection.prepare(
-        "SELECT DISTINCT r.id, r.name FROM recording r JOIN track t ON t.recording_id = r.id
-         WHERE t.kind = 'skeleton' ORDER BY r.id",
-    )?;
-    let rows = statement
-        .query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
-}
-
 /// Returns the row, document and content hash of every skeleton.
 pub(crate) fn skeletons(connection: &Connection) -> Result<Vec<(i64, String, String)>> {
     let mut statement =

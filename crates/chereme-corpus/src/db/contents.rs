@@ -31,8 +31,8 @@ pub(crate) fn recordings(connection: &Connection) -> Result<Vec<RecordingGlance>
                 (SELECT count(*) FROM token t WHERE t.recording_id = r.id),
                 (SELECT text FROM recipe p WHERE p.recording_id = r.id)
          FROM recording r LEFT JOIN signer g ON g.id = r.signer_id
-              LEFT JOIN track k ON k.id = (SELECT min(id) FROM track
-                  WHERE recording_id = r.id AND kind = 'skeleton')
+              LEFT JOIN track k ON k.id = (SELECT id FROM track
+                  WHERE recording_id = r.id AND kind = 'skeleton' ORDER BY name <> 'body', id LIMIT 1)
          ORDER BY r.id",
     )?;
     let mut rows = statement.query([])?;

@@ -10,16 +10,17 @@ use super::open;
 use crate::error::Result;
 
 /// The tables that a reader of the data wants, in the order in which they build on each other.
-pub(crate) const TABLES: [&str; 23] = [
+pub(crate) const TABLES: [&str; 24] = [
     "meta",
     "signer",
     "skeleton",
     "recording",
     "source_file",
+    "track_kind",
     "track",
+    "channel_group",
     "track_block",
-    "curve",
-    "curve_block",
+    "channel",
     "inventory",
     "inventory_value",
     "tier",

@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 
 /// The tables whose rows are recorded, and for each the columns that refer to a row with a uid.
-const TRACKED: [(&str, &[(&str, &str)]); 22] = [
+const TRACKED: [(&str, &[(&str, &str)]); 21] = [
     ("meta", &[]),
     ("signer", &[]),
     ("skeleton", &[]),
@@ -27,8 +27,7 @@ const TRACKED: [(&str, &[(&str, &str)]); 22] = [
         &[("recording_id", "recording"), ("skeleton_id", "skeleton")],
     ),
     ("track_block", &[("track_id", "track")]),
-    ("curve", &[("track_id", "track")]),
-    ("curve_block", &[("track_id", "track")]),
+    ("channel", &[("track_id", "track")]),
     ("inventory", &[]),
     ("inventory_value", &[("inventory_id", "inventory")]),
     (
@@ -449,7 +448,37 @@ fn invert(
         .ok_or_else(|| damaged(format!("operation {source}"), "its changeset is empty"))
 }
 
-fn read_part(connection: &Connection, operation: i64, part: i64) -> Result<String> {
+/// Returns the parts of all changesets, as operation and number, oldest first.
+pub(super) fn parts(connection: &Connection) -> Result<Vec<(i64, i64)>> {
+    let sql = "SELECT operation_id, part FROM changeset ORDER BY operation_id, part";
+    let mut statement = connection.prepare(sql)?;
+    let rows = statement
+        .query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Writes a part of a changeset again as a newer schema has its rows, with `added` more changes.
+pub(super) fn replace_part(
+    connection: &Connection,
+    operation: i64,
+    part: i64,
+    lines: &str,
+    added: i64,
+) -> Result<()> {
+    connection.execute(
+        "DELETE FROM changeset WHERE operation_id = ?1 AND part = ?2",
+        params![operation, part],
+    )?;
+    write_part(connection, operation, part, lines.as_bytes())?;
+    connection.execute(
+        "UPDATE operation SET changes = changes + ?2 WHERE id = ?1",
+        params![operation, added],
+    )?;
+    Ok(())
+}
+
+pub(super) fn read_part(connection: &Connection, operation: i64, part: i64) -> Result<String> {
     let place = || format!("changeset {operation}, part {part}");
     let data: Vec<u8> = connection
         .query_row(

@@ -10,7 +10,14 @@ use crate::info::{InventoryInfo, SignerInfo};
 const KINDS: [(&str, &str); 16] = [
     ("recordings", "recording"),
     ("tracks", "track"),
-    ("curves", "curve"),
+    (
+        "points",
+        "channel c JOIN track t ON t.id = c.track_id AND t.kind = 'markers'",
+    ),
+    (
+        "curves",
+        "channel c JOIN track t ON t.id = c.track_id AND t.kind = 'curves'",
+    ),
     ("skeletons", "skeleton"),
     ("signers", "signer"),
     ("signs", "sign"),
@@ -63,6 +70,11 @@ pub(crate) fn tokens(connection: &Connection) -> Result<BTreeMap<String, u64>> {
         connection,
         "SELECT origin, count(*) FROM token GROUP BY origin",
     )
+}
+
+/// Returns tracks by kind.
+pub(crate) fn tracks(connection: &Connection) -> Result<BTreeMap<String, u64>> {
+    grouped(connection, "SELECT kind, count(*) FROM track GROUP BY kind")
 }
 
 /// Returns tiers by role, those of components by the component.

@@ -89,8 +89,10 @@ pub(crate) const RECORDINGS: Table = Table {
         number("duration_us", "r.duration_us"),
         number("frames", "k.frames"),
         number("rate", "k.rate_frames * 1.0 / k.rate_seconds"),
-        number("curves", "(SELECT count(*) FROM curve c WHERE c.track_id = k.id)"),
+        number("curves", "(SELECT count(*) FROM channel c JOIN track t ON t.id = c.track_id
+              WHERE t.recording_id = r.id AND t.kind = 'curves')"),
         number("joints", "(SELECT joints FROM skeleton s WHERE s.id = k.skeleton_id)"),
+        number("tracks", "(SELECT count(*) FROM track t WHERE t.recording_id = r.id)"),
         number("tiers", "(SELECT count(*) FROM tier t WHERE t.recording_id = r.id)"),
         number(
             "annotations",
@@ -102,8 +104,35 @@ pub(crate) const RECORDINGS: Table = Table {
         text("notes", "r.notes"),
     ],
     from: "recording r LEFT JOIN signer g ON g.id = r.signer_id
-           LEFT JOIN track k ON k.id = (SELECT min(id) FROM track WHERE recording_id = r.id AND kind = 'skeleton')",
+           LEFT JOIN track k ON k.id = (SELECT id FROM track WHERE recording_id = r.id AND kind = 'skeleton'
+                                        ORDER BY name <> 'body', id LIMIT 1)",
     order: "r.id",
+};
+
+pub(crate) const TRACKS: Table = Table {
+    columns: &[
+        number("id", "t.id"),
+        named("recording", "r.name", "r.id"),
+        text("kind", "t.kind"),
+        named("name", "t.name", "t.id"),
+        number("rate", "t.rate_frames * 1.0 / t.rate_seconds"),
+        number("offset_us", "t.offset_us"),
+        number(
+            "duration_us",
+            "coalesce(t.duration_us,
+                 CAST(round(t.frames * 1000000.0 * t.rate_seconds / t.rate_frames) AS INTEGER))",
+        ),
+        number("frames", "t.frames"),
+        number(
+            "channels",
+            "CASE t.kind WHEN 'skeleton' THEN (SELECT joints FROM skeleton s WHERE s.id = t.skeleton_id)
+                 WHEN 'media' THEN NULL ELSE (SELECT count(*) FROM channel c WHERE c.track_id = t.id) END",
+        ),
+        text("space", "t.layout ->> '$.space'"),
+        text("media", "t.media_url"),
+    ],
+    from: "track t JOIN recording r ON r.id = t.recording_id",
+    order: "t.recording_id, t.id",
 };
 
 pub(crate) const SIGNS: Table = Table {

@@ -6,7 +6,6 @@
 pub(crate) mod attributes;
 pub(crate) mod check;
 pub(crate) mod contents;
-pub(crate) mod curves;
 pub(crate) mod dump;
 pub(crate) mod edits;
 pub(crate) mod history;
@@ -23,6 +22,8 @@ pub(crate) mod search;
 pub(crate) mod signs;
 pub(crate) mod spans;
 pub(crate) mod tiers;
+pub(crate) mod tracks;
+pub(crate) mod upgrade;
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;

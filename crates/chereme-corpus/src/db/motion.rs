@@ -5,6 +5,8 @@ use std::ops::Range;
 use rusqlite::{Connection, params};
 use sha2::{Digest, Sha256};
 
+use super::tracks::{self, TrackKind};
+use super::upgrade::NONMANUALS;
 use crate::error::Result;
 
 /// One stored block of a track.
@@ -25,6 +27,7 @@ pub(crate) fn insert_block(
     data: &[u8],
 ) -> Result<()> {
     let hash = insert_bytes(connection, data)?;
+    tracks::ensure_group(connection, group)?;
     connection
         .prepare_cached(
             "INSERT INTO track_block (track_id, channel_group, first_frame, frames, hash)
@@ -41,7 +44,7 @@ pub(crate) fn insert_block(
 }
 
 /// Stores the bytes of a block, where they are not there yet, and returns its name.
-pub(super) fn insert_bytes(connection: &Connection, data: &[u8]) -> Result<Vec<u8>> {
+fn insert_bytes(connection: &Connection, data: &[u8]) -> Result<Vec<u8>> {
     let hash = Sha256::digest(data).to_vec();
     connection
         .prepare_cached("INSERT OR IGNORE INTO block (hash, data) VALUES (?1, ?2)")?
@@ -97,8 +100,36 @@ pub(crate) fn content_hash(connection: &Connection, track: i64) -> Result<String
         digest.update(row.get::<_, i64>(1)?.to_le_bytes());
         digest.update(row.get_ref(2)?.as_blob().unwrap_or_default());
     }
-    super::curves::digest(connection, track, &mut digest)?;
+    digest_nonmanuals(connection, track, &mut digest)?;
     Ok(hex(&digest.finalize()))
+}
+
+/// Puts the names of the scalar curves that go with a made movement, and of their blocks, into a digest.
+fn digest_nonmanuals(connection: &Connection, track: i64, digest: &mut Sha256) -> Result<()> {
+    let Some(curves) = nonmanuals(connection, track)? else {
+        return Ok(());
+    };
+    for channel in tracks::channels(connection, curves)? {
+        digest.update(channel.name.as_bytes());
+        digest.update([0]);
+    }
+    let sql =
+        "SELECT hash FROM track_block WHERE track_id = ?1 ORDER BY channel_group, first_frame";
+    let mut statement = connection.prepare_cached(sql)?;
+    let mut rows = statement.query([curves])?;
+    while let Some(row) = rows.next()? {
+        digest.update(row.get_ref(0)?.as_blob().unwrap_or_default());
+    }
+    Ok(())
+}
+
+/// Returns the row of the track of non-manuals next to a movement's track.
+pub(crate) fn nonmanuals(connection: &Connection, track: i64) -> Result<Option<i64>> {
+    let sql = "SELECT recording_id FROM track WHERE id = ?1";
+    let recording: i64 = connection
+        .prepare_cached(sql)?
+        .query_row([track], |row| row.get(0))?;
+    tracks::named(connection, recording, TrackKind::Curves, NONMANUALS)
 }
 
 /// Returns bytes in hexadecimal.

@@ -11,19 +11,21 @@ use rusqlite::limits::Limit;
 use rusqlite::{Connection, ErrorCode, OpenFlags};
 use uuid::Uuid;
 
+use super::upgrade;
 use crate::error::{Error, Result};
 
 /// Marks the file as a corpus: the letters `Cher`.
 const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");
 
 /// The schema's steps; a file's `user_version` is how many of them it has taken.
-const STEPS: [&str; 6] = [
+const STEPS: [&str; 7] = [
     include_str!("../../../../schema/sql/0001_corpus.sql"),
     include_str!("../../../../schema/sql/0002_notation.sql"),
     include_str!("../../../../schema/sql/0003_kept_search.sql"),
     include_str!("../../../../schema/sql/0004_curves.sql"),
     include_str!("../../../../schema/sql/0005_files.sql"),
     include_str!("../../../../schema/sql/0006_attributes.sql"),
+    include_str!("../../../../schema/sql/0007_tracks.sql"),
 ];
 
 /// The schema version that this code writes.
@@ -305,6 +307,7 @@ fn raise(connection: &mut Connection, fill: impl FnOnce(&Connection) -> Result<(
     let version: i32 = transaction.pragma_query_value(None, "user_version", |row| row.get(0))?;
     for step in STEPS.iter().skip(usize::try_from(version).unwrap_or(0)) {
         transaction.execute_batch(step)?;
+        upgrade::after_step(&transaction)?;
     }
     fill(&transaction)?;
     transaction.pragma_update(None, "user_version", SCHEMA_VERSION)?;

@@ -367,9 +367,9 @@ pub(crate) fn insert_motion_track(connection: &Connection, row: &MotionTrackRow)
         .prepare_cached(
             "INSERT INTO track (recording_id, kind, name, offset_us, skeleton_id, frames,
                  rate_frames, rate_seconds, frame_time, metres_per_unit, axes, root_order, roles,
-                 channel_groups, root_scale)
-             VALUES (?1, 'skeleton', ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13,
-                 ?14)",
+                 channel_groups, root_scale, duration_us)
+             VALUES (?1, 'skeleton', ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14,
+                 CAST(round(?5 * 1000000.0 * ?7 / ?6) AS INTEGER))",
         )?
         .execute(params![
             row.recording_id,
@@ -396,16 +396,14 @@ pub(crate) fn clear_motion(
     recording: i64,
     (duration_us, signer): (i64, Option<i64>),
 ) -> Result<()> {
+    let own = "SELECT id FROM track WHERE recording_id = ?1
+         AND (kind = 'skeleton' OR (kind = 'curves' AND name = 'nonmanuals'))";
     for sql in [
-        "DELETE FROM track_block WHERE track_id IN
-             (SELECT id FROM track WHERE recording_id = ?1 AND kind = 'skeleton')",
-        "DELETE FROM curve WHERE track_id IN
-             (SELECT id FROM track WHERE recording_id = ?1 AND kind = 'skeleton')",
-        "DELETE FROM curve_block WHERE track_id IN
-             (SELECT id FROM track WHERE recording_id = ?1 AND kind = 'skeleton')",
-        "DELETE FROM track WHERE recording_id = ?1 AND kind = 'skeleton'",
+        format!("DELETE FROM track_block WHERE track_id IN ({own})"),
+        format!("DELETE FROM channel WHERE track_id IN ({own})"),
+        format!("DELETE FROM track WHERE id IN ({own})"),
     ] {
-        connection.prepare_cached(sql)?.execute([recording])?;
+        connection.prepare_cached(&sql)?.execute([recording])?;
     }
     connection
         .prepare_cached("UPDATE recording SET duration_us = ?2, signer_id = ?3 WHERE id = ?1")?
@@ -413,46 +411,66 @@ pub(crate) fn clear_motion(
     Ok(())
 }
 
-/// Writes down how many frames a track has.
+/// Writes down how many frames a track has, and so how long it lasts.
 pub(crate) fn set_frames(connection: &Connection, track: i64, frames: i64) -> Result<()> {
     connection
-        .prepare_cached("UPDATE track SET frames = ?2 WHERE id = ?1")?
+        .prepare_cached(
+            "UPDATE track SET frames = ?2, duration_us =
+                 CAST(round(?2 * 1000000.0 * rate_seconds / rate_frames) AS INTEGER) WHERE id = ?1",
+        )?
         .execute([track, frames])?;
     Ok(())
 }
 
-/// Returns the first motion track of a recording.
-pub(crate) fn motion_track(
+/// Returns the track that is a recording's body: the movement of a skeleton that is called `body`, else the oldest.
+pub(crate) fn body_track(
     connection: &Connection,
     recording: i64,
 ) -> Result<Option<MotionTrackRow>> {
+    let sql = format!(
+        "{MOTION_TRACK} WHERE recording_id = ?1 AND kind = 'skeleton' ORDER BY name <> 'body', id LIMIT 1"
+    );
     Ok(connection
-        .prepare_cached(
-            "SELECT id, recording_id, name, offset_us, skeleton_id, frames, rate_frames,
-                    rate_seconds, frame_time, metres_per_unit, axes, root_order, roles,
-                    channel_groups, root_scale
-             FROM track WHERE recording_id = ?1 AND kind = 'skeleton' ORDER BY id LIMIT 1",
-        )?
-        .query_row([recording], |row| {
-            Ok(MotionTrackRow {
-                id: row.get(0)?,
-                recording_id: row.get(1)?,
-                name: row.get(2)?,
-                offset_us: row.get(3)?,
-                skeleton_id: row.get(4)?,
-                frames: row.get(5)?,
-                rate_frames: row.get(6)?,
-                rate_seconds: row.get(7)?,
-                frame_time: row.get(8)?,
-                metres_per_unit: row.get(9)?,
-                axes: row.get(10)?,
-                root_order: row.get(11)?,
-                roles: row.get(12)?,
-                channel_groups: row.get(13)?,
-                root_scale: row.get(14)?,
-            })
-        })
+        .prepare_cached(&sql)?
+        .query_row([recording], motion_track_row)
         .optional()?)
+}
+
+/// Returns the movement of a skeleton that is the track of that row.
+pub(crate) fn skeleton_track(
+    connection: &Connection,
+    track: i64,
+) -> Result<Option<MotionTrackRow>> {
+    let sql = format!("{MOTION_TRACK} WHERE id = ?1 AND kind = 'skeleton'");
+    Ok(connection
+        .prepare_cached(&sql)?
+        .query_row([track], motion_track_row)
+        .optional()?)
+}
+
+const MOTION_TRACK: &str = "
+    SELECT id, recording_id, name, offset_us, skeleton_id, frames, rate_frames, rate_seconds,
+           frame_time, metres_per_unit, axes, root_order, roles, channel_groups, root_scale
+    FROM track";
+
+fn motion_track_row(row: &Row<'_>) -> rusqlite::Result<MotionTrackRow> {
+    Ok(MotionTrackRow {
+        id: row.get(0)?,
+        recording_id: row.get(1)?,
+        name: row.get(2)?,
+        offset_us: row.get(3)?,
+        skeleton_id: row.get(4)?,
+        frames: row.get(5)?,
+        rate_frames: row.get(6)?,
+        rate_seconds: row.get(7)?,
+        frame_time: row.get(8)?,
+        metres_per_unit: row.get(9)?,
+        axes: row.get(10)?,
+        root_order: row.get(11)?,
+        roles: row.get(12)?,
+        channel_groups: row.get(13)?,
+        root_scale: row.get(14)?,
+    })
 }
 
 /// Writes a media track; its `id` is not looked at.

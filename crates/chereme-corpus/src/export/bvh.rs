@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::ops::Range;
 
-use chereme_formats::bvh::raw::{Block, Column, Number, WriteError, Writer};
+use chereme_formats::bvh::convert;
+use chereme_formats::bvh::raw::{Block, Column, Decimal, Number, WriteError, Writer};
+use chereme_motion::column::Numbers;
 use rusqlite::Connection;
 
 use crate::address::Stretch;
@@ -27,6 +29,9 @@ pub(crate) fn write(
         Some(_) => track.frames_in(stretch.span),
         None => 0..track.frames(),
     };
+    if !track.is_of_bvh() {
+        return write_converted(connection, &track, frames, out);
+    }
     let time = track
         .row
         .frame_time
@@ -62,6 +67,34 @@ pub(crate) fn write(
     Ok(frames.len())
 }
 
+/// Decimals of numbers that no BVH gave.
+const DECIMALS: u8 = 6;
+
+/// Writes movement that came from another format, with its rotations as Euler angles.
+fn write_converted(
+    connection: &Connection,
+    track: &Track,
+    frames: Range<usize>,
+    out: &mut dyn Write,
+) -> Result<usize> {
+    let clip = track.raw_clip(connection, frames)?;
+    let hierarchy = convert::widened(&convert::hierarchy(clip.skeleton(), DECIMALS), &clip);
+    let columns = convert::columns(&clip, &hierarchy, DECIMALS)
+        .map_err(|error| Error::wrong(error.to_string()))?;
+    let fault = |error: WriteError| Error::wrong(format!("the BVH cannot be written: {error}"));
+    let time = Decimal::rounded(clip.rate().frame_time(), 9).map(Number::from);
+    let motion = Some((time.as_ref(), clip.frames() as u64));
+    let mut writer = Writer::new(out, &hierarchy, motion).map_err(fault)?;
+    let block = Block {
+        first_frame: 0,
+        frames: clip.frames(),
+        columns,
+    };
+    writer.block(&block).map_err(fault)?;
+    writer.finish().map_err(fault)?;
+    Ok(clip.frames())
+}
+
 /// The columns of `own`, which lies in the block that starts at `first`, in the order of the file.
 fn columns(
     connection: &Connection,
@@ -79,31 +112,13 @@ fn columns(
                 return Err(Error::wrong(format!("frame {first} is missing")));
             }
             for (number, column) in numbers.iter().zip(columns) {
-                all.insert(*number, cut(column, own.start - first..own.end - first)?);
+                let Numbers::Decimals(column) = column.into_numbers() else {
+                    return Err(Error::wrong("the stored numbers are no decimals"));
+                };
+                all.insert(*number, column.slice(own.start - first..own.end - first));
             }
             Ok(())
         },
     )?;
     Ok(all.into_values().collect())
-}
-
-fn cut(column: Column, rows: Range<usize>) -> Result<Column> {
-    if rows.len() == column.mantissas.len() {
-        return Ok(column);
-    }
-    let mantissas = column.mantissas.get(rows.clone());
-    let mantissas =
-        mantissas.ok_or_else(|| Error::wrong("a block is shorter than it should be"))?;
-    let inside = |frame: u32| rows.contains(&(frame as usize));
-    let exceptions = column
-        .exceptions
-        .into_iter()
-        .filter(|(frame, _)| inside(*frame));
-    Ok(Column {
-        scale: column.scale,
-        mantissas: mantissas.to_vec(),
-        exceptions: exceptions
-            .map(|(frame, it)| (frame - rows.start as u32, it))
-            .collect(),
-    })
 }

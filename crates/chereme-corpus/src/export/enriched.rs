@@ -13,13 +13,14 @@ use sha2::{Digest, Sha256};
 use super::{bvh, dictionary};
 use crate::address::Stretch;
 use crate::curves;
-use crate::db::curves as rows;
-use crate::db::motion::hex;
+use crate::db::motion::{self, hex};
 use crate::db::recordings::{self, RecordingRow};
-use crate::db::{dump, recipes, signs, tiers};
+use crate::db::upgrade::NONMANUALS;
+use crate::db::{dump, recipes, signs, tiers, tracks};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::progress::{Progress, Step, Unit};
+use crate::track::{self, TrackKind};
 
 /// What the folder tells its reader.
 const ABOUT: &str = include_str!("enriched.md");
@@ -122,9 +123,10 @@ impl Folder {
         let all = recordings::recordings(connection)?;
         for (done, recording) in all.iter().enumerate() {
             let name = file_name(&recording.name, &mut taken);
-            if recordings::motion_track(connection, recording.id)?.is_some() {
+            if recordings::body_track(connection, recording.id)?.is_some() {
                 self.movement(connection, recording, &name, progress)?;
             }
+            self.tracks(connection, recording, &name, &mut taken)?;
             if !tiers::tiers(connection, recording.id)?.is_empty() {
                 let path = self.make(&format!("recordings/{name}.eaf"))?;
                 super::eaf::write_file(connection, recording, &path)?;
@@ -159,9 +161,9 @@ impl Folder {
         };
         bvh::write(connection, &stretch, &mut out, progress)?;
         out.flush().map_err(fault)?;
-        let track = recordings::motion_track(connection, recording.id)?;
-        let track = track.map_or(0, |track| track.id);
-        if rows::names(connection, track)?.is_empty() {
+        let body = recordings::body_track(connection, recording.id)?;
+        let body = body.map(|track| motion::nonmanuals(connection, track.id));
+        if body.transpose()?.flatten().is_none() {
             return Ok(());
         }
         let path = self.make(&format!("recordings/{name}.curves.csv"))?;
@@ -169,6 +171,31 @@ impl Folder {
         let mut out = BufWriter::new(File::create(&path).map_err(fault)?);
         curves::write_table(connection, &stretch, b',', &mut out)?;
         out.flush().map_err(fault)
+    }
+
+    /// Writes every track of markers or curves with its exact numbers.
+    fn tracks(
+        &mut self,
+        connection: &Connection,
+        recording: &RecordingRow,
+        name: &str,
+        taken: &mut BTreeSet<String>,
+    ) -> Result<()> {
+        let body = recordings::body_track(connection, recording.id)?.is_some();
+        for row in tracks::tracks(connection, recording.id)? {
+            let beside_body = body && row.name == NONMANUALS;
+            if !matches!(row.kind, TrackKind::Markers | TrackKind::Curves) || beside_body {
+                continue;
+            }
+            let file = file_name(&format!("{name}.{}", row.name), taken);
+            let path = self.make(&format!("recordings/{file}.csv"))?;
+            let fault = |error| Error::file(&path, error);
+            let mut out = BufWriter::new(File::create(&path).map_err(fault)?);
+            let track = track::read::track(connection, &row, None)?;
+            track::table::write(&track, b',', &mut out)?;
+            out.flush().map_err(fault)?;
+        }
+        Ok(())
     }
 
     /// Who signed what under which terms, and how made signs came about.

@@ -76,7 +76,7 @@ fn each(
     match what {
         ExportWhat::All => {
             for row in recordings::recordings(connection)? {
-                if recordings::motion_track(connection, row.id)?.is_some()
+                if recordings::body_track(connection, row.id)?.is_some()
                     || matches!(format, Format::Eaf)
                 {
                     all.push(recording(row.id, &row.name));

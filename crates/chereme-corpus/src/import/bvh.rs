@@ -15,8 +15,10 @@ use sha2::{Digest, Sha256};
 
 use super::report::ReportFinding;
 use super::{FileReport, FileStatus, Job};
+use crate::address;
 use crate::db::motion::hex;
 use crate::db::recordings::{self, MotionTrackRow, RecordingRow};
+use crate::db::tracks;
 use crate::error::{Error, Result};
 use crate::movement::{self, BLOCK_FRAMES, ChannelGroup, Track};
 use crate::progress::{Progress, Step, Unit};
@@ -420,7 +422,7 @@ fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, anatomy: &Anat
 /// Returns the recording that lacks this movement, where its annotations came first.
 fn without_movement(job: &Job<'_>, report: &mut FileReport) -> Result<Option<i64>> {
     let lacks = |id: i64| {
-        recordings::motion_track(job.connection, id).map(|track| track.is_none().then_some(id))
+        recordings::body_track(job.connection, id).map(|track| track.is_none().then_some(id))
     };
     if let Some(id) = job.places.beside(&job.place) {
         return lacks(id);
@@ -440,9 +442,14 @@ fn without_movement(job: &Job<'_>, report: &mut FileReport) -> Result<Option<i64
     Ok(None)
 }
 
-fn insert_recording(job: &mut Job<'_>, report: &mut FileReport) -> Result<i64> {
-    compare(job, report)?;
+/// Returns the recording that movement belongs to: the one that the caller named, one of this name that has no
+/// movement yet, or a new one.
+pub(super) fn insert_recording(job: &mut Job<'_>, report: &mut FileReport) -> Result<i64> {
     let options = job.options;
+    if let Some(into) = &options.into {
+        return Ok(address::recording(job.connection, into)?.id);
+    }
+    compare(job, report)?;
     let signer_id = match &options.signer {
         Some(name) => {
             let new = recordings::find_signer(job.connection, name)?.is_none();
@@ -503,8 +510,8 @@ fn insert_track(
         &MotionTrackRow {
             id: 0,
             recording_id: recording,
-            name: "body".to_owned(),
-            offset_us: 0,
+            name: tracks::free_name(job.connection, recording, "body")?,
+            offset_us: job.options.offset_us,
             skeleton_id,
             frames: 0,
             rate_frames: rate.frames(),
@@ -528,6 +535,7 @@ fn finish(job: &mut Job<'_>, recording: i64, track: i64, frames: u64, rate: Rate
     let count = i64::try_from(frames).unwrap_or(i64::MAX);
     recordings::set_frames(job.connection, track, count)?;
     let end = rate.instant(usize::try_from(frames).unwrap_or(usize::MAX));
+    let end = end.shifted(job.options.offset_us);
     recordings::lengthen(job.connection, recording, end.micros())?;
     job.keep(Some(recording), None)?;
     Ok(())

@@ -245,7 +245,7 @@ fn warn_of_length(
     transcript: &Transcript,
     report: &mut FileReport,
 ) -> Result<()> {
-    if recordings::motion_track(job.connection, recording)?.is_none() {
+    if recordings::body_track(job.connection, recording)?.is_none() {
         return Ok(());
     }
     let row = recordings::recording(job.connection, recording)?;
@@ -301,6 +301,10 @@ fn recording(
         .filter(|origin| ["captured", "made", "generated"].contains(&origin.as_str()));
     let origin = options.origin.clone().or(origin);
     let licence = options.licence.clone().or_else(|| property(LICENCE));
+    let paired = match &options.into {
+        Some(into) => Some(crate::address::recording(job.connection, into)?.id),
+        None => paired,
+    };
     if let Some(id) = paired {
         recordings::describe(
             job.connection,

@@ -14,6 +14,7 @@ mod readers;
 mod report;
 #[cfg(test)]
 mod tests;
+mod tracks;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -27,6 +28,7 @@ use rusqlite::Connection;
 use sha2::{Digest, Sha256};
 
 use crate::Corpus;
+use crate::address::Name;
 use crate::db::motion::hex;
 use crate::db::recordings::{self, SourceFileRow};
 use crate::error::{Error, Result};
@@ -67,6 +69,10 @@ pub struct ImportOptions {
     pub licence: Option<String>,
     /// The fate of edits of the corpus that an annotation file, imported again, would take back.
     pub own_edits: OwnEdits,
+    /// The recording that everything belongs to, instead of the one that a file's name says.
+    pub into: Option<Name>,
+    /// Where the tracks of the files start on the recording's clock, in microseconds; may be negative.
+    pub offset_us: i64,
     /// Report what would be done, and write nothing.
     pub dry_run: bool,
 }

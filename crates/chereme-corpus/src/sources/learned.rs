@@ -79,7 +79,7 @@ fn pieces(connection: &Connection) -> Result<Vec<(i64, usize)>> {
     for origin in ["captured", "generated"] {
         let mut pieces = Vec::new();
         for recording in all.iter().filter(|it| it.origin == origin) {
-            let Some(track) = recordings::motion_track(connection, recording.id)? else {
+            let Some(track) = recordings::body_track(connection, recording.id)? else {
                 continue;
             };
             let frames = usize::try_from(track.frames).unwrap_or_default();

@@ -206,6 +206,12 @@ impl Column {
         &self.numbers
     }
 
+    /// Returns the numbers in the form of the file; at gaps they mean nothing.
+    #[must_use]
+    pub fn into_numbers(self) -> Numbers {
+        self.numbers
+    }
+
     /// Returns the frames without a number.
     #[must_use]
     pub fn gaps(&self) -> &Gaps {

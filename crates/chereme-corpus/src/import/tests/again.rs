@@ -124,7 +124,7 @@ fn movement_and_annotations_of_one_name_in_two_folders_stay_together() {
             1
         );
         assert!(
-            recordings::motion_track(connection, id)
+            recordings::body_track(connection, id)
                 .expect("read")
                 .is_some()
         );

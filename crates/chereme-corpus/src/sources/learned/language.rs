@@ -363,7 +363,7 @@ impl Body {
         let left = signer
             .as_ref()
             .is_some_and(|it| it.handedness.as_deref() == Some("left"));
-        let track = match recordings::motion_track(connection, recording)? {
+        let track = match recordings::body_track(connection, recording)? {
             Some(_) => {
                 let track = Track::of(connection, recording)?;
                 let anatomy = track.anatomy(connection)?;

@@ -1,0 +1,329 @@
+//! Rows of tracks of every kind, and of their channels.
+
+use std::str::FromStr;
+
+use chereme_motion::{Instant, Rate, Span};
+use rusqlite::{Connection, OptionalExtension, Row, params};
+use serde::Serialize;
+
+use super::damaged;
+use crate::error::{Error, Result};
+
+/// The kind of a track.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum TrackKind {
+    /// Rotations and places of joints.
+    Skeleton,
+    /// Named points in a room or on a picture.
+    Markers,
+    /// Named scalar channels.
+    Curves,
+    /// A film, sound or picture next to the corpus.
+    Media,
+}
+
+impl TrackKind {
+    /// Every kind.
+    pub const ALL: [Self; 4] = [Self::Skeleton, Self::Markers, Self::Curves, Self::Media];
+
+    /// Returns the name: `skeleton`, `markers`, `curves` or `media`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Skeleton => "skeleton",
+            Self::Markers => "markers",
+            Self::Curves => "curves",
+            Self::Media => "media",
+        }
+    }
+}
+
+impl FromStr for TrackKind {
+    type Err = Error;
+
+    fn from_str(text: &str) -> Result<Self> {
+        let found = Self::ALL.into_iter().find(|kind| kind.name() == text);
+        found.ok_or_else(|| {
+            Error::wrong(format!("{text:?} is no kind of track"))
+                .at(text)
+                .advise("the kinds are: skeleton, markers, curves, media")
+        })
+    }
+}
+
+/// One track of a recording at a glance.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TrackRow {
+    /// The row.
+    pub id: i64,
+    /// The recording's row.
+    pub recording_id: i64,
+    /// The kind.
+    pub kind: TrackKind,
+    /// The name, which no other track of the recording has.
+    pub name: String,
+    /// Where the track's own time 0 lies on the recording's clock, in microseconds; may be negative.
+    pub offset_us: i64,
+    /// How long it lasts, in microseconds; `None` for media of unknown length.
+    pub duration_us: Option<i64>,
+    /// How many frames it has; `None` for media.
+    pub frames: Option<u64>,
+    /// The rate of its frames; `None` for media, and if frames have times of their own.
+    pub rate: Option<Rate>,
+    /// How many joints, points or scalar channels it has; 0 for media.
+    pub channels: u64,
+}
+
+impl TrackRow {
+    /// Returns the span on the recording's clock, empty if its length is unknown.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        let start = Instant::from_micros(self.offset_us);
+        Span::between(start, start.shifted(self.duration_us.unwrap_or_default()))
+    }
+}
+
+/// The columns of a track that [`TrackRow`] has not.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct TrackForm {
+    /// How many metres one unit of places is.
+    pub(crate) metres_per_unit: Option<f64>,
+    /// The axes of places, as `up,left`.
+    pub(crate) axes: Option<String>,
+    /// What else the kind of track needs to be read, as JSON.
+    pub(crate) layout: Option<String>,
+}
+
+/// A point or a scalar channel of a track.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct ChannelRow {
+    /// The group of blocks that hold its numbers.
+    pub(crate) group: String,
+    /// The part of the file that it belongs to.
+    pub(crate) part: String,
+    pub(crate) name: String,
+    pub(crate) unit: String,
+    /// How many columns of the blocks are its.
+    pub(crate) columns: usize,
+}
+
+const TRACK: &str = "
+    SELECT t.id, t.recording_id, t.kind, t.name, t.offset_us,
+           coalesce(t.duration_us,
+               CAST(round(t.frames * 1000000.0 * t.rate_seconds / t.rate_frames) AS INTEGER)),
+           t.frames, t.rate_frames, t.rate_seconds,
+           CASE t.kind WHEN 'skeleton' THEN (SELECT joints FROM skeleton s WHERE s.id = t.skeleton_id)
+               ELSE (SELECT count(*) FROM channel c WHERE c.track_id = t.id) END
+    FROM track t";
+
+fn track_row(row: &Row<'_>) -> rusqlite::Result<Result<TrackRow>> {
+    let (id, kind): (i64, String) = (row.get(0)?, row.get(2)?);
+    let Ok(kind) = kind.parse() else {
+        let reason = format!("its kind {kind:?} is unknown to this program");
+        return Ok(Err(damaged(format!("track {id}"), reason)));
+    };
+    let rate: Option<(u32, u32)> = row.get::<_, Option<u32>>(7)?.zip(row.get(8)?);
+    Ok(Ok(TrackRow {
+        id,
+        recording_id: row.get(1)?,
+        kind,
+        name: row.get(3)?,
+        offset_us: row.get(4)?,
+        duration_us: row.get(5)?,
+        frames: row.get::<_, Option<i64>>(6)?.map(i64::unsigned_abs),
+        rate: rate.and_then(|(frames, seconds)| Rate::new(frames, seconds).ok()),
+        channels: row
+            .get::<_, Option<i64>>(9)?
+            .unwrap_or_default()
+            .unsigned_abs(),
+    }))
+}
+
+/// Returns the tracks of a recording, oldest first.
+pub(crate) fn tracks(connection: &Connection, recording: i64) -> Result<Vec<TrackRow>> {
+    let sql = format!("{TRACK} WHERE t.recording_id = ?1 ORDER BY t.id");
+    let mut statement = connection.prepare_cached(&sql)?;
+    let rows = statement
+        .query_map([recording], track_row)?
+        .collect::<rusqlite::Result<Vec<_>>>()?;
+    rows.into_iter().collect()
+}
+
+/// Returns all tracks that hold numbers, by recording.
+pub(crate) fn all_moving(connection: &Connection) -> Result<Vec<TrackRow>> {
+    let sql = format!("{TRACK} WHERE t.kind <> 'media' ORDER BY t.recording_id, t.id");
+    let mut statement = connection.prepare_cached(&sql)?;
+    let rows = statement
+        .query_map([], track_row)?
+        .collect::<rusqlite::Result<Vec<_>>>()?;
+    rows.into_iter().collect()
+}
+
+/// Returns the track of that row.
+pub(crate) fn track(connection: &Connection, id: i64) -> Result<TrackRow> {
+    let found = connection
+        .prepare_cached(&format!("{TRACK} WHERE t.id = ?1"))?
+        .query_row([id], track_row)
+        .optional()?;
+    found.unwrap_or_else(|| {
+        Err(Error::wrong(format!("there is no track {id}"))
+            .at(format!("track {id}"))
+            .advise("`chereme list CORPUS tracks` lists them"))
+    })
+}
+
+/// Returns the rest of a track's row.
+pub(crate) fn form(connection: &Connection, id: i64) -> Result<TrackForm> {
+    let sql = "SELECT metres_per_unit, axes, layout FROM track WHERE id = ?1";
+    Ok(connection.prepare_cached(sql)?.query_row([id], |row| {
+        Ok(TrackForm {
+            metres_per_unit: row.get(0)?,
+            axes: row.get(1)?,
+            layout: row.get(2)?,
+        })
+    })?)
+}
+
+/// Writes a track of markers or curves and returns its row; `id` and `channels` are not looked at.
+pub(crate) fn insert(connection: &Connection, row: &TrackRow, form: &TrackForm) -> Result<i64> {
+    let frames = row
+        .frames
+        .map(|frames| i64::try_from(frames).unwrap_or(i64::MAX));
+    connection
+        .prepare_cached(
+            "INSERT INTO track (recording_id, kind, name, offset_us, duration_us, frames, rate_frames,
+                 rate_seconds, metres_per_unit, axes, layout)
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11)",
+        )?
+        .execute(params![
+            row.recording_id,
+            row.kind.name(),
+            row.name,
+            row.offset_us,
+            row.duration_us,
+            frames,
+            row.rate.map(Rate::frames),
+            row.rate.map(Rate::per_seconds),
+            form.metres_per_unit,
+            form.axes,
+            form.layout
+        ])?;
+    Ok(connection.last_insert_rowid())
+}
+
+/// Writes the channels of a track in their order.
+pub(crate) fn insert_channels(
+    connection: &Connection,
+    track: i64,
+    rows: &[ChannelRow],
+) -> Result<()> {
+    let mut statement = connection.prepare_cached(
+        "INSERT INTO channel (track_id, position, channel_group, part, name, unit, columns)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)",
+    )?;
+    for (position, row) in rows.iter().enumerate() {
+        ensure_group(connection, &row.group)?;
+        statement.execute(params![
+            track,
+            position as i64,
+            row.group,
+            row.part,
+            row.name,
+            row.unit,
+            row.columns as i64
+        ])?;
+    }
+    Ok(())
+}
+
+/// Makes sure that a group of channels has a row; such rows are shared and belong to no operation.
+pub(crate) fn ensure_group(connection: &Connection, name: &str) -> Result<()> {
+    connection
+        .prepare_cached("INSERT OR IGNORE INTO channel_group (name, note) VALUES (?1, ?2)")?
+        .execute([name, "channels of one part of a file"])?;
+    Ok(())
+}
+
+/// Returns the channels of a track in their order.
+pub(crate) fn channels(connection: &Connection, track: i64) -> Result<Vec<ChannelRow>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT channel_group, part, name, unit, columns FROM channel
+         WHERE track_id = ?1 ORDER BY position",
+    )?;
+    let rows = statement
+        .query_map([track], |row| {
+            Ok(ChannelRow {
+                group: row.get(0)?,
+                part: row.get(1)?,
+                name: row.get(2)?,
+                unit: row.get(3)?,
+                columns: usize::try_from(row.get::<_, i64>(4)?).unwrap_or_default(),
+            })
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+
+/// Returns the row of the track of a recording that has this kind and name.
+pub(crate) fn named(
+    connection: &Connection,
+    recording: i64,
+    kind: TrackKind,
+    name: &str,
+) -> Result<Option<i64>> {
+    let sql = "SELECT id FROM track WHERE recording_id = ?1 AND kind = ?2 AND name = ?3";
+    Ok(connection
+        .prepare_cached(sql)?
+        .query_row(params![recording, kind.name(), name], |row| row.get(0))
+        .optional()?)
+}
+
+/// Returns `name`, or the first of `name 2`, `name 3` … that no track of the recording has.
+pub(crate) fn free_name(connection: &Connection, recording: i64, name: &str) -> Result<String> {
+    let sql = "SELECT count(*) FROM track WHERE recording_id = ?1 AND name = ?2";
+    let mut statement = connection.prepare_cached(sql)?;
+    let mut free = name.to_owned();
+    let mut count = 1;
+    while statement.query_row(params![recording, free], |row| row.get::<_, i64>(0))? > 0 {
+        count += 1;
+        free = format!("{name} {count}");
+    }
+    Ok(free)
+}
+
+/// Moves a track on the recording's clock.
+pub(crate) fn set_offset(connection: &Connection, track: i64, offset_us: i64) -> Result<()> {
+    connection
+        .prepare_cached("UPDATE track SET offset_us = ?2 WHERE id = ?1 AND offset_us <> ?2")?
+        .execute([track, offset_us])?;
+    Ok(())
+}
+
+/// Gives a track another name.
+pub(crate) fn rename(connection: &Connection, track: i64, name: &str) -> Result<()> {
+    connection
+        .prepare_cached("UPDATE track SET name = ?2 WHERE id = ?1 AND name <> ?2")?
+        .execute(params![track, name])?;
+    Ok(())
+}
+
+/// Takes a track away with its channels; the blocks stay.
+pub(crate) fn remove(connection: &Connection, track: i64) -> Result<()> {
+    for sql in [
+        "DELETE FROM track_block WHERE track_id = ?1",
+        "DELETE FROM channel WHERE track_id = ?1",
+        "DELETE FROM track WHERE id = ?1",
+    ] {
+        connection.prepare_cached(sql)?.execute([track])?;
+    }
+    Ok(())
+}
+
+/// Writes down how a skeleton track holds its numbers, and how long it lasts.
+pub(crate) fn set_layout(connection: &Connection, track: i64, layout: &str) -> Result<()> {
+    connection
+        .prepare_cached("UPDATE track SET layout = ?2 WHERE id = ?1")?
+        .execute(params![track, layout])?;
+    Ok(())
+}

@@ -1,0 +1,313 @@
+//! The parts of schema steps that SQL alone cannot do: rows that a step sets aside become rows of another
+//! table, in the history too.
+
+use std::collections::BTreeMap;
+
+use rusqlite::{Connection, params};
+use serde_json::{Map, Value, json};
+use sha2::{Digest, Sha256};
+
+use super::history;
+use super::motion::hex;
+use crate::error::Result;
+
+/// The name of the tracks that scalar curves of made movement become.
+pub(crate) const NONMANUALS: &str = "nonmanuals";
+
+/// Does what a schema step left to the program, if it left something.
+pub(super) fn after_step(connection: &Connection) -> Result<()> {
+    let left: i64 = connection.query_row(
+        "SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = 'old_curve'",
+        [],
+        |row| row.get(0),
+    )?;
+    if left > 0 {
+        curves_become_tracks(connection)?;
+        connection.execute_batch("DROP TABLE old_curve; DROP TABLE old_curve_block;")?;
+    }
+    Ok(())
+}
+
+/// Up to version 4 scalar curves were rows next to a skeleton's track; now they are a track of their own, on
+/// the same frames. Changesets name rows by their ids, so that ids are mapped in one way for the rows and for
+/// the history.
+fn curves_become_tracks(connection: &Connection) -> Result<()> {
+    let parts = history::parts(connection)?;
+    let mut largest = Largest::of_rows(connection)?;
+    let mut any = largest.curves > 0;
+    for (operation, part) in &parts {
+        for line in history::read_part(connection, *operation, *part)?.lines() {
+            any |= line.starts_with("[\"curve");
+            largest.look(line);
+        }
+    }
+    if !any {
+        return Ok(());
+    }
+    let moved = Moved {
+        track: largest.track,
+        block: largest.block,
+    };
+    moved.rows(connection)?;
+    let mut known = BTreeMap::new();
+    for (operation, part) in parts {
+        let text = history::read_part(connection, operation, part)?;
+        let (lines, added) = moved.lines(&text, &mut known);
+        if lines != text {
+            history::replace_part(connection, operation, part, &lines, added)?;
+        }
+    }
+    Ok(())
+}
+
+/// The largest ids that tracks and their blocks ever had.
+struct Largest {
+    track: i64,
+    block: i64,
+    curves: i64,
+}
+
+impl Largest {
+    fn of_rows(connection: &Connection) -> Result<Self> {
+        Ok(connection.query_row(
+            "SELECT coalesce((SELECT max(id) FROM track), 0),
+                    coalesce((SELECT max(id) FROM track_block), 0),
+                    (SELECT count(*) FROM old_curve)",
+            [],
+            |row| {
+                Ok(Self {
+                    track: row.get(0)?,
+                    block: row.get(1)?,
+                    curves: row.get(2)?,
+                })
+            },
+        )?)
+    }
+
+    fn look(&mut self, line: &str) {
+        let largest = match () {
+            () if line.starts_with("[\"track\"") => &mut self.track,
+            () if line.starts_with("[\"track_block\"") => &mut self.block,
+            () => return,
+        };
+        if let Some(change) = Change::read(line) {
+            *largest = (*largest).max(change.id());
+        }
+    }
+}
+
+/// A line of a changeset.
+struct Change {
+    table: String,
+    kind: String,
+    before: Value,
+    after: Value,
+    refs: Value,
+}
+
+impl Change {
+    fn read(line: &str) -> Option<Self> {
+        let (table, kind, before, after, refs) = serde_json::from_str(line).ok()?;
+        Some(Self {
+            table,
+            kind,
+            before,
+            after,
+            refs,
+        })
+    }
+
+    fn row(&self) -> &Value {
+        if self.after.is_null() {
+            &self.before
+        } else {
+            &self.after
+        }
+    }
+
+    fn id(&self) -> i64 {
+        self.row()["id"].as_i64().unwrap_or_default()
+    }
+
+    fn write(&self) -> String {
+        let Self {
+            table,
+            kind,
+            before,
+            after,
+            refs,
+        } = self;
+        format!("{}\n", json!([table, kind, before, after, refs]))
+    }
+}
+
+/// A skeleton's track as the history last had it, with the uids that it refers to.
+type Known = BTreeMap<i64, (Value, Value)>;
+
+/// By how much ids grow: a curve's track has the id of the skeleton's track plus `track`.
+struct Moved {
+    track: i64,
+    block: i64,
+}
+
+impl Moved {
+    fn rows(&self, connection: &Connection) -> Result<()> {
+        let mut statement = connection.prepare(
+            "SELECT json_object('id', id, 'uid', hex(uid), 'recording_id', recording_id,
+                 'offset_us', offset_us, 'frames', frames, 'rate_frames', rate_frames,
+                 'rate_seconds', rate_seconds)
+             FROM track WHERE id IN (SELECT track_id FROM old_curve)",
+        )?;
+        let images = statement
+            .query_map([], |row| row.get::<_, String>(0))?
+            .collect::<rusqlite::Result<Vec<_>>>()?;
+        for image in images {
+            let image = serde_json::from_str(&image).unwrap_or_default();
+            connection.execute(
+                "INSERT INTO track (id, uid, recording_id, kind, name, offset_us, duration_us, frames,
+                     rate_frames, rate_seconds)
+                 SELECT ?1 ->> 'id', unhex(?1 ->> 'uid'), ?1 ->> 'recording_id', ?1 ->> 'kind',
+                     ?1 ->> 'name', ?1 ->> 'offset_us', ?1 ->> 'duration_us', ?1 ->> 'frames',
+                     ?1 ->> 'rate_frames', ?1 ->> 'rate_seconds'",
+                [self.track_image(&image).to_string()],
+            )?;
+        }
+        connection.execute(
+            "INSERT INTO channel (id, uid, track_id, position, channel_group, name)
+             SELECT id, uid, track_id + ?1, position, 'curves', name FROM old_curve",
+            [self.track],
+        )?;
+        connection.execute(
+            "INSERT INTO track_block (id, track_id, channel_group, first_frame, frames, hash)
+             SELECT id + ?2, track_id + ?1, 'curves', first_frame, frames, hash FROM old_curve_block",
+            params![self.track, self.block],
+        )?;
+        Ok(())
+    }
+
+    /// Returns the row of the curves' track for the row of the skeleton's.
+    fn track_image(&self, skeleton: &Value) -> Value {
+        let number = |name: &str| skeleton[name].as_i64().unwrap_or_default();
+        let uid = skeleton["uid"].as_str().unwrap_or_default();
+        let duration = number("frames") as i128 * 1_000_000 * i128::from(number("rate_seconds"));
+        let rate = i128::from(number("rate_frames").max(1));
+        let duration = (duration * 2 + rate).div_euclid(rate * 2);
+        let mut image = Map::new();
+        for column in [
+            "skeleton_id",
+            "frame_time",
+            "metres_per_unit",
+            "axes",
+            "root_order",
+            "root_scale",
+            "roles",
+            "channel_groups",
+            "layout",
+            "media_url",
+            "media_type",
+        ] {
+            image.insert(column.to_owned(), Value::Null);
+        }
+        image.insert("id".into(), json!(number("id") + self.track));
+        image.insert("uid".into(), json!(curves_uid(uid)));
+        image.insert("kind".into(), json!("curves"));
+        image.insert("name".into(), json!(NONMANUALS));
+        image.insert("duration_us".into(), json!(duration as i64));
+        for column in [
+            "recording_id",
+            "offset_us",
+            "frames",
+            "rate_frames",
+            "rate_seconds",
+        ] {
+            image.insert(column.into(), json!(number(column)));
+        }
+        Value::Object(image)
+    }
+
+    /// Returns the lines of a changeset as they are written now, and how many lines came to it.
+    fn lines(&self, text: &str, known: &mut Known) -> (String, i64) {
+        let (mut lines, mut added) = (String::with_capacity(text.len()), 0);
+        for line in text.lines() {
+            let of_tracks = ["[\"track\"", "[\"curve\"", "[\"curve_block\""];
+            let change = of_tracks
+                .iter()
+                .any(|start| line.starts_with(start))
+                .then(|| Change::read(line))
+                .flatten();
+            match change {
+                Some(change) if change.table == "track" => {
+                    let row = (change.row().clone(), change.refs.clone());
+                    known.insert(change.id(), row);
+                    lines.push_str(line);
+                    lines.push('\n');
+                }
+                Some(change) => {
+                    let first = change.row()["position"] == json!(0);
+                    let skeleton = change.row()["track_id"].as_i64().unwrap_or_default();
+                    if let Some((row, refs)) = known.get(&skeleton).filter(|_| first) {
+                        lines.push_str(&self.track_change(&change, row, refs).write());
+                        added += 1;
+                    }
+                    lines.push_str(&self.row_change(change).write());
+                }
+                None => {
+                    lines.push_str(line);
+                    lines.push('\n');
+                }
+            }
+        }
+        (lines, added)
+    }
+
+    /// Returns the change of the curves' track that goes with that of its first curve.
+    fn track_change(&self, curve: &Change, skeleton: &Value, refs: &Value) -> Change {
+        let image = |of: &Value| match of {
+            Value::Null => Value::Null,
+            _ => self.track_image(skeleton),
+        };
+        Change {
+            table: "track".into(),
+            kind: curve.kind.clone(),
+            before: image(&curve.before),
+            after: image(&curve.after),
+            refs: json!({ "recording_id": refs["recording_id"], "skeleton_id": null }),
+        }
+    }
+
+    fn row_change(&self, change: Change) -> Change {
+        let curve = change.table == "curve";
+        let image = |old: Value| {
+            let Value::Object(mut row) = old else {
+                return old;
+            };
+            let moved = |row: &Map<String, Value>, name: &str, by: i64| {
+                json!(row.get(name).and_then(Value::as_i64).unwrap_or_default() + by)
+            };
+            row.insert("track_id".into(), moved(&row, "track_id", self.track));
+            row.insert("channel_group".into(), json!("curves"));
+            if curve {
+                row.insert("part".into(), json!(""));
+                row.insert("unit".into(), json!(""));
+                row.insert("columns".into(), json!(1));
+            } else {
+                row.insert("id".into(), moved(&row, "id", self.block));
+            }
+            Value::Object(row)
+        };
+        let uid = change.refs["track_id"].as_str().unwrap_or_default();
+        Change {
+            table: if curve { "channel" } else { "track_block" }.into(),
+            kind: change.kind,
+            refs: json!({ "track_id": curves_uid(uid) }),
+            before: image(change.before),
+            after: image(change.after),
+        }
+    }
+}
+
+/// Returns the uid of the curves' track for that of the skeleton's, in hexadecimal.
+fn curves_uid(skeleton: &str) -> String {
+    let digest = Sha256::digest(format!("{NONMANUALS} {skeleton}").as_bytes());
+    hex(&digest[..16]).to_uppercase()
+}

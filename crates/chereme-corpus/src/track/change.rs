@@ -1,0 +1,127 @@
+//! Tracks of a recording as operations: added, moved on the clock, renamed, removed.
+
+use chereme_motion::Span;
+
+use super::{NewTrack, Track, TrackRow, read, store};
+use crate::Corpus;
+use crate::address::{self, Name};
+use crate::db::recordings;
+use crate::db::tracks;
+use crate::error::{Error, Result};
+
+/// A change of a track.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum TrackChange {
+    /// Its own time 0 lies there on the recording's clock, in microseconds.
+    Offset(i64),
+    /// It has another name.
+    Name(String),
+    /// It is removed, with all its numbers.
+    Remove,
+}
+
+impl Corpus {
+    /// Returns the tracks of a recording, oldest first.
+    ///
+    /// # Errors
+    /// If there is no such recording, or the database fails.
+    pub fn tracks(&self, recording: &Name) -> Result<Vec<TrackRow>> {
+        let connection = self.store.read();
+        let row = address::recording(connection, recording)?;
+        tracks::tracks(connection, row.id)
+    }
+
+    /// Returns what the track of that row holds, each number as its file has it: all of it, or the frames that lie
+    /// in a span of the recording's clock. Frame 0 is then the first of these.
+    ///
+    /// # Errors
+    /// If there is no such track, or it is damaged.
+    pub fn track(&self, track: i64, span: Option<Span>) -> Result<Track> {
+        let connection = self.store.read();
+        read::track(connection, &tracks::track(connection, track)?, span)
+    }
+
+    /// Adds tracks to a recording as one operation, and returns their rows.
+    ///
+    /// # Errors
+    /// If there is no such recording, or a track has no frames.
+    pub fn add_tracks(&mut self, recording: &Name, new: &[NewTrack]) -> Result<Vec<TrackRow>> {
+        self.store.operation("add tracks", |connection| {
+            let row = address::recording(connection, recording)?;
+            let mut added = Vec::with_capacity(new.len());
+            for track in new {
+                let id = store::store(connection, row.id, track)?;
+                added.push(tracks::track(connection, id)?);
+            }
+            let names: Vec<&str> = added.iter().map(|track| track.name.as_str()).collect();
+            let summary = format!("{}: {}", row.name, names.join(", "));
+            Ok((added, summary))
+        })
+    }
+
+    /// Changes the track of a recording that has this name, and returns the recording's tracks.
+    ///
+    /// The body of a recording is the track that its annotations and tokens were made on: it can be moved and
+    /// removed like the others, and annotations stay where they are on the clock.
+    ///
+    /// # Errors
+    /// If there is no such recording or track, or another track has the new name.
+    pub fn change_track(
+        &mut self,
+        recording: &Name,
+        track: &str,
+        change: &TrackChange,
+    ) -> Result<Vec<TrackRow>> {
+        self.store.operation("change track", |connection| {
+            let row = address::recording(connection, recording)?;
+            let before = tracks::tracks(connection, row.id)?;
+            let own = named(&before, &row.name, track)?;
+            match change {
+                TrackChange::Offset(offset_us) => {
+                    tracks::set_offset(connection, own.id, *offset_us)?;
+                    let end = tracks::track(connection, own.id)?.span().end();
+                    recordings::lengthen(connection, row.id, end.micros())?;
+                }
+                TrackChange::Name(name) => {
+                    let name = name.trim();
+                    if name.is_empty() {
+                        return Err(Error::wrong("a track needs a name"));
+                    }
+                    if before.iter().any(|it| it.name == name && it.id != own.id) {
+                        return Err(Error::wrong(format!("another track is called {name:?}"))
+                            .at(name)
+                            .advise("give it another name"));
+                    }
+                    tracks::rename(connection, own.id, name)?;
+                }
+                TrackChange::Remove => tracks::remove(connection, own.id)?,
+            }
+            let summary = match change {
+                TrackChange::Offset(micros) => {
+                    format!(
+                        "{}: {track} starts at {:.6} s",
+                        row.name,
+                        *micros as f64 / 1e6
+                    )
+                }
+                TrackChange::Name(name) => format!("{}: {track} is now {name}", row.name),
+                TrackChange::Remove => format!("{}: {track} removed", row.name),
+            };
+            Ok((tracks::tracks(connection, row.id)?, summary))
+        })
+    }
+}
+
+/// Returns the track of that name.
+pub(super) fn named<'a>(all: &'a [TrackRow], recording: &str, name: &str) -> Result<&'a TrackRow> {
+    all.iter().find(|track| track.name == name).ok_or_else(|| {
+        let names: Vec<&str> = all.iter().map(|track| track.name.as_str()).collect();
+        let remedy = match names.as_slice() {
+            [] => "the recording has no track; import a file into it".to_owned(),
+            names => format!("its tracks are: {}", names.join(", ")),
+        };
+        Error::wrong(format!("{recording:?} has no track {name:?}"))
+            .at(name)
+            .advise(remedy)
+    })
+}
