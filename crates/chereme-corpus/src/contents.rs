@@ -9,6 +9,7 @@ use crate::db::recordings::{self, MediaTrackRow, RecordingRow, SignerRow};
 use crate::db::search::begin_reading;
 use crate::db::signs::{self, TokenRow};
 use crate::db::tiers::{self, TierRow};
+use crate::db::tracks::TrackKind;
 use crate::db::{OperationRow, history_log};
 use crate::error::Result;
 use crate::inventories::{self, StoredInventory};
@@ -46,6 +47,8 @@ pub struct RecordingGlance {
     pub rate: Option<Rate>,
     /// Where its first frame lies on the recording's clock, in microseconds.
     pub offset_us: i64,
+    /// The kinds of its tracks, each once.
+    pub kinds: Vec<TrackKind>,
     /// How many tiers it has.
     pub tiers: u64,
     /// How many tokens it has.

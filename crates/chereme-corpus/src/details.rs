@@ -8,6 +8,7 @@ use crate::address::{self, Address, Name};
 use crate::db::recordings::{self, RecordingRow};
 use crate::db::search::begin_reading;
 use crate::db::signs::{self, TokenRow};
+use crate::db::tracks::{self, TrackRow};
 use crate::db::{edits, notations, recipes};
 use crate::error::{Error, Result};
 use crate::media::MediaPlace;
@@ -106,6 +107,8 @@ pub struct RecordingDetails {
     pub axes: Option<String>,
     /// The files that it came from: kind, name.
     pub files: Vec<(String, String)>,
+    /// Its tracks of every kind, oldest first.
+    pub tracks: Vec<TrackRow>,
     /// The media files beside it.
     pub media: Vec<MediaPlace>,
     /// The engine that made it, where it was made.
@@ -235,6 +238,7 @@ impl Corpus {
                 .into_iter()
                 .map(|file| (file.kind, file.name))
                 .collect(),
+            tracks: tracks::tracks(&reading, id)?,
             media: self.media(&Name::Number(id))?,
             engine: recipes::of_recording(&reading, id)?.map(|it| it.engine),
         };

@@ -38,7 +38,8 @@ Examples:
   chereme import mine.chereme take.bvh take.eaf --dry-run
   chereme import ngt.chereme sigml/
   chereme import mine.chereme take.eaf --merge
-  chereme import mine.chereme take.eaf --map tiers.json")]
+  chereme import mine.chereme take.eaf --map tiers.json
+  chereme import mine.chereme face.bvh --into recording:3 --offset 0.48s")]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
@@ -90,6 +91,13 @@ pub(crate) struct Args {
     /// The terms under which the recordings may be used
     #[arg(long, value_name = "TEXT")]
     licence: Option<String>,
+    /// The recording that everything belongs to, instead of the one of the files' name
+    #[arg(long, value_name = "RECORDING", value_parser = super::track::recording)]
+    into: Option<chereme_corpus::Name>,
+    /// Where the files' tracks start on the recording's clock, such as 0.48s
+    #[arg(long, value_name = "TIME", value_parser = super::track::micros, allow_hyphen_values = true,
+          default_value = "0s")]
+    offset: i64,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -228,6 +236,8 @@ fn options(args: &Args) -> Result<ImportOptions> {
             (_, _, true) => OwnEdits::Mine,
             _ => OwnEdits::Ask,
         },
+        into: args.into.clone(),
+        offset_us: args.offset,
         dry_run: args.dry_run,
     })
 }

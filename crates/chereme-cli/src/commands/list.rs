@@ -115,6 +115,7 @@ fn print(info: &Info, output: &mut Output) -> Result<()> {
         counted_in(info.motion_frames, "frames", language)
     ))?;
     output.line(format!("recordings: {}", counts(&info.recordings)))?;
+    output.line(format!("tracks: {}", counts(&info.tracks)))?;
     output.line(format!("tokens: {}", counts(&info.tokens)))?;
     output.line(format!("tiers: {}", counts(&info.tiers)))?;
     for signer in &info.signers {

@@ -20,6 +20,7 @@ mod search;
 mod studio;
 mod suggest;
 mod tiers;
+mod track;
 mod transcribe;
 
 use std::io::ErrorKind;
@@ -42,6 +43,7 @@ pub(crate) enum Command {
     List(list::Args),
     Annotate(annotate::Args),
     Inventory(inventory::Args),
+    Track(track::Args),
     Search(search::Args),
     Recombine(recombine::Args),
     Animate(animate::Args),
@@ -77,6 +79,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Suggest(args) => suggest::run(cli, args, output),
         Command::Transcribe(args) => transcribe::run(cli, args, output),
         Command::Keys(args) => keys::run(cli, args, output),
+        Command::Track(args) => track::run(cli, args, output),
         Command::Search(args) => search::run(cli, args, output),
         Command::Recombine(args) => recombine::run(cli, args, output),
         Command::Animate(args) => animate::run(cli, args, output),

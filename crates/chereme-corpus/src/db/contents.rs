@@ -5,6 +5,7 @@ use rusqlite::{Connection, OptionalExtension};
 
 use super::damaged;
 use super::recordings::RecordingRow;
+use super::tracks::TrackKind;
 use crate::around::Around;
 use crate::contents::{AnnotationColumns, RecordingGlance, SignGlance, ValueState};
 use crate::error::Result;
@@ -29,7 +30,8 @@ pub(crate) fn recordings(connection: &Connection) -> Result<Vec<RecordingGlance>
                 coalesce(k.frames, 0), k.rate_frames, k.rate_seconds, coalesce(k.offset_us, 0),
                 (SELECT count(*) FROM tier t WHERE t.recording_id = r.id),
                 (SELECT count(*) FROM token t WHERE t.recording_id = r.id),
-                (SELECT text FROM recipe p WHERE p.recording_id = r.id)
+                (SELECT text FROM recipe p WHERE p.recording_id = r.id),
+                (SELECT group_concat(DISTINCT kind) FROM track t WHERE t.recording_id = r.id)
          FROM recording r LEFT JOIN signer g ON g.id = r.signer_id
               LEFT JOIN track k ON k.id = (SELECT id FROM track
                   WHERE recording_id = r.id AND kind = 'skeleton' ORDER BY name <> 'body', id LIMIT 1)
@@ -56,9 +58,18 @@ pub(crate) fn recordings(connection: &Connection) -> Result<Vec<RecordingGlance>
             tiers: count(row.get(12)?),
             tokens: count(row.get(13)?),
             recipe: row.get(14)?,
+            kinds: kinds(row.get(15)?),
         });
     }
     Ok(recordings)
+}
+
+/// Returns the kinds of tracks that a list names, in their usual order.
+fn kinds(list: Option<String>) -> Vec<TrackKind> {
+    let list = list.unwrap_or_default();
+    let mut kinds: Vec<TrackKind> = list.split(',').filter_map(|it| it.parse().ok()).collect();
+    kinds.sort_unstable();
+    kinds
 }
 
 /// Returns all signs by gloss.

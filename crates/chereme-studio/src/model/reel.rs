@@ -172,6 +172,7 @@ mod tests {
             frames,
             rate,
             offset_us: 500_000,
+            kinds: Vec::new(),
             tiers: 0,
             tokens: 0,
             recipe: None,

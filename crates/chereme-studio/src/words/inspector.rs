@@ -66,6 +66,9 @@ texts! {
     UNITS: "Unit of the file", "Unité du fichier";
     AXES: "Axes of the file", "Axes du fichier";
     FILES: "Files", "Fichiers";
+    TRACKS: "Tracks", "Pistes";
+    TRACK: "{kind}, {rate}, {channels} channels, {length} from {start}", "{kind}, {rate}, {channels} canaux, {length} dès {start}";
+    TRACK_UNEVEN: "own times", "temps propres";
     MEDIA: "Media", "Médias";
     MEDIA_THERE: "is at {path}", "se trouve à {path}";
     MEDIA_GONE: "is not at {path}, nor beside the corpus", "n’est ni à {path}, ni à côté du corpus";

@@ -21,6 +21,10 @@ texts! {
     TO_RECIPE: "Take it into a recipe", "Le prendre dans une recette";
     ALIKE: "Signs like it that move", "Signes semblables qui bougent";
     IMPORT: "Import…", "Importer…";
+    SKELETON: "skeleton", "squelette";
+    MARKERS: "markers", "marqueurs";
+    CURVES: "curves", "courbes";
+    FILM: "film", "film";
     CAPTURED: "captured", "capté";
     MADE: "synthesised", "composé";
     GENERATED: "generated", "produit";

@@ -2,7 +2,7 @@
 
 use chereme_corpus::{
     MediaChange, Name, RecordingChange, RecordingDetails, RecordingGlance, SignChange, SignDetails,
-    SignerChange, SignerDetails, SignerRow,
+    SignerChange, SignerDetails, SignerRow, TrackKind,
 };
 use chereme_motion::{Instant, Side};
 use eframe::egui::{CollapsingHeader, Id, Label, RichText, Sense, Ui, vec2};
@@ -120,6 +120,7 @@ pub(super) fn recording_more(
             said(ui, seen, words::JOINTS, &it.joints.to_string());
         }
     });
+    tracks(ui, seen, it);
     media(ui, seen, it, out);
     if it.roles.is_empty() {
         return;
@@ -136,6 +137,35 @@ pub(super) fn recording_more(
         if !it.missing.is_empty() {
             let what = it.missing.join(", ");
             ui.label(RichText::new(fill(seen.say(words::MISSING), &[("what", &what)])).small());
+        }
+    });
+}
+
+/// Shows the tracks that hold numbers, if there are others than the body's movement.
+fn tracks(ui: &mut Ui, seen: &Seen<'_>, it: &RecordingDetails) {
+    let moving = it.tracks.iter().filter(|it| it.kind != TrackKind::Media);
+    let lines: Vec<(&str, String)> = moving
+        .map(|track| {
+            (
+                track.name.as_str(),
+                data::track(track, |text| seen.say(text).to_owned()),
+            )
+        })
+        .collect();
+    if it
+        .tracks
+        .iter()
+        .all(|it| matches!(it.kind, TrackKind::Skeleton | TrackKind::Media))
+        && lines.len() < 2
+    {
+        return;
+    }
+    ui.weak(seen.say(words::TRACKS));
+    grid(ui, "tracks", |ui| {
+        for (name, text) in &lines {
+            ui.label(*name);
+            ui.add(Label::new(RichText::new(text).small()).wrap());
+            ui.end_row();
         }
     });
 }

@@ -1,10 +1,11 @@
 //! What the inspector shows, as lines and texts, without a window.
 
-use chereme_corpus::{RecordingGlance, SignerDetails, TierContents, TierRow};
+use chereme_corpus::{RecordingGlance, SignerDetails, TierContents, TierRow, TrackRow};
 use chereme_motion::Instant;
 
+use crate::panes::library::data as library;
 use crate::panes::timeline::data::time_text;
-use crate::words::{Text, inspector as words};
+use crate::words::{Text, fill, inspector as words};
 
 /// A line: what it is called, and what it says.
 pub(crate) type Line = (Text, String);
@@ -28,6 +29,25 @@ pub(crate) fn recording_lines(it: &RecordingGlance, origin: impl Fn(&str) -> Str
     .into_iter()
     .filter_map(|(text, value)| Some((text, value?)))
     .collect()
+}
+
+/// Returns what a track is: its kind, rate, channels, length and start.
+pub(crate) fn track(it: &TrackRow, say: impl Fn(Text) -> String) -> String {
+    let kind = say(library::kind_text(it.kind));
+    let rate = match it.rate {
+        Some(rate) => format!("{:.3} Hz", rate.per_second()),
+        None => say(words::TRACK_UNEVEN),
+    };
+    let length = time_text(Instant::from_micros(it.duration_us.unwrap_or_default()));
+    let start = format!("{:.3} s", it.offset_us as f64 / 1e6);
+    let with: [(&str, &dyn std::fmt::Display); 5] = [
+        ("kind", &kind),
+        ("rate", &rate),
+        ("channels", &it.channels),
+        ("length", &length),
+        ("start", &start),
+    ];
+    fill(&say(words::TRACK), &with)
 }
 
 /// Returns how many annotations a tier has, and how many different values they say.

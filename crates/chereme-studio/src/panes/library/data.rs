@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use chereme_corpus::{RecordingGlance, SignGlance};
+use chereme_corpus::{RecordingGlance, SignGlance, TrackKind};
 use chereme_motion::{Instant, Span};
 use chereme_sign::text::fold;
 
@@ -26,6 +26,7 @@ pub(crate) fn rows(
     recordings: &[RecordingGlance],
     filter: &str,
     origin: impl Fn(&str) -> String,
+    kind: impl Fn(TrackKind) -> String,
 ) -> Vec<Row> {
     let wanted = fold(filter.trim());
     let fits = |it: &&RecordingGlance| {
@@ -42,6 +43,7 @@ pub(crate) fn rows(
             it.row.signer.clone(),
             Some(origin(&it.row.origin)),
             Some(time_text(Instant::from_micros(it.row.duration_us))),
+            others(it, &kind),
         ];
         Row {
             id: it.row.id,
@@ -52,6 +54,23 @@ pub(crate) fn rows(
         }
     };
     recordings.iter().filter(fits).map(row).collect()
+}
+
+/// Returns what a kind of track is called.
+pub(crate) fn kind_text(kind: TrackKind) -> Text {
+    match kind {
+        TrackKind::Skeleton => words::SKELETON,
+        TrackKind::Markers => words::MARKERS,
+        TrackKind::Curves => words::CURVES,
+        TrackKind::Media => words::FILM,
+    }
+}
+
+/// Returns the kinds of tracks besides a skeleton's movement.
+fn others(glance: &RecordingGlance, kind: impl Fn(TrackKind) -> String) -> Option<String> {
+    let own = glance.kinds.iter().filter(|it| **it != TrackKind::Skeleton);
+    let names: Vec<String> = own.map(|it| kind(*it)).collect();
+    (!names.is_empty()).then(|| names.join(", "))
 }
 
 /// Returns what an origin is called; an unknown one is called by its name.
@@ -158,6 +177,7 @@ mod tests {
             frames: 1,
             rate: None,
             offset_us: 0,
+            kinds: vec![TrackKind::Skeleton, TrackKind::Markers],
             tiers: 0,
             tokens: 0,
             recipe: None,
@@ -171,8 +191,9 @@ mod tests {
             glance(2, "bol", Some("Zoé")),
             glance(3, "chat", None),
         ];
+        let name = |kind: TrackKind| kind.name().to_owned();
         let ids = |filter: &str| -> Vec<i64> {
-            rows(&all, filter, str::to_owned)
+            rows(&all, filter, str::to_owned, name)
                 .iter()
                 .map(|row| row.id)
                 .collect()
@@ -181,8 +202,8 @@ mod tests {
         assert_eq!(ids("ecu"), [1]);
         assert_eq!(ids(" ZOE "), [2]);
         assert_eq!(
-            rows(&all, "bol", str::to_owned)[0].about,
-            "Zoé · made · 0:01.500"
+            rows(&all, "bol", str::to_owned, name)[0].about,
+            "Zoé · made · 0:01.500 · markers"
         );
     }
 

@@ -73,7 +73,8 @@ impl Rows {
         }
         let origin =
             |name: &str| origin_text(name).map_or(name.to_owned(), |it| seen.say(it).to_owned());
-        self.recordings = data::rows(&overview.recordings, filter, origin);
+        let kind = |kind| seen.say(data::kind_text(kind)).to_owned();
+        self.recordings = data::rows(&overview.recordings, filter, origin, kind);
         self.signs = data::signs(&overview.signs, &overview.recordings, filter, seen.language);
         self.of = Some(now);
     }

@@ -1,0 +1,210 @@
+//! `chereme track`.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{Address, Error, Name, Signal, TrackChange, TrackRow};
+use serde_json::json;
+
+use crate::args::Cli;
+use crate::output::Output;
+
+/// Look at the tracks of a recording, and put one of them in its place on the recording's clock
+///
+/// A recording has any number of tracks on one clock: movement of skeletons, markers, curves, media. Without an
+/// option the tracks are listed. `chereme import CORPUS FILE --into recording:3 --offset 0.48s` brings a file's tracks
+/// into a recording that exists.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme track mine.chereme recording:3
+  chereme track mine.chereme recording:3 pose --offset 0.48s
+  chereme track mine.chereme recording:3 pose --align-to body
+  chereme track mine.chereme recording:3 pose --align-to markers --channels LEFT_WRIST --with LWRA,LWRB --store")]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// The recording, such as recording:3 or recording:\"NGT Thanks\"
+    #[arg(value_parser = recording)]
+    recording: Name,
+    /// The track's name
+    name: Option<String>,
+    /// Where it starts on the recording's clock, such as 0.48s or -12ms
+    #[arg(long, value_name = "TIME", value_parser = micros, allow_hyphen_values = true, requires = "name",
+          conflicts_with_all = ["remove", "align_to"])]
+    offset: Option<i64>,
+    /// Give it another name
+    #[arg(long, value_name = "NAME", requires = "name", conflicts_with_all = ["remove", "align_to"])]
+    rename: Option<String>,
+    /// Remove it, with all its numbers
+    #[arg(long, requires = "name")]
+    remove: bool,
+    /// Find where it lies on the clock of this track: the offset at which speeds are most alike, those of wrists if no
+    /// channel is named
+    #[arg(
+        long,
+        value_name = "TRACK",
+        requires = "name",
+        conflicts_with = "remove"
+    )]
+    align_to: Option<String>,
+    /// Joints, points or curves of the track that are compared
+    #[arg(
+        long,
+        value_delimiter = ',',
+        value_name = "NAMES",
+        requires = "align_to"
+    )]
+    channels: Vec<String>,
+    /// Joints, points or curves of the other track
+    #[arg(
+        long,
+        value_delimiter = ',',
+        value_name = "NAMES",
+        requires = "align_to"
+    )]
+    with: Vec<String>,
+    /// How far from its offset now it may lie
+    #[arg(long, value_name = "TIME", value_parser = micros, default_value = "30s", requires = "align_to")]
+    within: i64,
+    /// Move it to the offset that was found
+    #[arg(long, requires = "align_to")]
+    store: bool,
+}
+
+/// Reads `recording:3`.
+pub(super) fn recording(text: &str) -> Result<Name, String> {
+    match text.parse() {
+        Ok(Address::Recording(name)) => Ok(name),
+        Ok(_) => Err("write recording:3 or recording:\"NAME\"".to_owned()),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// Reads a time such as `0.48s`, `480ms` or `-0.48`, in seconds if no unit is given.
+pub(super) fn micros(text: &str) -> Result<i64, String> {
+    let text = text.trim();
+    let (number, factor) = match (text.strip_suffix("ms"), text.strip_suffix('s')) {
+        (Some(number), _) => (number, 1e3),
+        (None, Some(number)) => (number, 1e6),
+        (None, None) => (text, 1e6),
+    };
+    match number.trim().parse::<f64>() {
+        Ok(time) if (time * factor).abs() < 1e15 => Ok((time * factor).round() as i64),
+        _ => Err("write a time in seconds such as 0.48s, or 480ms".to_owned()),
+    }
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let mut corpus = cli.open(&args.corpus)?;
+    let Some(name) = &args.name else {
+        let tracks = corpus.tracks(&args.recording)?;
+        return shown(&tracks, output);
+    };
+    if let Some(other) = &args.align_to {
+        let (own, other) = (
+            Signal {
+                track: name.clone(),
+                channels: args.channels.clone(),
+            },
+            Signal {
+                track: other.clone(),
+                channels: args.with.clone(),
+            },
+        );
+        let found = corpus.align_track(&args.recording, &own, &other, args.within)?;
+        output.line(format!(
+            "{} starts at {:.3} s (now {:.3} s): correlation {:.2} with {}, elsewhere at most {:.2}, confidence {:.2}",
+            found.track,
+            found.offset_us as f64 / 1e6,
+            found.offset_now_us as f64 / 1e6,
+            found.correlation,
+            found.to,
+            found.runner_up,
+            found.confidence
+        ))?;
+        if found.confidence < 0.5 {
+            output
+                .line("this is not sure: look at both before it is used, or name other channels")?;
+        }
+        if args.store {
+            corpus.change_track(&args.recording, name, &TrackChange::Offset(found.offset_us))?;
+        }
+        return output.document(found);
+    }
+    let changes = [
+        args.offset.map(TrackChange::Offset),
+        args.rename.clone().map(TrackChange::Name),
+        args.remove.then_some(TrackChange::Remove),
+    ];
+    let mut after = None;
+    for change in changes.into_iter().flatten() {
+        after = Some(corpus.change_track(&args.recording, name, &change)?);
+    }
+    let after = match after {
+        Some(after) => after,
+        None => {
+            let mut all = corpus.tracks(&args.recording)?;
+            all.retain(|track| track.name == *name);
+            if all.is_empty() {
+                return Err(Error::wrong(format!("there is no track {name:?}"))
+                    .at(name)
+                    .advise("`chereme track CORPUS RECORDING` lists its tracks")
+                    .into());
+            }
+            all
+        }
+    };
+    shown(&after, output)
+}
+
+fn shown(tracks: &[TrackRow], output: &mut Output) -> Result<()> {
+    let seconds = |micros: Option<i64>| {
+        micros.map_or_else(String::new, |micros| format!("{:.3}", micros as f64 / 1e6))
+    };
+    let columns = ["name", "kind", "rate", "offset_s", "duration_s", "channels"];
+    let rows: Vec<Vec<String>> = tracks
+        .iter()
+        .map(|track| {
+            vec![
+                track.name.clone(),
+                track.kind.name().to_owned(),
+                track.rate.map_or_else(String::new, |rate| rate.to_string()),
+                seconds(Some(track.offset_us)),
+                seconds(track.duration_us),
+                track.channels.to_string(),
+            ]
+        })
+        .collect();
+    output.table(&columns, &rows)?;
+    let rows: Vec<_> = tracks
+        .iter()
+        .map(|track| {
+            json!({
+                "id": track.id,
+                "kind": track.kind,
+                "name": track.name,
+                "rate": track.rate.map(chereme_motion::Rate::per_second),
+                "offset_us": track.offset_us,
+                "duration_us": track.duration_us,
+                "frames": track.frames,
+                "channels": track.channels,
+            })
+        })
+        .collect();
+    output.document(json!({ "total": rows.len(), "rows": rows }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_read_with_and_without_a_unit() {
+        assert_eq!(micros("0.48s"), Ok(480_000));
+        assert_eq!(micros("-12ms"), Ok(-12_000));
+        assert_eq!(micros("3"), Ok(3_000_000));
+        assert!(micros("soon").is_err() && micros("1e99").is_err());
+        assert!(recording("recording:3").is_ok() && recording("token:3").is_err());
+    }
+}
