@@ -7,7 +7,7 @@ use rusqlite::Connection;
 use crate::error::Result;
 use crate::info::{InventoryInfo, SignerInfo};
 
-const KINDS: [(&str, &str); 16] = [
+const KINDS: [(&str, &str); 17] = [
     ("recordings", "recording"),
     ("tracks", "track"),
     (
