@@ -1,35 +1,36 @@
-//! Where the elbow goes: the rules of Kennaway, section 4.2, in closed form.
+//! Poses an arm: the elbow follows the rules of Kennaway, section 4.2, in closed form.
 //!
-//! The plane of the arm makes an angle with the vertical one through shoulder and wrist, small before
-//! the own shoulder, larger across the body; by how much it gives way is chosen in `solve`. Beyond
-//! most of its reach the collar bone helps, and draws back from what is too near. What the wrist
-//! cannot do, the hand does not.
+//! The plane of the arm is at an angle to the vertical plane through shoulder and wrist: small before the
+//! own shoulder, larger across the body; `choose` selects the deviation from that rule. Near full reach
+//! the collar bone helps, and it draws back if the wrist is too near. The hand stays within the limits of
+//! its wrist.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Anatomy, ArmChain, ModelPose, Pose, Side, Skeleton};
 use chereme_sign::hamnosys::BodyLanguage;
 
-/// The share of the arm's length before full extension from which the elbow opens softly.
+/// Share of the arm's length before full extension over which the elbow straightens softly.
 const SOFT: f64 = 0.012;
-/// The bones of an arm on a body that stands still.
+/// The bones of one arm, on a body that stands still.
 pub(crate) struct Rig {
     pub(crate) side: Side,
     pub(crate) chain: ArmChain,
-    /// Where the shoulder is while the collar bone rests, in model space.
+    /// Position of the shoulder in model space while the collar bone is at rest.
     pub(crate) shoulder: DVec3,
-    /// From shoulder to elbow and from elbow to wrist, in metres.
+    /// Lengths of the upper arm and the forearm, in metres.
     pub(crate) lengths: [f64; 2],
-    /// Which way the elbow points at rest, in model space.
+    /// Direction of the elbow at rest, in model space.
     pub(crate) elbow_axis: DVec3,
     clavicle: Option<Clavicle>,
-    /// The rotations at rest above the upper arm, from it to the forearm's joint, and on to the hand's.
+    /// Rotation at rest of the joints above the upper arm.
     above: DQuat,
+    /// Rotations at rest from the upper arm to the forearm's joint, and on to the hand's.
     between: [DQuat; 2],
-    /// The bones in the space of their joints.
+    /// Vectors along the bones, in the space of their joints.
     bones: [DVec3; 2],
-    /// The rotation that takes the upper arm and its elbow to the axes.
+    /// Rotation from the upper arm and its elbow to the axes.
     level: DQuat,
-    /// The forearm's and hand's local rotations at rest.
+    /// Local rotations of the forearm and the hand at rest.
     rest: [DQuat; 2],
     outside: DVec3,
     forward: DVec3,
@@ -38,14 +39,14 @@ pub(crate) struct Rig {
 struct Clavicle {
     joint: usize,
     at: DVec3,
-    /// Its rotation in model space and that of its parent.
+    /// Its rotation in model space.
     turned: DQuat,
     above: DQuat,
-    /// What is between it and the upper arm.
+    /// The rotation between it and the upper arm.
     between: DQuat,
 }
 
-/// What a wrist can do, from the body language, in radians.
+/// Limits of wrist, elbow and collar bone from the body language; angles in radians.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Limits {
     flexion: [f64; 2],
@@ -55,9 +56,9 @@ pub(crate) struct Limits {
     own: f64,
     across: f64,
     help: (f64, f64),
-    /// How far a collar bone turns to suit the hand, and the share of it downwards.
+    /// Largest turn of the collar bone in favour of the hand (rad), and its share downwards.
     shrug: (f64, f64),
-    /// How far a hand may be turned from what is written before it is turned otherwise.
+    /// Largest deviation (rad) from the notated orientation at which it still reads as notated.
     pub(crate) tolerance: f64,
 }
 
@@ -84,18 +85,18 @@ impl Limits {
     }
 }
 
-/// What of an arm is free while its wrist is somewhere.
+/// The degrees of freedom of an arm whose wrist is fixed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Bearing {
-    /// The arm's plane against the rule's, in radians.
+    /// Deviation of the arm's plane from the rule's, in radians.
     pub(crate) plane: f64,
-    /// How far the collar bone carries the shoulder along the upper arm: from -1, away from the elbow, to
-    /// 1, as far as it turns.
+    /// Shift of the shoulder along the upper arm by the collar bone: from -1, away from the elbow, to 1,
+    /// the farthest towards it.
     pub(crate) shrug: f64,
 }
 
 impl Bearing {
-    /// Returns what is between two bearings.
+    /// Interpolates linearly.
     pub(crate) fn mix(&self, to: &Self, share: f64) -> Self {
         let mix = |a: f64, b: f64| a + (b - a) * share;
         Self {
@@ -105,19 +106,19 @@ impl Bearing {
     }
 }
 
-/// How a hand hangs on its forearm, in radians.
+/// Angles of a hand on its forearm, in radians.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct WristAngles {
-    /// Towards the palm.
+    /// Bend towards the palm.
     pub(crate) flexion: f64,
-    /// Towards the thumb.
+    /// Bend towards the thumb.
     pub(crate) deviation: f64,
-    /// From thumb up: negative palm down.
+    /// Turn from thumb up; negative is palm down.
     pub(crate) turn: f64,
 }
 
 impl WristAngles {
-    /// Returns how far out of its range the wrist is bent, 1 at its end.
+    /// Returns the bend of the wrist as a multiple of its limit; above 1 it is out of range.
     pub(crate) fn bend(&self, limits: &Limits) -> f64 {
         let part = |angle: f64, range: [f64; 2]| angle / range[usize::from(angle > 0.0)];
         let [a, b] = [
@@ -127,8 +128,8 @@ impl WristAngles {
         (a * a + b * b).sqrt()
     }
 
-    /// Returns the angles nearest to these within the ranges of wrist and forearm; a forearm that
-    /// should turn past both ends stops at the `high` one, palm up, or at the other.
+    /// Returns the nearest angles within the limits of wrist and forearm; a forearm beyond its limits
+    /// stops at the upper one (palm up) if `high`, at the lower one otherwise.
     pub(crate) fn allowed(&self, limits: &Limits, high: bool) -> Self {
         let [flexion, deviation] = match self.bend(limits) > 1.0 {
             true => {
@@ -154,7 +155,7 @@ impl WristAngles {
         }
     }
 
-    /// Returns what is between two ways to hang; the ranges hold all that is between what they hold.
+    /// Interpolates linearly; the limits are convex, so the result is within them if both ends are.
     pub(crate) fn mix(&self, to: &Self, share: f64) -> Self {
         let mix = |a: f64, b: f64| a + (b - a) * share;
         Self {
@@ -171,33 +172,34 @@ impl WristAngles {
         flexion.max(deviation).max((self.turn - other.turn).abs())
     }
 
-    /// Returns how far out of its range the forearm is turned, 1 at its end.
+    /// Returns the turn of the forearm as a multiple of its limit; above 1 it is out of range.
     pub(crate) fn turned(&self, limits: &Limits) -> f64 {
         self.turn.abs() / limits.pronation[usize::from(self.turn > 0.0)]
     }
 }
 
-/// An arm in one posture.
+/// One posture of an arm.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Posed {
     pub(crate) shoulder: DVec3,
     pub(crate) elbow: DVec3,
     pub(crate) wrist: DVec3,
-    /// Across the arm's plane: the unit vector about which the line from shoulder to wrist turns
+    /// Normal of the arm's plane: the unit vector about which the line from shoulder to wrist turns
     /// towards the elbow.
     across: DVec3,
-    /// The collar bone's turn in model space against its rest.
+    /// The collar bone's rotation from rest, in model space.
     help: DQuat,
 }
 
-/// The hand as the wrist is asked to hold it.
+/// Directions of the hand that the wrist should hold.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Held {
-    /// The hand's directions in the space of its joint.
+    /// Direction of the hand's axis, in the space of its joint.
     pub(crate) along: DVec3,
+    /// Direction of the palm, in the space of its joint.
     pub(crate) palm: DVec3,
     pub(crate) radial: DVec3,
-    /// The rotation that takes them to the axes.
+    /// Rotation from these directions to the axes.
     level: DQuat,
 }
 
@@ -225,7 +227,7 @@ impl Rig {
         let parent = |joint: usize| skeleton.parent(joint);
         let turned = |joint: Option<usize>| joint.map_or(DQuat::IDENTITY, |j| model.rotation(j));
         let relative = |from: usize, to: usize| {
-            // What stands between two joints of the chain, `to`'s own rotation left out.
+            // The rotation of the joints between the two, without that of `to` itself.
             (model.rotation(from).inverse() * turned(parent(to))).normalize()
         };
         let [shoulder, elbow, wrist] =
@@ -272,7 +274,7 @@ impl Rig {
         })
     }
 
-    /// Returns the joints that an arm's posture turns: collar bone, upper arm, forearm, hand.
+    /// Returns the joints that an arm's posture rotates: collar bone, upper arm, forearm, hand.
     pub(crate) fn joints(&self) -> [Option<usize>; 4] {
         let chain = &self.chain;
         [
@@ -288,7 +290,7 @@ impl Rig {
         self.lengths[0] + self.lengths[1]
     }
 
-    /// Brings the wrist to a place.
+    /// Solves the arm for a position of the wrist.
     pub(crate) fn reach(&self, wrist: DVec3, bearing: Bearing, limits: &Limits) -> Posed {
         let (shoulder, help) = self.shoulder_for(wrist, limits);
         let posed = self.bent(wrist, shoulder, help, bearing.plane, limits);
@@ -299,7 +301,7 @@ impl Rig {
         self.bent(wrist, shrugged, help, bearing.plane, limits)
     }
 
-    /// Brings the wrist to a place from a shoulder, the arm's plane turned by `turn` against the rule's.
+    /// Solves the arm from a given shoulder, with the plane turned by `turn` (rad) from the rule's.
     fn bent(
         &self,
         wrist: DVec3,
@@ -332,7 +334,7 @@ impl Rig {
         }
     }
 
-    /// Returns the posture of an arm whose joints are turned so, as [`rotations`](Self::rotations) are, and its
+    /// Inverts [`rotations`](Self::rotations): returns the posture with these local rotations, and the
     /// hand's rotation in model space.
     pub(crate) fn posed(&self, [collar, upper, forearm, hand]: [DQuat; 4]) -> (Posed, DQuat) {
         let (shoulder, help, above) = match &self.clavicle {
@@ -361,7 +363,8 @@ impl Rig {
         (posed, hand)
     }
 
-    /// Brings the wrist elsewhere from the same shoulder, the arm's plane turned outwards by an angle.
+    /// Solves the arm for another wrist position from the same shoulder, with the plane turned outwards by
+    /// an angle (rad).
     pub(crate) fn moved(&self, posed: &Posed, wrist: DVec3, outwards: f64) -> Posed {
         let way = wrist - posed.shoulder;
         let line = way.normalize_or(self.forward);
@@ -382,8 +385,8 @@ impl Rig {
         }
     }
 
-    /// Returns where a collar bone carries the shoulder along the upper arm, and its turn: less far down
-    /// than elsewhere, and not past what it turns at most.
+    /// Returns the position of the shoulder and the turn of the collar bone for a `shrug`: smaller
+    /// downwards, and within the collar bone's limit.
     fn shrugged(&self, posed: &Posed, shrug: f64, limits: &Limits) -> (DVec3, DQuat) {
         let Some(clavicle) = &self.clavicle else {
             return (posed.shoulder, posed.help);
@@ -400,8 +403,8 @@ impl Rig {
         (clavicle.at + turn * bone, turn * posed.help)
     }
 
-    /// Returns the way from shoulder to wrist, moved out and forward where the elbow cannot bend as
-    /// much as it would have to.
+    /// Returns the vector from shoulder to wrist, lengthened outwards and forward if the elbow cannot bend
+    /// enough.
     fn not_too_near(&self, way: DVec3, limits: &Limits) -> DVec3 {
         let missing = way.length_squared() - self.nearest(limits);
         if missing >= 0.0 {
@@ -418,7 +421,7 @@ impl Rig {
         a * a + b * b + 2.0 * a * b * limits.elbow.cos()
     }
 
-    /// Returns how far to reach for a distance: softly up to the arm's length.
+    /// Limits a distance softly to the arm's length.
     fn soften(&self, wanted: f64) -> f64 {
         let length = self.length();
         let from = length * (1.0 - SOFT);
@@ -437,7 +440,7 @@ impl Rig {
         };
         let far = self.shoulder.distance(wrist);
         let bone = self.shoulder - clavicle.at;
-        // Towards what is far, away from what is nearer than the elbow folds.
+        // Reaches towards a far wrist, and draws back from one nearer than the elbow folds.
         let near = 1.06 * self.nearest(limits).sqrt();
         let missing = (far - limits.help.0 * self.length()).max(0.0) - (near - far).max(0.0);
         if missing == 0.0 || bone.length() < 1e-6 || limits.help.1 <= 0.0 {
@@ -451,13 +454,13 @@ impl Rig {
         (clavicle.at + turn * bone, turn)
     }
 
-    /// Returns how the wrist hangs in a posture with the hand turned so in model space.
+    /// Returns the wrist's angles in a posture with this rotation of the hand in model space.
     pub(crate) fn wrist(&self, posed: &Posed, hand: DQuat, held: &Held) -> WristAngles {
         let forearm = (posed.wrist - posed.elbow).normalize_or(self.forward);
         let in_hand = hand.inverse() * forearm;
         let [a, p, r] = [held.along, held.palm, held.radial].map(|axis| in_hand.dot(axis));
         let deviation = (-r).clamp(-1.0, 1.0).asin();
-        // Bent back by more than a right angle the deviation alone does not tell.
+        // Beyond a right angle backwards, the deviation alone is ambiguous.
         let flexion = (-p).atan2(a);
         let straight = hand * held.along;
         let aligned = arc(straight, forearm) * (hand * held.palm);
@@ -471,12 +474,13 @@ impl Rig {
         }
     }
 
-    /// Returns where the elbow points across the forearm.
+    /// Returns the direction of the elbow at a right angle to the forearm.
     fn elbow_out(&self, posed: &Posed, forearm: DVec3) -> DVec3 {
         posed.across.cross(forearm).normalize_or(self.outside)
     }
 
-    /// Returns the rotation in model space of a hand that hangs on its forearm like this.
+    /// Returns the rotation in model space of a hand with these angles on its forearm: the inverse of
+    /// [`wrist`](Self::wrist).
     pub(crate) fn hung(&self, posed: &Posed, angles: &WristAngles, held: &Held) -> DQuat {
         let forearm = (posed.wrist - posed.elbow).normalize_or(self.forward);
         let out = self.elbow_out(posed, forearm);
@@ -524,15 +528,14 @@ impl Rig {
     }
 }
 
-/// Returns the point of an ellipse about nothing with half axes `ends` that is nearest to a point
-/// outside of it.
-///
-/// Where the normal there leads to the point: `x = e²p / (t + e²)` in either axis, with the `t` for which that
-/// lies on the ellipse, found by Newton's method from below (Eberly, *Distance from a point to an ellipse*).
+/// Returns the point of an ellipse about the origin with half axes `ends` that is nearest to a point
+/// outside of it. The normal at that point leads to the given one: `x = e²p / (t + e²)` in either axis,
+/// with the `t` that puts it on the ellipse, found by Newton's method from below (Eberly, *Distance from a
+/// point to an ellipse*).
 fn nearest_on_ellipse(point: [f64; 2], ends: [f64; 2]) -> [f64; 2] {
     let [a, b] = ends.map(|end| end.max(1e-6));
     let [x, y] = point;
-    // From here on the sum is convex and falling, and is at least 1.
+    // For larger `t` the sum is convex and falling, and it is at least 1 here.
     let mut t = (a * x.abs() - a * a).max(b * y.abs() - b * b).max(0.0);
     for _ in 0..8 {
         let (u, v) = (a * x / (t + a * a), b * y / (t + b * b));

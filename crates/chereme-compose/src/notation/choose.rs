@@ -1,9 +1,10 @@
-//! How an arm is held: its plane, its shoulder, and the end of its range at which a forearm stops that
-//! should turn farther.
+//! Chooses the degrees of freedom of an arm over time: its plane, its shoulder, and the limit at which a
+//! forearm stops that should turn farther.
 //!
-//! Each is weighed by how well it suits the wrist, the hand's orientation and the trunk, and by how far
-//! it is from the one before: the cheapest course of all, by dynamic programming. Only about where a hand
-//! would give way the collar bone carries the shoulder along the upper arm, or back.
+//! Each choice has a cost: how well it suits the wrist, the hand's orientation and the trunk, and how far
+//! it is from the choice before. Dynamic programming finds the cheapest course. The collar bone shifts the
+//! shoulder along the upper arm only around moments at which the hand could not keep its orientation
+//! otherwise.
 
 use std::sync::LazyLock;
 
@@ -12,49 +13,52 @@ use chereme_motion::glam::{DQuat, DVec3};
 use super::arm::{Bearing, Posed, WristAngles};
 use super::solve::{Arm, BENDING, Want};
 
-/// Planes that are weighed against the rule's: the first, the last and the step, in degrees.
+/// Candidate planes relative to the rule's: the first, the last and the step, in degrees.
 const PLANES: (f64, f64, f64) = (-50.0, 120.0, 10.0);
-/// What planes cost in which the elbow goes inwards, against the others.
+/// Factor on the cost of planes with the elbow inwards.
 const INWARDS: f64 = 4.0;
-/// How fast the arm's plane turns at most, in radians a second.
+/// Fastest turn of the arm's plane, in radians per second.
 const SWIVEL: f64 = 7.0;
-/// How fast an elbow goes without cost, in arm lengths a second: 2.5 m/s at 55 cm.
+/// Fastest speed of an elbow without cost, in arm lengths per second: 2.5 m/s at 55 cm.
 const ELBOW: f64 = 4.5;
-/// What a hand costs that is turned from what is written by all that is still as written; half as far costs an
-/// eighth, so that no elbow is thrown out for a few degrees.
+/// Cost of a hand whose orientation deviates by the whole tolerance. Grows with the cube: half of that
+/// costs an eighth, so that a few degrees do not throw the elbow out.
 const TURNED: f64 = 75.0;
-/// What it costs to have an elbow an arm's length above the shoulder; grows with the square.
+/// Cost of an elbow one arm's length above the shoulder; grows with the square.
 const RAISED: f64 = 800.0;
-/// What it costs to be an arm's length off the place, and in the trunk; both grow with the square.
+/// Cost of a wrist one arm's length off its goal; grows with the square.
 const MISSED: f64 = 1.2e4;
+/// Cost of an upper arm one arm's length inside the trunk; grows with the square.
 const WITHIN: f64 = 9e4;
-/// Shrugs that are weighed where a hand gives way, what the farthest costs, and how fast one comes, in parts
-/// of the farthest a second.
+/// Candidate shrugs if the hand's orientation would suffer, as shares of the largest.
 const SHRUGS: [f64; 4] = [-1.0, -0.5, 0.5, 1.0];
+/// Cost of the largest shrug.
 const SHRUGGED: f64 = 2.5;
+/// Fastest change of a shrug, in shares of the largest per second.
 const SHRUGGING: f64 = 8.0;
-/// What is hopeless also when shrugged: so many times what the best costs, and more.
+/// A choice whose cost exceeds this multiple of the best plus this constant is not tried with a shrug.
 const HOPELESS: (f64, f64) = (3.0, 60.0);
-/// What a hand costs that gives way so far that a shrug is weighed, and how long around that, in seconds.
+/// A hand with a higher cost than this for orientation and place is tried with a shrug.
 const GIVES_WAY: f64 = 1.0;
+/// Seconds around such a moment in which shrugs are tried, too.
 const AROUND: f64 = 0.2;
 
-/// A way that an arm could be held.
+/// A candidate posture of the arm at one moment.
 #[derive(Clone, Copy)]
 pub(crate) struct Choice {
     pub(crate) bearing: Bearing,
     angles: WristAngles,
     pub(crate) high: bool,
-    /// Where the elbow is, in arm lengths.
+    /// Position of the elbow, in arm lengths.
     elbow: DVec3,
     cost: f64,
-    /// What of this costs that the hand is turned or placed otherwise than it should be, or the arm in the
+    /// The part of the cost for deviations of the hand's orientation and place, and for an arm inside the
     /// trunk.
     amiss: f64,
 }
 
 impl Arm<'_> {
-    /// Returns how an arm is best held for a hand that stays where it is.
+    /// Returns the cheapest posture for a hand that stays in place.
     pub(crate) fn bearing(&self, wrist: DVec3, turned: DQuat) -> Bearing {
         let want = Want {
             point: wrist,
@@ -70,9 +74,10 @@ impl Arm<'_> {
         refined(&choices, best(&choices))
     }
 
-    /// Returns what it costs for a hand to be somewhere, the arm held as is best.
+    /// Returns the cost of the best posture for a position of the wrist and a rotation of the hand.
     pub(crate) fn strain(&self, wrist: DVec3, turned: DQuat) -> f64 {
-        // The rule's plane first: others need no look where their plane alone costs more than is found.
+        // Start with the rule's plane: planes whose deviation alone costs more than the best need no
+        // evaluation.
         let least = |shrug: f64, known: f64| {
             let shrugged = SHRUGGED * shrug * shrug;
             EASIEST.iter().fold(known, |least, &(plane, off)| {
@@ -92,7 +97,7 @@ impl Arm<'_> {
             .fold(still, |known, shrug| least(shrug, known))
     }
 
-    /// The same for one way to hold it; nothing where it is surely more than `most`.
+    /// Like `strain`, for one posture; infinite if the cost surely exceeds `most`.
     fn strained(&self, wrist: DVec3, turned: DQuat, bearing: Bearing, most: f64) -> f64 {
         let rig = self.rig();
         let posed = rig.reach(wrist, bearing, self.limits);
@@ -121,20 +126,20 @@ impl Arm<'_> {
         held + self.off(apart)
     }
 
-    /// Returns what a hand costs that is turned off what is written.
+    /// Returns the cost of a deviation from the notated orientation (rad).
     fn off(&self, apart: f64) -> f64 {
         let apart = apart / self.limits.tolerance;
         let over = (apart - 1.0).max(0.0);
         TURNED * apart.min(1.0).powi(3) + 36.0 * over + 75.0 * over * over
     }
 
-    /// Returns what it costs that an elbow is above its shoulder.
+    /// Returns the cost of an elbow above its shoulder.
     fn raised(&self, posed: &Posed) -> f64 {
         let above = (posed.elbow.y - posed.shoulder.y) / self.rig().length();
         RAISED * above.max(0.0).powi(2)
     }
 
-    /// Returns what it costs that an upper arm is in the trunk.
+    /// Returns the cost of an upper arm inside the trunk.
     fn within(&self, posed: &Posed) -> f64 {
         [0.6, 1.0]
             .map(|share| {
@@ -146,8 +151,8 @@ impl Arm<'_> {
             .sum()
     }
 
-    /// Returns how the arm is held over time that costs least together, each with the end at which a
-    /// forearm stops; shoulders are shrugged only about where a hand gives way without.
+    /// Returns the cheapest course of postures over time; shrugs are tried only around moments at which
+    /// the hand suffers without them.
     pub(crate) fn choose<'w>(
         &self,
         wants: impl Iterator<Item = (Want<'w>, bool)>,
@@ -180,7 +185,7 @@ impl Arm<'_> {
         cheapest(&lists, &of, dt)
     }
 
-    /// Returns every plane with what it costs.
+    /// Returns the candidate planes with their costs, for either limit of the forearm.
     fn choices(&self, want: &Want<'_>, free: bool) -> Vec<Choice> {
         let mut choices: Vec<Choice> = Vec::with_capacity(2 * planes().count());
         for high in [false, true] {
@@ -197,11 +202,11 @@ impl Arm<'_> {
         choices
     }
 
-    /// Adds what shrugged shoulders would do to the planes in which the hand gives way.
+    /// Adds shrugged postures for the planes in which the hand suffers.
     fn shrug(&self, choices: &mut Vec<Choice>, want: &Want<'_>, free: bool) {
         let still = choices.clone();
         let least = choices[best(choices)].cost;
-        // A shrug turns a forearm by some 20°: what is far worse than the best does not become it.
+        // A shrug turns a forearm by about 20°, which cannot save a far worse candidate.
         let hopeful = |choice: &&Choice| {
             choice.amiss > 0.2 * GIVES_WAY && choice.cost < HOPELESS.0 * least + HOPELESS.1
         };
@@ -216,13 +221,13 @@ impl Arm<'_> {
         }
     }
 
-    /// Returns a way to hold the arm with what it costs: how far it is from the rule's plane, how near wrist
-    /// and forearm are to their ends, how much the hand's orientation gives way, how much of the upper
-    /// arm is in the trunk, and what is missing to the place. On its `free` way between orientations a
-    /// hand may be turned as it likes.
+    /// Returns a candidate posture with its cost: deviation from the rule's plane, closeness of wrist and
+    /// forearm to their limits, deviation of the hand's orientation, depth of the upper arm in the trunk,
+    /// and distance from the goal. If the hand is `free`, between two notated orientations, its
+    /// orientation hardly counts.
     fn choice(&self, want: &Want<'_>, bearing: Bearing, high: bool, free: bool) -> Choice {
         let given = if free { 0.02 } else { 1.0 };
-        // Only what touches is weighed with all of the hand.
+        // The whole outline of the hand counts only if it touches something.
         let (tries, outlines) = if want.touch > 0.0 {
             (6, want.outlines)
         } else {
@@ -251,7 +256,7 @@ impl Arm<'_> {
     }
 }
 
-/// The planes that are weighed, in radians against the rule's, each with what it costs: the cheapest first.
+/// Candidate planes (rad, relative to the rule's) with their costs, the cheapest first.
 static EASIEST: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
     let mut all: Vec<(f64, f64)> = planes()
         .map(|plane| (plane, off_rule(plane.to_degrees())))
@@ -260,14 +265,14 @@ static EASIEST: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
     all
 });
 
-/// Returns the planes that are weighed, in radians against the rule's.
+/// Returns the candidate planes, in radians relative to the rule's.
 fn planes() -> impl Iterator<Item = f64> {
     let (first, last, step) = PLANES;
     let count = ((last - first) / step).round() as usize + 1;
     (0..count).map(move |n| (first + step * n as f64).to_radians())
 }
 
-/// Returns the course through the choices of each moment that costs least together.
+/// Returns the cheapest course through the candidates of each moment.
 fn cheapest<K>(lists: &[(K, Vec<Choice>)], of: &[usize], dt: f64) -> Vec<Choice> {
     let mut sums: Vec<f64> = Vec::new();
     let mut came: Vec<Vec<usize>> = Vec::with_capacity(of.len());
@@ -277,7 +282,7 @@ fn cheapest<K>(lists: &[(K, Vec<Choice>)], of: &[usize], dt: f64) -> Vec<Choice>
         let choices = lists[list].1.as_slice();
         let mut next = Vec::with_capacity(choices.len());
         let mut from = Vec::with_capacity(choices.len());
-        // Cheapest first: what comes after one that costs more than the least way needs no look.
+        // In order of cost: candidates after one that exceeds the best sum need no evaluation.
         order.clear();
         order.extend(0..sums.len());
         order.sort_unstable_by(|&a, &b| sums[a].total_cmp(&sums[b]).then(a.cmp(&b)));
@@ -318,8 +323,8 @@ fn cheapest<K>(lists: &[(K, Vec<Choice>)], of: &[usize], dt: f64) -> Vec<Choice>
     chosen
 }
 
-/// Returns what a plane costs, in degrees against the rule's: past 60° no steeper, and more where the elbow
-/// goes inwards, before the trunk.
+/// Returns the cost of a plane, in degrees relative to the rule's: constant beyond 60°, and higher with
+/// the elbow inwards, before the trunk.
 fn off_rule(degrees: f64) -> f64 {
     let near = degrees.abs().min(60.0);
     let outwards = 0.7 * (near / 36.0).powi(2) + 0.05 * (degrees.abs() - near);
@@ -330,8 +335,8 @@ fn off_rule(degrees: f64) -> f64 {
     }
 }
 
-/// Returns what it costs to go from one choice to another within `dt` seconds; nothing where it is surely
-/// more than `most`.
+/// Returns the cost of a change from one candidate to another within `dt` seconds; `None` if it surely
+/// exceeds `most`.
 fn change(from: &Choice, to: &Choice, dt: f64, most: f64) -> Option<f64> {
     let over = |speed: f64| (speed - 1.0).max(0.0).powi(2);
     let swivel = (to.bearing.plane - from.bearing.plane).abs() / (SWIVEL * dt);
@@ -353,7 +358,7 @@ fn best(choices: &[Choice]) -> usize {
     least.map_or(0, |(n, _)| n)
 }
 
-/// Returns a choice's bearing, led to where parabolas through it and its neighbours are lowest.
+/// Returns a candidate refined to the minimum of parabolas through the costs of its neighbours.
 fn refined(choices: &[Choice], n: usize) -> Bearing {
     let here = choices[n];
     let step = PLANES.2.to_radians();

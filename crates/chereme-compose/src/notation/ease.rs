@@ -1,9 +1,9 @@
-//! Hands at ease: a place in space is a region, and where in it a hand is decides how well its wrist
-//! can be turned as written.
+//! Shifts hands within their place for the comfort of the arm.
 //!
-//! A hand that touches nothing is shifted by a few centimetres, with all of the movement that begins
-//! there, to where the arm need not turn the hand off what is written, nor lead it into the trunk. How
-//! far is in the body language (`room`): to where another place would be read.
+//! A notated place in space is a region, and the position within it decides how well the wrist can hold
+//! the notated orientation. A hand that touches nothing is shifted by a few centimetres, with all of the
+//! movement that begins there, so that the arm can keep that orientation and stay out of the trunk. The
+//! body language limits the shift (`room`) to the distance at which another place would be read.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Motion, Place};
@@ -12,18 +12,20 @@ use super::motion::Env;
 use super::plan::{Planner, Who, acting};
 use super::solve::Arm;
 
-/// What it costs to be at the end of its room; a hand turned by half its bin costs six.
+/// Cost of a shift to the end of the room; a hand turned by half the angle between two directions costs
+/// six.
 const SHIFTED: f64 = 3.0;
-/// How much of its room a hand takes: at the end of it the next place would be read as often.
+/// Usable share of the room: at its end the next place would be read as often.
 const TAKEN: f64 = 0.7;
-/// The strain from which on a hand looks for a better place: that of some 10° off what is written.
+/// Strain above which the hand looks for a better position: that of a deviation of about 10° from the
+/// notated orientation.
 const STRAINED: f64 = 10.0;
-/// How many postures are weighed at most: those that strain the arm most.
+/// The number of postures to evaluate: those that strain the arm most.
 const WEIGHED: usize = 6;
-/// How near to the trunk the point of a hand comes that does not touch it, in metres.
+/// Distance (m) that a hand keeps from the trunk if it does not touch it.
 const NEAR: f64 = 0.03;
 
-/// How a hand is held at one moment of a sign.
+/// Position and orientation of a hand at one moment of a sign.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Stance {
     point: DVec3,
@@ -31,25 +33,25 @@ struct Stance {
     offset: DVec3,
 }
 
-/// How hands are held one after the other while what they do is planned on the side.
+/// Collects the stances of the hands while a trial plan runs.
 #[derive(Debug, Default)]
 pub(crate) struct Trail {
-    /// Within what is done at once, nothing in between is held.
+    /// Depth of nested simultaneous motions, whose intermediate stances do not count.
     pub(crate) within: usize,
-    /// Hands went to a place of its own: what comes is not shifted with what was.
+    /// Whether the hands went to a place of their own: later stances do not move with the shift.
     over: bool,
     seen: Vec<(usize, Stance)>,
 }
 
 impl Planner<'_> {
-    /// Begins a part of a motion in which what comes between is not held.
+    /// Begins a part of a motion whose intermediate stances do not count.
     pub(crate) fn enter(&mut self) {
         if let Some(trail) = &mut self.trail {
             trail.within += 1;
         }
     }
 
-    /// Ends such a part, or any motion of those who act: how they are held now counts.
+    /// Ends such a part, or any motion of the acting hands, and records their stances.
     pub(crate) fn leave(&mut self, who: Who, entered: bool) {
         let Some(mut trail) = self.trail.take() else {
             return;
@@ -63,7 +65,7 @@ impl Planner<'_> {
         self.trail = Some(trail);
     }
 
-    /// Tells that hands go to a place of its own.
+    /// Records that the hands go to a place of their own.
     pub(crate) fn placed(&mut self) {
         if let Some(trail) = &mut self.trail {
             trail.over = true;
@@ -79,8 +81,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Shifts hands within their place to where their arms are at ease, now and while they do what
-    /// `follows`; where a part begins that names no place, to wherever before the trunk they are at ease.
+    /// Shifts hands within their place to where their arms are comfortable, now and during `follows`. At
+    /// the start of a part that names no place, the whole space before the trunk is allowed.
     pub(crate) fn ease(&mut self, place: &Place, named: Who, follows: Option<(&[Motion], Who)>) {
         if self.trail.is_some() {
             return;
@@ -108,7 +110,7 @@ impl Planner<'_> {
                     (None, Some(_)) => Some(self.anywhere()),
                     (at, _) => self.within(at.as_ref().map_or(1.0, |at| self.room(at))),
                 };
-                // What is relative to each other goes together.
+                // Hands that are placed relative to each other shift together.
                 let one = Some(DVec3::ONE);
                 self.shift(room, [one; 2], named, follows);
             }
@@ -123,7 +125,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns the ends of a share of the room at a place, less and more to the left, up and forward.
+    /// Returns a share of the room at a place, as its lower and upper ends (left, up, forward) in arm
+    /// lengths.
     fn within(&self, share: f64) -> Option<[DVec3; 2]> {
         let l = self.language;
         let ends = [
@@ -133,7 +136,7 @@ impl Planner<'_> {
         (share > 0.0).then(|| ends.map(|ends| ends.max(DVec3::splat(1e-4)) * share))
     }
 
-    /// Returns the ends of the room where no place is written.
+    /// Returns the room of a hand without a notated place, as its lower and upper ends in arm lengths.
     fn anywhere(&self) -> [DVec3; 2] {
         let l = self.language;
         [
@@ -143,7 +146,7 @@ impl Planner<'_> {
         .map(|ends| ends.max(DVec3::splat(1e-4)))
     }
 
-    /// Shifts hands within a room in arm lengths.
+    /// Shifts hands within a room (arm lengths) to reduce the strain of their arms.
     fn shift(
         &mut self,
         room: Option<[DVec3; 2]>,
@@ -183,7 +186,7 @@ impl Planner<'_> {
             let axes = axes[n].unwrap_or(DVec3::ONE);
             self.stage.direction(local * axes)
         };
-        // What costs more than `most` is not added up to its end.
+        // Sums above `most` need not be exact.
         let cost = |local: DVec3, most: f64| {
             let shifted = SHIFTED * share(local, room).powi(2);
             let mut sum = 0.0;
@@ -207,7 +210,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns how much it strains an arm to hold its hand so, shifted.
+    /// Returns the strain of an arm whose hand is shifted by an offset (m).
     fn strain(&self, n: usize, stance: &Stance, by: DVec3) -> f64 {
         let Some(hand) = self.stage.hand(self.sides[n]) else {
             return 0.0;
@@ -221,7 +224,7 @@ impl Planner<'_> {
 }
 
 impl Planner<'_> {
-    /// Returns how much room a hand has at a place: none where it touches.
+    /// Returns the share of the room that a hand has at a place: zero in contact.
     fn room(&self, place: &BodyPlace) -> f64 {
         let l = self.language;
         let trunk = place.site.is_none_or(|site| before_trunk(site.at));
@@ -250,7 +253,7 @@ impl Trail {
     }
 }
 
-/// Tells whether a place lies before the trunk.
+/// Returns whether a place lies before the trunk.
 fn before_trunk(at: BodyLocation) -> bool {
     use BodyLocation as B;
     matches!(
@@ -265,15 +268,15 @@ fn before_trunk(at: BodyLocation) -> bool {
     )
 }
 
-/// Returns how far out in a room a place is, 1 at its end; the room goes so far back and so far on.
+/// Returns how far out in a room an offset is: 1 at its end, which may differ between directions.
 fn share(at: DVec3, [less, more]: [DVec3; 2]) -> f64 {
     let end = |at: f64, less: f64, more: f64| if at < 0.0 { at / less } else { at / more };
     let [x, y, z] = [0, 1, 2].map(|n| end(at[n], less[n], more[n]));
     DVec3::new(x, y, z).length()
 }
 
-/// Returns where about nothing a function is low, by a search along the axes; the function need not say more
-/// than that it is above a limit.
+/// Returns an offset with a low cost, by a search along the axes from the origin. `cost(offset, limit)`
+/// may return any number above the limit instead of the exact cost.
 fn lowest(cost: impl Fn(DVec3, f64) -> f64, room: [DVec3; 2]) -> DVec3 {
     let (mut best, mut step) = (DVec3::ZERO, 0.7);
     let mut least = cost(best, f64::INFINITY);

@@ -1,4 +1,4 @@
-//! Hands that hung at rest are raised before the body: to take part, or for their arm to be touched.
+//! Raises hands that hung at rest: to take part in the sign, or for their arm to be touched.
 
 use chereme_motion::glam::DVec3;
 use chereme_sign::hamnosys::sites::{HandPoint, Region, body_site};
@@ -8,7 +8,7 @@ use super::pace::Pace;
 use super::plan::{Frame, HandState, PhaseKind, Planner, Who, acting};
 
 impl Planner<'_> {
-    /// Brings a hand that hung at rest before the body, as what nothing more is said of.
+    /// Raises a hand from rest to its default place before the body.
     pub(crate) fn raise(&mut self, n: usize) {
         let frame = self.own_side(n);
         let forward = self.language.medium_trunk * self.stage.arm;
@@ -20,7 +20,7 @@ impl Planner<'_> {
         self.hold(n, frame, at, DVec3::new(0.5, 0.0, 0.87), 0.0);
     }
 
-    /// Raises the arms that hang and of which a posture names a place; tells which are.
+    /// Raises hanging arms that the posture uses as a location; returns which.
     pub(crate) fn lift(&mut self, posture: &Posture, named: Who) -> [bool; 2] {
         let mut lifted = [false; 2];
         let Some(Place::Body(place)) = &posture.place else {
@@ -55,7 +55,7 @@ impl Planner<'_> {
         lifted
     }
 
-    /// Plans the ways of arms that are raised.
+    /// Plans the transitions of raised arms.
     pub(crate) fn lifted(
         &mut self,
         lifted: [bool; 2],
@@ -70,7 +70,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns what of the other arm a place is on that a hand touches.
+    /// Returns the part of the other arm that a hand touches at a place, if any.
     fn touched(&self, n: usize, place: &BodyPlace, frame: Frame) -> Option<Touched> {
         let near = matches!(
             place.contact,
@@ -101,8 +101,8 @@ impl Planner<'_> {
         frame
     }
 
-    /// Holds a hand with its palm at a place from between the shoulders, to the left, up and forward; it
-    /// points in a direction of its frame.
+    /// Puts a hand with its palm at a position relative to the middle of the shoulders (left, up, forward;
+    /// m); `direction` and `palm` are in its frame.
     fn hold(&mut self, n: usize, frame: Frame, at: DVec3, direction: DVec3, palm: f64) {
         self.state[n].used = true;
         self.state[n].direction = direction.normalize();
@@ -114,16 +114,16 @@ impl Planner<'_> {
     }
 }
 
-/// What is touched of an arm.
+/// The part of an arm that is touched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Touched {
-    /// The inside of the elbow, or of the forearm.
+    /// The inside of the elbow or of the forearm.
     Inside,
-    /// The forearm or the elbow from above.
+    /// The forearm or the elbow, from above.
     Along,
 }
 
-/// Tells whether a place on an arm is on its inside.
+/// Returns whether a place on an arm is on its inside.
 pub(crate) fn inside(site: &Site<BodyLocation>) -> bool {
     site.at == BodyLocation::ElbowInside || matches!(site.side, Some(At::Palmar | At::Front))
 }

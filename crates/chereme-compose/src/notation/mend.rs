@@ -1,8 +1,9 @@
-//! What is left in the trunk of an arm that is laid over time is led out of it.
+//! Removes the remaining intersections of the solved arm with the trunk.
 //!
-//! How an arm is held is chosen at moments and is smooth between them, and what a hand gives way to is spread
-//! over time: either may lead an elbow or a hand into the trunk for a moment. There the arm's plane
-//! turns on, or the hand goes farther out, before and after likewise, until nothing is left in.
+//! The plane of the arm is chosen at intervals and interpolated, and deviations of the hand are spread
+//! over time; either may lead an elbow or a hand into the trunk for a moment. There the arm's plane is
+//! turned farther, or the hand pushed farther out, as well as shortly before and after, until the arm is
+//! clear.
 
 use std::sync::LazyLock;
 
@@ -12,17 +13,18 @@ use super::arm::Bearing;
 use super::solve::{AROUND, Arm, Got, Row, eased};
 use super::track::{Outlines, Wanted};
 
-/// How often it is looked again whether something is left.
+/// The number of rounds of this correction.
 const ROUNDS: usize = 6;
-/// From how deep on something is led out, in metres.
+/// Smallest depth in the trunk that is corrected, in metres.
 const DEEP: f64 = 1e-3;
-/// How near to the trunk's surface an elbow is led, in metres.
+/// Distance that a corrected elbow keeps from the trunk, in metres.
 const NEAR: f64 = 0.008;
-/// Steps by which a hand is led out one way, in metres, and how many.
+/// Step by which a hand is pushed out in one direction, in metres.
 const STEP: f64 = 0.005;
+/// The largest number of such steps.
 const FARTHEST: u32 = 60;
-/// The turns that are tried for an elbow, in degrees, each with what it costs, the cheapest first: inwards, before
-/// the trunk, four times as much.
+/// Candidate turns of the arm's plane (degrees) with their costs, the cheapest first: inwards, before the
+/// trunk, costs four times as much.
 static TURNS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
     let steps = (1..=30).map(|n| 4.0 * f64::from(n));
     let mut all: Vec<(f64, f64)> = steps.flat_map(|by| [(by, by), (-by, 4.0 * by)]).collect();
@@ -31,7 +33,8 @@ static TURNS: LazyLock<Vec<(f64, f64)>> = LazyLock::new(|| {
 });
 
 impl Arm<'_> {
-    /// Returns what an arm does at each frame, and where it comes.
+    /// Solves the arm for all frames, clear of the trunk: returns the settings and the resulting posture
+    /// of each frame.
     pub(crate) fn over_time(&self, wanted: &Wanted<'_>, rate: f64) -> (Vec<Row>, Vec<Got>) {
         let mut ways = self.ways(wanted, rate);
         let mut rows = self.laid(wanted, &ways, rate);
@@ -53,7 +56,7 @@ impl Arm<'_> {
             });
             for ((out, got), turn) in outs.iter_mut().zip(&got).zip(&turns) {
                 if *out == DVec3::ZERO && *turn == DVec3::ZERO {
-                    // The hand goes out for its elbow to leave the trunk.
+                    // Pushes the hand out so that its elbow leaves the trunk.
                     *out = if_deep(self.stage.torso.way_out(got.posed.elbow, 0.0));
                 }
             }
@@ -72,7 +75,7 @@ impl Arm<'_> {
             if !turned && !pushed {
                 break;
             }
-            // What is laid anew is as it was before.
+            // Solving again discards all earlier pushes.
             let pushes = if turned { &more } else { &outs };
             for (row, by) in rows
                 .iter_mut()
@@ -87,8 +90,8 @@ impl Arm<'_> {
         (rows, got)
     }
 
-    /// Leads out of the trunk what came into it where time was stretched, and wrists back into their range: the
-    /// rotations of an arm's joints, frame by frame.
+    /// Corrects rotations after time was stretched: moves the arm out of the trunk and wrists back within
+    /// their limits, frame by frame.
     pub(crate) fn clear<'o>(
         &self,
         frames: &mut [[DQuat; 4]],
@@ -133,14 +136,14 @@ impl Arm<'_> {
         }
     }
 
-    /// Returns the ways by which a hand leaves the trunk: forward, to its own side, and between.
+    /// Returns the directions in which a hand may leave the trunk: forward, to its own side, and between.
     fn ways_out(&self) -> [DVec3; 3] {
         let forward = self.stage.forward;
         let outside = self.stage.left * self.hand.side.sign();
         [forward, (forward + outside).normalize(), outside]
     }
 
-    /// Returns where the arm comes at each frame.
+    /// Returns the resulting posture of the arm in each frame.
     fn settled(&self, rows: &[Row], outlines: &Outlines<'_>) -> Vec<Got> {
         let mut all: Vec<Got> = Vec::with_capacity(rows.len());
         for (frame, row) in rows.iter().enumerate() {
@@ -154,8 +157,8 @@ impl Arm<'_> {
         all
     }
 
-    /// Returns how far the arm's plane turns for an elbow that is in the trunk to leave it, in radians: as little
-    /// as it must, and rather outwards; where none is out of it, to where it is least deep.
+    /// Returns the smallest turn (rad) of the arm's plane that takes the elbow out of the trunk,
+    /// preferably outwards; if no turn does, the one with the least depth.
     fn turned_out(&self, got: &Got, bearing: Bearing) -> f64 {
         let torso = &self.stage.torso;
         let own = torso.way_aside(got.posed.elbow, -0.003).length();
@@ -181,7 +184,7 @@ impl Arm<'_> {
     }
 }
 
-/// Returns a way out that is worth going, else none.
+/// Returns an offset out of the trunk if it is deep enough to correct, zero otherwise.
 fn if_deep(out: DVec3) -> DVec3 {
     if out.length() > DEEP {
         out
@@ -190,8 +193,8 @@ fn if_deep(out: DVec3) -> DVec3 {
     }
 }
 
-/// Lets what goes out in frames that follow one another go one way until it is `clear`: that by which the
-/// farthest goes least far, of these and its own.
+/// Makes successive frames leave the trunk in one direction until they are `clear`: of the given
+/// directions and its own, the one with the shortest push for the deepest frame.
 fn one_way(outs: &mut [DVec3], ways: &[DVec3], clear: impl Fn(usize, DVec3) -> bool) {
     let mut start = 0;
     while let Some(first) = (start..outs.len()).find(|&n| outs[n] != DVec3::ZERO) {

@@ -1,30 +1,30 @@
-//! Movement from notation: HamNoSys and SiGML on any body.
+//! Animates notation: HamNoSys and SiGML, on any body.
 //!
-//! After Kennaway, *Avatar-independent scripting for real-time gesture animation*. A sign's tree
-//! becomes events of either hand (ways, turns, shapes, each with its course), events become frames,
-//! and the arms follow the hands by the rules of `arm`.
+//! Follows Kennaway, *Avatar-independent scripting for real-time gesture animation*. The planner turns a
+//! sign's tree into events of each hand (paths, turns, shapes, each with its pace), the tracks turn events
+//! into frames, and the arms follow the hands by the rules of `arm`.
 //!
 //! | module | holds |
 //! |---|---|
-//! | `plan` | from the tree to events: postures, transitions, who acts in which frame |
-//! | `transit` | the ways of hands from one state to another |
-//! | `place` | where hands are: on the body, in space, by each other |
-//! | `touch` | how a hand lies where it touches the trunk |
-//! | `ease` | where in its place a hand is, so that its arm is at ease |
+//! | `plan` | from the tree to events: postures, transitions, acting hands and their frames |
+//! | `transit` | transitions of hands from one state to another |
+//! | `place` | positions of hands: on the body, in space, in constellations |
+//! | `touch` | the fit of a hand to the trunk's surface in contact |
+//! | `ease` | shifts of hands within their place for the comfort of the arm |
 //! | `motion` | motions, repetitions, sequences |
-//! | `path`, `pace` | ways through space; how they run in time |
+//! | `path`, `pace` | paths through space; their course in time |
 //! | `stage` | the body: its surface, points of its hands |
 //! | `thumb`, `rest`, `lift` | the thumb of a pinch; hands at rest; arms raised to be touched |
 //! | `arm` | elbow, collar bone, wrist |
-//! | `track` | from events to what hands should do in each frame |
-//! | `part` | two hands that would go through each other |
+//! | `track` | from events to the goals of the hands in each frame |
+//! | `part` | separation of two hands that would pass through each other |
 //! | `choose` | over time: the arm's plane and its shoulder |
-//! | `solve`, `settle` | from that to postures of an arm, without jumps |
-//! | `mend` | what is left in the trunk is led out of it |
+//! | `solve`, `settle` | from goals to postures of an arm, without jumps |
+//! | `mend` | removal of remaining intersections with the trunk |
 //! | `perform` | one sign after another on the same body, or their first postures alone |
-//! | `warp` | time stretched where an arm would go too fast |
+//! | `warp` | time stretched where an arm would move too fast |
 //! | `nonmanual` | head, trunk, shoulders; the curves of all non-manuals |
-//! | `notes` | what is said about the movement |
+//! | `notes` | annotations of the synthesised movement |
 
 mod arm;
 mod choose;
@@ -68,25 +68,25 @@ use stage::Stage;
 use track::{Fit, Track};
 use warp::{Fastest, Warp};
 
-/// The most frames that are made at once: ten minutes at 120 Hz.
+/// The most frames of one animation: ten minutes at 120 Hz.
 const MOST_FRAMES: usize = 72_000;
 
-/// How fast arms are planned to go at most, against what they may.
+/// Planned top speed of arms, as a share of the allowed one.
 const EASY: f64 = 0.9;
-/// How often time is stretched again for what is finished.
+/// The number of times that finished movement may be stretched again.
 const AGAIN: usize = 4;
 
-/// How notation is animated.
+/// Settings of the animator.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
-    /// The frames per second.
+    /// Frames per second.
     pub rate: Rate,
-    /// What the categories of notation mean in numbers.
+    /// The body language: the meaning of each category of notation in numbers.
     pub language: BodyLanguage,
 }
 
 impl Default for Settings {
-    /// 60 frames a second, in the program's own body language.
+    /// 60 frames per second, in the program's own body language.
     fn default() -> Self {
         Self {
             rate: Rate::new(60, 1).expect("sixty a second is a rate"),
@@ -95,7 +95,7 @@ impl Default for Settings {
     }
 }
 
-/// Why notation cannot be animated.
+/// The reason why notation cannot be animated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NotationError {
     /// The body has no arm.
@@ -106,23 +106,23 @@ pub enum NotationError {
     /// The movement would be too long.
     #[error("the movement would last {seconds:.0} s; {most:.0} s can be made at once")]
     Long {
-        /// How long it would be.
+        /// Its duration in seconds.
         seconds: f64,
-        /// How long it may be.
+        /// The longest duration in seconds.
         most: f64,
     },
-    /// A number is none.
+    /// A number is not finite.
     #[error(transparent)]
     Clip(#[from] ClipError),
 }
 
-/// Makes the movement of signs one after the other, from rest and back to rest.
+/// Synthesises the movement of signs one after the other, from rest and back to rest.
 ///
-/// The body is that of `stage`'s first frame; trunk, head and shoulders move where the non-manual tiers
-/// say so, legs stay as they are there. The same signs on the same stage give the same movement.
+/// The body is that of `stage`'s first frame; trunk, head and shoulders move as the non-manual tiers say,
+/// and the legs stay in place. The same signs on the same stage give the same movement.
 ///
 /// # Errors
-/// [`NotationError`] where the body has no arm, or the movement would be too long.
+/// [`NotationError`] if the body has no arm, or the movement would be too long.
 pub fn animate(
     signs: &[&Notated],
     stage: &Material,
@@ -208,7 +208,7 @@ pub fn animate(
     })
 }
 
-/// Returns how many frames a time takes.
+/// Returns the number of frames for a duration in seconds.
 fn frames(seconds: f64, rate: f64) -> Result<usize, NotationError> {
     let total = (seconds * rate - 1e-9).ceil() as usize + 1;
     if total > MOST_FRAMES {
@@ -220,7 +220,8 @@ fn frames(seconds: f64, rate: f64) -> Result<usize, NotationError> {
     Ok(total)
 }
 
-/// Returns how fast arms may go; a little less, so that what is measured between frames stays within.
+/// Returns the top speeds for the solver: a little below the allowed ones, so that speeds measured between
+/// frames stay within them.
 fn fastest(language: &BodyLanguage, body: &Stage) -> Fastest {
     Fastest {
         joint: EASY * language.speed_joint,
@@ -228,7 +229,7 @@ fn fastest(language: &BodyLanguage, body: &Stage) -> Fastest {
     }
 }
 
-/// Returns channels in which the body stands still.
+/// Returns the channels of a body that stands still.
 fn standing(body: &Stage, total: usize) -> Vec<Channel> {
     let joints = body.skeleton.joints().iter().enumerate();
     joints

@@ -1,4 +1,4 @@
-//! Motions as events: ways, turns of wrists, playing fingers; in sequence, at once, and again.
+//! Plans motions as events: paths, turns of wrists, playing fingers; in sequence, simultaneous, repeated.
 
 mod relative;
 mod repeat;
@@ -22,19 +22,19 @@ use super::plan::{
     Act, Event, Frame, HandState, PhaseKind, Planner, Who, about, acting, mean, shortest,
 };
 
-/// How long it takes until a hand turns about its palm that turned about what touched, in seconds.
+/// Seconds in which a hand that leaves a contact changes its pivot from the contact point to the palm.
 const LET_GO: f64 = 0.15;
 
-/// What holds for a motion from outside of it.
+/// Modifiers that a motion inherits from the motions around it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Env {
-    /// Its time against the usual.
+    /// Factor on its duration.
     pub(crate) slower: f64,
-    /// Its size against the usual.
+    /// Factor on its size.
     pub(crate) size: f64,
-    /// How often more a motion that goes round is done.
+    /// The number of additional rounds of a circular motion.
     pub(crate) rounds: f64,
-    /// It is done backwards.
+    /// Whether it runs backwards.
     pub(crate) back: bool,
 }
 
@@ -50,7 +50,7 @@ impl Default for Env {
 }
 
 impl Planner<'_> {
-    /// Plans a motion from `time` on for those who act; returns when it is over.
+    /// Plans a motion of the acting hands from `time` on (s); returns its end.
     pub(crate) fn motion(&mut self, motion: &Motion, who: Who, time: f64, env: &Env) -> f64 {
         let manner = &motion.manner;
         let time = if manner.rest {
@@ -78,7 +78,7 @@ impl Planner<'_> {
         end
     }
 
-    /// Returns by how much longer a manner makes a motion.
+    /// Returns a manner's factor on the duration.
     fn slower(&self, manner: &Manner) -> f64 {
         let l = self.language;
         let mut slower = 1.0;
@@ -143,7 +143,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Lets those who act go along a way, told for the dominant hand to the left, up and forward.
+    /// Moves the acting hands along a path, given for the dominant hand (left, up, forward).
     fn along(&mut self, path: &Path, who: Who, [from, to]: [f64; 2], pace: Pace) {
         for (n, frame) in acting(who) {
             let sign = if frame.behind { -1.0 } else { 1.0 };
@@ -167,9 +167,9 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns how long a way takes: as usual, or longer where it would be too fast.
+    /// Returns the duration (s) of a path: the usual one, or longer if the hand would be too fast.
     fn timed(&self, usual: f64, length: f64, env: &Env) -> f64 {
-        // The fastest moment of a targetted movement is 2.6 times its mean.
+        // A targetted movement is at its fastest 2.6 times as fast as on average.
         let least = 2.6 * length / (self.language.speed_most * self.stage.arm);
         (usual * env.slower).max(least)
     }
@@ -221,7 +221,7 @@ impl Planner<'_> {
         end
     }
 
-    /// Returns the way an arc bulges, as long as its depth against its chord.
+    /// Returns the bulge of an arc: its direction, with its depth as a share of the chord as length.
     fn bow(&self, way: DVec3, curve: &Curve) -> DVec3 {
         let l = self.language;
         let deep = sized(curve.size, [l.arc_small, l.arc_normal, l.arc_big]);
@@ -258,8 +258,9 @@ impl Planner<'_> {
         end
     }
 
-    /// Returns the ways from a circle's centre to where it begins and to a quarter on. Where nothing is said it
-    /// begins above; a hand that touches the body begins at the body, which is out of it along `skin`.
+    /// Returns the vectors from a circle's centre to its start and to the point a quarter turn on. The
+    /// default start is above; a hand that touches the body starts at the body, whose outward normal is
+    /// `skin`.
     fn rim(&self, circular: &Circular, radius: f64, skin: Option<DVec3>) -> (DVec3, DVec3) {
         let l = self.language;
         let axis = mean(circular.axis, circular.second);
@@ -271,7 +272,7 @@ impl Planner<'_> {
         });
         let start = circular.clock.start.map_or(usual, |at| at.angle());
         let mut spokes = [start, start + std::f64::consts::FRAC_PI_2].map(about);
-        // A quarter on is where the right-hand rule goes about forward.
+        // A quarter turn on by the right-hand rule about forward.
         spokes[1] = DVec3::Z.cross(spokes[0]);
         if let Some(ellipse) = circular.ellipse {
             use chereme_sign::hamnosys::Ellipse;
@@ -295,7 +296,7 @@ impl Planner<'_> {
         (turned * spokes[0] * size, turned * spokes[1] * size)
     }
 
-    /// Lets a second hand that is half a period behind begin on the other side of its circle.
+    /// Starts a second hand that is half a period behind on the other side of its circle.
     pub(crate) fn start_behind(&mut self, part: &chereme_sign::hamnosys::Manual, who: Who) {
         let Some(frame) = who[1].filter(|frame| frame.behind) else {
             return;
@@ -410,7 +411,7 @@ impl Planner<'_> {
         end
     }
 
-    /// Plans what the body does instead of a hand: it is told, not moved.
+    /// Reports an action of the body in place of a hand; the animator does not move the body for it.
     pub(crate) fn body(&mut self, action: &BodyAction, time: f64) -> f64 {
         self.remark("movements of the body in place of a hand are told, not moved");
         let end = time + self.language.time_body;
@@ -443,7 +444,8 @@ impl Planner<'_> {
         now
     }
 
-    /// Lets hands that turn while they leave each other turn about their palms, not their fingertips.
+    /// Makes hands that turn while they leave each other turn about their palms instead of their
+    /// fingertips.
     fn let_go(&mut self, motions: &[Motion], who: Who, time: f64) {
         let goes = |motion: &Motion| {
             matches!(
@@ -481,7 +483,7 @@ impl Planner<'_> {
             .map(|motion| self.length_of(motion, who, env))
             .collect();
         let longest = lengths.iter().copied().fold(0.0, f64::max);
-        // Ways go first, so that postures at their end are met from where they lead.
+        // Plan paths first, so that the postures at their end are solved at the final positions.
         let (ways, ends): (Vec<_>, Vec<_>) = motions
             .iter()
             .zip(lengths)
@@ -497,7 +499,7 @@ impl Planner<'_> {
         time + longest
     }
 
-    /// Returns how long a motion takes, planning it on the side.
+    /// Returns the duration of a motion (s), by a trial plan.
     fn length_of(&mut self, motion: &Motion, who: Who, env: &Env) -> f64 {
         self.enter();
         let end = self.aside(|planner| planner.motion(motion, who, 0.0, env));
@@ -507,7 +509,7 @@ impl Planner<'_> {
         end
     }
 
-    /// Plans something on the side: what it gives, and nothing of it remains.
+    /// Runs a trial plan and discards its events; returns its result.
     pub(crate) fn aside<T>(&mut self, plan: impl FnOnce(&mut Self) -> T) -> T {
         let state = self.state.clone();
         let events = [0, 1].map(|n| self.plan.events[n].len());
@@ -531,7 +533,7 @@ impl Planner<'_> {
     }
 }
 
-/// Returns who acts in an alternating motion: the second hand half a period behind.
+/// Returns the acting hands of an alternating motion: the second hand is half a period behind.
 fn alternated(manner: &Manner, mut who: Who) -> Who {
     if (manner.alternating || manner.second_alternating) && who[0].is_some() {
         who[1] = who[1].map(|frame| Frame {

@@ -1,8 +1,8 @@
-//! What head, trunk and shoulders do beside the hands, and how much of each non-manual there is when.
+//! Animates head, trunk and shoulders, and computes the curve of each non-manual.
 //!
-//! Every act is a curve from 0 to 1: an attack before the sign begins, what is sustained, a release
-//! after it. Acts of one tier that follow one another share the sign's time. The curves of head, trunk
-//! and shoulders turn joints; those of gaze, brows, lids, nose and mouth are handed on as they are.
+//! Every act is a curve from 0 to 1: an attack before the sign begins, a sustained part, and a release
+//! after the sign. Acts of one tier that follow one another share the sign's time. The curves of head,
+//! trunk and shoulders turn joints; those of gaze, brows, lids, nose and mouth are passed on unchanged.
 
 use std::f64::consts::TAU;
 
@@ -16,10 +16,10 @@ use super::plan::SignSpan;
 use super::stage::Stage;
 use crate::made::Curve;
 
-/// How much later or earlier a tier begins or ends that does not with the hands, in seconds.
+/// Offset (s) of a tier that begins or ends slightly before or after the hands.
 const SLIGHTLY: f64 = 0.12;
 
-/// One act with its time, in seconds.
+/// One act with its times, in seconds.
 struct Timed<'a> {
     act: &'a Act,
     from: f64,
@@ -29,33 +29,34 @@ struct Timed<'a> {
 }
 
 impl Timed<'_> {
-    /// Returns how much of it there is at a time.
+    /// Returns its intensity at a time, from 0 to 1.
     fn at(&self, time: f64) -> f64 {
         let rise = (time - self.from + self.attack) / self.attack.max(1e-6);
         let fall = (self.to + self.release - time) / self.release.max(1e-6);
         smooth(rise).min(smooth(fall))
     }
 
-    /// Returns the share of its time that is over.
+    /// Returns the elapsed share of its duration.
     fn share(&self, time: f64) -> f64 {
         ((time - self.from) / (self.to - self.from).max(1e-6)).clamp(0.0, 1.0)
     }
 }
 
-/// How parts of the body are turned at one moment, in radians to the left of each axis.
+/// Rotations of body parts at one moment, in radians about each axis (left, up, forward).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Bent {
-    /// About the axes to the left, up and forward.
+    /// The rotation of the head.
     head: DVec3,
-    /// The same of the lowest joint of the neck.
+    /// The rotation of the lowest joint of the neck.
     neck: DVec3,
     trunk: DVec3,
-    /// How far right and left collar bone are raised and brought forward.
+    /// How far the right and left collar bones are raised (rad).
     raised: [f64; 2],
+    /// How far they are brought forward (rad).
     hunched: [f64; 2],
 }
 
-/// Returns how much there is of each non-manual at each frame.
+/// Returns the intensity of each non-manual in each frame.
 pub(crate) fn curves(
     signs: &[&Notated],
     spans: &[SignSpan],
@@ -82,7 +83,7 @@ pub(crate) fn curves(
     curves
 }
 
-/// Turns the joints of head, trunk and shoulders; the arms go with the trunk.
+/// Turns the joints of head, trunk and shoulders; the arms move with the trunk.
 pub(crate) fn turn(
     body: &Stage,
     signs: &[&Notated],
@@ -182,7 +183,7 @@ fn name(act: &Act) -> String {
     format!("{part}.{}", act.code())
 }
 
-/// Returns how the body is turned at a time by all acts together.
+/// Returns the sum of all acts at a time.
 fn bent(acts: &[Timed<'_>], time: f64) -> Bent {
     let mut bent = Bent::default();
     for timed in acts {
@@ -204,14 +205,14 @@ fn bent(acts: &[Timed<'_>], time: f64) -> Bent {
     bent
 }
 
-/// Returns how often a head nods or shakes: twice a second, at least twice.
+/// Returns the number of nods or shakes of an act: two per second, at least two.
 fn cycles(timed: &Timed<'_>) -> f64 {
     (2.0 * (timed.to - timed.from)).round().max(2.0)
 }
 
 fn turn_head(bent: &mut Bent, code: &str, angle: impl Fn(f64) -> f64, wave: f64) {
     match code {
-        // `ND` is not in the list and is written for nods.
+        // `ND` is not in the list of codes, but it is used for nods.
         "NO" | "ND" => bent.head.x += angle(11.0) * wave,
         "SH" => bent.head.y += angle(16.0) * wave,
         "SR" => bent.head.y -= angle(28.0),
@@ -245,7 +246,7 @@ fn turn_trunk(bent: &mut Bent, code: &str, angle: impl Fn(f64) -> f64, share: f6
             bent.trunk.x += angle(7.0);
             bent.head.x += angle(5.0);
         }
-        // A sigh sinks after it rose; heaving only rises. Straight is how a body stands.
+        // A sigh rises and sinks; heaving only rises. A body stands straight by default.
         "SI" => {
             let rise = (TAU * share).sin();
             bent.trunk.x -= angle(3.0) * rise;
@@ -297,7 +298,7 @@ fn bend(body: &Stage, bent: &Bent, frame: usize, channels: &mut [Channel]) {
     turn(joint(Part::Neck), DQuat::from_scaled_axis(axes(bent.neck)));
     turn(joint(Part::Head), DQuat::from_scaled_axis(axes(bent.head)));
     for (n, side) in Side::BOTH.into_iter().enumerate() {
-        // The upper arm keeps its direction: the whole arm goes with the shoulder.
+        // The upper arm keeps its direction: the whole arm moves with the shoulder.
         let up = body.forward * (bent.raised[n] * side.sign());
         let ahead = DVec3::Y * (-bent.hunched[n] * side.sign());
         let by = DQuat::from_scaled_axis(up + ahead);

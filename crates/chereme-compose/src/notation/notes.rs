@@ -1,4 +1,4 @@
-//! What is said about movement made from notation.
+//! Annotations and remarks about synthesised movement.
 
 use std::sync::LazyLock;
 
@@ -12,11 +12,11 @@ use super::plan::{Act, PhaseKind, Plan, SignSpan};
 use super::warp::Warp;
 use crate::made::{About, Note};
 
-/// How long a value is said at least that the hand has for a moment only, in seconds.
+/// Shortest annotation (s) of a value that the hand has only momentarily.
 const SHORTEST: f64 = 0.04;
 
-/// Returns the glosses, the component values, the strokes and holds of either hand, and the transitions; time
-/// in `plan` is stretched already, but for that of its events, which is so by `warp`.
+/// Returns the glosses, the component values, the strokes and holds of each hand, and the transitions. All
+/// times in `plan` are stretched already, except those of its events; `warp` stretches those.
 pub(crate) fn notes(
     signs: &[&Notated],
     plan: &Plan,
@@ -97,9 +97,8 @@ fn name(sign: &Notated) -> &str {
     }
 }
 
-/// Returns what a sign has in each component, each with the time at which it holds: until the hand begins to
-/// change it, and from when the change is over. Where that is not known successive values share the sign
-/// evenly.
+/// Returns a sign's values in each component with their times: from the end of one change to the beginning
+/// of the next. If those are unknown, successive values share the sign evenly.
 fn components(
     sign: &Notated,
     plan: &Plan,
@@ -152,14 +151,14 @@ fn components(
     all
 }
 
-/// A stretch of time in which a hand has one value of a component, and a number for what it has.
+/// A time span in which a hand has one value of a component, as an index.
 struct Held {
     span: (f64, f64),
     what: usize,
 }
 
-/// Returns which of so many successive values a hand has in each stretch: one after the other, or again and
-/// again; nothing where the two do not go together.
+/// Assigns `count` successive values to the spans: one after the other, or cyclically; `None` if the
+/// numbers do not match.
 fn matched(held: &[Held], count: usize) -> Option<Vec<usize>> {
     if held.len() == count {
         return Some((0..count).collect());
@@ -176,7 +175,7 @@ fn matched(held: &[Held], count: usize) -> Option<Vec<usize>> {
     (known.len() == count).then_some(steps)
 }
 
-/// Returns when a hand has one value of a component after the other in a sign.
+/// Returns the spans in which a hand has one value of a component each, within a sign.
 fn held(plan: &Plan, n: usize, component: Component, own: &SignSpan, warp: &Warp) -> Vec<Held> {
     let within = |from: f64| (own.from - 1e-6..own.to - 1e-6).contains(&from);
     if component == Component::Movement {

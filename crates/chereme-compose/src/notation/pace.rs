@@ -1,29 +1,29 @@
-//! How a movement runs in time: the two-level controller of Kennaway, section 4.5, as tables.
+//! Paces: how a movement runs in time. The two-level controller of Kennaway, section 4.5, as tables.
 
 use chereme_sign::hamnosys::{BodyLanguage, Manner};
 
-/// How many steps a table has.
+/// The number of steps in a table.
 const STEPS: usize = 256;
 
-/// The kinds of course.
+/// The kinds of pace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Pace {
-    /// Meaningful movement: late peak, short deceleration.
+    /// A meaningful movement: late peak, short deceleration.
     Targetted,
-    /// Movement without meaning: transitions and returns.
+    /// A movement without meaning: transitions and returns.
     Lax,
-    /// Into contact: an abrupt stop.
+    /// A movement into contact: abrupt stop.
     Contact,
     /// A notated sudden stop.
     Halt,
-    /// Slow and steady.
+    /// A tense movement: slow and steady.
     Tense,
-    /// Constant speed but for both ends: circles.
+    /// A circle: constant speed except at both ends.
     Linear,
 }
 
 impl Pace {
-    /// Returns the course of a movement done in a manner.
+    /// Returns the pace of a movement in a manner.
     pub(crate) fn of(manner: &Manner, usual: Self) -> Self {
         if manner.halt {
             Self::Halt
@@ -35,7 +35,7 @@ impl Pace {
     }
 }
 
-/// The courses of a body language.
+/// The pace tables of a body language.
 #[derive(Debug, Clone)]
 pub(crate) struct Paces {
     tables: [Vec<f64>; 6],
@@ -69,7 +69,7 @@ impl Paces {
         }
     }
 
-    /// Returns the share of the way done when the share `time` of the time is over.
+    /// Returns the completed share of the path at the share `time` of the duration.
     pub(crate) fn share(&self, pace: Pace, time: f64) -> f64 {
         let table = &self.tables[pace as usize];
         let at = time.clamp(0.0, 1.0) * STEPS as f64;
@@ -78,9 +78,9 @@ impl Paces {
     }
 }
 
-/// Runs the controller: `x'' = k'(k(1 - x) - x')` with `k = 1 + gain·x^power` and `k' = ratio·k`, until
-/// it has arrived (or to within 1 %), time and way then scaled to 1. What still goes fast then comes to a stop
-/// within the share `brake` of the time.
+/// Runs the controller `x'' = k'(k(1 - x) - x')` with `k = 1 + gain·x^power` and `k' = ratio·k` until it
+/// arrives (or comes within 1 %), and scales time and path to 1. Any remaining speed is braked within the
+/// share `brake` of the time.
 fn controlled(gain: f64, power: f64, ratio: f64, brake: f64) -> Vec<f64> {
     const STEP: f64 = 1e-3;
     let arrival = if ratio < 4.0 { 1.0 } else { 0.99 };
@@ -108,10 +108,10 @@ fn controlled(gain: f64, power: f64, ratio: f64, brake: f64) -> Vec<f64> {
     })
 }
 
-/// Constant speed, reached and lost smoothly over the share `ramp` of the time at both ends.
+/// Returns a table of constant speed, with smooth ramps over the share `ramp` of the time at both ends.
 fn linear(ramp: f64) -> Vec<f64> {
     let ramp = ramp.clamp(0.01, 0.5);
-    // The integral of a smoothstep over the ramp is half of it.
+    // The integral of a smoothstep is half of its ramp.
     let rise = |t: f64| {
         let u = (t / ramp).clamp(0.0, 1.0);
         ramp * (u * u * u - 0.5 * u * u * u * u) + (t - ramp).max(0.0)

@@ -1,4 +1,4 @@
-//! Two hands that would go through each other make way.
+//! Separates two hands that would pass through each other.
 
 use std::ops::Range;
 
@@ -7,38 +7,38 @@ use chereme_motion::glam::DVec3;
 use super::stage::{Hand, Stage};
 use super::track::Wanted;
 
-/// How near to each other the bones of two hands come, in lengths of a hand: as thick as a palm.
+/// Smallest distance between the bones of two hands, in hand lengths: the thickness of a palm.
 const NEAR: f64 = 0.19;
-/// Farther apart than this, in lengths of a hand, hands do not meet.
+/// Hands farther apart than this (hand lengths) cannot collide.
 const FAR: f64 = 2.2;
-/// How long before and after hands make way, in seconds.
+/// Seconds before and after a collision in which the hands move aside.
 const AROUND: f64 = 0.14;
-/// How long hands are near to each other at most that pass, in seconds.
+/// Longest time (s) for which passing hands are near to each other.
 const LONGEST: f64 = 0.6;
-/// How often it is looked again whether they are apart.
+/// The number of rounds of this correction.
 const TRIES: usize = 3;
-/// The numbers of a hand's outline that stand for it: palm, and joints and tips of index and middle finger.
+/// Outline points that stand for a hand: palm, and joints and tips of index and middle finger.
 const BONES: [usize; 6] = [1, 6, 7, 8, 9, 10];
 
-/// Where two hands make way.
+/// A moment at which two hands move aside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Parted {
-    /// When they are nearest, in seconds as planned.
+    /// The time (s, as planned) at which they are nearest.
     pub(crate) time: f64,
-    /// How far each goes aside, in metres.
+    /// Distance by which each moves aside, in metres.
     pub(crate) by: f64,
 }
 
-/// Two hands while they are too near to each other.
+/// A time span in which two hands are too near to each other.
 struct Meeting {
     frames: Range<usize>,
     nearest: usize,
-    /// The way from the second hand's bones to the first's there.
+    /// The offset between the hands' bones there, from the second hand to the first.
     way: DVec3,
 }
 
-/// Leads hands past each other that would go through each other, each half of the way aside; those
-/// that touch, or come near and part again, stay as they are.
+/// Separates hands that would pass through each other, each by half of the distance. Hands that touch, or
+/// that approach and part again, stay unchanged.
 pub(crate) fn part(
     stage: &Stage,
     hands: [&Hand; 2],
@@ -81,7 +81,7 @@ pub(crate) fn part(
     parted
 }
 
-/// Tells whether hands are on other sides of each other afterwards.
+/// Returns whether the hands have changed sides after a meeting.
 fn passes(meeting: &Meeting, first: &Wanted<'_>, second: &Wanted<'_>) -> bool {
     let Range { start, end } = meeting.frames;
     let Some(before) = start.checked_sub(1).filter(|_| end < first.points.len()) else {
@@ -91,8 +91,8 @@ fn passes(meeting: &Meeting, first: &Wanted<'_>, second: &Wanted<'_>) -> bool {
     palms(before).dot(palms(end)) < 0.0
 }
 
-/// Returns the unit vector by which hands make way: across their ways, as they are already apart, else
-/// the first before the second.
+/// Returns the unit vector along which the hands separate: across their paths, in the direction in which
+/// they are already apart; failing that, the first before the second.
 fn aside(stage: &Stage, meeting: &Meeting, first: &Wanted<'_>, second: &Wanted<'_>) -> DVec3 {
     let n = meeting.nearest;
     let last = first.points.len() - 1;
@@ -110,7 +110,7 @@ fn aside(stage: &Stage, meeting: &Meeting, first: &Wanted<'_>, second: &Wanted<'
     usual.try_normalize().unwrap_or(DVec3::Y)
 }
 
-/// Returns when hands that do not touch are too near to each other.
+/// Returns the spans in which hands that do not touch are too near to each other.
 fn meetings(length: f64, first: &Wanted<'_>, second: &Wanted<'_>) -> Vec<Meeting> {
     let mut all: Vec<Meeting> = Vec::new();
     let mut least = f64::INFINITY;
@@ -146,7 +146,7 @@ fn meetings(length: f64, first: &Wanted<'_>, second: &Wanted<'_>) -> Vec<Meeting
     all
 }
 
-/// Returns the shortest way from a point of the second to one of the first.
+/// Returns the shortest offset from a point of the second hand to one of the first.
 fn nearest(first: [DVec3; BONES.len()], second: [DVec3; BONES.len()]) -> DVec3 {
     let pairs = first
         .iter()
@@ -156,7 +156,7 @@ fn nearest(first: [DVec3; BONES.len()], second: [DVec3; BONES.len()]) -> DVec3 {
         .unwrap_or(DVec3::INFINITY)
 }
 
-/// Returns where the bones of a hand are that is as it should be.
+/// Returns the positions of a hand's bones in its intended pose.
 fn bones(wanted: &Wanted<'_>, frame: usize) -> [DVec3; BONES.len()] {
     let [_, outline] = wanted.outlines.at(frame);
     let turned = wanted.turns[frame];

@@ -1,39 +1,39 @@
-//! Ways through space: how far a hand is from where it began.
+//! Paths through space: offsets of a hand from its start.
 
 use std::f64::consts::{PI, TAU};
 
 use chereme_motion::glam::{DQuat, DVec3};
 
-/// A way, from nothing; lengths in metres.
+/// A path from the origin; lengths in metres.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Path {
-    /// Straight.
+    /// A straight line.
     Line(DVec3),
-    /// The arc of a circle over a chord, as deep as `bow` is long, on its side.
+    /// A circular arc over a chord; `bow` is the offset of its middle.
     Arc { chord: DVec3, bow: DVec3 },
-    /// To and fro across a way, as far as `side` is long; corners or waves, growing from 1 to `grown`.
+    /// To and fro across the path by the vector `side`, in corners or waves, growing from 1 to `grown`.
     Wave {
         side: DVec3,
         waves: f64,
         wavy: bool,
         grown: f64,
     },
-    /// Round a circle or ellipse: the way from its centre to the start and a quarter on, by an angle,
-    /// growing from 1 to `grown`.
+    /// Round a circle or ellipse by an angle: the vectors from its centre to the start and a quarter turn
+    /// on, growing from 1 to `grown`.
     Circle {
         start: DVec3,
         quarter: DVec3,
         angle: f64,
         grown: f64,
     },
-    /// Along straight lines through points.
+    /// Straight lines through points.
     Through(Vec<DVec3>),
-    /// Out and back.
+    /// Out to a point and back.
     Spring(DVec3),
 }
 
 impl Path {
-    /// Returns where one is when the share `s` of its length is done.
+    /// Returns the point at the share `s` of the length.
     pub(crate) fn at(&self, s: f64) -> DVec3 {
         match self {
             Self::Line(way) => *way * s,
@@ -48,10 +48,10 @@ impl Path {
                 let wave = if *wavy {
                     (TAU * turn).sin()
                 } else {
-                    // A triangle of the same phase as the sine.
+                    // A triangle wave in phase with the sine.
                     (2.0 / PI) * (TAU * turn).sin().asin()
                 };
-                // Both ends lie on the way.
+                // Both ends lie on the axis of the wave.
                 let ends = (8.0 * s.min(1.0 - s)).clamp(0.0, 1.0);
                 *side * (wave * (1.0 + (grown - 1.0) * s) * ends)
             }
@@ -70,25 +70,26 @@ impl Path {
         }
     }
 
-    /// Returns the whole way.
+    /// Returns the end of the path.
     pub(crate) fn end(&self) -> DVec3 {
         self.at(1.0)
     }
 
-    /// Returns about how long it is.
+    /// Returns its approximate length.
     pub(crate) fn length(&self) -> f64 {
         let at = |n: i32| self.at(f64::from(n) / 16.0);
         (0..16).map(|n| at(n).distance(at(n + 1))).sum()
     }
 
-    /// Returns the unit vector along it when the share `s` is done; none where it goes nowhere.
+    /// Returns the unit tangent at the share `s`; `None` if the path does not move.
     pub(crate) fn heading(&self, s: f64) -> Option<DVec3> {
         let by = 1e-4;
         let from = s.clamp(0.0, 1.0 - by);
         (self.at(from + by) - self.at(from)).try_normalize()
     }
 
-    /// Returns how what goes along it is turned when the share `s` is done: as it bends, and not about itself.
+    /// Returns the rotation of an object that follows the path up to the share `s`: with its bends, but
+    /// without twist.
     pub(crate) fn turned(&self, s: f64) -> DQuat {
         const STEPS: i32 = 32;
         let mut turned = DQuat::IDENTITY;
@@ -103,7 +104,7 @@ impl Path {
         turned.normalize()
     }
 
-    /// Returns the same way with every vector passed through `f`, which is linear.
+    /// Returns the path with the linear map `f` applied to every vector.
     pub(crate) fn map(&self, f: impl Fn(DVec3) -> DVec3) -> Self {
         match self {
             Self::Line(way) => Self::Line(f(*way)),

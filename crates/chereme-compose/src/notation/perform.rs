@@ -1,4 +1,4 @@
-//! One sign after another on the same body: whole, or the posture that it begins with alone.
+//! Synthesises one sign after another on the same body: whole, or only its first posture.
 
 use std::sync::Arc;
 
@@ -13,11 +13,11 @@ use super::{NotationError, Settings, animate, frames, lay, part, standing, track
 use crate::made::About;
 use crate::sources::Material;
 
-/// What is worked out before and after a first posture, in seconds: what changes at once is spread over the time
-/// around it.
+/// Seconds around the first posture that are computed with it, as sudden changes are spread over the time
+/// around them.
 const AROUND: f64 = 0.15;
 
-/// A body that performs many signs, each alone.
+/// A body that performs many signs, one at a time.
 pub struct Performer {
     stage: Material,
     body: Stage,
@@ -26,10 +26,10 @@ pub struct Performer {
 }
 
 impl Performer {
-    /// Puts a body on the stage: the first frame of its material.
+    /// Takes the body from the first frame of the material.
     ///
     /// # Errors
-    /// [`NotationError::NoArm`].
+    /// [`NotationError::NoArm`] if the body has no arm.
     pub fn new(stage: Material, settings: Settings) -> Result<Self, NotationError> {
         let body = Stage::of(&stage).ok_or_else(|| NotationError::NoArm(stage.address.clone()))?;
         Ok(Self {
@@ -40,16 +40,16 @@ impl Performer {
         })
     }
 
-    /// Returns how it is performed.
+    /// Returns the settings of the animator.
     #[must_use]
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// Returns the movement of a sign as [`animate`] makes it, without the ways from and to rest.
+    /// Returns the movement of a sign as [`animate`] synthesises it, without the paths from and to rest.
     ///
     /// # Errors
-    /// As there.
+    /// The same as [`animate`]'s.
     pub fn performs(&self, sign: &Sign) -> Result<Clip, NotationError> {
         let made = animate(&[&notated(sign)], &self.stage, &self.settings)?;
         let clip = made.clip;
@@ -64,14 +64,14 @@ impl Performer {
         })
     }
 
-    /// Returns the body when the first posture of a sign is reached, as a clip of one frame.
+    /// Returns the body at the moment when it reaches the first posture of a sign, as a clip of one frame.
     ///
-    /// That is worked out alone, at about a tenth of the cost of the whole. It is the first frame of that but for what
-    /// depends on how the arm is held long before and after, or on how far time is stretched: to 2 mm for four
-    /// signs of five.
+    /// Only that posture is computed, at about a tenth of the cost of the whole sign. It differs from the
+    /// first frame of the whole sign by influences of distant frames on the arm and by stretched time: by
+    /// at most 2 mm for four signs out of five.
     ///
     /// # Errors
-    /// [`NotationError`] where the movement would be too long.
+    /// [`NotationError`] if the movement would be too long.
     pub fn begins(&self, sign: &Sign) -> Result<Clip, NotationError> {
         let (body, rate) = (&self.body, self.settings.rate.per_second());
         let planner = Planner::new(body, &self.settings.language, self.stage.handedness, rate);
@@ -192,7 +192,7 @@ mod tests {
         for rate in [24, 25, 30, 50, 60, 120] {
             let performer = performer(rate);
             let rate = performer.settings().rate;
-            // Where time is not stretched.
+            // Signs whose time is not stretched.
             for names in [SIGNS[0], SIGNS[2], SIGNS[3]] {
                 let sign = notated(&sign(names));
                 let made = animate(&[&sign], &performer.stage, performer.settings());

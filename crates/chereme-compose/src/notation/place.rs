@@ -1,7 +1,7 @@
-//! Where hands are: places on the body and in space, on the other hand, and the two by each other.
+//! Places hands: on the body, in space, at the other hand, and in constellations.
 //!
-//! Which point of a hand is meant is guessed as Kennaway discusses in section 4.1: the middle of the
-//! palm in free space, at a place on the body what comes to it first as the hand is turned.
+//! The reference point of the hand follows Kennaway's discussion in section 4.1: the middle of the palm in
+//! free space; at a place on the body, the point that meets it first in the hand's orientation.
 
 use chereme_motion::Side;
 use chereme_motion::glam::DVec3;
@@ -16,19 +16,19 @@ use super::lift::inside;
 use super::plan::{Frame, Planner, Who, acting};
 use super::solve::Arm;
 
-/// Where a point of a hand should be.
+/// The goal of a hand's reference point.
 #[derive(Debug, Clone)]
 pub(super) struct Goal {
     pub(super) at: DVec3,
     pub(super) points: Vec<HandPoint>,
-    /// Whether nothing of the hand stands out farther than a face of it that touches.
+    /// Whether the touching face of the hand is moved out to the plane of its outermost point.
     pub(super) flat: bool,
-    /// The way out of the skin where it is touched.
+    /// Outward normal of the skin at the contact.
     pub(super) skin: Option<DVec3>,
 }
 
 impl Planner<'_> {
-    /// Gives hands their place, as planned.
+    /// Puts hands at their place in the plan.
     pub(crate) fn place(&mut self, place: &Place, named: Who) {
         match place {
             Place::Body(body) => {
@@ -76,7 +76,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Puts points of a hand, taken together, where they should be.
+    /// Puts the mean of a hand's points at its goal.
     fn settle(&mut self, n: usize, goal: &Goal) {
         self.state[n].offset = self.offset(n, &goal.points);
         if goal.flat {
@@ -88,7 +88,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns where a hand is for a place on the body or in space.
+    /// Returns the goal of a hand for a place on the body or in space.
     fn on_body(&mut self, n: usize, place: &BodyPlace, frame: Frame, apart: bool) -> Goal {
         let side = self.sides[n];
         let site = self.sites(n, place, frame);
@@ -111,7 +111,7 @@ impl Planner<'_> {
         let skin = match site.site.region {
             _ if !touching || place.behind => None,
             Region::Trunk => self.stage.torso.normal(at),
-            // What touches below the chin or at the neck is out of it forward.
+            // A contact below the chin or at the neck faces forward.
             Region::Face => Some(self.stage.forward),
             Region::Arm(_) => None,
         };
@@ -131,7 +131,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns a place on the body, or half-way between two.
+    /// Returns the position of a place on the body, or half-way between two.
     fn sites(&self, n: usize, place: &BodyPlace, frame: Frame) -> Placed {
         let neutral = Site {
             at: BodyLocation::NeutralSpace,
@@ -145,8 +145,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns the unit vector out of the body where a hand touches it now: to the left, up and forward in the
-    /// hand's frame.
+    /// Returns the outward unit normal of the body at a hand's current contact (left, up, forward in the
+    /// hand's frame).
     pub(crate) fn skin(&self, n: usize, frame: Frame) -> Option<DVec3> {
         let touching = |place: &&BodyPlace| place.contact == Some(Contact::Touch) && !place.behind;
         let place = self.at_body[n].as_ref().filter(touching)?;
@@ -163,14 +163,14 @@ impl Planner<'_> {
         Some(local * frame.axes)
     }
 
-    /// Moves a place in the middle to before a hand's own shoulder.
+    /// Moves a place in the middle to the front of the hand's own shoulder.
     fn apart(&self, n: usize, at: DVec3) -> DVec3 {
         let stage = self.stage;
         let by = self.sides[n].sign() * self.language.hands_apart * stage.shoulders;
         at + stage.left * by
     }
 
-    /// Returns where before a place a hand is.
+    /// Returns the position of a hand before a place.
     fn before(
         &self,
         site: &Placed,
@@ -230,7 +230,7 @@ impl Planner<'_> {
         let out = stage
             .direction(DVec3::from(found.out))
             .normalize_or(stage.forward);
-        // Where an arm is bent, its inside is known.
+        // The inside of an arm is known only if the arm is bent.
         let out = match own {
             Some((_, inner)) if inside(site) => inner.unwrap_or(out),
             _ => out,
@@ -249,8 +249,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns where a part of an arm is as that arm is planned, and the unit vector out of the inside of its
-    /// elbow where it is bent.
+    /// Returns the position of a landmark on the planned arm and, if the arm is bent, the outward unit
+    /// normal of the inside of its elbow.
     fn arm_part(&self, side: Side, landmark: &str) -> Option<(DVec3, Option<DVec3>)> {
         let hand = self.stage.hand(side)?;
         let n = usize::from(self.sides[1] == side);
@@ -269,7 +269,7 @@ impl Planner<'_> {
         Some((at, inner.try_normalize().filter(|_| bent)))
     }
 
-    /// Returns the point of a hand that comes first where it goes along `way`, in model space.
+    /// Returns the point of a hand that comes first when the hand moves along `way` (model space).
     fn facing(&self, n: usize, way: DVec3, region: Region) -> HandPoint {
         let Some(hand) = self.stage.hand(self.sides[n]) else {
             return HandPoint::Palm;
@@ -280,7 +280,7 @@ impl Planner<'_> {
         coming_first(&state.handshape, [along, palm, radial], region)
     }
 
-    /// Returns where points of a hand are, as planned, and the unit vector out of it there.
+    /// Returns the mean position of a hand's points in the plan, and the hand's outward unit normal there.
     pub(super) fn at_hand(&self, n: usize, points: &[HandPoint]) -> (DVec3, DVec3) {
         let state = &self.state[n];
         let offset = self.offset(n, points);
@@ -296,7 +296,7 @@ impl Planner<'_> {
         (at, (state.rotation * out).normalize_or(DVec3::Y))
     }
 
-    /// Brings an acting hand to a site of the other.
+    /// Moves an acting hand to a site of the other hand.
     fn on_hand(&mut self, site: &HandSite, named: Who) {
         let acting = usize::from(named[0].is_none());
         let other = 1 - acting;
@@ -333,7 +333,7 @@ impl Planner<'_> {
         points
     }
 
-    /// Brings a hand that signs alone to what it was near before, or to the place that is named.
+    /// Moves a hand that signs alone to its last place at the body, or to the named place.
     fn alone(&mut self, hands: &Constellation, named: Who) {
         for (n, frame) in acting(named) {
             let known = self.at_body[n].clone();
@@ -350,7 +350,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Brings the hands to each other, and the two to a place.
+    /// Moves the hands together, and both to a place.
     fn by_each_other(&mut self, hands: &Constellation, named: Who) {
         let hands = &self.remembered(hands);
         for n in 0..2 {
@@ -376,7 +376,7 @@ impl Planner<'_> {
                 None if hands.contact == Some(Contact::Cross) => {
                     vec![HandPoint::Wrist(Face::Palmar)]
                 }
-                // Fingers between fingers: their first bones meet.
+                // Interlocked fingers: their first bones meet.
                 None if hands.contact == Some(Contact::Interlock) => vec![
                     HandPoint::Base(Digit::Middle, Face::Palmar),
                     HandPoint::Middle(Digit::Middle, Face::Palmar),
@@ -416,7 +416,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns a constellation with the sites of the one before in this sign where it names none.
+    /// Returns a constellation; sites that it leaves out are those of the last one in this sign.
     fn remembered(&mut self, hands: &Constellation) -> Constellation {
         let mut known = hands.clone();
         if known.dominant.is_none() && known.other.is_none() {
@@ -430,8 +430,8 @@ impl Planner<'_> {
         known
     }
 
-    /// Returns the points of hands that do not mirror each other, and the way from the other's to the
-    /// dominant's: out of what is touched.
+    /// Returns the points of hands that do not mirror each other, and the direction from the other hand's
+    /// point to the dominant hand's: the outward normal of the touched part.
     fn unlike(
         &self,
         hands: &Constellation,
@@ -460,7 +460,8 @@ impl Planner<'_> {
         ([own, other], way)
     }
 
-    /// Returns where two hands are together: at their place, else where they are, else before the chest.
+    /// Returns the position of two hands in a constellation: at their place if named, else at their
+    /// current position, else before the chest.
     fn centre(&mut self, hands: &Constellation, frame: Frame) -> DVec3 {
         if let Some(place) = &hands.at {
             return self.on_body(0, place, frame, false).at;
@@ -472,7 +473,7 @@ impl Planner<'_> {
     }
 }
 
-/// Returns how hands that mirror each other meet at a site that both have.
+/// Returns the constellation of mirrored hands that meet at the same site.
 fn met(site: &HandSite) -> Constellation {
     let plain = HandSite {
         by: None,
@@ -490,7 +491,7 @@ fn met(site: &HandSite) -> Constellation {
     }
 }
 
-/// A place on the body with where it is.
+/// A place on the body with its position.
 #[derive(Debug, Clone)]
 struct Placed {
     at: DVec3,

@@ -1,4 +1,4 @@
-//! From the tree to what each hand does when.
+//! Plans signs: turns the tree into timed events of each hand.
 
 use std::collections::BTreeMap;
 
@@ -21,39 +21,41 @@ use super::stage::{Shape, Stage};
 use super::thumb;
 use super::warp::Warp;
 
-/// How long hands rest before the first sign and after the last, in seconds.
+/// Seconds of rest before the first sign and after the last.
 const STILL: f64 = 0.1;
 
-/// Something a hand does over a stretch of time, in seconds.
+/// One act of a hand with its time span, in seconds.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Event {
     pub(crate) from: f64,
+    /// The time at which its last posture is left, in seconds.
     pub(crate) to: f64,
     pub(crate) pace: Pace,
     pub(crate) act: Act,
 }
 
-/// What a hand does.
+/// The acts of a hand.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Act {
-    /// Its point goes along a way; ways at the same time add up.
+    /// Its reference point moves along a path; simultaneous paths add up.
     Move(Path),
-    /// It turns to an orientation in model space.
+    /// It rotates to an orientation in model space.
     Turn(DQuat),
-    /// It turns as a way does that it goes along, and before at once round the corner that leads to it; where to.
+    /// It turns with the tangent of `path`, after an immediate turn `corner`; `to` is its final
+    /// orientation.
     Follow {
         path: Path,
         corner: DQuat,
         to: DQuat,
     },
-    /// Another of its points is what is placed: where that is in the hand's space.
+    /// Its reference point changes to this one, in the hand's space.
     Point(DVec3),
-    /// It takes a posture, by its number among the plan's.
+    /// Its fingers take a shape, by index among the plan's.
     Shape(usize),
-    /// It turns to and fro about the wrist: two axes in the hand's space as long as the angles in
-    /// radians, a quarter of a cycle apart, and how often.
+    /// It moves to and fro about the wrist, `cycles` times: two rotation vectors (rad) in the hand's
+    /// space, a quarter of a cycle apart.
     Wrist { axes: [DVec3; 2], cycles: f64 },
-    /// Fingers play, thumb first, so far at the base joint in radians, and how often.
+    /// Fingers play, thumb first, `cycles` times, by `angle` (rad) at the base joint.
     Play {
         digits: [bool; 5],
         angle: f64,
@@ -61,10 +63,10 @@ pub(crate) enum Act {
     },
 }
 
-/// What a hand is about over a stretch of time, in seconds.
+/// A phase of a hand's movement, in seconds.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Phase {
-    /// The dominant hand, 0, or the other, 1.
+    /// The hand: 0 for the dominant one, 1 for the other.
     pub(crate) hand: usize,
     pub(crate) kind: PhaseKind,
     pub(crate) from: f64,
@@ -72,7 +74,7 @@ pub(crate) struct Phase {
     pub(crate) says: String,
 }
 
-/// What a stretch of time is.
+/// The kinds of phases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PhaseKind {
     Transition,
@@ -80,46 +82,49 @@ pub(crate) enum PhaseKind {
     Hold,
 }
 
-/// A hand as planned so far.
+/// The state of a hand at the current end of the plan.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct HandState {
-    /// Where the point is that is placed, in model space.
+    /// Position of its reference point in model space.
     pub(crate) point: DVec3,
-    /// How the hand is turned in model space.
+    /// Rotation of the hand in model space.
     pub(crate) rotation: DQuat,
-    /// Where the point is in the hand's space.
+    /// The reference point in the hand's space.
     pub(crate) offset: DVec3,
     pub(crate) shape: usize,
-    /// What was said of it: its shape, its direction and palm in the frame of the dominant hand.
+    /// The notated handshape.
     pub(crate) handshape: Handshape,
+    /// The notated direction of its axis, in the frame of the dominant hand.
     pub(crate) direction: DVec3,
+    /// The notated angle of its palm (rad), in the frame of the dominant hand.
     pub(crate) palm: f64,
-    /// The axes in which direction and palm were said.
+    /// The signs of left, up and forward for its direction and for its palm.
     pub(crate) axes: [DVec3; 2],
-    /// Whether its direction or its palm was said relative to its movement, and where that went last.
+    /// Whether its direction or palm is notated relative to its movement.
     pub(crate) follows: bool,
+    /// The direction of its last movement.
     pub(crate) heading: Option<DVec3>,
     /// Whether it takes part in the sign.
     pub(crate) used: bool,
 }
 
 impl HandState {
-    /// Returns where the wrist is.
+    /// Returns the position of the wrist.
     pub(crate) fn wrist(&self) -> DVec3 {
         self.point - self.rotation * self.offset
     }
 }
 
-/// One sign on the time line.
+/// The time span of one sign.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SignSpan {
     pub(crate) gloss: String,
-    /// When its first posture is reached and its last is left, in seconds.
+    /// The time at which its first posture is reached, in seconds.
     pub(crate) from: f64,
     pub(crate) to: f64,
 }
 
-/// What hands do, and when.
+/// The planned events of both hands.
 pub(crate) struct Plan {
     /// The dominant side, then the other.
     pub(crate) sides: [Side; 2],
@@ -128,17 +133,17 @@ pub(crate) struct Plan {
     pub(crate) shapes: [Vec<Shape>; 2],
     pub(crate) phases: Vec<Phase>,
     pub(crate) signs: Vec<SignSpan>,
-    /// When either hand touches something: from when and until, in seconds as planned.
+    /// Time spans (s, as planned) in which each hand touches something.
     pub(crate) contacts: [Vec<(f64, f64)>; 2],
-    /// When either hand goes to a place that is named, likewise.
+    /// Time spans (s, as planned) in which each hand moves to a named place.
     pub(crate) arrivals: [Vec<(f64, f64)>; 2],
     pub(crate) end: f64,
-    /// What was approximated or left out, each once.
+    /// Warnings about approximations and omissions, without duplicates.
     pub(crate) remarks: Vec<String>,
 }
 
 impl Plan {
-    /// Takes over how time runs for what is said of it; events stay as planned.
+    /// Stretches the times of phases and signs; events keep their planned times.
     pub(crate) fn stretch(&mut self, warp: &Warp) {
         if warp.is_none() {
             return;
@@ -153,25 +158,25 @@ impl Plan {
     }
 }
 
-/// The frame of an acting hand: what its directions and its sides are against what is written.
+/// The frame of an acting hand: relates notated directions and sides to the hand's own.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Frame {
-    /// Signs of left, up and forward.
+    /// Factors (1 or -1) on left, up and forward.
     pub(crate) axes: DVec3,
-    /// Left and right of places are exchanged.
+    /// Whether left and right of places are exchanged.
     pub(crate) mirrored: bool,
-    /// Half a period behind.
+    /// Whether it is half a period behind.
     pub(crate) behind: bool,
 }
 
 impl Frame {
-    /// Tells whether the other hand does the same on the other side.
+    /// Returns whether the other hand mirrors this one.
     pub(crate) fn mirrors(&self, other: &Self) -> bool {
         other.axes.x * self.axes.x < 0.0 && other.axes.y > 0.0 && other.axes.z > 0.0
     }
 }
 
-/// Who acts: the dominant hand and the other, each in its frame.
+/// The acting hands, the dominant one first, each with its frame.
 pub(crate) type Who = [Option<Frame>; 2];
 
 pub(crate) struct Planner<'a> {
@@ -184,25 +189,25 @@ pub(crate) struct Planner<'a> {
     pub(crate) rest: [HandState; 2],
     pub(crate) named: BTreeMap<u8, [Option<DVec3>; 2]>,
     pub(crate) symmetric: bool,
-    /// How the hands were together last in this sign.
+    /// The last constellation of the hands in this sign.
     pub(crate) together: Option<Constellation>,
-    /// Whether the sign has begun: its hands are where its first posture brings them.
+    /// Whether the hands have reached the first posture of the sign.
     pub(crate) begun: bool,
-    /// The hand that stays where it is while the other comes to it.
+    /// The hand that stays in place while the other moves to it.
     pub(crate) fixed: Option<usize>,
-    /// How hands are held in what is planned on the side.
+    /// Collects stances during a trial plan.
     pub(crate) trail: Option<super::ease::Trail>,
-    /// Where each hand was last at the body in this sign.
+    /// The last place of each hand at the body in this sign.
     pub(crate) at_body: [Option<BodyPlace>; 2],
-    /// The postures that handshapes have.
+    /// Indexes of shapes by handshape, for each hand.
     shaped: [Vec<(Handshape, usize)>; 2],
     speed: f64,
-    /// Frames a second.
+    /// Frames per second.
     rate: f64,
     pub(crate) plan: Plan,
 }
 
-/// Returns those who act, each with its frame.
+/// Returns the acting hands with their frames.
 pub(crate) fn acting(who: Who) -> impl Iterator<Item = (usize, Frame)> {
     let both = who.into_iter().enumerate();
     both.filter_map(|(n, frame)| Some((n, frame?)))
@@ -256,7 +261,7 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// Plans signs one after the other, from rest and back to it.
+    /// Plans signs one after the other, from rest and back to rest.
     pub(crate) fn signs(mut self, signs: &[&Notated]) -> Plan {
         let mut time = STILL;
         let parts = signs.iter().flat_map(|notated| &notated.sign.parts);
@@ -288,8 +293,8 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// Plans one part, with what comes after it in sight: the way to its first posture, its actions, the
-    /// end; returns when the posture is reached and when the part is over.
+    /// Plans one part of a sign: the transition to its first posture, its actions, its end. `next` is the
+    /// part that follows. Returns the times at which the posture is reached and the part ends.
     fn part(&mut self, part: &Manual, next: Option<&Manual>, time: f64) -> (f64, f64) {
         let who = self.who(part.hands);
         self.symmetric = who[0].is_some() && who[1].is_some();
@@ -368,13 +373,12 @@ impl<'a> Planner<'a> {
         (reached, now + hold)
     }
 
-    /// Returns when the frame begins that comes next.
+    /// Rounds a time up to the next frame.
     fn on_frame(&self, time: f64) -> f64 {
         (time * self.rate - 1e-6).ceil() / self.rate
     }
 
-    /// Tells whether a hand that has nothing to do stays where it is: the part that follows uses it, and it
-    /// is not held up.
+    /// Returns whether an idle hand stays in place: it is low, and the next part uses it.
     fn waits(&self, n: usize, next: Option<&Manual>) -> bool {
         let below = self.state[n].point.y < self.stage.middle().y;
         below
@@ -383,12 +387,12 @@ impl<'a> Planner<'a> {
             })
     }
 
-    /// Tells whether a part leaves the other hand out altogether.
+    /// Returns whether a part does not involve the other hand at all.
     fn lone(&self, part: &Manual) -> bool {
         !matches!(part.hands, HandsUsed::Both(_))
     }
 
-    /// Returns the posture a part begins with: in neutral space where nothing is said.
+    /// Returns the first posture of a part; without a notated place, in neutral space.
     fn begun(&self, posture: &Posture) -> Posture {
         let mut begun = posture.clone();
         if begun.place.is_none() {
@@ -397,7 +401,7 @@ impl<'a> Planner<'a> {
         begun
     }
 
-    /// Returns who acts in a part, each in its frame.
+    /// Returns the acting hands of a part with their frames.
     fn who(&self, hands: HandsUsed) -> Who {
         let own = self.own_frame();
         match hands {
@@ -407,7 +411,7 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// Returns the frame of what is written without a symmetry: mirrored for left-handed signers.
+    /// Returns the frame for notation without a symmetry: mirrored for left-handed signers.
     pub(crate) fn own_frame(&self) -> Frame {
         let mirrored = self.sides[0] == Side::Left;
         Frame {
@@ -417,7 +421,7 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// Returns whom a posture speaks of: those who act, and both where it has a thing for each.
+    /// Returns the hands that a posture addresses: the acting ones, or both if it has a value for each.
     pub(crate) fn addressed(&self, posture: &Posture, who: Who) -> Who {
         let own = self.own_frame();
         let mut named = who;
@@ -441,8 +445,8 @@ impl<'a> Planner<'a> {
         named
     }
 
-    /// Tells whether a relation of hands is of one hand alone: what it touches is where it was at the
-    /// body before.
+    /// Returns whether a constellation involves only one hand, which then touches its last place at the
+    /// body.
     pub(crate) fn is_lone(&self, hands: &Constellation, who: Who) -> bool {
         let Some(own) = (0..2).find(|&n| who[n].is_some() && who[1 - n].is_none()) else {
             return false;
@@ -452,7 +456,7 @@ impl<'a> Planner<'a> {
             && (self.at_body[own].is_some() || hands.at.is_some())
     }
 
-    /// Returns the middle of points of a hand in its space.
+    /// Returns the mean of points of a hand, in the hand's space.
     pub(crate) fn offset(&self, n: usize, points: &[HandPoint]) -> DVec3 {
         let Some(hand) = self.stage.hand(self.sides[n]) else {
             return DVec3::ZERO;
@@ -465,7 +469,7 @@ impl<'a> Planner<'a> {
         sum / points.len().max(1) as f64
     }
 
-    /// Gives hands a posture at once, as planned: shape, orientation, place.
+    /// Sets the posture of hands at the current end of the plan: shape, orientation, place.
     pub(crate) fn assume(&mut self, posture: &Posture, named: Who) {
         for (n, frame) in acting(named) {
             self.state[n].used = true;
@@ -494,7 +498,7 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// Gives a hand another shape; its point stays the same part of it.
+    /// Changes a hand's shape; its reference point stays at the same part of the hand.
     fn reshape(&mut self, n: usize, shape: &Handshape) {
         if self.state[n].handshape == *shape && self.state[n].shape > 0 {
             return;
@@ -516,8 +520,8 @@ impl<'a> Planner<'a> {
         self.state[n].handshape = shape.clone();
     }
 
-    /// Returns the axes in which something is said of a hand: those of its frame, or of the signer where the
-    /// words are its own.
+    /// Returns the axes for a notated value of a hand: those of its frame, or the signer's if the value is
+    /// the hand's own.
     fn axes<T>(&self, said: &Each<T>, n: usize, frame: Frame) -> DVec3 {
         if n == 1 && said.other().is_some() {
             self.own_frame().axes
@@ -526,11 +530,11 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// Turns a hand as its direction and palm say.
+    /// Rotates a hand to its notated direction and palm.
     pub(crate) fn turn(&mut self, n: usize) {
         let state = &self.state[n];
         let [pointing, facing] = state.axes;
-        // The palm's letter is one of a hand that points so in its frame.
+        // The palm's letter applies to a hand that points in this direction in its own frame.
         let direction = state.direction * pointing * facing;
         let [direction, palm] =
             oriented(direction, state.palm).map(|v| self.stage.direction(v * facing));
@@ -550,7 +554,7 @@ impl<'a> Planner<'a> {
     }
 }
 
-/// Returns the speed of a whole sign against the usual.
+/// Returns the factor on the speed of a whole sign.
 fn speed(notated: &Notated) -> f64 {
     let legal = |factor: &f64| factor.is_finite() && *factor > 0.0;
     let speed = notated.speed.filter(legal).unwrap_or(1.0);
@@ -573,7 +577,7 @@ fn second(own: Frame, symmetry: Symmetry) -> Frame {
     }
 }
 
-/// Returns what is said of a hand: for both, or for it alone.
+/// Returns a hand's notated value: the shared one, or its own.
 pub(crate) fn pick<T>(each: &Each<T>, n: usize) -> Option<&T> {
     match each {
         Each::Split(dominant, other) => [dominant, other][n].as_ref(),
@@ -602,19 +606,19 @@ fn touches(posture: &Posture) -> bool {
     posture.place.as_ref().is_some_and(touching)
 }
 
-/// Returns an aim as a unit vector to the left, up and forward.
+/// Returns the unit vector of an aim (left, up, forward).
 pub(crate) fn towards(aim: &Aim<Direction>) -> DVec3 {
     mean(aim.first, aim.second)
 }
 
-/// Returns the middle of two directions as a unit vector.
+/// Returns the unit vector half-way between two directions.
 pub(crate) fn mean(first: Direction, second: Option<Direction>) -> DVec3 {
     let first = DVec3::from(first.vector());
     let Some(second) = second else { return first };
     (first + DVec3::from(second.vector())).normalize_or(first)
 }
 
-/// Returns the angle of a palm, the middle on the shorter side where there are two.
+/// Returns the angle of a palm (rad); half-way on the shorter side if there are two.
 fn palm_angle(aim: &Aim<Compass>) -> f64 {
     let first = aim.first.angle();
     let Some(second) = aim.second else {
@@ -625,8 +629,7 @@ fn palm_angle(aim: &Aim<Compass>) -> f64 {
     first + (apart - turns * std::f64::consts::TAU) / 2.0
 }
 
-/// Returns the rotation that takes forward to a direction by the shortest way; straight back goes
-/// over up.
+/// Returns the shortest rotation from forward to a direction; for straight back it turns over the top.
 pub(crate) fn shortest(direction: DVec3) -> DQuat {
     if direction.z < -1.0 + 1e-9 {
         return DQuat::from_axis_angle(DVec3::X, std::f64::consts::PI);
@@ -634,12 +637,12 @@ pub(crate) fn shortest(direction: DVec3) -> DQuat {
     DQuat::from_rotation_arc(DVec3::Z, direction)
 }
 
-/// Returns a compass direction about forward: down at 0, right a quarter on; left, up, forward.
+/// Returns a compass direction about forward (left, up, forward): down at 0, right a quarter turn on.
 pub(crate) fn about(angle: f64) -> DVec3 {
     DVec3::new(-angle.sin(), -angle.cos(), 0.0)
 }
 
-/// Returns where a hand points and where its palm faces, to the left, up and forward.
+/// Returns the directions of a hand's axis and palm (left, up, forward).
 fn oriented(direction: DVec3, palm: f64) -> [DVec3; 2] {
     let faces = orientation::palm(direction.to_array(), palm);
     [direction, DVec3::from(faces)]

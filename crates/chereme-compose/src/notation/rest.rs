@@ -7,7 +7,7 @@ use chereme_sign::hamnosys::Handshape;
 use super::plan::HandState;
 use super::stage::{Shape, Stage};
 
-/// Returns a hand that hangs beside the body, as it stands on the stage where it hangs there.
+/// Returns a hand that hangs next to the body, as in the stage's posture if it hangs there.
 pub(crate) fn resting(stage: &Stage, side: Side) -> (HandState, Shape) {
     let angles = relaxed();
     let shape = stage.shape(side, &angles);
@@ -45,7 +45,7 @@ pub(crate) fn resting(stage: &Stage, side: Side) -> (HandState, Shape) {
     (state, shape)
 }
 
-/// Returns the posture of a hand at ease.
+/// Returns the finger angles of a relaxed hand.
 fn relaxed() -> HandAngles {
     let degrees = |flexion: [f64; 3], spread: f64| FingerAngles { spread, flexion };
     HandAngles {

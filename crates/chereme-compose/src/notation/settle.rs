@@ -1,20 +1,22 @@
-//! Where an arm comes in a frame: its hand's point in its place, the wrist bent and turned as it is held.
+//! Solves the arm for one frame: the hand's reference point at its goal, the wrist at its given angles.
 
 use chereme_motion::glam::{DMat3, DQuat, DVec3};
 
 use super::arm::{Bearing, Posed};
 use super::solve::{Arm, Got, Row};
 
-/// From how far off its goal on a point is not settled, in metres.
+/// Distance (m) from the goal above which a point is not settled.
 const UNSETTLED: f64 = 1e-3;
-/// How often a point that does not settle comes nearer, how far at most at once, in metres, and how it is damped.
+/// The number of attempts to bring an unsettled point nearer.
 const NEARER: usize = 8;
+/// Largest step of one attempt, in metres.
 const STEP: f64 = 0.03;
+/// Damping of the least-squares steps.
 const DAMPING: f64 = 1e-3;
 
 impl Arm<'_> {
-    /// Puts the arm where its hand's point is in its place, the wrist bent and turned as it is held;
-    /// what would enter the trunk is moved out of it.
+    /// Solves the arm so that the hand's reference point is at its goal with the given wrist angles;
+    /// pushes the hand out of the trunk.
     pub(crate) fn settle(&self, row: &Row, outlines: [&[DVec3]; 2], before: Option<&Got>) -> Got {
         let rig = self.rig();
         let at = |wrist: DVec3| {
@@ -71,7 +73,8 @@ impl Arm<'_> {
             (_, posed, rotation) = best;
         }
         if let Some(before) = before.filter(|_| best.0 > UNSETTLED) {
-            // Where the forearm folds up a small step of the wrist turns the hand far: rather where it was.
+            // With a folded forearm a small step of the wrist turns the hand far: stay near the last
+            // position.
             (posed, rotation) = self.near(row, goal, before.posed.wrist);
         }
         let mut pushed = row.push.length();
@@ -93,7 +96,7 @@ impl Arm<'_> {
         }
     }
 
-    /// Carries a hand from where it came in one frame to where it came in the next.
+    /// Interpolates a hand between the results of two frames.
     pub(crate) fn carried(
         &self,
         [from, to]: [&Got; 2],
@@ -106,7 +109,7 @@ impl Arm<'_> {
         (posed, self.within_range(&posed, turned))
     }
 
-    /// Returns how a hand is turned that should be turned so, within the range of wrist and forearm.
+    /// Returns the nearest orientation of a hand within the limits of wrist and forearm.
     pub(super) fn within_range(&self, posed: &Posed, turned: DQuat) -> DQuat {
         let asked = self.rig().wrist(posed, turned, &self.held);
         let angles = asked.allowed(self.limits, asked.turn > 0.0);
@@ -116,7 +119,8 @@ impl Arm<'_> {
         self.rig().hung(posed, &angles, &self.held)
     }
 
-    /// Brings a hand's point near to its goal from where its wrist was, by damped least-squares steps.
+    /// Moves a hand's reference point towards its goal from the last wrist position, by damped
+    /// least-squares steps.
     fn near(&self, row: &Row, goal: DVec3, from: DVec3) -> (Posed, DQuat) {
         let at = |wrist: DVec3| {
             let posed = self.rig().reach(wrist, row.bearing, self.limits);

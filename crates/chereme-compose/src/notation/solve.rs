@@ -1,9 +1,9 @@
-//! One arm over time: from where its hand should be to postures, without jumps.
+//! Solves one arm over time: from the goals of its hand to postures without jumps.
 //!
-//! Thirty times a second it is chosen how the arm is held (`choose`). Between, each frame's hand gives
-//! way to the wrist's range and to the trunk. What still changes at once is spread over the time around
-//! it, in angles of the wrist, so that nothing leaves its range; and last the wrist is put where the hand's
-//! point is in its place.
+//! Thirty times a second `choose` selects the arm's plane and shoulder. In between, the hand of each frame
+//! gives way to the wrist's limits and to the trunk. Remaining sudden changes are spread over the time
+//! around them, as angles of the wrist, so that the wrist stays within its limits. Finally the wrist moves
+//! so that the hand's reference point is at its goal.
 
 use chereme_motion::glam::{DQuat, DVec3};
 
@@ -12,54 +12,56 @@ use super::choose::Choice;
 use super::stage::{Hand, Stage};
 use super::track::Wanted;
 
-/// How often the arm's plane is chosen, in seconds; between, it goes smoothly.
+/// Seconds between two choices of the arm's plane; it is interpolated smoothly in between.
 const CHOSEN: f64 = 1.0 / 30.0;
-/// How fast a wrist bends and a forearm turns at most, in radians a second.
+/// Fastest bend of a wrist and turn of a forearm, in radians per second.
 pub(crate) const BENDING: f64 = 28.0;
-/// How fast a hand is pushed out of the trunk at most, in arm lengths a second.
+/// Fastest push of a hand out of the trunk, in arm lengths per second.
 const PUSHING: f64 = 5.0;
-/// The time before and after what changes at once over which it is spread, in seconds.
+/// Seconds before and after a sudden change over which it is spread.
 pub(super) const AROUND: f64 = 0.09;
-/// How near to the trunk's surface points of a hand come, in metres.
+/// Distance that a hand's points keep from the trunk's surface, in metres.
 pub(super) const MARGIN: f64 = 0.006;
-/// How far a hand turns about its point to leave the trunk or come within reach, in radians.
+/// Largest turn (rad) of a touching hand about its reference point to leave the trunk or to come within
+/// reach.
 const MOST_TURNED: f64 = 0.7;
-/// The same where it touches nothing.
+/// The same for a hand that touches nothing.
 const NEAR_TURNED: f64 = 0.22;
-/// How often a hand that gives way is brought to its place again.
+/// Largest number of iterations for a hand that gives way.
 const TRIES: usize = 14;
-/// How far off its place a hand is at the end that was nearer before, in metres.
+/// If the last iterate misses the target by this much (m) more than the best one, use the best.
 const LOST: f64 = 0.02;
 
-/// How an arm is held in one frame.
+/// The settings of an arm in one frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Row {
-    /// Where the point of the hand should be, and where it is in the hand's space.
+    /// The goal of the hand's reference point.
     pub(crate) point: DVec3,
+    /// The reference point in the hand's space.
     pub(crate) offset: DVec3,
-    /// How the hand should be turned.
+    /// The goal of the hand's rotation.
     pub(crate) turned: DQuat,
     pub(super) bearing: Bearing,
     pub(super) angles: WristAngles,
     pub(super) push: DVec3,
-    /// The hand gives way to nothing.
+    /// Whether the hand gives way to nothing.
     pub(super) kept: bool,
 }
 
-/// Where an arm came in one frame.
+/// The resulting posture of an arm in one frame.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Got {
     pub(crate) posed: Posed,
     pub(crate) rotation: DQuat,
-    /// How far the point is from where it should be, in metres.
+    /// Distance of the reference point from its goal, in metres.
     pub(crate) residual: f64,
-    /// How far it was moved out of the trunk, in metres.
+    /// Distance by which the hand was pushed out of the trunk, in metres.
     pub(crate) pushed: f64,
-    /// The way by which what is still in the trunk of the hand would leave it.
+    /// The offset that would take the rest of the hand out of the trunk.
     pub(crate) within: DVec3,
 }
 
-/// An arm on its stage.
+/// An arm with its body and limits.
 pub(crate) struct Arm<'a> {
     pub(crate) stage: &'a Stage,
     pub(crate) hand: &'a Hand,
@@ -67,7 +69,7 @@ pub(crate) struct Arm<'a> {
     pub(crate) limits: &'a Limits,
 }
 
-/// What keeps a hand from being turned as it should be.
+/// The obstacle that keeps a hand from its notated orientation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Hindrance {
     Wrist,
@@ -78,7 +80,7 @@ pub(crate) enum Hindrance {
 }
 
 impl Hindrance {
-    /// Returns it in words.
+    /// Returns a description.
     pub(crate) fn says(self) -> &'static str {
         match self {
             Self::Wrist => "the wrist bends no farther",
@@ -90,18 +92,19 @@ impl Hindrance {
     }
 }
 
-/// A hand that should be somewhere.
+/// The goal of a hand at one moment.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Want<'a> {
     pub(crate) point: DVec3,
     pub(crate) offset: DVec3,
     pub(crate) turned: DQuat,
     pub(crate) outlines: [&'a [DVec3]; 2],
-    /// How much it touches: then it turns about its point to leave the trunk, and is not moved.
+    /// Degree of contact, from 0 to 1: in contact, the hand turns about its reference point to leave the
+    /// trunk instead of moving.
     pub(crate) touch: f64,
 }
 
-/// A hand that gave way.
+/// A hand after it gave way.
 #[derive(Clone, Copy)]
 pub(crate) struct Hung {
     pub(crate) angles: WristAngles,
@@ -125,12 +128,12 @@ impl<'a> Arm<'a> {
         &self.hand.rig
     }
 
-    /// Returns how the arm is held at each frame, and the end at which its forearm stops.
+    /// Returns the bearing of the arm in each frame, and the limit at which its forearm stops.
     pub(super) fn ways(&self, wanted: &Wanted<'_>, rate: f64) -> Vec<(Bearing, bool)> {
         let total = wanted.points.len();
         let step = ((CHOSEN * rate).round() as usize).max(1);
         let free = wanted.free();
-        // A moment at which the hand is turned as written counts, also where it lies between two keys.
+        // A moment with a notated orientation counts even between two keys.
         let near = |frame: usize| {
             let around = frame.saturating_sub(step / 2)..(frame + step.div_ceil(2)).min(total);
             let given = around.filter(|&near| !free[near]);
@@ -150,7 +153,7 @@ impl<'a> Arm<'a> {
             .collect()
     }
 
-    /// Returns what a hand does at each frame with its arm held so.
+    /// Returns the settings of the arm in each frame for these bearings.
     pub(super) fn laid(
         &self,
         wanted: &Wanted<'_>,
@@ -184,8 +187,8 @@ impl<'a> Arm<'a> {
         rows
     }
 
-    /// Leads hands from one orientation to the next as a wrist goes, where the shortest way is past
-    /// its range.
+    /// Leads hands from one orientation to the next within the wrist's limits, if the shortest rotation
+    /// exceeds them.
     fn lead(&self, rows: &mut [Row], wanted: &Wanted<'_>) {
         for (span, shares) in &wanted.ways {
             let Some(last) = rows.get(span.end).map(|row| row.angles) else {
@@ -206,7 +209,7 @@ impl<'a> Arm<'a> {
     }
 
     fn want<'w>(&self, wanted: &'w Wanted<'_>, frame: usize) -> Want<'w> {
-        // The point is placed by the hand as it is without its turns about the wrist.
+        // The reference point is placed without the hand's movement about the wrist.
         let (offset, turned) = (wanted.offsets[frame], wanted.turns[frame]);
         let (offset, turned) = match wanted.wrist[frame] {
             Some(turn) => (turn.inverse() * offset, turned * turn),
@@ -221,11 +224,11 @@ impl<'a> Arm<'a> {
         }
     }
 
-    /// Brings the hand to its place: its orientation gives way to the wrist's range, and what would
-    /// enter the trunk is turned about the point or moved out of it.
+    /// Finds the nearest possible pose of a hand: the orientation gives way to the wrist's limits, and the
+    /// hand turns about its reference point or moves to leave the trunk.
     pub(crate) fn hang(&self, want: &Want<'_>, bearing: Bearing, high: bool, tries: usize) -> Hung {
         let rig = self.rig();
-        // A hand that is placed by a fingertip turns about it; one placed by its palm is moved.
+        // A hand placed by a fingertip turns about it; one placed by its palm moves.
         let pivot = smooth((want.offset.length() / self.hand.length() - 0.55) / 0.25);
         let turns = pivot.max(want.touch);
         let most = NEAR_TURNED + (MOST_TURNED - NEAR_TURNED) * want.touch;
@@ -233,7 +236,8 @@ impl<'a> Arm<'a> {
         let mut push = DVec3::ZERO;
         let mut wrist = want.point - turned * want.offset;
         let mut round = 0;
-        // Where the forearm folds up, a small step of the wrist turns the hand far, and it may not end.
+        // With a folded forearm a small step of the wrist turns the hand far, and the iteration may not
+        // converge.
         let mut best: Option<(f64, Hung)> = None;
         loop {
             let posed = rig.reach(wrist, bearing, self.limits);
@@ -252,7 +256,7 @@ impl<'a> Arm<'a> {
                 let far = lever.length();
                 let across = by - lever * (by.dot(lever) / (far * far).max(1e-9));
                 let given = turned.angle_between(want.turned) < most;
-                // What lies behind the point does not come out by turning.
+                // Turning does not help points behind the reference point.
                 let helps = across.length() > 0.5 * by.length() && far > 0.2 * self.hand.length();
                 if !given || share <= 0.0 || by.length() <= 1e-4 || !helps {
                     return false;
@@ -296,7 +300,7 @@ impl<'a> Arm<'a> {
         }
     }
 
-    /// Returns what keeps a hand from being turned as it should be.
+    /// Returns the obstacle that keeps a hand from its notated orientation.
     pub(crate) fn hindrance(&self, row: &Row, got: &Got) -> Hindrance {
         let wrist = row.point + row.push - row.turned * row.offset;
         let posed = self.rig().reach(wrist, row.bearing, self.limits);
@@ -314,7 +318,7 @@ impl<'a> Arm<'a> {
         }
     }
 
-    /// Returns the way by which the deepest point of a hand leaves the trunk, and that point.
+    /// Returns the offset by which the deepest point of a hand leaves the trunk, and that point.
     pub(super) fn way_out(
         &self,
         wrist: DVec3,
@@ -340,7 +344,7 @@ impl<'a> Arm<'a> {
         })
     }
 
-    /// Spreads pushes that come at once over the time before and after, where nothing is touched.
+    /// Spreads sudden pushes over the time before and after, except in contact.
     fn spread(&self, rows: &mut [Row], touch: &[f64], rate: f64) {
         let near = ((AROUND * rate).ceil() as usize).max(1);
         let most = PUSHING * self.rig().length() / rate;
@@ -368,7 +372,8 @@ impl<'a> Arm<'a> {
     }
 }
 
-/// Returns the longest near each frame, averaged: nowhere shorter than it must be; both ends stay as they are.
+/// Returns the running maximum of the vectors by length, averaged: nowhere shorter than the original; both
+/// ends stay unchanged.
 pub(super) fn eased(own: &[DVec3], near: usize) -> Vec<DVec3> {
     let window = |n: usize| n.saturating_sub(near)..(n + near + 1).min(own.len());
     let longest: Vec<DVec3> = (0..own.len())
@@ -394,8 +399,8 @@ pub(super) fn eased(own: &[DVec3], near: usize) -> Vec<DVec3> {
         .collect()
 }
 
-/// Spreads what the wrist does faster than it can over the time before and after; where there is enough of
-/// it, over that in which the hand is `free` to be turned as it likes.
+/// Spreads wrist movements that are too fast over the time before and after; if possible, over frames in
+/// which the hand is `free` to turn.
 fn calm(rows: &mut [Row], free: &[bool], rate: f64) {
     let most = BENDING / rate;
     let near = ((AROUND * rate).ceil() as usize).max(1);
@@ -428,7 +433,8 @@ fn calm(rows: &mut [Row], free: &[bool], rate: f64) {
     }
 }
 
-/// Returns something of how the arm is held in all frames: a uniform cubic B-spline, smoother than its keys.
+/// Interpolates one property of the choices over all frames by a uniform cubic B-spline, which is smoother
+/// than its keys.
 fn spline(keys: &[Choice], step: usize, total: usize, of: impl Fn(&Bearing) -> f64) -> Vec<f64> {
     let key = |n: isize| of(&keys[n.clamp(0, keys.len() as isize - 1) as usize].bearing);
     (0..total)

@@ -11,21 +11,22 @@ use chereme_sign::hamnosys::sites::{Face, HandPoint, digit_joint, from_bone, on_
 use super::arm::{Held, Rig};
 use crate::sources::Material;
 
-/// A body in the posture it stands in.
+/// A body in its standing posture.
 pub(crate) struct Stage {
     pub(crate) skeleton: Arc<Skeleton>,
     pub(crate) anatomy: Arc<Anatomy>,
     pub(crate) base: Pose,
     pub(crate) model: ModelPose,
-    /// To the signer's left, level.
+    /// Level unit vector to the signer's left.
     pub(crate) left: DVec3,
-    /// To where the signer faces, level.
+    /// Level unit vector to the signer's front.
     pub(crate) forward: DVec3,
-    /// The shoulders' width and the arm's length in metres.
+    /// The width of the shoulders in metres.
     pub(crate) shoulders: f64,
+    /// The length of the arm in metres.
     pub(crate) arm: f64,
     pub(crate) torso: Torso,
-    /// Right and left.
+    /// The right hand, then the left.
     pub(crate) hands: [Option<Hand>; 2],
 }
 
@@ -35,13 +36,15 @@ pub(crate) struct Hand {
     pub(crate) rig: Rig,
     /// The joints below the wrist, parents first.
     pub(crate) fingers: Vec<usize>,
-    /// The hand's directions in the space of its joint.
+    /// Direction of the hand's axis, in the space of its joint.
     pub(crate) along: DVec3,
+    /// Direction of the palm, in the space of its joint.
     pub(crate) palm: DVec3,
+    /// Direction of the thumb's side, in the space of its joint.
     pub(crate) radial: DVec3,
-    /// From the wrist to the end of the middle finger, in metres.
+    /// Distance from the wrist to the tip of the middle finger, in metres.
     length: f64,
-    /// From the wrist to the middle finger's base, in metres.
+    /// Distance from the wrist to the base of the middle finger, in metres.
     base: f64,
     joint: usize,
 }
@@ -52,14 +55,14 @@ pub(crate) struct Shape {
     pub(crate) angles: HandAngles,
     /// The local rotations of [`Hand::fingers`].
     pub(crate) rotations: Vec<DQuat>,
-    /// Where joints are and how they are turned in the hand's space, as [`Hand::fingers`] are.
+    /// Positions and rotations of the joints in the hand's space, in the order of [`Hand::fingers`].
     places: Vec<(DVec3, DQuat)>,
     /// Points of the hand's outline in its space: knuckles, middle joints, tips.
     pub(crate) outline: Vec<DVec3>,
 }
 
 impl Stage {
-    /// Puts a body on the stage: the first frame of its material. Nothing where it has no arm.
+    /// Takes the body from the first frame of its material; `None` if it has no arm.
     pub(crate) fn of(material: &Material) -> Option<Self> {
         let clip = &material.clip;
         if clip.frames() == 0 {
@@ -98,12 +101,12 @@ impl Stage {
         self.hands[usize::from(side == Side::Left)].as_ref()
     }
 
-    /// Returns a vector to the left, up and forward in model space.
+    /// Converts left, up and forward to model space.
     pub(crate) fn direction(&self, v: DVec3) -> DVec3 {
         self.left * v.x + DVec3::Y * v.y + self.forward * v.z
     }
 
-    /// Returns a place on the body as it stands.
+    /// Returns the position of a landmark on the standing body.
     pub(crate) fn landmark(&self, name: &str) -> Option<DVec3> {
         self.anatomy.landmark(&self.skeleton, &self.model, name)
     }
@@ -120,7 +123,7 @@ impl Stage {
         }
     }
 
-    /// Returns the posture of fingers for joint angles.
+    /// Returns the shape of the fingers for joint angles.
     pub(crate) fn shape(&self, side: Side, angles: &HandAngles) -> Shape {
         let mut pose = self.base.clone();
         self.anatomy
@@ -128,7 +131,7 @@ impl Stage {
         self.shape_of(side, *angles, &pose)
     }
 
-    /// Returns the posture of fingers that a posture of the body has.
+    /// Returns the shape of the fingers in a posture of the body.
     pub(crate) fn shape_of(&self, side: Side, angles: HandAngles, pose: &Pose) -> Shape {
         let Some(hand) = self.hand(side) else {
             return Shape {
@@ -142,7 +145,7 @@ impl Stage {
         self.shape_with(hand, angles, rotations, &pose.translations)
     }
 
-    /// Returns the outline of a hand whose fingers are turned so.
+    /// Returns the outline of a hand with these finger rotations.
     pub(crate) fn outline(&self, side: Side, rotations: Vec<DQuat>) -> Vec<DVec3> {
         let Some(hand) = self.hand(side) else {
             return Vec::new();
@@ -182,7 +185,7 @@ impl Stage {
                 outline.push(self.point(hand, &shape, point));
             }
         }
-        // The joints before the tips stand out where fingers are hooked.
+        // The joints before the tips stand out if fingers are hooked.
         let ends = Digit::ALL.into_iter().filter_map(|digit| {
             let joint = self.anatomy.joint(digit_joint(hand.side, digit, 3))?;
             let n = hand.fingers.iter().position(|&j| j == joint)?;
@@ -193,7 +196,7 @@ impl Stage {
         shape
     }
 
-    /// Returns where a point of the hand is in the space of its joint.
+    /// Returns the position of a hand point, in the space of the hand's joint.
     pub(crate) fn point(&self, hand: &Hand, shape: &Shape, point: HandPoint) -> DVec3 {
         match point {
             HandPoint::Palm
@@ -223,7 +226,7 @@ impl Stage {
         }
     }
 
-    /// Returns the unit vector out of the hand at a point, in the space of its joint.
+    /// Returns the outward unit normal at a hand point, in the space of the hand's joint.
     pub(crate) fn outward(&self, hand: &Hand, shape: &Shape, point: HandPoint) -> DVec3 {
         match point {
             HandPoint::Palm | HandPoint::ThumbBall => hand.palm,
@@ -246,7 +249,7 @@ impl Stage {
         }
     }
 
-    /// Returns where a face of the hand or a digit looks to whose bone points along `bone`.
+    /// Returns the outward normal of a face of the hand, or of a digit whose bone points along `bone`.
     fn faced(&self, hand: &Hand, face: Face, bone: DVec3) -> DVec3 {
         let across = hand.along.cross(hand.palm);
         match face {
@@ -289,7 +292,7 @@ impl Stage {
         at + (self.faced(hand, face, bone) * out - bone * back) * hand.length
     }
 
-    /// Returns where the base joint (1), the middle joint (2) or the tip (3) of a digit is.
+    /// Returns the position of the base joint (1), the middle joint (2) or the tip (3) of a digit.
     fn end(&self, hand: &Hand, shape: &Shape, digit: Digit, which: u8) -> Option<DVec3> {
         let place = |joint: usize| {
             let n = hand.fingers.iter().position(|&j| j == joint)?;
@@ -313,8 +316,8 @@ impl Stage {
         Some(at + (at - from) * 0.8)
     }
 
-    /// Returns the rotation of a hand's joint for which it points along `direction` with its palm
-    /// towards `palm`, both in model space.
+    /// Returns the rotation of a hand's joint that points its axis along `direction` and its palm towards
+    /// `palm`, both in model space.
     pub(crate) fn turned(&self, side: Side, direction: DVec3, palm: DVec3) -> Option<DQuat> {
         let own = self.anatomy.hand_rotation(side, direction, palm);
         own.or_else(|| {
@@ -385,16 +388,16 @@ impl Hand {
     }
 }
 
-/// The trunk as what nothing may enter: an ellipse at each height.
+/// The trunk as an obstacle: an ellipse at each height.
 pub(crate) struct Torso {
     body: Option<BodyFrame>,
     trunk: f64,
 }
 
-/// Heights in trunk lengths above the shoulders, the front there, and half the width, in shoulder
-/// widths; the front goes through the landmarks of the trunk.
+/// Outline of the trunk, in shoulder widths except for the first number: height above the shoulders (trunk
+/// lengths), front, half the width. The front passes through the landmarks of the trunk.
 const OUTLINE: [(f64, f64, f64); 11] = [
-    // Above and below the surface draws back behind the body, so that depth fades there.
+    // Above and below, the surface draws back behind the body, so that depth fades out there.
     (0.34, -0.15, 0.12),
     (0.22, 0.13, 0.20),
     (0.12, 0.19, 0.30),
@@ -408,9 +411,9 @@ const OUTLINE: [(f64, f64, f64); 11] = [
     (-1.45, -0.25, 0.46),
 ];
 
-/// How far forward the trunk goes at most, in shoulder widths.
+/// Greatest distance of the trunk's front from its middle, in shoulder widths.
 const FRONT: f64 = 0.335;
-/// How far behind the middle the trunk goes, in shoulder widths.
+/// Distance of the trunk's back from its middle, in shoulder widths.
 const BACK: f64 = 0.22;
 
 impl Torso {
@@ -419,7 +422,7 @@ impl Torso {
         Self { body, trunk }
     }
 
-    /// Returns the unit vector out of the trunk's front at a place near to it.
+    /// Returns the outward unit normal of the trunk's front near a position.
     pub(crate) fn normal(&self, at: DVec3) -> Option<DVec3> {
         let body = self.body.as_ref()?;
         let step = 0.01;
@@ -431,13 +434,13 @@ impl Torso {
         (along(body.left)? + along(body.up)? + along(body.forward)?).try_normalize()
     }
 
-    /// Tells whether all that is within a distance of a place is surely out of the trunk.
+    /// Returns whether everything within a distance of a position is surely outside the trunk.
     pub(crate) fn is_clear(&self, at: DVec3, around: f64) -> bool {
         self.way_out(at, around) == DVec3::ZERO
     }
 
-    /// Returns the way by which an elbow nearer than `margin` metres to the trunk leaves it: to its side where it
-    /// is beside the back.
+    /// Returns the offset by which an elbow nearer than `margin` metres to the trunk leaves it; sideways
+    /// next to the back.
     pub(crate) fn way_aside(&self, at: DVec3, margin: f64) -> DVec3 {
         let Some(body) = &self.body else {
             return DVec3::ZERO;
@@ -455,8 +458,8 @@ impl Torso {
         body.left * (deep.max(0.0) * if v.x < 0.0 { -1.0 } else { 1.0 })
     }
 
-    /// Returns the way by which a point nearer than `margin` metres to the trunk leaves it, level:
-    /// outwards as the surface is, and rather to the front.
+    /// Returns the level offset by which a point nearer than `margin` metres to the trunk leaves it: along
+    /// the surface normal, preferably to the front.
     pub(crate) fn way_out(&self, at: DVec3, margin: f64) -> DVec3 {
         let Some(body) = &self.body else {
             return DVec3::ZERO;
@@ -487,7 +490,7 @@ impl Torso {
                 (body.left * dx + body.forward * dz) * body.scale
             });
         }
-        // Only what is well behind the middle goes out at the back.
+        // Only points well behind the middle leave at the back.
         let ahead = ((z + 0.5 * BACK) / (0.5 * BACK)).clamp(0.0, 1.0);
         let (nx, nz) = (x / (wide * wide), z / (deep(z) * deep(z)));
         let size = (nx * nx + nz * nz).sqrt().max(1e-9);
@@ -499,7 +502,7 @@ impl Torso {
             (0.0, 1.0)
         };
         let b = deep(if dz >= 0.0 { 0.0 } else { -1.0 });
-        // Where the line meets the ellipse: |(x + t dx) / wide, (z + t dz) / b| = 1.
+        // Intersection of the line and the ellipse: |(x + t dx) / wide, (z + t dz) / b| = 1.
         let along = (dx / wide).powi(2) + (dz / b).powi(2);
         let half = x * dx / (wide * wide) + z * dz / (b * b);
         let rest = (x / wide).powi(2) + (z / b).powi(2) - 1.0;
@@ -510,8 +513,7 @@ impl Torso {
     }
 }
 
-/// Returns the shorter way out of the corner beside the back, which is rather square than round: to the left and
-/// forward.
+/// Returns the shorter offset out of the corner next to the back, which is almost square (left, forward).
 fn corner(x: f64, z: f64, wide: f64, back: f64) -> Option<(f64, f64)> {
     let (aside, behind) = (0.94 * wide - x.abs(), z + 0.92 * back);
     if z >= 0.0 || aside <= 0.0 || behind <= 0.0 {
@@ -523,7 +525,7 @@ fn corner(x: f64, z: f64, wide: f64, back: f64) -> Option<(f64, f64)> {
     })
 }
 
-/// Returns how far out of the middle a place is, in parts of the trunk's outline at its height.
+/// Returns the distance of a position from the middle, as a multiple of the trunk's outline at its height.
 fn share(body: &BodyFrame, trunk: f64, at: DVec3) -> Option<f64> {
     let v = at - body.origin;
     let (front, wide) = outline(v.dot(body.up) / trunk)?;
@@ -533,7 +535,7 @@ fn share(body: &BodyFrame, trunk: f64, at: DVec3) -> Option<f64> {
     Some(x.hypot(z))
 }
 
-/// Returns how far forward and to either side the trunk goes at a height.
+/// Returns the extent of the trunk at a height: forward, and to either side.
 fn outline(y: f64) -> Option<(f64, f64)> {
     let (top, bottom) = (OUTLINE[0].0, OUTLINE[OUTLINE.len() - 1].0);
     if y >= top || y <= bottom {

@@ -91,7 +91,7 @@ fn made(sign: &Notated, axes: Axes) -> Made {
     animate(&[sign], &stage(axes), &Settings::default()).expect("it can be animated")
 }
 
-/// Returns where a landmark is at a share of the sign's time.
+/// Returns the position of a landmark at a share of the sign's duration.
 fn landmark(made: &Made, share: f64, name: &str) -> DVec3 {
     let model = model(made, share);
     let skeleton = made.clip.skeleton();
@@ -338,7 +338,7 @@ fn recipes_of_notation_are_made_and_kept() {
     assert!(crate::resolve(&odd, &corpus).is_err());
 }
 
-/// Tells how fast wrists go at most and how fast joints of arms turn, per second.
+/// Returns the top speeds of wrists (m/s) and of arm joints (rad/s).
 fn fastest(made: &Made) -> [f64; 2] {
     let rate = made.clip.rate().per_second();
     let mut fastest = [0.0_f64; 2];
@@ -641,7 +641,7 @@ fn what_is_relative_turns_as_the_way_does() {
             _ => DVec3::Z,
         };
         assert!(along(0.0).distance(DVec3::Z) < 0.05);
-        // It goes back as it came: the hand is not turned round.
+        // The hand returns the same way without turning round.
         assert!(
             along(1.0).distance(turned) < 0.1,
             "{frame:?} {}",

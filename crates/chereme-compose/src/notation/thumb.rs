@@ -1,4 +1,4 @@
-//! The thumb of a pinch, brought to the fingers it meets on the hand there is.
+//! Brings the thumb of a pinch to the fingers that it meets, on the given hand.
 
 use chereme_motion::glam::DVec3;
 use chereme_motion::{HandAngles, Side};
@@ -7,15 +7,14 @@ use chereme_sign::hamnosys::{Digit, HandClass, Handshape};
 
 use super::stage::{Shape, Stage};
 
-/// How far apart the tips' middles are that meet, in lengths of the hand.
+/// Distance between the middles of two tips that meet, in hand lengths.
 const APART: f64 = 0.045;
-/// Angles are not moved by more than this from the table's, in radians.
+/// Largest change of an angle from the table's, in radians.
 const MOST: f64 = 0.45;
 
-/// Returns the posture of the fingers with the thumb's tip at those it pinches.
-///
-/// The thumb's five angles take damped least-squares steps from the table's towards the middle of
-/// the tips; tables hold for one hand, and this for any.
+/// Returns the shape of the fingers with the tip of the thumb at those it pinches. The thumb's five angles
+/// take damped least-squares steps from the table's values towards the middle of the tips: the tables suit
+/// one hand, this any.
 pub(crate) fn met(stage: &Stage, side: Side, handshape: &Handshape, angles: &HandAngles) -> Shape {
     let shape = stage.shape(side, angles);
     let pinches = matches!(

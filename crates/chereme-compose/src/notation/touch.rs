@@ -1,4 +1,4 @@
-//! How a hand lies where it touches the trunk.
+//! Fits hands to the trunk's surface in contact.
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::hamnosys::sites::{Face, HandPoint};
@@ -6,21 +6,22 @@ use chereme_sign::hamnosys::sites::{Face, HandPoint};
 use super::plan::Planner;
 use super::solve::MARGIN;
 
-/// How far a hand turns off what is written to lie on the skin, in radians: it still reads as written.
+/// Largest turn (rad) of a hand off its notated orientation to lie flat on the skin; it still reads as
+/// notated.
 const LAID: f64 = 0.17;
-/// How far at most what touches lies behind what stands before it, in lengths of the hand.
+/// Largest distance between the named part and the part in front of it that touches, in hand lengths.
 const BEHIND: f64 = 0.5;
-/// From which cosine on between a part's way out of the hand and the skin's out of the body the part does not
-/// look at the skin: 60 degrees.
+/// If the cosine between the hand part's outward normal and the skin's exceeds this, the part faces away
+/// from the skin: its normal is more than 60 degrees off the direction into the skin.
 const AWAY: f64 = -0.5;
-/// From how far behind on it is told, in metres.
+/// Offset (m) above which the substitution is reported.
 const TOLD: f64 = 2e-3;
-/// Steps by which it is found how far, in metres.
+/// Step of the search for that offset, in metres.
 const STEP: f64 = 1e-3;
 
 impl Planner<'_> {
-    /// Returns the way from a face of a hand to the plane before it that nothing of the hand is beyond,
-    /// in the hand's space: fingers of a fist stand out farther than the palm.
+    /// Returns the offset from a face of a hand to the plane of its outermost point, in the hand's space:
+    /// the fingers of a fist stand out farther than the palm.
     pub(super) fn stands_out(&self, n: usize, points: &[HandPoint]) -> DVec3 {
         let (Some(hand), [point]) = (self.stage.hand(self.sides[n]), points) else {
             return DVec3::ZERO;
@@ -40,8 +41,8 @@ impl Planner<'_> {
         out * (far - own)
     }
 
-    /// Turns a hand that touches the trunk with a face of it so that it lies on the skin, as far as it
-    /// is still turned as written.
+    /// Turns a hand that touches the trunk with a flat face so that it lies on the skin, within the
+    /// tolerance of its notated orientation.
     pub(super) fn lay(&mut self, n: usize, points: &[HandPoint], at: DVec3) {
         let flat = |point: &HandPoint| {
             matches!(
@@ -74,8 +75,9 @@ impl Planner<'_> {
         self.state[n].rotation = (turn * self.state[n].rotation).normalize();
     }
 
-    /// Lets a hand touch with what of it stands before the part that is named, where that part looks away from the
-    /// skin or along it and would be in the trunk: the hand is at its place all the same, and turned as written.
+    /// Lets the part of a hand in front of the named one touch instead, if the named one faces away from
+    /// the skin or along it and would be inside the trunk. The hand keeps its place and its notated
+    /// orientation.
     pub(super) fn lie(&mut self, n: usize, skin: DVec3, points: &[HandPoint]) {
         let (_, out) = self.at_hand(n, points);
         if out.dot(skin) < AWAY {
@@ -92,7 +94,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Brings hands that are together out of the trunk, the two by as much.
+    /// Pushes both hands of a constellation out of the trunk by the same offset.
     pub(super) fn both_out(&mut self) {
         let middle = (self.state[0].point + self.state[1].point) / 2.0;
         let Some(skin) = self.stage.torso.normal(middle) else {
@@ -105,8 +107,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Returns how far a hand goes out of the skin for all of it to be out of the trunk, in metres; nothing where
-    /// that is too far.
+    /// Returns the distance (m) along the outward normal `skin` that takes the whole hand out of the
+    /// trunk; 0 if that is too far.
     fn stands_in(&self, n: usize, skin: DVec3) -> f64 {
         let Some(hand) = self.stage.hand(self.sides[n]) else {
             return 0.0;

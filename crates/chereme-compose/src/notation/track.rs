@@ -1,4 +1,4 @@
-//! From events to frames: where each hand should be, how it should be turned, how fingers are bent.
+//! Turns events into frames: goals of each hand's position and rotation, and the fingers' rotations.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -12,18 +12,18 @@ use super::solve::{Arm, Got, Hindrance, Row};
 use super::stage::{Hand, Stage};
 use super::warp::{Moved, Warp};
 
-/// The movement of one arm and hand, a row a frame.
+/// The movement of one arm and hand, frame by frame.
 pub(crate) struct Track {
-    /// The local rotations of collar bone, upper arm, forearm and hand.
+    /// Local rotations of collar bone, upper arm, forearm and hand.
     pub(crate) arm: [Vec<DQuat>; 4],
-    /// The local rotations of the joints below the wrist.
+    /// Local rotations of the joints below the wrist.
     pub(crate) fingers: Vec<Vec<DQuat>>,
-    /// How well it came where it should.
+    /// Deviations from the goals.
     pub(crate) fit: Fit,
 }
 
 impl Track {
-    /// Returns what of an arm has a speed, a value a frame.
+    /// Returns the moving parts of the arm in each frame.
     pub(crate) fn moved(&self, hand: &Hand) -> Vec<Moved> {
         let frames = 0..self.arm[0].len();
         let each = frames.map(|n| {
@@ -39,7 +39,7 @@ impl Track {
         each.collect()
     }
 
-    /// Returns the same in a stretched time, each joint by its own way between two frames.
+    /// Returns the track in stretched time; each joint is interpolated on its own.
     pub(crate) fn stretched(self, warp: &Warp) -> Self {
         let frames = warp.frames();
         Self {
@@ -55,7 +55,7 @@ fn all_stretched(columns: &[Vec<DQuat>], frames: &[(usize, f64)]) -> Vec<Vec<DQu
     each.collect()
 }
 
-/// Returns rotations at times between those that there are.
+/// Interpolates rotations at fractional frames.
 fn stretched(column: &[DQuat], frames: &[(usize, f64)]) -> Vec<DQuat> {
     let at = |&(n, share): &(usize, f64)| {
         let next = column[(n + 1).min(column.len() - 1)];
@@ -68,44 +68,45 @@ fn stretched(column: &[DQuat], frames: &[(usize, f64)]) -> Vec<DQuat> {
     frames.iter().map(at).collect()
 }
 
-/// From which angle on it is told that a hand is turned otherwise than written, in radians.
+/// Orientation error (rad) above which a warning is issued.
 pub(crate) const TOLD: f64 = 10.0 * std::f64::consts::PI / 180.0;
 
-/// From which angle on a joint's way between two frames is long, in radians.
+/// Rotation of a joint between two frames (rad) above which the frames in between are solved by the hand
+/// instead of joint by joint.
 const LONG: f64 = 0.04;
 
-/// How well a hand came where it should during signs, transitions left out.
+/// Largest deviations of a hand from its goals during signs, without transitions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Fit {
-    /// The largest distance of its point from where it should be, in metres.
+    /// Largest distance of its reference point from the goal, in metres.
     pub(crate) residual: f64,
-    /// The same where it touches something.
+    /// The same during contacts, in metres.
     pub(crate) parted: f64,
-    /// The largest angle by which its orientation gave way to the wrist, in radians; the way from one
-    /// orientation to another is free.
+    /// Largest deviation from a notated orientation, in radians; between two notated orientations the hand
+    /// is free.
     pub(crate) turned: f64,
-    /// What it gave way to then, where that is told.
+    /// The obstacle at that moment, if the deviation is reported.
     pub(crate) hindered: Option<Hindrance>,
-    /// The farthest it was moved out of the trunk, in metres.
+    /// Largest distance by which it was pushed out of the trunk, in metres.
     pub(crate) pushed: f64,
 }
 
-/// What a hand should do at each frame.
+/// The goals of a hand in each frame.
 pub(crate) struct Wanted<'a> {
     pub(crate) points: Vec<DVec3>,
     pub(crate) turns: Vec<DQuat>,
     pub(crate) offsets: Vec<DVec3>,
-    /// The turn about the wrist where there is one.
+    /// Rotation of a movement about the wrist, if any.
     pub(crate) wrist: Vec<Option<DQuat>>,
     pub(crate) outlines: Outlines<'a>,
-    /// How much it touches something, from 0 to 1.
+    /// Degree of contact, from 0 to 1.
     pub(crate) touch: Vec<f64>,
-    /// The ways from one orientation to another: the frames on the way, the share of it in each.
+    /// Rotations between two orientations: the frames, and the completed share in each.
     pub(crate) ways: Vec<(Range<usize>, Vec<f64>)>,
 }
 
 impl Wanted<'_> {
-    /// Keeps some frames.
+    /// Keeps a range of frames.
     pub(crate) fn cut(mut self, span: Range<usize>) -> Self {
         fn kept<T>(column: Vec<T>, span: &Range<usize>) -> Vec<T> {
             let some = column.into_iter().skip(span.start);
@@ -130,8 +131,8 @@ impl Wanted<'_> {
         }
     }
 
-    /// Tells of each frame whether the hand is on its way between orientations: where it sets out it is still
-    /// turned as written.
+    /// Returns for each frame whether the hand is between two notated orientations; the first frame of a
+    /// rotation still counts as notated.
     pub(crate) fn free(&self) -> Vec<bool> {
         let mut free = vec![false; self.points.len()];
         for (span, _) in &self.ways {
@@ -142,7 +143,7 @@ impl Wanted<'_> {
     }
 }
 
-/// The frames that a stretch of time covers: those at or after its start and before its end.
+/// Returns the frames of an event: those at or after its start and before its end.
 fn frames(event: &Event, rate: f64, total: usize) -> Range<usize> {
     let at = |time: f64| (time * rate - 1e-9).ceil().max(0.0) as usize;
     at(event.from).min(total)..at(event.to).min(total)
@@ -152,16 +153,16 @@ fn share(event: &Event, frame: usize, rate: f64) -> f64 {
     (frame as f64 / rate - event.from) / (event.to - event.from).max(1e-9)
 }
 
-/// How time runs.
+/// Frame rate, length and paces of an animation.
 pub(crate) struct Timing<'a> {
     pub(crate) paces: &'a Paces,
-    /// Frames a second.
+    /// Frames per second.
     pub(crate) rate: f64,
-    /// Frames in all.
+    /// Total number of frames.
     pub(crate) total: usize,
 }
 
-/// The frames of one hand before time is stretched.
+/// The solved frames of one hand before time is stretched.
 pub(crate) struct Made<'a> {
     solver: Arm<'a>,
     outlines: Outlines<'a>,
@@ -211,7 +212,7 @@ impl<'a> Made<'a> {
         }
     }
 
-    /// Returns what of the arm has a speed, a value a frame.
+    /// Returns the moving parts of the arm in each frame.
     pub(crate) fn moved(&self) -> Vec<Moved> {
         let rig = self.solver.rig();
         let each = self.got.iter().enumerate();
@@ -224,7 +225,7 @@ impl<'a> Made<'a> {
         .collect()
     }
 
-    /// Returns the frames of the stretched time.
+    /// Returns the frames in stretched time.
     pub(crate) fn track(self, warp: &Warp) -> Track {
         if warp.is_none() {
             return Track {
@@ -253,8 +254,8 @@ impl<'a> Made<'a> {
         }
     }
 
-    /// Returns how the arm's joints are turned between a planned frame and the next: each by its own way, or
-    /// with the hand carried, so that nothing leaves its range.
+    /// Interpolates the arm's joints between a planned frame and the next: each on its own, or with the
+    /// hand `carried`, so that the wrist stays within its limits.
     fn between(&self, n: usize, share: f64, carried: bool) -> [DQuat; 4] {
         let here = [0, 1, 2, 3].map(|joint| self.arm[joint][n]);
         let Some(next) = self.rows.get(n + 1).filter(|_| share > 0.0) else {
@@ -275,8 +276,8 @@ impl<'a> Made<'a> {
         })
     }
 
-    /// Returns how far a joint turns in radians and the wrist goes in metres between a planned frame and the next
-    /// if all of the way were as fast as its fastest part, the hand carried.
+    /// Returns the rotation (rad) of a joint and the distance (m) of the wrist between a planned frame and
+    /// the next, extrapolated from the fastest part of the step, with the hand carried.
     pub(crate) fn hasty(&self, n: usize) -> [f64; 2] {
         const PARTS: usize = 8;
         let Some(next) = self.rows.get(n + 1) else {
@@ -313,8 +314,8 @@ impl<'a> Made<'a> {
         most
     }
 
-    /// Tells whether a way from a planned frame to the next is so long that the hand is carried, and not too
-    /// fast then.
+    /// Returns whether a step between planned frames is long enough to carry the hand, and not too fast
+    /// for it.
     fn is_carried(&self, n: usize, warp: &Warp) -> bool {
         if n + 1 >= self.rows.len() {
             return false;
@@ -325,7 +326,7 @@ impl<'a> Made<'a> {
 }
 
 impl Fit {
-    /// Takes one frame into account; `given` says that the hand's orientation is written for it.
+    /// Includes one frame; `given` if the hand's orientation is notated for it.
     fn take(
         &mut self,
         got: &Got,
@@ -351,14 +352,14 @@ impl Fit {
     }
 }
 
-/// Tells whether a sign is made at a time, not the way to it.
+/// Returns whether a time is within a sign rather than a transition.
 fn signing(plan: &Plan, time: f64) -> bool {
     plan.signs
         .iter()
         .any(|sign| (sign.from..=sign.to).contains(&time))
 }
 
-/// Returns what a hand should do at each frame.
+/// Returns the goals of a hand in each frame.
 pub(crate) fn wanted<'a>(
     stage: &Stage,
     plan: &'a Plan,
@@ -433,7 +434,7 @@ pub(crate) fn wanted<'a>(
     }
 }
 
-/// Returns how much a hand touches at each frame: it comes and goes within a fifth of a second.
+/// Returns the degree of contact in each frame; it rises and falls within a fifth of a second.
 fn touch(contacts: &[(f64, f64)], timing: &Timing<'_>) -> Vec<f64> {
     let mut touch = vec![0.0_f64; timing.total];
     for &(from, to) in contacts {
@@ -448,7 +449,7 @@ fn touch(contacts: &[(f64, f64)], timing: &Timing<'_>) -> Vec<f64> {
     touch
 }
 
-/// A value that goes from one to the next, each from where it is.
+/// A value that changes step by step, each from its current value.
 struct Steps<T> {
     values: Vec<T>,
     filled: usize,
@@ -471,7 +472,7 @@ impl<T: Copy> Steps<T> {
         mix: impl Fn(T, T, f64) -> T,
         share: impl Fn(usize) -> f64,
     ) {
-        // What runs already is cut off where the next one begins.
+        // The next step cuts off the current one.
         if span.start < self.values.len() {
             self.now = self.values[span.start];
             self.values.truncate(span.start);
@@ -489,7 +490,7 @@ impl<T: Copy> Steps<T> {
     }
 }
 
-/// Returns the shapes that a hand has at each frame: one, or the way from one to another.
+/// Returns the frames, shape and event of each change of shape, in order of time.
 fn shape_spans(events: &[Event], rate: f64, total: usize) -> Vec<(Range<usize>, usize, &Event)> {
     let mut spans: Vec<(Range<usize>, usize, &Event)> = events
         .iter()
@@ -502,7 +503,8 @@ fn shape_spans(events: &[Event], rate: f64, total: usize) -> Vec<(Range<usize>, 
     spans
 }
 
-/// Returns how much of a change of shape is done: hands take theirs in the first part of a way without meaning.
+/// Returns the completed share of a change of shape: hands take their shape in the first part of a
+/// transition.
 fn early(event: &Event, frame: usize, timing: &Timing<'_>) -> f64 {
     let time = share(event, frame, timing.rate);
     let lax = event.pace == Pace::Lax;
@@ -553,7 +555,7 @@ fn nlerp(from: DQuat, to: DQuat, share: f64) -> DQuat {
     (from * (1.0 - share) + to * share).normalize()
 }
 
-/// Bends base joints of fingers about the axis across the hand.
+/// Bends the base joints of fingers about the axis across the hand.
 fn play(
     stage: &Stage,
     hand: &Hand,
@@ -589,22 +591,23 @@ fn play(
     }
 }
 
-/// The outlines of a hand, and from which frame on which two hold: while it changes its shape, those on the way.
+/// The outlines of a hand over time, as two outlines from each frame on that bracket the actual one during
+/// a change of shape.
 pub(crate) struct Outlines<'a> {
-    /// The frame that is counted from.
+    /// Index of the first frame.
     first: usize,
     from: Vec<(usize, [Outline<'a>; 2])>,
     between: Vec<Vec<DVec3>>,
 }
 
-/// The outline of a shape, or one by its number between shapes.
+/// The outline of a shape, or an intermediate one by its index.
 #[derive(Clone, Copy)]
 enum Outline<'a> {
     Shape(&'a [DVec3]),
     Between(usize),
 }
 
-/// How many steps a change of shape is looked at in.
+/// The number of steps for the outlines of a change of shape.
 const STEPS: usize = 4;
 
 fn outlines<'a>(stage: &Stage, plan: &'a Plan, n: usize, timing: &Timing<'_>) -> Outlines<'a> {

@@ -1,14 +1,14 @@
-//! The ways of hands from one state to another.
+//! Transitions of hands from one state to another.
 
 use super::pace::Pace;
 use super::path::Path;
 use super::plan::{Act, Event, HandState, PhaseKind, Planner};
 
-/// How near to its shoulder a wrist goes by that is on its way, in arm lengths.
+/// Smallest distance (arm lengths) between a wrist in transition and its shoulder.
 const ROUND: f64 = 0.42;
 
 impl Planner<'_> {
-    /// Plans the way of a hand from where it is to another state, over a stretch of time.
+    /// Plans the transition of a hand from its current state to another, within a time span (s).
     pub(crate) fn go(&mut self, n: usize, goal: &HandState, from: f64, to: f64, pace: Pace) {
         let was = self.state[n].clone();
         let mut act = |act| {
@@ -35,7 +35,7 @@ impl Planner<'_> {
         self.state[n] = goal.clone();
     }
 
-    /// Leads a way without meaning round the own shoulder, where a forearm would have to fold up.
+    /// Leads a transition round the own shoulder if the forearm would have to fold up.
     pub(super) fn swing(&mut self, n: usize, goal: &HandState, from: f64, to: f64, pace: Pace) {
         let Some(hand) = self.stage.hand(self.sides[n]) else {
             return;
@@ -58,7 +58,7 @@ impl Planner<'_> {
         let Some(out) = out.reject_from_normalized(along).try_normalize() else {
             return;
         };
-        // Half-way a spring is farthest out.
+        // A spring is farthest out half-way.
         let there = (std::f64::consts::PI * share).sin().max(0.3);
         self.plan.events[n].push(Event {
             from,
@@ -68,7 +68,7 @@ impl Planner<'_> {
         });
     }
 
-    /// Returns how long a way between two states takes as a transition.
+    /// Returns the duration of a transition between two states.
     pub(crate) fn length_between(&self, a: &HandState, b: &HandState, _n: usize) -> f64 {
         if a == b {
             return 0.0;
@@ -79,7 +79,7 @@ impl Planner<'_> {
         l.time_transition + l.time_transition_arm * far + l.time_turn * turn
     }
 
-    /// Sends hands back to rest; returns when they are there.
+    /// Plans the return of hands to rest; returns its end.
     pub(super) fn relax(&mut self, hands: [bool; 2], from: f64, to: Option<f64>) -> f64 {
         let mut end = from;
         for (n, drops) in hands.into_iter().enumerate() {

@@ -1,34 +1,34 @@
-//! Time stretched where an arm would go faster than people do.
+//! Stretches time where an arm would move faster than people do.
 
 use chereme_motion::glam::{DQuat, DVec3};
 
-/// How hard a wrist or an elbow starts, turns or stops at most, in metres per second squared: what a person
-/// could do.
+/// Largest acceleration of a wrist or an elbow, in m/s²: that of a person.
 const HARDEST: f64 = 75.0;
 
-/// How often longer than its ends alone need a step lasts at most for what is between them.
+/// Upper bound on stretching a step for motion between its two frames, as a multiple of the duration that
+/// the frames themselves require.
 const LONGER: f64 = 4.0;
 
-/// How fast arms may go.
+/// Top speeds of arms.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Fastest {
-    /// A joint, in radians a second.
+    /// Of a joint, in radians per second.
     pub(crate) joint: f64,
-    /// A wrist, in metres a second.
+    /// Of a wrist, in metres per second.
     pub(crate) wrist: f64,
 }
 
-/// What of an arm has a speed: the places of wrist and elbow, and rotations in model space.
+/// The moving parts of an arm: positions of wrist and elbow, and rotations in model space.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Moved {
     pub(crate) wrist: DVec3,
     pub(crate) elbow: DVec3,
     pub(crate) turned: [DQuat; 3],
-    /// Its joints' own rotations.
+    /// Local rotations of its joints.
     pub(crate) local: [DQuat; 4],
 }
 
-/// How planned time runs: when each planned frame is reached, in seconds.
+/// A map of planned to stretched time: the time of each planned frame, in seconds.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Warp {
     times: Vec<f64>,
@@ -37,11 +37,11 @@ pub(crate) struct Warp {
 }
 
 impl Warp {
-    /// Returns the time that keeps arms at `rate` frames a second within what is allowed.
+    /// Returns the map that keeps arms at `rate` frames per second within the allowed speeds.
     ///
-    /// Each step lasts as long as the fastest part needs; steps near to a stretched one last somewhat
-    /// longer, too, so that nothing brakes at once. `hasty` says of an arm and a frame how far a joint turns
-    /// and a wrist goes until the next if all of the way were as fast as its fastest part.
+    /// Each step lasts as long as its fastest part needs; steps next to a stretched one last longer, too,
+    /// so that no movement brakes suddenly. `hasty(arm, frame)` returns the rotation (rad) of a joint and
+    /// the distance (m) of a wrist until the next frame, extrapolated from the fastest part of the step.
     pub(crate) fn of(
         arms: &[Vec<Moved>],
         rate: f64,
@@ -60,7 +60,7 @@ impl Warp {
                     .fold(0.0, f64::max);
                 let mut last = way.max(turn);
                 if last > 1.0 {
-                    // Joints go each its own way between the two frames.
+                    // Joints interpolate each on its own between the two frames.
                     let each = a.local.iter().zip(b.local);
                     let sum: f64 = each.map(|(a, b)| a.angle_between(b)).sum();
                     last = (1.2 * turn).max(1.6 * way).max(sum * rate / fastest.joint);
@@ -78,8 +78,8 @@ impl Warp {
         Self::lasting(&lasts, rate, fastest)
     }
 
-    /// Returns the time in which frames that are finished stay within what is allowed, where between them a joint
-    /// went faster than the ends of the way told.
+    /// Returns the map that keeps finished frames within the allowed speeds, if a joint was faster within
+    /// a step than its two frames showed.
     pub(crate) fn again(arms: &[Vec<Moved>], rate: f64, fastest: &Fastest) -> Self {
         let total = arms.iter().map(Vec::len).max().unwrap_or(0);
         let mut lasts = vec![1.0_f64; total.saturating_sub(1)];
@@ -97,7 +97,7 @@ impl Warp {
         Self::lasting(&lasts, rate, fastest)
     }
 
-    /// Returns the time in which each step lasts so many times longer, those near to it somewhat, too.
+    /// Returns the map with these factors on each step's duration; neighbouring steps are stretched, too.
     fn lasting(lasts: &[f64], rate: f64, fastest: &Fastest) -> Self {
         let around = ((0.025 * rate).ceil() as usize).max(1);
         let eased: Vec<f64> = (0..lasts.len())
@@ -123,7 +123,7 @@ impl Warp {
         }
     }
 
-    /// Returns the time that runs as this does and then as another does with what came of it.
+    /// Returns the composition of this map with the next one.
     pub(crate) fn then(mut self, next: &Self) -> Self {
         for time in &mut self.times {
             *time = next.at(*time);
@@ -131,24 +131,24 @@ impl Warp {
         self
     }
 
-    /// Returns the frames a second.
+    /// Returns the frames per second.
     pub(crate) fn rate(&self) -> f64 {
         self.rate
     }
 
-    /// Tells whether a step lasts long enough for what is hasty in it.
+    /// Returns whether a step lasts long enough for its fastest part.
     pub(crate) fn allows(&self, n: usize, hasty: [f64; 2]) -> bool {
         let lasts = (self.times[n + 1] - self.times[n]) * self.rate;
         needed(hasty, self.rate, &self.fastest) <= lasts * (1.0 + 1e-9)
     }
 
-    /// Tells whether time runs as planned.
+    /// Returns whether time runs as planned.
     pub(crate) fn is_none(&self) -> bool {
         let last = self.times.len() - 1;
         (self.times[last] - last as f64 / self.rate).abs() < 1e-9
     }
 
-    /// Returns when a planned time comes, in seconds.
+    /// Returns the stretched time of a planned time, in seconds.
     pub(crate) fn at(&self, planned: f64) -> f64 {
         let frame = (planned * self.rate).max(0.0);
         let last = self.times.len() - 1;
@@ -159,8 +159,8 @@ impl Warp {
         self.times[n] + (self.times[n + 1] - self.times[n]) * (frame - n as f64)
     }
 
-    /// Returns for each frame of the stretched time the planned frame before it and the share of the
-    /// way to the next.
+    /// Returns for each frame of stretched time the planned frame before it and the share of the step to
+    /// the next.
     pub(crate) fn frames(&self) -> Vec<(usize, f64)> {
         let last = self.times.len() - 1;
         let total = (self.times[last] * self.rate - 1e-9).ceil().max(0.0) as usize + 1;
@@ -181,13 +181,14 @@ impl Warp {
     }
 }
 
-/// Returns how long a step lasts in which a joint turns and a wrist goes so far.
+/// Returns the factor on a step's duration for a rotation (rad) of a joint and a distance (m) of the
+/// wrist.
 fn needed([turn, way]: [f64; 2], rate: f64, fastest: &Fastest) -> f64 {
     (turn * rate / fastest.joint).max(way * rate / fastest.wrist)
 }
 
-/// Lets steps last longer in which a wrist or an elbow would start, turn or stop too hard, seen over a
-/// sixtieth of a second to either side.
+/// Stretches steps in which a wrist or an elbow accelerates too much, measured over a sixtieth of a second
+/// to either side.
 fn slow(arm: &[Moved], rate: f64, lasts: &mut [f64]) {
     let step = ((rate / 60.0).round() as usize).max(1);
     let seconds = step as f64 / rate;

@@ -1,14 +1,15 @@
-//! Directions said relative to the movement: a hand turns as its way does.
+//! Directions relative to the movement: the hand turns with its path.
 
 use chereme_motion::glam::DQuat;
 
 use super::*;
 
-/// From which angle on a way that follows another goes back: then a hand does not turn round. In radians.
+/// Angle (rad) between two successive paths above which the second one leads back, so that the hand does
+/// not turn round with it.
 const BACK: f64 = 2.1;
 
 impl Planner<'_> {
-    /// Turns a hand of which a direction is relative with a way that it goes along.
+    /// Turns a hand with relative direction or palm along with its path.
     pub(super) fn follow(&mut self, n: usize, path: &Path, [from, to]: [f64; 2], pace: Pace) {
         if !self.state[n].follows || matches!(path, Path::Wave { .. } | Path::Spring(_)) {
             return;

@@ -1,4 +1,4 @@
-//! Motions done again: every kind of repetition, and bouncing.
+//! Plans repeated motions: every kind of repetition, and bouncing.
 
 use super::*;
 
@@ -88,7 +88,7 @@ impl Planner<'_> {
             Repeat::FromStart | Repeat::FromStartSeveral | Repeat::ManyRandom => {
                 let now = self.back_to(origin, who, time, env, motion, Pace::Lax);
                 let unlike = if repetition.repeat == Repeat::ManyRandom {
-                    // Not at random: the same notation gives the same movement.
+                    // Fixed rather than random factors: the same notation gives the same movement.
                     [1.15, 0.85, 1.05, 0.9][round % 4]
                 } else {
                     1.0
@@ -102,7 +102,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Brings hands back to where a motion began; curved ways go back as they came.
+    /// Moves hands back to the start of a motion; curved paths are traversed backwards.
     pub(super) fn back_to(
         &mut self,
         origin: &[HandState; 2],

@@ -1,11 +1,11 @@
-//! How large, how often round, and which way across.
+//! Sizes of motions, numbers of turns, and directions across a path.
 
 use std::f64::consts::TAU;
 
 use chereme_motion::glam::DVec3;
 use chereme_sign::hamnosys::{Amount, Circular, Growth, Motion, MotionKind, Size, WristMotion};
 
-/// Tells whether a motion is done again by going on: circles, wrists, playing fingers.
+/// Returns whether a motion repeats by going on: circles, wrist movements, playing fingers.
 pub(super) fn is_round(motion: &Motion) -> bool {
     match &motion.kind {
         MotionKind::Circular(circular) => {
@@ -17,13 +17,13 @@ pub(super) fn is_round(motion: &Motion) -> bool {
     }
 }
 
-/// Returns how many turns a circle makes.
+/// Returns the number of turns of a circle.
 pub(super) fn turns(circular: &Circular) -> f64 {
     let clock = &circular.clock;
     let full = f64::from(clock.full);
     match (clock.start, clock.end) {
         (Some(start), Some(end)) if start != end => {
-            // About forward the right-hand rule goes from down over left.
+            // About forward, the right-hand rule leads from down over left.
             let part = (start.angle() - end.angle()).rem_euclid(TAU) / TAU;
             full + part
         }
@@ -56,7 +56,7 @@ pub(super) fn grown(growth: Option<Growth>, by: f64) -> f64 {
     }
 }
 
-/// Returns a direction across a way: level, or to the left of one that is upright.
+/// Returns a direction across a path: level, or to the left of an upright one.
 pub(super) fn across(way: DVec3) -> DVec3 {
     if way.y.abs() > 0.9 {
         DVec3::X

@@ -1,4 +1,4 @@
-//! Postures that motions lead to: on the way, at its end, or gone by.
+//! Postures as the goals of motions: reached on the way, reached at the end, or brushed in passing.
 
 use super::*;
 
@@ -90,8 +90,8 @@ impl Planner<'_> {
         }
     }
 
-    /// Lets a hand go by a place that it touches in the middle of its way, which is planned already or goes on
-    /// as it came.
+    /// Makes a hand brush a place in the middle of its path, whether the path is already planned or
+    /// continues.
     fn brush(&mut self, n: usize, before: &HandState, met: &HandState, [time, end]: [f64; 2]) {
         let planned = self.state[n].point - before.point;
         let come = met.point - before.point;
@@ -120,8 +120,8 @@ impl Planner<'_> {
             .fold(0.0, f64::max)
     }
 
-    /// Lets straight ways that began at `time` last until `end`: with what is missing to the place they
-    /// lead to they make one straight way, which runs into nothing before its end.
+    /// Extends straight paths that began at `time` until `end`: together with the rest of the distance to
+    /// their goal they form one straight path, which stops only at its end.
     fn straighten(&mut self, time: f64, end: f64, pace: Pace, who: Who) {
         for (n, _) in acting(who) {
             for event in self.plan.events[n].iter_mut().rev() {
@@ -136,7 +136,7 @@ impl Planner<'_> {
         }
     }
 
-    /// Gives the ways that began at `time` the course of what they lead to.
+    /// Gives the paths that began at `time` the pace of the movement they lead to.
     fn hasten(&mut self, time: f64, pace: Pace, who: Who) {
         for (n, _) in acting(who) {
             for event in self.plan.events[n].iter_mut().rev() {
@@ -151,7 +151,7 @@ impl Planner<'_> {
     }
 }
 
-/// Returns a hand as planned that was thought to be raised at first, and hangs at rest.
+/// Returns the planned state of a hand that was raised in a trial, but hangs at rest.
 fn rested(now: &HandState, raised: &HandState, start: &HandState) -> HandState {
     let mut own = now.clone();
     own.point += start.point - raised.point;
@@ -164,7 +164,7 @@ fn rested(now: &HandState, raised: &HandState, start: &HandState) -> HandState {
     own
 }
 
-/// Returns the hand that stays where it is in a motion that leads both to each other.
+/// Returns the hand that stays in place in a motion that brings both together.
 fn staying(motion: Option<&Motion>, who: Who) -> Option<usize> {
     let still = |half: &Option<Box<Motion>>| match half {
         Some(half) => matches!(half.kind, MotionKind::Still),
