@@ -1,7 +1,7 @@
 //! Handshapes as joint angles.
 //!
-//! A bend is told in units from 0 to 4 at each of a finger's three joints, as the tables of animation
-//! engines do; what 4 means is [`BodyLanguage`]'s. Recognition compares with the same angles. After
+//! Bends are in units from 0 to 4 at each of a finger's three joints, as in the tables of animation
+//! engines; [`BodyLanguage`] defines the angle of 4. Recognition compares with the same angles. After
 //! Kennaway, *Avatar-independent scripting for real-time gesture animation*, section 4.3.
 
 use chereme_motion::{Finger, FingerAngles, HandAngles, ThumbAngles};
@@ -39,7 +39,7 @@ pub fn finger_of(digit: Digit) -> Option<Finger> {
     }
 }
 
-/// A hand before its units become angles: what betweenness averages.
+/// A hand before its units become angles; betweenness averages these values.
 #[derive(Debug, Clone, Copy)]
 struct Shape {
     bends: [Units; 4],
@@ -51,9 +51,9 @@ struct Shape {
 
 /// Returns the joint angles of a handshape in radians, as [`HandAngles`] counts them.
 ///
-/// Betweenness averages bends, spreads and the thumb before they become rotations. What depends on
-/// the lengths of a hand's bones (the tip of the thumb on that of a finger) is that of the
-/// inventory's hand; an animator may refine it.
+/// Betweenness averages bends, spreads and the thumb before they become rotations. Values that depend on
+/// the lengths of a hand's bones (the tip of the thumb on that of a finger) are those of the inventory's
+/// hand; an animator may refine it.
 #[must_use]
 pub fn hand_angles(shape: &Handshape, language: &BodyLanguage) -> HandAngles {
     let mut hand = form(&shape.form, shape);
@@ -335,7 +335,8 @@ fn angles(hand: &Shape, language: &BodyLanguage) -> HandAngles {
 /// `(σ, s(1 - b')) · (β, b) · (σ, flat(1 - b') + fist·b')`.
 ///
 /// The formula's last factor, a twist of some degrees about the finger, is left to the skeleton: the
-/// angles here have none. Bend limits spread; both are told by where the finger's first bone points.
+/// angles here have none. Bend limits spread; both are defined by the direction of the finger's first
+/// bone.
 fn finger_angles(
     finger: usize,
     units: Units,

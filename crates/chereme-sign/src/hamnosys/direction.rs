@@ -118,7 +118,7 @@ impl Direction {
         ))
     }
 
-    /// Tells whether HamNoSys has one symbol for it: those with at most two parts.
+    /// Returns whether HamNoSys has one symbol for it: a direction with at most two parts.
     #[must_use]
     pub fn has_symbol(self) -> bool {
         self.up == 0 || self.out == 0 || self.left == 0
@@ -191,9 +191,9 @@ impl From<Direction> for String {
 
 /// One of eight directions about an axis: where a palm faces, where a curve bulges, where a circle begins.
 ///
-/// For a palm the axis is the hand's own, and the letters are those of a hand that points away from the signer: `d` faces the floor, `l` the
-/// signer's left. What they are for a hand that points elsewhere stands in
-/// [`orientation`](super::orientation).
+/// For a palm the axis is the hand's own, and the letters are those of a hand that points away from the
+/// signer: `d` faces the floor, `l` the signer's left. For hands that point elsewhere,
+/// [`orientation`](super::orientation) defines them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Compass {
@@ -276,7 +276,7 @@ impl FromStr for Compass {
     }
 }
 
-/// Why letters are none of the eight directions.
+/// A text that names none of the eight directions.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?} is none of the eight directions; write u, ur, r, dr, d, dl, l or ul")]
 pub struct CompassError(pub String);

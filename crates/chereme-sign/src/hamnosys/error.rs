@@ -1,4 +1,4 @@
-//! What is wrong with a transcription, and where.
+//! Errors in transcriptions, with their places.
 
 use std::fmt;
 

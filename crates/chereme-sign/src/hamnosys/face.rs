@@ -1,7 +1,7 @@
-//! What faces do for the non-manuals of SiGML: brows, lids, gaze, nose and mouth.
+//! Facial expressions for the non-manuals of SiGML: brows, lids, gaze, nose and mouth.
 //!
-//! `schema/notation/face.json` holds what each code of a tier means, and the mouths of the sounds of SAMPA
-//! that mouth pictures are written in.
+//! `schema/notation/face.json` defines each code of a tier, and the mouth shapes for the sounds of SAMPA,
+//! in which mouth pictures are written.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -9,15 +9,16 @@ use std::sync::OnceLock;
 use chereme_motion::Face;
 use serde::Deserialize;
 
-/// What a face does for one non-manual: postures one after another.
+/// The facial expression of one non-manual: postures one after another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expression {
     steps: Vec<Face>,
 }
 
 impl Expression {
-    /// Returns what `code` means on a part of the face: `brows`, `lids`, `gaze`, `nose`, `mouth`, or `mouthing`,
-    /// whose code is SAMPA. Nothing where it is no face's, or where nobody listed it.
+    /// Returns the expression for `code` on a part of the face: `brows`, `lids`, `gaze`, `nose`, `mouth`,
+    /// or `mouthing`, whose code is SAMPA. `None` if the part is not on the face, or the code is not
+    /// listed.
     ///
     /// ```
     /// use chereme_sign::hamnosys::face::Expression;

@@ -29,7 +29,7 @@ pub fn mended(text: &str) -> Option<String> {
     let pieces = pieces(text);
     let symbols = |run: &&str| decoded(run, holds_symbol);
     pieces.iter().find_map(symbols)?;
-    // What stands beside mended symbols was read wrongly, too.
+    // Symbols next to garbled ones went through the same wrong encoding.
     let mend = |run: &&str| match decoded(run, holds_symbol).or_else(|| plainest(run)) {
         Some(mended) => mended,
         None => (*run).to_owned(),
@@ -37,7 +37,8 @@ pub fn mended(text: &str) -> Option<String> {
     Some(pieces.iter().map(mend).collect())
 }
 
-/// Tells whether a text shows traces of such symbols that cannot be mended, since parts of them are lost.
+/// Returns whether a text shows traces of garbled symbols that cannot be mended, since parts of them are
+/// lost.
 #[must_use]
 pub fn is_garbled(text: &str) -> bool {
     let trace = |c: char| {
@@ -108,7 +109,7 @@ fn decoded(run: &str, wanted: impl Fn(&str) -> bool) -> Option<String> {
     read_again(&first).filter(|second| wanted(second))
 }
 
-/// Returns what a run is as UTF-8, read twice where that can be.
+/// Returns the UTF-8 reading of a run, decoded twice if possible.
 fn plainest(run: &str) -> Option<String> {
     let first = read_again(run)?;
     Some(read_again(&first).unwrap_or(first))

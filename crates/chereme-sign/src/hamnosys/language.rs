@@ -1,9 +1,9 @@
-//! Body language: what the categories of notation mean in numbers.
+//! Body language: the meaning of the categories of notation in numbers.
 //!
 //! After Kennaway, *Avatar-independent scripting for real-time gesture animation* (section 4): such
-//! numbers belong to a person, not to a body, so that lengths are in lengths of the body. One file,
-//! `schema/notation/body_language.json`, holds each number with its unit and source; another file of
-//! the same form may replace some of them.
+//! numbers belong to a person, not to a body, so lengths are in units of the body. One file,
+//! `schema/notation/body_language.json`, holds each number with its unit and source; another file of the
+//! same form may replace some of them.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -42,7 +42,7 @@ pub enum LanguageError {
         /// One near to it.
         nearest: Option<String>,
     },
-    /// A place lies too far from where it is usual.
+    /// A place is moved too far from its usual position.
     #[error("{name} is moved by {by} shoulder widths; it must be from -1 to 1")]
     Far {
         /// The place.
@@ -84,7 +84,7 @@ struct File {
     places: BTreeMap<String, [f64; 3]>,
 }
 
-/// What a file of body language says otherwise than another.
+/// The differences between one file of body language and another.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LanguageChanges {
     /// Numbers by the names of [`BodyLanguage::NAMES`].
@@ -95,10 +95,10 @@ pub struct LanguageChanges {
 
 macro_rules! body_language {
     ($($name:literal $field:ident $unit:literal $doc:literal)*) => {
-        /// What the categories of notation mean in numbers.
+        /// The meaning of the categories of notation in numbers. Unless noted, lengths are shares of the
+        /// arm from shoulder to wrist, angles are in degrees, times in seconds.
         ///
-        /// Lengths are shares of the arm from shoulder to wrist unless said otherwise, angles degrees,
-        /// times seconds. Where the numbers come from stands beside each in the file.
+        /// The file gives the source of each number.
         #[derive(Debug, Clone, PartialEq)]
         pub struct BodyLanguage {
             $(#[doc = $doc] pub $field: f64,)*

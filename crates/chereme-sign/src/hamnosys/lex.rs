@@ -29,7 +29,7 @@ impl Token {
 /// A text as symbols.
 #[derive(Debug)]
 pub(super) struct Lexed<'a> {
-    /// The text in characters; what is unknown stays as it is.
+    /// The text in characters; unknown symbols remain unchanged.
     pub(super) text: Cow<'a, str>,
     /// The symbols without blanks, punctuation and all alternatives but the first.
     pub(super) tokens: Vec<Token>,
@@ -39,7 +39,7 @@ pub(super) struct Lexed<'a> {
     pub(super) findings: Vec<Finding>,
 }
 
-/// Reads symbols; what is unknown is an error, or a finding where `lenient`.
+/// Reads symbols; an unknown one is an error, or a finding if `lenient`.
 pub(super) fn lex(text: &str, lenient: bool) -> Result<Lexed<'_>, HamnosysError> {
     let (text, words) = in_characters(text, lenient)?;
     let mut words = words.into_iter();
@@ -148,9 +148,9 @@ fn in_characters(text: &str, lenient: bool) -> Result<InCharacters<'_>, Hamnosys
 }
 
 /// Returns the text with symbols that are given by the numbers of their characters as characters, as
-/// programs write what they cannot show: `U+E001`, `\uE001`, `&#xE001;`, `0xE001`, or two and more
-/// numbers side by side, `E001 E020`; the backslash of TeX before a name is left out. What was read in
-/// another encoding than it was written in is [`mended`].
+/// programs write what they cannot show: `U+E001`, `\uE001`, `&#xE001;`, `0xE001`, or two and more numbers
+/// side by side, `E001 E020`; the backslash of TeX before a name is left out. Text that was decoded with
+/// the wrong encoding is [`mended`].
 #[must_use]
 pub fn in_plain_symbols(text: &str) -> Cow<'_, str> {
     match mended(text) {

@@ -1,8 +1,8 @@
 //! Signs as notation: the tree that HamNoSys 4 and SiGML both write down.
 //!
 //! One tree serves both: HamNoSys text (one symbol after another) and gestural SiGML (elements with
-//! attributes) are two spellings of it. Everything is from the signer's own point of view, and where
-//! a sign is two-handed with symmetry, what is said is about the dominant hand.
+//! attributes) are two spellings of it. Everything is from the signer's own point of view; if both hands
+//! act by a symmetry, the notation describes the dominant hand.
 //!
 //! ```
 //! use chereme_sign::hamnosys::{parse, parse_lenient, print};
@@ -19,10 +19,11 @@
 //!
 //! # Reading and writing text
 //!
-//! [`parse()`] refuses what cannot be, naming the symbol; [`parse_lenient`] leaves it out and says so.
-//! Either way what was read prints to the byte as it was: [`print()`] has one canonical order, and each
-//! part that text spelled otherwise remembers its own symbols ([`Written`]). What the text says and the
-//! tree does not hold is a [`Finding`]; what the tree says and text cannot is a [`Loss`].
+//! [`parse()`] refuses impossible notation and names the symbol; [`parse_lenient`] leaves such symbols out
+//! and reports them. In both modes the tree prints to exactly the bytes that were read: [`print()`] has
+//! one canonical order, and each part with another spelling remembers its own symbols ([`Written`]). Text
+//! that the tree does not hold is a [`Finding`]; a part of the tree that text cannot express is a
+//! [`Loss`].
 //!
 //! The grammar, in canonical order (`?` may be left out, `*` any number, `|` or; capitals are symbols):
 //!

@@ -1,13 +1,13 @@
-//! What face and body do beside the hands: the non-manual tiers of SiGML.
+//! Non-manual actions of face and body: the non-manual tiers of SiGML.
 //!
-//! Tags are kept as they are written, a short code (`L04`) or a code with its words
-//! (`L04_pursed_lips`); [`Act::code`] is what tells them apart. A mouth picture is SAMPA.
+//! Tags are kept as written, a short code (`L04`) or a code with its words (`L04_pursed_lips`);
+//! [`Act::code`] returns the code of either. A mouth picture is SAMPA.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-/// What face and body do while a sign is made, tier by tier.
+/// The actions of face and body during a sign, tier by tier.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Nonmanual {
@@ -16,7 +16,7 @@ pub struct Nonmanual {
 }
 
 impl Nonmanual {
-    /// Tells whether nothing is said.
+    /// Returns whether no tier has an action.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.tiers.is_empty()
@@ -83,7 +83,7 @@ pub struct NonmanualTier {
 }
 
 impl NonmanualTier {
-    /// Tells whether it says nothing at all.
+    /// Returns whether no part of it is set.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
@@ -138,8 +138,7 @@ impl Act {
         }
     }
 
-    /// Returns the code of the tag: what stands before the first underscore; the whole picture of a
-    /// mouth picture.
+    /// Returns the code of the tag: the part before the first underscore, or the whole of a mouth picture.
     #[must_use]
     pub fn code(&self) -> &str {
         match self.part {
@@ -148,7 +147,7 @@ impl Act {
         }
     }
 
-    /// Tells whether its code is one that SiGML lists for the part.
+    /// Returns whether SiGML lists its code for the part.
     #[must_use]
     pub fn is_listed(&self) -> bool {
         self.part.is_listed(self.code())
@@ -229,7 +228,7 @@ impl NonmanualPart {
         }
     }
 
-    /// Tells whether SiGML lists a code for it; where any text goes, every one is.
+    /// Returns whether SiGML lists a code for the part; always true for parts with free text.
     #[must_use]
     pub fn is_listed(self, code: &str) -> bool {
         let codes = match self {

@@ -6,7 +6,7 @@ use super::nonmanual::Nonmanual;
 use super::print::{Printed, print};
 use super::tree::Sign;
 
-/// A notated sign: what the hands do, what face and body do, and what it is called.
+/// A notated sign: the actions of the hands, the actions of face and body, and its name.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Notated {
@@ -32,7 +32,7 @@ pub struct Notated {
     pub text: Option<String>,
     /// What the hands do.
     pub sign: Sign,
-    /// What face and body do.
+    /// The actions of face and body.
     #[serde(skip_serializing_if = "Nonmanual::is_empty")]
     pub nonmanual: Nonmanual,
 }

@@ -13,7 +13,7 @@ pub use points::{
     Face, HandPoint, coming_first, digit_joint, finger_point, from_bone, hand_points, on_palm,
 };
 
-/// What a place belongs to; distances from it depend on that.
+/// The part of the body that a place belongs to; it determines distances.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Region {
     /// The trunk and the space before it.
@@ -56,8 +56,8 @@ pub const TOUCHED_BESIDE: f64 = 0.22;
 
 /// Returns the place that a location of the body means for a hand.
 ///
-/// `acting` is the hand for which places that exist on both sides are meant where nothing is said;
-/// on arms that is the other one. With `mirrored`, left and right are exchanged in what is said.
+/// `acting` is the hand that decides the side of paired places without a notated side; places on arms are
+/// then on the other arm. With `mirrored`, left and right in the notation are exchanged.
 #[must_use]
 pub fn body_site(site: &Site<BodyLocation>, acting: Half, mirrored: bool) -> BodySite {
     let half = said(site.side, mirrored);

@@ -107,7 +107,7 @@ impl fmt::Display for Symbol {
     }
 }
 
-/// What a symbol stands for, wherever its place in a transcription does not decide.
+/// The meaning of a symbol, unless its position in a transcription decides.
 ///
 /// Five marks mean one thing after a symmetry sign and another elsewhere; they are listed here under
 /// the second: [`Bend::Bent`] (out and in exchanged), [`Size::Big`] (up and down exchanged),

@@ -10,7 +10,7 @@ use super::shape::{Shapes, openness};
 use super::{Lost, Value};
 use crate::component::Component;
 
-/// What both hands do, one thing after the other.
+/// The actions of both hands, in order of time.
 pub(super) struct Hands<'s, 'i> {
     shapes: &'s Shapes<'i>,
     dominant: Hand,
@@ -20,7 +20,7 @@ pub(super) struct Hands<'s, 'i> {
 /// The successive values of one field.
 pub(super) type Course = (Component, Option<&'static str>, Vec<Vec<Value>>);
 
-/// What one hand has and does.
+/// The shapes and actions of one hand.
 #[derive(Debug, Default)]
 struct Hand {
     shape: Option<Handshape>,
@@ -41,7 +41,7 @@ enum Acting {
 }
 
 impl Acting {
-    /// Returns the hands with the symmetry through which each takes what is said.
+    /// Returns the acting hands, each with the symmetry that applies to its notation.
     fn hands(self) -> impl Iterator<Item = (bool, Option<Symmetry>)> {
         let (dominant, weak) = match self {
             Self::Dominant => (Some((true, None)), None),
@@ -288,7 +288,7 @@ impl<'s, 'i> Hands<'s, 'i> {
     }
 }
 
-/// Returns what is said of each hand, with the symmetry through which it is taken.
+/// Returns each hand's notated value, with the symmetry that applies to it.
 fn of_hands<T>(
     said: &Each<T>,
     acting: Acting,

@@ -1,8 +1,8 @@
-//! What a notated sign has in each component, in the words of a corpus's inventories.
+//! Maps a notated sign to component values, in the words of a corpus's inventories.
 //!
-//! Notation is finer than inventories in some things and coarser in others. A value is *exact* where
-//! the inventory's value means the same, else it is the nearest, and what was passed over is told.
-//! Successive values of a component are its initial, middle and final ones; a hand that follows the
+//! Notation is finer than inventories in some things and coarser in others. A value is *exact* if the
+//! inventory's value means the same; otherwise it is the nearest one, and the differences are listed as
+//! lost. Successive values of a component are its initial, middle and final ones; a hand that follows the
 //! other by a symmetry has values of its own.
 //!
 //! ```
@@ -34,19 +34,19 @@ use super::notated::Notated;
 use crate::component::{Component, Field, HandRef, Phase};
 use crate::inventory::Inventory;
 
-/// What a notated sign has in each component.
+/// The component values of a notated sign.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mapped {
     /// The values: of the dominant hand, of the weak hand, of face and body.
     pub values: Vec<MappedValue>,
-    /// What the notation says and the values do not, each once.
+    /// The parts of the notation that the values do not express, without duplicates.
     pub lost: Vec<String>,
 }
 
 /// One value of a component.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MappedValue {
-    /// Which component it is, of which hand, and in which phase.
+    /// The component, with its hand and phase.
     pub field: Field,
     /// The id of a value of the field's inventory.
     pub value: String,
@@ -216,7 +216,7 @@ impl Value {
     }
 }
 
-/// What was passed over, each once.
+/// The parts of the notation that the values do not express, without duplicates.
 #[derive(Debug, Default)]
 struct Lost(Vec<String>);
 

@@ -7,7 +7,7 @@ use super::super::tree::{
 };
 use super::Value;
 
-/// What is done at one time.
+/// The simultaneous actions of a hand.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Step {
     pub(super) kinds: Vec<Value>,
@@ -25,7 +25,7 @@ impl Step {
         }
     }
 
-    /// Adds what is done at the same time.
+    /// Adds simultaneous actions.
     pub(super) fn join(&mut self, other: Self) {
         self.kinds.extend(other.kinds);
         self.directions.extend(other.directions);

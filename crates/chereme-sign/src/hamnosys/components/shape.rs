@@ -20,7 +20,7 @@ impl<'i> Shapes<'i> {
         Self(shapes.collect())
     }
 
-    /// Returns the nearest handshape, and tells what it lacks.
+    /// Returns the nearest handshape, and records the differences in `lost`.
     pub(super) fn nearest(&self, shape: &Handshape, lost: &mut Lost) -> Option<Value> {
         let cost = |known: &Handshape| {
             let first = form_cost(&shape.form, &known.form);

@@ -188,7 +188,7 @@ fn wrist() -> Drawing {
         .thin([[0.18, 0.66], [0.06, 0.5], [0.05, 0.36]])
 }
 
-/// What tells the back of the hand from its palm.
+/// Draws the knuckles, which distinguish the back of the hand from its palm.
 fn knuckles(hand: Drawing) -> Drawing {
     hand.thin(arc([0.26, 0.36], [0.05, 0.04], 0.5, 1.0))
         .thin(arc([0.37, 0.34], [0.05, 0.04], 0.5, 1.0))

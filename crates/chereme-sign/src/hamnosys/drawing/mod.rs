@@ -1,13 +1,13 @@
-//! How the symbols of HamNoSys are drawn, for people and pictures without its font.
+//! Drawings of the symbols of HamNoSys, for people and pictures without its font.
 //!
-//! Each symbol is drawn anew from what it means: hands seen from their backs with the fingers that are out, the
-//! body with the place that is meant, arrows for ways. What is meant is a line or a solid; what it is shown on
-//! is thin. Right is the signer's right.
+//! Each drawing is our own, made from the symbol's meaning: hands seen from their backs with the extended
+//! fingers, the body with the marked place, arrows for paths. The meaning itself is a line or a solid; its
+//! background is thin. Right is the signer's right.
 //!
-//! Directions of hands are wedges, ways are arrows. Those across the body are seen from behind it; those with
-//! *out* or *in* from above, the body being the bar below; those up or down as well from the right side, the body
-//! being the bar at the left. Circles are seen from behind, above and a little from the right, and turn as
-//! they are seen to.
+//! Directions of hands are wedges, paths are arrows. Those across the body are seen from behind it; those
+//! with *out* or *in* from above, the body being the bar below; those up or down as well from the right
+//! side, the body being the bar at the left. Circles are seen from behind, above and a little from the
+//! right, and turn as they appear from there.
 
 mod hands;
 mod marks;
@@ -23,14 +23,14 @@ use super::to_names;
 /// A point in ems: from the left, and from the top down.
 pub type Point = [f32; 2];
 
-/// What a line of a drawing is for.
+/// The role of a line in a drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ink {
-    /// What the meaning is shown on: the body, the hand.
+    /// The background: the body, the hand.
     Thin,
     /// What is meant.
     Line,
-    /// What is meant, as a convex solid whose rim the points are.
+    /// The meaning, as a convex solid; the points are its rim.
     Solid,
 }
 
@@ -48,7 +48,7 @@ pub struct Stroke {
 pub struct Drawing {
     /// How wide its box is, in ems.
     pub width: f32,
-    /// What it consists of, in the order in which it is drawn.
+    /// Its lines and solids, in drawing order.
     pub strokes: Vec<Stroke>,
 }
 
@@ -145,7 +145,8 @@ pub fn drawing(symbol: Symbol) -> Drawing {
     }
 }
 
-/// Returns the symbols of a text with their drawings, one after the other; nothing where it is no HamNoSys.
+/// Returns the symbols of a text with their drawings, one after the other; `None` if the text is not
+/// HamNoSys.
 #[must_use]
 pub fn drawn(text: &str) -> Option<Vec<(Symbol, Drawing)>> {
     let names = to_names(text).ok()?;
@@ -158,8 +159,8 @@ pub const GAP: f32 = 0.16;
 /// How wide thin and other lines are, in ems.
 pub const WIDTHS: [f32; 2] = [0.03, 0.06];
 
-/// Returns a text of HamNoSys as a picture in SVG, a symbol `em` units high, with the names of the symbols as
-/// titles; nothing where it is no HamNoSys.
+/// Returns a text of HamNoSys as a picture in SVG, with symbols `em` units high and their names as titles;
+/// `None` if the text is not HamNoSys.
 #[must_use]
 pub fn svg(text: &str, em: f32) -> Option<String> {
     let symbols = drawn(text)?;

@@ -191,7 +191,7 @@ fn circle(axis: Direction) -> Drawing {
     let axis = axis.vector();
     let right = unit(cross(LOOK, [0.0, 1.0, 0.0]));
     let up = unit(cross(right, LOOK));
-    // It begins where it is farthest along the page.
+    // The circle begins at its farthest point along the page.
     let side = unit(cross(axis, LOOK));
     let across = cross(axis, side);
     let points: Vec<Point> = (0..=30u8)

@@ -11,7 +11,7 @@ use crate::hamnosys::tree::{
 /// A motion with how deep it nests.
 type Deep = (Motion, usize);
 
-/// What a size mark would belong to.
+/// The element that a size mark would belong to.
 #[derive(Clone, Copy, PartialEq)]
 enum Last {
     Way,
@@ -115,7 +115,7 @@ impl Parser<'_> {
         Ok((motion, height))
     }
 
-    /// Reads what is done, without what follows any movement.
+    /// Reads a movement without the marks that may follow any movement.
     fn core(&mut self) -> Parsed<(MotionKind, usize)> {
         let Some(kind) = self.peek() else {
             self.missing("a movement")?;
@@ -632,7 +632,7 @@ fn manner_flag(manner: &mut Manner, mark: Mark) -> &mut bool {
     }
 }
 
-/// Sets what is not set; tells whether it was free.
+/// Sets an empty slot; returns whether it was empty.
 fn set<T>(slot: &mut Option<T>, value: T) -> bool {
     let free = slot.is_none();
     slot.get_or_insert(value);

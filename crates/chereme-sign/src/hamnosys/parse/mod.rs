@@ -22,9 +22,9 @@ pub const MAX_DEPTH: usize = 48;
 pub struct Transcription {
     /// What it says.
     pub sign: Sign,
-    /// What is odd about it; nothing is silent that the tree does not hold.
+    /// Oddities of the text; everything that the tree does not hold is listed here.
     pub findings: Vec<Finding>,
-    /// The text, where it was not written in the symbols' own characters.
+    /// The text, if it was not written in the symbols' own characters.
     text: Option<Box<str>>,
 }
 
@@ -38,7 +38,7 @@ impl Transcription {
         }
     }
 
-    /// Tells whether symbols are in the text only, not in the tree.
+    /// Returns whether some symbols are in the text only, not in the tree.
     #[must_use]
     pub fn is_partial(&self) -> bool {
         self.findings.iter().any(|finding| finding.dropped)
@@ -48,14 +48,13 @@ impl Transcription {
 /// Reads a transcription: characters, names of symbols, or both.
 ///
 /// # Errors
-/// The first symbol that cannot be where it is, with what was expected.
+/// [`HamnosysError`] for the first symbol that cannot be at its place, with the expected ones.
 pub fn parse(text: &str) -> Result<Transcription, HamnosysError> {
     read(text, false)
 }
 
-/// Reads what can be understood of a transcription; what cannot is in the findings.
-///
-/// The tree keeps the whole text, so that it prints as it was.
+/// Reads the parts of a transcription that can be understood; the findings list the rest. The tree keeps
+/// the whole text, so that it prints unchanged.
 #[must_use]
 pub fn parse_lenient(text: &str) -> Transcription {
     read(text, true).unwrap_or_else(|error| Transcription {
@@ -213,14 +212,14 @@ impl<'a> Parser<'a> {
         Ok(HandsUsed::Both(symmetry))
     }
 
-    /// Tells whether a part of the body moves here.
+    /// Returns whether an action of the body begins here.
     fn at_body_action(&self) -> bool {
         self.after_body_site()
             .and_then(|at| self.kind(at))
             .is_some_and(is_motion)
     }
 
-    /// Tells whether a part of the body is held here before the hands are described.
+    /// Returns whether a held part of the body begins here, before the description of the hands.
     fn at_body_part(&self) -> bool {
         self.after_body_site()
             .is_some_and(|at| match self.kind(at) {
@@ -414,7 +413,7 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// Tells whether a movement, or a group that can only be one, begins with this.
+/// Returns whether a movement, or a group that can only be one, begins with this symbol.
 fn is_motion(kind: Kind) -> bool {
     use Kind as K;
     matches!(

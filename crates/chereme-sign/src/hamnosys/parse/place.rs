@@ -11,7 +11,7 @@ use crate::hamnosys::tree::{
 type Touching = (Contact, Option<HandSite>);
 
 impl Parser<'_> {
-    /// Tells whether a place begins here.
+    /// Returns whether a place begins here.
     pub(super) fn at_place(&self) -> bool {
         match self.peek() {
             Some(Kind::Open(Bracket::Seq)) => self.at_contact_group(),

@@ -8,7 +8,7 @@ use crate::hamnosys::tree::{
     Posture, Size, ThumbExtra, ThumbPosition,
 };
 
-/// What one half of a split says.
+/// One half of a split configuration.
 #[derive(Default)]
 struct Half {
     shape: Option<Handshape>,
@@ -44,7 +44,7 @@ impl Parser<'_> {
         Ok(posture)
     }
 
-    /// Tells whether a group is a configuration for each hand, of parts not said yet.
+    /// Returns whether a group is a configuration for each hand, of parts that are not set yet.
     pub(super) fn at_split_config(&self, posture: &Posture) -> bool {
         self.is_split_config(self.at, posture)
     }
@@ -275,7 +275,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Takes a finger of a handshape with what is said of it; false where it begins a place.
+    /// Takes a finger of a handshape with its marks; returns false if the finger begins a place.
     fn finger(&mut self, digit: Digit, shape: &mut Handshape, digits: &mut Vec<Digit>) -> bool {
         let second = |kind| match kind {
             Some(Kind::Digit(second)) => Some(second),
@@ -349,8 +349,8 @@ impl Parser<'_> {
 
 const CROSS: Kind = Kind::Contact(crate::hamnosys::tree::Contact::Cross);
 
-/// Tells whether this is what comes after a whole handshape, so that a part of a finger before it is
-/// the handshape's own.
+/// Returns whether this symbol can follow a complete handshape, so that a part of a finger before it
+/// belongs to the handshape.
 fn ends_shape(kind: Option<Kind>) -> bool {
     use Kind as K;
     matches!(
@@ -379,8 +379,8 @@ fn is_cee(class: HandClass) -> bool {
     matches!(class, C::Cee12 | C::Cee12Open | C::CeeAll)
 }
 
-/// Tells which of the digits after a handshape are meant instead of its own, and which the bend
-/// leaves out (as the University of East Anglia's converter reads them).
+/// Sorts the digits after a handshape: those that replace its own, and those that the bend leaves out (as
+/// the University of East Anglia's converter reads them).
 fn sort_digits(shape: &mut Handshape, digits: &[Digit]) {
     use HandClass as C;
     let thumb = |digit: &&Digit| **digit == Digit::Thumb;

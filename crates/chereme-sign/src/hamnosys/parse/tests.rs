@@ -18,7 +18,7 @@ fn first(names: &str) -> Manual {
     read(names).sign.parts.swap_remove(0)
 }
 
-/// Tells whether some part remembers its spelling.
+/// Returns whether some part remembers its spelling.
 fn remembers(sign: &Sign) -> bool {
     format!("{sign:?}").contains("Written(Some(")
 }

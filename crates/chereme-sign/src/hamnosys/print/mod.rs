@@ -1,7 +1,7 @@
 //! The tree to symbols.
 //!
-//! What the tree says is printed in one canonical order; a part that remembers how text spelled it
-//! ([`Written`]) prints as it was.
+//! The tree is printed in one canonical order; a part that remembers another spelling from text
+//! ([`Written`]) prints that spelling.
 
 mod motion;
 mod place;
@@ -19,7 +19,7 @@ use super::tree::{
 pub struct Printed {
     /// The text, one character per symbol.
     pub text: String,
-    /// What is in the tree and not in the text.
+    /// The parts of the tree that are missing from the text.
     pub losses: Vec<Loss>,
 }
 
@@ -28,7 +28,7 @@ pub struct Printed {
 pub struct Loss {
     /// The part of the sign it is in, from 0.
     pub part: usize,
-    /// What it is, and what was written instead.
+    /// A description of the part, and of its replacement in the text.
     pub message: String,
 }
 
@@ -370,7 +370,7 @@ const BENDS: [Bend; 5] = [
     Bend::DoubleHooked,
 ];
 
-/// What is said of one hand.
+/// The configuration of one hand.
 #[derive(Default)]
 struct Half<'a> {
     shape: Option<&'a Handshape>,

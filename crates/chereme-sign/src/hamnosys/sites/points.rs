@@ -1,5 +1,5 @@
-//! Points of hands: what sites of a hand name, where they lie about its bones, and which of them comes
-//! first to a place.
+//! Points of hands: the points that sites of a hand name, their positions about its bones, and which of
+//! them comes first to a place.
 
 use chereme_motion::{Finger, Part, Side as Half};
 
@@ -179,8 +179,8 @@ pub fn digit_joint(side: Half, digit: Digit, which: u8) -> Part {
     }
 }
 
-/// Returns the point of a hand that is meant where none is said: what comes first where the hand goes
-/// along a way to a place of this kind (Kennaway, section 4.1).
+/// Returns the point of a hand that notation refers to if it names none: the first one to arrive when the
+/// hand moves to a place of this kind (Kennaway, section 4.1).
 ///
 /// `way` is a unit vector in the hand's own axes: along it, out of its palm, towards its thumb.
 #[must_use]

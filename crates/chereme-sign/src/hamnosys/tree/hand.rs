@@ -177,13 +177,13 @@ impl Digit {
 pub struct Digits(pub Vec<Digit>);
 
 impl Digits {
-    /// Tells whether there is none.
+    /// Returns whether there are no digits.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Tells whether this digit is among them.
+    /// Returns whether this digit is included.
     #[must_use]
     pub fn contains(&self, digit: Digit) -> bool {
         self.0.contains(&digit)

@@ -1,7 +1,7 @@
 //! The tree of a sign as notation describes it.
 //!
-//! The parts and their names follow gestural SiGML 1.2; HamNoSys text says the same in symbols. What
-//! a spelling leaves unsaid is `None` here, never a default: a reader of the tree decides.
+//! The parts and their names follow gestural SiGML 1.2; HamNoSys text says the same in symbols. Parts that
+//! a spelling omits are `None` here, never a default: readers of the tree choose their own.
 
 mod hand;
 mod motion;
@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 
 use super::direction::{Compass, Direction};
 
-/// A sign: what the hands do, part after part.
+/// A sign: the actions of the hands, part after part.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sign {
@@ -31,7 +31,7 @@ pub struct Sign {
     pub parts: Vec<Manual>,
 }
 
-/// What the hands do in one part of a sign.
+/// The actions of the hands in one part of a sign.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Manual {
@@ -39,13 +39,13 @@ pub struct Manual {
     pub hands: HandsUsed,
     /// The hands keep what the part before ended with.
     pub holdover: bool,
-    /// What the body does while the sign begins.
+    /// Actions of the body while the sign begins.
     pub body: Vec<BodyAction>,
     /// The posture it begins with.
     pub posture: Posture,
-    /// What is done from there, in order.
+    /// The actions after the first posture, in order.
     pub actions: Vec<Motion>,
-    /// How text spelled this part, where it is not as the printer would.
+    /// The spelling of this part in text, if it differs from the printer's.
     #[serde(skip)]
     pub written: Written,
 }
@@ -81,7 +81,7 @@ pub struct Symmetry {
     pub real_space: bool,
 }
 
-/// What is said of the hands: nothing, one thing for both, or a thing for each.
+/// A notated value of the hands: unset, shared, or one for each hand.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Each<T> {
@@ -90,12 +90,12 @@ pub enum Each<T> {
     Unset,
     /// For every acting hand; the second takes it through the symmetry.
     Shared(T),
-    /// For the dominant hand, then for the other; what is missing stays as it was.
+    /// One value for the dominant hand, then one for the other; a missing one keeps its previous value.
     Split(Option<T>, Option<T>),
 }
 
 impl<T> Each<T> {
-    /// Returns what is said of the dominant hand.
+    /// Returns the dominant hand's value.
     #[must_use]
     pub fn dominant(&self) -> Option<&T> {
         match self {
@@ -105,7 +105,7 @@ impl<T> Each<T> {
         }
     }
 
-    /// Returns what is said of the other hand in words of its own, no symmetry needed.
+    /// Returns the other hand's own value, without symmetry.
     #[must_use]
     pub fn other(&self) -> Option<&T> {
         match self {
@@ -114,14 +114,14 @@ impl<T> Each<T> {
         }
     }
 
-    /// Tells whether nothing is said.
+    /// Returns whether no value is set.
     #[must_use]
     pub fn is_unset(&self) -> bool {
         matches!(self, Self::Unset)
     }
 }
 
-/// A posture of the hands, part by part; what is unset stays as it was.
+/// A posture of the hands, part by part; unset parts keep their previous values.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Posture {
@@ -136,7 +136,7 @@ pub struct Posture {
 }
 
 impl Posture {
-    /// Tells whether it says nothing at all.
+    /// Returns whether no part of it is set.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
@@ -155,7 +155,7 @@ pub struct Aim<D> {
     /// Only roughly so.
     #[serde(default)]
     pub approx: bool,
-    /// What it is relative to.
+    /// The reference frame.
     #[serde(default)]
     pub frame: Frame,
 }
@@ -176,7 +176,7 @@ impl<D> Aim<D> {
     }
 }
 
-/// What a direction is relative to.
+/// The reference frame of a direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Frame {
@@ -189,7 +189,7 @@ pub enum Frame {
     Relative,
 }
 
-/// The symbols that text spelled a part with, where they are not those the printer would choose.
+/// The symbols of a part in text, if they differ from those the printer would choose.
 ///
 /// Two parts are equal whatever their spelling. Whoever changes a part drops its spelling
 /// (`Written::default()`).

@@ -95,7 +95,7 @@ pub struct BodyAction {
     /// The side of it.
     #[serde(default)]
     pub side: Option<Side>,
-    /// What it does; nothing where it is only held.
+    /// Its motion; `None` if it is only held.
     #[serde(default)]
     pub motion: Option<Box<Motion>>,
 }

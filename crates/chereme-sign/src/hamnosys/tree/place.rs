@@ -14,7 +14,7 @@ pub enum Place {
     Hand(HandSite),
     /// The two hands by each other.
     Hands(Constellation),
-    /// A place of its own for the dominant hand and for the other; what is missing stays as it was.
+    /// One place for the dominant hand, then one for the other; a missing one keeps its previous value.
     Split(Option<Box<Place>>, Option<Box<Place>>),
     /// A place that the sign named before, 1 to 5.
     Named(u8),
@@ -94,13 +94,13 @@ pub enum BodyLocation {
     NeutralSpace,
 }
 
-/// A site on a hand or arm: the part, and of which digits.
+/// A site on a hand or arm: the part, with its digits.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct HandSite {
     /// The part; nothing where whole digits are meant.
     pub at: Option<HandLocation>,
-    /// The digits, where it is a part of digits.
+    /// The digits, if the part belongs to digits.
     pub digits: Digits,
     /// The side.
     pub side: Option<Side>,
@@ -177,9 +177,9 @@ pub enum Contact {
     Brushing,
 }
 
-/// The two hands by each other, and where they are together.
+/// A constellation: the two hands relative to each other, and their common place.
 ///
-/// With neither site, a contact alone is with whatever the hand has before it: the other hand, or the
+/// Without any site, a contact alone refers to whatever is in front of the hand: the other hand, or the
 /// place it was close to.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
