@@ -23,7 +23,7 @@ use crate::view::{Framing, View};
 /// How an animation looks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AnimationOptions {
-    /// What is seen, side by side from the left.
+    /// The views, side by side from the left.
     pub views: Vec<View>,
     /// The face of each frame of the clip; frames beyond them have it at rest.
     pub faces: Vec<Face>,
@@ -77,8 +77,8 @@ impl<'a> Animation<'a> {
     /// Returns the animation of `clip`, odd frames at its ends left out.
     ///
     /// # Errors
-    /// [`FigureError`] where the clip is empty, no view is asked for, pictures would be too large or too many, or the
-    /// speed is none of [`SPEEDS`].
+    /// [`FigureError`] if the clip is empty, no view is requested, pictures would be too large or too
+    /// many, or the speed is not one of [`SPEEDS`].
     pub fn new(
         clip: &'a Clip,
         anatomy: &'a Anatomy,
@@ -187,12 +187,11 @@ impl<'a> Animation<'a> {
 /// How many pictures the colours of a GIF are chosen from.
 const SAMPLED: usize = 12;
 
-/// Writes an animation as a GIF that repeats for ever, in colours chosen from pictures all over
-/// it; only what changes from picture to picture is stored.
+/// Writes an animation as a GIF that repeats for ever, in colours chosen from pictures all over it; each
+/// picture stores only its changes.
 ///
 /// # Errors
-/// [`FigureError`] where `out` cannot be written or `progress` says to stop; what has been
-/// written by then is no whole file.
+/// [`FigureError`] if `out` cannot be written or `progress` stops it; the file is incomplete then.
 pub fn write_gif(
     animation: &mut Animation<'_>,
     out: impl Write,

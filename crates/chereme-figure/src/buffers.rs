@@ -1,4 +1,4 @@
-//! What is nearest at every sample of a picture, and its parting into bands of rows.
+//! Sample buffers: the nearest surface at every sample of a picture, divisible into bands of rows.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ const VEIL: f32 = 0.015;
 /// Colours are kept times this in a byte, so that light beyond white is not lost before shade falls on it.
 const SCALE: f32 = 0.875;
 
-/// What is nearest at every sample; a margin of paper all around saves the test for the edge.
+/// The nearest surface at every sample; a margin of paper all around saves the test for the edge.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Buffers {
     /// Columns and rows of samples, the margin not counted.
@@ -21,13 +21,13 @@ pub(crate) struct Buffers {
     pub(crate) depth: Vec<f32>,
     /// The part of the body and the lit colour, see [`packed`]; 0 where there is paper.
     pub(crate) paint: Vec<u32>,
-    /// Columns and rows of samples outside of which all is paper.
+    /// Columns and rows of samples in use; all others are paper.
     pub(crate) used: [Range<usize>; 2],
     /// Whether there are marks without light and lines among the parts.
     pub(crate) marked: bool,
     /// The depths of the last layer that was not veiled.
     solid: Vec<f32>,
-    /// The rows outside of which depths are those of paper.
+    /// The rows whose depths are in use; all others have the depth of paper.
     depth_used: Range<usize>,
     solid_used: Range<usize>,
 }
@@ -42,7 +42,7 @@ pub(crate) fn packed(group: u8, colour: [f32; 3]) -> u32 {
 /// Returns the whole number from 0 to 255 that is nearest to one that exceeds these by less than a half.
 #[inline(always)]
 pub(crate) fn whole(part: f32) -> u32 {
-    /// What is added to a number makes its whole part the lowest bits: 2²³.
+    /// Adding 2²³ to a number moves its whole part to the lowest bits.
     const WHOLE: f32 = 8_388_608.0;
     (part + WHOLE).to_bits() & 0xFF
 }
@@ -83,7 +83,7 @@ impl Buffers {
         self.set_used([0..0, 0..0]);
     }
 
-    /// Tells outside of which columns and rows of samples all will be paper.
+    /// Sets the columns and rows of samples in use; all others will be paper.
     pub(crate) fn set_used(&mut self, used: [Range<usize>; 2]) {
         self.depth_used = used[1].clone();
         self.used = used;
@@ -113,7 +113,8 @@ impl Buffers {
         }
     }
 
-    /// Keeps the depths of this layer for those that are veiled by it; what is here is another's until it is cleared.
+    /// Keeps the depths of this layer for the layers that it veils; the current depths are invalid until
+    /// they are cleared.
     pub(crate) fn keep(&mut self) {
         std::mem::swap(&mut self.solid, &mut self.depth);
         std::mem::swap(&mut self.solid_used, &mut self.depth_used);

@@ -11,9 +11,9 @@ pub struct Camera {
     pub target: Vec3,
     /// Which way is up in the picture; not along the line of sight.
     pub up: Vec3,
-    /// Half the height of what is seen at the target's distance, in metres.
+    /// Half the height of the visible area at the target's distance, in metres.
     pub half_height: f32,
-    /// How near to the eye drawing begins, in metres; what is nearer is left out.
+    /// Distance from the eye at which drawing begins, in metres; nearer surfaces are left out.
     pub near: f32,
 }
 
@@ -24,7 +24,7 @@ pub struct Projected {
     pub x: f32,
     /// Rows from the upper edge, in pixels.
     pub y: f32,
-    /// Distance along the line of sight, in metres; what is behind the eye is not positive.
+    /// Distance along the line of sight, in metres; zero or negative behind the eye.
     pub depth: f32,
 }
 

@@ -8,7 +8,7 @@ use crate::palette::{Colour, Theme};
 /// How the chart of an alignment looks.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ChartOptions {
-    /// What runs to the right, and what runs up.
+    /// The names of the horizontal and the vertical axis.
     pub names: [String; 2],
     /// The side of the square that the grid fills at most, in pixels.
     pub size: usize,

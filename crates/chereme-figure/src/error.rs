@@ -1,4 +1,4 @@
-//! What keeps a picture from being made.
+//! Errors that prevent a picture.
 
 use std::ops::RangeInclusive;
 
@@ -15,7 +15,7 @@ pub const SPEEDS: RangeInclusive<f64> = 0.05..=20.0;
 /// The most pictures of an animation.
 pub const MAX_FRAMES: usize = 12_000;
 
-/// What keeps a picture from being made.
+/// A reason why a picture cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
     /// The clip has no frame.
@@ -32,7 +32,7 @@ pub enum FigureError {
     /// No view or no column was asked for.
     #[error("nothing to draw: at least one {what} is needed")]
     Nothing {
-        /// What is lacking, in the singular.
+        /// The missing thing, in the singular.
         what: &'static str,
     },
     /// The picture would be too small to show anything or larger than is sensible.

@@ -208,8 +208,8 @@ impl Limit {
     }
 }
 
-/// Returns the first and the last of columns 0 to `wide` whose three edge values, `first` less
-/// `across` times the column, are none positive; the first exceeds the last where there is none.
+/// Returns the first and the last of columns 0 to `wide` at which none of the three edge values (`first`
+/// less `across` times the column) is positive; the first exceeds the last if no such column exists.
 fn span(first: [i64; 3], across: [i64; 3], wide: i64) -> (i64, i64) {
     let (mut from, mut to) = (0, wide);
     for (value, step) in first.into_iter().zip(across) {

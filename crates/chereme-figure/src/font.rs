@@ -184,7 +184,7 @@ const ACCENTED: &[(char, char, [u8; 2])] = &[
     ('ý', 'y', ACUTE), ('ÿ', 'y', DIAERESIS),
 ];
 
-/// What a character without a glyph shows as.
+/// The glyph for unknown characters.
 const UNKNOWN: [u8; 7] = [0x1F, 0x11, 0x11, 0x11, 0x11, 0x11, 0x1F];
 
 /// Returns whether this letter has a character.

@@ -16,7 +16,7 @@ use crate::raster::{Raster, Style};
 /// Where a hand alone is looked at from; the fingers point up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum HandView {
-    /// Into the palm, somewhat from the thumb's side and from above: tells most about fingers.
+    /// Into the palm, somewhat from the thumb's side and from above: shows the fingers best.
     #[default]
     ThreeQuarter,
     /// Straight into the palm.
@@ -32,7 +32,7 @@ pub enum HandView {
 pub struct HandshapeOptions {
     /// Which hand.
     pub side: Side,
-    /// Where it is looked at from.
+    /// The direction of view.
     pub view: HandView,
     /// Width and height in pixels.
     pub size: usize,
@@ -77,7 +77,7 @@ const GAP: usize = 8;
 /// Draws many handshapes as a table, `columns` in a row, each above its name.
 ///
 /// # Errors
-/// [`FigureError`] where there is none, or the table would be too large.
+/// [`FigureError`] if there are no shapes, or the table would be too large.
 pub fn handshape_sheet(
     shapes: &[(String, HandAngles)],
     columns: usize,
@@ -91,7 +91,7 @@ pub fn handshape_sheet(
     table(shapes, layout, |angles, cell| artist.draw(angles, cell))
 }
 
-/// Draws named things as a table of square cells, so many columns of that size on that paper.
+/// Draws named things as a table of square cells with this number of columns, cell size and paper.
 pub(crate) fn table<T>(
     things: &[(String, T)],
     (columns, size, theme): (usize, usize, Theme),

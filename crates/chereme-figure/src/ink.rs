@@ -29,8 +29,9 @@ const STRENGTHS: [f32; 3] = [0.75, 0.5, 0.9];
 /// The colour of lines within the figure.
 const INNER_LINE: [f32; 3] = [34.0, 30.0, 34.0];
 
-/// The bits of packed colours that tell the part, and from where on it is a mark.
+/// The bits of packed colours that identify the part.
 const PART: u32 = 0xFF << 24;
+/// Values of these bits from here on are marks.
 const MARKS: u32 = (FLAT as u32) << 24;
 
 fn reach(samples: usize, pixels: f32) -> usize {
@@ -42,7 +43,7 @@ pub(crate) fn margin(samples: usize) -> usize {
     reach(samples, SHADE) + 1
 }
 
-/// What lines and shades are drawn with; steps are distances between places in the buffers.
+/// Settings for lines and shades; steps are distances between places in the buffers.
 #[derive(Clone, Copy)]
 struct Ink {
     outline: [f32; 3],
@@ -52,8 +53,8 @@ struct Ink {
     opacity: f32,
 }
 
-/// How many samples in a row are worked on at once: so many that the compiler makes loops of them that do several
-/// at once, and a multiple of all numbers of samples that a pixel may have.
+/// The number of samples in a row that are processed at once. Large enough for the compiler to vectorise
+/// the loops, and a multiple of every number of samples that a pixel may have.
 const LANES: usize = 48;
 
 /// Red, green and blue of some samples or pixels in a row.

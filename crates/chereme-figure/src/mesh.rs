@@ -35,8 +35,8 @@ impl Mesh {
         self.triangles.extend(moved);
     }
 
-    /// Returns the smallest and the largest corner of the axis-aligned box around it, or nothing
-    /// where it is empty.
+    /// Returns the smallest and the largest corner of its axis-aligned bounding box; `None` if it is
+    /// empty.
     #[must_use]
     pub fn bounds(&self) -> Option<(Vec3, Vec3)> {
         let mut places = self.vertices.iter().map(|vertex| vertex.position);

@@ -55,7 +55,7 @@ const FAR_OUT: f32 = 1e6;
 /// The nearest that anything is drawn whatever the camera says, in metres before the eye.
 const NEAREST: f32 = 1e-3;
 
-/// Buffers for drawing, kept from picture to picture so that nothing is allocated anew.
+/// Buffers for drawing, reused from picture to picture to save allocations.
 #[derive(Debug, Clone, Default)]
 pub struct Raster {
     pub(crate) buffers: Buffers,

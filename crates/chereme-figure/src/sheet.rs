@@ -17,8 +17,8 @@ use crate::view::{Framing, View};
 /// Which frames of a clip are shown.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Frames {
-    /// So many, evenly spaced from the first to the last, odd frames at both ends left out; all there are where that is
-    /// fewer.
+    /// This number of frames, evenly spaced from the first to the last, without odd frames at both ends;
+    /// all frames if there are fewer.
     Spaced(usize),
     /// Exactly these.
     At(Vec<usize>),
@@ -27,7 +27,7 @@ pub enum Frames {
 /// How a contact sheet looks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SheetOptions {
-    /// The line above the pictures; none where it is empty.
+    /// The line above the pictures; no line if empty.
     pub title: String,
     /// The columns.
     pub frames: Frames,
@@ -65,7 +65,8 @@ impl SheetOptions {
         self
     }
 
-    /// Returns the options with what the face does, and a row for the face from near where it does anything.
+    /// Returns the options with facial expressions, and with a row for the face from near if it moves at
+    /// all.
     #[must_use]
     pub fn with_faces(mut self, faces: Vec<Face>) -> Self {
         if faces.iter().any(|face| !face.is_at_rest()) {
@@ -76,7 +77,7 @@ impl SheetOptions {
     }
 }
 
-/// What a caller is told between pictures: how many are done, and how many there will be.
+/// A callback between pictures: receives the number of finished pictures and the total.
 pub type Progress<'a> = &'a mut dyn FnMut(usize, usize) -> ControlFlow<()>;
 
 /// Height of a line of labels, and the gap between cells, in pixels.

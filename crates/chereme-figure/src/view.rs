@@ -19,7 +19,7 @@ pub enum View {
     Right,
     /// From above, the signer's front towards the upper edge.
     Top,
-    /// A hand from the front and near, followed as it moves; what hides it is left out.
+    /// A hand from the front and near, followed as it moves; anything that hides it is left out.
     Hand(Side),
     /// The face from the front and near, followed as it moves, with the hands before it.
     Face,
@@ -87,15 +87,15 @@ const DISTANCE: f32 = 7.0;
 const TRAVELS: f32 = 0.6;
 
 impl Framing {
-    /// Returns the space of `clip`, or nothing where it has no frame: from the hips to above the
-    /// head with both arms wherever they go; all joints where the skeleton is no known body.
+    /// Returns the space of `clip`: from the hips to above the head, with the whole reach of both arms;
+    /// all joints if the skeleton is not a known body. `None` if the clip has no frames.
     #[must_use]
     pub fn of(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
         Some(Self::around(&looks(clip, anatomy)?, anatomy))
     }
 
-    /// Returns the space of `clip` as [`signing`](Self::signing) has it and down to the hips, or
-    /// nothing where it has no frame.
+    /// Returns the space of `clip` as [`signing`](Self::signing) does, extended down to the hips; `None`
+    /// if it has no frames.
     #[must_use]
     pub fn of_signing(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
         let poses = looks(clip, anatomy)?;
@@ -172,10 +172,10 @@ impl Framing {
         }
     }
 
-    /// Returns the space of head, shoulders and hands alone, for small pictures: hands that hang at
-    /// rest below the hips are left out, where they are not there all the time.
+    /// Returns the space of head, shoulders and hands alone, for small pictures: hands that hang at rest
+    /// below the hips are left out, unless they are there all the time.
     ///
-    /// `poses` are at least one; a skeleton that is no known body is taken whole.
+    /// `poses` must not be empty; of a skeleton that is not a known body all joints are taken.
     #[must_use]
     pub fn signing(poses: &[ModelPose], anatomy: &Anatomy) -> Self {
         let whole = Self::around(poses, anatomy);
@@ -216,8 +216,8 @@ impl Framing {
         Self { low, high, ..whole }
     }
 
-    /// Returns the camera of a view for a picture whose width is `aspect` times its height; the
-    /// hand views look where `pose` has that hand, the face's where it has the head.
+    /// Returns the camera of a view for a picture whose width is `aspect` times its height; the hand views
+    /// look at that hand in `pose`, the face view at the head.
     #[must_use]
     pub fn camera(&self, view: View, aspect: f32, pose: &ModelPose, anatomy: &Anatomy) -> Camera {
         let [towards, up] = view.axes();

@@ -1,4 +1,4 @@
-//! What a face does to a head: jaw, cheeks and mouth.
+//! Facial expressions as deformations of a head: jaw, cheeks and mouth.
 
 use std::f32::consts::TAU;
 
@@ -90,7 +90,7 @@ impl Features {
     /// resting head's unit sphere.
     pub(super) fn surface(&self, [x, y]: [f32; 2]) -> Vec3 {
         let on_sphere = |y: f32| Vec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt());
-        // What lies at that height was higher up before the jaw went down.
+        // Find the point that the jaw lowers to this height.
         let mut above = y;
         for _ in 0..4 {
             let lowered = above - self.formed(on_sphere(above)).y;

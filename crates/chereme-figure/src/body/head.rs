@@ -1,4 +1,4 @@
-//! A head like an egg, with what tells where it looks: eyes, brows, nose, mouth, crown.
+//! An egg-shaped head, with the features that show its direction: eyes, brows, nose, mouth, crown.
 
 use std::f32::consts::FRAC_PI_2;
 
@@ -122,10 +122,10 @@ struct Mark {
     form: Form,
 }
 
-/// What is there of a mark's ellipsoid.
+/// The visible part of a mark's ellipsoid.
 enum Form {
     Whole,
-    /// What lies above an edge, which has lashes.
+    /// The part above an edge that has lashes.
     Lid {
         edge: f32,
         lash: Colour,

@@ -1,4 +1,5 @@
-//! The signer's body as a surface: what hangs on which joint, put together once per skeleton.
+//! The signer's body as a surface: the surfaces of its parts with their joints, assembled once per
+//! skeleton.
 
 mod features;
 mod hand;

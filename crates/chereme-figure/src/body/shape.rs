@@ -112,7 +112,7 @@ impl Rod {
 /// Middles of rings nearer than this are the same, in metres.
 const SAME: f32 = 1e-3;
 
-/// A surface through rings; what the rings hang on is [`Section`]s.
+/// A surface through rings; the rings belong to [`Section`]s.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Loft {
     /// From the first to the last ring.
