@@ -167,3 +167,39 @@ fn every_word_that_a_column_may_hold_is_named() {
         "schema/README.md does not name {missing:?}"
     );
 }
+
+#[test]
+fn the_minimal_pairs_of_the_readme_hold_handshapes_of_two_values() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("pairs.chereme");
+    let table = folder.path().join("t.csv");
+    fs::write(
+        &table,
+        "gloss,handshape,location\nA,V + O,chin\nB,V,chin\nC,V,chest\n",
+    )
+    .expect("written");
+    let mut corpus = Corpus::create(&path, "maker").expect("made");
+    let mut hear = chereme_corpus::unheard;
+    let progress = &mut chereme_corpus::Progress::new(&mut hear);
+    let options = chereme_corpus::ImportOptions::default();
+    corpus
+        .import(&[table], &options, progress)
+        .expect("imported");
+    drop(corpus);
+    let connection = Connection::open(path).expect("opened");
+    let queries = queries(&readme());
+    let pairs = queries.iter().find(|(_, sql)| sql.contains("AS shared"));
+    let (_, sql) = pairs.expect("the query of minimal pairs");
+    let mut statement = connection.prepare(sql).expect("a query");
+    let rows = statement
+        .query_map([], |row| {
+            Ok(format!(
+                "{} {}",
+                row.get::<_, String>(0)?,
+                row.get::<_, String>(2)?
+            ))
+        })
+        .expect("asked");
+    let found: Vec<String> = rows.map(|row| row.expect("a row")).collect();
+    assert_eq!(found, ["A B"]);
+}

@@ -1,8 +1,6 @@
 //! Searches that are kept in the corpus under a name, so that they travel with it.
 //!
-//! Wherever a query is asked, `@NAME` asks the one that is kept under that name.
-
-use std::borrow::Cow;
+//! Wherever a query is asked, `@NAME` in it stands for the one that is kept under that name.
 
 use chereme_sign::query::Query;
 use chereme_sign::text::{did_you_mean, edit_distance, fold, nearest};
@@ -41,10 +39,8 @@ impl Corpus {
             for search in searches {
                 let search = KeptSearch {
                     name: named(&search.name)?,
-                    query: resolved(connection, &search.query)?.into_owned(),
+                    query: whole(connection, &search.query)?,
                 };
-                let query = &search.query;
-                Query::parse(query).map_err(|error| wrong(query, &error))?;
                 match found(connection, &search.name)? {
                     Some((_, old)) if old == search => {}
                     Some((id, _)) => rows::update(connection, id, &search)?,
@@ -99,11 +95,49 @@ pub(crate) fn searches(connection: &Connection) -> Result<Vec<KeptSearch>> {
     Ok(all.map(|(_, search)| search).collect())
 }
 
-/// Returns the query that is meant: for `@NAME` the one that is kept under that name.
-pub(crate) fn resolved<'a>(connection: &Connection, query: &'a str) -> Result<Cow<'a, str>> {
-    match query.trim().strip_prefix('@') {
-        Some(name) => Ok(Cow::Owned(there(connection, name)?.1.query)),
-        None => Ok(Cow::Borrowed(query)),
+/// How many kept searches may stand inside each other.
+const MOST_INSIDE: usize = 16;
+
+/// Reads a query, with the searches that `@NAME` stands for in their place.
+///
+/// # Errors
+/// Where it cannot be understood, or a search is not there or stands inside itself.
+pub(crate) fn parsed(connection: &Connection, query: &str) -> Result<Query> {
+    parsed_inside(connection, query, 0)
+}
+
+fn parsed_inside(connection: &Connection, query: &str, inside: usize) -> Result<Query> {
+    if inside > MOST_INSIDE {
+        let text = format!("more than {MOST_INSIDE} kept searches stand inside each other");
+        return Err(Error::wrong(text)
+            .at(query)
+            .advise("keep searches that do not name each other in a circle"));
+    }
+    // A name with blanks is understood without quotes where it is the whole query.
+    if let Some(name) = query.trim().strip_prefix('@')
+        && let Some((_, search)) = found(connection, name)?
+    {
+        return parsed_inside(connection, &search.query, inside + 1);
+    }
+    let parsed = Query::parse(query).map_err(|error| wrong(query, &error))?;
+    parsed.with_saved(&mut |saved| {
+        let (_, search) = there(connection, &saved.name)?;
+        parsed_inside(connection, &search.query, inside + 1)
+    })
+}
+
+/// Returns the text of a query that stands for itself, without the names of others.
+fn whole(connection: &Connection, query: &str) -> Result<String> {
+    let filled = parsed(connection, query)?;
+    match Query::parse(query) {
+        Ok(own) if own == filled => Ok(query.to_owned()),
+        _ => Ok(match query.trim().strip_prefix('@') {
+            Some(name) => match found(connection, name)? {
+                Some((_, search)) => search.query,
+                None => filled.to_string(),
+            },
+            None => filled.to_string(),
+        }),
     }
 }
 
@@ -257,5 +291,46 @@ mod tests {
                 "{name} {query}"
             );
         }
+    }
+
+    #[test]
+    fn kept_searches_stand_anywhere_in_a_query() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let all = [
+            kept("chin", "placement=chin or placement=cheek"),
+            kept("my chin", "placement=chin"),
+        ];
+        corpus.keep_searches(&all).expect("kept");
+        for (asked, meant) in [
+            ("@chin", "placement=chin or placement=cheek"),
+            ("not @CHIN", "not (placement=chin or placement=cheek)"),
+            (
+                "@chin gloss=A",
+                "(placement=chin or placement=cheek) gloss=A",
+            ),
+            (
+                "@chin or @\"my chin\" gloss=A",
+                "placement=chin or placement=cheek or placement=chin gloss=A",
+            ),
+            ("@my chin", "placement=chin"),
+            ("\"@chin\"", "\"@chin\""),
+        ] {
+            let answer = corpus.search(asked, &SearchOptions::default());
+            assert_eq!(answer.expect(asked).query, meant, "{asked}");
+        }
+        let error = corpus.search("not @chim", &SearchOptions::default());
+        let error = error.expect_err("not there");
+        assert!(error.to_string().contains("did you mean"), "{error}");
+        // A search stands for itself: it does not change with those that it was made of.
+        let both = [kept("both", "@chin gloss=A")];
+        corpus.keep_searches(&both).expect("kept");
+        corpus.forget_search("chin").expect("forgotten");
+        let answer = corpus.search("@both", &SearchOptions::default());
+        assert_eq!(
+            answer.expect("found").query,
+            "(placement=chin or placement=cheek) gloss=A"
+        );
+        assert!(corpus.keep_searches(&[kept("x", "@x")]).is_err());
     }
 }

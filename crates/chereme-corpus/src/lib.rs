@@ -27,6 +27,7 @@ mod log;
 mod media;
 mod movement;
 mod notation;
+mod pairs;
 mod paths;
 mod picture;
 mod place;
@@ -71,6 +72,7 @@ pub use chereme_analysis::kinematics::{HandCurves, Kinematics};
 pub use chereme_analysis::{Score, ScoreOptions};
 pub use chereme_compose::Curve;
 pub use chereme_figure::SPEEDS;
+pub use chereme_sign::query::{facet_condition, narrow, wants, without};
 pub use contents::{
     AnnotationColumns, Contents, Overview, RecordingGlance, SignGlance, TierContents, ValueState,
 };
@@ -98,13 +100,17 @@ pub use log::{ChangeKind, Changed, FieldChange, OperationDetail};
 pub use media::{MediaChange, MediaPlace};
 pub use movement::ChannelGroup;
 pub use notation::{Notation, read_notation};
+pub use pairs::{Dense, Empty, FIELD_SETS, Pair, PairOptions, Pairs};
 pub use paths::paths_like;
 pub use picture::{Moving, Performance, Picture, PictureOptions, built_in_body, draw_clip};
 pub use place::Place;
 pub use progress::{Progress, Step, Unit, unheard};
 pub use propose::Proposed;
 pub use recombine::{MadePart, NotationFinding, Recombination, TimedNote};
-pub use search::{Answer, FACET_VALUES, Hit, Order, SearchOptions, guessed, meant};
+pub use search::{
+    Answer, FACET_VALUES, Finding, FindingKind, Hit, NO_VALUE, Order, SearchOptions, Tally,
+    TallyRow, guessed, meant,
+};
 pub use starter::{starter_files, unpack_starter};
 pub use suggest::{Partner, Suggestions};
 pub use track::{

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_sign::{Component, HandRef, Handedness};
+use chereme_sign::{Component, Field, HandRef, Handedness};
 use serde::Serialize;
 
 use crate::Corpus;
@@ -21,8 +21,11 @@ pub struct Suggestions {
     pub gloss: String,
     /// What it is coded as, by field.
     pub coding: BTreeMap<String, String>,
-    /// Signs coded alike but for one component.
+    /// Minimal pairs: signs coded for the same fields, and alike in all but one of them.
     pub partners: Vec<Partner>,
+    /// Signs alike in all but one of the fields that both are coded for, if one of the two is coded
+    /// for further fields: nobody knows whether they differ there, too.
+    pub possible: Vec<Partner>,
     /// Values that no sign of the corpus has with the rest of this coding, by field.
     pub unused: BTreeMap<String, Vec<String>>,
 }
@@ -44,6 +47,8 @@ pub struct Partner {
     pub to: String,
     /// How many fields are equal.
     pub equal: usize,
+    /// How many fields only one of the two is coded for.
+    pub one_sided: usize,
     /// A recipe that would give its coding, where one changes that field.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recipe: Option<String>,
@@ -60,8 +65,8 @@ impl Corpus {
     /// Returns what could be made from a token: signs of the corpus coded alike but for one
     /// component, with a recipe where one leads there, and values that no sign has with the rest.
     ///
-    /// Only citation forms are looked at. Fields that one of the two does not have are neither alike
-    /// nor different.
+    /// Only citation forms are looked at. A field that only one of the two is coded for fits nothing:
+    /// such a sign is a possible partner.
     ///
     /// # Errors
     /// Where nothing has that address, or the token has no coding.
@@ -81,7 +86,7 @@ impl Corpus {
             .at(address.to_string())
             .advise("code its handshape, placement and movement first"));
         }
-        let mut partners = Vec::new();
+        let (mut partners, mut possible) = (Vec::new(), Vec::new());
         let mut used: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
         for other in signs::citations(connection)? {
             if other.sign_id == token.sign_id {
@@ -98,7 +103,13 @@ impl Corpus {
             let field = different[0].clone();
             let (from, to) = (own[&field].clone(), theirs[&field].clone());
             used.entry(field.clone()).or_default().insert(to.clone());
-            partners.push(Partner {
+            let one_sided = own.len() + theirs.len() - 2 * (equal + 1);
+            let list = match one_sided {
+                0 => &mut partners,
+                _ => &mut possible,
+            };
+            list.push(Partner {
+                one_sided,
                 token: other.id,
                 recipe: recipe(&token, &field, &to),
                 gloss: other.gloss,
@@ -110,14 +121,23 @@ impl Corpus {
             });
         }
         partners.sort_by(|a, b| (b.equal, &a.field, &a.gloss).cmp(&(a.equal, &b.field, &b.gloss)));
+        let rank = |it: &Partner| (it.one_sided, usize::MAX - it.equal);
+        possible.sort_by(|a, b| (rank(a), &a.field, &a.gloss).cmp(&(rank(b), &b.field, &b.gloss)));
         let unused = self.unused(&own, &used)?;
         Ok(Suggestions {
             token: token.id,
             gloss: token.gloss,
             coding: own,
             partners,
+            possible,
             unused,
         })
+    }
+
+    /// Returns the values of a token by field.
+    pub(crate) fn coding_of(&self, token: &TokenRow) -> Result<BTreeMap<String, String>> {
+        let values = signs::values(self.store.read(), token.id)?;
+        Ok(coding(&values, self.handedness(token)?))
     }
 
     fn handedness(&self, token: &TokenRow) -> Result<Handedness> {
@@ -164,6 +184,18 @@ impl Corpus {
         }
         Ok(unused)
     }
+}
+
+/// Returns the name under which the coding of a token has a field.
+pub(crate) fn coding_name(field: &Field) -> String {
+    let part = field.feature.as_ref();
+    let part = part.map_or(String::new(), |part| format!(".{part}"));
+    let hand = match field.hand {
+        Some(HandRef::Weak | HandRef::Left) => "weak.",
+        _ if field.component == Component::Configuration => "dominant.",
+        _ => "",
+    };
+    format!("{hand}{}{part}", field.component)
 }
 
 fn coding(rows: &[TokenValueRow], handedness: Handedness) -> Coding {

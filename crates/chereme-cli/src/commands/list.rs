@@ -20,6 +20,9 @@ pub(crate) struct Args {
     /// Only rows that fit, such as gloss=BO*, start_us=>=500000, recording=recording:3, parent=none
     #[arg(long = "where", value_name = "COLUMN=PATTERN", value_parser = pair)]
     filter: Vec<(String, String)>,
+    /// Only values of this inventory, whose name may hold blanks
+    #[arg(long, value_name = "NAME")]
+    inventory: Option<String>,
     /// The column to sort by
     #[arg(long, value_name = "COLUMN")]
     sort: Option<String>,
@@ -49,8 +52,11 @@ fn pair(text: &str) -> Result<(String, String), String> {
 
 pub(super) fn list(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let corpus = cli.open(&args.corpus)?;
+    let mut columns = args.filter.clone();
+    let own = args.inventory.iter();
+    columns.extend(own.map(|name| ("inventory".to_owned(), name.clone())));
     let filter = ListFilter {
-        columns: args.filter.clone(),
+        columns,
         sort: args.sort.clone(),
         descending: args.descending,
         limit: args.limit,

@@ -12,6 +12,7 @@ mod inventory;
 mod keys;
 mod list;
 mod new;
+mod pairs;
 mod recombine;
 mod render;
 mod score;
@@ -50,6 +51,7 @@ pub(crate) enum Command {
     Render(render::Args),
     Score(score::Args),
     Suggest(suggest::Args),
+    Pairs(pairs::Args),
     Transcribe(transcribe::Args),
     Keys(keys::Args),
     Check(check::Args),
@@ -77,6 +79,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Check(args) => return check::run(cli, args, output).map_err(past_checking),
         Command::Score(args) => score::run(cli, args, output).map_err(offer_force),
         Command::Suggest(args) => suggest::run(cli, args, output),
+        Command::Pairs(args) => pairs::run(cli, args, output),
         Command::Transcribe(args) => transcribe::run(cli, args, output),
         Command::Keys(args) => keys::run(cli, args, output),
         Command::Track(args) => track::run(cli, args, output),

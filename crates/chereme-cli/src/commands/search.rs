@@ -3,17 +3,20 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{Corpus, Hit, KeptSearch, Order, SearchOptions, components_text};
+use chereme_corpus::{
+    Corpus, Error, FACET_VALUES, Hit, KeptSearch, Order, Progress, SearchOptions, Step, TallyRow,
+    components_text,
+};
 use clap::ValueEnum;
 
 use crate::args::Cli;
-use crate::output::Output;
+use crate::output::{Bar, Output};
 
 /// Find the tokens that answer a query
 ///
 /// Lexicon entries are found like captured tokens. Quote the query for your shell, for example
 /// 'right.configuration=U placement=chin' or 'gloss:BO* not weak.configuration=S'. What --keep NAME
-/// kept in the corpus is asked as @NAME; `chereme list CORPUS searches` lists it.
+/// kept in the corpus stands in any query as @NAME; `chereme list CORPUS searches` lists it.
 #[derive(Debug, clap::Args)]
 #[command(after_long_help = chereme_corpus::QUERY_HELP)]
 pub(crate) struct Args {
@@ -40,6 +43,40 @@ pub(crate) struct Args {
     /// Leave out the counts of values
     #[arg(long)]
     no_facets: bool,
+    /// How many values of each field to count: a number, or all
+    #[arg(long, value_name = "N|all", value_parser = facet_count)]
+    facets: Option<usize>,
+    /// Count the values of a field among all tokens found, such as placement or signer
+    #[arg(long, value_name = "FIELD", conflicts_with = "cross")]
+    count: Option<String>,
+    /// Count them for each value of another field, too, such as signer
+    #[arg(long, value_name = "FIELD", requires = "count")]
+    by: Option<String>,
+    /// Count how often the values of two fields meet, such as dominant.configuration placement
+    #[arg(long, num_args = 2, value_names = ["ROWS", "COLUMNS"])]
+    cross: Vec<String>,
+    /// Write the table of --count or --cross with commas or tabs between its cells
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    table: TableFormat,
+}
+
+fn facet_count(text: &str) -> Result<usize, String> {
+    match text {
+        "all" => Ok(usize::MAX),
+        _ => text
+            .parse()
+            .map_err(|_| "write a number, or all".to_owned()),
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum TableFormat {
+    /// For people
+    Text,
+    /// Commas between the cells
+    Csv,
+    /// Tabs between the cells
+    Tsv,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -54,6 +91,9 @@ enum OrderWord {
     Duration,
 }
 
+/// How many values of a field people are shown without --facets.
+const TABLE_FACETS: usize = 8;
+
 /// What a table shows without --limit.
 const TABLE_ROWS: usize = 50;
 
@@ -67,6 +107,19 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         ))?;
         return output.document(forgotten);
     }
+    let fields: Vec<String> = match &args.count {
+        Some(field) => [field].into_iter().chain(&args.by).cloned().collect(),
+        None => args.cross.clone(),
+    };
+    if !fields.is_empty() {
+        return tally(&mut corpus, args, &fields, output);
+    }
+    if args.table != TableFormat::Text {
+        let error = Error::wrong("there is no table to write");
+        return Err(error
+            .advise("name its fields with --count or --cross")
+            .into());
+    }
     let limit = args.limit.or((!output.is_json()).then_some(TABLE_ROWS));
     let order = match args.sort {
         OrderWord::Rank => Order::Rank,
@@ -78,6 +131,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         limit,
         offset: args.offset,
         facets: !args.no_facets,
+        facet_values: args.facets.unwrap_or(FACET_VALUES),
         order,
     };
     let query = args.query.join(" ");
@@ -113,18 +167,84 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     };
     let word = if answer.total == 1 { "token" } else { "tokens" };
     output.line(format!("{} {word}{more}: {}", answer.total, answer.query))?;
+    let shown = args.facets.unwrap_or(TABLE_FACETS);
     for (field, values) in &answer.facets {
         let counts: Vec<String> = values
             .iter()
-            .take(8)
+            .take(shown)
             .map(|(value, count)| format!("{value} {count}"))
             .collect();
-        output.line(format!("  {field}: {}", counts.join(", ")))?;
+        let left_out = answer.facets_left_out.get(field).copied().unwrap_or(0);
+        let more = match values.len().saturating_sub(shown) + left_out {
+            0 => String::new(),
+            more => format!(", and {more} more (--facets all)"),
+        };
+        output.line(format!("  {field}: {}{more}", counts.join(", ")))?;
+    }
+    for finding in &answer.findings {
+        output.line(format!("note: {}", finding.message()))?;
     }
     for note in &answer.notes {
         output.line(format!("note: {note}"))?;
     }
     output.document(answer)
+}
+
+/// Shows how many of the tokens found have each value of one field or of two.
+fn tally(corpus: &mut Corpus, args: &Args, fields: &[String], output: &mut Output) -> Result<()> {
+    let mut bar = Bar::new();
+    let mut hear = |step: Step<'_>| bar.show(step);
+    let mut progress = Progress::new(&mut hear);
+    let tally = corpus.tally(&args.query.join(" "), fields, &mut progress)?;
+    let columns: Vec<&str> = match tally.columns.is_empty() {
+        true => vec!["tokens"],
+        false => tally.columns.iter().map(String::as_str).collect(),
+    };
+    let title = match &tally.fields[..] {
+        [rows, columns] => format!("{rows} / {columns}"),
+        _ => tally.fields.concat(),
+    };
+    let mut header = vec![title.as_str()];
+    header.extend(columns);
+    if tally.fields.len() > 1 {
+        header.push("all");
+    }
+    let row = |row: &TallyRow| -> Vec<String> {
+        let counts = row.counts.iter().chain([&row.total]);
+        [row.value.clone()]
+            .into_iter()
+            .chain(counts.map(ToString::to_string))
+            .collect()
+    };
+    let rows: Vec<Vec<String>> = tally.rows.iter().map(row).collect();
+    match args.table {
+        TableFormat::Text => {
+            output.table(&header, &rows)?;
+            output.line(format!("{} tokens: {}", tally.total, tally.query))?;
+        }
+        separated => {
+            let tabs = separated == TableFormat::Tsv;
+            let head: Vec<String> = header.iter().map(|cell| (*cell).to_owned()).collect();
+            for cells in [head].iter().chain(&rows) {
+                output.line(separated_line(cells, tabs))?;
+            }
+        }
+    }
+    output.document(tally)
+}
+
+/// Returns cells as a line of CSV, or with tabs between them.
+pub(super) fn separated_line(cells: &[String], tabs: bool) -> String {
+    let separator = if tabs { "\t" } else { "," };
+    let quoted = |cell: &String| {
+        let plain = !cell.contains(['"', '\n', '\r']) && !cell.contains(separator);
+        match plain {
+            true => cell.clone(),
+            false => format!("\"{}\"", cell.replace('"', "\"\"")),
+        }
+    };
+    let cells: Vec<String> = cells.iter().map(quoted).collect();
+    cells.join(separator)
 }
 
 /// Keeps a query, and says so.

@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
+use chereme_corpus::Partner;
 
 use crate::args::Cli;
 use crate::output::Output;
 
 /// List what could be made from a sign
 ///
-/// Signs coded alike but for one component (minimal pairs), a recipe where one leads there, and values
+/// Signs coded for the same fields and alike in all but one (minimal pairs), a recipe where one leads there, and values
 /// that no sign has with the rest of the coding.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
@@ -18,6 +19,9 @@ pub(crate) struct Args {
     /// The sign: a gloss or token:41
     token: String,
 }
+
+/// How many possible partners people are shown.
+const MOST_POSSIBLE: usize = 20;
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let corpus = cli.open(&args.corpus)?;
@@ -33,10 +37,8 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         found.token,
         coding.join(" ")
     ))?;
-    let rows: Vec<Vec<String>> = found
-        .partners
-        .iter()
-        .map(|it| {
+    let rows = |partners: &[Partner]| -> Vec<Vec<String>> {
+        let row = |it: &Partner| {
             let change = format!("{}: {} -> {}", it.field, it.from, it.to);
             let recipe = it.recipe.clone().unwrap_or_default();
             vec![
@@ -46,15 +48,24 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 it.equal.to_string(),
                 recipe,
             ]
-        })
-        .collect();
-    if rows.is_empty() {
+        };
+        partners.iter().map(row).collect()
+    };
+    const TITLES: [&str; 5] = ["partner", "origin", "differs in", "alike in", "recipe"];
+    let certain = rows(&found.partners);
+    if certain.is_empty() {
         output.line("no sign differs from it in one component only")?;
     } else {
-        output.table(
-            &["partner", "origin", "differs in", "alike in", "recipe"],
-            &rows,
-        )?;
+        output.table(&TITLES, &certain)?;
+    }
+    let shown = &found.possible[..found.possible.len().min(MOST_POSSIBLE)];
+    if !shown.is_empty() {
+        output.line(format!(
+            "possible, where one of the two is not coded for all fields ({} of {}):",
+            shown.len(),
+            found.possible.len()
+        ))?;
+        output.table(&TITLES, &rows(shown))?;
     }
     for (field, values) in &found.unused {
         output.line(format!(

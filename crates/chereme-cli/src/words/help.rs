@@ -8,6 +8,40 @@ pub(super) fn of(english: &str) -> Option<&'static str> {
 
 const HELP: &[(&str, &str)] = &[
     (
+        "Count the minimal pairs of a lexicon",
+        "Compter les paires minimales d’un lexique",
+    ),
+    (
+        "The fields, with commas between them, or a set of Signbank's columns: S13, F8, F7, F5, C3",
+        "Les champs, séparés par des virgules, ou un ensemble de colonnes de Signbank : S13, F8, F7, F5, C3",
+    ),
+    ("How an empty field counts", "Comment un champ vide compte"),
+    ("List the pairs", "Énumérer les paires"),
+    (
+        "How many values of each field to count: a number, or all",
+        "Combien de valeurs de chaque champ compter : un nombre, ou all",
+    ),
+    (
+        "Count the values of a field among all tokens found, such as placement or signer",
+        "Compter les valeurs d’un champ parmi toutes les occurrences trouvées, par exemple placement ou signer",
+    ),
+    (
+        "Count them for each value of another field, too, such as signer",
+        "Les compter aussi pour chaque valeur d’un autre champ, par exemple signer",
+    ),
+    (
+        "Count how often the values of two fields meet, such as dominant.configuration placement",
+        "Compter combien de fois les valeurs de deux champs se rencontrent, par exemple dominant.configuration placement",
+    ),
+    (
+        "Write the table of --count or --cross with commas or tabs between its cells",
+        "Écrire le tableau de --count ou de --cross avec des virgules ou des tabulations entre les cellules",
+    ),
+    (
+        "Only values of this inventory, whose name may hold blanks",
+        "Seulement les valeurs de cet inventaire, dont le nom peut contenir des espaces",
+    ),
+    (
         "A corpus database for signed movement: import, search, recombine, look at and export signs",
         "Une base de corpus pour le mouvement signé : importer, chercher, recombiner, regarder et exporter des signes",
     ),

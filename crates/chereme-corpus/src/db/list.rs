@@ -277,6 +277,23 @@ pub(crate) const INVENTORIES: Table = Table {
     order: "i.id",
 };
 
+/// How many tokens have a value, each once, however many of its hands and phases have it.
+const TOKENS_WITH_VALUE: &str = "(SELECT count(DISTINCT u.token_id) FROM token_value u
+    WHERE u.component = i.component AND u.value = v.key AND u.inventory_id = i.id)";
+
+/// How many annotations of the tiers of an inventory say a value.
+const ANNOTATIONS_WITH_VALUE: &str =
+    "(SELECT count(*) FROM annotation a JOIN tier t ON t.id = a.tier_id
+    WHERE t.inventory_id = i.id AND a.state = 'value' AND a.value = v.key)";
+
+/// How many tokens have a value, and annotations that belong to none of them say it.
+const USES_OF_VALUE: &str = "(SELECT count(DISTINCT u.token_id) FROM token_value u
+    WHERE u.component = i.component AND u.value = v.key AND u.inventory_id = i.id)
+    + (SELECT count(*) FROM annotation a JOIN tier t ON t.id = a.tier_id
+       WHERE t.inventory_id = i.id AND a.state = 'value' AND a.value = v.key
+         AND NOT EXISTS (SELECT 1 FROM token_value u WHERE u.annotation_id = a.id
+                         AND u.inventory_id = i.id AND u.value = v.key))";
+
 pub(crate) const VALUES: Table = Table {
     columns: &[
         text("value", "v.key"),
@@ -295,11 +312,9 @@ pub(crate) const VALUES: Table = Table {
         ),
         text("hamnosys", "v.document ->> '$.hamnosys'"),
         text("broader", "v.document ->> '$.broader'"),
-        number(
-            "uses",
-            "(SELECT count(*) FROM token_value u
-              WHERE u.component = i.component AND u.value = v.key AND u.inventory_id = i.id)",
-        ),
+        number("tokens", TOKENS_WITH_VALUE),
+        number("annotations", ANNOTATIONS_WITH_VALUE),
+        number("uses", USES_OF_VALUE),
     ],
     from: "inventory_value v JOIN inventory i ON i.id = v.inventory_id",
     order: "i.id, v.position, v.id",

@@ -331,6 +331,17 @@ fn source_file_row(row: &Row<'_>) -> rusqlite::Result<SourceFileRow> {
     })
 }
 
+/// Returns the files of lexicon tables that were kept, oldest first.
+pub(crate) fn lexicon_files(connection: &Connection) -> Result<Vec<i64>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT id FROM source_file WHERE kind = 'lexicon' AND data IS NOT NULL ORDER BY id",
+    )?;
+    let files = statement
+        .query_map([], |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(files)
+}
+
 /// Returns the bytes of a file that was kept.
 pub(crate) fn source_bytes(connection: &Connection, id: i64) -> Result<Option<Vec<u8>>> {
     let data: Option<Vec<u8>> = connection

@@ -8,6 +8,7 @@ use tantivy::DocAddress;
 
 use super::compile::{Ask, Asked};
 use super::docs::{Docs, Numbers, Times};
+use super::finding::Finding;
 use super::known::Labels;
 use super::like::Scores;
 use super::plan::{self, Plan};
@@ -24,9 +25,15 @@ pub struct Answer {
     /// The tokens shown, in order.
     pub hits: Vec<Hit>,
     /// By field, how many of all tokens found have each value: the most frequent first, at most
-    /// [`FACET_VALUES`] of them, those of equal number by name.
+    /// as many as were asked for, those of equal number by name.
     #[serde(serialize_with = "counts")]
     pub facets: BTreeMap<String, Vec<(String, usize)>>,
+    /// By field, how many further values have not been counted, if some have not.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub facets_left_out: BTreeMap<String, usize>,
+    /// What the conditions of the query widened to, matched, or could not match.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub findings: Vec<Finding>,
     /// What whoever asked should know besides.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
@@ -69,7 +76,7 @@ pub struct Hit {
     pub components: BTreeMap<String, Value>,
 }
 
-/// How many values of a field are counted at most.
+/// How many values of a field are counted at most, unless more are asked for.
 pub const FACET_VALUES: usize = 20;
 
 /// In which order tokens are shown.
@@ -285,31 +292,42 @@ fn add_value(components: &mut BTreeMap<String, Value>, row: &CodedRow<'_>) {
     }
 }
 
-/// Returns how many of the documents have each value of each field.
+type Facets = BTreeMap<String, Vec<(String, usize)>>;
+
+/// Returns how many of the documents have each value of each field, at most `most` values of each,
+/// and how many values were left out of each.
 pub(crate) fn facets(
     ask: &Ask<'_>,
     found: &[DocAddress],
-) -> Asked<BTreeMap<String, Vec<(String, usize)>>> {
+    most: usize,
+) -> Asked<(Facets, BTreeMap<String, usize>)> {
+    let mut left_out = BTreeMap::new();
     let mut facets = coded_facets(ask, found)?;
+    for (field, values) in &mut facets {
+        let left = keep_most_frequent(values, most);
+        left_out.insert(field.clone(), left);
+    }
     for (facet, field, named) in [
         ("gloss", "sign", Named::Sign),
         ("recording", "recording", Named::Recording),
         ("signer", "signer", Named::Signer),
     ] {
-        let counts = row_facet(ask, found, field, named)?;
+        let (counts, left) = row_facet(ask, found, (field, named), most)?;
         if !counts.is_empty() {
             facets.insert(facet.to_owned(), counts);
+            left_out.insert(facet.to_owned(), left);
         }
     }
-    Ok(facets)
+    left_out.retain(|_, left| *left > 0);
+    Ok((facets, left_out))
 }
 
 fn row_facet(
     ask: &Ask<'_>,
     found: &[DocAddress],
-    field: &str,
-    named: Named,
-) -> Result<Vec<(String, usize)>> {
+    (field, named): (&str, Named),
+    most: usize,
+) -> Result<(Vec<(String, usize)>, usize)> {
     ask.go_on()?;
     let rows = Numbers::rows(ask.searcher, field)?;
     let mut all: Vec<i64> = found.iter().filter_map(|doc| rows.get(*doc)).collect();
@@ -318,7 +336,8 @@ fn row_facet(
         .chunk_by(|a, b| a == b)
         .map(|equal| (equal.len(), equal[0]))
         .collect();
-    let least = counts.len().min(FACET_VALUES);
+    let all = counts.len();
+    let least = all.min(most);
     if least > 0 && counts.len() > least {
         counts.select_nth_unstable_by(least - 1, |a, b| b.0.cmp(&a.0));
         // Those of equal number are told apart by name, so all of them stay.
@@ -331,19 +350,20 @@ fn row_facet(
             named_counts.push((name, count));
         }
     }
-    Ok(most_frequent(named_counts))
+    keep_most_frequent(&mut named_counts, most);
+    let left_out = all - named_counts.len();
+    Ok((named_counts, left_out))
 }
 
-fn most_frequent(mut counts: Vec<(String, usize)>) -> Vec<(String, usize)> {
+/// Keeps the most frequent values, in order, and returns how many others there were.
+fn keep_most_frequent(counts: &mut Vec<(String, usize)>, most: usize) -> usize {
     counts.sort_by(|a, b| b.1.cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
-    counts.truncate(FACET_VALUES);
-    counts
+    let left_out = counts.len().saturating_sub(most);
+    counts.truncate(most);
+    left_out
 }
 
-fn coded_facets(
-    ask: &Ask<'_>,
-    found: &[DocAddress],
-) -> Asked<BTreeMap<String, Vec<(String, usize)>>> {
+fn coded_facets(ask: &Ask<'_>, found: &[DocAddress]) -> Asked<Facets> {
     let mut counts: BTreeMap<String, BTreeMap<String, usize>> = BTreeMap::new();
     for docs in found.chunk_by(|a, b| a.segment_ord == b.segment_ord) {
         let Some(first) = docs.first() else {
@@ -364,9 +384,8 @@ fn coded_facets(
             *values.entry(value.clone()).or_default() += count;
         }
     }
-    let of_field = |(field, values): (String, BTreeMap<String, usize>)| {
-        (field, most_frequent(values.into_iter().collect()))
-    };
+    let of_field =
+        |(field, values): (String, BTreeMap<String, usize>)| (field, values.into_iter().collect());
     Ok(counts.into_iter().map(of_field).collect())
 }
 

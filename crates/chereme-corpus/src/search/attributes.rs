@@ -59,7 +59,7 @@ fn names_one(comparison: &Comparison) -> bool {
 fn is(row: &AttributeRow, value: &Value, operator: Operator) -> bool {
     match &value.wanted {
         Wanted::Present => true,
-        Wanted::Missing(_) | Wanted::Features(_) => false,
+        Wanted::Missing(_) | Wanted::Features(_) | Wanted::Steps(_) => false,
         Wanted::Named(pattern) if operator == Operator::Exactly => {
             Glob::exact(pattern).matches(row.text.trim())
         }
@@ -68,7 +68,7 @@ fn is(row: &AttributeRow, value: &Value, operator: Operator) -> bool {
             let equal = wanted
                 .zip(row.number)
                 .is_some_and(|(one, other)| one == other);
-            equal || Glob::whole(pattern).matches(&fold(row.text.trim()))
+            equal || Glob::whole(pattern).fits(row.text.trim(), &fold(row.text.trim()))
         }
     }
 }

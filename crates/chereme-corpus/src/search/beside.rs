@@ -10,6 +10,8 @@ use chereme_sign::{Reading, Relation};
 use super::compile::{self, Ask, Asked};
 use super::component::ComponentTest;
 use super::docs::{Docs, Numbers, Times};
+use super::finding::FindingKind;
+use super::findings;
 use super::plan::{self, Plan};
 use super::terms::{self, hand_codes, hands_of, phase_code, phase_counts};
 use super::{texts, whole};
@@ -46,7 +48,10 @@ impl Beside {
                 let test = ComponentTest::new(ask, field, comparison, range)?;
                 vec![Other::Component(Box::new(test))]
             }
-            What::Tier(name, comparison) => vec![Other::Tier(name.clone(), comparison.clone())],
+            What::Tier(name, comparison) => {
+                check_tier(ask, name, test)?;
+                vec![Other::Tier(name.clone(), comparison.clone())]
+            }
             What::Whole(field, _) | What::Words(field, _) | What::Fuzzy { field, .. } => {
                 texts_beside(ask, test, *field)?
             }
@@ -182,6 +187,21 @@ impl Beside {
         }
         Ok(())
     }
+}
+
+/// Reports that no tier of the corpus has such a name.
+fn check_tier(ask: &Ask<'_>, name: &Pattern, test: &Test) -> Asked<()> {
+    let names = answers::tier_names(ask.connection)?;
+    if names.iter().any(|it| name.matches(it)) {
+        return Ok(());
+    }
+    let near = findings::like(&name.segments().concat(), &names);
+    let kind = FindingKind::CannotMatch {
+        why: "no tier is called so".to_owned(),
+        names: if near.is_empty() { names } else { near },
+    };
+    ask.find(test.to_string(), test.at, kind);
+    Ok(())
 }
 
 fn texts_beside(ask: &Ask<'_>, test: &Test, field: TextField) -> Asked<Vec<Other>> {

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use chereme_sign::Component;
 use chereme_sign::query::{
-    Comparison, Expr, Missing, Operator, Property, QueryError, Test, TimeField, TimeTest, Value,
-    Wanted, What,
+    At, Comparison, Expr, Missing, Operator, Property, QueryError, Test, TimeField, TimeTest,
+    Value, Wanted, What,
 };
 use chereme_sign::text::{fold, nearest};
 use rusqlite::Connection;
@@ -20,6 +20,7 @@ use super::attributes;
 use super::beside::Beside;
 use super::component::ComponentTest;
 use super::docs::{self, Docs};
+use super::finding::{Finding, FindingKind};
 use super::index::{Fields, SearchIndex};
 use super::known::{KnownReadings, Signs, terms_of};
 use super::plan::Plan;
@@ -38,6 +39,7 @@ pub(crate) struct Ask<'a> {
     pub(crate) fields: Fields,
     pub(crate) vocabulary: Arc<Vocabulary>,
     pub(crate) notes: RefCell<BTreeSet<String>>,
+    pub(crate) findings: RefCell<Vec<Finding>>,
     /// How many rows were looked at.
     pub(crate) looked_at: Cell<u64>,
     /// Hears how many, and says whether to go on.
@@ -111,6 +113,15 @@ impl Ask<'_> {
     pub(crate) fn note(&self, text: String) {
         self.notes.borrow_mut().insert(text);
     }
+
+    /// Adds a finding about a condition, once.
+    pub(crate) fn find(&self, condition: String, at: At, kind: FindingKind) {
+        let finding = Finding::new(condition, at, kind);
+        let mut findings = self.findings.borrow_mut();
+        if !findings.contains(&finding) {
+            findings.push(finding);
+        }
+    }
 }
 
 /// Returns the plan for an expression; a search by example wants every token, in another order.
@@ -135,6 +146,13 @@ pub(crate) fn plan(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
             Ok(Plan::Beside(Box::new(beside)))
         }
         Expr::Like(_) => Ok(Plan::everything()),
+        Expr::Saved(saved) => Err(QueryError {
+            at: saved.at.range(),
+            message: format!("no search is saved as {:?}", saved.name),
+            remedy: "`chereme list CORPUS searches` lists those that are".to_owned(),
+            suggestion: None,
+        }
+        .into()),
     }
 }
 
@@ -152,7 +170,7 @@ fn inner(ask: &Ask<'_>, expr: &Expr) -> Asked<Plan> {
         None => plan(ask, expr),
         Some(like) => Err(QueryError {
             at: like.at.range(),
-            message: "`like` puts the whole answer in order and leaves nothing out".to_owned(),
+            message: "`like` puts the whole answer in order, or leaves out of all of it what is less alike".to_owned(),
             remedy: "write it beside the other terms, not after `not` or `or`".to_owned(),
             suggestion: None,
         }
@@ -206,7 +224,7 @@ fn property(ask: &Ask<'_>, property: Property, comparison: &Comparison) -> Asked
     let plans = values.map(|value| match &value.wanted {
         Wanted::Present => has(ask, property),
         Wanted::Missing(Missing::Unset) => Ok(has(ask, property)?.not()),
-        Wanted::Missing(_) | Wanted::Features(_) => Ok(Plan::nothing()),
+        Wanted::Missing(_) | Wanted::Features(_) | Wanted::Steps(_) => Ok(Plan::nothing()),
         Wanted::Named(pattern) => {
             let (glob, text) = if exactly {
                 (Glob::exact(pattern), pattern.to_string())
@@ -249,7 +267,7 @@ impl Wish<'_> {
         if self.exactly {
             self.glob.matches(name)
         } else {
-            self.glob.matches(&fold(name))
+            self.glob.fits(name, &fold(name))
         }
     }
 

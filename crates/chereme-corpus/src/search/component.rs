@@ -13,6 +13,7 @@ use super::known::{KnownReading, KnownReadings};
 use super::plan::Plan;
 use super::terms::{hands_of, phase_counts};
 use super::vocabulary::Accepted;
+use super::{findings, steps};
 
 /// A comparison of a component, ready to be made.
 ///
@@ -21,9 +22,10 @@ use super::vocabulary::Accepted;
 /// `unset`) all parts count. Where it names no hand or phase, every reading of the token counts.
 pub(crate) struct ComponentTest {
     pub(crate) field: Field,
-    comparison: Comparison,
+    subject_at: std::ops::Range<usize>,
+    pub(crate) comparison: Comparison,
     /// For each part what passes for each of the values.
-    parts: Vec<(Option<String>, Vec<Accepted>)>,
+    pub(crate) parts: Vec<(Option<String>, Vec<Accepted>)>,
 }
 
 impl ComponentTest {
@@ -38,9 +40,10 @@ impl ComponentTest {
         subject_at: std::ops::Range<usize>,
     ) -> Asked<Self> {
         let known = ask.readings(field.component)?;
-        let all = all_parts(ask, field, &known, subject_at)?;
+        let all = all_parts(ask, field, &known, subject_at.clone())?;
         let mut meant: BTreeSet<&Option<String>> = BTreeSet::new();
-        for value in &comparison.values {
+        let own = comparison.values.iter();
+        for value in own.filter(|it| !matches!(it.wanted, Wanted::Steps(_))) {
             meant.extend(parts_meant(ask, field, value, &known, &all)?);
         }
         let accepted = |part: &Option<String>| {
@@ -55,6 +58,7 @@ impl ComponentTest {
             values.collect()
         };
         Ok(Self {
+            subject_at: subject_at.clone(),
             field: field.clone(),
             comparison: comparison.clone(),
             parts: meant
@@ -79,8 +83,49 @@ impl ComponentTest {
         })
     }
 
-    /// Returns the plan for the tokens that pass.
+    /// Returns the plan for the tokens that pass, and reports what it found of the values.
     pub(crate) fn plan(&self, ask: &Ask<'_>) -> Asked<Plan> {
+        self.report(ask)?;
+        let mut plans = vec![self.own_plan(ask)?];
+        for value in &self.comparison.values {
+            if let Wanted::Steps(steps) = &value.wanted {
+                let (operator, at) = (self.comparison.operator, self.subject_at.clone());
+                plans.push(steps::plan(ask, &self.field, operator, steps, at)?);
+            }
+        }
+        Ok(Plan::any(plans))
+    }
+
+    /// Reports what each of the values found in the corpus.
+    pub(crate) fn report(&self, ask: &Ask<'_>) -> Asked<()> {
+        findings::report(ask, self)
+    }
+
+    /// Returns the terms of the values of a part that pass, on one hand, each after its phase.
+    pub(crate) fn passing_terms(
+        &self,
+        ask: &Ask<'_>,
+        part: &Option<String>,
+        hand: char,
+    ) -> Asked<steps::Phased> {
+        let known = ask.readings(self.field.component)?;
+        let accepted = self.parts.iter().find(|(own, _)| own == part);
+        let (Some(values), Some((_, accepted))) = (known.parts.get(part), accepted) else {
+            return Ok(Vec::new());
+        };
+        let passing = values.iter().flat_map(|(folded, alike)| {
+            let passes =
+                move |known: &&KnownReading| self.accepts_by(accepted, &known.reading, folded);
+            alike.iter().filter(passes)
+        });
+        let terms = passing.flat_map(|known| &known.terms);
+        let own = terms.filter(|(own, ..)| *own == hand);
+        Ok(own
+            .map(|(_, phase, term)| (phase.clone(), term.clone()))
+            .collect())
+    }
+
+    fn own_plan(&self, ask: &Ask<'_>) -> Asked<Plan> {
         let known = ask.readings(self.field.component)?;
         let mut passing = Vec::new();
         for (part, accepted) in &self.parts {
@@ -217,10 +262,7 @@ fn parts_meant<'a>(
                 let names = names.iter().map(String::as_str);
                 Err(unknown_value(value.at, text, names).into())
             }
-            None => {
-                ask.note(format!("no value of {field} is like {pattern}"));
-                Ok(all.iter().collect())
-            }
+            None => Ok(all.iter().collect()),
         },
         _ => Ok(all.iter().collect()),
     }
@@ -230,7 +272,7 @@ type Values = std::collections::BTreeMap<String, Vec<KnownReading>>;
 
 fn has_value(values: &Values, accepted: &Accepted) -> bool {
     match accepted.listed() {
-        Some(listed) => listed.iter().any(|text| values.contains_key(text)),
+        Some(mut listed) => listed.any(|text| values.contains_key(text)),
         None => values.iter().any(|(folded, alike)| {
             let mut values = alike.iter().filter_map(|known| known.reading.value());
             values.any(|value| accepted.fits(value, folded))
@@ -238,27 +280,25 @@ fn has_value(values: &Values, accepted: &Accepted) -> bool {
     }
 }
 
-/// Returns the names that would have been understood, those of inventories first.
+/// Returns the names that would have been understood, those in use first.
 fn names(
     ask: &Ask<'_>,
     component: Component,
     known: &KnownReadings,
     parts: &BTreeSet<Option<String>>,
 ) -> Vec<String> {
+    // The values in use come first: they are what can be found.
     let mut names: Vec<String> = Vec::new();
+    for part in parts {
+        let values = known.parts.get(part).into_iter();
+        let stored = values.flat_map(|values| values.values()).flatten();
+        let stored = stored.filter_map(|known| known.reading.value());
+        names.extend(stored.map(str::to_owned));
+    }
     for part in parts {
         let inventories = ask.vocabulary.of(component, part.as_deref());
         let ids = inventories.flat_map(|inventory| &inventory.values);
         names.extend(ids.map(|value| value.id.clone()));
-    }
-    for part in parts {
-        let values = known
-            .parts
-            .get(part)
-            .into_iter()
-            .flat_map(|values| values.values());
-        let stored = values.flatten().filter_map(|known| known.reading.value());
-        names.extend(stored.map(str::to_owned));
     }
     let mut seen = BTreeSet::new();
     names.retain(|name| seen.insert(name.clone()));

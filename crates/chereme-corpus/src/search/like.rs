@@ -22,6 +22,8 @@ use crate::db::signs::TokenRow;
 /// two unset fields are not equal. Several components are weighted, several examples count alike.
 pub(crate) struct Scores {
     scores: BTreeMap<DocAddress, f64>,
+    /// Likeness to single examples, and what it must be above.
+    bars: Vec<(BTreeMap<DocAddress, f64>, f64)>,
     /// The rows of the examples.
     pub(crate) examples: Vec<i64>,
 }
@@ -31,12 +33,19 @@ impl Scores {
     pub(crate) fn new(ask: &Ask<'_>, likes: &[&Like]) -> Asked<Self> {
         let mut all = Self {
             scores: BTreeMap::new(),
+            bars: Vec::new(),
             examples: Vec::new(),
         };
         for like in likes {
             let token = example(ask, like)?;
             all.examples.push(token.id);
-            all.add(ask, like, &token, 1.0 / likes.len() as f64)?;
+            let own = scored(ask, like, &token)?;
+            for (doc, score) in &own {
+                *all.scores.entry(*doc).or_default() += score / likes.len() as f64;
+            }
+            if let Some(least) = like.above {
+                all.bars.push((own, least));
+            }
         }
         Ok(all)
     }
@@ -46,38 +55,48 @@ impl Scores {
         self.scores.get(&doc).copied().unwrap_or(0.0).min(1.0)
     }
 
-    fn add(&mut self, ask: &Ask<'_>, like: &Like, token: &TokenRow, share: f64) -> Asked<()> {
-        let on: Vec<(Field, f64)> = if like.on.is_empty() {
-            Component::ALL
-                .map(|component| (Field::new(component), 1.0))
-                .to_vec()
-        } else {
-            let weighted = |one: &Weighted| (one.field.clone(), one.weight);
-            like.on.iter().map(weighted).collect()
-        };
-        let slots = slots(ask, token)?;
-        let counted: Vec<(Vec<&Slot>, f64)> = on
-            .iter()
-            .filter_map(|(field, weight)| {
-                let own: Vec<&Slot> = slots.iter().filter(|slot| slot.belongs(field)).collect();
-                if own.is_empty() && !like.on.is_empty() {
-                    ask.note(format!("token:{} has no value of {field}", token.id));
-                }
-                (!own.is_empty()).then_some((own, *weight))
-            })
-            .collect();
-        let total: f64 = counted.iter().map(|(_, weight)| weight).sum();
-        for (slots, weight) in counted {
-            let each = share * weight / total / slots.len() as f64;
-            for slot in slots {
-                let query = AnyTerm::new(ask.fields.reading, slot.terms(ask)?);
-                for doc in ask.run(&query)? {
-                    *self.scores.entry(doc).or_default() += each;
-                }
+    /// Tells whether a document is as alike to each example as is asked for.
+    pub(crate) fn pass(&self, doc: DocAddress) -> bool {
+        // Shares of a whole are added up, which is exact only to the last few digits.
+        const SLACK: f64 = 1e-9;
+        let mut bars = self.bars.iter();
+        bars.all(|(own, least)| own.get(&doc).is_some_and(|score| *score > least + SLACK))
+    }
+}
+
+/// Returns how alike each document is to one example, from 0 to 1.
+fn scored(ask: &Ask<'_>, like: &Like, token: &TokenRow) -> Asked<BTreeMap<DocAddress, f64>> {
+    let mut scores = BTreeMap::new();
+    let on: Vec<(Field, f64)> = if like.on.is_empty() {
+        Component::ALL
+            .map(|component| (Field::new(component), 1.0))
+            .to_vec()
+    } else {
+        let weighted = |one: &Weighted| (one.field.clone(), one.weight);
+        like.on.iter().map(weighted).collect()
+    };
+    let slots = slots(ask, token)?;
+    let counted: Vec<(Vec<&Slot>, f64)> = on
+        .iter()
+        .filter_map(|(field, weight)| {
+            let own: Vec<&Slot> = slots.iter().filter(|slot| slot.belongs(field)).collect();
+            if own.is_empty() && !like.on.is_empty() {
+                ask.note(format!("token:{} has no value of {field}", token.id));
+            }
+            (!own.is_empty()).then_some((own, *weight))
+        })
+        .collect();
+    let total: f64 = counted.iter().map(|(_, weight)| weight).sum();
+    for (slots, weight) in counted {
+        let each = weight / total / slots.len() as f64;
+        for slot in slots {
+            let query = AnyTerm::new(ask.fields.reading, slot.terms(ask)?);
+            for doc in ask.run(&query)? {
+                *scores.entry(doc).or_default() += each;
             }
         }
-        Ok(())
     }
+    Ok(scores)
 }
 
 /// One thing coded of the example.

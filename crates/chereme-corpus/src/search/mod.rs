@@ -4,6 +4,7 @@
 //! it, what it cannot (relations of time, whole texts) is asked of the rows, of as few tokens as the
 //! rest of the query leaves over.
 
+mod alone;
 mod answer;
 mod any_term;
 mod attributes;
@@ -12,11 +13,15 @@ mod compile;
 mod component;
 mod directory;
 mod docs;
+mod finding;
+mod findings;
 pub(crate) mod index;
 mod known;
 mod like;
 mod meant;
 mod plan;
+mod steps;
+mod tally;
 pub(crate) mod terms;
 #[cfg(test)]
 mod tests;
@@ -38,9 +43,11 @@ use crate::progress::{Progress, Step, Unit, unheard};
 use answer::Ranks;
 pub use answer::{Answer, FACET_VALUES, Hit, Order};
 use compile::{Ask, Asked, Failure};
+pub use finding::{Finding, FindingKind};
 use index::SearchIndex;
 use like::Scores;
 pub use meant::{guessed, meant};
+pub use tally::{NO_VALUE, Tally, TallyRow};
 
 /// What of an answer is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,6 +58,8 @@ pub struct SearchOptions {
     pub offset: usize,
     /// Whether to count the values of all tokens found.
     pub facets: bool,
+    /// How many values of a field to count at most.
+    pub facet_values: usize,
     /// In which order.
     pub order: Order,
 }
@@ -61,6 +70,7 @@ impl Default for SearchOptions {
             limit: None,
             offset: 0,
             facets: true,
+            facet_values: FACET_VALUES,
             order: Order::Rank,
         }
     }
@@ -70,7 +80,7 @@ impl Corpus {
     /// Finds the tokens that answer a query; see [`chereme_sign::query`] for the language.
     ///
     /// A search sees one state of the corpus: everything that was done before it, by this program or
-    /// another, and nothing that is being done meanwhile. `@NAME` asks the query that is
+    /// another, and nothing that is being done meanwhile. `@NAME` in it stands for the query that is
     /// [kept](Self::keep_searches) under that name.
     ///
     /// # Errors
@@ -91,9 +101,20 @@ impl Corpus {
         options: &SearchOptions,
         progress: &mut Progress<'_>,
     ) -> Result<Answer> {
+        self.asked(query, progress, &mut |ask, query| {
+            answer(ask, query, options)
+        })
+    }
+
+    /// Asks something of one state of the corpus that a query is part of.
+    fn asked<T>(
+        &mut self,
+        query: &str,
+        progress: &mut Progress<'_>,
+        ask: &mut dyn FnMut(&Ask<'_>, &Query) -> Asked<T>,
+    ) -> Result<T> {
         const ATTEMPTS: usize = 8;
-        let query = &*kept::resolved(self.store.read(), query)?;
-        let parsed = Query::parse(query).map_err(|error| wrong(query, &error))?;
+        let parsed = kept::parsed(self.store.read(), query)?;
         let hear = RefCell::new(|done| {
             progress.tell(Step {
                 task: "",
@@ -108,7 +129,7 @@ impl Corpus {
             if !index.is_current(connection)? {
                 continue;
             }
-            let answer = answer((connection, index), &parsed, options, &hear);
+            let answer = with_index((connection, index), &hear, |it| ask(it, &parsed));
             drop(reading);
             return answer.map_err(|failure| match failure {
                 Failure::Query(error) => wrong(query, &error),
@@ -132,7 +153,10 @@ pub(crate) fn tokens(
         ..SearchOptions::default()
     };
     let hear = RefCell::new(|_| Ok(()));
-    match answer((connection, index), &parsed, &options, &hear) {
+    let answer = with_index((connection, index), &hear, |ask| {
+        answer(ask, &parsed, &options)
+    });
+    match answer {
         Ok(answer) => Ok(answer.hits.into_iter().map(|hit| hit.token).collect()),
         Err(Failure::Query(error)) => Err(wrong(query, &error)),
         Err(Failure::Other(error)) => Err(error),
@@ -157,46 +181,54 @@ pub(crate) fn wrong(query: &str, error: &QueryError) -> Error {
     }
 }
 
-fn answer(
+fn with_index<T>(
     (connection, index): (&Connection, &SearchIndex),
-    query: &Query,
-    options: &SearchOptions,
     hear: &RefCell<dyn FnMut(u64) -> Result<()> + '_>,
-) -> Asked<Answer> {
+    ask: impl FnOnce(&Ask<'_>) -> Asked<T>,
+) -> Asked<T> {
     let (searcher, fields) = index.searcher();
-    let ask = Ask {
+    let vocabulary = index.memory().vocabulary(connection)?;
+    ask(&Ask {
         connection,
         index,
         searcher: &searcher,
         fields,
-        vocabulary: index.memory().vocabulary(connection)?,
+        vocabulary,
         notes: Default::default(),
+        findings: Default::default(),
         looked_at: Default::default(),
         hear,
-    };
-    let plan = compile::plan(&ask, &query.root)?;
-    let found = plan::evaluate(&ask, &plan, None)?;
+    })
+}
+
+fn answer(ask: &Ask<'_>, query: &Query, options: &SearchOptions) -> Asked<Answer> {
+    let plan = compile::plan(ask, &query.root)?;
+    let mut found = plan::evaluate(ask, &plan, None)?;
     let likes = likes(&query.root);
     let scores = match &likes[..] {
         [] => None,
-        some => Some(Scores::new(&ask, some)?),
+        some => Some(Scores::new(ask, some)?),
     };
+    alone::report(ask, query, found.len())?;
+    if let Some(scores) = &scores {
+        found.retain(|doc| scores.pass(*doc));
+    }
     let texts = match options.order {
-        Order::Rank => ranked_texts(&ask, &query.root)?,
+        Order::Rank => ranked_texts(ask, &query.root)?,
         _ => Vec::new(),
     };
-    let ranks = Ranks::new(&ask, &found, scores.as_ref(), &texts)?;
+    let ranks = Ranks::new(ask, &found, scores.as_ref(), &texts)?;
     let end = options
         .limit
         .map_or(usize::MAX, |limit| options.offset.saturating_add(limit));
-    let page = answer::page(&ask, &found, options.order, &ranks, options.offset..end)?;
-    let hits = answer::hits(&ask, &page, scores.as_ref())?;
-    let facets = if options.facets {
-        answer::facets(&ask, &found)?
+    let page = answer::page(ask, &found, options.order, &ranks, options.offset..end)?;
+    let hits = answer::hits(ask, &page, scores.as_ref())?;
+    let (facets, facets_left_out) = if options.facets {
+        answer::facets(ask, &found, options.facet_values)?
     } else {
         Default::default()
     };
-    if index.take_rebuilt() {
+    if ask.index.take_rebuilt() {
         ask.note("the search index did not follow the rows and was made anew".to_owned());
     }
     Ok(Answer {
@@ -204,7 +236,9 @@ fn answer(
         total: found.len(),
         hits,
         facets,
-        notes: ask.notes.into_inner().into_iter().collect(),
+        facets_left_out,
+        findings: ask.findings.take(),
+        notes: ask.notes.take().into_iter().collect(),
     })
 }
 

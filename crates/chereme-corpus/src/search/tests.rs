@@ -1,5 +1,6 @@
 //! Searching, from rows to answers.
 
+mod lexicon;
 mod table;
 
 use chereme_sign::{Field, Phase};

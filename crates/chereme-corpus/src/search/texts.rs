@@ -1,6 +1,6 @@
 //! Words and patterns of words, folded: what the index holds of texts, and how one text is compared.
 
-use chereme_sign::query::{Pattern, What};
+use chereme_sign::query::{Expression, Pattern, What};
 use chereme_sign::text::{edit_distance, fold};
 
 /// Returns the words of a text: its stretches of letters and digits, folded.
@@ -12,19 +12,23 @@ pub(crate) fn words(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// A folded word or whole text with wildcards: the stretches between them.
+/// A folded word or whole text with wildcards: the stretches between them; or a regular expression,
+/// and whether it minds case and accents.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Glob(Vec<String>);
+pub(crate) struct Glob(Vec<String>, Option<(Expression, bool)>);
 
 impl Glob {
     /// Returns the pattern over a whole text.
     pub(crate) fn whole(pattern: &Pattern) -> Self {
-        Self(pattern.segments().iter().map(|text| fold(text)).collect())
+        let segments = pattern.segments().iter().map(|text| fold(text));
+        let expression = pattern.expression().cloned();
+        Self(segments.collect(), expression.map(|it| (it, false)))
     }
 
     /// Returns the pattern over a whole text that minds case and accents.
     pub(crate) fn exact(pattern: &Pattern) -> Self {
-        Self(pattern.segments().to_vec())
+        let expression = pattern.expression().cloned();
+        Self(pattern.segments().to_vec(), expression.map(|it| (it, true)))
     }
 
     /// Returns a pattern for each word of a pattern over words; a wildcard does not reach over the
@@ -52,7 +56,8 @@ impl Glob {
         let asks = |word: &Vec<String>| word.iter().any(|segment| !segment.is_empty());
         let first = found.iter().position(asks).unwrap_or(found.len());
         let last = found.iter().rposition(asks).map_or(first, |last| last + 1);
-        found[first..last].iter().cloned().map(Self).collect()
+        let words = found[first..last].iter().cloned();
+        words.map(|word| Self(word, None)).collect()
     }
 
     /// Returns the text where there is no wildcard.
@@ -70,6 +75,11 @@ impl Glob {
 
     /// Tells whether the whole of a text, folded or not as the pattern is, fits.
     pub(crate) fn matches(&self, text: &str) -> bool {
+        match &self.1 {
+            Some((expression, true)) => return expression.finds_exactly(text),
+            Some((expression, false)) => return expression.finds(text),
+            None => {}
+        }
         let Some((last, others)) = self.0.split_last() else {
             return false;
         };
@@ -86,6 +96,11 @@ impl Glob {
             }
         }
         rest.ends_with(last.as_str())
+    }
+
+    /// Tells whether a text or its folded form fits: a regular expression may name accents.
+    pub(crate) fn fits(&self, text: &str, folded: &str) -> bool {
+        self.matches(folded) || self.1.is_some() && self.matches(text)
     }
 
     /// Returns the pattern as a regular expression over one word.

@@ -1,6 +1,6 @@
 //! The values that queries may name: those of the corpus's inventories.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_sign::query::{Feature, Operator, Wanted};
 use chereme_sign::text::fold;
@@ -42,7 +42,10 @@ impl Known {
 
 /// The stored values that pass for one wanted value.
 pub(crate) struct Accepted {
+    /// Spellings of the values that are meant, folded.
     folded: BTreeSet<String>,
+    /// Spellings of the values narrower than those, folded.
+    narrower: BTreeSet<String>,
     exact: BTreeSet<String>,
     folded_glob: Option<Glob>,
     exact_glob: Option<Glob>,
@@ -53,12 +56,17 @@ pub(crate) struct Accepted {
 impl Accepted {
     /// Tells whether a stored value is among them.
     pub(crate) fn fits(&self, value: &str, folded: &str) -> bool {
+        self.means(value, folded) || self.narrower.contains(folded)
+    }
+
+    /// Tells whether a stored value is among them without being narrower than what is asked for.
+    pub(crate) fn means(&self, value: &str, folded: &str) -> bool {
         self.folded.contains(folded)
             || self.exact.contains(value)
             || self
                 .folded_glob
                 .as_ref()
-                .is_some_and(|glob| glob.matches(folded))
+                .is_some_and(|glob| glob.fits(value, folded))
             || self
                 .exact_glob
                 .as_ref()
@@ -66,10 +74,10 @@ impl Accepted {
     }
 
     /// Returns all of them, folded, where they can be listed.
-    pub(crate) fn listed(&self) -> Option<&BTreeSet<String>> {
+    pub(crate) fn listed(&self) -> Option<impl Iterator<Item = &String>> {
         let plain =
             self.exact.is_empty() && self.folded_glob.is_none() && self.exact_glob.is_none();
-        plain.then_some(&self.folded)
+        plain.then(|| self.folded.union(&self.narrower))
     }
 }
 
@@ -135,6 +143,7 @@ impl Vocabulary {
         let exactly = operator == Operator::Exactly;
         let mut accepted = Accepted {
             folded: BTreeSet::new(),
+            narrower: BTreeSet::new(),
             exact: BTreeSet::new(),
             folded_glob: None,
             exact_glob: None,
@@ -143,21 +152,34 @@ impl Vocabulary {
         match wanted {
             Wanted::Named(pattern) if exactly => {
                 let glob = Glob::exact(pattern);
+                let literal = glob.literal().is_some();
                 self.add(
                     &mut accepted,
                     (component, part),
                     Reach::Letters,
-                    |value, _| value.spellings().any(|text| glob.matches(text)),
+                    |value, _| match literal {
+                        true => value.spellings().any(|text| glob.matches(text)),
+                        false => glob.matches(&value.id),
+                    },
                 );
                 accepted.exact_glob = Some(glob);
             }
             Wanted::Named(pattern) => {
                 let glob = Glob::whole(pattern);
+                let literal = glob.literal().is_some();
+                // A pattern is of the names that a value has, not of the other spellings of it.
+                let named = |value: &InventoryValue| {
+                    let names = value.names.values().chain([&value.id]);
+                    names.into_iter().any(|text| glob.fits(text, &fold(text)))
+                };
                 self.add(
                     &mut accepted,
                     (component, part),
-                    Reach::Narrower,
-                    |_, folded| folded.iter().any(|text| glob.matches(text)),
+                    Reach::Narrower { aliases: literal },
+                    |value, folded| match literal {
+                        true => folded.iter().any(|text| glob.matches(text)),
+                        false => named(value),
+                    },
                 );
                 match glob.literal() {
                     Some(text) => _ = accepted.folded.insert(text.to_owned()),
@@ -169,7 +191,7 @@ impl Vocabulary {
                     has(value, features, exactly)
                 });
             }
-            Wanted::Present | Wanted::Missing(_) => {}
+            Wanted::Present | Wanted::Missing(_) | Wanted::Steps(_) => {}
         }
         accepted
     }
@@ -181,14 +203,14 @@ impl Vocabulary {
         reach: Reach,
         meant: impl Fn(&InventoryValue, &[String]) -> bool,
     ) {
-        let mut within: BTreeSet<String> = BTreeSet::new();
-        let mut beside: Vec<&[String]> = Vec::new();
-        for known in self.known(component, part) {
-            let meant: BTreeSet<&str> = known
+        let mut beside: BTreeSet<&str> = BTreeSet::new();
+        let mut all_meant: BTreeSet<(usize, &str)> = BTreeSet::new();
+        for (number, known) in self.known(component, part).enumerate() {
+            let own = known
                 .values()
                 .filter(|(value, folded)| meant(value, folded))
-                .map(|(value, _)| value.id.as_str())
-                .collect();
+                .map(|(value, _)| value.id.as_str());
+            let meant: BTreeSet<&str> = own.collect();
             if meant.is_empty() {
                 continue;
             }
@@ -199,23 +221,86 @@ impl Vocabulary {
                     Reach::Letters if is_meant(value) => {
                         accepted.exact.extend(value.spellings().map(str::to_owned));
                     }
-                    Reach::Own | Reach::Narrower if is_meant(value) => {
+                    Reach::Letters => beside.extend(value.spellings()),
+                    Reach::Own | Reach::Narrower { aliases: true } if is_meant(value) => {
                         accepted.folded.extend(folded.iter().cloned());
                     }
-                    Reach::Narrower if known.inventory.chain(&value.id).any(is_meant) => {
-                        within.extend(folded.iter().cloned());
+                    Reach::Narrower { aliases: false } if is_meant(value) => {
+                        accepted.folded.insert(fold(&value.id));
                     }
-                    Reach::Narrower => beside.push(folded),
+                    Reach::Narrower { .. } if known.inventory.chain(&value.id).any(is_meant) => {
+                        accepted.narrower.extend(folded.iter().cloned());
+                    }
                     _ => {}
                 }
             }
+            all_meant.extend(meant.into_iter().map(|id| (number, id)));
         }
-        if !within.is_empty() {
-            let beside: BTreeSet<&String> = beside.into_iter().flatten().collect();
-            within.retain(|text| !beside.contains(text));
-            accepted.folded.append(&mut within);
+        // A table that codes lip and mouth side by side does not mean its lip by exactly mouth.
+        accepted
+            .exact
+            .retain(|text| !beside.contains(text.as_str()));
+        if matches!(reach, Reach::Narrower { .. }) && !all_meant.is_empty() {
+            self.add_places_of_tables(accepted, (component, part), &all_meant);
+        }
+        let Accepted {
+            folded, narrower, ..
+        } = accepted;
+        narrower.retain(|text| !folded.contains(text));
+    }
+
+    /// Adds the values of inventories without an order of their own that another inventory has under
+    /// what is meant, as people write them: `under chin`, `side of head`, `chin ipsi`.
+    fn add_places_of_tables(
+        &self,
+        accepted: &mut Accepted,
+        (component, part): (Component, Option<&str>),
+        meant: &BTreeSet<(usize, &str)>,
+    ) {
+        let known: Vec<&Known> = self.known(component, part).collect();
+        let ordered = |known: &Known| known.inventory.values.iter().any(|it| it.broader.is_some());
+        for (number, order) in known.iter().enumerate().filter(|(_, it)| ordered(it)) {
+            let mut places: BTreeMap<String, &InventoryValue> = BTreeMap::new();
+            for (value, folded) in order.values() {
+                for text in folded {
+                    places.entry(loose(text)).or_insert(value);
+                }
+            }
+            let under = |place: &InventoryValue| {
+                let is = |it: &InventoryValue| meant.contains(&(number, it.id.as_str()));
+                is(place) || order.inventory.chain(&place.id).any(is)
+            };
+            for table in known.iter().filter(|it| !ordered(it)) {
+                for (_, folded) in table.values() {
+                    for text in folded {
+                        let written = loose(text);
+                        let place = places
+                            .get(&written)
+                            .or_else(|| places.get(whole_of(&written)?));
+                        if place.is_some_and(|place| under(place)) {
+                            accepted.narrower.insert(text.clone());
+                        }
+                    }
+                }
+            }
         }
     }
+}
+
+/// Returns a folded spelling as it is compared between inventories: hyphens are blanks, and the
+/// article counts for nothing.
+fn loose(text: &str) -> String {
+    let text = text.replace(['-', '_'], " ");
+    let words = text.split_whitespace();
+    let words: Vec<&str> = words.filter(|word| *word != "the").collect();
+    words.join(" ")
+}
+
+/// Returns what a place is a part or a side of: `head` of `side of head`, `chin` of `chin ipsi`.
+fn whole_of(place: &str) -> Option<&str> {
+    const SIDES: [&str; 4] = [" ipsi", " contra", " ipsilateral", " contralateral"];
+    let sided = SIDES.iter().find_map(|side| place.strip_suffix(side));
+    sided.or_else(|| Some(place.rsplit_once(" of ")?.1))
 }
 
 /// What counts beside the values that are meant.
@@ -225,9 +310,11 @@ enum Reach {
     Letters,
     /// Nothing.
     Own,
-    /// The values within them, but for those that another inventory has side by side with what is
-    /// meant: a table that codes `head` and `chin` apart does not mean its chin by `head`.
-    Narrower,
+    /// The values within them, whichever inventory says so.
+    Narrower {
+        /// Whether the other spellings of what is meant count, too.
+        aliases: bool,
+    },
 }
 
 fn has(value: &InventoryValue, features: &[Feature], exactly: bool) -> bool {

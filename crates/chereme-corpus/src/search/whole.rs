@@ -2,7 +2,7 @@
 
 use chereme_sign::Reading;
 use chereme_sign::query::{
-    Comparison, Missing, Operator, Pattern, QueryError, Test, TextField, Wanted, What,
+    Comparison, Missing, Operator, Pattern, QueryError, Test, TextField, Value, Wanted, What,
 };
 use chereme_sign::text::fold;
 use tantivy::Term;
@@ -12,6 +12,8 @@ use tantivy::schema::Field;
 use super::any_term::AnyTerm;
 use super::compile::{Ask, Asked};
 use super::docs::{Docs, Numbers};
+use super::finding::FindingKind;
+use super::findings;
 use super::known::fitting;
 use super::plan::{Plan, WholeText};
 use super::terms::Mark;
@@ -42,24 +44,71 @@ fn gloss(ask: &Ask<'_>, comparison: &Comparison) -> Asked<Plan> {
     let values = comparison.values.iter();
     let plans = values.map(|value| match &value.wanted {
         Wanted::Present => Ok(Plan::everything()),
-        Wanted::Missing(_) | Wanted::Features(_) => Ok(Plan::nothing()),
-        Wanted::Named(pattern) if comparison.operator == Operator::Exactly => {
-            let glob = Glob::exact(pattern);
+        Wanted::Missing(_) | Wanted::Features(_) | Wanted::Steps(_) => Ok(Plan::nothing()),
+        Wanted::Named(pattern)
+            if comparison.operator == Operator::Exactly || pattern.expression().is_some() =>
+        {
+            let exactly = comparison.operator == Operator::Exactly;
+            let glob = if exactly {
+                Glob::exact(pattern)
+            } else {
+                Glob::whole(pattern)
+            };
             let signs = ask.signs()?;
-            let found = signs
-                .rows
-                .iter()
-                .filter(|(_, gloss, _)| glob.matches(gloss));
-            let found = found.map(|(id, _, _)| *id);
+            let is = |gloss: &str, folded: &str| match exactly {
+                true => glob.matches(gloss),
+                false => glob.fits(gloss, folded),
+            };
+            let found = signs.rows.iter();
+            let found = found.filter(|(_, gloss, folded)| is(gloss, folded));
+            let found: Vec<i64> = found.map(|(id, _, _)| *id).collect();
+            if found.is_empty() {
+                nobody_has(ask, comparison, value)?;
+            }
             Ok(Plan::index(AnyTerm::numbers(ask.fields.sign, found)))
         }
-        Wanted::Named(pattern) => Ok(Plan::index(whole_gloss(ask, pattern)?)),
+        Wanted::Named(pattern) => {
+            let glob = Glob::whole(pattern);
+            let signs = ask.signs()?;
+            if !signs.rows.iter().any(|(.., folded)| glob.matches(folded)) {
+                nobody_has(ask, comparison, value)?;
+            }
+            Ok(Plan::index(whole_gloss(ask, pattern)?))
+        }
     });
     let found = Plan::any(plans.collect::<Asked<_>>()?);
     Ok(match comparison.operator {
         Operator::IsNot => found.not(),
         _ => found,
     })
+}
+
+/// Reports that no sign has such a gloss, with those that are near it.
+fn nobody_has(ask: &Ask<'_>, comparison: &Comparison, value: &Value) -> Asked<()> {
+    let Wanted::Named(pattern) = &value.wanted else {
+        return Ok(());
+    };
+    let written = Comparison {
+        operator: comparison.operator,
+        values: vec![value.clone()],
+    };
+    let text = match pattern.expression() {
+        Some(expression) => expression.source().to_owned(),
+        None => pattern.segments().concat(),
+    };
+    let text: String = text.chars().filter(|c| !"^$.*\\".contains(*c)).collect();
+    let signs = ask.signs()?;
+    let glosses: Vec<String> = signs
+        .rows
+        .iter()
+        .map(|(_, gloss, _)| gloss.clone())
+        .collect();
+    let kind = FindingKind::CannotMatch {
+        why: "no sign has such a gloss".to_owned(),
+        names: findings::like(&text, &glosses),
+    };
+    ask.find(format!("gloss{written}"), value.at, kind);
+    Ok(())
 }
 
 fn whole_gloss(ask: &Ask<'_>, pattern: &Pattern) -> Asked<AnyTerm> {
@@ -151,7 +200,7 @@ pub(crate) fn text_passes(comparison: &Comparison, reading: &Reading) -> bool {
         Wanted::Named(pattern) if comparison.operator == Operator::Exactly => {
             Glob::exact(pattern).matches(text)
         }
-        Wanted::Named(pattern) => Glob::whole(pattern).matches(&fold(text)),
+        Wanted::Named(pattern) => Glob::whole(pattern).fits(text, &fold(text)),
         _ => false,
     })
 }

@@ -2,7 +2,7 @@
 
 use super::lex::{Cursor, Place};
 use super::tree::{At, Comparison, Operator, Property, Test, TextField, Value, Wanted, What};
-use super::values::{filled_word, list, value};
+use super::values::{filled_word, list, path, value};
 use super::words::{self, Simple};
 use super::{Pattern, QueryError, attributes, times};
 use crate::component::{Component, Field, HandRef, Phase};
@@ -21,7 +21,7 @@ pub(super) fn test(cursor: &mut Cursor<'_>) -> Result<Test, QueryError> {
             Some(what) => what,
             None => {
                 let field = component(cursor, subject_at)?;
-                What::Component(field, comparison(cursor, Colon::Refused)?)
+                What::Component(field, component_comparison(cursor)?)
             }
         },
     };
@@ -98,6 +98,9 @@ pub(super) fn stray_operator(cursor: &Cursor<'_>) -> QueryError {
 /// Checks that a text to search for holds something that can be found.
 pub(super) fn check_searchable(pattern: &Pattern, at: At) -> Result<(), QueryError> {
     let text: String = pattern.segments().concat();
+    if pattern.expression().is_some() {
+        return Ok(());
+    }
     if text.chars().any(|c| c.is_alphanumeric() || !c.is_ascii()) {
         return Ok(());
     }
@@ -162,7 +165,18 @@ pub(super) fn component(cursor: &Cursor<'_>, at: At) -> Result<Field, QueryError
         start: start.min(at.end),
         end: at.end,
     };
-    let feature = feature_name(parts.collect(), rest)?;
+    let parts: Vec<&str> = parts.collect();
+    if let [hand] = parts[..]
+        && let Ok(hand) = HandRef::from_str(&words::part(hand))
+    {
+        let message = format!("the hand stands before {component}, not after it");
+        let before = name
+            .rsplit_once('.')
+            .map_or(&name[..], |(before, _)| before);
+        let meant = format!("{}.{before}", hand.name());
+        return Err(QueryError::new(at, message, "").suggest(Some(meant)));
+    }
+    let feature = feature_name(parts, rest)?;
     if let Some((_, hand_at)) = hand.filter(|_| !component.is_manual()) {
         let remedy = "leave the hand out";
         return Err(QueryError::new(
@@ -206,6 +220,12 @@ fn unknown_field(cursor: &Cursor<'_>, part: &str, at: At, whole: At) -> QueryErr
     let simple = words::simple_names().filter(|_| single);
     let others = Component::ALL.into_iter().flat_map(Component::names);
     let names = words::part_names().chain(simple).chain(others.copied());
+    let known_part = words::component_of_part(&words::part(part)).filter(|_| single);
+    if let Some(component) = known_part {
+        let message = format!("{part:?} is a part of {component}");
+        let meant = format!("{component}.{}", words::part(part));
+        return QueryError::new(at, message, "").suggest(Some(meant));
+    }
     let meant = nearest(&words::part(part), names);
     let error = QueryError::new(at, format!("there is no field {part:?}"), "");
     let mut ahead = cursor.clone();
@@ -241,9 +261,31 @@ enum Colon {
     Refused,
 }
 
+/// Reads a comparison of a component, whose values may follow each other.
+fn component_comparison(cursor: &mut Cursor<'_>) -> Result<Comparison, QueryError> {
+    let operator = operator(cursor, Colon::Refused)?;
+    let values = list(cursor, path)?;
+    let steps = |value: &&Value| matches!(value.wanted, Wanted::Steps(_));
+    if operator == Operator::IsNot
+        && let Some(value) = values.iter().find(steps)
+    {
+        let message = "successive values are not compared with `!=`";
+        let remedy = "write `not` before the comparison: not placement=head > chest";
+        return Err(QueryError::new(value.at, message, remedy));
+    }
+    Ok(Comparison { operator, values })
+}
+
 fn comparison(cursor: &mut Cursor<'_>, colon: Colon) -> Result<Comparison, QueryError> {
+    Ok(Comparison {
+        operator: operator(cursor, colon)?,
+        values: list(cursor, value)?,
+    })
+}
+
+fn operator(cursor: &mut Cursor<'_>, colon: Colon) -> Result<Operator, QueryError> {
     let at = operator_place(cursor);
-    let operator = match &cursor.text(at)[..] {
+    Ok(match &cursor.text(at)[..] {
         "=" => Operator::Is,
         "==" => Operator::Exactly,
         "!=" | "≠" => Operator::IsNot,
@@ -254,10 +296,6 @@ fn comparison(cursor: &mut Cursor<'_>, colon: Colon) -> Result<Comparison, Query
             let remedy = "values are compared with =, != or == (this value and none narrower)";
             return Err(QueryError::new(at, message, remedy).suggest(Some(meant)));
         }
-    };
-    Ok(Comparison {
-        operator,
-        values: list(cursor, value)?,
     })
 }
 
@@ -326,6 +364,16 @@ fn fix(value: &mut Value, property: Property, fixed: &[&str]) -> Result<(), Quer
 fn text_test(cursor: &mut Cursor<'_>, field: TextField) -> Result<What, QueryError> {
     cursor.skip_blanks();
     match cursor.operator() {
+        Some(":" | "~") if expression_follows(cursor) => {
+            operator_place(cursor);
+            Ok(What::Whole(
+                field,
+                Comparison {
+                    operator: Operator::Is,
+                    values: list(cursor, value)?,
+                },
+            ))
+        }
         Some(":") => {
             operator_place(cursor);
             let words = list(cursor, |cursor| {
@@ -354,6 +402,14 @@ fn text_test(cursor: &mut Cursor<'_>, field: TextField) -> Result<What, QueryErr
             Ok(What::Whole(field, comparison))
         }
     }
+}
+
+/// Returns whether the value after the operator that is next is a regular expression.
+fn expression_follows(cursor: &Cursor<'_>) -> bool {
+    let mut ahead = cursor.clone();
+    operator_place(&mut ahead);
+    ahead.skip_blanks();
+    ahead.peek() == Some('/')
 }
 
 /// Reads `~ESCARGO` or `~ESCARG~2`.

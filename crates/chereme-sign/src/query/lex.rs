@@ -1,7 +1,7 @@
 //! Reading a query character by character.
 
 use super::tree::At;
-use super::{Pattern, QueryError, words};
+use super::{Expression, Pattern, QueryError, words};
 
 /// What a bare word may hold depends on where it stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -10,6 +10,8 @@ pub(super) enum Place {
     Term,
     /// On the right of an operator: only `=` ends it, besides blanks, commas and quotes.
     Value,
+    /// The same for a value that others may follow in time: `>` ends it, too.
+    Step,
 }
 
 /// A place in the characters of a query, moving forward.
@@ -105,11 +107,61 @@ impl<'a> Cursor<'a> {
         if self.peek().is_some_and(is_quote) {
             return self.quoted();
         }
+        if self.peek() == Some('/') && place != Place::Term {
+            return self.expression();
+        }
         let at = self.bare(place);
         let pattern = Pattern::from_glob(&self.text(at));
         Ok(Word {
             at,
             pattern,
+            quoted: false,
+        })
+    }
+
+    /// Reads a regular expression between slashes, in which `\/` stands for a slash.
+    fn expression(&mut self) -> Result<Word, QueryError> {
+        const QUOTE: &str = "a value that begins with / and is no regular expression is quoted";
+        let start = self.pos;
+        let mut source = String::new();
+        self.pos += 1;
+        loop {
+            let Some(c) = self.peek() else {
+                let at = At {
+                    start,
+                    end: start + 1,
+                };
+                let message = "this regular expression is not closed";
+                let remedy = format!("write / at its end; {QUOTE}");
+                return Err(QueryError::new(at, message, remedy));
+            };
+            self.pos += 1;
+            match c {
+                '/' => break,
+                '\\' if self.peek() == Some('/') => {
+                    source.push('/');
+                    self.pos += 1;
+                }
+                '\\' => {
+                    source.push(c);
+                    source.extend(self.peek());
+                    self.pos += usize::from(self.peek().is_some());
+                }
+                _ => source.push(c),
+            }
+        }
+        let at = self.at(start);
+        let refused = |reason: String| {
+            let message = format!("this is no regular expression: {reason}");
+            QueryError::new(at, message, QUOTE)
+        };
+        if source.trim().is_empty() {
+            return Err(refused("it is empty".to_owned()));
+        }
+        let expression = Expression::new(&source).map_err(refused)?;
+        Ok(Word {
+            at,
+            pattern: Pattern::of_expression(expression),
             quoted: false,
         })
     }
@@ -168,6 +220,11 @@ impl<'a> Cursor<'a> {
         match self.peek() {
             None | Some(')' | ',') => Ok(()),
             Some(c) if c.is_whitespace() => Ok(()),
+            Some('>') => Err(QueryError::new(
+                self.next(1),
+                "a value ends before this",
+                "successive values are those of a component: placement=head > chest",
+            )),
             Some('=') => Err(QueryError::new(
                 self.next(1),
                 "a value ends before this",
@@ -185,9 +242,10 @@ impl<'a> Cursor<'a> {
 /// Tells whether `text` can be written without quotes at this place.
 pub(super) fn is_bare(text: &str, place: Place) -> bool {
     let chars: Vec<char> = text.chars().collect();
+    let starts_expression = |c: char| place != Place::Term && c == '/';
     let opens = chars
         .first()
-        .is_some_and(|c| place == Place::Term && *c == '(' || *c == '[');
+        .is_some_and(|c| place == Place::Term && *c == '(' || *c == '[' || starts_expression(*c));
     !chars.is_empty() && !opens && bare_end(&chars, 0, place) == chars.len()
 }
 
@@ -253,6 +311,7 @@ fn ends_word(chars: &[char], pos: usize, place: Place) -> bool {
     let operator = match place {
         Place::Term => operator_at(chars, pos).is_some(),
         Place::Value => c == '=',
+        Place::Step => c == '=' || c == '>',
     };
     c.is_whitespace() || is_quote(c) || operator
 }

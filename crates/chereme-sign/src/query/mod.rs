@@ -23,7 +23,7 @@
 //! | query | nothing (every token), or *alternatives* |
 //! | alternatives | *terms* { `or` *terms* } |
 //! | terms | *term* { \[`and`\] *term* } |
-//! | term | `not` *term*, `(` *alternatives* `)`, *comparison*, *relation comparison*, *example*, *text* |
+//! | term | `not` *term*, `(` *alternatives* `)`, *comparison*, *relation comparison*, *example*, *saved*, *text* |
 //! | comparison | *component* (`=` `!=` `==`) *values*; *property* (`=` `:` `!=` `==`) *values*; *textfield* (`=` `!=` `==`) *values*; *textfield* `:` *text* { `,` *text* }; *textfield* `~` *text* \[`~1` `~2`\]; *timefield* (`<` `<=` `>` `>=` `=`) *time*; *timefield* `=` \[*time*\]`..`\[*time*\]; `tier(`*text*`)` (`=` `!=` `==`) *values*; *attribute* (`=` `!=` `==`) *values*; *attribute* (`<` `<=` `>` `>=`) *number*; *attribute* `=` \[*number*\]`..`\[*number*\] |
 //! | attribute | `attribute.`*name*, `attribute(`*text*`)`; the *name* alone before a number |
 //! | component | \[*phase*`.`\] \[*hand*`.`\] (`configuration` `placement` `movement` `orientation` `nonmanual`) \[`.`*part*\] |
@@ -32,9 +32,11 @@
 //! | textfield | `gloss` `translation` `comment` `text` |
 //! | timefield | `duration` `start` `end` |
 //! | values | *value* { `,` *value* } |
-//! | value | *text*, `*`, `unset`, `n/a`, `unclear`, `[` { \[`-`\] *feature* } `]` |
+//! | value | *text*, `/`*regular expression*`/`, `*`, `unset`, `n/a`, `unclear`, `[` { \[`-`\] *feature* } `]`; of a component also *step* `>` *step* { `>` *step* } |
+//! | step | *text*, `*`, `[` { \[`-`\] *feature* } `]` |
 //! | relation | `overlaps` `not-overlaps` `inside` `not-inside` `overlaps-begin` `overlaps-end` `before` `after` `equals` `meets` `met-by` `starts` `started-by` `finishes` `finished-by` `covers`, `within` *time* (`around` `of-begin` `of-end`) |
-//! | example | `like` (`token:`*text*, `sign:`*text*, *text*) \[`on` *component*\[`:`*weight*\] { `,` *component*\[`:`*weight*\] }\] |
+//! | example | `like` (`token:`*text*, `sign:`*text*, *text*) \[`on` *component*\[`:`*weight*\] { `,` *component*\[`:`*weight*\] }\] \[`above` *number*\] |
+//! | saved | `@`*text* |
 //! | time | *number* (`s` `ms` `min`) |
 //! | text | a bare word or `"…"`, with `*` for any characters |
 //!
@@ -43,17 +45,22 @@
 //! stays whole. Curly quotes are quotes. Joints are understood in any case; relations and `like`
 //! only in lower case, because glosses are written in capitals. A relation is said of the token
 //! itself: `gloss=CHAT overlaps nonmanual.brows=raised` is two terms, both of which must hold.
+//! A regular expression is looked for anywhere in the text; `gloss~/^BO/` is `gloss=/^BO/`.
+//! In lower case `et`, `ou` and `non` are joints, too, and French words stand for relations where
+//! a comparison follows: `chevauche`, `avant`, `après`, `dans`, `couvre`.
 
 mod attributes;
 mod compare;
 mod complete;
 mod error;
+mod expression;
 mod lex;
 mod meant;
 mod narrow;
 mod parse;
 mod pattern;
 mod print;
+mod saved;
 #[cfg(test)]
 mod tests;
 mod times;
@@ -64,9 +71,11 @@ mod words;
 pub use attributes::{AttributeTest, number};
 pub use complete::{Completion, Expected, complete};
 pub use error::{QueryError, unknown_value};
+pub use expression::Expression;
 pub use meant::{guessed, meant};
 pub use narrow::{facet_condition, narrow, wants, without};
 pub use pattern::Pattern;
+pub use saved::Saved;
 pub use tree::{
     At, Comparison, Example, Expr, Feature, Like, Missing, Operator, Property, Query, Related,
     Test, TextField, TimeField, TimeTest, Value, Wanted, Weighted, What,
@@ -90,16 +99,20 @@ pub const HELP: &str = r#"A query is a row of terms that must all hold of a toke
 Components, on either hand unless one is named
   configuration  placement  movement  orientation  nonmanual
   right. left. dominant. weak.            before it: which hand
-  initial. middle. final.                 before it: which of several values
+  initial. middle. final.                 before it: first, between, last value;
+                                          the only value is first and last alike
   .palm .brows ...                        after it: one part of it
   also: handshape, location, emplacement, mouvement
 
 Values
-  placement=chest,chin                    one of these, or narrower
+  placement=chest,chin                    one of these, or narrower (chin: head)
   placement==head                         this one, nothing narrower
+  placement=head > chest                  begins there, moves on to the chest
+  placement=head > *                      begins at the head and moves on
   placement!=chest                        coded, and not this
   placement="neutral space"               with blanks: in quotes
-  configuration=B*                        * stands for any characters
+  configuration=B*                        * stands for any characters of the value
+                                          or its name; case counts only after ==
   configuration=[index middle -thumb]     features, and one that is absent
   placement=*                             has a value
   placement=unset   =n/a   =unclear       has none, and why
@@ -109,6 +122,7 @@ Texts: gloss, translation, comment, text (all three)
   gloss=CHAT   gloss=INDEX:1              the whole text
   gloss:BO*    gloss:MA*SON               words in it
   gloss~ESCARGO   gloss~ESCRGO~2          up to one slip, or two
+  gloss=/^BO.*[0-9]$/                     a regular expression, in any text
 
 Times: duration, start, end, in s, ms or min
   duration<0.8s   duration=0.5s..1s   start>=2min
@@ -130,7 +144,12 @@ Beside another annotation of the recording
 
 By example
   like token:41   like CHAT on configuration:2, placement
+  like token:41 on configuration above 0.6    only what is more alike than this
 
+Saved searches, anywhere in a query
+  @chin not @short   @"my search" or gloss=CHAT
+
+French works, too: et, ou, non, chevauche, avant, après, dans, couvre.
 Everyday words that find nothing, such as handshape U placement chin,
 are offered as the query that they may mean.
 "#;

@@ -1,9 +1,11 @@
 //! Reading a query: terms, joints, relations and examples. Comparisons are in `compare`.
 
 use super::lex::{Cursor, Place, Word, is_quote};
-use super::tree::{At, Example, Expr, Like, Query, Related, Test, TextField, Weighted, What};
+use super::tree::{
+    At, Example, Expr, Like, Query, Related, Test, TextField, Wanted, Weighted, What,
+};
 use super::words::{self, Joint};
-use super::{MAX_CHARS, MAX_DEPTH, QueryError, attributes, compare, times};
+use super::{MAX_CHARS, MAX_DEPTH, QueryError, Saved, attributes, compare, times};
 use crate::relation::Relation;
 use crate::text::nearest;
 
@@ -92,11 +94,14 @@ fn missing_term(cursor: &Cursor<'_>) -> QueryError {
             "a term should stand before this parenthesis".to_owned(),
         ),
     };
-    QueryError::new(
-        at,
-        message,
-        "write a comparison such as placement=chin, or a word; quote a joint to search for it",
-    )
+    let remedy = match next_joint(cursor) {
+        Some((_, at)) => {
+            let word = cursor.text(at);
+            format!("write a comparison beside it; to search for the word itself, write \"{word}\"")
+        }
+        None => "write a comparison such as placement=chin, or a word".to_owned(),
+    };
+    QueryError::new(at, message, remedy)
 }
 
 /// Returns the joint that is next, without stepping over it, unless it names a field.
@@ -193,6 +198,11 @@ fn worded(cursor: &mut Cursor<'_>) -> Result<Expr, QueryError> {
     let start = cursor.clone();
     let word = cursor.word(Place::Term)?;
     let name = cursor.text(word.at);
+    if let Some(saved) = name.strip_prefix('@')
+        && !operator_follows(cursor)
+    {
+        return saved_search(cursor, word.at, saved);
+    }
     if name == words::TIER && opens(cursor) {
         return Ok(Expr::Test(compare::tier_test(cursor, word.at)?));
     }
@@ -206,7 +216,13 @@ fn worded(cursor: &mut Cursor<'_>) -> Result<Expr, QueryError> {
     if let Some(relation) = words::plain_relation(&name) {
         return related(cursor, word.at, relation);
     }
+    if let Some(relation) = words::french_relation(&name)
+        && comparison_follows(cursor)
+    {
+        return related(cursor, word.at, relation);
+    }
     match &name[..] {
+        words::FRENCH_LIKE if example_follows(cursor) => like(cursor, word.at),
         words::WITHIN => {
             let relation = within(cursor, word.at)?;
             related(cursor, word.at, relation)
@@ -226,6 +242,31 @@ fn worded(cursor: &mut Cursor<'_>) -> Result<Expr, QueryError> {
             free_text(word)
         }
     }
+}
+
+/// Reads the name of a saved search, of which `name` stands at `at` after the sign.
+fn saved_search(cursor: &mut Cursor<'_>, at: At, name: &str) -> Result<Expr, QueryError> {
+    let (mut name, mut at) = (name.to_owned(), at);
+    if name.is_empty() && cursor.peek().is_some_and(is_quote) {
+        let word = cursor.word(Place::Value)?;
+        name = word.pattern.segments().join("*");
+        at = at.to(word.at);
+    }
+    if name.trim().is_empty() {
+        let remedy = "write @ and the name of a saved search, with blanks: @\"my search\"";
+        return Err(QueryError::new(at, "which saved search?", remedy));
+    }
+    cursor.boundary()?;
+    Ok(Expr::Saved(Saved { at, name }))
+}
+
+/// Returns whether an address of a token or sign is next, after blanks.
+fn example_follows(cursor: &Cursor<'_>) -> bool {
+    let mut ahead = cursor.clone();
+    ahead.skip_blanks();
+    let at = ahead.bare(Place::Value);
+    let word = ahead.text(at);
+    word.starts_with("token:") || word.starts_with("sign:")
 }
 
 /// Tells whether an opening parenthesis is next, after blanks.
@@ -313,6 +354,14 @@ fn related(cursor: &mut Cursor<'_>, at: At, relation: Relation) -> Result<Expr, 
         cursor.pos = start;
         compare::test(cursor)?
     };
+    if let What::Component(_, comparison) = &other.what {
+        let steps = |wanted: &Wanted| matches!(wanted, Wanted::Steps(_));
+        if let Some(value) = comparison.values.iter().find(|it| steps(&it.wanted)) {
+            let message = "successive values belong to one token, not to an annotation beside it";
+            let remedy = "ask them of the token itself: placement=head > chest";
+            return Err(QueryError::new(value.at, message, remedy));
+        }
+    }
     if matches!(
         other.what,
         What::Property(..) | What::Time(..) | What::Attribute(..)
@@ -346,12 +395,14 @@ fn like(cursor: &mut Cursor<'_>, at: At) -> Result<Expr, QueryError> {
         example_at,
         example,
         on: Vec::new(),
+        above: None,
     };
     let mut ahead = cursor.clone();
     ahead.skip_blanks();
     let joint_at = ahead.bare(Place::Term);
     let joint = ahead.text(joint_at);
-    if joint == words::ON && !operator_follows(&ahead) {
+    let on = [words::ON, words::FRENCH_ON].contains(&&joint[..]);
+    if on && !operator_follows(&ahead) {
         *cursor = ahead;
         like.on = weighted_fields(cursor)?;
         like.at.end = cursor.pos;
@@ -360,7 +411,37 @@ fn like(cursor: &mut Cursor<'_>, at: At) -> Result<Expr, QueryError> {
         let remedy = format!("{REMEDY}; to search for the word, write it in quotes: \"{joint}\"");
         return Err(QueryError::new(joint_at, message, remedy).suggest(Some(words::ON)));
     }
+    if let Some(least) = threshold(cursor)? {
+        like.above = Some(least);
+        like.at.end = cursor.pos;
+    }
     Ok(Expr::Like(like))
+}
+
+/// Reads `above 0.6` or `above 60%`, if it is next.
+fn threshold(cursor: &mut Cursor<'_>) -> Result<Option<f64>, QueryError> {
+    let mut ahead = cursor.clone();
+    ahead.skip_blanks();
+    let word = ahead.bare(Place::Term);
+    if ahead.text(word) != words::ABOVE || operator_follows(&ahead) {
+        return Ok(None);
+    }
+    ahead.skip_blanks();
+    let at = ahead.bare(Place::Value);
+    let text = ahead.text(at);
+    let least = match text.strip_suffix('%') {
+        Some(hundredths) => hundredths.parse::<f64>().map(|it| it / 100.0),
+        None => text.parse::<f64>(),
+    };
+    *cursor = ahead;
+    match least {
+        Ok(least) if (0.0..1.0).contains(&least) => Ok(Some(least)),
+        _ => {
+            let remedy = "likeness goes from 0 to 1: write above 0.6, or above 60%";
+            let message = format!("{text:?} is no likeness");
+            Err(QueryError::new(at, message, remedy))
+        }
+    }
 }
 
 /// Reads the address that a word after `like` is or begins.

@@ -1,14 +1,17 @@
 //! Words with `*` in them.
 
+use super::Expression;
 use crate::text::fold;
 
 /// A text in which `*` stands for any characters, none included: `MA*SON`, `BO*`, or just `CHAT`.
 ///
-/// It is kept as the stretches between the wildcards, as written.
+/// It is kept as the stretches between the wildcards, as written. A pattern may also be a
+/// [regular expression](Expression), which is looked for anywhere in a text.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Pattern {
     /// At least one; only the first and the last may be empty where there are several.
     segments: Vec<String>,
+    expression: Option<Expression>,
 }
 
 impl Pattern {
@@ -17,7 +20,23 @@ impl Pattern {
     pub fn literal(text: impl Into<String>) -> Self {
         Self {
             segments: vec![text.into()],
+            expression: None,
         }
+    }
+
+    /// Returns the pattern of the texts that a regular expression is found in.
+    #[must_use]
+    pub fn of_expression(expression: Expression) -> Self {
+        Self {
+            segments: vec![String::new(), String::new()],
+            expression: Some(expression),
+        }
+    }
+
+    /// Returns the regular expression that the pattern is, if it is one.
+    #[must_use]
+    pub fn expression(&self) -> Option<&Expression> {
+        self.expression.as_ref()
     }
 
     /// Returns the pattern written as `text`, where `*` is a wildcard and `\*` a plain star.
@@ -47,11 +66,14 @@ impl Pattern {
             }
             after_wildcard = mark.is_none();
         }
-        Self { segments }
+        Self {
+            segments,
+            expression: None,
+        }
     }
 
     /// Returns the stretches between the wildcards: `["MA", "SON"]` for `MA*SON`, `["BO", ""]`
-    /// for `BO*`, one stretch where there is no wildcard.
+    /// for `BO*`, one stretch where there is no wildcard; of a regular expression nothing is known.
     #[must_use]
     pub fn segments(&self) -> &[String] {
         &self.segments
@@ -70,7 +92,7 @@ impl Pattern {
     #[must_use]
     pub fn as_prefix(&self) -> Option<&str> {
         match &self.segments[..] {
-            [prefix, end] if end.is_empty() => Some(prefix),
+            [prefix, end] if end.is_empty() && self.expression.is_none() => Some(prefix),
             _ => None,
         }
     }
@@ -84,6 +106,9 @@ impl Pattern {
     /// Tells whether the whole of `text` fits, without regard to case and accents.
     #[must_use]
     pub fn matches(&self, text: &str) -> bool {
+        if let Some(expression) = &self.expression {
+            return expression.finds(text);
+        }
         let text = fold(text);
         let Some((last, others)) = self.segments.split_last() else {
             return false;

@@ -5,7 +5,7 @@ use super::tree::{
     Comparison, Example, Expr, Feature, Like, Operator, Query, Related, Test, TextField, TimeTest,
     Value, Wanted, What,
 };
-use super::{Pattern, attributes, words};
+use super::{Pattern, Saved, attributes, words};
 use std::fmt::{self, Display, Formatter, Write};
 
 impl Display for Query {
@@ -32,6 +32,19 @@ impl Display for Expr {
             Self::Test(test) => test.fmt(f),
             Self::Relation(related) => related.fmt(f),
             Self::Like(like) => like.fmt(f),
+            Self::Saved(saved) => saved.fmt(f),
+        }
+    }
+}
+
+impl Display for Saved {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_char('@')?;
+        let bare = lex::is_bare(&self.name, Place::Term);
+        if bare && !self.name.contains(['*', '\\']) {
+            f.write_str(&self.name)
+        } else {
+            write_quoted(f, &Pattern::literal(&self.name[..]))
         }
     }
 }
@@ -62,7 +75,10 @@ impl Display for Test {
             }
             What::Tier(name, comparison) => {
                 f.write_str("tier(")?;
-                write_quoted(f, name)?;
+                match name.expression() {
+                    Some(expression) => write_expression(f, expression.source())?,
+                    None => write_quoted(f, name)?,
+                }
                 write!(f, "){comparison}")
             }
             What::Time(field, test) => write!(f, "{}{test}", field.name()),
@@ -96,6 +112,7 @@ impl Display for Value {
                 separated(f, features, " ", |f, feature| feature.fmt(f))?;
                 f.write_char(']')
             }
+            Wanted::Steps(steps) => separated(f, steps, " > ", |f, step| step.fmt(f)),
         }
     }
 }
@@ -134,14 +151,17 @@ impl Display for Like {
         };
         write!(f, "like {kind}:")?;
         write_value(f, &Pattern::literal(&name[..]))?;
-        if self.on.is_empty() {
-            return Ok(());
+        if !self.on.is_empty() {
+            f.write_str(" on ")?;
+            separated(f, &self.on, ", ", |f, part| match part.weight {
+                1.0 => part.field.fmt(f),
+                weight => write!(f, "{}:{weight}", part.field),
+            })?;
         }
-        f.write_str(" on ")?;
-        separated(f, &self.on, ", ", |f, part| match part.weight {
-            1.0 => part.field.fmt(f),
-            weight => write!(f, "{}:{weight}", part.field),
-        })
+        match self.above {
+            Some(least) => write!(f, " {} {least}", words::ABOVE),
+            None => Ok(()),
+        }
     }
 }
 
@@ -154,7 +174,9 @@ impl Display for Pattern {
 
 /// Writes a value, in quotes where it could be read as something else.
 pub(super) fn write_value(f: &mut impl Write, pattern: &Pattern) -> fmt::Result {
-    write_quotable(f, pattern, |text| words::missing(text).is_none())
+    write_quotable(f, pattern, |text| {
+        words::missing(text).is_none() && !text.contains('>')
+    })
 }
 
 /// Writes a pattern as a term of its own, in quotes where it could be read as something else.
@@ -162,6 +184,7 @@ fn write_term(f: &mut impl Write, pattern: &Pattern) -> fmt::Result {
     match bare(pattern) {
         Some(text)
             if lex::is_bare(&text, Place::Term)
+                && !text.starts_with('@')
                 && !words::is_reserved(&text)
                 && words::near_relation(&text).is_none() =>
         {
@@ -176,6 +199,9 @@ fn write_quotable(
     pattern: &Pattern,
     plain: impl Fn(&str) -> bool,
 ) -> fmt::Result {
+    if let Some(expression) = pattern.expression() {
+        return write_expression(f, expression.source());
+    }
     match bare(pattern) {
         Some(text) if lex::is_bare(&text, Place::Value) && plain(&text) => f.write_str(&text),
         _ => write_quoted(f, pattern),
@@ -189,6 +215,19 @@ fn bare(pattern: &Pattern) -> Option<String> {
         .iter()
         .all(|text| !text.contains(['*', '\\']));
     plain.then(|| pattern.segments().join("*"))
+}
+
+fn write_expression(f: &mut impl Write, source: &str) -> fmt::Result {
+    f.write_char('/')?;
+    let mut escaped = false;
+    for c in source.chars() {
+        if c == '/' && !escaped {
+            f.write_char('\\')?;
+        }
+        escaped = c == '\\' && !escaped;
+        f.write_char(c)?;
+    }
+    f.write_char('/')
 }
 
 pub(super) fn write_quoted(f: &mut impl Write, pattern: &Pattern) -> fmt::Result {

@@ -71,7 +71,22 @@ const CANONICAL: &[&str] = &[
     "école gloss=ÉCOLE",
     "slo*",
     r#"placement="neutral space > head""#,
-    "placement=neutral>head",
+    r#"placement="neutral>head""#,
+    "placement=head > chest",
+    "final.right.placement==* > \"neutral space\" > chin,unset",
+    "configuration=[index] > B*",
+    "gloss=/^BO.*/",
+    r"gloss!=/a\/b (x|y)\./,BOL",
+    "tier(/^G/)=/x/",
+    r#"gloss="/sil/""#,
+    "like token:41 above 0.6",
+    "like sign:A on configuration:2, placement above 0.25 hand=both",
+    "not @chin",
+    "@a or @b gloss=C",
+    r#"@"my search" @ab"#,
+    r#""@chin""#,
+    r#""et" "ou" "dans" "comme""#,
+    "NON OU ET",
 ];
 
 /// Queries with their canonical text.
@@ -135,6 +150,29 @@ const REWRITTEN: &[(&str, &str)] = &[
     ("Orientation.Palm=up", "orientation.palm=up"),
     ("nondominant.configuration=S", "weak.configuration=S"),
     ("overlap", r#""overlap""#),
+    ("placement=head>chest", "placement=head > chest"),
+    (
+        "placement = head >\n chest,chin",
+        "placement=head > chest,chin",
+    ),
+    ("gloss~/^BO/", "gloss=/^BO/"),
+    ("gloss:/^BO/", "gloss=/^BO/"),
+    ("texte=/a b/", "text=/a b/"),
+    ("like token:41 above 60%", "like token:41 above 0.6"),
+    (
+        "comme token:41 sur configuration",
+        "like token:41 on configuration",
+    ),
+    ("comme un chat", r#""comme" un chat"#),
+    (
+        "placement=menton ou non placement=joue et gloss=A",
+        "placement=menton or not placement=joue gloss=A",
+    ),
+    (
+        "gloss=A chevauche nonmanuel.brows=x avant gloss=B",
+        "gloss=A overlaps nonmanual.brows=x before gloss=B",
+    ),
+    ("avant la maison", r#""avant" la maison"#),
 ];
 
 #[test]

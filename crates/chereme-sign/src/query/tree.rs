@@ -1,6 +1,6 @@
 //! The syntax tree of a query.
 
-use super::{AttributeTest, Pattern};
+use super::{AttributeTest, Pattern, Saved};
 use crate::component::{Field, Reading};
 use crate::relation::Relation;
 use std::ops::{Bound, Range, RangeBounds};
@@ -86,6 +86,8 @@ pub enum Expr {
     Relation(Related),
     /// The token resembles another.
     Like(Like),
+    /// A saved search finds it.
+    Saved(Saved),
 }
 
 impl Expr {
@@ -121,6 +123,7 @@ impl Expr {
             Self::Test(test) => test.at,
             Self::Relation(related) => related.at,
             Self::Like(like) => like.at,
+            Self::Saved(saved) => saved.at,
         }
     }
 }
@@ -134,7 +137,7 @@ impl Expr {
             Self::Not(inner) => inner.collect_tests(found),
             Self::Test(test) => found.push(test),
             Self::Relation(related) => found.push(&related.other),
-            Self::Like(_) => {}
+            Self::Like(_) | Self::Saved(_) => {}
         }
     }
 }
@@ -201,7 +204,7 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Tells whether a reading passes.
+    /// Tells whether a reading passes; one reading never passes for [`Steps`](Wanted::Steps).
     ///
     /// `fits` tells whether a value is the [`Named`](Wanted::Named) one that is asked for, or has
     /// the [`Features`](Wanted::Features); it is called with nothing else, and looks at the
@@ -211,11 +214,18 @@ impl Comparison {
         let passes = |value: &Value| match (&value.wanted, reading) {
             (Wanted::Missing(missing), reading) => missing.reading() == *reading,
             (Wanted::Present, Reading::Value(_)) => true,
+            (Wanted::Steps(_), _) => false,
             (wanted, Reading::Value(value)) => fits(value, wanted),
             _ => false,
         };
         let one = self.values.iter().any(passes);
-        let names = |value: &Value| matches!(value.wanted, Wanted::Named(_) | Wanted::Features(_));
+        let names = |value: &Value| {
+            let wanted = &value.wanted;
+            matches!(
+                wanted,
+                Wanted::Named(_) | Wanted::Features(_) | Wanted::Steps(_)
+            )
+        };
         match self.operator {
             Operator::Is | Operator::Exactly => one,
             Operator::IsNot => {
@@ -259,6 +269,9 @@ pub enum Wanted {
     Named(Pattern),
     /// `[index -thumb]`: one with all these features.
     Features(Vec<Feature>),
+    /// `head > chest`: the sign begins with the first and moves on to the others in this order,
+    /// with or without further values between them. Two or more, each a name, features or `*`.
+    Steps(Vec<Value>),
 }
 
 /// A feature that a value must or must not have.
@@ -414,6 +427,8 @@ pub struct Like {
     pub example: Example,
     /// The components that count; all of them alike where the list is empty.
     pub on: Vec<Weighted>,
+    /// `above 0.6`: how alike a token must be, more than this, to be found at all; from 0 to 1.
+    pub above: Option<f64>,
 }
 
 /// The token that others are to resemble.

@@ -45,7 +45,11 @@ fn missing_value(cursor: &Cursor<'_>) -> QueryError {
 
 /// Reads a bare or quoted word that is not empty.
 pub(super) fn filled_word(cursor: &mut Cursor<'_>) -> Result<Word, QueryError> {
-    let word = cursor.word(Place::Value)?;
+    filled(cursor, Place::Value)
+}
+
+fn filled(cursor: &mut Cursor<'_>, place: Place) -> Result<Word, QueryError> {
+    let word = cursor.word(place)?;
     if word.at.start == word.at.end {
         return Err(missing_value(cursor));
     }
@@ -60,12 +64,55 @@ pub(super) fn filled_word(cursor: &mut Cursor<'_>) -> Result<Word, QueryError> {
     Ok(word)
 }
 
+/// How many values may follow each other in `a > b > c`.
+const MOST_STEPS: usize = 6;
+
+/// Reads one value of a component, or several that follow each other: `head > chest`.
+pub(super) fn path(cursor: &mut Cursor<'_>) -> Result<Value, QueryError> {
+    const REMEDY: &str =
+        "write for example placement=head > chest, placement=head > * or * > chest";
+    let first = one(cursor, Place::Step)?;
+    let start = first.at.start;
+    let mut steps = vec![first];
+    loop {
+        let mut ahead = cursor.clone();
+        ahead.skip_blanks();
+        if !ahead.eat('>') {
+            break;
+        }
+        ahead.skip_blanks();
+        *cursor = ahead;
+        steps.push(one(cursor, Place::Step)?);
+    }
+    if steps.len() > MOST_STEPS {
+        let message = format!("more than {MOST_STEPS} values follow each other here");
+        return Err(QueryError::new(cursor.at(start), message, REMEDY));
+    }
+    if steps.len() > 1 {
+        for step in &steps {
+            if matches!(step.wanted, Wanted::Missing(_)) {
+                let message = "nothing begins or goes on where no value is";
+                return Err(QueryError::new(step.at, message, REMEDY));
+            }
+        }
+        return Ok(Value {
+            at: cursor.at(start),
+            wanted: Wanted::Steps(steps),
+        });
+    }
+    Ok(steps.remove(0))
+}
+
 /// Reads one value of a field.
 pub(super) fn value(cursor: &mut Cursor<'_>) -> Result<Value, QueryError> {
+    one(cursor, Place::Value)
+}
+
+fn one(cursor: &mut Cursor<'_>, place: Place) -> Result<Value, QueryError> {
     if cursor.peek() == Some('[') {
         return features(cursor);
     }
-    let word = filled_word(cursor)?;
+    let word = filled(cursor, place)?;
     let missing = word
         .pattern
         .as_literal()

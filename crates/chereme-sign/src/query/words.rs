@@ -107,6 +107,9 @@ pub(super) const INSTEAD_OF_ON: [&str; 6] = ["in", "by", "with", "of", "for", "s
 /// The word before a tier's name in parentheses.
 pub(super) const TIER: &str = "tier";
 
+/// The word before the least likeness of what a search by example finds.
+pub(super) const ABOVE: &str = "above";
+
 /// French for the parts of a component's name.
 const FRENCH: [(&str, &str); 10] = [
     ("emplacement", "placement"),
@@ -144,10 +147,69 @@ pub(super) enum Joint {
 
 /// Returns the joint that a word is, in any case.
 pub(super) fn joint(word: &str) -> Option<Joint> {
-    [("and", Joint::And), ("or", Joint::Or), ("not", Joint::Not)]
+    let joints = [("and", Joint::And), ("or", Joint::Or), ("not", Joint::Not)];
+    // In capitals they are glosses of French signs.
+    let french = [("et", Joint::And), ("ou", Joint::Or), ("non", Joint::Not)];
+    let english = joints
         .into_iter()
-        .find(|(name, _)| name.eq_ignore_ascii_case(word))
+        .find(|(name, _)| name.eq_ignore_ascii_case(word));
+    english
+        .or_else(|| french.into_iter().find(|(name, _)| *name == word))
         .map(|(_, joint)| joint)
+}
+
+/// French for relations without a distance, understood where a comparison follows.
+const FRENCH_RELATIONS: [(&str, &str); 12] = [
+    ("chevauche", "overlaps"),
+    ("ne-chevauche-pas", "not-overlaps"),
+    ("dans", "inside"),
+    ("hors-de", "not-inside"),
+    ("avant", "before"),
+    ("après", "after"),
+    ("apres", "after"),
+    ("égale", "equals"),
+    ("couvre", "covers"),
+    ("commence", "starts"),
+    ("termine", "finishes"),
+    ("rencontre", "meets"),
+];
+
+/// Returns the relation that a French word names, in lower case.
+pub(super) fn french_relation(word: &str) -> Option<Relation> {
+    let found = FRENCH_RELATIONS.iter().find(|(french, _)| *french == word);
+    found.and_then(|(_, english)| plain_relation(english))
+}
+
+/// French for [`LIKE`] and [`ON`].
+pub(super) const FRENCH_LIKE: &str = "comme";
+pub(super) const FRENCH_ON: &str = "sur";
+
+/// Parts of components that every corpus may have, with their component.
+const PARTS: [(&str, Component); 18] = [
+    ("palm", Component::Orientation),
+    ("fingers", Component::Orientation),
+    ("handedness", Component::Configuration),
+    ("change", Component::Configuration),
+    ("contact", Component::Placement),
+    ("relation", Component::Placement),
+    ("direction", Component::Movement),
+    ("shape", Component::Movement),
+    ("manner", Component::Movement),
+    ("repeated", Component::Movement),
+    ("alternating", Component::Movement),
+    ("brows", Component::NonManual),
+    ("gaze", Component::NonManual),
+    ("mouth", Component::NonManual),
+    ("mouthing", Component::NonManual),
+    ("lids", Component::NonManual),
+    ("shoulders", Component::NonManual),
+    ("phase", Component::Movement),
+];
+
+/// Returns the component that has a part of this name.
+pub(super) fn component_of_part(name: &str) -> Option<Component> {
+    let found = PARTS.iter().find(|(part, _)| *part == name);
+    found.map(|(_, component)| *component)
 }
 
 /// Returns the relation without a distance that a word is; capitals are glosses.
@@ -170,7 +232,8 @@ pub(super) fn missing(word: &str) -> Option<Missing> {
 pub(super) fn is_reserved(word: &str) -> bool {
     joint(word).is_some()
         || plain_relation(word).is_some()
-        || [WITHIN, LIKE, ON, TIER].contains(&word)
+        || [WITHIN, LIKE, ON, TIER, ABOVE, FRENCH_LIKE].contains(&word)
+        || french_relation(word).is_some()
         || WITHIN_KINDS.contains(&word)
         || INSTEAD_OF_ON.contains(&word)
 }

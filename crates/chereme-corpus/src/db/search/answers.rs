@@ -187,6 +187,16 @@ pub(crate) fn tiers(connection: &Connection, recording: i64) -> Result<Vec<(i64,
     Ok(tiers)
 }
 
+/// Returns the names of all tiers, each once, by name.
+pub(crate) fn tier_names(connection: &Connection) -> Result<Vec<String>> {
+    let mut statement =
+        connection.prepare_cached("SELECT DISTINCT name FROM tier ORDER BY name")?;
+    let names = statement
+        .query_map([], |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(names)
+}
+
 /// Calls `take` with the annotations of a tier.
 pub(crate) fn on_tier(
     connection: &Connection,

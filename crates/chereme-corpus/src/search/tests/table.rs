@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::Error;
-use crate::search::Order;
+use crate::progress::{Progress, unheard};
+use crate::search::{Finding, FindingKind, Order, Tally, TallyRow};
 
 /// Two recordings of two signers and a lexicon; the glosses tell what is what.
 fn sample() -> Sample {
@@ -252,6 +253,41 @@ gloss=CHAT overlaps nonmanual.brows=raised => CHAT
 like token:1 => CHAT INDEX:1 BOL-2H MAISON ÉCOLE BOL ESCARGOT
 like CHAT on configuration => CHAT INDEX:1 BOL-2H MAISON ÉCOLE BOL ESCARGOT
 like BOL on right.configuration origin=captured => BOL-2H CHAT MAISON INDEX:1 ÉCOLE
+like CHAT on configuration above 0.5 => CHAT INDEX:1
+like CHAT on configuration above 0.5 not gloss=CHAT => INDEX:1
+like CHAT on configuration:3, placement above 0.8 => CHAT
+placement=neutral > chest => BOL-2H
+placement=neutral>trunk => BOL-2H
+placement==neutral > trunk =>
+placement=neutral > * => BOL-2H
+placement=* > chest => BOL-2H
+placement=chest > neutral =>
+placement=chin > * =>
+left.placement=neutral > chest =>
+right.placement=neutral > chest,chin => CHAT BOL-2H
+not placement=neutral > * => CHAT MAISON INDEX:1 ÉCOLE BOL ESCARGOT
+configuration=S > 5 > S => ÉCOLE
+configuration=S > B > S => ÉCOLE
+configuration=S > 5 > B > S => ÉCOLE
+configuration=S > B > 5 =>
+weak.configuration=* > [index middle] => ÉCOLE
+gloss=/^BO.*/ => BOL-2H BOL
+gloss=/^bo/ => BOL-2H BOL
+gloss==/^bo/ =>
+gloss~/-[0-9]H$/ => BOL-2H
+gloss=/^éc/ => ÉCOLE
+gloss=/^ec/ => ÉCOLE
+gloss!=/O/ => CHAT INDEX:1
+translation=/^the (slow|fast)/ => ESCARGOT
+translation=/bowl$/ => CHAT BOL-2H MAISON BOL
+comment=/lyon|blurred/ => MAISON BOL
+text=/slow/ => MAISON ESCARGOT
+configuration=/^[BU]$/ => CHAT BOL-2H INDEX:1 ÉCOLE BOL
+tier(/^Mouth/)=/^m/ => INDEX:1
+signer=/^a/ => CHAT BOL-2H MAISON
+placement=menton ou placement=poitrine => CHAT BOL-2H
+non configuration=* et non origin=lexicon => MAISON
+gloss=CHAT chevauche nonmanuel.brows=raised => CHAT
 like BOL-2H on final.placement, configuration:2 => BOL-2H ÉCOLE BOL CHAT MAISON INDEX:1 ESCARGOT
 "#;
 
@@ -271,7 +307,7 @@ fn what_is_not_there_is_pointed_at() {
         ("signer=Bem", 8, "did you mean Ben?"),
         ("recording=\"Session 3\"", 11, "did you mean \"Session 1\"?"),
         ("overlaps nonmanual.brows=razed", 26, "did you mean raised?"),
-        ("not like token:1", 5, "leaves nothing out"),
+        ("not like token:1", 5, "puts the whole answer in order"),
         ("like CHAR", 6, "did you mean CHAT?"),
         ("like token:99", 6, "there is no token:99"),
         ("token=x", 7, "no number"),
@@ -290,6 +326,159 @@ fn what_is_not_there_is_pointed_at() {
         assert!(text.contains(part), "{query}: {text}");
         assert!(text.starts_with(query) && text.contains('^'), "{text}");
     }
+}
+
+/// Queries with what is found of their conditions, each as kind, condition and names.
+const FOUND: &str = r#"
+placement=head => widened placement=head: chin
+placement==head =>
+placement=chin =>
+placement=trunk => widened placement=trunk: chest
+placement=ch* => matched placement=ch*: chest chin
+configuration=[index middle -ring] => matched configuration=[index middle -ring]: U
+movement=circle => cannot-match movement=circle: arc
+movement.shape=circle => error
+left.placement=chest => cannot-match left.placement=chest: head neutral
+orientation.palm=up => not-coded orientation.palm=up:
+orientation=* => not-coded orientation=*:
+not orientation.palm=up => not-coded orientation.palm=up:
+gloss=CHATS => cannot-match gloss=CHATS: CHAT
+gloss=X* => cannot-match gloss=X*:
+gloss=/^X/ => cannot-match gloss=/^X/:
+gloss=/^BOLL/ => cannot-match gloss=/^BOLL/: BOL
+tier(nosuch)=x => cannot-match tier("nosuch")=x: Mouthing Remarks Traduction dominant.configuration nonmanual.brows
+overlaps tier(Mouth)=* => cannot-match tier("Mouth")=*: Mouthing
+tier(Mouthing)=moo => cannot-match tier("Mouthing")=moo:
+zebra => cannot-match zebra:
+gloss=CHAT or zebra => cannot-match zebra:
+gloss=CHAT or gloss:zeb* => cannot-match gloss:zeb*:
+configuration=U placement=chest => none-together configuration=U placement=chest: configuration=U 2 placement=chest 1
+configuration=U > S => cannot-match configuration=U > S:
+configuration=U placement=chin =>
+"#;
+
+#[test]
+fn an_answer_says_what_its_conditions_found() {
+    let mut sample = sample();
+    let mut failures = Vec::new();
+    for line in FOUND.lines().filter(|line| !line.trim().is_empty()) {
+        let (query, wanted) = line.split_once(" =>").expect("query => findings");
+        let found = sample.corpus.search(query, &SearchOptions::default());
+        let found = match found {
+            Ok(answer) => answer
+                .findings
+                .iter()
+                .map(shown)
+                .collect::<Vec<_>>()
+                .join(" | "),
+            Err(_) => "error".to_owned(),
+        };
+        if found != wanted.trim() {
+            failures.push(format!("{query} => {found}\n  wanted {wanted}"));
+        }
+    }
+    assert!(failures.is_empty(), "\n{}", failures.join("\n"));
+    let answer = sample.search("placement=head");
+    let json = serde_json::to_value(&answer.findings).expect("json");
+    let wanted = serde_json::json!([{
+        "kind": "widened",
+        "condition": "placement=head",
+        "at": [10, 14],
+        "message": "placement=head counts narrower values, too: chin; == counts the value alone",
+        "values": ["chin"],
+    }]);
+    assert_eq!(json, wanted);
+}
+
+fn shown(finding: &Finding) -> String {
+    let names: Vec<String> = match &finding.kind {
+        FindingKind::Widened { values } | FindingKind::Matched { values } => values.clone(),
+        FindingKind::CannotMatch { names, .. } => names.clone(),
+        FindingKind::NotCoded { .. } => Vec::new(),
+        FindingKind::NoneTogether { terms } => terms
+            .iter()
+            .map(|(term, count)| format!("{term} {count}"))
+            .collect(),
+    };
+    let text = format!(
+        "{} {}: {}",
+        finding.kind_name(),
+        finding.condition,
+        names.join(" ")
+    );
+    text.trim_end().to_owned()
+}
+
+#[test]
+fn values_are_counted_by_one_field_and_by_two() {
+    let mut sample = sample();
+    let mut tally = |query: &str, fields: &[&str]| {
+        let fields: Vec<String> = fields.iter().map(|it| (*it).to_owned()).collect();
+        let mut hear = unheard;
+        sample
+            .corpus
+            .tally(query, &fields, &mut Progress::new(&mut hear))
+    };
+    let rows = |tally: &Tally| -> Vec<String> {
+        let row = |row: &TallyRow| format!("{} {} {:?}", row.value, row.total, row.counts);
+        tally.rows.iter().map(row).collect()
+    };
+    let one = tally("origin=captured", &["placement"]).expect("counted");
+    assert_eq!(one.total, 5);
+    assert_eq!(
+        rows(&one),
+        [
+            "chest 1 []",
+            "chin 1 []",
+            "head 1 []",
+            "neutral 1 []",
+            "unset 2 []"
+        ]
+    );
+    let two = tally("", &["configuration", "signer"]).expect("counted");
+    assert_eq!(two.columns, ["Anna", "Ben", "unset"]);
+    assert_eq!(
+        rows(&two),
+        [
+            "B 3 [1, 1, 1]",
+            "S 2 [1, 1, 0]",
+            "U 2 [1, 1, 0]",
+            "5 1 [0, 1, 0]",
+            "unset 2 [1, 0, 1]",
+        ]
+    );
+    for (fields, part) in [
+        (&["nosuch"][..], "there is no field"),
+        (&["duration"], "are not counted"),
+        (&["translation"], "are not counted"),
+        (&["a", "b", "c"], "there is no field"),
+        (&[], "one field or of two"),
+    ] {
+        let error = tally("", fields).expect_err("refused").to_string();
+        assert!(error.contains(part), "{error}");
+    }
+}
+
+#[test]
+fn facets_say_how_many_values_they_leave_out() {
+    let mut sample = sample();
+    let mut facets = |most| {
+        let options = SearchOptions {
+            facet_values: most,
+            ..SearchOptions::default()
+        };
+        sample.corpus.search("", &options).expect("found")
+    };
+    let all = facets(usize::MAX);
+    assert!(all.facets_left_out.is_empty());
+    assert_eq!(all.facets["gloss"].len(), 7);
+    let few = facets(2);
+    for (field, values) in &few.facets {
+        let left = few.facets_left_out.get(field).copied().unwrap_or(0);
+        assert_eq!(values.len() + left, all.facets[field].len(), "{field}");
+        assert_eq!(values[..], all.facets[field][..values.len()], "{field}");
+    }
+    assert_eq!(few.facets_left_out["gloss"], 5);
 }
 
 #[test]

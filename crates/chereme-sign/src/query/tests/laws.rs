@@ -94,6 +94,15 @@ fn no_soup_of_words_makes_it_panic() {
         "nonmanual",
         "brows",
         "final",
+        ">",
+        "/",
+        "/^a/",
+        "@",
+        "@x",
+        "above",
+        "ou",
+        "chevauche",
+        "comme",
     ];
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let mut random = |below: usize| {
@@ -130,7 +139,8 @@ fn name() -> impl Strategy<Value = String> {
         "[A-Za-z0-9][A-Za-z0-9é:()' -]{0,7}",
         "[a-z][ -~«»“”’手]{0,6}",
         prop::sample::select(vec![
-            "unset", "n/a", "or", "NOT", "on", "in", "before", "tier", "like", "overlap"
+            "unset", "n/a", "or", "NOT", "on", "in", "before", "tier", "like", "overlap", "et",
+            "dans", "@a", "above", "comme", "a>b", "/x/"
         ])
         .prop_map(str::to_owned),
     ]
@@ -141,6 +151,12 @@ fn pattern() -> impl Strategy<Value = Pattern> {
         name().prop_map(Pattern::literal),
         (name(), name()).prop_map(|(a, b)| Pattern::from_glob(&format!("{a}*{b}"))),
         name().prop_map(|a| Pattern::from_glob(&format!("{a}*"))),
+        "[a-zé /\\\\]{0,3}[a-z^/$]{1,4}".prop_filter_map("an expression", |source| {
+            let expression = Expression::new(&source).ok();
+            // A slash that is escaped already is the same as one that is not.
+            let plain = !source.contains("\\/") && !source.trim().is_empty();
+            expression.filter(|_| plain).map(Pattern::of_expression)
+        }),
     ]
 }
 
@@ -181,13 +197,28 @@ fn comparison(features: bool) -> impl Strategy<Value = Comparison> {
     .prop_filter("a component", move |wanted| {
         features || !matches!(wanted, Wanted::Features(_))
     });
-    let value = wanted.prop_map(|wanted| Value {
-        at: At::default(),
-        wanted,
-    });
+    let value = wanted.prop_map(value_of);
     let operator = prop::sample::select(vec![Operator::Is, Operator::Exactly, Operator::IsNot]);
     (operator, prop::collection::vec(value, 1..3))
         .prop_map(|(operator, values)| Comparison { operator, values })
+}
+
+fn value_of(wanted: Wanted) -> Value {
+    Value {
+        at: At::default(),
+        wanted,
+    }
+}
+
+/// A component with values that follow each other.
+fn path() -> impl Strategy<Value = What> {
+    let step = prop_oneof![Just(Wanted::Present), pattern().prop_map(Wanted::Named)];
+    let steps = prop::collection::vec(step.prop_map(value_of), 2..4);
+    let operator = prop::sample::select(vec![Operator::Is, Operator::Exactly]);
+    (field(), operator, steps).prop_map(|(field, operator, steps)| {
+        let values = vec![value_of(Wanted::Steps(steps))];
+        What::Component(field, Comparison { operator, values })
+    })
 }
 
 /// A test whose thing compared is an annotation.
@@ -205,7 +236,10 @@ fn annotation() -> impl Strategy<Value = Test> {
         }),
         (
             prop::sample::select(TextField::ALL[1..].to_vec()),
-            prop::collection::vec(pattern(), 1..3)
+            prop::collection::vec(
+                pattern().prop_filter("words", |word| word.expression().is_none()),
+                1..3
+            )
         )
             .prop_map(|(field, words)| What::Words(field, words)),
     ]
@@ -236,7 +270,10 @@ fn leaf() -> impl Strategy<Value = Expr> {
             comparison(false)
         )
             .prop_map(|(property, comparison)| What::Property(property, comparison)),
-        pattern().prop_map(|word| What::Words(TextField::Any, vec![word])),
+        pattern()
+            .prop_filter("words", |word| word.expression().is_none())
+            .prop_map(|word| What::Words(TextField::Any, vec![word])),
+        path(),
     ];
     let test = what.prop_map(|what| Test {
         at: At::default(),
@@ -274,14 +311,22 @@ fn leaf() -> impl Strategy<Value = Expr> {
             relation,
             other
         })),
-        (example, prop::collection::vec(weighted, 0..3)).prop_map(|(example, on)| Expr::Like(
-            Like {
+        (
+            example,
+            prop::collection::vec(weighted, 0..3),
+            prop::option::of(prop::sample::select(vec![0.0, 0.25, 0.6, 0.1 + 0.2]))
+        )
+            .prop_map(|(example, on, above)| Expr::Like(Like {
                 at: At::default(),
                 example_at: At::default(),
                 example,
                 on,
-            }
-        )),
+                above,
+            })),
+        name().prop_map(|name| Expr::Saved(Saved {
+            at: At::default(),
+            name
+        })),
     ]
 }
 

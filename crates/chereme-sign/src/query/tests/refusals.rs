@@ -275,6 +275,44 @@ const WRONG: &[(&str, &str)] = &[
     ("placement= or a", "11..13 a value should stand here"),
     ("gloss=a, not b", "9..12 a value should stand here"),
     ("not=x", r#"0..3 there is no field "not""#),
+    (
+        "palm=up",
+        r#"0..4 "palm" is a part of orientation; did you mean orientation.palm?"#,
+    ),
+    (
+        "configuration.dominant=B",
+        "0..22 the hand stands before configuration, not after it; did you mean dominant.configuration?",
+    ),
+    (
+        "duration<500",
+        r#"9..12 "500" has no unit; did you mean 500ms?"#,
+    ),
+    ("gloss=/^BO", "6..7 this regular expression is not closed"),
+    (
+        "gloss=/(/",
+        "6..9 this is no regular expression: unclosed group",
+    ),
+    (
+        "gloss=//",
+        "6..8 this is no regular expression: it is empty",
+    ),
+    ("gloss=/a/i", "9..10 a blank is missing here"),
+    ("placement=head >", "16..16 a value should stand here"),
+    (
+        "placement=head > unset",
+        "17..22 nothing begins or goes on where no value is",
+    ),
+    (
+        "placement!=head > chest",
+        "11..23 successive values are not compared with `!=`",
+    ),
+    (
+        "overlaps placement=head > chest",
+        "19..31 successive values belong to one token, not to an annotation beside it",
+    ),
+    ("like token:41 above 2", r#"20..21 "2" is no likeness"#),
+    ("like token:41 above", r#"19..19 "" is no likeness"#),
+    ("@", "0..1 which saved search?"),
 ];
 
 #[test]
@@ -340,6 +378,9 @@ fn suggestions_mend_the_query() {
         ("a || b", "a or b"),
         ("like token:41 in placement", "like token:41 on placement"),
         ("placement:chin", "placement=chin"),
+        ("palm=up", "orientation.palm=up"),
+        ("configuration.dominant=B", "dominant.configuration=B"),
+        ("duration<500", "duration<500ms"),
     ] {
         let error = Query::parse(text).expect_err(text);
         let corrected = error.corrected(text).expect("a suggestion");

@@ -118,6 +118,9 @@ fn of_comparison(subject: Subject, comparison: &Comparison, not: bool) -> Option
 }
 
 fn of_like(like: &Like) -> Option<Condition> {
+    if like.above.is_some() {
+        return None;
+    }
     let mut weights = [1.0; 5];
     if !like.on.is_empty() {
         weights = [0.0; 5];
@@ -152,6 +155,7 @@ pub(crate) fn expr(row: &Condition) -> Expr {
             example_at: Default::default(),
             example: example.clone(),
             on: weighted(weights),
+            above: None,
         }),
         Condition::Values(subject, how, values) => {
             let comparison = comparison(*how, values);

@@ -191,6 +191,7 @@ impl Search {
             offset: page * PAGE,
             facets: page == 0,
             order: self.sort.order(),
+            ..SearchOptions::default()
         }
     }
 

@@ -1,0 +1,80 @@
+//! `chereme pairs`.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{Empty, PairOptions};
+use clap::ValueEnum;
+use serde_json::json;
+
+use crate::args::Cli;
+use crate::output::Output;
+
+/// Count the minimal pairs of a lexicon
+///
+/// Two signs are a minimal pair if exactly one of the fields differs. Fields are columns of an imported
+/// table, whose cells are compared as written, or fields of queries such as dominant.configuration,
+/// by which citation forms are compared.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// The fields, with commas between them, or a set of Signbank's columns: S13, F8, F7, F5, C3
+    #[arg(long, value_name = "A,B,...", value_delimiter = ',')]
+    fields: Vec<String>,
+    /// How an empty field counts
+    #[arg(long, value_enum, default_value_t = EmptyWord::Value)]
+    empty: EmptyWord,
+    /// List the pairs
+    #[arg(long)]
+    list: bool,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum EmptyWord {
+    /// It is a value like any other
+    Value,
+    /// Nobody knows: signs with an empty field take no part
+    Unknown,
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let corpus = cli.open(&args.corpus)?;
+    let found = corpus.pairs(&PairOptions {
+        fields: args.fields.clone(),
+        empty: match args.empty {
+            EmptyWord::Value => Empty::Value,
+            EmptyWord::Unknown => Empty::Unknown,
+        },
+    })?;
+    output.line(format!(
+        "{} pairs of {} signs ({} compared by {}), {} of them certain: both values are given",
+        found.total,
+        found.signs,
+        found.entries,
+        found.fields.join(", "),
+        found.certain
+    ))?;
+    output.line(format!(
+        "homonyms: {} pairs in {} groups of {} signs; {} forms",
+        found.homonyms, found.homonym_groups, found.homonym_signs, found.forms
+    ))?;
+    let counts = found.by_field.iter();
+    let counts: Vec<String> = counts
+        .map(|(field, count)| format!("{field} {count}"))
+        .collect();
+    output.line(format!("by field: {}", counts.join(", ")))?;
+    let dense = found.densest.iter();
+    let dense: Vec<String> = dense
+        .map(|it| format!("{} {}", it.gloss, it.pairs))
+        .collect();
+    output.line(format!("in most pairs: {}", dense.join(", ")))?;
+    let mut document = serde_json::to_value(&found)?;
+    if args.list {
+        let row = |it: &chereme_corpus::Pair| vec![it.a.clone(), it.b.clone(), it.field.clone()];
+        let rows: Vec<Vec<String>> = found.list.iter().map(row).collect();
+        output.table(&["sign", "partner", "differs in"], &rows)?;
+        document["pairs"] = json!(found.list);
+    }
+    output.document(document)
+}

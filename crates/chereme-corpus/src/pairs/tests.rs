@@ -1,0 +1,174 @@
+//! Minimal pairs of small tables, and of one that was counted independently.
+
+use super::*;
+use crate::progress::Progress;
+use crate::{ImportOptions, unheard};
+
+fn corpus_of(folder: &std::path::Path, file: &std::path::Path) -> Corpus {
+    let mut corpus = Corpus::create(&folder.join("c.chereme"), "A").expect("made");
+    let mut hear = unheard;
+    let files = [file.to_owned()];
+    let progress = &mut Progress::new(&mut hear);
+    corpus
+        .import(&files, &ImportOptions::default(), progress)
+        .expect("imported");
+    corpus
+}
+
+fn asked(corpus: &Corpus, fields: &[&str], empty: Empty) -> Pairs {
+    let fields = fields.iter().map(|it| (*it).to_owned()).collect();
+    corpus
+        .pairs(&PairOptions { fields, empty })
+        .expect("counted")
+}
+
+#[test]
+fn pairs_differ_in_one_field_and_say_which() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("t.csv");
+    let table = "gloss,handshape,handshape weak,location\nA,V + O,,chin\nB,V,,chin\nC,V,V,chin\n\
+                 D,V,,chin\nE,B,,chest\nF,,,chest\n";
+    std::fs::write(&file, table).expect("written");
+    let corpus = corpus_of(folder.path(), &file);
+    let titles = ["handshape", "Handshape Weak", "location"];
+    let value = asked(&corpus, &titles, Empty::Value);
+    let list: Vec<String> = value
+        .list
+        .iter()
+        .map(|it| line(it).trim().replace('\t', " "))
+        .collect();
+    let wanted = [
+        "A B handshape",
+        "A D handshape",
+        "B C Handshape Weak",
+        "C D Handshape Weak",
+        "E F handshape",
+    ];
+    assert_eq!(list, wanted);
+    assert_eq!((value.total, value.signs, value.certain), (5, 6, 2));
+    let homonyms = (value.homonyms, value.homonym_groups, value.homonym_signs);
+    assert_eq!((homonyms, value.forms), ((1, 1, 2), 5));
+    let unknown = asked(&corpus, &titles, Empty::Unknown);
+    assert_eq!((unknown.total, unknown.entries), (0, 1));
+    // By what was coded, "V + O" differs from "V", too.
+    let coded = asked(
+        &corpus,
+        &["configuration", "weak.configuration", "placement"],
+        Empty::Value,
+    );
+    assert_eq!(coded.total, value.total, "{:?}", coded.list);
+    for fields in [
+        vec!["nosuch".to_owned()],
+        vec!["orientation.palm".to_owned()],
+    ] {
+        let options = PairOptions {
+            fields,
+            ..PairOptions::default()
+        };
+        assert!(corpus.pairs(&options).is_err());
+    }
+}
+
+#[test]
+fn a_lexicon_has_the_pairs_that_were_counted_elsewhere() {
+    let Ok(shared) = std::env::var("CHEREME_SHARED_DATA") else {
+        eprintln!("CHEREME_SHARED_DATA is not set: the lexicon was not counted");
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = std::path::Path::new(&shared).join("phonology/ngt_lexicon.tsv");
+    let corpus = corpus_of(folder.path(), &file);
+    let value = Empty::Value;
+    for (set, empty, total, signs, homonyms, forms, sha256) in [
+        (
+            "S13",
+            value,
+            4134,
+            1353,
+            (363, 203, 475),
+            1873,
+            "a20c157000a4a392acf22f4c06b779456e66ddd093d11588d33934b4fd931d43",
+        ),
+        (
+            "F8",
+            value,
+            11507,
+            1851,
+            (813, 292, 769),
+            1668,
+            "dd2b28a9c508a1b9d1ba965e3c57df3ad972074bc636929d1ee4b7bbdafeb87f",
+        ),
+        (
+            "F7",
+            value,
+            17595,
+            1845,
+            (1202, 308, 884),
+            1569,
+            "b366762d4d7ace3b6d216c6cc8ff82397f9b84237ba3959e3d5e0a63849b47d9",
+        ),
+        (
+            "F5",
+            value,
+            58700,
+            2084,
+            (4092, 351, 1358),
+            1138,
+            "4fecf0b3c8687505583df705d0e1d67f3c74187c5a7cc03f6775336fa983feb1",
+        ),
+        (
+            "C3",
+            value,
+            158_748,
+            2135,
+            (7268, 333, 1574),
+            904,
+            "19565cd43720c9492a0b5527e97359cb29aaefa71906bdb3c56934214b375796",
+        ),
+        (
+            "F7",
+            Empty::Unknown,
+            29,
+            35,
+            (10, 5, 12),
+            81,
+            "1d63be8590ef3b2314cb76e0835b42c63b73f221693033d1911daf8a7c1c34a0",
+        ),
+        (
+            "F5",
+            Empty::Unknown,
+            10750,
+            750,
+            (1302, 132, 500),
+            422,
+            "fb099d8f139b6825c24303a7695e5606f1bc6dffdbe9df1272c004886b4874f2",
+        ),
+    ] {
+        let found = asked(&corpus, &[set], empty);
+        let groups = (found.homonyms, found.homonym_groups, found.homonym_signs);
+        let counts = (found.total, found.signs, groups, found.forms);
+        assert_eq!(counts, (total, signs, homonyms, forms), "{set} {empty:?}");
+        assert_eq!(found.sha256, sha256, "{set} {empty:?}");
+    }
+    let found = asked(&corpus, &["S13"], value);
+    assert_eq!(found.certain, 3306);
+    assert_eq!(found.by_field[0], ("Handshape strong".to_owned(), 2368));
+    let top: Vec<(&str, usize)> = found
+        .densest
+        .iter()
+        .map(|it| (&*it.gloss, it.pairs))
+        .collect();
+    let wanted = [
+        ("1-A", 59),
+        ("EVEN-DENKEN-C", 59),
+        ("TELHAND-1-B", 59),
+        ("TELHAND-5", 51),
+        ("HEFTIG", 48),
+        ("SEPTEMBER-B", 48),
+        ("STRENG", 48),
+        ("2-A", 46),
+        ("PB", 46),
+        ("VRIJDAG-B", 46),
+    ];
+    assert_eq!(top, wanted);
+}

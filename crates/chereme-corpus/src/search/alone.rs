@@ -1,0 +1,82 @@
+//! Counts of the single terms of a query, reported if together they find nothing.
+
+use chereme_sign::query::{Expr, Query};
+
+use super::compile::{self, Ask, Asked};
+use super::finding::FindingKind;
+use super::joined;
+use super::plan;
+
+/// Reports the terms that find nothing: all of a query that has no answer, and otherwise those
+/// between `or`, where nothing shows that they add none.
+pub(crate) fn report(ask: &Ask<'_>, query: &Query, total: usize) -> Asked<()> {
+    let terms = joined(&query.root);
+    if total > 0 {
+        return terms.iter().try_for_each(|term| within_or(ask, term));
+    }
+    let ranked = |term: &&Expr| !matches!(term, Expr::Like(_));
+    let mut counts = Vec::new();
+    for term in terms.iter().filter(ranked) {
+        let count = count(ask, term)?;
+        if count == 0 {
+            leaves(ask, term)?;
+        }
+        counts.push((term.to_string(), count));
+    }
+    if counts.len() > 1 && counts.iter().all(|(_, count)| *count > 0) {
+        let kind = FindingKind::NoneTogether { terms: counts };
+        ask.find(query.to_string(), query.root.at(), kind);
+    }
+    Ok(())
+}
+
+fn within_or(ask: &Ask<'_>, term: &Expr) -> Asked<()> {
+    match term {
+        Expr::Or(terms) => terms.iter().try_for_each(|term| {
+            if count(ask, term)? == 0 {
+                leaves(ask, term)?;
+            }
+            Ok(())
+        }),
+        Expr::And(terms) => terms.iter().try_for_each(|term| within_or(ask, term)),
+        _ => Ok(()),
+    }
+}
+
+fn count(ask: &Ask<'_>, term: &Expr) -> Asked<usize> {
+    let plan = compile::plan(ask, term)?;
+    Ok(plan::evaluate(ask, &plan, None)?.len())
+}
+
+/// Reports the comparisons below a term that find nothing, unless more is known of them already.
+fn leaves(ask: &Ask<'_>, term: &Expr) -> Asked<()> {
+    match term {
+        Expr::And(terms) | Expr::Or(terms) => terms.iter().try_for_each(|term| leaves(ask, term)),
+        Expr::Test(_) | Expr::Relation(_) => {
+            let at = term.at();
+            let known = ask.findings.borrow();
+            let said = known.iter().any(|it| {
+                let (start, end) = it.at;
+                let dead = matches!(
+                    it.kind,
+                    FindingKind::CannotMatch { .. } | FindingKind::NotCoded { .. }
+                );
+                dead && start >= at.start && end <= at.end
+            });
+            drop(known);
+            if !said && count(ask, term)? == 0 {
+                let why = match term {
+                    Expr::Relation(_) => "no token stands so to such an annotation",
+                    _ => "no token of the corpus has it",
+                };
+                let kind = FindingKind::CannotMatch {
+                    why: why.to_owned(),
+                    names: Vec::new(),
+                };
+                ask.find(term.to_string(), at, kind);
+            }
+            Ok(())
+        }
+        Expr::Not(_) | Expr::Like(_) | Expr::Saved(_) => Ok(()),
+    }
+}

@@ -1,0 +1,150 @@
+//! Findings of an answer: the values that a condition widened to or matched, or why it matches nothing.
+
+use chereme_sign::Component;
+use chereme_sign::query::At;
+use serde::Serialize;
+use serde::ser::SerializeMap;
+
+/// How many names a message lists.
+const NAMED: usize = 8;
+
+/// Something about a condition of a query that whoever asked should know.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finding {
+    /// The condition in its canonical form, such as `placement=head`.
+    pub condition: String,
+    /// Its first character in the query, and the one after its last; a condition of a saved search
+    /// stands where the search is named.
+    pub at: (usize, usize),
+    /// The kind, with its details.
+    pub kind: FindingKind,
+}
+
+/// A kind of finding, with its details.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FindingKind {
+    /// `=` found narrower values than the one that is named: these of the corpus. `==` does not.
+    Widened {
+        /// The narrower values, as they are coded.
+        values: Vec<String>,
+    },
+    /// A pattern or a list of features found these values of the corpus.
+    Matched {
+        /// The values, as they are coded.
+        values: Vec<String>,
+    },
+    /// Nothing of this component, or of this part of it, is coded in the corpus.
+    NotCoded {
+        /// The component.
+        component: Component,
+        /// The part of it, if the condition names one.
+        part: Option<String>,
+    },
+    /// No token of the corpus can match.
+    CannotMatch {
+        /// Why, in one sentence without a full stop.
+        why: String,
+        /// What could match: values, names, or whole conditions.
+        names: Vec<String>,
+    },
+    /// Each term finds tokens by itself, and no token has all of them.
+    NoneTogether {
+        /// The terms, and how many tokens each finds by itself.
+        terms: Vec<(String, usize)>,
+    },
+}
+
+impl Finding {
+    pub(crate) fn new(condition: String, at: At, kind: FindingKind) -> Self {
+        let at = (at.start, at.end);
+        Self {
+            condition,
+            at,
+            kind,
+        }
+    }
+
+    /// Returns the word for the kind that JSON has, such as `cannot-match`.
+    #[must_use]
+    pub fn kind_name(&self) -> &'static str {
+        match self.kind {
+            FindingKind::Widened { .. } => "widened",
+            FindingKind::Matched { .. } => "matched",
+            FindingKind::NotCoded { .. } => "not-coded",
+            FindingKind::CannotMatch { .. } => "cannot-match",
+            FindingKind::NoneTogether { .. } => "none-together",
+        }
+    }
+
+    /// Returns the finding as a sentence for people.
+    #[must_use]
+    pub fn message(&self) -> String {
+        let condition = &self.condition;
+        match &self.kind {
+            FindingKind::Widened { values } => format!(
+                "{condition} counts narrower values, too: {}; == counts the value alone",
+                few(values)
+            ),
+            FindingKind::Matched { values } => format!("{condition} matched: {}", few(values)),
+            FindingKind::NotCoded { component, part } => {
+                let field = part
+                    .as_ref()
+                    .map_or(component.to_string(), |part| format!("{component}.{part}"));
+                format!("{condition}: no {field} is coded in this corpus yet")
+            }
+            FindingKind::CannotMatch { why, names } if names.is_empty() => {
+                format!("{condition} finds nothing: {why}")
+            }
+            FindingKind::CannotMatch { why, names } => {
+                format!(
+                    "{condition} finds nothing: {why}; there are: {}",
+                    few(names)
+                )
+            }
+            FindingKind::NoneTogether { terms } => {
+                let terms: Vec<String> = terms
+                    .iter()
+                    .map(|(term, count)| format!("{term} {count}"))
+                    .collect();
+                format!(
+                    "no token has all of it; alone they find: {}",
+                    terms.join(", ")
+                )
+            }
+        }
+    }
+}
+
+/// Returns the first names of a list, and how many more there are.
+fn few(names: &[String]) -> String {
+    let shown = names[..names.len().min(NAMED)].join(", ");
+    match names.len().saturating_sub(NAMED) {
+        0 => shown,
+        more => format!("{shown} and {more} more"),
+    }
+}
+
+impl Serialize for Finding {
+    fn serialize<S: serde::Serializer>(&self, out: S) -> Result<S::Ok, S::Error> {
+        let mut map = out.serialize_map(None)?;
+        map.serialize_entry("kind", self.kind_name())?;
+        map.serialize_entry("condition", &self.condition)?;
+        map.serialize_entry("at", &[self.at.0, self.at.1])?;
+        map.serialize_entry("message", &self.message())?;
+        match &self.kind {
+            FindingKind::Widened { values } | FindingKind::Matched { values } => {
+                map.serialize_entry("values", values)?;
+            }
+            FindingKind::NotCoded { component, part } => {
+                map.serialize_entry("component", component)?;
+                map.serialize_entry("part", part)?;
+            }
+            FindingKind::CannotMatch { names, .. } => map.serialize_entry("names", names)?,
+            FindingKind::NoneTogether { terms } => {
+                let counts: std::collections::BTreeMap<_, _> = terms.iter().cloned().collect();
+                map.serialize_entry("terms", &counts)?;
+            }
+        }
+        map.end()
+    }
+}

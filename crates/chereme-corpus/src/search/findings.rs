@@ -1,0 +1,198 @@
+//! Findings of comparisons of components: values of the corpus that they found, or could find.
+
+use std::collections::BTreeSet;
+
+use chereme_sign::query::{Comparison, Pattern, Test, Value, Wanted, What};
+use chereme_sign::text::{fold, nearest};
+use chereme_sign::{Field, Reading};
+
+use super::compile::{Ask, Asked};
+use super::component::ComponentTest;
+use super::finding::FindingKind;
+use super::known::{KnownReading, KnownReadings};
+use super::terms::{hands_of, phase_counts};
+
+/// How many names are offered in place of one that finds nothing.
+const OFFERED: usize = 20;
+
+/// Reports what each value of a comparison of a component found.
+pub(crate) fn report(ask: &Ask<'_>, test: &ComponentTest) -> Asked<()> {
+    let known = ask.readings(test.field.component)?;
+    for (number, value) in test.comparison.values.iter().enumerate() {
+        let kind = match &value.wanted {
+            Wanted::Steps(_) | Wanted::Missing(_) => continue,
+            Wanted::Present => not_coded(test, &known),
+            Wanted::Named(_) | Wanted::Features(_) => of_value(test, &known, number, value),
+        };
+        if let Some(kind) = kind {
+            ask.find(written(test, value), value.at, kind);
+        }
+    }
+    Ok(())
+}
+
+/// Returns the condition that one value of a comparison is.
+fn written(test: &ComponentTest, value: &Value) -> String {
+    let what = What::Component(
+        test.field.clone(),
+        Comparison {
+            operator: test.comparison.operator,
+            values: vec![value.clone()],
+        },
+    );
+    Test {
+        at: value.at,
+        subject_at: value.at,
+        what,
+    }
+    .to_string()
+}
+
+fn of_value(
+    test: &ComponentTest,
+    known: &KnownReadings,
+    number: usize,
+    value: &Value,
+) -> Option<FindingKind> {
+    let (mut meant, mut narrower) = (BTreeSet::new(), BTreeSet::new());
+    for (part, accepted) in &test.parts {
+        let (Some(values), Some(accepted)) = (known.parts.get(part), accepted.get(number)) else {
+            continue;
+        };
+        let mut add = |folded: &str, alike: &[KnownReading]| {
+            for known in alike.iter().filter(|it| is_of(&test.field, it)) {
+                let Reading::Value(text) = &known.reading else {
+                    continue;
+                };
+                if accepted.means(text, folded) {
+                    meant.insert(text.clone());
+                } else if accepted.fits(text, folded) {
+                    narrower.insert(text.clone());
+                }
+            }
+        };
+        match accepted.listed() {
+            Some(listed) => {
+                let found = listed.filter_map(|text| Some((text, values.get(text)?)));
+                found.for_each(|(folded, alike)| add(folded, alike));
+            }
+            None => values.iter().for_each(|(folded, alike)| add(folded, alike)),
+        }
+    }
+    let literal = match &value.wanted {
+        Wanted::Named(pattern) => pattern.as_literal(),
+        _ => None,
+    };
+    if meant.is_empty() && narrower.is_empty() {
+        return Some(not_coded(test, known).unwrap_or_else(|| nothing(test, known, literal)));
+    }
+    let listed = |texts: BTreeSet<String>| texts.into_iter().collect();
+    match (literal, narrower.is_empty()) {
+        (None, _) => {
+            meant.append(&mut narrower);
+            Some(FindingKind::Matched {
+                values: listed(meant),
+            })
+        }
+        (Some(_), false) => Some(FindingKind::Widened {
+            values: listed(narrower),
+        }),
+        (Some(_), true) => None,
+    }
+}
+
+/// Returns whether a reading is one of the hand and the phase of a field.
+fn is_of(field: &Field, known: &KnownReading) -> bool {
+    let hands = hands_of(field.hand);
+    let mut terms = known.terms.iter();
+    terms.any(|(hand, phase, _)| hands.contains(hand) && phase_counts(field.phase, phase))
+}
+
+/// Returns the finding that nothing of a component, or of the part that is named, is coded.
+fn not_coded(test: &ComponentTest, known: &KnownReadings) -> Option<FindingKind> {
+    let coded = |part: &Option<String>| {
+        let values = known.parts.get(part).into_iter();
+        let mut values = values.flat_map(|values| values.values()).flatten();
+        values.any(|it| it.reading.value().is_some())
+    };
+    let none = match &test.field.feature {
+        Some(_) => !coded(&test.field.feature),
+        None => !known.parts.keys().any(coded),
+    };
+    none.then(|| FindingKind::NotCoded {
+        component: test.field.component,
+        part: test.field.feature.clone(),
+    })
+}
+
+/// Returns why a value finds nothing where something is coded, and what could be found.
+fn nothing(test: &ComponentTest, known: &KnownReadings, literal: Option<&str>) -> FindingKind {
+    let field = &test.field;
+    let of_part = |part: &Option<String>| -> Vec<String> {
+        let values = known.parts.get(part).into_iter();
+        let values = values.flat_map(|values| values.values()).flatten();
+        let own = values.filter(|it| is_of(field, it));
+        let texts = own.filter_map(|it| it.reading.value().map(str::to_owned));
+        let texts: BTreeSet<String> = texts.collect();
+        texts.into_iter().collect()
+    };
+    let own = of_part(&field.feature);
+    let others = known
+        .parts
+        .keys()
+        .filter(|part| field.feature.is_none() && **part != field.feature);
+    let mut conditions = Vec::new();
+    for part in others {
+        let other = Field {
+            feature: part.clone(),
+            ..field.clone()
+        };
+        let values = of_part(part);
+        let alike = literal.map_or(Vec::new(), |text| like(text, &values));
+        conditions.extend(
+            alike
+                .iter()
+                .map(|value| format!("{other}={}", Pattern::literal(value.as_str()))),
+        );
+    }
+    let near = literal.map_or(Vec::new(), |text| like(text, &own));
+    let mut names = match (near.is_empty(), conditions.is_empty()) {
+        (false, _) => near,
+        (true, false) => conditions,
+        (true, true) => own.clone(),
+    };
+    names.truncate(OFFERED);
+    let why = if own.is_empty() {
+        let parts: Vec<&str> = known.parts.keys().flatten().map(String::as_str).collect();
+        match field.hand.is_some() || field.phase.is_some() {
+            true => format!("nothing of {field} is coded in this corpus"),
+            false => format!(
+                "of {field} only parts are coded in this corpus: {}",
+                parts.join(", ")
+            ),
+        }
+    } else {
+        format!("no token has such a value of {field}")
+    };
+    FindingKind::CannotMatch { why, names }
+}
+
+/// Returns the names that hold a text or are a slip or two away from it, the likeliest first.
+pub(crate) fn like(text: &str, names: &[String]) -> Vec<String> {
+    let wanted = fold(text);
+    let mut found: Vec<String> = Vec::new();
+    found.extend(nearest(text, names.iter().map(String::as_str)).map(str::to_owned));
+    let words = |name: &str| {
+        let folded = fold(name);
+        let mut words = folded.split(|c: char| !c.is_alphanumeric());
+        words.any(|word| word == wanted) || wanted.chars().count() > 2 && folded.contains(&wanted)
+    };
+    let holding = names.iter().filter(|name| words(name));
+    for name in holding {
+        if !found.contains(name) {
+            found.push(name.clone());
+        }
+    }
+    found.truncate(OFFERED);
+    found
+}

@@ -1,0 +1,111 @@
+//! Values that follow each other in one token: `placement=head > chest`.
+
+use std::collections::BTreeSet;
+
+use chereme_sign::Field;
+use chereme_sign::query::{Comparison, Operator, QueryError, Value};
+use tantivy::Term;
+
+use super::any_term::AnyTerm;
+use super::compile::{Ask, Asked};
+use super::component::ComponentTest;
+use super::plan::Plan;
+use super::terms::hands_of;
+
+/// How many places in time may be tried for one query.
+const MOST_PLACES: usize = 24;
+
+/// Returns the plan for the tokens that begin with the first value and move on to the others, in
+/// this order, on one hand.
+pub(crate) fn plan(
+    ask: &Ask<'_>,
+    field: &Field,
+    operator: Operator,
+    steps: &[Value],
+    at: std::ops::Range<usize>,
+) -> Asked<Plan> {
+    let refused = |message: &str| QueryError {
+        at: at.clone(),
+        message: message.to_owned(),
+        remedy: "write for example placement=head > chest".to_owned(),
+        suggestion: None,
+    };
+    if field.phase.is_some() {
+        return Err(refused("successive values have no phase before them").into());
+    }
+    let tests = steps.iter().map(|step| {
+        let comparison = Comparison {
+            operator,
+            values: vec![step.clone()],
+        };
+        ComponentTest::new(ask, field, &comparison, at.clone())
+    });
+    let tests: Vec<ComponentTest> = tests.collect::<Asked<_>>()?;
+    tests.iter().try_for_each(|test| test.report(ask))?;
+    let known = ask.readings(field.component)?;
+    let mut plans = Vec::new();
+    for (part, values) in &known.parts {
+        let all = values.values().flatten().flat_map(|known| &known.terms);
+        let mut places: Vec<u32> = all.filter_map(|(_, phase, _)| place(phase)).collect();
+        places.sort_unstable();
+        places.dedup();
+        places.retain(|place| *place > 0);
+        if steps.len() > 3 && places.len() > MOST_PLACES {
+            return Err(refused("this component changes too often for so many values").into());
+        }
+        for hand in hands_of(field.hand) {
+            let terms = tests
+                .iter()
+                .map(|test| test.passing_terms(ask, part, *hand))
+                .collect::<Asked<Vec<_>>>()?;
+            let first = any(ask, &terms[0], |place| place == 0);
+            if let (Some(first), Some(rest)) = (first, chain(ask, &terms[1..], &places)) {
+                plans.push(Plan::all(vec![first, rest]));
+            }
+        }
+    }
+    Ok(Plan::any(plans))
+}
+
+/// Terms with the phases that they are of.
+pub(crate) type Phased = Vec<(String, String)>;
+
+/// Returns the plan for values at any of the places, each after the one before it.
+fn chain(ask: &Ask<'_>, terms: &[Phased], places: &[u32]) -> Option<Plan> {
+    let (step, later) = terms.split_first()?;
+    if later.is_empty() {
+        let places: BTreeSet<u32> = places.iter().copied().collect();
+        return any(ask, step, |place| places.contains(&place));
+    }
+    let mut plans = Vec::new();
+    for (number, at) in places.iter().enumerate() {
+        let here = any(ask, step, |place| place == *at);
+        let rest = here
+            .is_some()
+            .then(|| chain(ask, later, &places[number + 1..]));
+        if let (Some(here), Some(Some(rest))) = (here, rest) {
+            plans.push(Plan::all(vec![here, rest]));
+        }
+    }
+    (!plans.is_empty()).then(|| Plan::any(plans))
+}
+
+fn any(ask: &Ask<'_>, terms: &Phased, wanted: impl Fn(u32) -> bool) -> Option<Plan> {
+    let field = ask.fields.reading;
+    let own = terms
+        .iter()
+        .filter(|(phase, _)| place(phase).is_some_and(&wanted));
+    let terms: Vec<Term> = own
+        .map(|(_, term)| Term::from_field_text(field, term))
+        .collect();
+    (!terms.is_empty()).then(|| Plan::index(AnyTerm::new(field, terms)))
+}
+
+/// Returns the place of a phase among successive values; the only value of a sign has none.
+fn place(phase: &str) -> Option<u32> {
+    match phase {
+        "i" => Some(0),
+        "f" => Some(u32::MAX),
+        _ => phase.strip_prefix('m')?.parse().ok(),
+    }
+}

@@ -1,0 +1,249 @@
+//! Frequency tables: how many of the tokens found have each value of one field, or of two.
+
+use std::collections::BTreeMap;
+
+use chereme_sign::query::{Property, Query, TextField, What};
+use chereme_sign::{Field, Reading};
+use serde::Serialize;
+use tantivy::DocAddress;
+
+use super::any_term::AnyTerm;
+use super::compile::{Ask, Asked, Failure};
+use super::docs::{self, Docs, Numbers};
+use super::known::terms_of;
+use super::terms::{Mark, hands_of, phase_counts};
+use super::{compile, plan, wrong};
+use crate::Corpus;
+use crate::db::search::answers::{self, Named};
+use crate::error::{Error, Result};
+use crate::progress::Progress;
+
+/// How many cells a cross table may have.
+const MOST_CELLS: usize = 1_000_000;
+
+/// The row or column of the tokens that have no value of a field.
+pub const NO_VALUE: &str = "unset";
+
+/// How many tokens have each value of one field, or each two values of two.
+///
+/// A token with several values of a field counts in each of them, as a query for each would find it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Tally {
+    /// The query in its canonical form.
+    pub query: String,
+    /// How many tokens it finds.
+    pub total: usize,
+    /// The fields, one or two, by their house names.
+    pub fields: Vec<String>,
+    /// The values of the second field, the most frequent first; empty if there is one field.
+    pub columns: Vec<String>,
+    /// A row for each value of the first field, the most frequent first, [`NO_VALUE`] last.
+    pub rows: Vec<TallyRow>,
+}
+
+/// A row of a [`Tally`].
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TallyRow {
+    /// The value of the first field.
+    pub value: String,
+    /// How many tokens have it.
+    pub total: usize,
+    /// How many of them have each value of the second field.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub counts: Vec<usize>,
+}
+
+impl Corpus {
+    /// Counts the values of one or two fields among the tokens that a query finds.
+    ///
+    /// A field is a component (`placement`, `weak.configuration`), `gloss`, or a property such as
+    /// `signer`, `origin` or `recording`.
+    ///
+    /// # Errors
+    /// Those of [`search`](Self::search), [`Error::Wrong`] if a field has no values to count, or the
+    /// table would be too large, and [`Error::Stopped`].
+    pub fn tally(
+        &mut self,
+        query: &str,
+        fields: &[String],
+        progress: &mut Progress<'_>,
+    ) -> Result<Tally> {
+        let subjects = fields.iter().map(|field| subject(field));
+        let subjects: Vec<Subject> = subjects.collect::<Result<_>>()?;
+        if subjects.is_empty() || subjects.len() > 2 {
+            return Err(Error::wrong("values of one field or of two are counted")
+                .advise("name for example placement, or placement and signer"));
+        }
+        self.asked(query, progress, &mut |ask, query| {
+            tally(ask, query, &subjects)
+        })
+    }
+}
+
+/// What is counted.
+enum Subject {
+    Component(Field),
+    Property(Property),
+    Gloss,
+}
+
+impl Subject {
+    fn name(&self) -> String {
+        match self {
+            Self::Component(field) => field.to_string(),
+            Self::Property(property) => property.name().to_owned(),
+            Self::Gloss => TextField::Gloss.name().to_owned(),
+        }
+    }
+}
+
+fn subject(name: &str) -> Result<Subject> {
+    let asked = format!("{}=*", name.trim());
+    let query = Query::parse(&asked).map_err(|error| {
+        // A time compares with times only, and has no values to count.
+        match Query::parse(&format!("{}>0s", name.trim())) {
+            Ok(_) => uncounted(name),
+            Err(_) => wrong(&asked, &error),
+        }
+    })?;
+    match query.tests()[..] {
+        [test] => match &test.what {
+            What::Component(field, _) => Ok(Subject::Component(field.clone())),
+            What::Property(property, _) => Ok(Subject::Property(*property)),
+            What::Whole(TextField::Gloss, _) => Ok(Subject::Gloss),
+            _ => Err(uncounted(name)),
+        },
+        _ => Err(uncounted(name)),
+    }
+}
+
+fn uncounted(name: &str) -> Error {
+    Error::wrong(format!("values of {name:?} are not counted"))
+        .at(name)
+        .advise("count a component such as placement, or gloss, signer, recording, origin, hand")
+}
+
+fn tally(ask: &Ask<'_>, query: &Query, subjects: &[Subject]) -> Asked<Tally> {
+    let plan = compile::plan(ask, &query.root)?;
+    let found = plan::evaluate(ask, &plan, None)?;
+    let mut groups = subjects
+        .iter()
+        .map(|subject| groups(ask, &found, subject))
+        .collect::<Asked<Vec<_>>>()?
+        .into_iter();
+    let rows = groups.next().unwrap_or_default();
+    let columns = groups.next().unwrap_or_default();
+    if rows.len().saturating_mul(columns.len()) > MOST_CELLS {
+        let message = format!(
+            "the table would have {} rows and {} columns",
+            rows.len(),
+            columns.len()
+        );
+        let remedy = "count fields of fewer values, or one field";
+        return Err(Failure::Other(Error::wrong(message).advise(remedy)));
+    }
+    let mut of_doc: BTreeMap<DocAddress, Vec<usize>> = BTreeMap::new();
+    for (number, (_, docs)) in columns.iter().enumerate() {
+        for doc in docs {
+            of_doc.entry(*doc).or_default().push(number);
+        }
+    }
+    let row = |(value, docs): (String, Docs)| {
+        let mut counts = vec![0; columns.len()];
+        for number in docs.iter().filter_map(|doc| of_doc.get(doc)).flatten() {
+            counts[*number] += 1;
+        }
+        TallyRow {
+            value,
+            total: docs.len(),
+            counts,
+        }
+    };
+    Ok(Tally {
+        query: query.to_string(),
+        total: found.len(),
+        fields: subjects.iter().map(Subject::name).collect(),
+        rows: rows.into_iter().map(row).collect(),
+        columns: columns.into_iter().map(|(value, _)| value).collect(),
+    })
+}
+
+/// Returns the values of a field with the documents that have each, the most frequent first.
+fn groups(ask: &Ask<'_>, found: &[DocAddress], subject: &Subject) -> Asked<Vec<(String, Docs)>> {
+    let mut groups = match subject {
+        Subject::Component(field) => of_component(ask, found, field)?,
+        Subject::Gloss => of_rows(ask, found, "sign", Named::Sign)?,
+        Subject::Property(property) => match property {
+            Property::Signer => of_rows(ask, found, "signer", Named::Signer)?,
+            Property::Recording => of_rows(ask, found, "recording", Named::Recording)?,
+            Property::Sign => of_rows(ask, found, "sign", Named::Sign)?,
+            Property::Origin => of_mark(ask, found, Mark::Origin)?,
+            Property::Hand => of_mark(ask, found, Mark::Hand)?,
+            Property::Tier => of_mark(ask, found, Mark::Tier)?,
+            Property::Inventory => of_mark(ask, found, Mark::Inventory)?,
+            _ => return Err(Failure::Other(uncounted(property.name()))),
+        },
+    };
+    groups.retain(|(_, docs)| !docs.is_empty());
+    groups.sort_by(|a, b| b.1.len().cmp(&a.1.len()).then_with(|| a.0.cmp(&b.0)));
+    let mut all: Docs = groups.iter().flat_map(|(_, docs)| docs).copied().collect();
+    all.sort_unstable();
+    all.dedup();
+    let rest = docs::difference(found, &all);
+    if !rest.is_empty() {
+        groups.push((NO_VALUE.to_owned(), rest));
+    }
+    Ok(groups)
+}
+
+fn of_component(ask: &Ask<'_>, found: &[DocAddress], field: &Field) -> Asked<Vec<(String, Docs)>> {
+    let known = ask.readings(field.component)?;
+    let hands = hands_of(field.hand);
+    let mut groups = Vec::new();
+    let values = known.parts.get(&field.feature).into_iter();
+    for known in values.flat_map(|values| values.values()).flatten() {
+        let Reading::Value(value) = &known.reading else {
+            continue;
+        };
+        let own = known
+            .terms
+            .iter()
+            .filter(|(hand, phase, _)| hands.contains(hand) && phase_counts(field.phase, phase));
+        let texts: Vec<&str> = own.map(|(_, _, term)| term.as_str()).collect();
+        let docs = ask.run(&AnyTerm::texts(ask.fields.reading, texts))?;
+        groups.push((value.clone(), docs::intersection(&docs, found)));
+    }
+    Ok(groups)
+}
+
+fn of_mark(ask: &Ask<'_>, found: &[DocAddress], mark: Mark) -> Asked<Vec<(String, Docs)>> {
+    let prefix = mark.prefix();
+    let mut groups = Vec::new();
+    for term in terms_of(ask.searcher, ask.fields.reading, &prefix, |_| true)? {
+        let docs = ask.run(&AnyTerm::texts(ask.fields.reading, [&term]))?;
+        let value = term[prefix.len()..].to_owned();
+        groups.push((value, docs::intersection(&docs, found)));
+    }
+    Ok(groups)
+}
+
+fn of_rows(
+    ask: &Ask<'_>,
+    found: &[DocAddress],
+    field: &str,
+    named: Named,
+) -> Asked<Vec<(String, Docs)>> {
+    let rows = Numbers::rows(ask.searcher, field)?;
+    let mut by_row: BTreeMap<i64, Docs> = BTreeMap::new();
+    for doc in found {
+        if let Some(row) = rows.get(*doc) {
+            by_row.entry(row).or_default().push(*doc);
+        }
+    }
+    let mut groups = Vec::with_capacity(by_row.len());
+    for (row, docs) in by_row {
+        let name = answers::name(ask.connection, named, row)?;
+        groups.push((name.unwrap_or_default(), docs));
+    }
+    Ok(groups)
+}

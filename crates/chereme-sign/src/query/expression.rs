@@ -1,0 +1,139 @@
+//! Regular expressions in a query: `gloss=/^BO.*/`.
+
+use crate::text::fold;
+use regex::{Regex, RegexBuilder};
+use std::cmp::Ordering;
+use std::hash::{Hash, Hasher};
+
+/// How many characters a regular expression may have.
+const MAX_CHARS: usize = 1000;
+/// How many bytes a compiled expression may take.
+const MAX_SIZE: usize = 1 << 20;
+/// How deep groups may stand inside each other.
+const MAX_DEPTH: u32 = 50;
+
+/// A regular expression that is looked for anywhere in a text; `^` and `$` are its ends.
+///
+/// Matching takes time in proportion to the text, whatever the expression.
+#[derive(Debug, Clone)]
+pub struct Expression {
+    source: String,
+    exact: Regex,
+    loose: Regex,
+}
+
+impl Expression {
+    /// Compiles an expression.
+    ///
+    /// # Errors
+    /// With the reason, in one line, if it is none, or needs too much memory.
+    pub fn new(source: &str) -> Result<Self, String> {
+        if source.chars().count() > MAX_CHARS {
+            return Err(format!("it is longer than {MAX_CHARS} characters"));
+        }
+        let build = |loose: bool| {
+            RegexBuilder::new(source)
+                .case_insensitive(loose)
+                .size_limit(MAX_SIZE)
+                .dfa_size_limit(MAX_SIZE)
+                .nest_limit(MAX_DEPTH)
+                .build()
+        };
+        let reason = |error: regex::Error| match error {
+            regex::Error::CompiledTooBig(_) => "it needs too much memory".to_owned(),
+            other => {
+                let text = other.to_string();
+                let last = text.lines().last().unwrap_or_default();
+                last.strip_prefix("error: ").unwrap_or(last).to_owned()
+            }
+        };
+        Ok(Self {
+            exact: build(false).map_err(reason)?,
+            loose: build(true).map_err(reason)?,
+            source: source.to_owned(),
+        })
+    }
+
+    /// Returns the expression as it was written, without the slashes.
+    #[must_use]
+    pub fn source(&self) -> &str {
+        &self.source
+    }
+
+    /// Returns whether it is found in a text, without regard to case, or in the text without accents.
+    #[must_use]
+    pub fn finds(&self, text: &str) -> bool {
+        self.loose.is_match(text) || self.loose.is_match(&fold(text))
+    }
+
+    /// Returns whether it is found in a text, letter by letter.
+    #[must_use]
+    pub fn finds_exactly(&self, text: &str) -> bool {
+        self.exact.is_match(text)
+    }
+}
+
+impl PartialEq for Expression {
+    fn eq(&self, other: &Self) -> bool {
+        self.source == other.source
+    }
+}
+
+impl Eq for Expression {}
+
+impl Hash for Expression {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.source.hash(state);
+    }
+}
+
+impl PartialOrd for Expression {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Expression {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.source.cmp(&other.source)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_expression_is_found_anywhere_unless_it_is_tied() {
+        for (source, text, loosely, exactly) in [
+            ("^BO", "BOL", true, true),
+            ("^bo", "BOL", true, false),
+            ("^BO", "ABOL", false, false),
+            ("BO.*", "ABOL", true, true),
+            ("-[0-9]$", "BOL-2", true, true),
+            ("^eco", "ÉCOLE", true, false),
+            ("^École", "école", true, false),
+            ("a|b", "xbx", true, true),
+        ] {
+            let found = Expression::new(source).expect(source);
+            assert_eq!(found.finds(text), loosely, "{source} {text}");
+            assert_eq!(found.finds_exactly(text), exactly, "{source} {text}");
+        }
+    }
+
+    #[test]
+    fn hostile_expressions_are_refused_or_answer_soon() {
+        for source in [
+            "(",
+            "a{1000}{1000}{1000}",
+            "[",
+            &"(".repeat(400),
+            &"a".repeat(2000),
+        ] {
+            let reason = Expression::new(source).expect_err("refused");
+            assert!(!reason.is_empty() && !reason.contains('\n'), "{reason}");
+        }
+        let slow_elsewhere = Expression::new("(a*)*(a*)*(a*)*b$").expect("compiled");
+        assert!(!slow_elsewhere.finds(&"a".repeat(10_000)));
+    }
+}

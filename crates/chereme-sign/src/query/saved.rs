@@ -1,0 +1,126 @@
+//! Saved searches inside a query: `@chin configuration=B`.
+
+use super::AttributeTest;
+use super::tree::{At, Expr, Query};
+
+/// A search that is saved under a name, asked as part of a query: `@chin`, `@"my chin"`.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct Saved {
+    /// Where it stands in the query.
+    pub at: At,
+    /// Its name, without the sign before it.
+    pub name: String,
+}
+
+impl std::hash::Hash for At {
+    /// Every place equals every other, and so do their hashes.
+    fn hash<H: std::hash::Hasher>(&self, _: &mut H) {}
+}
+
+impl Query {
+    /// Returns the query with the searches that its saved ones stand for in their place.
+    ///
+    /// The parts of a search that `search` returns take the place of its name in this query.
+    ///
+    /// # Errors
+    /// Those of `search`.
+    pub fn with_saved<E>(
+        self,
+        search: &mut impl FnMut(&Saved) -> Result<Self, E>,
+    ) -> Result<Self, E> {
+        Ok(Self {
+            root: self.root.with_saved(search)?,
+        })
+    }
+}
+
+impl Expr {
+    fn with_saved<E>(self, search: &mut impl FnMut(&Saved) -> Result<Query, E>) -> Result<Self, E> {
+        Ok(match self {
+            Self::Saved(saved) => {
+                let mut root = search(&saved)?.root;
+                root.move_to(saved.at);
+                root
+            }
+            Self::And(terms) => {
+                let terms = terms.into_iter().map(|term| term.with_saved(search));
+                Self::all(terms.collect::<Result<Vec<_>, E>>()?)
+            }
+            Self::Or(terms) => {
+                let terms = terms.into_iter().map(|term| term.with_saved(search));
+                Self::any(terms.collect::<Result<Vec<_>, E>>()?)
+            }
+            Self::Not(inner) => Self::Not(Box::new(inner.with_saved(search)?)),
+            other => other,
+        })
+    }
+
+    /// Lets every part stand at one place.
+    fn move_to(&mut self, at: At) {
+        use super::tree::{Test, Wanted, What};
+        fn values(what: &mut What, at: At) {
+            let (What::Component(_, comparison)
+            | What::Property(_, comparison)
+            | What::Whole(_, comparison)
+            | What::Tier(_, comparison)
+            | What::Attribute(_, AttributeTest::Value(comparison))) = what
+            else {
+                return;
+            };
+            for value in &mut comparison.values {
+                value.at = at;
+                match &mut value.wanted {
+                    Wanted::Features(features) => features.iter_mut().for_each(|it| it.at = at),
+                    Wanted::Steps(steps) => steps.iter_mut().for_each(|it| it.at = at),
+                    _ => {}
+                }
+            }
+        }
+        let place = |test: &mut Test| {
+            (test.at, test.subject_at) = (at, at);
+            values(&mut test.what, at);
+        };
+        match self {
+            Self::And(terms) | Self::Or(terms) => terms.iter_mut().for_each(|it| it.move_to(at)),
+            Self::Not(inner) => inner.move_to(at),
+            Self::Test(test) => place(test),
+            Self::Relation(related) => {
+                related.at = at;
+                place(&mut related.other);
+            }
+            Self::Like(like) => {
+                (like.at, like.example_at) = (at, at);
+                like.on.iter_mut().for_each(|it| it.at = at);
+            }
+            Self::Saved(saved) => saved.at = at,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::convert::Infallible;
+
+    #[test]
+    fn saved_searches_are_put_in_anywhere() {
+        for (text, wanted) in [
+            ("@a", "gloss=A or gloss=B"),
+            ("not @a", "not (gloss=A or gloss=B)"),
+            ("@a hand=both", "(gloss=A or gloss=B) hand=both"),
+            ("x or @a y", "x or (gloss=A or gloss=B) y"),
+            ("(@\"a b\" or x)", "gloss=A or gloss=B or x"),
+        ] {
+            let query = Query::parse(text).expect(text);
+            let filled = query.with_saved(&mut |_| {
+                Ok::<_, Infallible>(Query::parse("gloss=A or gloss=B").expect("a query"))
+            });
+            let Ok(filled) = filled;
+            assert_eq!(filled.to_string(), wanted, "{text}");
+            let place = text.find('@').map(|start| start..start + 2);
+            if let Some(test) = filled.tests().iter().find(|it| it.to_string() == "gloss=A") {
+                assert_eq!(Some(test.at.start), place.map(|it| it.start), "{text}");
+            }
+        }
+    }
+}
