@@ -12,8 +12,9 @@ use crate::streams;
 
 /// Write out movement, annotations, tables, or the whole enriched database
 ///
-/// The extension of --to says the format: .bvh (movement of a recording or token), .eaf (a recording's
-/// tiers, for ELAN), .csv or .tsv (tokens with all components), .curves.csv (how much there is of each
+/// The extension of --to says the format: .bvh (movement of a recording or token), .glb (the same as glTF, for
+/// Blender and the web, with the annotations), .eaf or .TextGrid (a recording's tiers, for ELAN or Praat), .srt or
+/// .vtt (its translations or glosses as subtitles), .csv or .tsv (tokens with all components), .curves.csv (how much there is of each
 /// non-manual, frame by frame), .sigml (notated signs as gestural SiGML),
 /// .hsigml (the same as HamNoSys's symbols), .hns or .txt (as HamNoSys text, a sign a line). A name
 /// without an extension is a folder: with --format it gets a file of that format for each recording

@@ -41,6 +41,23 @@ pub(super) fn write(
     recording: &RecordingRow,
     out: &mut dyn Write,
 ) -> Result<()> {
+    let files = files(connection, recording)?;
+    let documents = documents(&files, recording)?;
+    let template = documents.first().cloned().unwrap_or_default();
+    let transcript = transcript(connection, recording, &documents)?;
+    raw::write(&to_raw(&transcript, &template), out)
+        .map_err(|error| Error::wrong(format!("the file cannot be written: {error}")))
+}
+
+/// Returns the tiers of a recording for files of other programs.
+pub(super) fn tiers_of(connection: &Connection, recording: &RecordingRow) -> Result<Transcript> {
+    let files = files(connection, recording)?;
+    let documents = documents(&files, recording)?;
+    transcript(connection, recording, &documents)
+}
+
+/// Returns the annotation files that the recording's tiers came from, the newest state of each.
+fn files(connection: &Connection, recording: &RecordingRow) -> Result<Vec<(String, Vec<u8>)>> {
     // A file that was edited and came again stands for what it was before.
     let mut files: Vec<(String, Vec<u8>)> = Vec::new();
     for file in recordings::source_files(connection, recording.id)? {
@@ -55,8 +72,15 @@ pub(super) fn write(
             None => files.push((file.name, bytes)),
         }
     }
+    Ok(files)
+}
+
+fn documents<'f>(
+    files: &'f [(String, Vec<u8>)],
+    recording: &RecordingRow,
+) -> Result<Vec<raw::Document<'f>>> {
     let mut documents = Vec::new();
-    for (_, bytes) in &files {
+    for (_, bytes) in files {
         let (document, _) = raw::read(bytes).map_err(|error| {
             damaged(
                 format!("a file of the recording {:?}", recording.name),
@@ -65,8 +89,15 @@ pub(super) fn write(
         })?;
         documents.push(document);
     }
-    let template = documents.first().cloned().unwrap_or_default();
-    let mut transcript = base(connection, recording, &documents)?;
+    Ok(documents)
+}
+
+fn transcript(
+    connection: &Connection,
+    recording: &RecordingRow,
+    documents: &[raw::Document<'_>],
+) -> Result<Transcript> {
+    let mut transcript = base(connection, recording, documents)?;
     Writing {
         connection,
         inventories: inventories::load_of(connection, recording.id)?,
@@ -75,8 +106,7 @@ pub(super) fn write(
     }
     .tiers(recording)?;
     describe(connection, recording, &mut transcript)?;
-    raw::write(&to_raw(&transcript, &template), out)
-        .map_err(|error| Error::wrong(format!("the file cannot be written: {error}")))
+    Ok(transcript)
 }
 
 /// What there is but tiers: that of the recording's first file, and the vocabularies of the others.

@@ -5,6 +5,7 @@ mod csv;
 mod dictionary;
 mod eaf;
 mod enriched;
+mod foreign;
 mod notation;
 mod several;
 #[cfg(test)]
@@ -14,6 +15,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
+use chereme_formats::subtitles;
 use rusqlite::Connection;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
@@ -84,6 +86,9 @@ impl Corpus {
     /// | `.curves.csv`, `.curves.tsv` | the scalar curves of one recording or token, a frame a row |
     /// | `.eaf` | the tiers of one recording, for ELAN |
     /// | `.bvh` | the movement of one recording or token |
+    /// | `.glb` | the same as glTF with a skin, bones to look at and the annotations, for Blender and the web |
+    /// | `.TextGrid` | the tiers of one recording, for Praat |
+    /// | `.srt`, `.vtt` | the glosses and translations of one recording as subtitles |
     /// | `.sigml` | notated tokens as gestural SiGML |
     /// | `.hsigml` | notated tokens as H-SiGML, HamNoSys's symbols as elements |
     /// | `.hns`, `.txt` | notated tokens as HamNoSys text, a sign a line: the gloss, a tab, the text |
@@ -210,6 +215,9 @@ enum Format {
     Eaf,
     Bvh,
     Json,
+    Glb,
+    TextGrid,
+    Subtitles(subtitles::Form),
     Notation(notation::Form),
 }
 
@@ -221,6 +229,10 @@ impl Format {
             "eaf" => Some(Self::Eaf),
             "bvh" => Some(Self::Bvh),
             "json" => Some(Self::Json),
+            "glb" => Some(Self::Glb),
+            "textgrid" => Some(Self::TextGrid),
+            "srt" => Some(Self::Subtitles(subtitles::Form::Srt)),
+            "vtt" => Some(Self::Subtitles(subtitles::Form::Vtt)),
             "sigml" => Some(Self::Notation(notation::Form::Gestural)),
             "hsigml" => Some(Self::Notation(notation::Form::Symbols)),
             "hns" | "txt" => Some(Self::Notation(notation::Form::Text)),
@@ -288,6 +300,18 @@ fn write_file(
             let stretch = stretch(connection, what)?;
             bvh::write(connection, &stretch, out, progress).map(|_| ())
         }
+        (Format::Glb, _) => {
+            let stretch = stretch(connection, what)?;
+            foreign::glb(connection, &stretch, out)
+        }
+        (Format::TextGrid, _) => {
+            let stretch = stretch(connection, what)?;
+            foreign::text_grid(connection, &stretch.recording, out, notes)
+        }
+        (Format::Subtitles(form), _) => {
+            let stretch = stretch(connection, what)?;
+            foreign::subtitles(connection, &stretch.recording, form, out)
+        }
         (Format::Notation(form), _) => {
             let tokens = tokens(connection, what)?;
             notation::write(connection, &tokens, form, out, notes, progress)
@@ -297,8 +321,9 @@ fn write_file(
 
 fn no_format(to: &Path, message: &str) -> Error {
     Error::wrong(message).at(to.display().to_string()).advise(
-        "end the name in .csv, .tsv, .curves.csv, .eaf, .bvh, .json (an inventory), .sigml, .hsigml or .hns; a name \
-         without a dot is a folder of everything, or with --format of a file for each recording or token",
+        "end the name in .csv, .tsv, .curves.csv, .eaf, .bvh, .glb, .TextGrid, .srt, .vtt, .sigml, .hsigml or .hns, an \
+         inventory's in .json; a name without a dot is a folder of everything, or with --format of a file for each \
+         recording or token",
     )
 }
 

@@ -64,12 +64,14 @@ fn each(
     let token = |id: i64| -> Result<Option<(String, Address)>> {
         let row = signs::token(connection, id)?;
         Ok(match (format, row.recording_id) {
-            (Format::Eaf, Some(id)) => {
+            (Format::Eaf | Format::TextGrid | Format::Subtitles(_), Some(id)) => {
                 let name = row.recording.unwrap_or_default();
                 Some(recording(id, &name))
             }
-            (Format::Bvh | Format::Curves(_) | Format::Eaf, None) => None,
-            _ => Some((row.gloss, Address::Token(id))),
+            (Format::Notation(_) | Format::Table(_), None) | (_, Some(_)) => {
+                Some((row.gloss, Address::Token(id)))
+            }
+            (_, None) => None,
         })
     };
     let mut all = Vec::new();
@@ -77,7 +79,10 @@ fn each(
         ExportWhat::All => {
             for row in recordings::recordings(connection)? {
                 if recordings::body_track(connection, row.id)?.is_some()
-                    || matches!(format, Format::Eaf)
+                    || matches!(
+                        format,
+                        Format::Eaf | Format::TextGrid | Format::Subtitles(_)
+                    )
                 {
                     all.push(recording(row.id, &row.name));
                 }
