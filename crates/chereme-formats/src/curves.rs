@@ -39,7 +39,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Returns the kind of file that begins with these bytes, nothing if it holds no channels.
+    /// Returns the kind of file that begins with these bytes; `None` if it holds no channels.
     #[must_use]
     pub fn of(bytes: &[u8]) -> Option<Self> {
         let start = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 14)]);
@@ -144,7 +144,7 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
     Ok((channels.tracks(kind, &mut findings)?, findings.finish()))
 }
 
-/// Channels and times as a reader of one kind found them.
+/// Channels and times from a reader of one kind.
 struct Channels {
     names: Vec<String>,
     units: Vec<&'static str>,
@@ -153,7 +153,7 @@ struct Channels {
     clock: Clock,
 }
 
-/// How a file says when its rows are.
+/// The form in which a file gives the times of its rows.
 enum Clock {
     /// Seconds of each row.
     Seconds(Vec<f64>),
@@ -200,7 +200,7 @@ impl Channels {
     }
 }
 
-/// Returns an even rate if the rows are even, else their own times, and when the first row is.
+/// Returns an even rate if the rows are even, else their own times, and the time of the first row.
 fn times(clock: Clock, kind: Kind, findings: &mut Findings) -> Result<(Times, Instant), Error> {
     let seconds = match clock {
         Clock::Rate(rate) => return Ok((Times::Even(rate), Instant::ZERO)),

@@ -1,24 +1,25 @@
-//! What a reader noticed that is odd but not fatal.
+//! Oddities that a reader noticed and tolerated.
 
 use serde::Serialize;
 
-/// One thing that a reader noticed about a foreign file and could live with.
+/// An oddity of a foreign file that the reader tolerated.
 ///
-/// What makes a file meaningless is an error of the format's own type instead.
+/// An error that makes a file unreadable has the format's own error type instead.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Finding {
-    /// How much it matters.
+    /// Its severity.
     pub severity: Severity,
-    /// The line of the file, counted from 1, where it was (first) met; none where lines say nothing.
+    /// The line of the file, counted from 1, on which the oddity (first) occurred; `None` if lines are
+    /// meaningless.
     pub line: Option<u64>,
-    /// What is odd, and what was made of it.
+    /// The oddity, and the reader's interpretation.
     pub message: String,
-    /// What would set it right, where something can be done.
+    /// A correction, if one is possible.
     pub remedy: Option<String>,
 }
 
 impl Finding {
-    /// Returns a note: odd, understood, and nothing was lost.
+    /// Returns a note: an understood oddity without loss.
     #[must_use]
     pub fn note(line: impl Into<Option<u64>>, message: impl Into<String>) -> Self {
         Self {
@@ -29,7 +30,7 @@ impl Finding {
         }
     }
 
-    /// Returns a warning: something may be lost or mean another thing than it says.
+    /// Returns a warning: something may be lost, or mean something else.
     #[must_use]
     pub fn warning(line: impl Into<Option<u64>>, message: impl Into<String>) -> Self {
         Self {
@@ -40,7 +41,7 @@ impl Finding {
         }
     }
 
-    /// Returns the finding with what would set it right.
+    /// Returns the finding with a correction.
     #[must_use]
     pub fn with_remedy(mut self, remedy: impl Into<String>) -> Self {
         self.remedy = Some(remedy.into());
@@ -48,12 +49,12 @@ impl Finding {
     }
 }
 
-/// How much a [`Finding`] matters.
+/// The severity of a [`Finding`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
-    /// Odd, but understood; nothing was lost.
+    /// An understood oddity without loss.
     Note,
-    /// Something may be lost, or mean another thing than it says; a person should look.
+    /// Something may be lost, or mean something else; a person should look.
     Warning,
 }

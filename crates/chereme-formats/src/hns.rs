@@ -1,21 +1,21 @@
-//! HamNoSys as lines of text (`.hns`, `.txt`): a sign a line, its gloss before it.
+//! HamNoSys as lines of text (`.hns`, `.txt`): one sign per line, after its gloss.
 //!
-//! A line holds a gloss, a tab and HamNoSys, as characters, as names of symbols or as numbers of characters
-//! (`U+E001`). What stands before the first symbol of a line is its gloss, whatever parts the two; a line may
-//! have none.
+//! A line holds a gloss, a tab and HamNoSys, as characters, as names of symbols or as numbers of
+//! characters (`U+E001`). The text before the first symbol of a line is its gloss, whatever separates the
+//! two; a line may have none.
 
 use crate::finding::Finding;
 use crate::table::{TableError, decode};
 use crate::tally::Findings;
 use chereme_sign::hamnosys::{Notated, in_plain_symbols, mended, parse_lenient, symbol::Symbol};
 
-/// How many bytes at most are looked at to tell whether a file holds HamNoSys.
+/// The number of leading bytes that decide whether a file holds HamNoSys.
 const LOOKED_AT: usize = 1 << 16;
 
 /// A notated sign and its line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entry {
-    /// The sign; its gloss is empty where the line has none.
+    /// The sign; its gloss is empty if the line has none.
     pub sign: Notated,
     /// The line of the file, counted from 1.
     pub line: u64,
@@ -38,13 +38,13 @@ pub enum Error {
     Nothing,
 }
 
-/// Reads lines of HamNoSys, and tells what is odd about them.
+/// Reads lines of HamNoSys, and reports oddities.
 ///
-/// A line that is odd gives the sign that was understood. Blank lines mean nothing; others without a symbol are
-/// told.
+/// An odd line gives the part of the sign that was understood. Blank lines are ignored; other lines
+/// without a symbol are reported.
 ///
 /// # Errors
-/// Where the bytes are no text, or no line of them has a symbol.
+/// [`Error`] if the bytes are not text, or no line has a symbol.
 pub fn read(bytes: &[u8]) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
     let mut findings = Findings::default();
     let text = decode(bytes, &mut findings).map_err(|error| match error {
@@ -72,13 +72,13 @@ pub fn read(bytes: &[u8]) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
     Ok((entries, findings.finish()))
 }
 
-/// Returns whether a file that begins with these bytes holds HamNoSys; of a long one its first whole lines are
-/// looked at.
+/// Returns whether a file that begins with these bytes holds HamNoSys; of a long file the first whole
+/// lines decide.
 #[must_use]
 pub fn holds_some(bytes: &[u8]) -> bool {
     let mut seen = &bytes[..bytes.len().min(LOOKED_AT)];
     if seen.len() == LOOKED_AT {
-        // A character that is cut through would make the rest look like Latin-1.
+        // A character cut in two would make the rest look like Latin-1.
         seen = &seen[..memchr::memrchr(b'\n', seen).unwrap_or(0)];
     }
     let text = decode(seen, &mut Findings::default());
@@ -94,12 +94,12 @@ pub(crate) fn tell_mended(line: u64) -> Finding {
     .with_remedy("nothing needs to be done; a new export of the source as UTF-8 would be clean")
 }
 
-/// Tells whether a line or a cell holds a symbol, however it is written.
+/// Returns whether a line or a cell holds a symbol, in any of its spellings.
 pub(crate) fn holds_symbols(text: &str) -> bool {
     begin(&in_plain_symbols(text)).is_some()
 }
 
-/// Writes signs as lines, and returns for each what HamNoSys does not say.
+/// Writes signs as lines, and returns for each the parts that HamNoSys cannot express.
 #[must_use]
 pub fn write<'s>(signs: impl IntoIterator<Item = &'s Notated>) -> (Vec<u8>, Vec<Vec<String>>) {
     let (mut text, mut lost) = (String::new(), Vec::new());
@@ -120,7 +120,7 @@ pub fn write<'s>(signs: impl IntoIterator<Item = &'s Notated>) -> (Vec<u8>, Vec<
     (text.into_bytes(), lost)
 }
 
-/// Returns the byte at which the first symbol of a line stands.
+/// Returns the byte at which the first symbol of a line starts.
 fn begin(line: &str) -> Option<usize> {
     let character =
         |c: char| ('\u{e000}'..='\u{f8ff}').contains(&c) && Symbol::from_char(c).is_some();

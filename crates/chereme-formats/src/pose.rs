@@ -26,7 +26,7 @@ pub enum Error {
     /// The file has no points or no frames.
     #[error("the file holds no points")]
     Empty,
-    /// The frame rate is no positive number.
+    /// The frame rate is not a positive number.
     #[error("the frame rate is {0}, not a positive number")]
     Rate(String),
     /// A component's numbers are not written as coordinates and confidence.
@@ -42,7 +42,8 @@ pub enum Error {
     Track(String),
 }
 
-/// Landmarks in metres lie within this of the hips; greater numbers are multiplied by the picture's size.
+/// Landmarks in metres are within this distance of the hips; greater numbers were multiplied by the
+/// picture's size.
 const FARTHEST_METRES: f32 = 10.0;
 
 struct Bytes<'b>(&'b [u8]);
@@ -98,7 +99,7 @@ struct Body {
 /// Reads a `.pose` file.
 ///
 /// # Errors
-/// [`Error`] if the bytes are no `.pose` file or are cut short.
+/// [`Error`] if the bytes are not a `.pose` file or are cut short.
 pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
     let mut findings = Findings::default();
     let mut bytes = Bytes(bytes);
@@ -302,7 +303,7 @@ fn floats(bytes: &[u8]) -> Vec<f32> {
 
 type Parts = (Space, Vec<Marker>, Vec<[usize; 2]>);
 
-/// Returns the points of the picked components, nothing if there are none.
+/// Returns the points of the picked components, if any.
 fn track(
     header: &Header,
     body: &Body,

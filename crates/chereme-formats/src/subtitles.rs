@@ -18,7 +18,7 @@ use crate::tally::Findings;
 /// The name of the tier of cues without a voice.
 pub const TIER: &str = "subtitles";
 
-/// Which of the two kinds to write.
+/// The format to write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
     /// SubRip: numbered cues, commas in times.
@@ -27,7 +27,7 @@ pub enum Form {
     Vtt,
 }
 
-/// Why bytes could not be read as subtitles.
+/// The reason why bytes could not be read as subtitles.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
     /// The file is not text.
@@ -44,7 +44,7 @@ pub enum Error {
 /// Reads subtitles of either kind.
 ///
 /// # Errors
-/// If the bytes are no text, or no line holds the times of a cue.
+/// [`Error`] if the bytes are not text, or no line holds the times of a cue.
 pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
     let mut findings = Findings::default();
     let text = decode(bytes, &mut findings).map_err(|error| match error {

@@ -3,10 +3,10 @@
 use crate::finding::Finding;
 use std::collections::BTreeMap;
 
-/// How often findings of one kind are told one by one.
+/// The number of findings of one kind that are reported one by one.
 const TOLD: u64 = 20;
 
-/// Collects findings; of one kind only the first few are told one by one and the rest counted.
+/// Collects findings; of each kind only the first few are reported one by one, and the rest are counted.
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
     told: Vec<Finding>,
@@ -14,14 +14,14 @@ pub(crate) struct Findings {
 }
 
 impl Findings {
-    /// Adds the finding made by `make`, unless enough of its `kind` were told.
+    /// Adds the finding from `make`, unless enough of its `kind` have been reported.
     pub(crate) fn add(&mut self, kind: &'static str, make: impl FnOnce() -> Finding) {
         if self.counts(kind) {
             self.told.push(make());
         }
     }
 
-    /// Counts one more of `kind` and says whether it is to be told.
+    /// Counts one more of `kind`; returns whether to report it.
     pub(crate) fn counts(&mut self, kind: &'static str) -> bool {
         let count = self.kinds.entry(kind).or_default();
         *count += 1;
@@ -33,7 +33,7 @@ impl Findings {
         self.told.push(finding);
     }
 
-    /// Returns what was found, in the order in which it was, and the counts of what was not told.
+    /// Returns the findings in their order, and the counts of the unreported ones.
     pub(crate) fn finish(mut self) -> Vec<Finding> {
         for (kind, count) in self.kinds.iter().filter(|(_, count)| **count > TOLD) {
             self.told.push(Finding::warning(

@@ -11,7 +11,7 @@ use crate::eaf::convert::{Annotation, Tier, Timing, Transcript};
 use crate::finding::Finding;
 use crate::tally::Findings;
 
-/// What a file of captured points or numbers holds.
+/// The contents of a file of captured points or numbers.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Tracks {
     /// The tracks in the order of the file.

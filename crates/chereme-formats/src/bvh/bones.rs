@@ -1,28 +1,31 @@
-//! Bones as the movement has them: where position channels put a joint, however wrong its offset is.
+//! Infers bones from the movement: the positions that position channels give a joint, however wrong its
+//! offset is.
 //!
-//! Capture programs write position channels for every joint, and some leave offsets that nobody looks at: fingertips
-//! 60 cm from their fingers. Movement is right all the same, as position channels replace the offset; but lengths and
-//! postures at rest come from offsets.
+//! Capture programs write position channels for every joint, and some write wrong offsets that nobody
+//! notices: fingertips 60 cm from their fingers. The movement is right all the same, as position channels
+//! replace the offset; but lengths and rest postures come from offsets.
 
 use chereme_motion::glam::DVec3;
 
 use super::convert::number;
 use super::raw::{Block, Hierarchy};
 
-/// The most frames of which a median is taken.
+/// The most frames from which a median is taken.
 const MOST: usize = 2048;
-/// By how much a joint is elsewhere than its offset says, as a share of the longer of both.
+/// Distance between a joint and its offset above which the offset counts as wrong, as a share of the
+/// longer of both.
 const OFF: f64 = 0.15;
-/// How far a joint goes from its median in the middle, as a share of its bone, and is still a bone's end.
+/// Largest median distance of a bone's end from its median position, as a share of the bone's length;
+/// joints that move more are not attached to a bone.
 const SPREAD: f64 = 0.25;
 /// Decimals of numbers in the file's unit.
 const DECIMALS: u8 = 6;
 
-/// Gathers where position channels put joints while a file is read.
+/// Collects the positions of joints with position channels while a file is read.
 #[derive(Debug, Clone)]
 pub struct Bones {
     joints: Vec<Placed>,
-    /// Every so many frames one is looked at.
+    /// One frame out of this many is sampled.
     step: u64,
 }
 
@@ -36,7 +39,8 @@ struct Placed {
 }
 
 impl Bones {
-    /// Begins for a hierarchy. Joints that carry most of the body are left out: they are placed in the room.
+    /// Starts for a hierarchy. Joints that carry most of the body are left out: their positions are in the
+    /// room, not relative to a parent's bone.
     #[must_use]
     pub fn new(hierarchy: &Hierarchy) -> Self {
         let count = hierarchy.joints.len();
@@ -67,7 +71,7 @@ impl Bones {
         }
     }
 
-    /// Looks at a block of frames; blocks come in order.
+    /// Samples a block of frames; blocks come in order.
     pub fn push(&mut self, block: &Block) {
         for row in 0..block.frames {
             let frame = block.first_frame + row as u64;
@@ -96,7 +100,8 @@ impl Bones {
         }
     }
 
-    /// Tells the hierarchy where the movement puts joints whose offsets say otherwise; returns these joints.
+    /// Records in the hierarchy the positions of joints whose movement contradicts their offsets; returns
+    /// these joints.
     pub fn place(&self, hierarchy: &mut Hierarchy) -> Vec<usize> {
         let mut moved = Vec::new();
         for placed in &self.joints {
@@ -110,7 +115,7 @@ impl Bones {
 }
 
 impl Placed {
-    /// Returns where the joint is in the middle, where it stays about there and the offset says otherwise.
+    /// Returns the median position of a joint that stays near it and whose offset contradicts it.
     fn median(&self) -> Option<DVec3> {
         let at = DVec3::from_array([0, 1, 2].map(|axis| {
             let mut values: Vec<f64> = self.found.iter().map(|at| at[axis]).collect();

@@ -1,4 +1,4 @@
-//! What we mean by a BVH file: its skeleton and its movement, and the way back.
+//! Interprets a BVH file as a skeleton and its movement, and converts back.
 //!
 //! Everything here is in the file's own unit and axes; a [`Convention`](chereme_motion::Convention)
 //! takes it to metres in model space. A position channel replaces its axis of the OFFSET, rotations
@@ -14,14 +14,14 @@ use chereme_motion::{
 
 use super::raw::{Channel, ChannelFix, Column, Decimal, Hierarchy, Number, RawJoint};
 
-/// Rates are guessed from frame times; a file of one frame or none may say no frame time.
+/// The frame rate of a file without a frame time, which only files of at most one frame may lack.
 const UNTIMED: (u32, u32) = (30, 1);
 
-/// Returns the skeleton of a hierarchy, in the file's unit and axes; of several End Sites of a
-/// joint the first is its tip. A joint is where its movement puts it, else at its offset.
+/// Returns the skeleton of a hierarchy, in the file's unit and axes; of several End Sites of a joint the
+/// first is its tip. A joint's position is the one from its movement if known, else its offset.
 ///
 /// # Errors
-/// [`SkeletonError`] where the joints are no tree; a hierarchy that was read is always one.
+/// [`SkeletonError`] if the joints are not a tree; hierarchies from the reader always are.
 pub fn skeleton(hierarchy: &Hierarchy) -> Result<Skeleton, SkeletonError> {
     let joint = |raw: &RawJoint| Joint {
         tip: raw.end_sites.first().map(place),
@@ -38,11 +38,11 @@ fn place(numbers: &[Number; 3]) -> DVec3 {
     DVec3::from_array([0, 1, 2].map(|axis| numbers[axis].to_f64()))
 }
 
-/// Returns the frame rate that a frame time stands for; without one above nought, which the reader
-/// passes in files of one frame at most, 30 frames a second.
+/// Returns the frame rate for a frame time; 30 frames per second if it is missing or not positive, which
+/// the reader allows in files of at most one frame.
 ///
 /// # Errors
-/// [`RateError`] where the frame time is shorter than a microsecond or longer than a day.
+/// [`RateError`] if the frame time is shorter than a microsecond or longer than a day.
 pub fn rate(frame_time: Option<&Number>) -> Result<Rate, RateError> {
     let Some(time) = frame_time.filter(|time| time.to_f64() > 0.0) else {
         return Rate::new(UNTIMED.0, UNTIMED.1);
@@ -54,16 +54,16 @@ pub fn rate(frame_time: Option<&Number>) -> Result<Rate, RateError> {
     Rate::from_frame_time(time.to_f64(), decimals as u32)
 }
 
-/// Puts a clip together from the columns of a file, block by block.
+/// Builds a clip from the columns of a file, block by block.
 pub struct ClipBuilder {
     skeleton: Arc<Skeleton>,
-    /// Where joints are without position channels; axes that have none stay there.
+    /// Positions of the joints along axes without a position channel.
     offsets: Vec<DVec3>,
     layouts: Vec<Layout>,
     movements: Vec<Movement>,
 }
 
-/// Which columns of the motion a joint's channels are.
+/// The columns of a joint's channels in the motion.
 struct Layout {
     positions: Vec<(Axis, usize)>,
     rotations: Vec<(Axis, usize)>,
@@ -76,11 +76,11 @@ const XYZ_ROTATIONS: [Channel; 3] = [Channel::Xrotation, Channel::Yrotation, Cha
 const ROTATIONS: [Channel; 3] = [Channel::Zrotation, Channel::Xrotation, Channel::Yrotation];
 
 impl ClipBuilder {
-    /// Begins a clip of a hierarchy; `fix` says that the root's columns lie otherwise than its
-    /// header has it.
+    /// Starts a clip of a hierarchy; `fix` corrects the order of the root's columns if it differs from the
+    /// header.
     ///
     /// # Errors
-    /// Those of [`skeleton`].
+    /// The same as [`skeleton`]'s.
     pub fn new(hierarchy: &Hierarchy, fix: Option<ChannelFix>) -> Result<Self, SkeletonError> {
         let skeleton = Arc::new(skeleton(hierarchy)?);
         let layouts: Vec<Layout> = hierarchy
@@ -125,8 +125,8 @@ impl ClipBuilder {
         })
     }
 
-    /// Adds the rows `rows` of a block; `column` gives the columns that were read, and joints whose
-    /// columns were not stay at rest.
+    /// Adds the rows `rows` of a block; `column` returns the columns that were read; joints without such
+    /// columns stay at rest.
     pub fn push<'c>(
         &mut self,
         rows: std::ops::Range<usize>,
@@ -168,15 +168,15 @@ impl ClipBuilder {
     /// Returns the clip of all rows added.
     ///
     /// # Errors
-    /// [`ClipError`] where a number is too large for a place.
+    /// [`ClipError`] if a number is too large for a position.
     pub fn finish(self, rate: Rate) -> Result<Clip, ClipError> {
         Clip::new(self.skeleton, rate, self.movements)
     }
 }
 
-/// Returns a hierarchy for a skeleton that came from no BVH: six channels at the root, elsewhere
-/// three rotations in the order ZXY; numbers have `decimals` digits after the point, and braces and
-/// line ends in names, which BVH can't hold, become underscores.
+/// Returns a hierarchy for a skeleton from another format: six channels at the root, three rotations in
+/// the order ZXY elsewhere. Numbers have `decimals` digits after the point; braces and line ends in names,
+/// which BVH cannot hold, become underscores.
 #[must_use]
 pub fn hierarchy(skeleton: &Skeleton, decimals: u8) -> Hierarchy {
     let numbers = |at: DVec3| at.to_array().map(|value| number(value, decimals));
@@ -208,9 +208,9 @@ pub(super) fn number(value: f64, decimals: u8) -> Number {
     Decimal::rounded(value, decimals).map_or_else(large, Number::Decimal)
 }
 
-/// Returns `hierarchy` with the channels added that `clip`, of the same joints, needs: position
-/// channels where a joint leaves its offset, and all three rotations where it turns otherwise than
-/// its channels can say.
+/// Returns `hierarchy` with the channels added that `clip`, of the same joints, needs: position channels
+/// for joints that leave their offset, and all three rotations for joints whose rotations their channels
+/// cannot express.
 #[must_use]
 pub fn widened(hierarchy: &Hierarchy, clip: &Clip) -> Hierarchy {
     let mut wide = hierarchy.clone();
@@ -246,14 +246,14 @@ fn leaves_its_offset(joint: &RawJoint, movement: &Movement) -> bool {
     movement.translations.iter().flatten().any(leaves)
 }
 
-/// The rotation channels of a joint, with the axes that it has none for at the end.
+/// The rotation channels of a joint, followed by the axes without a channel.
 struct Turning {
     order: RotationOrder,
     written: usize,
 }
 
 impl Turning {
-    /// Returns the rotation channels of a joint, nothing where an axis comes twice.
+    /// Returns the rotation channels of a joint; `None` if an axis has two.
     fn of(joint: &RawJoint) -> Option<Self> {
         let rotations = joint
             .channels
@@ -282,7 +282,7 @@ impl Turning {
         rotations.iter().map(next).collect()
     }
 
-    /// Tells whether the written channels alone say the rotations.
+    /// Returns whether the written channels alone express the rotations.
     fn says_all(&self, rotations: &[DQuat]) -> bool {
         let unsaid = |angles: &[f64; 3]| angles[self.written..].iter().any(|a| a.abs() > 1e-7);
         self.written == 3 || !self.angles(rotations).iter().any(unsaid)
@@ -298,18 +298,18 @@ impl Turning {
     }
 }
 
-/// A clip that a hierarchy's channels cannot say.
+/// A clip that the channels of a hierarchy cannot express.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum BackError {
-    /// The clip has another number of joints than the hierarchy.
+    /// The clip and the hierarchy have different numbers of joints.
     #[error("the clip has {clip} joints and the hierarchy {hierarchy}")]
     Joints {
-        /// The clip's.
+        /// The joints of the clip.
         clip: usize,
-        /// The hierarchy's.
+        /// The joints of the hierarchy.
         hierarchy: usize,
     },
-    /// A joint turns about an axis that it has no rotation channel for, or has one twice.
+    /// A joint turns about an axis without a rotation channel, or has two channels for one axis.
     #[error(
         "the rotation channels of joint {joint:?} can't say how it turns; widen the hierarchy first"
     )]
@@ -322,16 +322,16 @@ pub enum BackError {
     TooLarge {
         /// The joint's name.
         joint: String,
-        /// The decimals asked for.
+        /// The requested decimals.
         decimals: u8,
     },
 }
 
 /// Returns the columns of `clip`, in the file's unit and axes, for the channels of `hierarchy`, with
-/// `decimals` digits after the point; angles run on without jumps.
+/// `decimals` digits after the point; angles continue without jumps.
 ///
 /// # Errors
-/// [`BackError`] where the hierarchy does not fit the clip; see [`widened`].
+/// [`BackError`] if the hierarchy does not fit the clip; see [`widened`].
 pub fn columns(clip: &Clip, hierarchy: &Hierarchy, decimals: u8) -> Result<Vec<Column>, BackError> {
     if clip.skeleton().len() != hierarchy.joints.len() {
         let (clip, hierarchy) = (clip.skeleton().len(), hierarchy.joints.len());

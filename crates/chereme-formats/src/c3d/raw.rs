@@ -1,4 +1,4 @@
-//! A C3D file as it says itself: header, parameters, and frames of points and analog samples.
+//! Mirrors a C3D file: header, parameters, and frames of points and analog samples.
 //!
 //! Source: the C3D user guide (c3d.org), sections on the header, parameter and data sections.
 
@@ -9,7 +9,7 @@ const BLOCK: usize = 512;
 /// The key that the second byte of the header and words of its event table hold.
 const KEY: u8 = 0x50;
 const EVENTS_KEY: u16 = 12345;
-/// More parameters, points or channels than this are no capture.
+/// More parameters, points or channels than this are not a capture.
 const MOST_PARAMETERS: usize = 10_000;
 
 /// Why bytes could not be read as C3D.
@@ -24,7 +24,7 @@ pub enum Error {
     /// The file ends before this part.
     #[error("the file ends within its {0}; it is cut short")]
     Short(&'static str),
-    /// The file says nothing that could be a frame rate.
+    /// The file has no valid frame rate.
     #[error("the frame rate is {0}, not a positive number")]
     Rate(String),
     /// The file has neither points nor analog channels.
@@ -164,7 +164,7 @@ pub struct Document {
 pub struct Point {
     /// The coordinates: integers of the file, or floats.
     pub at: [f32; 3],
-    /// The residual byte; nothing if the point was not seen.
+    /// The residual byte; `None` if the point was not seen.
     pub residual: Option<u8>,
 }
 
@@ -353,7 +353,7 @@ fn header_events(header: &[u8], processor: Processor) -> Vec<(f32, String)> {
     (0..count).map(event).collect()
 }
 
-/// Reads the chain of groups and parameters; it ends where a record says so or makes no sense.
+/// Reads the chain of groups and parameters; it ends at an end mark, or at a record that makes no sense.
 fn parameters(section: &[u8], processor: Processor) -> Parameters {
     let mut groups: BTreeMap<i8, String> = BTreeMap::new();
     let mut found = Vec::new();

@@ -76,7 +76,7 @@ pub(super) fn read(text: &str) -> Result<Channels, Error> {
             ));
         }
     }
-    // Parameters that no frame names say nothing.
+    // Parameters that no frame names have no values.
     let named: Vec<bool> = channels
         .columns
         .iter()

@@ -8,7 +8,7 @@ use crate::finding::Finding;
 use crate::tally::Findings;
 use crate::tracks::rate_of;
 
-/// Frames a second if the file gives no times; MediaPipe's results hold none.
+/// Frames per second if the file gives no times, as MediaPipe's results.
 const USUAL_RATE: f64 = 30.0;
 
 pub(super) fn read(text: &str, findings: &mut Findings) -> Result<Channels, Error> {

@@ -175,7 +175,7 @@ fn seconds(table: &Table, at: usize, unit: f64) -> Result<Vec<f64>, Error> {
     table.rows.iter().map(time).collect()
 }
 
-/// How a title says that its column is a time: the length of one, in seconds.
+/// The unit of a column of times, from its title: its length in seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum TimeUnit {
     Seconds(f64),

@@ -1,4 +1,4 @@
-//! What was meant to a raw document.
+//! Converts a transcript to a raw document.
 
 use super::convert::annotation_number;
 use super::model::{Annotation, Media, Place, Tier, Timing, Transcript, Vocabulary};
@@ -10,11 +10,11 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 /// Returns `transcript` as a document of EAF 3.0.
 ///
 /// Everything that a transcript doesn't hold (licences, languages, locales, lexicon and external
-/// references, links between annotations) comes from `template`, for example the document that
-/// the transcript was read from; [`Document::default`] gives none. Children of a Time_Subdivision
-/// share time slots with each other and with their parent; ends within one that were never set
-/// stay so, elsewhere ELAN does not allow it and they get the value that they were read with.
-/// `lastUsedAnnotationId` is counted anew and stands last.
+/// references, links between annotations) comes from `template`, for example the document that the
+/// transcript was read from; [`Document::default`] gives no such parts. Children of a Time_Subdivision
+/// share time slots with each other and with their parent; ends within one that were never set stay unset;
+/// elsewhere ELAN requires times, and they get the values from reading. `lastUsedAnnotationId` is counted
+/// again and comes last.
 #[must_use]
 pub fn to_raw<'a>(transcript: &Transcript, template: &Document<'a>) -> Document<'a> {
     let mut document = Document {
@@ -170,7 +170,7 @@ fn vocabulary<'a>(
     }
 }
 
-/// Returns the id of the reference to an external vocabulary, which is added where it is not there.
+/// Returns the id of the reference to an external vocabulary; adds the reference if it is missing.
 fn external<'a>(url: &str, references: &mut Vec<raw::ExternalRef<'a>>) -> Text<'a> {
     if let Some(known) = references
         .iter()
@@ -207,7 +207,7 @@ impl<'a, 't> Kinds<'a, 't> {
         }
     }
 
-    /// Returns the name of the type that fits `tier`; it is made where it is not there.
+    /// Returns the name of the type that fits `tier`; creates the type if it is missing.
     fn name(&mut self, tier: &Tier) -> Text<'a> {
         let base = match (&*tier.kind, tier.stereotype) {
             ("", None) => "default-lt",
@@ -248,7 +248,7 @@ impl<'a, 't> Kinds<'a, 't> {
         }
     }
 
-    /// Returns the types, with those of the template that no tier uses.
+    /// Returns the types, including those of the template that no tier uses.
     fn finish(mut self) -> Vec<raw::LinguisticType<'a>> {
         let unused = self
             .template
@@ -335,7 +335,7 @@ struct Slots<'a> {
     order: Vec<raw::TimeSlot<'a>>,
 }
 
-/// A slot before it has its place in the order.
+/// A slot before it is ordered.
 struct Draft {
     time: Instant,
     millis: Option<i64>,

@@ -1,4 +1,5 @@
-//! What refers to what in a raw document: ids to indices, once, with a finding for what points nowhere.
+//! Resolves the references of a raw document: ids to indices, once, with a finding for each that points
+//! nowhere.
 
 use super::raw::{Anchor, Document};
 use crate::finding::Finding;
@@ -6,22 +7,22 @@ use crate::tally::Findings;
 use chereme_sign::Stereotype;
 use std::collections::{HashMap, HashSet};
 
-/// An annotation by its number in the document, counted over all tiers from 0.
+/// The index of an annotation in the document, counted over all tiers.
 pub(super) type Handle = u32;
 
-/// What an annotation hangs on; nothing where the reference points nowhere.
+/// The resolved anchor of an annotation; its parts are empty if the reference points nowhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Link {
-    /// Indices into the time order.
+    /// Indices into the time order; `None` for a slot that does not exist.
     Slots(Option<u32>, Option<u32>),
-    /// The annotations above and before it.
+    /// The annotations above and before it; `None` for one that does not exist.
     Parent(Option<Handle>, Option<Handle>),
 }
 
 /// The references of a document as indices.
 #[derive(Debug, Default)]
 pub(super) struct Resolved {
-    /// Tiers above; cycles are cut.
+    /// Parents of the tiers; cycles are cut.
     pub(super) parents: Vec<Option<usize>>,
     /// Linguistic types of the tiers.
     pub(super) types: Vec<Option<usize>>,
@@ -31,13 +32,13 @@ pub(super) struct Resolved {
     pub(super) order: Vec<usize>,
     /// The first annotation of each tier, and the number of all.
     pub(super) first: Vec<Handle>,
-    /// One link an annotation.
+    /// The anchor of each annotation.
     pub(super) links: Vec<Link>,
-    /// Annotations whose id is empty or stood before.
+    /// Annotations whose id is empty or already used.
     pub(super) doubles: HashSet<Handle>,
 }
 
-/// Texts such as `ts12` to numbers, quickly where they are a prefix and a count.
+/// Maps texts such as `ts12` to numbers; fast if they are a common prefix and a count.
 #[derive(Default)]
 struct Ids<'d> {
     prefix: Option<&'d str>,

@@ -1,4 +1,4 @@
-//! A raw document to what it means.
+//! Converts a raw document to its meaning.
 
 pub use super::back::to_raw;
 pub use super::model::{
@@ -13,13 +13,13 @@ use chereme_motion::{Instant, Span};
 use chereme_sign::Stereotype;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// Returns what `document` means.
+/// Returns the meaning of `document`.
 ///
-/// Time slots without a value lie evenly between their neighbours: t0 + k(t1 − t0)/(n + 1).
-/// Children of a Symbolic_Association have the span of their parent; children of a
-/// Symbolic_Subdivision share it evenly in the order of their chain. Times in PAL or NTSC frames
-/// become milliseconds. An annotation whose slots or parent are missing is left out with all below
-/// it; two tiers or annotations of one name get names of their own. All of this is told.
+/// Time slots without a value lie evenly between their neighbours: t0 + k(t1 − t0)/(n + 1). Children of a
+/// Symbolic_Association have the span of their parent; children of a Symbolic_Subdivision share it evenly
+/// in the order of their chain. Times in PAL or NTSC frames become milliseconds. An annotation whose slots
+/// or parent are missing is left out with all below it; two tiers or annotations of one name get names of
+/// their own. A finding reports each of these cases.
 #[must_use]
 pub fn from_raw(document: &Document<'_>) -> (Transcript, Vec<Finding>) {
     let (resolved, mut told) = resolve(document);
@@ -123,7 +123,7 @@ fn plain(text: Option<&Text<'_>>) -> String {
     owned(text).unwrap_or_default()
 }
 
-/// When each time slot is, in the order of the file.
+/// The time of each time slot, in the order of the file.
 struct SlotTimes {
     millis: Vec<Option<i64>>,
     times: Vec<Instant>,
@@ -181,7 +181,7 @@ impl SlotTimes {
         slots
     }
 
-    /// Places the unaligned slots, those in a chain of annotations on one tier within it, the
+    /// Places the unaligned slots: those in a chain of annotations on one tier within that chain, the
     /// others within the time order.
     fn propose(&mut self, known: &[Option<Instant>], resolved: &Resolved) {
         let mut known = known.to_vec();
@@ -232,12 +232,12 @@ fn spread(chain: &[usize], known: &mut [Option<Instant>]) {
     }
 }
 
-/// The tiers on their way from raw to meant.
+/// The tiers during conversion.
 struct Tiers<'d> {
     document: &'d Document<'d>,
     resolved: &'d Resolved,
     times: &'d SlotTimes,
-    /// Where each raw annotation went; nothing for one that was left out.
+    /// The place of each raw annotation in the result; `None` for one that was left out.
     places: Vec<Option<Place>>,
     tiers: Vec<Tier>,
 }
@@ -363,7 +363,7 @@ impl<'d> Tiers<'d> {
         }
     }
 
-    /// Tells of annotations above of which a subdivision leaves part uncovered.
+    /// Reports annotations that their subdivision covers only in part.
     fn gaps(&self, at: usize, findings: &mut Findings) {
         let mut divided: BTreeMap<(usize, usize), Vec<Span>> = BTreeMap::new();
         for annotation in &self.tiers[at].annotations {
@@ -437,7 +437,7 @@ impl<'d> Tiers<'d> {
         })
     }
 
-    /// Finds for each annotation of an alignable child tier the one above that it shares most with.
+    /// Finds for each annotation of an alignable child tier the annotation above that overlaps it most.
     fn find_parents(&mut self, at: usize, findings: &mut Findings) {
         let Some(above) = self.tiers[at].parent else {
             return;
@@ -530,7 +530,7 @@ impl<'d> Tiers<'d> {
         }
     }
 
-    /// Sorts siblings by their links to the one before; tells whether they are one chain.
+    /// Sorts siblings by their links to the previous one; returns whether they form one chain.
     fn chain(&self, children: &[Handle]) -> (Vec<Handle>, bool) {
         let family: HashSet<Handle> = children.iter().copied().collect();
         let before = |child: Handle| match self.resolved.links[child as usize] {

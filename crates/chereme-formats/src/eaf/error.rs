@@ -1,8 +1,8 @@
-//! What makes an EAF or ECV file meaningless.
+//! Errors that make an EAF or ECV file unreadable.
 
-/// Why a file could not be read as EAF or ECV; every case names the line and what would be right.
+/// The reason why a file could not be read as EAF or ECV; every case names the line and a correction.
 ///
-/// What is odd and can be lived with is a [`Finding`](crate::finding::Finding) instead.
+/// Oddities that the reader tolerates are a [`Finding`](crate::finding::Finding) instead.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
     /// The file is not UTF-8.
@@ -13,7 +13,7 @@ pub enum Error {
     Encoding {
         /// The encoding that its first bytes or its declaration name, or `an unknown encoding`.
         encoding: String,
-        /// Where the first wrong byte or the declaration is, counted from 1.
+        /// The line of the first wrong byte or of the declaration, counted from 1.
         line: u64,
     },
     /// The file holds nothing, or something that isn't XML.
@@ -24,14 +24,14 @@ pub enum Error {
         /// The line, counted from 1.
         line: u64,
     },
-    /// The root element is another one.
+    /// The root element has the wrong name.
     #[error("line {line}: the root element is <{found}>; it should be <{expected}>")]
     Root {
         /// The line, counted from 1.
         line: u64,
-        /// The element that is there.
+        /// The root element found.
         found: String,
-        /// The element that should be there.
+        /// The expected root element.
         expected: &'static str,
     },
     /// The text ends inside an element.
@@ -50,7 +50,7 @@ pub enum Error {
     Syntax {
         /// The line, counted from 1.
         line: u64,
-        /// What is wrong there and what would be right.
+        /// The problem, with a correction.
         message: String,
     },
     /// The file declares a document type or entities.
@@ -61,14 +61,14 @@ pub enum Error {
         /// The line, counted from 1.
         line: u64,
     },
-    /// The file goes beyond what is read.
+    /// The file exceeds a limit of the reader.
     #[error("line {line}: {what}, more than {limit}; no EAF file needs as many")]
     Limit {
         /// The line, counted from 1.
         line: u64,
-        /// What there is too much of, as a sentence.
+        /// The limit that is exceeded, as a sentence.
         what: &'static str,
-        /// The most that is read.
+        /// The limit.
         limit: usize,
     },
 }

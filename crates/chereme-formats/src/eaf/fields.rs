@@ -1,4 +1,4 @@
-//! Attributes into fields, and what to do with elements and attributes that the schema lacks.
+//! Reads attributes into fields, and keeps elements and attributes that the schema lacks.
 
 use super::error::Error;
 use super::raw::{Kept, Text, Unknown};
@@ -10,7 +10,7 @@ pub(super) struct DocumentReader<'a> {
     pub(super) cursor: Cursor<'a>,
 }
 
-/// Where an attribute's value goes.
+/// The destination of an attribute's value.
 pub(super) enum Field<'f, 'a> {
     Text(&'f mut Text<'a>),
     Required(&'f mut Text<'a>),
@@ -21,7 +21,7 @@ pub(super) enum Field<'f, 'a> {
 }
 
 impl<'a> Field<'_, 'a> {
-    /// Stores the value; on failure returns it with what it should have been.
+    /// Stores the value; on failure returns it with the expected form.
     #[inline]
     fn set(&mut self, value: Text<'a>) -> Result<(), (&'static str, Text<'a>)> {
         match self {
@@ -53,14 +53,14 @@ fn boolean(value: &str) -> Option<bool> {
     }
 }
 
-/// What is odd about the attributes of one element.
+/// The oddities in the attributes of one element.
 #[derive(Default)]
 struct Odd<'a> {
-    /// The field's number, what it should be, and what it is.
+    /// The field's number, the expected form, and the actual text.
     wrong: Option<(usize, &'static str, Text<'a>)>,
-    /// An attribute stands twice.
+    /// Whether an attribute occurs twice.
     twice: bool,
-    /// The fields that were found, a bit each.
+    /// The fields that were found, one bit each.
     seen: u32,
 }
 

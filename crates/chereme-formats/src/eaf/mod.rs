@@ -1,7 +1,6 @@
 //! ELAN's annotation files: `.eaf`, templates `.etf`, external vocabularies `.ecv`.
 //!
-//! [`raw`] mirrors the file, [`convert`] says what it means: tiers, annotations with spans, and
-//! vocabularies.
+//! [`raw`] mirrors the file, [`convert`] interprets it: tiers, annotations with spans, and vocabularies.
 //!
 //! ```
 //! let text = br#"<ANNOTATION_DOCUMENT AUTHOR="" DATE="2024-01-01T00:00:00Z" VERSION="3.0">
@@ -34,10 +33,10 @@ pub use error::Error;
 
 use crate::finding::Finding;
 
-/// Reads an EAF document for what it means: [`raw::read`], then [`from_raw`].
+/// Reads an EAF document as a transcript: [`raw::read`], then [`from_raw`].
 ///
 /// # Errors
-/// Those of [`raw::read`].
+/// The same as [`raw::read`]'s.
 pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
     let (document, mut findings) = raw::read(bytes)?;
     let (transcript, more) = from_raw(&document);

@@ -1,4 +1,4 @@
-//! What an EAF document means, apart from how the file says it.
+//! The meaning of an EAF document, independent of the spelling in the file.
 
 use chereme_motion::{Instant, Span};
 use chereme_sign::Stereotype;
@@ -7,9 +7,9 @@ use serde::Serialize;
 /// The tiers of one recording with what belongs to them.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct Transcript {
-    /// Who made the file; often empty.
+    /// The author of the file; often empty.
     pub author: String,
-    /// When it was saved, as an `xsd:dateTime`.
+    /// The time of the last save, as an `xsd:dateTime`.
     pub date: String,
     /// Media files, the main one first.
     pub media: Vec<Media>,
@@ -23,18 +23,18 @@ pub struct Transcript {
     pub vocabularies: Vec<Vocabulary>,
 }
 
-/// A media file or another file beside the annotations.
+/// A media file, or another file that belongs to the annotations.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct Media {
-    /// Where it was on the machine that wrote the file.
+    /// Its address on the machine that wrote the file.
     pub url: String,
-    /// Where it is from the annotation file.
+    /// Its address relative to the annotation file.
     pub relative_url: Option<String>,
     /// Its MIME type.
     pub mime_type: String,
-    /// The point of the media, in milliseconds, that is time 0 of the annotations.
+    /// The time of the media, in milliseconds, that is time 0 of the annotations.
     pub time_origin: Option<i64>,
-    /// The media file that it was taken from or goes with.
+    /// The media file that it was extracted from or belongs to.
     pub source: Option<String>,
 }
 
@@ -45,25 +45,25 @@ pub struct Tier {
     pub name: String,
     /// The tier above, as an index into the transcript's tiers.
     pub parent: Option<usize>,
-    /// How it hangs below its parent; nothing for a root tier.
+    /// The constraint on annotations below the parent tier; `None` for a root tier.
     pub stereotype: Option<Stereotype>,
     /// The name of its ELAN tier type.
     pub kind: String,
-    /// Who signs or speaks.
+    /// The person who signs or speaks.
     pub participant: Option<String>,
-    /// Who annotated.
+    /// The person who annotated.
     pub annotator: Option<String>,
     /// The language of the values, as an ELAN language id such as `eng`.
     pub language: Option<String>,
     /// The keyboard locale, such as `en`.
     pub locale: Option<String>,
-    /// The id of the vocabulary that the values come from.
+    /// The id of the vocabulary for the values.
     pub vocabulary: Option<String>,
     /// The annotations in the order of the file.
     pub annotations: Vec<Annotation>,
 }
 
-/// An annotation of a [`Transcript`] by its tier and its place on it.
+/// The address of an annotation in a [`Transcript`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 pub struct Place {
     /// Index into the transcript's tiers.
@@ -77,34 +77,34 @@ pub struct Place {
 pub struct Annotation {
     /// Its id in the file, such as `a12`, unique in its transcript.
     pub id: String,
-    /// The time it holds.
+    /// Its time span.
     pub span: Span,
-    /// Where that time comes from.
+    /// The source of that time span.
     pub timing: Timing,
     /// The annotation above it.
     pub parent: Option<Place>,
-    /// The place among its siblings below a symbolic parent, from 0; 0 elsewhere.
+    /// Its position among its siblings below a symbolic parent, from 0; 0 elsewhere.
     pub order: u32,
-    /// What it says; empty where nothing was entered.
+    /// Its text; empty if nothing was entered.
     pub value: String,
-    /// The id of the vocabulary entry that the value is.
+    /// The id of the vocabulary entry of the value.
     pub entry: Option<String>,
-    /// The language of the value where it is not the tier's.
+    /// The language of the value, if it is not the tier's.
     pub language: Option<String>,
     /// Ids of external references.
     pub external_ref: Option<String>,
-    /// The file's own milliseconds, which are written back as they are; whoever moves the
-    /// annotation sets this to nothing, and the span is rounded instead.
+    /// The file's own milliseconds, which are written back unchanged; set this to `None` after moving the
+    /// annotation, so that the span is rounded instead.
     pub millis: Option<[i64; 2]>,
 }
 
-/// Where the span of an annotation comes from.
+/// The source of an annotation's span.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Timing {
     /// Both ends are the annotation's own.
     Own,
-    /// An end was never set and lies evenly between its neighbours.
+    /// An end was never set and is interpolated evenly between its neighbours.
     Proposed {
         /// The start was never set.
         start: bool,
@@ -124,9 +124,9 @@ pub struct Vocabulary {
     pub id: String,
     /// Descriptions by language; the language is empty before format 2.8.
     pub descriptions: Vec<(String, String)>,
-    /// The entries in order; none for one that lies in another file.
+    /// The entries in order; empty for a vocabulary in another file.
     pub entries: Vec<Entry>,
-    /// Where an external vocabulary lies.
+    /// The address of an external vocabulary.
     pub external: Option<String>,
 }
 
@@ -148,7 +148,7 @@ pub struct EntryValue {
     pub language: String,
     /// The value.
     pub value: String,
-    /// What it means.
+    /// Its description.
     pub description: Option<String>,
 }
 

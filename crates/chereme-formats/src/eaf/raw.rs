@@ -1,8 +1,8 @@
-//! An EAF document as its file says it, element by element, in the names of the schema.
+//! Mirrors an EAF document, element by element, in the names of the schema.
 //!
-//! Everything borrows from the bytes that were read where it can. Element order within each list
-//! is the file's; the order of different elements is the schema's. What the schema doesn't know
-//! is kept in [`Kept`] and written back at the end of its element.
+//! Texts borrow from the bytes of the file if possible. Element order within each list is the file's; the
+//! order of different elements is the schema's. Elements and attributes beyond the schema are kept in
+//! [`Kept`] and written back at the end of their element.
 
 use super::check::resolve;
 pub use super::error::Error;
@@ -15,7 +15,7 @@ use std::borrow::Cow;
 /// A text of the file, its references resolved.
 pub type Text<'a> = Cow<'a, str>;
 
-/// What an element holds beyond the schema: attributes in order, then children as source text.
+/// The contents of an element beyond the schema: attributes in order, then children as source text.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Unknown<'a> {
     /// Attributes by name.
@@ -24,16 +24,16 @@ pub struct Unknown<'a> {
     pub elements: Vec<Text<'a>>,
 }
 
-/// [`Unknown`] parts of an element, where it has any.
+/// [`Unknown`] parts of an element, if it has any.
 pub type Kept<'a> = Option<Box<Unknown<'a>>>;
 
-/// Where an element starts in the text that was read, in bytes; [`Document::line`] gives its line.
-/// It takes no part in comparisons.
+/// The byte at which an element starts in the text of the file; [`Document::line`] gives its line. It is
+/// ignored in comparisons.
 #[derive(Debug, Clone, Copy)]
 pub struct At(pub(super) u32);
 
 impl Default for At {
-    /// Returns the place of an element that was not read.
+    /// Returns the position of an element that is not from a file.
     fn default() -> Self {
         Self(u32::MAX)
     }
@@ -47,7 +47,7 @@ impl PartialEq for At {
 
 impl Eq for At {}
 
-/// The text that a document was read from; it takes no part in comparisons.
+/// The text of the file; ignored in comparisons.
 #[derive(Clone, Copy, Default)]
 pub struct Source<'a>(pub(super) &'a str);
 
@@ -82,8 +82,7 @@ pub struct Document<'a> {
     pub licenses: Vec<License<'a>>,
     /// `HEADER`.
     pub header: Header<'a>,
-    /// `TIME_ORDER`; its order means something, for slots without a value lie between their
-    /// neighbours.
+    /// `TIME_ORDER`; its order matters, as slots without a value lie between their neighbours.
     pub time_order: Vec<TimeSlot<'a>>,
     /// `TIER` elements.
     pub tiers: Vec<Tier<'a>>,
@@ -103,7 +102,7 @@ pub struct Document<'a> {
     pub ref_link_sets: Vec<RefLinkSet<'a>>,
     /// `EXTERNAL_REF` elements.
     pub external_refs: Vec<ExternalRef<'a>>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
     /// The text it was read from.
     pub source: Source<'a>,
@@ -125,14 +124,14 @@ pub struct License<'a> {
     pub url: Text<'a>,
     /// The licence's text.
     pub text: Text<'a>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
 }
 
 /// `HEADER`.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Header<'a> {
-    /// `MEDIA_FILE`, out of use: empty in what ELAN writes.
+    /// `MEDIA_FILE`, obsolete: empty in files of ELAN.
     pub media_file: Text<'a>,
     /// `TIME_UNITS`: `milliseconds`, `PAL-frames` or `NTSC-frames`.
     pub time_units: Option<Text<'a>>,
@@ -142,7 +141,7 @@ pub struct Header<'a> {
     pub linked_files: Vec<LinkedFile<'a>>,
     /// `PROPERTY` elements.
     pub properties: Vec<Property<'a>>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
 }
 
@@ -155,11 +154,11 @@ pub struct MediaDescriptor<'a> {
     pub mime_type: Text<'a>,
     /// `RELATIVE_MEDIA_URL`.
     pub relative_url: Option<Text<'a>>,
-    /// `TIME_ORIGIN`: where in the media the timeline's 0 lies, in milliseconds.
+    /// `TIME_ORIGIN`: the time of the media, in milliseconds, at which the timeline begins.
     pub time_origin: Option<i64>,
     /// `EXTRACTED_FROM`.
     pub extracted_from: Option<Text<'a>>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
 }
 
@@ -176,7 +175,7 @@ pub struct LinkedFile<'a> {
     pub time_origin: Option<i64>,
     /// `ASSOCIATED_WITH`.
     pub associated_with: Option<Text<'a>>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
 }
 
@@ -187,20 +186,20 @@ pub struct Property<'a> {
     pub name: Option<Text<'a>>,
     /// The value.
     pub value: Text<'a>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
 }
 
 /// `TIME_SLOT`.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct TimeSlot<'a> {
-    /// `TIME_SLOT_ID`; ELAN numbers them anew on every save.
+    /// `TIME_SLOT_ID`; ELAN renumbers them on every save.
     pub id: Text<'a>,
-    /// `TIME_VALUE` in the header's units; none for an unaligned slot.
+    /// `TIME_VALUE` in the header's units; `None` for an unaligned slot.
     pub value: Option<i64>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
-    /// Where it is.
+    /// Its position in the text.
     pub at: At,
 }
 
@@ -225,9 +224,9 @@ pub struct Tier<'a> {
     pub language: Option<Text<'a>>,
     /// `ANNOTATION` elements.
     pub annotations: Vec<Annotation<'a>>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
-    /// Where it is.
+    /// Its position in the text.
     pub at: At,
 }
 
@@ -236,25 +235,25 @@ pub struct Tier<'a> {
 pub struct Annotation<'a> {
     /// `ANNOTATION_ID`.
     pub id: Text<'a>,
-    /// How it is anchored.
+    /// Its anchor.
     pub anchor: Anchor<'a>,
     /// `ANNOTATION_VALUE`.
     pub value: Text<'a>,
-    /// `CVE_REF`: the vocabulary entry that the value is.
+    /// `CVE_REF`: the vocabulary entry of the value.
     pub entry: Option<Text<'a>>,
-    /// `EXT_REF`: one or more external references, parted by blanks.
+    /// `EXT_REF`: one or more external references, separated by blanks.
     pub external_ref: Option<Text<'a>>,
     /// `LANG_REF`.
     pub language: Option<Text<'a>>,
     /// `SVG_REF`, of an alignable annotation.
     pub svg: Option<Text<'a>>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
-    /// Where it is.
+    /// Its position in the text.
     pub at: At,
 }
 
-/// What holds an annotation in its place.
+/// The anchor of an annotation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Anchor<'a> {
     /// `ALIGNABLE_ANNOTATION`: two time slots.
@@ -290,9 +289,9 @@ pub struct LinguisticType<'a> {
     pub external_ref: Option<Text<'a>>,
     /// `LEXICON_REF`.
     pub lexicon_ref: Option<Text<'a>>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
-    /// Where it is.
+    /// Its position in the text.
     pub at: At,
 }
 
@@ -305,7 +304,7 @@ pub struct Locale<'a> {
     pub country: Option<Text<'a>>,
     /// `VARIANT`.
     pub variant: Option<Text<'a>>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
 }
 
@@ -318,7 +317,7 @@ pub struct Language<'a> {
     pub definition: Option<Text<'a>>,
     /// `LANG_LABEL`.
     pub label: Option<Text<'a>>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
 }
 
@@ -329,7 +328,7 @@ pub struct Constraint<'a> {
     pub stereotype: Text<'a>,
     /// `DESCRIPTION`.
     pub description: Option<Text<'a>>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
 }
 
@@ -338,7 +337,7 @@ pub struct Constraint<'a> {
 pub struct Vocabulary<'a> {
     /// `CV_ID`.
     pub id: Text<'a>,
-    /// `EXT_REF`: where an external vocabulary lies.
+    /// `EXT_REF`: the address of an external vocabulary.
     pub external_ref: Option<Text<'a>>,
     /// `DESCRIPTION` elements; one without a language is the attribute of formats before 2.8.
     pub descriptions: Vec<Description<'a>>,
@@ -346,46 +345,46 @@ pub struct Vocabulary<'a> {
     pub entries: Vec<Entry<'a>>,
     /// `EXTERNAL_REF` elements inside the vocabulary, as Global Signbank writes them.
     pub external_refs: Vec<ExternalRef<'a>>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
-    /// Where it is.
+    /// Its position in the text.
     pub at: At,
 }
 
 /// `DESCRIPTION` of a vocabulary.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Description<'a> {
-    /// `LANG_REF`; none before format 2.8.
+    /// `LANG_REF`; `None` before format 2.8.
     pub language: Option<Text<'a>>,
     /// The description.
     pub text: Text<'a>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
 }
 
 /// `CV_ENTRY_ML`, or the `CV_ENTRY` of formats before 2.8.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Entry<'a> {
-    /// `CVE_ID`, unique within its vocabulary; before 2.8 there need be none.
+    /// `CVE_ID`, unique within its vocabulary; optional before format 2.8.
     pub id: Option<Text<'a>>,
     /// `EXT_REF`.
     pub external_ref: Option<Text<'a>>,
-    /// `CVE_VALUE` elements, one a language.
+    /// `CVE_VALUE` elements, one per language.
     pub values: Vec<EntryValue<'a>>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
 }
 
 /// `CVE_VALUE`.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct EntryValue<'a> {
-    /// `LANG_REF`; none before format 2.8.
+    /// `LANG_REF`; `None` before format 2.8.
     pub language: Option<Text<'a>>,
     /// `DESCRIPTION`.
     pub description: Option<Text<'a>>,
     /// The value.
     pub value: Text<'a>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
 }
 
@@ -408,7 +407,7 @@ pub struct LexiconRef<'a> {
     pub category_id: Option<Text<'a>>,
     /// `DATCAT_NAME`.
     pub category_name: Option<Text<'a>>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
 }
 
@@ -427,7 +426,7 @@ pub struct RefLinkSet<'a> {
     pub vocabulary: Option<Text<'a>>,
     /// `CROSS_REF_LINK` and `GROUP_REF_LINK` elements.
     pub links: Vec<RefLink<'a>>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
 }
 
@@ -436,7 +435,7 @@ pub struct RefLinkSet<'a> {
 pub struct RefLink<'a> {
     /// `REF_LINK_ID`.
     pub id: Text<'a>,
-    /// What it links.
+    /// The elements that it links.
     pub ends: LinkEnds<'a>,
     /// `REF_LINK_NAME`.
     pub name: Option<Text<'a>>,
@@ -450,7 +449,7 @@ pub struct RefLink<'a> {
     pub kind: Option<Text<'a>>,
     /// The link's own text.
     pub text: Text<'a>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
 }
 
@@ -466,7 +465,7 @@ pub enum LinkEnds<'a> {
         /// `DIRECTIONALITY`: `undirected`, `unidirectional` or `bidirectional`.
         directionality: Option<Text<'a>>,
     },
-    /// `GROUP_REF_LINK`: `REFS`, parted by blanks.
+    /// `GROUP_REF_LINK`: `REFS`, separated by blanks.
     Group(Text<'a>),
 }
 
@@ -485,11 +484,11 @@ pub struct ExternalRef<'a> {
     pub kind: Text<'a>,
     /// `VALUE`.
     pub value: Text<'a>,
-    /// What the schema does not know.
+    /// Parts beyond the schema.
     pub kept: Kept<'a>,
 }
 
-/// Returns the references of `document` that point nowhere and the ids that stand twice.
+/// Returns the references of `document` that point nowhere and the ids that occur twice.
 #[must_use]
 pub fn check(document: &Document<'_>) -> Vec<Finding> {
     resolve(document).1

@@ -1,4 +1,4 @@
-//! Bytes to a raw document.
+//! Reads bytes into a raw document.
 
 use super::error::Error;
 use super::fields::{DocumentReader, Field};
@@ -8,13 +8,12 @@ use crate::finding::Finding;
 
 /// Reads an EAF document (or an `.etf` template) of any format version up to 3.0.
 ///
-/// Attributes may come in any order. What the schema doesn't know is kept and told as a finding;
-/// so is a missing attribute, which becomes an empty text. References are not checked here but by
-/// [`check`].
+/// Attributes may come in any order. Parts beyond the schema are kept and reported as findings; a missing
+/// attribute is reported, too, and becomes an empty text. [`check`] checks the references.
 ///
 /// # Errors
-/// [`Error`] where the bytes are not UTF-8, not XML, cut short, not EAF, declare a document type,
-/// or go beyond the limits on depth and attributes.
+/// [`Error`] if the bytes are not UTF-8, not XML, cut short, not EAF, declare a document type, or exceed
+/// the limits on depth and attributes.
 pub fn read(bytes: &[u8]) -> Result<(Document<'_>, Vec<Finding>), Error> {
     document(bytes, "ANNOTATION_DOCUMENT")
 }
@@ -23,7 +22,7 @@ pub fn read(bytes: &[u8]) -> Result<(Document<'_>, Vec<Finding>), Error> {
 /// languages and external references of the document are filled.
 ///
 /// # Errors
-/// As [`read`].
+/// The same as [`read`]'s.
 pub fn read_ecv(bytes: &[u8]) -> Result<(Document<'_>, Vec<Finding>), Error> {
     document(bytes, "CV_RESOURCE")
 }

@@ -1,4 +1,4 @@
-//! A raw document to EAF 3.0 text.
+//! Writes a raw document as EAF 3.0.
 
 use super::raw::*;
 use super::xml::is_xml;
@@ -26,14 +26,13 @@ const CONSTRAINTS: [(&str, &str); 4] = [
 
 const SCHEMA: &str = "http://www.mpi.nl/tools/elan/EAFv3.0.xsd";
 
-/// Writes `document` as EAF 3.0 in UTF-8: an element a line, indented by four blanks.
+/// Writes `document` as EAF 3.0 in UTF-8: one element per line, indented by four blanks.
 ///
-/// The same document gives the same bytes. It is [`upgraded`] before; time slots keep their ids
-/// and order, so that annotations which share a slot go on sharing it. Characters that XML cannot
-/// hold become U+FFFD.
+/// The same document gives the same bytes. The document is [`upgraded`] first; time slots keep their ids
+/// and order, so that annotations continue to share slots. Characters that XML cannot hold become U+FFFD.
 ///
 /// # Errors
-/// Those of `out`.
+/// The errors of `out`.
 pub fn write(document: &Document<'_>, out: impl Write) -> io::Result<()> {
     let document = upgraded(document.clone());
     let mut xml = Output {
@@ -46,9 +45,9 @@ pub fn write(document: &Document<'_>, out: impl Write) -> io::Result<()> {
     xml.out.flush()
 }
 
-/// Returns the document in the form of EAF 3.0: format and schema say so, vocabularies of formats
-/// before 2.8 get entry ids and the language `und`, external references inside a vocabulary move
-/// to the end, and the four constraints stand as ELAN writes them.
+/// Returns the document in the form of EAF 3.0: sets format and schema, gives vocabularies of formats
+/// before 2.8 entry ids and the language `und`, moves external references inside a vocabulary to the end,
+/// and writes the four constraints as ELAN does.
 #[must_use]
 pub fn upgraded(mut document: Document<'_>) -> Document<'_> {
     document.version = "3.0".into();
@@ -152,12 +151,12 @@ impl<W: Write> Output<W> {
         self.out.write_all(b"\"")
     }
 
-    /// Writes an element that holds nothing but what was kept.
+    /// Writes an element without children, except for its kept ones.
     fn leaf(&mut self, name: &str, pairs: &[Pair<'_>], kept: &Kept<'_>) -> io::Result<()> {
         self.element(name, pairs, kept, true, |_| Ok(()))
     }
 
-    /// Writes an element with the children that `inner` writes; none if it is `empty`.
+    /// Writes an element with the children that `inner` writes; no children if it is `empty`.
     fn element(
         &mut self,
         name: &str,

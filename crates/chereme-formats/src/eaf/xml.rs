@@ -26,17 +26,17 @@ pub(super) struct Tag<'a> {
 }
 
 impl<'a> Tag<'a> {
-    /// Returns the line of the tag, counted from 1; it takes time to count.
+    /// Returns the line of the tag, counted from 1; counting takes time.
     pub(super) fn line(&self) -> u64 {
         line_of(self.text.as_bytes(), self.start)
     }
 
-    /// Returns where the tag starts.
+    /// Returns the position of the tag.
     pub(super) fn at(&self) -> At {
         At(u32::try_from(self.start).unwrap_or(u32::MAX))
     }
 
-    /// Returns the whole text that the tag stands in.
+    /// Returns the whole text around the tag.
     pub(super) fn source(&self) -> Source<'a> {
         Source(self.text)
     }
@@ -113,8 +113,8 @@ impl<'a> Cursor<'a> {
         })
     }
 
-    /// Returns the next child of `parent`, or nothing at its end; each child has to be walked to
-    /// its own end before.
+    /// Returns the next child of `parent`; `None` at its end. Each child must be read to its own end
+    /// first.
     pub(super) fn child(&mut self, parent: &Tag<'a>) -> Result<Option<Tag<'a>>, Error> {
         if parent.empty {
             return Ok(None);
@@ -144,7 +144,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Returns the text of `tag` and goes to its end.
+    /// Returns the text of `tag` and moves to its end.
     pub(super) fn text(&mut self, tag: &Tag<'a>) -> Result<Cow<'a, str>, Error> {
         if tag.empty {
             return Ok(Cow::Borrowed(""));
@@ -199,7 +199,7 @@ impl<'a> Cursor<'a> {
         });
     }
 
-    /// Goes to the end of `tag` and returns its source text, its tags included.
+    /// Moves to the end of `tag` and returns its source text, including its tags.
     pub(super) fn skip(&mut self, tag: &Tag<'a>) -> Result<&'a str, Error> {
         self.reader.config_mut().trim_text_start = true;
         let depth = self.open.len();
@@ -232,7 +232,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Gives every attribute of `tag`, its references resolved, to `take`.
+    /// Passes every attribute of `tag` to `take`, with references resolved.
     pub(super) fn attributes(
         &mut self,
         tag: &Tag<'a>,
@@ -291,7 +291,7 @@ impl<'a> Cursor<'a> {
         Cow::Owned(whole)
     }
 
-    /// Returns what `&name;` stands for; an unknown one stays as it is written.
+    /// Returns the text of `&name;`; an unknown entity stays as written.
     fn entity(&mut self, name: &str) -> Cow<'a, str> {
         let character = match name.strip_prefix('#') {
             None => quick_xml::escape::resolve_xml_entity(name).map(Cow::Borrowed),
@@ -426,7 +426,7 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// Tells whether XML 1.0 allows the character (section 2.2).
+/// Returns whether XML 1.0 allows the character (section 2.2).
 pub(super) fn is_xml(c: char) -> bool {
     matches!(c, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
 }
@@ -440,9 +440,9 @@ struct Written<'a> {
     rest: &'a str,
 }
 
-/// What ends the name of an attribute.
+/// Characters that end the name of an attribute.
 const ENDS_NAME: [bool; 256] = bytes_of(b"= \n\t\r\"'<");
-/// What keeps the value of an attribute from being taken as it is written.
+/// Characters in the value of an attribute that need decoding.
 const SPECIAL: [bool; 256] = bytes_of(b"&\n\t\r");
 
 const fn bytes_of(set: &[u8]) -> [bool; 256] {

@@ -1,9 +1,9 @@
-//! Numbers behind accessors: every index and every range of bytes is checked.
+//! Reads the numbers of accessors, and checks every index and every range of bytes.
 
 use super::error::Error;
 use super::model::{Accessor, Document, Sparse};
 
-/// More numbers than this in one accessor are no movement.
+/// More numbers than this in one accessor are not movement.
 const MOST_NUMBERS: usize = 1 << 28;
 
 /// The document with the bytes of its buffers.
@@ -42,7 +42,7 @@ impl Data<'_> {
         let numbers = numbers.ok_or_else(|| fault("has too many elements"))?;
         let mut values = match accessor.buffer_view {
             Some(view) => self.dense(index, accessor, (view, width))?,
-            // Without a view all numbers are nought.
+            // Without a view all numbers are zero.
             None => vec![0.0; numbers],
         };
         if let Some(sparse) = &accessor.sparse {

@@ -1,7 +1,9 @@
-//! glTF 2.0: movement out as GLB for Blender, three.js and game engines, and skeletons with movement in.
+//! glTF 2.0: writes movement as GLB for Blender, three.js and game engines, and reads skeletons with
+//! movement.
 //!
-//! [`write`] makes a GLB with a skin, a small mesh of bones and the annotations; [`read`] takes the skeleton,
-//! its movement and the weights of morph targets. Source: the glTF 2.0 specification of the Khronos Group.
+//! [`write`] makes a GLB with a skin, a small mesh of bones and the annotations; [`read`] returns the
+//! skeleton, its movement and the weights of morph targets. Source: the glTF 2.0 specification of the
+//! Khronos Group.
 
 mod accessor;
 mod error;

@@ -1,4 +1,4 @@
-//! The JSON of glTF as far as movement needs it.
+//! The part of the JSON of glTF that movement needs.
 
 use serde::Deserialize;
 use serde_json::Value;

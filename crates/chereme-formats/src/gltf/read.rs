@@ -15,7 +15,7 @@ use crate::finding::Finding;
 use crate::tally::Findings;
 use crate::tracks::{rate_of, unique};
 
-/// What a document holds of a moving body.
+/// The moving body in a document.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     /// The movement in the file's unit and axes; one frame at rest if the file has no animation.
@@ -34,15 +34,15 @@ const STILL_RATE: u32 = 30;
 const SAME_SCALE: f64 = 1e-4;
 /// Keys lie within this share of a frame of an even grid if the animation has a rate.
 const NEAR_FRAME: f64 = 0.05;
-/// A joint deeper than this, or a file with more nodes, is no skeleton.
+/// A deeper joint, or a file with more nodes, is not a skeleton.
 const MOST_NODES: usize = 20_000;
 const MOST_FRAMES: usize = 5_000_000;
 
 /// Reads a GLB or `.gltf`; `beside` returns the bytes of a file in the same folder, by its name.
 ///
 /// # Errors
-/// [`Error`] if the bytes are no glTF, an element names what does not exist, the movement is compressed, or the
-/// file has no skeleton.
+/// [`Error`] if the bytes are not glTF, an element refers to one that does not exist, the movement is
+/// compressed, or the file has no skeleton.
 pub fn read(
     bytes: &[u8],
     beside: &dyn Fn(&str) -> Option<Vec<u8>>,
@@ -136,14 +136,14 @@ fn elsewhere(uri: &str) -> Error {
     Error::Elsewhere(uri.chars().take(60).collect())
 }
 
-/// Returns whether an address is a file below the folder: no scheme, no step up, no root.
+/// Returns whether an address is a file inside the folder: no scheme, no step up, no root.
 fn is_plain_name(uri: &str) -> bool {
     let name = unescaped(uri);
     let steps = || name.split(['/', '\\']);
     !name.contains(':') && steps().all(|step| !step.is_empty() && step != "." && step != "..")
 }
 
-/// Replaces `%20` and its like.
+/// Decodes `%20` and similar escapes.
 fn unescaped(uri: &str) -> String {
     let mut bytes = Vec::new();
     let mut rest = uri.as_bytes();
@@ -193,14 +193,14 @@ fn base64(text: &str) -> Option<Vec<u8>> {
 
 /// The nodes that are joints, parents before children, with scales folded into offsets.
 struct Rig {
-    /// The node of each joint; nothing for a root that joins several trees.
+    /// The node of each joint; `None` for a root that joins several trees.
     nodes: Vec<Option<usize>>,
     joints: Vec<Joint>,
-    /// What a node's translations are multiplied by, for each joint.
+    /// The scale of each joint's translations.
     scales: Vec<f64>,
 }
 
-/// The place, rotation and scale of a node.
+/// The translation, rotation and scale of a node.
 fn transform(node: &Node) -> (DVec3, DQuat, DVec3) {
     if let Some(matrix) = &node.matrix {
         let (scale, rotation, translation) =
@@ -294,7 +294,7 @@ impl Rig {
     }
 }
 
-/// Returns a node's name, as it was before an exporter changed it.
+/// Returns a node's original name, undoing an exporter's changes.
 fn name(node: &Node, at: usize) -> String {
     let original = node.extras.get("name").and_then(serde_json::Value::as_str);
     let name = original.or(node.name.as_deref()).unwrap_or_default();
@@ -305,7 +305,7 @@ fn name(node: &Node, at: usize) -> String {
     }
 }
 
-/// Returns a scale as one number, and reports one that is not.
+/// Returns a scale as one number, and reports a scale that differs between axes.
 fn uniform(scale: DVec3, at: usize, node: &Node, findings: &mut Findings) -> f64 {
     let mean = (scale.x.abs() + scale.y.abs() + scale.z.abs()) / 3.0;
     let even = (scale.abs() - DVec3::splat(mean)).abs().max_element() <= SAME_SCALE * mean.max(1.0);
@@ -463,7 +463,7 @@ fn samplers(
     let mut moved: Vec<Moved> = rig.joints.iter().map(|_| Moved::default()).collect();
     let mut weights = Vec::new();
     for (at, channel) in animation.channels.iter().enumerate() {
-        // An extension may address what no node is.
+        // An extension may animate a target that is not a node.
         let Some(node) = channel.target.node else {
             continue;
         };

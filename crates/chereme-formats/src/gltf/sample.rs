@@ -75,7 +75,7 @@ impl Keys {
     }
 }
 
-/// Returns a rotation of unit length from x y z w; nought is no turn.
+/// Returns a unit rotation from x y z w; all zeros give the identity.
 pub(super) fn turn(values: &[f64]) -> DQuat {
     match values {
         [x, y, z, w] => {
@@ -91,7 +91,7 @@ pub(super) fn turn(values: &[f64]) -> DQuat {
     }
 }
 
-/// Returns a place from x y z.
+/// Returns a position from x y z.
 pub(super) fn place(values: &[f64]) -> DVec3 {
     match values {
         [x, y, z] => DVec3::new(*x, *y, *z),

@@ -20,7 +20,7 @@ pub struct Note {
     pub value: String,
 }
 
-/// What a GLB says about its movement.
+/// Descriptions to write into a GLB.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct About {
     /// The name of the animation.
@@ -35,13 +35,14 @@ const FLOAT: u32 = 5126;
 const SHORT: u32 = 5123;
 const VERTICES: u32 = 34_962;
 const INDICES: u32 = 34_963;
-/// The thickest part of a bone, as a share of its length, and where it is.
+/// The thickest part of a bone, as a share of its length.
 const THICKNESS: f64 = 0.08;
+/// The position of the thickest part along a bone, as a share of its length.
 const SHOULDER: f64 = 0.12;
 /// Bones shorter than this, in metres, get no mesh.
 const SHORTEST: f64 = 1e-4;
 
-/// The parts of a document while they grow.
+/// The parts of a document under construction.
 #[derive(Default)]
 struct Parts {
     bytes: Vec<u8>,
@@ -101,9 +102,9 @@ impl Parts {
 
 /// Returns a clip in metres of model space as a GLB.
 ///
-/// Joints keep their names but for characters that programs change; the name as it was is in the node's
-/// `extras.name`. The annotations are a JSON string in `scenes[0].extras.chereme_annotations`, where Blender keeps
-/// them, and JSON in `animations[0].extras`, where three.js does.
+/// Joints keep their names except for characters that programs change; the node's `extras.name` holds the
+/// original name. The annotations are a JSON string in `scenes[0].extras.chereme_annotations`, where
+/// Blender keeps them, and JSON in `animations[0].extras`, where three.js does.
 #[must_use]
 pub fn write(clip: &Clip, about: &About) -> Vec<u8> {
     let skeleton = clip.skeleton();
@@ -147,7 +148,7 @@ pub fn write(clip: &Clip, about: &About) -> Vec<u8> {
     container(&document, parts.bytes)
 }
 
-/// Puts JSON and numbers into the chunks of a GLB.
+/// Packs JSON and numbers into the chunks of a GLB.
 fn container(document: &Value, mut numbers: Vec<u8>) -> Vec<u8> {
     let mut text = document.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
@@ -166,7 +167,7 @@ fn container(document: &Value, mut numbers: Vec<u8>) -> Vec<u8> {
     out
 }
 
-/// Returns letters, digits and underscores: other characters are changed by one reader or another.
+/// Replaces all characters except letters, digits and underscores, as some readers change them.
 fn plain(name: &str) -> String {
     let change = |letter: char| {
         if letter.is_alphanumeric() {
@@ -235,7 +236,7 @@ fn animation(clip: &Clip, about: &About, parts: &mut Parts) -> Option<Value> {
         let mut before = DQuat::IDENTITY;
         let mut turns = Vec::with_capacity(4 * frames);
         for rotation in &channel.rotations {
-            // The two quaternions of a rotation blend to different turns; the nearer one is written.
+            // The two quaternions of a rotation interpolate differently; write the nearer one.
             let near = if before.dot(*rotation) < 0.0 {
                 -*rotation
             } else {
@@ -284,7 +285,7 @@ fn inverse_binds(skeleton: &Skeleton, parts: &mut Parts) -> usize {
     parts.floats(&values, "MAT4", 16, None)
 }
 
-/// Returns a mesh with an eight-sided body for each bone, nothing if no bone has a length.
+/// Returns a mesh with an eight-sided body for each bone; `None` if no bone has a length.
 fn mesh(skeleton: &Skeleton, parts: &mut Parts) -> Option<Value> {
     let rest = rest(skeleton);
     let (mut places, mut joints, mut weights, mut indices) =

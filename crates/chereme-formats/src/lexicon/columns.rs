@@ -1,4 +1,4 @@
-//! What the columns of a lexicon table are, by their titles.
+//! Infers the meaning of a lexicon table's columns from their titles.
 
 use crate::finding::Finding;
 use crate::hns::holds_symbols;
@@ -14,17 +14,17 @@ use std::sync::LazyLock;
 /// A column of a lexicon table.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Column {
-    /// Its title as it is written.
+    /// Its title as written.
     pub title: String,
-    /// What it is taken for.
+    /// The inferred meaning.
     pub meaning: Meaning,
-    /// How sure that is, from 0 to 1, where 1 is what a mapping says.
+    /// The confidence, from 0 to 1; 1 for columns of a mapping.
     pub confidence: f64,
-    /// What it was taken from.
+    /// The evidence for the meaning.
     pub why: String,
 }
 
-/// What a column holds.
+/// The kinds of columns.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Meaning {
@@ -38,27 +38,27 @@ pub enum Meaning {
         /// The language, such as `en`.
         language: Option<String>,
     },
-    /// What the sign is coded as.
+    /// A component of the sign.
     Coding {
-        /// Whose hand.
+        /// The hand.
         hand: Option<Hands>,
         /// The component.
         component: Component,
         /// The part of it.
         feature: Option<String>,
-        /// Which of successive values.
+        /// The phase: initial, middle or final.
         #[serde(serialize_with = "super::phase_name")]
         phase: Option<Phase>,
     },
     /// The sign as HamNoSys.
     Notation,
-    /// A number or a text that belongs to the sign and is no component: frequency, iconicity, word class.
+    /// A number or a text about the sign that is not a component: frequency, iconicity, word class.
     Attribute,
-    /// Something else, kept as it is.
+    /// Other text, kept unchanged.
     Note,
 }
 
-/// Titles by what they mean, each as folded words.
+/// Titles as folded words, with their meanings.
 static TABLE: LazyLock<BTreeMap<String, Target>> = LazyLock::new(|| {
     parse(include_str!("../../../../schema/column_words.json"))
         .expect("the shipped table of titles is whole; a test reads it")
@@ -90,7 +90,7 @@ fn parse(text: &str) -> Result<BTreeMap<String, Target>, String> {
     Ok(table)
 }
 
-/// Titles of what a table of tokens says of them as tokens, not as signs.
+/// Titles of properties of tokens rather than signs.
 const OWN: [&str; 8] = [
     "token",
     "recording",
@@ -114,7 +114,7 @@ const NOTATION: [&str; 8] = [
     "transcription",
 ];
 
-/// Titles of columns that name the sign where no column is called a gloss, as folded words.
+/// Titles of columns that name the sign if no column is called a gloss, as folded words.
 const NAMES: [&str; 16] = [
     "word",
     "words",
@@ -134,7 +134,7 @@ const NAMES: [&str; 16] = [
     "gebaar",
 ];
 
-/// Words of titles of what is measured, as pieces of folded words.
+/// Words in titles of measurements, as parts of folded words.
 const MEASURES: [&str; 24] = [
     "frequency",
     "freq",
@@ -162,10 +162,11 @@ const MEASURES: [&str; 24] = [
     "rank",
 ];
 
-/// Returns what each column is taken for. The first gloss column names the sign; further ones are
-/// translations. Of columns that no title explains, those with HamNoSys's symbols are notation, the others
-/// attributes; where none is called a gloss, one that is called a name or a word is, else the first one next to
-/// the notation. A column of measures is an attribute even where a component stands in its title.
+/// Returns the inferred meaning of each column. The first gloss column names the sign; further ones are
+/// translations. Of columns with unknown titles, those with HamNoSys's symbols are notation, the others
+/// attributes; if no column is called a gloss, one that is called a name or a word is the gloss, else the
+/// first one next to the notation. A column of measurements is an attribute even if its title names a
+/// component.
 pub(super) fn meanings(
     header: &[String],
     rows: &[Row],
@@ -227,7 +228,7 @@ pub(super) fn meanings(
     columns
 }
 
-/// Names the columns that become attributes, all in one.
+/// Reports the columns that become attributes, all in one finding.
 fn tell_attributes(columns: &[Column], findings: &mut Findings) {
     const NAMED: usize = 12;
     let guessed =
@@ -261,7 +262,8 @@ fn tell_attributes(columns: &[Column], findings: &mut Findings) {
     });
 }
 
-/// Tells whether a column holds measures: its cells are numbers, and its title says so or some have decimals.
+/// Returns whether a column holds measurements: its cells are numbers, and its title says so or some have
+/// decimals.
 fn measures(rows: &[Row], column: usize, title: &str) -> bool {
     let cells = rows.iter().filter_map(|row| row.cells.get(column));
     let cells = cells
@@ -282,11 +284,11 @@ fn measures(rows: &[Row], column: usize, title: &str) -> bool {
             _ => letters.contains(measure),
         })
     });
-    // A word here and there, such as NA, stands for what is missing.
+    // Occasional words, such as NA, stand for missing values.
     all > 0 && numbers * 10 >= all * 9 && (said || parts > 0)
 }
 
-/// Returns the column that names the sign where none is called a gloss.
+/// Returns the column that names the sign if none is called a gloss.
 fn likely_gloss(columns: &[Column]) -> Option<usize> {
     let unknown = |column: &Column| column.why.is_empty();
     let called = columns
@@ -357,7 +359,7 @@ fn column(title: &str, mapping: &Mapping) -> Column {
     }
 }
 
-/// Tells whether most cells of a column that hold something hold symbols of HamNoSys.
+/// Returns whether most non-empty cells of a column hold symbols of HamNoSys.
 fn holds_notation(rows: &[Row], column: usize) -> bool {
     let cells = rows
         .iter()

@@ -1,20 +1,20 @@
-//! Lexicons as JSON: the same rows and columns in another writing.
+//! Lexicons as JSON: the same rows and columns in another format.
 
 use crate::table::{COLUMNS, Cells, PADDED, Row};
 use serde_json::{Map, Value};
 use std::borrow::Cow;
 
-/// The most bytes of JSON that are read; as values they take many times their size.
+/// The most bytes of JSON that are read; in memory they take many times their size.
 const BYTES: usize = 64 << 20;
-/// The title of the column that the keys of an object stand in.
+/// The title of the column for the keys of an object.
 const KEY: &str = "gloss";
-/// The title of the column of a text that stands for a whole sign.
+/// The title of the column for a text that is a whole sign.
 const TEXT: &str = "hamnosys";
 
 /// Returns the table that JSON holds: an array of objects, or an object of texts or objects by gloss.
 ///
-/// Rows are objects and columns their keys, in the order in which they come; what is no text is kept as
-/// JSON. Nothing for bytes that are no JSON, JSON of another shape, or with more columns than any table needs.
+/// Rows are objects and columns their keys, in order of appearance; values other than text are kept as
+/// JSON. `None` for bytes that are not JSON, JSON of another shape, or more columns than any table needs.
 pub(super) fn read(bytes: &[u8]) -> Option<Cells> {
     let text = str::from_utf8(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)).ok()?;
     if bytes.len() > BYTES || !text.trim_start().starts_with(['{', '[']) {
@@ -87,7 +87,7 @@ fn cell(value: Option<&Value>) -> String {
     }
 }
 
-/// Finds the lines of texts that follow one another.
+/// Finds the lines of successive texts.
 struct Lines<'t> {
     text: &'t str,
     at: usize,
@@ -95,7 +95,8 @@ struct Lines<'t> {
 }
 
 impl Lines<'_> {
-    /// Returns the line of the next place where JSON holds `text`; the line before where it is none.
+    /// Returns the line of the next occurrence of `text` in JSON; the previous line if the text does not
+    /// occur.
     fn of(&mut self, text: &str) -> u64 {
         let quoted = serde_json::to_string(text).map_or(Cow::Borrowed(text), Cow::Owned);
         if let Some(found) = self.text[self.at..].find(&*quoted) {

@@ -1,11 +1,11 @@
-//! Tables of lexicon codings: a sign a row, a component a column.
+//! Tables of lexicon codings: one sign per row, one component per column.
 //!
-//! What a column codes is guessed from its title (`schema/column_words.json`) or said by a
-//! [`Mapping`]. Compound cells are kept apart: `neutral space > head` is two successive values,
-//! `S + W` two at once, `>S` a final value alone; `-` and `N/A` are not applicable, `?` is unclear.
-//! A column of HamNoSys, told by its title or by the symbols in it, is the sign's notation. A table may
-//! also come as JSON: an array of objects, or an object whose keys are the glosses.
-//! The cells stay as they are beside what they mean, so that [`write()`] gives the same table back.
+//! A column's component is guessed from its title (`schema/column_words.json`) or given by a [`Mapping`].
+//! Compound cells are kept apart: `neutral space > head` is two successive values, `S + W` two at once,
+//! `>S` a final value alone; `-` and `N/A` are not applicable, `?` is unclear. A column of HamNoSys,
+//! recognised by its title or by its symbols, is the sign's notation. A table may also come as JSON: an
+//! array of objects, or an object whose keys are the glosses. The original cells are kept together with
+//! their meanings, so that [`write()`] reproduces the table.
 //!
 //! ```
 //! use chereme_formats::lexicon;
@@ -36,10 +36,10 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io;
 
-/// A table of signs and what each is coded as.
+/// A table of signs with their component values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Lexicon {
-    /// The columns in order, with what they are taken for.
+    /// The columns in order, with their meanings.
     pub columns: Vec<Column>,
     /// The signs in the order of the table.
     pub entries: Vec<Entry>,
@@ -57,38 +57,38 @@ pub struct Entry {
     /// Translations and glosses in other languages: the language (empty where not known) and the
     /// text.
     pub translations: Vec<(String, String)>,
-    /// What the sign is coded as, in the order of the columns; unset cells give nothing.
+    /// The component values of the sign, in the order of the columns; unset cells give no value.
     pub codings: Vec<Coding>,
     /// The sign as HamNoSys, blanks at its ends left out.
     pub notation: Option<String>,
-    /// What the table says of the sign beyond its components, as title and cell; empty cells give nothing.
+    /// Other information about the sign, as title and cell; empty cells are left out.
     pub attributes: Vec<(String, String)>,
-    /// The cells as they are, one a column.
+    /// The original cells, one per column.
     pub cells: Vec<String>,
 }
 
-/// What one cell, or one part of it, says of a sign.
+/// A component value of a sign, from a cell or a part of one.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Coding {
-    /// Whose hand; nothing for what belongs to the sign as a whole.
+    /// The hand; `None` for a value of the sign as a whole.
     pub hand: Option<Hands>,
     /// The component.
     pub component: Component,
     /// The part of the component, such as `palm` or `direction`.
     pub feature: Option<String>,
-    /// Which of successive values.
+    /// The phase: initial, middle or final.
     #[serde(serialize_with = "phase_name")]
     pub phase: Option<Phase>,
-    /// The value, or that there is none.
+    /// The value, or its absence.
     pub reading: Reading,
-    /// The part of the cell that says so, as it is written.
+    /// The part of the cell with the value, as written.
     pub raw: String,
     /// The column.
     pub column: usize,
 }
 
 impl Coding {
-    /// Returns the field as queries spell it; a coding of both hands has no hand in it.
+    /// Returns the field as queries spell it; a coding of both hands names no hand.
     #[must_use]
     pub fn field(&self) -> Field {
         Field {
@@ -114,19 +114,19 @@ pub struct Inventory {
     pub component: Component,
     /// The part of it.
     pub feature: Option<String>,
-    /// Each value with how often it is used, in alphabetic order.
+    /// Each value with its number of uses, in alphabetical order.
     pub values: BTreeMap<String, usize>,
 }
 
 /// Reads a table of lexicon codings.
 ///
-/// The delimiter (tab, comma, semicolon, bar) is found from the first row; quotes, byte-order marks,
-/// line ends of Windows and UTF-16 are understood, and what is not UTF-8 is read as Windows-1252.
-/// Rows without a gloss are left out, and a finding says so; findings also name rows of another width, glosses
-/// given twice, columns that become attributes and values that look like slips.
+/// The first row determines the delimiter (tab, comma, semicolon, bar). Quotes, byte-order marks, Windows
+/// line ends and UTF-16 are understood; bytes that are not UTF-8 are read as Windows-1252. Rows without a
+/// gloss are left out with a finding; findings also name rows of another width, repeated glosses, columns
+/// that become attributes and values that look like slips.
 ///
 /// # Errors
-/// [`TableError`] where the bytes are no table or no column is a gloss.
+/// [`TableError`] if the bytes are not a table or no column is a gloss.
 pub fn read(bytes: &[u8], mapping: &Mapping) -> Result<(Lexicon, Vec<Finding>), TableError> {
     let mut findings = Findings::default();
     let mut table = match json::read(bytes) {
@@ -190,7 +190,7 @@ pub fn read(bytes: &[u8], mapping: &Mapping) -> Result<(Lexicon, Vec<Finding>), 
     Ok((lexicon, findings.finish()))
 }
 
-/// Takes a first row that holds HamNoSys for a sign, as in a table without titles.
+/// Treats a first row that holds HamNoSys as a sign, as in a table without titles.
 fn without_titles(table: &mut Cells, findings: &mut Findings) {
     if !table.header.iter().any(|cell| holds_symbols(cell)) {
         return;
@@ -207,10 +207,10 @@ fn without_titles(table: &mut Cells, findings: &mut Findings) {
     });
 }
 
-/// Writes the cells of a lexicon as the table that they were read from.
+/// Writes the original cells of a lexicon as a table.
 ///
 /// # Errors
-/// Those of `out`.
+/// The errors of `out`.
 pub fn write(lexicon: &Lexicon, out: impl io::Write) -> io::Result<()> {
     let mut table = csv::WriterBuilder::new()
         .delimiter(lexicon.delimiter)
@@ -224,7 +224,7 @@ pub fn write(lexicon: &Lexicon, out: impl io::Write) -> io::Result<()> {
 
 impl Lexicon {
     /// Returns the values in use for each component and part of one, so that the table is its own
-    /// inventory; values of either hand and of every phase stand together.
+    /// inventory; values of either hand and of every phase are listed together.
     #[must_use]
     pub fn inventories(&self) -> Vec<Inventory> {
         let mut all: BTreeMap<(Component, Option<&str>), BTreeMap<String, usize>> = BTreeMap::new();
@@ -293,7 +293,7 @@ fn entry(row: Row, gloss: usize, columns: &[Column]) -> Entry {
     entry
 }
 
-/// Tells of rare values that differ from a common one by case or by one letter after the first.
+/// Reports rare values that differ from a common one by case or by one letter after the first.
 fn slips(lexicon: &Lexicon, findings: &mut Findings) {
     const RARE: usize = 5;
     const MANY: usize = 1000;
@@ -333,8 +333,8 @@ fn times(count: usize) -> String {
     }
 }
 
-/// Tells whether two folded values of six letters or more differ by one letter, which is neither
-/// the first nor a digit.
+/// Returns whether two folded values of six letters or more differ by one letter, which is neither the
+/// first nor a digit.
 fn one_letter_off(a: &str, b: &str) -> bool {
     let digits = |text: &str| {
         text.chars()

@@ -1,10 +1,10 @@
-//! One cell to the values in it.
+//! Splits a cell into its values.
 
 use super::Coding;
 use chereme_sign::text::fold;
 use chereme_sign::{Component, Phase, Reading};
 
-/// What fingers do during a sign; in a handshape column such a part is a change, not a shape.
+/// Actions of fingers during a sign; in a handshape column such a word is a change, not a shape.
 const CHANGES: [&str; 14] = [
     "closing",
     "opening",
@@ -22,11 +22,11 @@ const CHANGES: [&str; 14] = [
     "flattening",
 ];
 
-/// Adds what `cell` says to `codings`, each like `whole` with its own phase, feature and reading.
+/// Adds the values of `cell` to `codings`, each like `whole` with its own phase, feature and reading.
 ///
-/// `A > B > C` is initial, middle and final; `> C` final alone and `A >` initial alone. `a + b` is
-/// two values at once, and so is `a, b` where a value is a word: in movement, orientation and
-/// changes of configuration, not in handshapes and places.
+/// `A > B > C` is initial, middle and final; `> C` final alone and `A >` initial alone. `a + b` is two
+/// simultaneous values, and so is `a, b` if a value is a word: in movement, orientation and changes of
+/// configuration, not in handshapes and places.
 pub(super) fn split(cell: &str, whole: &Coding, codings: &mut Vec<Coding>) {
     if cell.trim().is_empty() {
         return;

@@ -1,11 +1,11 @@
-//! A file by which people say what their tiers and columns are.
+//! A file that maps tiers and columns to their meanings.
 
 use super::{Hands, same};
 use chereme_sign::text::{did_you_mean, nearest};
 use chereme_sign::{Phase, RoleError, TierRole, TierTopic};
 use serde_json::Value;
 
-/// What tiers and columns are, by name or pattern.
+/// The meaning of tiers and columns, by name or pattern.
 ///
 /// The file is JSON with two lists, both optional:
 ///
@@ -16,10 +16,10 @@ use serde_json::Value;
 /// }
 /// ```
 ///
-/// `*` stands for any text and `?` for one character; case and accents do not count. An entry
-/// without a pattern comes before those with one, and among patterns the first counts. A value is
-/// `gloss`, `translation`, `comment`, `free` (or `note` and `attribute` of a column), or a component as queries
-/// spell it, with a hand before it and a feature after it where there is one: `both.gloss`,
+/// `*` stands for any text and `?` for one character; case and accents do not count. An entry without a
+/// pattern comes before those with one, and among patterns the first counts. A value is `gloss`,
+/// `translation`, `comment`, `free` (or `note` and `attribute` of a column), or a component as queries
+/// spell it, with an optional hand before it and an optional feature after it: `both.gloss`,
 /// `nonmanual.brows`, `weak.configuration`, `translation.en` of a column.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Mapping {
@@ -27,14 +27,14 @@ pub struct Mapping {
     columns: Vec<(String, Target)>,
 }
 
-/// What an entry of a [`Mapping`] says.
+/// The meaning in one entry of a [`Mapping`].
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Target {
-    /// What the annotations or values say; nothing for what should be left alone.
+    /// The role of the annotations or values; `None` to leave them alone.
     pub role: Option<TierRole>,
-    /// Whose hand they are about.
+    /// The hand that they describe.
     pub hand: Option<Hands>,
-    /// Which of successive values they are, of a column.
+    /// The phase of a column's values: initial, middle or final.
     pub phase: Option<Phase>,
     /// The language of a gloss or translation, of a column.
     pub language: Option<String>,
@@ -42,7 +42,7 @@ pub struct Target {
     pub attribute: bool,
 }
 
-/// Why a mapping file could not be read.
+/// The reason why a mapping file could not be read.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum MappingError {
     /// The file is not JSON.
@@ -52,23 +52,23 @@ pub enum MappingError {
         line: usize,
         /// The column, counted from 1.
         column: usize,
-        /// What is wrong there.
+        /// The problem.
         message: String,
     },
-    /// The file is JSON of another form.
+    /// The file is JSON of another structure.
     #[error("{place}: a mapping is {{\"tiers\": {{\"NAME\": \"ROLE\"}}, \"columns\": {{\"NAME\": \"ROLE\"}}}}{}", did_you_mean(nearest.as_deref()))]
     Form {
-        /// The key where the form is another.
+        /// The key at which the structure differs.
         place: String,
-        /// The key that was meant, perhaps.
+        /// The most similar valid key.
         nearest: Option<String>,
     },
-    /// An entry's value is not understood.
+    /// An entry's value is not valid.
     #[error("{entry:?}: {source}")]
     Role {
         /// The entry's name or pattern.
         entry: String,
-        /// What is wrong with what it says.
+        /// The reason.
         source: RoleError,
     },
 }
@@ -77,8 +77,8 @@ impl Mapping {
     /// Reads a mapping file.
     ///
     /// # Errors
-    /// [`MappingError`] where the text is not JSON, not of the mapping's form, or an entry is not
-    /// understood; it names the entry.
+    /// [`MappingError`] if the text is not JSON, does not have the mapping's structure, or an entry is not
+    /// valid; it names the entry.
     pub fn from_json(text: &str) -> Result<Self, MappingError> {
         let file: Value = serde_json::from_str(text).map_err(|error| MappingError::Json {
             line: error.line(),
@@ -108,7 +108,7 @@ impl Mapping {
         Ok(mapping)
     }
 
-    /// Returns this mapping with the entries for tiers of `other` of whose names it says nothing.
+    /// Returns this mapping, extended by the tier entries of `other` for names that it does not have.
     #[must_use]
     pub fn completed_by(&self, other: &Self) -> Self {
         let mut both = self.clone();
@@ -123,13 +123,13 @@ impl Mapping {
         all.map(|(entry, _)| entry.as_str())
     }
 
-    /// Returns the entry for a tier of this name, and what it says.
+    /// Returns the entry for a tier of this name, with its meaning.
     #[must_use]
     pub fn tier(&self, name: &str) -> Option<(&str, &Target)> {
         find(&self.tiers, name)
     }
 
-    /// Returns the entry for a column of this name, and what it says.
+    /// Returns the entry for a column of this name, with its meaning.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<(&str, &Target)> {
         find(&self.columns, name)
@@ -147,7 +147,7 @@ fn find<'m>(entries: &'m [(String, Target)], name: &str) -> Option<(&'m str, &'m
     found.map(|(entry, target)| (&**entry, target))
 }
 
-/// Tells whether a pattern of `*` and `?` fits the whole of `name`.
+/// Returns whether a pattern of `*` and `?` fits the whole of `name`.
 fn matches(pattern: &str, name: &str) -> bool {
     let (pattern, name): (Vec<char>, Vec<char>) =
         (pattern.chars().collect(), name.chars().collect());
@@ -174,12 +174,12 @@ fn matches(pattern: &str, name: &str) -> bool {
 }
 
 impl Target {
-    /// Reads the title of a column that says itself what it is: `right.configuration`.
+    /// Reads a column title that states its own meaning: `right.configuration`.
     pub(crate) fn of_title(title: &str) -> Option<Self> {
         Self::parse(title, title).ok()
     }
 
-    /// Reads what the entry `entry` says of a column.
+    /// Reads the value of the entry `entry` for a column.
     fn of_column(entry: &str, text: &str) -> Result<Self, MappingError> {
         if text.trim().eq_ignore_ascii_case("attribute") {
             return Ok(Self {
@@ -190,7 +190,7 @@ impl Target {
         Self::parse(entry, text)
     }
 
-    /// Reads what the entry `entry` says.
+    /// Reads the value of the entry `entry`.
     pub(crate) fn parse(entry: &str, text: &str) -> Result<Self, MappingError> {
         if let Some((first, language)) = text.trim().split_once('.')
             && let Ok(role) = first.parse::<TierRole>()

@@ -1,7 +1,7 @@
-//! What the tiers and columns of people's files are about, by their names or by a mapping file.
+//! Infers the roles of tiers and columns in people's files, from their names or a mapping file.
 //!
-//! Names are looked up in `schema/tier_words.json`, a table of the words that projects use in
-//! several languages; a [`Mapping`] overrides what is guessed.
+//! Names are looked up in `schema/tier_words.json`, a table of the words that projects use in several
+//! languages; a [`Mapping`] overrides these guesses.
 
 mod mapping;
 mod words;
@@ -17,7 +17,7 @@ use serde::Serialize;
 use std::collections::BTreeSet;
 use words::{Match, TABLE};
 
-/// A tier as far as its role can be guessed from it.
+/// The properties of a tier that its role is inferred from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TierName<'a> {
     /// The tier's name.
@@ -31,22 +31,22 @@ pub struct TierName<'a> {
     pub one_to_one: bool,
 }
 
-/// What a tier is taken for.
+/// The inferred role of a tier.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TierGuess {
     /// The tier's name.
     pub tier: String,
-    /// What its annotations say; nothing where that is not known.
+    /// The role of its annotations; `None` if unknown.
     pub role: Option<TierRole>,
-    /// Whose hand they are about.
+    /// The hand that they describe.
     pub hand: Option<Hands>,
-    /// How sure it is, from 0 to 1, where 1 is what a mapping says.
+    /// The confidence, from 0 to 1; 1 for tiers of a mapping.
     pub confidence: f64,
-    /// What it was taken from.
+    /// The evidence for the role.
     pub why: String,
 }
 
-/// Returns what each tier of a transcript is taken for; see [`guess_roles`].
+/// Returns the inferred role of each tier of a transcript; see [`guess_roles`].
 #[must_use]
 pub fn guess_tiers(transcript: &Transcript, mapping: &Mapping) -> Vec<TierGuess> {
     let names = transcript.tiers.iter().map(|tier| TierName {
@@ -58,13 +58,14 @@ pub fn guess_tiers(transcript: &Transcript, mapping: &Mapping) -> Vec<TierGuess>
     guess_roles(&names.collect::<Vec<_>>(), mapping)
 }
 
-/// Returns what each tier is taken for, in the same order.
+/// Returns the inferred role of each tier, in the same order.
 ///
-/// The mapping comes first, then the words of the tier's own name, then those of its type. A tier
-/// that names only a hand is a gloss tier; one without a hand has that of the tier above. `MD` is
-/// the right hand (*main droite*) unless other tiers name the weak one `MND`, and `D` likewise
-/// beside `ND`. A gloss tier that stands one to one below another one reads the same signs once more, as a
-/// rule in another language: it is a translation, so that each sign stays one token.
+/// The mapping comes first, then the words of the tier's own name, then those of its type. A tier that
+/// names only a hand is a gloss tier; one without a hand takes the hand of the tier above. `MD` is the
+/// right hand (*main droite*) unless other tiers name the weak one `MND`; the same holds for `D` if there
+/// is an `ND`. A gloss tier with a one-to-one relation to another gloss tier above it holds a second
+/// reading of the same signs, usually in another language: it is a translation, so that each sign stays
+/// one token.
 #[must_use]
 pub fn guess_roles(tiers: &[TierName<'_>], mapping: &Mapping) -> Vec<TierGuess> {
     let context = Context::new(tiers);
@@ -106,16 +107,16 @@ pub fn guess_roles(tiers: &[TierName<'_>], mapping: &Mapping) -> Vec<TierGuess> 
 }
 
 impl TierGuess {
-    /// Tells whether it holds glosses, or what reads them once more.
+    /// Returns whether it holds glosses, or a second reading of them.
     fn reads_signs(&self) -> bool {
         self.role == Some(TierRole::Gloss)
             || (self.role == Some(TierRole::Translation) && self.why.contains("glosses above"))
     }
 }
 
-/// Which abbreviations the tiers of one file use.
+/// The abbreviations in the tiers of one file.
 struct Context {
-    /// The dominant hand is `MD` or `D`, for the weak one is `MND` or `ND`.
+    /// The dominant hand is `MD` or `D`, because the weak one is `MND` or `ND`.
     dominance: bool,
 }
 
@@ -156,7 +157,7 @@ fn guess(tier: &TierName<'_>, mapping: &Mapping, context: &Context) -> TierGuess
         };
     }
     let own = TABLE.find(tier.name, |word| context.hand(word));
-    // A letter such as "d" or "g" in the name of a type is no hand.
+    // A single letter such as "d" or "g" in the name of a type does not mean a hand.
     let spelt = |word: &str| context.hand(word).filter(|_| word.chars().count() > 2);
     let kind = TABLE.find(tier.kind, spelt);
     let hand = own
@@ -210,12 +211,11 @@ fn guess(tier: &TierName<'_>, mapping: &Mapping, context: &Context) -> TierGuess
     }
 }
 
-/// Returns the role that the words of a name make together, and the word that decides.
+/// Returns the combined role of the words of a name, and the deciding word.
 ///
-/// A comment on anything is a comment, a translation a translation, and what is said of signs as words (their
-/// part of speech) is free; a placement may be on the
-/// head, other movements and orientations of the head are non-manual; a component's gloss is the
-/// component.
+/// A comment on anything is a comment, a translation a translation, and information about signs as words
+/// (their part of speech) is free; a placement may be on the head, other movements and orientations of the
+/// head are non-manual; a component's gloss is the component.
 fn role_of(found: &Match) -> Option<(TierRole, String)> {
     let rank = |role: &TierRole| match role {
         TierRole::Comment => 0,
@@ -233,7 +233,7 @@ fn role_of(found: &Match) -> Option<(TierRole, String)> {
         } => 5,
         TierRole::Component { .. } => 6,
         TierRole::Gloss => 7,
-        // Parts of speech of glosses are no glosses.
+        // Parts of speech of glosses are not glosses.
         TierRole::Free => 0,
     };
     let mut roles: Vec<&(TierRole, String)> = found.roles.iter().collect();

@@ -1,4 +1,4 @@
-//! The table of words that names are made of.
+//! The table of words in tier names.
 
 use super::Hands;
 use chereme_sign::TierRole;
@@ -12,7 +12,7 @@ pub(super) static TABLE: LazyLock<Words> = LazyLock::new(|| {
         .expect("the shipped table of words is whole; a test reads it")
 });
 
-/// Words by what they mean.
+/// Words with their meanings.
 #[derive(Debug, Default)]
 pub(super) struct Words {
     hands: BTreeMap<String, Hands>,
@@ -20,12 +20,12 @@ pub(super) struct Words {
     codes: BTreeMap<String, TierRole>,
 }
 
-/// What the words of a name mean, each with the word.
+/// The meanings of the words of a name, each with its word.
 #[derive(Debug, Default)]
 pub(super) struct Match {
     pub(super) hand: Option<(Hands, String)>,
     pub(super) roles: Vec<(TierRole, String)>,
-    /// Words that are not known; letters and whatever holds a digit number or name people and takes.
+    /// Unknown words; single letters and words with digits do not count, as they number people and takes.
     pub(super) unknown: Vec<String>,
 }
 
@@ -148,8 +148,8 @@ impl Words {
     }
 }
 
-/// Splits a name into its words: folded, at everything that is no letter or digit, and without
-/// the number that ends a word of four letters or more.
+/// Splits a name into its words: folded, split at everything except letters and digits, and without the
+/// number that ends a word of four letters or more.
 pub(super) fn pieces(name: &str) -> Vec<String> {
     let folded = fold(name);
     let words = folded
@@ -167,7 +167,7 @@ pub(super) fn pieces(name: &str) -> Vec<String> {
         .collect()
 }
 
-/// Returns a name as its words parted by one blank.
+/// Returns the words of a name, separated by one blank.
 pub(crate) fn normal(name: &str) -> String {
     let folded = fold(name);
     let words: Vec<&str> = folded

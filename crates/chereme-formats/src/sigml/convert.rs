@@ -1,4 +1,4 @@
-//! What a SiGML document means: notated signs.
+//! Converts between a SiGML document and notated signs.
 
 use super::gestural::{read_sign, write_manual, write_nonmanual};
 use super::node::Node;
@@ -15,20 +15,20 @@ pub use super::error::Error;
 pub struct Entry {
     /// The sign.
     pub sign: Notated,
-    /// Where it is; it takes no part in comparisons.
+    /// Its line; ignored in comparisons.
     pub line: Line,
 }
 
-/// How the finding ends that a sign has no gloss.
+/// The last words of the finding for a sign without a gloss.
 pub const NO_GLOSS: &str = "has no gloss";
 
-/// Says what a document means: its signs in their order.
+/// Interprets a document: returns its signs in order.
 ///
-/// Whatever can be lived with is read and told as a finding: names and values that SiGML 1.2 does
-/// not have, letters that repeat, parts in other places.
+/// Tolerable oddities are read and reported as findings: names and values that SiGML 1.2 does not have,
+/// repeated letters, parts at other places.
 ///
 /// # Errors
-/// [`Error::Root`] where the root is neither `<sigml>` nor a sign, nor an element around some.
+/// [`Error::Root`] if the root is neither `<sigml>` nor a sign, nor an element around some.
 pub fn from_raw(root: &Element<'_>) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
     let mut findings = Findings::default();
     let mut entries = Vec::new();
@@ -73,7 +73,7 @@ pub fn from_raw(root: &Element<'_>) -> Result<(Vec<Entry>, Vec<Finding>), Error>
     Ok((entries, findings.finish()))
 }
 
-/// Reports whether there is a document or a sign somewhere in an element.
+/// Returns whether an element contains a document or a sign.
 fn holds_signs(element: &Element<'_>) -> bool {
     element.children.iter().any(|child| {
         let name = child.name.to_ascii_lowercase();
@@ -118,7 +118,7 @@ fn read_signs(parent: &Element<'_>, findings: &mut Findings, entries: &mut Vec<E
     }
 }
 
-/// Reads an element where it is a sign, and tells whether it is.
+/// Reads an element if it is a sign; returns whether it is.
 fn read_entry(element: &Element<'_>, findings: &mut Findings, entries: &mut Vec<Entry>) -> bool {
     let gestural = matches!(&*element.name, "hamgestural_sign" | "hamgestural_segment");
     if !gestural && element.name != "hns_sign" {
@@ -160,9 +160,9 @@ fn read_entry(element: &Element<'_>, findings: &mut Findings, entries: &mut Vec<
 
 /// Returns the document that holds these signs as gestural SiGML.
 ///
-/// Beyond SiGML 1.2, and so that nothing is lost, it writes the attributes `speed`, `amount`,
-/// `timescale` and `duration` where the tree has them, `digits` of a finger play, `second_size` of a
-/// circle, `approx_repetition`, and an empty `location_hand` for a half of a split that says nothing.
+/// To lose nothing, it goes beyond SiGML 1.2: it writes the attributes `speed`, `amount`, `timescale` and
+/// `duration` if the tree has them, `digits` of a finger play, `second_size` of a circle,
+/// `approx_repetition`, and an empty `location_hand` for an empty half of a split.
 pub fn to_gestural<'s>(signs: impl IntoIterator<Item = &'s Notated>) -> Element<'static> {
     let mut root = Element::new("sigml");
     for sign in signs {
@@ -178,10 +178,10 @@ pub fn to_gestural<'s>(signs: impl IntoIterator<Item = &'s Notated>) -> Element<
     root
 }
 
-/// Returns the document that holds these signs as H-SiGML, and for each what it does not say.
+/// Returns the document that holds these signs as H-SiGML, and for each the parts that it cannot express.
 ///
-/// HamNoSys has no symbols for all that a tree may hold; the text of a sign that was read as symbols
-/// is written as it was.
+/// HamNoSys lacks symbols for some parts of a tree; a sign that was read as symbols is written with its
+/// original text.
 pub fn to_symbols<'s>(
     signs: impl IntoIterator<Item = &'s Notated>,
 ) -> (Element<'static>, Vec<Vec<String>>) {

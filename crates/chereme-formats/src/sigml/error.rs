@@ -1,8 +1,8 @@
-//! What makes a SiGML file meaningless.
+//! Errors that make a SiGML file unreadable.
 
-/// Why a file could not be read as SiGML; every case names the line and what would be right.
+/// The reason why a file could not be read as SiGML; every case names the line and a correction.
 ///
-/// What is odd and can be lived with is a [`Finding`](crate::Finding) instead.
+/// Oddities that the reader tolerates are a [`Finding`](crate::Finding) instead.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Error {
     /// The file is not UTF-8.
@@ -13,7 +13,7 @@ pub enum Error {
     Encoding {
         /// The encoding that its first bytes or its declaration name, or `an unknown encoding`.
         encoding: String,
-        /// Where the first wrong byte or the declaration is, counted from 1.
+        /// The line of the first wrong byte or of the declaration, counted from 1.
         line: u64,
     },
     /// The file holds nothing, or something that isn't XML.
@@ -22,7 +22,7 @@ pub enum Error {
         /// The line, counted from 1.
         line: u64,
     },
-    /// The root element is another one.
+    /// The root element has the wrong name.
     #[error(
         "line {line}: the root element is <{found}>; it should be <sigml>, \
          or a single <hamgestural_sign> or <hns_sign>"
@@ -30,7 +30,7 @@ pub enum Error {
     Root {
         /// The line, counted from 1.
         line: u64,
-        /// The element that is there.
+        /// The root element found.
         found: String,
     },
     /// The text ends inside an element.
@@ -46,7 +46,7 @@ pub enum Error {
     Syntax {
         /// The line, counted from 1.
         line: u64,
-        /// What is wrong there and what would be right.
+        /// The problem, with a correction.
         message: String,
     },
     /// The file declares entities or a document type of its own.
@@ -58,14 +58,14 @@ pub enum Error {
         /// The line, counted from 1.
         line: u64,
     },
-    /// The file goes beyond what is read.
+    /// The file exceeds a limit of the reader.
     #[error("line {line}: {what}, more than {limit}; no SiGML file needs as many")]
     Limit {
         /// The line, counted from 1.
         line: u64,
-        /// What there is too much of, as a sentence.
+        /// The limit that is exceeded, as a sentence.
         what: &'static str,
-        /// The most that is read.
+        /// The limit.
         limit: usize,
     },
 }

@@ -1,8 +1,8 @@
 //! SiGML: signs as notation in XML, `.sigml`.
 //!
-//! [`raw`] mirrors the file, [`convert`] says what it means: notated signs, each the tree of
+//! [`raw`] mirrors the file, [`convert`] interprets it: notated signs, each the tree of
 //! [`chereme_sign::hamnosys`] with its gloss and the non-manual tiers. A file holds signs in gestural
-//! SiGML (`hamgestural_sign`, elements that say the tree), in H-SiGML (`hns_sign`, HamNoSys's symbols as
+//! SiGML (`hamgestural_sign`, the tree as elements), in H-SiGML (`hns_sign`, HamNoSys's symbols as
 //! elements), or both.
 //!
 //! ```
@@ -33,11 +33,11 @@ use crate::table::decode;
 use crate::tally::Findings;
 use chereme_sign::hamnosys::Notated;
 
-/// Reads a SiGML document for what it means: [`raw::read`], then [`from_raw`]. UTF-16 with its mark, and
-/// Latin-1 or Windows-1252 where the document says so, are read too.
+/// Reads the signs of a SiGML document: [`raw::read`], then [`from_raw`]. UTF-16 with its mark is read,
+/// too, and Latin-1 or Windows-1252 if the document declares it.
 ///
 /// # Errors
-/// Those of the two.
+/// The same as those of [`raw::read`] and [`from_raw`].
 pub fn read(bytes: &[u8]) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
     let decoded = in_utf8(bytes);
     let (root, mut findings) = match &decoded {
@@ -52,7 +52,7 @@ pub fn read(bytes: &[u8]) -> Result<(Vec<Entry>, Vec<Finding>), Error> {
     Ok((signs, findings))
 }
 
-/// Returns the text of a document in another encoding that it declares, and what there is to tell of it.
+/// Returns the text of a document in another encoding that it declares, with findings.
 fn in_utf8(bytes: &[u8]) -> Option<(String, Vec<Finding>)> {
     const WESTERN: [&str; 5] = [
         "iso-8859-1",
@@ -81,7 +81,7 @@ fn in_utf8(bytes: &[u8]) -> Option<(String, Vec<Finding>)> {
     }
     let mut findings = Findings::default();
     let text = decode(bytes, &mut findings).ok()?;
-    // What the declaration says of the encoding holds no longer.
+    // The encoding in the declaration is no longer true.
     let end = text.find("?>").filter(|_| text.starts_with("<?xml"));
     let (declaration, rest) = text.split_at(end.map_or(0, |end| end + 2));
     let lines = "\n".repeat(declaration.matches('\n').count());
@@ -102,7 +102,7 @@ pub fn write_gestural<'s>(signs: impl IntoIterator<Item = &'s Notated>) -> Vec<u
     raw::write(&to_gestural(signs))
 }
 
-/// Writes signs as H-SiGML, symbol by symbol, and returns for each what HamNoSys does not say.
+/// Writes signs as H-SiGML, symbol by symbol, and returns for each the parts that HamNoSys cannot express.
 #[must_use]
 pub fn write_symbols<'s>(
     signs: impl IntoIterator<Item = &'s Notated>,

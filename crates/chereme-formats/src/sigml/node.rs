@@ -1,4 +1,4 @@
-//! Attributes into values, with a finding for each that is odd.
+//! Reads attributes as values, with a finding for each oddity.
 
 use super::raw::{Element, shown};
 use super::words::Word;
@@ -6,7 +6,7 @@ use crate::finding::Finding;
 use crate::tally::Findings;
 use chereme_sign::hamnosys::{Bend, Compass, Digit, Digits, Direction};
 
-/// An element whose attributes are taken one after the other.
+/// An element whose attributes are read one by one.
 pub(super) struct Node<'e, 'f> {
     pub(super) element: &'e Element<'e>,
     pub(super) findings: &'f mut Findings,
@@ -38,7 +38,7 @@ impl<'e, 'f> Node<'e, 'f> {
         });
     }
 
-    /// Returns an attribute as it is written.
+    /// Returns an attribute as written.
     pub(super) fn text(&mut self, name: &str) -> Option<&'e str> {
         let all = &self.element.attributes;
         let at = all.iter().position(|(known, _)| known == name)?;
@@ -46,8 +46,8 @@ impl<'e, 'f> Node<'e, 'f> {
         Some(&all[at].1)
     }
 
-    /// Returns what `read` makes of an attribute; what it can't read is left out with a warning
-    /// that says what would be right.
+    /// Returns the attribute parsed by `read`; if that fails, leaves it out with a warning that gives the
+    /// `right` form.
     pub(super) fn parsed<T>(
         &mut self,
         name: &str,
@@ -86,7 +86,7 @@ impl<'e, 'f> Node<'e, 'f> {
         Some(value)
     }
 
-    /// Tells whether a flag is set.
+    /// Returns whether a flag is set.
     pub(super) fn flag(&mut self, name: &str) -> bool {
         if self.element.attributes.is_empty() {
             return false;
@@ -114,7 +114,7 @@ impl<'e, 'f> Node<'e, 'f> {
         })
     }
 
-    /// Returns one of the 26 directions; letters said twice count once.
+    /// Returns one of the 26 directions; repeated letters count once.
     pub(super) fn direction(&mut self, name: &str) -> Option<Direction> {
         const RIGHT: &str = "one to three of u or d, o or i, l or r, such as u, ol or dir";
         let text = self.text(name)?;
@@ -136,8 +136,8 @@ impl<'e, 'f> Node<'e, 'f> {
         Some(direction)
     }
 
-    /// Returns one of the eight directions about an axis; letters for out and in have no meaning
-    /// there and are passed over.
+    /// Returns one of the eight directions about an axis; letters for out and in have no meaning there and
+    /// are ignored.
     pub(super) fn compass(&mut self, name: &str) -> Option<Compass> {
         const RIGHT: &str = "one of u, ur, r, dr, d, dl, l, ul";
         let text = self.text(name)?;
@@ -227,7 +227,7 @@ impl<'e, 'f> Node<'e, 'f> {
         })
     }
 
-    /// Tells about every attribute that nobody took.
+    /// Reports every attribute that was not read.
     pub(super) fn finish(self) {
         let element = self.element;
         for (at, (name, value)) in element.attributes.iter().enumerate() {
@@ -243,7 +243,7 @@ impl<'e, 'f> Node<'e, 'f> {
     }
 }
 
-/// Returns the value of a word in another case, or in the name that HamNoSys's symbol of it has.
+/// Returns the value of a word in another case, or of the name of HamNoSys's symbol.
 fn loose<T: Word>(text: &str) -> Option<T> {
     let lower = text.to_ascii_lowercase();
     let plain = lower.strip_prefix("ham").unwrap_or(&lower);
@@ -273,12 +273,12 @@ const BENDS: [(&str, Bend); 6] = [
     ("halfbent", Bend::HalfBent),
 ];
 
-/// How the numbers of a bend are spelled.
+/// The spellings of the numbers of a bend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Spelling {
     /// In words or digits, or with blanks between them.
     Usual,
-    /// As decimals without anything between them.
+    /// As decimals without separators.
     Odd,
 }
 
@@ -308,7 +308,7 @@ fn bend_of(text: &str) -> Option<(Bend, Spelling)> {
     fits.then_some((Bend::Joints(joints), spelling))
 }
 
-/// Parts numbers that stand together: each is one digit, with one more after a point if there is one.
+/// Splits numbers without separators: each is one digit, with one more after a point if there is one.
 fn joined(text: &str) -> Option<Vec<String>> {
     let mut parts: Vec<String> = Vec::new();
     let mut letters = text.chars().take(16).peekable();

@@ -1,7 +1,6 @@
-//! A SiGML document as its file says it: elements with attributes, and the lines they are on.
+//! Mirrors a SiGML document: elements with attributes, and their lines.
 //!
-//! SiGML has no text between its tags. What the two spellings of signs mean is said in
-//! [`convert`](super::convert).
+//! SiGML has no text between its tags. [`convert`](super::convert) interprets the two spellings of signs.
 
 use super::error::Error;
 use crate::finding::Finding;
@@ -26,7 +25,7 @@ pub const ATTRIBUTES: usize = 64;
 /// A text of the file, its references resolved.
 pub type Text<'a> = Cow<'a, str>;
 
-/// An element with all that is in it.
+/// An element with its contents.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Element<'a> {
     /// Its name, with a prefix if it has one.
@@ -39,8 +38,8 @@ pub struct Element<'a> {
     pub line: Line,
 }
 
-/// A line of the file that was read, counted from 1; 0 for an element that was not read. It takes
-/// no part in comparisons.
+/// A line of the file that was read, counted from 1; 0 for an element that was not read. It is ignored in
+/// comparisons.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Line(pub u64);
 
@@ -72,12 +71,12 @@ impl<'a> Element<'a> {
 
 /// Reads the root element of a document.
 ///
-/// A document type that names a file elsewhere is told and not fetched; comments are told and not
-/// kept; text between tags is told and left out.
+/// A document type that names an external file is reported and not fetched; comments are reported and
+/// dropped; text between tags is reported and left out.
 ///
 /// # Errors
-/// [`Error`] where the bytes are not UTF-8, not well-formed XML, cut short, declare entities, or go
-/// beyond the limits of this module.
+/// [`Error`] if the bytes are not UTF-8, not well-formed XML, cut short, declare entities, or exceed the
+/// limits of this module.
 pub fn read(bytes: &[u8]) -> Result<(Element<'_>, Vec<Finding>), Error> {
     let text = decode(bytes)?;
     let mut reader = Reader::from_str(text);
@@ -107,7 +106,7 @@ pub fn read(bytes: &[u8]) -> Result<(Element<'_>, Vec<Finding>), Error> {
     }
 }
 
-/// Writes a document with this root element, two blanks to a level.
+/// Writes a document with this root element, indented by two blanks per level.
 #[must_use]
 pub fn write(root: &Element<'_>) -> Vec<u8> {
     let mut out = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
@@ -148,21 +147,21 @@ fn escape(text: &str, out: &mut String) {
     }
 }
 
-/// Tells whether XML 1.0 allows the character (section 2.2).
+/// Returns whether XML 1.0 allows the character (section 2.2).
 fn is_xml(c: char) -> bool {
     matches!(c, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
 }
 
-/// Puts events together to elements.
+/// Builds elements from events.
 struct Builder<'a> {
     text: &'a str,
-    /// Up to where lines were counted, in bytes.
+    /// The byte up to which lines were counted.
     at: usize,
     line: u64,
     open: Vec<Element<'a>>,
     root: Option<Element<'a>>,
     elements: usize,
-    /// The last thing was text where none belongs.
+    /// Whether the last event was text where SiGML allows none.
     astray: bool,
     findings: Findings,
 }
@@ -425,7 +424,7 @@ fn decode(bytes: &[u8]) -> Result<&str, Error> {
     }
 }
 
-/// Returns the text, cut where it is long.
+/// Returns the text, cut to 40 characters.
 pub(super) fn shown(text: &str) -> String {
     if text.chars().count() <= 40 {
         text.to_owned()

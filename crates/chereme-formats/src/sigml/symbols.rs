@@ -1,4 +1,4 @@
-//! H-SiGML to and from notated signs: HamNoSys's symbols as elements.
+//! Converts H-SiGML to and from notated signs: HamNoSys's symbols as elements.
 
 use super::node::Node;
 use super::raw::{Element, shown};
@@ -7,7 +7,7 @@ use crate::tally::Findings;
 use chereme_sign::hamnosys::{Act, Nonmanual, NonmanualPart, Notated, Sign, Symbol, parse_lenient};
 use chereme_sign::text::nearest;
 
-/// The elements of what face and body do.
+/// The elements of face and body.
 const PARTS: [(&str, NonmanualPart); 10] = [
     ("hnm_shoulder", NonmanualPart::Shoulders),
     ("hnm_body", NonmanualPart::Body),
@@ -21,7 +21,7 @@ const PARTS: [(&str, NonmanualPart); 10] = [
     ("hnm_extra", NonmanualPart::Extra),
 ];
 
-/// Elements that break lines or pages of a text and mean nothing.
+/// Elements for line and page breaks, without meaning.
 const LAYOUT: [&str; 6] = [
     "hamtab",
     "hamlinefeed",
@@ -31,7 +31,7 @@ const LAYOUT: [&str; 6] = [
     "hamversion40",
 ];
 
-/// Reads the two halves of a sign: its tree, the text it was written in, and face and body.
+/// Reads the two halves of a sign: its tree with its original text, and face and body.
 pub(super) fn read_sign(
     element: &Element<'_>,
     findings: &mut Findings,
@@ -69,7 +69,7 @@ pub(super) fn read_sign(
     (read.sign, Some(text), nonmanual)
 }
 
-/// Returns the symbols with the lines they are on.
+/// Returns the symbols with their lines.
 fn read_symbols(element: &Element<'_>, findings: &mut Findings) -> Vec<(Symbol, u64)> {
     Node::new(element, findings).finish();
     let mut symbols = Vec::new();
@@ -160,7 +160,7 @@ fn unexpected(child: &Element<'_>, parent: &Element<'_>, findings: &mut Findings
     });
 }
 
-/// Adds the two halves of a sign to its element, and returns what they do not say.
+/// Adds the two halves of a sign to its element, and returns the parts that they cannot express.
 pub(super) fn write_sign(sign: &Notated, element: &mut Element<'static>) -> Vec<String> {
     let mut lost = Vec::new();
     if !sign.nonmanual.is_empty() {

@@ -1,11 +1,11 @@
-//! The words that SiGML's attributes are written in.
+//! The words of SiGML's attributes.
 
 use chereme_sign::hamnosys::{
     BodyLocation, Contact, Ellipse, FingerPart, HandClass, HandLocation, NonmanualPart, Opening,
     Repeat, Side, Size, ThumbPosition, TierEnd, TierKind, TierStart, WristMotion,
 };
 
-/// Values that an attribute spells with one word each.
+/// Values that an attribute spells with one word.
 pub(super) trait Word: Copy + PartialEq + 'static {
     /// Every word with its value; of several words for one value the first is written.
     const WORDS: &'static [(&'static str, Self)];
@@ -88,7 +88,7 @@ words!(NonmanualPart: "shoulder_movement" Shoulders, "body_movement" Body, "head
     "mouth_gesture" MouthGesture, "mouth_picture" MouthPicture, "mouth_meta" MouthMeta,
     "extra_movement" Extra, "neutral" Neutral,);
 
-/// Returns the element that holds what happens at the same time on a tier.
+/// Returns the element that holds simultaneous acts on a tier.
 pub(super) fn group_name(tier: TierKind) -> &'static str {
     match tier {
         TierKind::Shoulder => "shoulder_par",
@@ -101,7 +101,7 @@ pub(super) fn group_name(tier: TierKind) -> &'static str {
     }
 }
 
-/// Returns the attribute that the tag of a part stands in, in gestural SiGML.
+/// Returns the attribute for the tag of a part, in gestural SiGML.
 pub(super) fn tag_name(part: NonmanualPart) -> &'static str {
     match part {
         NonmanualPart::Gaze => "direction",

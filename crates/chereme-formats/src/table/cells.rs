@@ -1,20 +1,20 @@
-//! Bytes to rows of cells: encodings, delimiters, quotes.
+//! Reads bytes as rows of cells: encodings, delimiters, quotes.
 
 use crate::finding::Finding;
 use crate::tally::Findings;
 use std::borrow::Cow;
 
-/// The most columns that are read.
+/// The most columns of a table.
 pub(crate) const COLUMNS: usize = 4096;
-/// How many cells at most short rows are filled up with, all together.
+/// The most cells with which all short rows together are padded.
 pub(crate) const PADDED: usize = 1 << 22;
 /// The most lines that one cell may have before a quote is suspected to be missing.
 const LINES: usize = 40;
 
-/// Why bytes could not be read as a table.
+/// The reason why bytes could not be read as a table.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum TableError {
-    /// The file holds no row.
+    /// The file holds no rows.
     #[error("the table is empty; its first row should name the columns")]
     Empty,
     /// The file is not text.
@@ -26,12 +26,12 @@ pub enum TableError {
     /// The first row has more columns than any table needs.
     #[error("the first row has {found} columns, more than {limit}")]
     Columns {
-        /// How many there are.
+        /// The number of columns.
         found: usize,
-        /// The most that are read.
+        /// The limit.
         limit: usize,
     },
-    /// Rows are so much shorter than the first one that it cannot be theirs.
+    /// Most rows are much shorter than the first one, which therefore cannot hold their titles.
     #[error(
         "line {line}: the rows up to here lack {lacking} cells of the first row's {width} columns; \
          write one row of titles that fits the others"
@@ -39,12 +39,12 @@ pub enum TableError {
     Ragged {
         /// The line, counted from 1.
         line: u64,
-        /// How many cells are lacking so far.
+        /// The number of missing cells so far.
         lacking: usize,
-        /// How many columns the first row has.
+        /// The number of columns of the first row.
         width: usize,
     },
-    /// Bare numbers would be annotations longer or later than any, were they seconds.
+    /// As seconds, bare numbers would be annotations longer or later than any.
     #[error(
         "line {line}: from {start} to {end} without a unit would be seconds, and no annotation is so long or so \
          late; if these are milliseconds, call the columns start_ms and end_ms, else start_s and end_s"
@@ -57,14 +57,14 @@ pub enum TableError {
         /// The end as it is written.
         end: String,
     },
-    /// A column that has to be there is not.
+    /// A required column is missing.
     #[error("no column of the first row ({found}) is {needed}; {remedy}")]
     Missing {
-        /// The columns that are there, parted by commas.
+        /// The columns found, separated by commas.
         found: String,
-        /// What is missing.
+        /// The missing column.
         needed: &'static str,
-        /// What would be right.
+        /// A correction.
         remedy: &'static str,
     },
 }
@@ -85,8 +85,8 @@ pub(crate) struct Cells {
 }
 
 impl Cells {
-    /// Reads a table whose first row names the columns; rows of another width are told and filled
-    /// up with empty cells.
+    /// Reads a table whose first row names the columns; rows of another width are reported and padded with
+    /// empty cells.
     pub(crate) fn read(bytes: &[u8], findings: &mut Findings) -> Result<Self, TableError> {
         let text = decode(bytes, findings)?;
         let first = text
@@ -141,7 +141,7 @@ impl Cells {
     }
 }
 
-/// Returns where a record starts: csv counts the end of the line before and empty lines to it.
+/// Returns the byte at which a record starts: csv includes the end of the previous line and empty lines.
 fn start(text: &[u8], position: Option<&csv::Position>) -> usize {
     let at = position.map_or(0, |position| {
         usize::try_from(position.byte()).unwrap_or(usize::MAX)
@@ -252,7 +252,7 @@ fn line_of(bytes: &[u8], at: usize) -> u64 {
     memchr::memchr_iter(b'\n', &bytes[..at]).count() as u64 + 1
 }
 
-/// Returns the delimiter that the first row has most of, outside quotes.
+/// Returns the most frequent delimiter of the first row, outside quotes.
 fn sniff(line: &str) -> u8 {
     let mut counts = [(b'\t', 0usize), (b',', 0), (b';', 0), (b'|', 0)];
     let mut quoted = false;

@@ -85,7 +85,7 @@ pub enum Error {
         "this holds a {class:?}, not a TextGrid; choose Save as text file for a TextGrid in Praat"
     )]
     OtherObject {
-        /// What the file says it is.
+        /// The object class that the file declares.
         class: String,
     },
     /// The file does not begin as Praat's files do.

@@ -16,7 +16,7 @@ pub struct Block {
     pub columns: Vec<Column>,
 }
 
-/// Brings the column to a larger scale; false, and nothing changed, where a number would not fit it.
+/// Converts the column to a larger scale; returns false and changes nothing if a number would not fit.
 pub(super) fn raise(column: &mut Column, scale: u8, pending: &mut [i64]) -> bool {
     let steps = usize::from(scale - column.scale);
     let largest = column
@@ -43,7 +43,8 @@ pub(super) fn raise(column: &mut Column, scale: u8, pending: &mut [i64]) -> bool
     true
 }
 
-/// Brings a finished column to the scale that its own numbers ask for, and returns what the next block starts with.
+/// Converts a finished column to the scale that its own numbers need, and returns the scale at which the
+/// next block starts.
 pub(super) fn settle(column: &mut Column, state: ColumnState) -> u8 {
     if column
         .exceptions

@@ -1,8 +1,8 @@
-//! The fast road for numbers such as `-12.345678`: eight digits at a time.
+//! The fast path for numbers such as `-12.345678`: eight digits at a time.
 
 use chereme_motion::column::{MANTISSA_LIMIT, POW10};
 
-/// How many bytes from the start of a token must be there; the last tokens of a piece take the slow road.
+/// Bytes that must be available from the start of a token; the last tokens of a chunk take the slow path.
 const REACH: usize = 48;
 
 /// Rows gathered before they are spread over the columns: eight make a cache line of each column.
@@ -13,23 +13,23 @@ const ZEROS: u64 = 0x3030_3030_3030_3030;
 /// The high bit of each of eight bytes.
 const HIGH: u64 = 0x8080_8080_8080_8080;
 
-/// What is known of a column while a block is read.
+/// The state of a column while a block is read.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ColumnState {
     /// The digits after the point that the column's mantissas have.
     scale: u8,
-    /// The scale where the fast road knows it (one to eight), otherwise 0, which no number fits.
+    /// The scale if the fast path supports it (one to eight); otherwise 0, which no number matches.
     quick: u8,
-    /// How far to the left `quick` digits go in a word of eight.
+    /// The shift to the left, in bits, that aligns `quick` digits in a word of eight.
     shift: u8,
     /// The most digits after the point among the numbers counted in `fewer`.
     pub(super) most: u8,
-    /// How many numbers of the block have fewer digits after the point than `scale`.
+    /// The number of numbers in the block that have fewer digits after the point than `scale`.
     pub(super) fewer: u32,
 }
 
 impl ColumnState {
-    /// Returns the state of a column of this scale of which no number has been read.
+    /// Returns the initial state of a column of this scale.
     pub(super) fn new(scale: u8) -> Self {
         let mut state = Self::default();
         state.set_scale(scale);
@@ -41,7 +41,7 @@ impl ColumnState {
         self.scale
     }
 
-    /// Changes the scale; the numbers already read are the caller's to change.
+    /// Changes the scale; the caller converts the numbers already read.
     pub(super) fn set_scale(&mut self, scale: u8) {
         self.scale = scale;
         self.quick = if scale <= 8 { scale } else { 0 };
@@ -67,8 +67,8 @@ impl ColumnState {
 
 /// Reads numbers from the start of the text into a row of the tile, one per column, on one line.
 ///
-/// Returns how many were read and how many bytes they take: all, or those before the first token that needs the slow
-/// road (a line end, an exponent, many digits, anything odd).
+/// Returns the number of values and of bytes read: all, or those before the first token that needs the
+/// slow path (a line end, an exponent, many digits, anything odd).
 pub(super) fn read_numbers(
     text: &[u8],
     row: usize,
@@ -111,10 +111,12 @@ fn leading_blanks(text: &[u8]) -> usize {
         .count()
 }
 
-/// Returns the mantissa and the length of a number written as the column expects it: up to four characters of sign and
-/// digits, a point, exactly as many digits as the column's scale (one to eight; none fits 0), a space.
+/// Returns the mantissa and the length of a number written as the column expects it: up to four characters
+/// of sign and digits, a point, exactly as many digits as the column's scale (one to eight; no number
+/// matches 0), a space.
 ///
-/// The end follows from the point alone, so that the processor begins the next number before it is done with this one.
+/// The end follows from the position of the point alone, so that the processor can begin the next number
+/// early.
 #[inline(always)]
 fn expected_at(window: &[u8; REACH], column: ColumnState) -> Option<(i64, usize)> {
     let word = load(window, 0);
@@ -196,7 +198,7 @@ fn load(window: &[u8; REACH], at: usize) -> u64 {
     u64::from_le_bytes(word)
 }
 
-/// Returns the bytes less `'0'`, and how many of the first are digits.
+/// Returns the bytes less `'0'`, and the number of leading digits.
 #[inline(always)]
 fn digits(word: u64) -> (u64, usize) {
     let values = word ^ ZEROS;
@@ -204,13 +206,13 @@ fn digits(word: u64) -> (u64, usize) {
     (values, (others.trailing_zeros() / 8) as usize)
 }
 
-/// Returns a word whose high bits, up to the first that is set, tell which bytes are no digit values.
+/// Returns a word whose high bits, up to the first that is set, mark the bytes that are not digits.
 #[inline(always)]
 fn high_unless_digits(values: u64) -> u64 {
     values.wrapping_add(0x7676_7676_7676_7676) | values
 }
 
-/// Returns the place of the first point in eight bytes, 8 if there is none.
+/// Returns the index of the first point in eight bytes, 8 if there is no point.
 #[inline(always)]
 fn first_point(word: u64) -> usize {
     let zero_at_points = word ^ 0x2e2e_2e2e_2e2e_2e2e;

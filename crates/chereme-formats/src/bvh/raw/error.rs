@@ -1,21 +1,21 @@
-//! Why a file is refused.
+//! Errors of the BVH reader.
 
 use super::NotANumber;
 
-/// Why a BVH file can't be read: the line, what is there, and what would be right.
+/// The reason why a BVH file can't be read: the line, the text found there, and a correction.
 #[derive(Debug, thiserror::Error)]
 #[error("line {line}: {kind}; {}", kind.remedy())]
 pub struct BvhError {
     /// The line, counted from 1.
     pub line: u64,
-    /// What is wrong there.
+    /// The problem.
     pub kind: BvhErrorKind,
 }
 
-/// What makes a BVH file meaningless.
+/// The errors that make a BVH file unreadable.
 #[derive(Debug, thiserror::Error)]
 pub enum BvhErrorKind {
-    /// The bytes could not be had.
+    /// The bytes could not be read.
     #[error("the file can't be read on: {0}")]
     Io(#[from] std::io::Error),
     /// No bytes, or only blanks.
@@ -33,12 +33,12 @@ pub enum BvhErrorKind {
         /// The first word.
         found: String,
     },
-    /// Another word than the grammar has at this place.
+    /// A word that the grammar does not allow at this place.
     #[error("found {found:?} where {expected} belongs")]
     Unexpected {
         /// The word found.
         found: String,
-        /// What may stand there.
+        /// The text that may stand there.
         expected: &'static str,
     },
     /// The file ends inside the hierarchy, or MOTION begins there.
@@ -48,7 +48,7 @@ pub enum BvhErrorKind {
         joint: String,
         /// The line of its brace.
         opened: u64,
-        /// What came instead: `MOTION` or `the end of the file`.
+        /// The text found instead: `MOTION` or `the end of the file`.
         before: &'static str,
     },
     /// A second skeleton.
@@ -62,7 +62,7 @@ pub enum BvhErrorKind {
         /// The word found.
         found: String,
     },
-    /// Joints inside joints beyond the limit.
+    /// Joints nested beyond the limit.
     #[error("joints are nested more than {limit} deep")]
     TooDeep {
         /// The limit.
@@ -76,23 +76,23 @@ pub enum BvhErrorKind {
         /// Joints, channels, End Sites or bytes of long numbers.
         what: &'static str,
     },
-    /// A word or a name without end.
+    /// A word or a name beyond the limit.
     #[error("a word of more than {limit} bytes")]
     TooLong {
         /// The limit.
         limit: usize,
     },
-    /// A number of the hierarchy or the header that is none.
+    /// A number of the hierarchy or the header that cannot be read.
     #[error("{place}: {found:?} {why}")]
     BadNumber {
-        /// Where it belongs: `OFFSET of joint "Hips"`, `Frame Time`.
+        /// The field that it belongs to: `OFFSET of joint "Hips"`, `Frame Time`.
         place: String,
         /// The text found.
         found: String,
-        /// What is wrong with it.
+        /// The reason.
         why: NotANumber,
     },
-    /// A number of the motion that is none.
+    /// A number of the motion that cannot be read.
     #[error("column {column} ({channel} of joint {joint:?}): {found:?} {why}")]
     BadValue {
         /// The column, counted from 1.
@@ -103,10 +103,10 @@ pub enum BvhErrorKind {
         channel: &'static str,
         /// The text found.
         found: String,
-        /// What is wrong with it.
+        /// The reason.
         why: NotANumber,
     },
-    /// A row with another number of columns than there are channels.
+    /// A row whose number of columns differs from the number of channels.
     #[error("the row has {found} numbers, but the hierarchy has {expected} channels")]
     RowWidth {
         /// The numbers in the row.
@@ -117,7 +117,7 @@ pub enum BvhErrorKind {
     /// No frame time, or one that is not positive, in a file of two frames or more.
     #[error("{}", match found { Some(text) => format!("the frame time is {text}"), None => "there is no frame time".into() })]
     NoFrameTime {
-        /// What is there, if anything.
+        /// The text found there, if any.
         found: Option<String>,
     },
 }
@@ -129,7 +129,7 @@ impl BvhErrorKind {
         BvhError { line, kind: self }
     }
 
-    /// Returns what would be right, or what a person can do.
+    /// Returns a correction, or an action for the user.
     #[must_use]
     pub fn remedy(&self) -> &'static str {
         match self {

@@ -6,21 +6,21 @@ use super::oddity::{Oddities, Oddity};
 use super::source::{Source, is_blank, shown};
 use super::{BvhError, BvhErrorKind, NotANumber, Number};
 
-/// What the header of the MOTION section says.
+/// The header of the MOTION section.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Header {
     /// Whether there is a MOTION section at all.
     pub has_motion: bool,
-    /// The frames that the header promises; the rows are what counts.
+    /// The number of frames in the header; the rows decide.
     pub declared_frames: Option<u64>,
-    /// The seconds per frame as written; none if missing, which only files of one frame at most may do.
+    /// The seconds per frame as written; `None` if missing, which only files of at most one frame may do.
     pub frame_time: Option<Number>,
-    /// The line of the frame time, or where it is missed.
+    /// The line of the frame time, or the line on which it is missing.
     pub(super) frame_time_line: u64,
 }
 
 impl Header {
-    /// Returns the error that there is no time to more than one frame, if so.
+    /// Returns an error if there is more than one frame but no frame time.
     pub(super) fn check_timed(&self) -> Result<(), BvhError> {
         if self.is_timed() {
             return Ok(());
@@ -121,7 +121,7 @@ pub(super) fn read_header<R: Read>(
     Ok(header)
 }
 
-/// Returns a label without blanks and in lower case.
+/// Returns a label in lower case, without blanks.
 fn spelling(label: &[u8]) -> String {
     label
         .iter()

@@ -21,7 +21,7 @@ impl Hierarchy {
         self.joints.iter().map(|joint| joint.channels.len()).sum()
     }
 
-    /// Returns, joint by joint, which columns of the motion are its channels.
+    /// Returns the columns of the motion that are each joint's channels.
     #[must_use]
     pub fn columns(&self) -> Vec<Range<usize>> {
         let mut next = 0;
@@ -52,21 +52,24 @@ impl Hierarchy {
 pub struct RawJoint {
     /// The name: the rest of the line after `ROOT` or `JOINT`, blanks inside kept.
     pub name: String,
-    /// The index of the parent; none for the root.
+    /// The index of the parent; `None` for the root.
     pub parent: Option<usize>,
-    /// The place in the parent's frame, in the file's unit and axes.
+    /// The position in the parent's frame, in the file's unit and axes.
     pub offset: [Number; 3],
     /// The channels in the order written, which is the order of the columns and of the rotations.
     pub channels: Vec<Channel>,
-    /// The offsets of the End Sites: one on a leaf as a rule, but files have none, or have them beside children.
+    /// The offsets of the End Sites: usually one on a leaf, but files may lack them, or have them next to
+    /// children.
     pub end_sites: Vec<[Number; 3]>,
-    /// Where the position channels put the joint in its parent's frame (the median over the movement), where that is
-    /// not where the offset has it; no file says it. See [`Bones`](crate::bvh::bones::Bones).
+    /// The position of the joint in its parent's frame according to the position channels (the median over
+    /// the movement), if it differs from the offset. No file states it. See
+    /// [`Bones`](crate::bvh::bones::Bones).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placed: Option<[Number; 3]>,
 }
 
-/// What a column of the motion holds; positions in the file's unit, rotations in degrees, scales as factors.
+/// The quantity in a column of the motion: positions in the file's unit, rotations in degrees, scales as
+/// factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Channel {
     /// Translation along X.
@@ -90,7 +93,7 @@ pub enum Channel {
 }
 
 impl Channel {
-    /// Every channel with the word that files have for it.
+    /// Every channel with its word in files.
     pub const WORDS: [(Self, &'static str); 9] = [
         (Self::Xposition, "Xposition"),
         (Self::Yposition, "Yposition"),
@@ -103,7 +106,7 @@ impl Channel {
         (Self::Zscale, "Zscale"),
     ];
 
-    /// Returns the channel that a word names, upper and lower case alike.
+    /// Returns the channel that a word names, ignoring case.
     #[must_use]
     pub fn from_word(word: &str) -> Option<Self> {
         Self::WORDS
@@ -112,7 +115,7 @@ impl Channel {
             .map(|&(channel, _)| channel)
     }
 
-    /// Returns the word that files have for the channel.
+    /// Returns the channel's word in files.
     #[must_use]
     pub fn word(self) -> &'static str {
         Self::WORDS[self as usize].1
@@ -124,13 +127,13 @@ impl Channel {
         self as usize % 3
     }
 
-    /// Tells whether the channel is a translation.
+    /// Returns whether the channel is a translation.
     #[must_use]
     pub fn is_position(self) -> bool {
         matches!(self, Self::Xposition | Self::Yposition | Self::Zposition)
     }
 
-    /// Tells whether the channel is a rotation.
+    /// Returns whether the channel is a rotation.
     #[must_use]
     pub fn is_rotation(self) -> bool {
         matches!(self, Self::Xrotation | Self::Yrotation | Self::Zrotation)

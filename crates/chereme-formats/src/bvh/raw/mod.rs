@@ -1,4 +1,4 @@
-//! What a BVH file says: its hierarchy, and its motion in blocks of frames, every number an exact decimal.
+//! The contents of a BVH file: its hierarchy, and its motion in blocks of frames, every number an exact decimal.
 //!
 //! ```
 //! use chereme_formats::bvh::raw::{Block, Reader, Writer};

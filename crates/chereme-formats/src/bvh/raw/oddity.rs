@@ -1,4 +1,4 @@
-//! What is odd in a file but clear in meaning; each kind is reported once, with its first line and how often.
+//! Oddities of a file whose meaning is clear; each kind is reported once, with its first line and a count.
 
 use std::collections::BTreeMap;
 
@@ -48,12 +48,12 @@ struct Seen {
     detail: String,
 }
 
-/// What was noticed so far: at most one entry per kind, whatever the file's size.
+/// The oddities noticed so far: at most one entry per kind, whatever the file's size.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Oddities(BTreeMap<Oddity, Seen>);
 
 impl Oddities {
-    /// Notes one occurrence; the line and detail of the first are kept.
+    /// Records one occurrence; the line and detail of the first are kept.
     pub(super) fn note(&mut self, kind: Oddity, line: u64, detail: impl Into<String>) {
         let new = || Seen {
             line,
@@ -63,7 +63,7 @@ impl Oddities {
         self.0.entry(kind).or_insert_with(new).count += 1;
     }
 
-    /// Tells whether the kind was met.
+    /// Returns whether the kind was noticed.
     pub(super) fn has(&self, kind: Oddity) -> bool {
         self.0.contains_key(&kind)
     }

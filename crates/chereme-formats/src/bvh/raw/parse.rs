@@ -12,12 +12,12 @@ use super::{BvhError, BvhErrorKind, Channel, Hierarchy, Number, RawJoint};
 const DEPTH_LIMIT: usize = 512;
 /// The most joints.
 const JOINT_LIMIT: usize = 16_384;
-/// The most channels, which bounds what a block of frames takes.
+/// The most channels, which bounds the size of a block of frames.
 const CHANNEL_LIMIT: usize = 32_768;
 /// The most End Sites.
 const END_SITE_LIMIT: usize = 65_536;
 
-/// Reads all that comes before the first row of numbers.
+/// Reads everything before the first row of numbers.
 pub(super) fn read_head<R: Read>(
     source: &mut Source<R>,
     oddities: &mut Oddities,
@@ -48,7 +48,7 @@ pub(super) fn read_head<R: Read>(
     Ok((hierarchy, header))
 }
 
-/// Refuses what is no text in UTF-8 or a relative of it.
+/// Refuses bytes that are not text in UTF-8 or a related encoding.
 fn check_text<R: Read>(source: &mut Source<R>, oddities: &mut Oddities) -> Result<(), BvhError> {
     while source.held().len() < 512 && source.fill()? {}
     let start = &source.held()[..source.held().len().min(512)];
@@ -96,7 +96,7 @@ struct Parser<'a, R> {
 }
 
 impl<R: Read> Parser<'_, R> {
-    /// Reads up to and with the root's brace.
+    /// Reads up to and including the root's brace.
     fn begin(&mut self) -> Result<(), BvhError> {
         let (token, line) = self.token()?;
         match token {
@@ -339,7 +339,8 @@ impl<R: Read> Parser<'_, R> {
         Ok(words)
     }
 
-    /// Tells whether the word held next belongs to the channels: on their line all but a keyword, below it a channel.
+    /// Returns whether the next word belongs to the channels: on their line anything but a keyword, below
+    /// it a channel.
     fn continues_channels(&mut self, same_line: bool) -> Result<bool, BvhError> {
         while self.source.held().len() < 16 && self.source.fill()? {}
         let word = self
@@ -437,7 +438,7 @@ impl<R: Read> Parser<'_, R> {
         }
     }
 
-    /// Closes the innermost joint and notes what it lacks.
+    /// Closes the innermost joint and records missing parts.
     fn close(&mut self) {
         let Some(open) = self.open.pop() else { return };
         let joint = &self.hierarchy.joints[open.joint];
@@ -460,7 +461,7 @@ impl<R: Read> Parser<'_, R> {
         }
     }
 
-    /// Tells whether MOTION follows; anything else than that or the end of the file is an error.
+    /// Returns whether MOTION follows; anything but MOTION or the end of the file is an error.
     fn motion_follows(&mut self) -> Result<bool, BvhError> {
         let (token, line) = self.token()?;
         match token {
@@ -514,7 +515,7 @@ impl<R: Read> Parser<'_, R> {
         }
     }
 
-    /// Tells whether the word is the keyword, and notes another case of its letters.
+    /// Returns whether the word is the keyword; records a different case of its letters.
     fn is(&mut self, word: &str, keyword: &str, line: u64) -> bool {
         let same = word.eq_ignore_ascii_case(keyword);
         if same && word != keyword {

@@ -13,10 +13,10 @@ use super::{
 };
 use crate::Finding;
 
-/// How many bytes of numbers too long for a mantissa one block may hold.
+/// Most bytes per block of numbers that are too long for a mantissa.
 const LONG_NUMBERS_LIMIT: usize = 32 << 20;
 
-/// How to read.
+/// Options of the reader.
 #[derive(Clone, Copy, Debug)]
 pub struct Options {
     /// The frames per block, at least 1.
@@ -29,7 +29,7 @@ impl Default for Options {
     }
 }
 
-/// Reads a BVH file: opened, the hierarchy is there; the motion is pulled block by block.
+/// Reads a BVH file: opening it reads the hierarchy, and the motion is then pulled block by block.
 ///
 /// Memory is bounded by the hierarchy and one block, whatever the file's size and whatever its header claims.
 pub struct Reader<R> {
@@ -57,14 +57,14 @@ pub struct Reader<R> {
     short: Option<(u64, u64)>,
 }
 
-/// What a whole file was found to be.
+/// The results of reading a whole file.
 #[derive(Clone, Debug)]
 pub struct Summary {
     /// The frames read.
     pub frames: u64,
-    /// What was odd, in the order of the lines.
+    /// The oddities, in the order of the lines.
     pub findings: Vec<Finding>,
-    /// How the root's columns are to be read, if not as CHANNELS says.
+    /// The actual order of the root's columns, if it differs from CHANNELS.
     pub root_fix: Option<ChannelFix>,
 }
 
@@ -72,7 +72,7 @@ impl<R: Read> Reader<R> {
     /// Reads the hierarchy and the header of the motion.
     ///
     /// # Errors
-    /// The bytes are no BVH file, or its hierarchy or header has no clear meaning; nothing is printed or guessed.
+    /// [`BvhError`] if the bytes are not a BVH file, or its hierarchy or header has no clear meaning.
     pub fn open(read: R) -> Result<Self, BvhError> {
         Self::open_with(read, Options::default())
     }
@@ -80,7 +80,7 @@ impl<R: Read> Reader<R> {
     /// Reads the hierarchy and the header of the motion, with options.
     ///
     /// # Errors
-    /// As for [`Reader::open`].
+    /// The same as [`Reader::open`]'s.
     pub fn open_with(read: R, options: Options) -> Result<Self, BvhError> {
         let mut source = Source::new(read);
         let mut oddities = Oddities::default();
@@ -114,22 +114,24 @@ impl<R: Read> Reader<R> {
         &self.hierarchy
     }
 
-    /// Returns what the header of the motion says.
+    /// Returns the header of the motion.
     #[must_use]
     pub fn header(&self) -> &Header {
         &self.header
     }
 
-    /// Returns how many bytes of the file have been taken so far, for a progress bar.
+    /// Returns the number of bytes read so far, for a progress bar.
     #[must_use]
     pub fn bytes_read(&self) -> u64 {
         self.source.bytes_read()
     }
 
-    /// Reads the next frames into the block, whose buffers are used again; false where there are no more.
+    /// Reads the next frames into the block, whose buffers are reused; returns false at the end of the
+    /// motion.
     ///
     /// # Errors
-    /// A number or a row that has no clear meaning, with its line. The reader is of no use afterwards.
+    /// [`BvhError`] with its line for a number or a row without a clear meaning; the reader cannot be used
+    /// afterwards.
     pub fn next_block(&mut self, block: &mut Block) -> Result<bool, BvhError> {
         self.begin(block);
         self.long_numbers = 0;
@@ -144,7 +146,7 @@ impl<R: Read> Reader<R> {
         Ok(block.frames > 0)
     }
 
-    /// Returns what the file was found to be; of the frames read so far, if there are more.
+    /// Returns the summary of the frames read so far.
     #[must_use]
     pub fn finish(mut self) -> Summary {
         let root_fix = self.root_order.fix();
@@ -189,7 +191,7 @@ impl<R: Read> Reader<R> {
         Ok(())
     }
 
-    /// Takes blanks; tells whether a token follows on, and closes lines on the way.
+    /// Skips blanks and closes lines; returns whether a token follows.
     fn next_is_number(&mut self, block: &mut Block) -> Result<bool, BvhError> {
         loop {
             match self.source.peek()? {
@@ -215,7 +217,7 @@ impl<R: Read> Reader<R> {
         self.on_line = 0;
     }
 
-    /// Reads one token whatever it is.
+    /// Reads one token of any form.
     fn slow_number(&mut self, block: &mut Block) -> Result<(), BvhError> {
         let line = self.source.line();
         let token = self.source.take_until(is_blank)?.to_vec();
@@ -279,7 +281,7 @@ impl<R: Read> Reader<R> {
         .at(line))
     }
 
-    /// Notes that the file ends inside a number, such as `-` or `1e`.
+    /// Records that the file ends inside a number, such as `-` or `1e`.
     fn column_cut(&mut self, line: u64) {
         if self.column == 0 {
             let detail = format!("0 numbers of {}", self.columns.len());
@@ -287,7 +289,7 @@ impl<R: Read> Reader<R> {
         }
     }
 
-    /// Puts a number into the row being read, raising its column's scale where that is needed and possible.
+    /// Puts a number into the current row; raises its column's scale if needed and possible.
     fn put(&mut self, number: Number, block: &mut Block) {
         let (index, row) = (self.column, self.tile_rows);
         let frame = (block.frames + row) as u32;
@@ -335,7 +337,7 @@ impl<R: Read> Reader<R> {
         self.tile_rows = 0;
     }
 
-    /// Closes the motion: a row that breaks off is dropped where the file ends with it.
+    /// Closes the motion: an incomplete row is dropped if it ends the file.
     fn end_motion(&mut self, block: &mut Block) -> Result<(), BvhError> {
         self.end_line();
         self.ended = true;

@@ -1,21 +1,19 @@
-//! Files whose root columns stand in another order than CHANNELS says.
+//! Files whose root columns are in another order than CHANNELS.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Block, Channel, Hierarchy};
 
-/// How the root's columns are to be read where they are not in the order that CHANNELS says.
+/// The actual order of the root's columns, if it differs from the order in CHANNELS.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ChannelFix {
-    /// The three rotations stand before the three positions.
+    /// The three rotations come before the three positions.
     RotationBeforePosition,
 }
 
 impl ChannelFix {
-    /// Returns the root's channels in the order that the columns really have.
-    ///
-    /// The order among the rotations, and among the positions, is that of the file.
+    /// Returns the root's channels in the actual order of the columns.
     #[must_use]
     pub fn apply(self, channels: &[Channel]) -> Vec<Channel> {
         match self {
@@ -28,7 +26,7 @@ impl ChannelFix {
     }
 }
 
-/// Watches whether the columns that should be the root's rotation stay at the root's OFFSET.
+/// Observes whether the columns that should be the root's rotation stay at the root's OFFSET.
 #[derive(Debug)]
 pub(super) struct RootOrder {
     /// The OFFSET in the order of the position channels.
@@ -78,7 +76,7 @@ impl RootOrder {
         self.suspect = (0..block.frames).all(|frame| near(3, frame) && !near(0, frame));
     }
 
-    /// Returns the fix, if all frames speak for it.
+    /// Returns the correction, if all frames agree with it.
     pub(super) fn fix(&self) -> Option<ChannelFix> {
         (self.suspect && self.frames > 0).then_some(ChannelFix::RotationBeforePosition)
     }

@@ -1,15 +1,15 @@
-//! Bytes in, in pieces of bounded size, with the line counted.
+//! A buffered source of bytes that counts lines.
 
 use std::io::Read;
 
 use super::{BvhError, BvhErrorKind};
 
-/// How many bytes are held at a time.
+/// Bytes in the buffer.
 const CHUNK: usize = 256 * 1024;
 /// The longest token or name.
 pub(super) const TOKEN_LIMIT: usize = 1024;
 
-/// A stream of bytes with a window onto them.
+/// A stream of bytes with a window onto it.
 pub(super) struct Source<R> {
     read: R,
     buffer: Vec<u8>,
@@ -47,7 +47,7 @@ impl<R: Read> Source<R> {
         self.line
     }
 
-    /// Returns how many bytes have been taken from the reader.
+    /// Returns the number of bytes taken from the reader.
     pub(super) fn bytes_read(&self) -> u64 {
         self.read_before + self.end as u64
     }
@@ -57,7 +57,7 @@ impl<R: Read> Source<R> {
         &self.buffer[self.at..self.end]
     }
 
-    /// Returns what is held up to the end of its last whole token and the blank after that.
+    /// Returns the held bytes up to the end of the last whole token and the blank after it.
     pub(super) fn whole_tokens(&self) -> &[u8] {
         let after_last = self
             .held()
@@ -67,7 +67,7 @@ impl<R: Read> Source<R> {
         &self.held()[..after_last]
     }
 
-    /// Reads on; returns false at the end of the file or where the window is full.
+    /// Reads more bytes; returns false at the end of the file or if the window is full.
     pub(super) fn fill(&mut self) -> Result<bool, BvhError> {
         self.buffer.copy_within(self.at..self.end, 0);
         self.read_before += self.at as u64;
@@ -112,7 +112,7 @@ impl<R: Read> Source<R> {
         self.after_return = byte == b'\r';
     }
 
-    /// Takes bytes that hold no line end.
+    /// Takes bytes without line ends.
     pub(super) fn advance(&mut self, count: usize) {
         if count > 0 && self.after_return {
             self.after_return = false;
@@ -156,12 +156,12 @@ impl<R: Read> Source<R> {
     }
 }
 
-/// Tells whether a byte separates tokens.
+/// Returns whether a byte separates tokens.
 pub(super) fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | b'\n' | b'\r' | 0x0b | 0x0c)
 }
 
-/// Returns the token as text that can be shown: at most forty characters.
+/// Returns the token as displayable text: at most forty characters.
 pub(super) fn shown(token: &[u8]) -> String {
     let text = String::from_utf8_lossy(&token[..token.len().min(160)]);
     let mut short: String = text.chars().take(40).collect();

@@ -4,16 +4,16 @@ use std::io::{self, Write};
 
 use super::{Block, Decimal, Hierarchy, Number};
 
-/// Columns of up to this many digits after the point are written with all of them, as exporters do; finer ones, which
-/// come from scientific notation or full precision, without zeros at the end.
+/// Columns of up to this many digits after the point are written with all of them, as exporters do; finer
+/// ones, from scientific notation or full precision, without trailing zeros.
 const FIXED_DIGITS: u8 = 8;
-/// The text gathered before it is handed on.
+/// Bytes of text that are collected before they are written.
 const CHUNK: usize = 64 * 1024;
 
-/// Why a hierarchy or its motion can't be written as BVH.
+/// The reason why a hierarchy or its motion can't be written as BVH.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
-    /// The bytes could not be put.
+    /// The bytes could not be written.
     #[error("the file can't be written: {0}")]
     Io(#[from] io::Error),
     /// A name that would be read as something else.
@@ -24,7 +24,8 @@ pub enum WriteError {
     /// A parent that does not come before its child, or a second root.
     #[error("joint {0:?} does not come after its parent, depth first; BVH holds one tree")]
     Order(String),
-    /// A block with another number of columns than the hierarchy has channels, or columns of another length.
+    /// A block whose number of columns differs from the hierarchy's channels, or with columns of different
+    /// lengths.
     #[error("the block at frame {frame} has not {channels} columns of {rows} rows")]
     Shape {
         /// The first frame of the block.
@@ -34,17 +35,17 @@ pub enum WriteError {
         /// The frames of the block.
         rows: usize,
     },
-    /// Not as many frames as the header says.
+    /// The number of frames differs from the header's.
     #[error("the header says {declared} frames, but {written} were given")]
     FrameCount {
-        /// The frames that the header says.
+        /// The frames in the header.
         declared: u64,
         /// The frames that were given.
         written: u64,
     },
 }
 
-/// Writes a BVH file piece by piece; what it writes reads back equal, number by number.
+/// Writes a BVH file piece by piece; the file reads back equal, number by number.
 pub struct Writer<W> {
     out: W,
     text: Vec<u8>,
@@ -54,10 +55,12 @@ pub struct Writer<W> {
 }
 
 impl<W: Write> Writer<W> {
-    /// Writes the hierarchy and, with frame time and frame count, the header of the motion; without, no MOTION section.
+    /// Writes the hierarchy and, given frame time and frame count, the header of the motion; otherwise no
+    /// MOTION section.
     ///
     /// # Errors
-    /// The names or the order of the joints can't be written as BVH, or the bytes can't be put.
+    /// [`WriteError`] if the names or the order of the joints can't be written as BVH, or the bytes can't
+    /// be written.
     pub fn new(
         out: W,
         hierarchy: &Hierarchy,
@@ -83,10 +86,10 @@ impl<W: Write> Writer<W> {
         Ok(writer)
     }
 
-    /// Writes the frames of a block after those before.
+    /// Writes the frames of a block after the previous ones.
     ///
     /// # Errors
-    /// The block does not fit the hierarchy, or the bytes can't be put.
+    /// [`WriteError`] if the block does not fit the hierarchy, or the bytes can't be written.
     pub fn block(&mut self, block: &Block) -> Result<(), WriteError> {
         let rows = block.frames;
         let fits = block.columns.len() == self.channels
@@ -106,10 +109,11 @@ impl<W: Write> Writer<W> {
         Ok(())
     }
 
-    /// Writes what is left, and returns the output.
+    /// Writes the rest, and returns the output.
     ///
     /// # Errors
-    /// There were not as many frames as announced, or the bytes can't be put.
+    /// [`WriteError`] if the number of frames differs from the announced one, or the bytes cannot be
+    /// written.
     pub fn finish(mut self) -> Result<W, WriteError> {
         let declared = self.declared.unwrap_or(0);
         if declared != self.written {

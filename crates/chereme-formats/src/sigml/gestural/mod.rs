@@ -1,4 +1,4 @@
-//! Gestural SiGML to and from the tree of a sign.
+//! Converts gestural SiGML to and from the tree of a sign.
 
 mod motion;
 mod nonmanual;
@@ -14,7 +14,7 @@ use chereme_sign::hamnosys::{BodyAction, HandsUsed, Manual, Motion, Nonmanual, S
 pub(super) use nonmanual::{read_nonmanual, write_nonmanual};
 pub(super) use write::write_manual;
 
-/// Reads what the hands do, one `sign_manual` after the other; those in another are its parts.
+/// Reads the actions of the hands, one `sign_manual` after the other; those in another are its parts.
 pub(super) fn read_manual(element: &Element<'_>, findings: &mut Findings, sign: &mut Sign) {
     let nested = |child: &&Element<'_>| child.name == "sign_manual";
     if !element.children.iter().any(|child| nested(&child)) {
@@ -84,7 +84,7 @@ fn read_part(element: &Element<'_>, findings: &mut Findings) -> Manual {
     part
 }
 
-/// Reads `nonmanualconfig` or `nonman_motion`: a part of the body, and what it does.
+/// Reads `nonmanualconfig` or `nonman_motion`: a part of the body, and its action.
 fn body_action(element: &Element<'_>, findings: &mut Findings) -> Option<BodyAction> {
     let (mut part, mut side) = (None, None);
     let mut motion: Option<Motion> = None;
@@ -126,7 +126,7 @@ fn late(child: &Element<'_>, findings: &mut Findings) {
     });
 }
 
-/// Tells about an element that has no place where it is.
+/// Reports an element that does not belong at its place.
 fn unexpected(child: &Element<'_>, parent: &Element<'_>, findings: &mut Findings) {
     findings.add("elements that are not known", || {
         let (child_name, parent) = (

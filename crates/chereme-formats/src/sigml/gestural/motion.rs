@@ -1,4 +1,4 @@
-//! What moves, and how.
+//! Reads motions.
 
 use super::super::node::Node;
 use super::super::raw::Element;
@@ -11,7 +11,7 @@ use chereme_sign::hamnosys::{
     MotionKind, Place, Posture, Repeat, Repetition, Zigzag,
 };
 
-/// Tells whether an element is a motion.
+/// Returns whether an element is a motion.
 pub(super) fn is_motion(name: &str) -> bool {
     matches!(
         name,
@@ -90,7 +90,7 @@ fn is_simple(name: &str) -> bool {
     )
 }
 
-/// Finishes a motion without motions in it; a place in it is one that the hand brushes along.
+/// Finishes a motion without nested motions; a place in it is brushed along the way.
 fn simple(kind: MotionKind, element: &Element<'_>, mut node: Node<'_, '_>) -> MotionKind {
     if node.name_number("def_locname").is_some() {
         node.warn("places named by a motion", |tag| {
@@ -198,7 +198,7 @@ fn directed(node: &mut Node<'_, '_>) -> MotionKind {
     })
 }
 
-/// Reads a direction that has to be there; out where it isn't.
+/// Reads a required direction; outward if it is missing.
 fn required(node: &mut Node<'_, '_>, name: &str) -> Direction {
     node.direction(name).unwrap_or_else(|| {
         node.warn("motions without a direction", |tag| {
@@ -307,7 +307,7 @@ fn motions(element: &Element<'_>, findings: &mut Findings) -> Vec<Motion> {
     motions
 }
 
-/// Returns the one motion that an element should hold; several are done one after the other.
+/// Returns the one motion of an element; several become a sequence.
 fn one(element: &Element<'_>, mut motions: Vec<Motion>, findings: &mut Findings) -> Option<Motion> {
     if motions.len() < 2 {
         return motions.pop();

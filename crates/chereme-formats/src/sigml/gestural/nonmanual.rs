@@ -132,7 +132,7 @@ fn read_act(
     Some(act)
 }
 
-/// Returns the tag of an act, also where it stands in the attribute of another part.
+/// Returns the tag of an act, even if it is in the attribute of another part.
 fn tag<'e>(node: &mut Node<'e, '_>, part: NonmanualPart) -> Option<&'e str> {
     let right = tag_name(part);
     if let Some(tag) = node.text(right) {

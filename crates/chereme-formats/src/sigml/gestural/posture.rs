@@ -11,14 +11,14 @@ use chereme_sign::hamnosys::{
     Form, Frame, HandSite, Handshape, Place, Posture, Site, ThumbExtra,
 };
 
-/// Collects the parts of a posture from the elements that say them.
+/// Collects the parts of a posture from their elements.
 pub(super) struct Reader<'e> {
     parent: &'e Element<'e>,
     posture: Posture,
 }
 
 impl<'e> Reader<'e> {
-    /// Starts with nothing said; `parent` is the element that the posture is in.
+    /// Starts with an empty posture; `parent` is the element around it.
     pub(super) fn new(parent: &'e Element<'e>) -> Self {
         Self {
             parent,
@@ -26,12 +26,12 @@ impl<'e> Reader<'e> {
         }
     }
 
-    /// Tells whether an element says a part of a posture.
+    /// Returns whether an element is a part of a posture.
     pub(super) fn takes(&self, name: &str) -> bool {
         matches!(name, "handconfig" | "split_handconfig") || is_place(name)
     }
 
-    /// Reads one element; what was said before of the same part is overruled, with a warning.
+    /// Reads one element; it replaces an earlier one for the same part, with a warning.
     pub(super) fn take(&mut self, element: &Element<'_>, findings: &mut Findings) {
         match &*element.name {
             "handconfig" => {
@@ -91,7 +91,7 @@ fn shared<T>(one: Option<T>) -> Each<T> {
     one.map_or(Each::Unset, Each::Shared)
 }
 
-/// Puts what is newly said in place and tells whether something stood there.
+/// Replaces a value unless the new one is unset; returns whether there was one before.
 fn over<T>(said: &mut Each<T>, own: Each<T>) -> bool {
     if own.is_unset() {
         return false;
@@ -101,7 +101,7 @@ fn over<T>(said: &mut Each<T>, own: Each<T>) -> bool {
     twice
 }
 
-/// What one `handconfig` says.
+/// The contents of one `handconfig`.
 #[derive(Default)]
 struct Hand {
     shape: Option<Handshape>,
@@ -251,7 +251,7 @@ fn split<T>(dominant: Option<T>, other: Option<T>) -> Each<T> {
     }
 }
 
-/// Tells about a split element that has not two halves.
+/// Reports a split element without two halves.
 pub(super) fn one_half(element: &Element<'_>, findings: &mut Findings) {
     findings.add("splits with one half", || {
         let message = format!(
@@ -262,7 +262,7 @@ pub(super) fn one_half(element: &Element<'_>, findings: &mut Findings) {
     });
 }
 
-/// Tells whether an element says where the hands are.
+/// Returns whether an element is a place of the hands.
 pub(super) fn is_place(name: &str) -> bool {
     matches!(
         name,
@@ -310,9 +310,9 @@ fn split_place(element: &Element<'_>, findings: &mut Findings) -> Place {
     Place::Split(next(), next())
 }
 
-/// Reads how two hands are by each other. Of two sites the first is what is touched, on the other hand,
-/// as in a `location_hand` with another in it: transcribers write the wrist's back, then the index
-/// finger's tip, where the dominant hand points at a watch.
+/// Reads a constellation of the two hands. Of two sites the first is the touched one, on the other hand,
+/// as in a `location_hand` with another one in it: transcribers write the wrist's back, then the index
+/// finger's tip, if the dominant hand points at a watch.
 fn constellation(element: &Element<'_>, findings: &mut Findings) -> Constellation {
     let mut node = Node::new(element, findings);
     let mut hands = Constellation {
@@ -412,7 +412,7 @@ fn hand_site(element: &Element<'_>, findings: &mut Findings) -> HandSite {
     site
 }
 
-/// Reads the `location_hand` in a location: the part of the acting hand that is meant.
+/// Reads the `location_hand` in a location: the named part of the acting hand.
 fn acting_site(element: &Element<'_>, findings: &mut Findings) -> Option<HandSite> {
     let mut found = None;
     for child in &element.children {

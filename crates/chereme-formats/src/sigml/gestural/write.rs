@@ -1,4 +1,4 @@
-//! The tree of a sign to gestural SiGML.
+//! Writes the tree of a sign as gestural SiGML.
 
 use super::super::node::{bend_text, digits_text};
 use super::super::raw::Element;
@@ -27,19 +27,19 @@ impl Element<'static> {
         self.attributes.push((name.to_owned().into(), value.into()));
     }
 
-    /// Sets an attribute where there is a value.
+    /// Sets an attribute if there is a value.
     pub(in super::super) fn some(&mut self, name: &str, value: Option<impl Into<String>>) {
         if let Some(value) = value {
             self.set(name, value);
         }
     }
 
-    /// Sets an attribute to the word of a value, where there is one.
+    /// Sets an attribute to the word of a value, if any.
     pub(in super::super) fn word<T: Word>(&mut self, name: &str, value: Option<T>) {
         self.some(name, value.map(Word::word));
     }
 
-    /// Sets an attribute to true, where it is.
+    /// Sets an attribute to true if `value` is.
     pub(in super::super) fn flag(&mut self, name: &str, value: bool) {
         self.some(name, value.then_some("true"));
     }
@@ -54,7 +54,7 @@ impl Element<'static> {
     }
 }
 
-/// Returns a number so that it reads back equal.
+/// Formats a number so that it reads back equal.
 pub(in super::super) fn number(value: f64) -> String {
     value.to_string()
 }
@@ -310,7 +310,7 @@ fn motion_element(motion: &Motion) -> Element<'static> {
     element
 }
 
-/// Returns a simple motion with the place that it brushes along in it.
+/// Returns a simple motion, with the place that it brushes along.
 fn brushing_element(motion: &Motion) -> Option<Element<'static>> {
     let MotionKind::Target {
         motion: Some(way),

@@ -1,4 +1,5 @@
-//! Which column of a table of annotations is what: by the titles, or as ELAN writes a table without any.
+//! Infers the meaning of a table's columns: from the titles, or from the form of ELAN's tables without
+//! titles.
 
 use super::super::cells::{Cells, Row, TableError};
 use super::NAMES;
@@ -8,25 +9,25 @@ use crate::roles::normal;
 use crate::tally::Findings;
 use chereme_sign::text::{did_you_mean, nearest};
 
-/// An annotation that lasts longer, in microseconds, was meant in another unit than seconds.
+/// A longer annotation than this (microseconds) suggests that its times are not in seconds.
 const LONG: i64 = 60_000_000;
-/// One that ends later than this, in microseconds, too.
+/// So does an annotation that ends later than this (microseconds).
 const LATE: i64 = 3 * 3_600_000_000;
-/// How many rows at most are looked at to see what columns hold.
+/// The most rows that are examined to recognise columns.
 const LOOKED_AT: usize = 200;
 
 /// A column of times.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Time {
     pub(super) column: usize,
-    /// The unit of its bare numbers, where its title or its form says it.
+    /// The unit of its bare numbers, if its title or form states it.
     pub(super) unit: Option<TimeUnit>,
 }
 
-/// What the columns of a table are.
+/// The columns of a table by their meaning.
 #[derive(Debug, Default)]
 pub(super) struct Columns {
-    /// Those of [`NAMES`], but for the times.
+    /// The columns of [`NAMES`], except for the times.
     pub(super) at: [Option<usize>; 8],
     pub(super) start: Option<Time>,
     pub(super) end: Option<Time>,
@@ -35,20 +36,20 @@ pub(super) struct Columns {
     pub(super) tiers: Vec<(usize, String)>,
 }
 
-/// What a title means.
+/// The meaning of a title.
 enum Title {
     Named(usize),
     Start(Option<TimeUnit>),
     End(Option<TimeUnit>),
     Duration(Option<TimeUnit>),
-    /// The value in ELAN's exports, else the id.
+    /// The value in ELAN's exports; otherwise the id.
     Annotation,
-    /// Known, and not used.
+    /// Known, but unused.
     Idle,
 }
 
 impl Columns {
-    /// Returns what the titles say, and names in findings those that are not used.
+    /// Recognises columns by their titles; findings name the unused ones.
     pub(super) fn of_titles(header: &[String], findings: &mut Findings) -> Self {
         let mut found = Self::default();
         let (mut unknown, mut annotation) = (Vec::new(), None);
@@ -78,7 +79,7 @@ impl Columns {
             }
         }
         if let Some(column) = annotation {
-            // Where rows name an action, they name the annotation that it is about.
+            // If rows name an action, this column names the annotation to act on.
             let value = found.at[4].is_none() && found.at[5].is_none();
             put(&mut found.at[if value { 4 } else { 6 }], column);
         }
@@ -98,8 +99,9 @@ impl Columns {
         found
     }
 
-    /// Returns what the columns are of a table without titles, as ELAN exports it: the tier, perhaps the
-    /// participant, begin, end and duration in one or several forms, the annotation; nothing for other tables.
+    /// Recognises the columns of a table without titles, as ELAN exports it: the tier, perhaps the
+    /// participant, begin, end and duration in one or several forms, the annotation. `None` for other
+    /// tables.
     pub(super) fn of_export(table: &Cells) -> Option<Self> {
         let times = table
             .header
@@ -158,8 +160,8 @@ impl Columns {
         Some(found)
     }
 
-    /// Refuses bare whole numbers that would be annotations longer or later than any, as milliseconds that are
-    /// taken for seconds.
+    /// Refuses bare whole numbers that would be annotations longer or later than any, such as milliseconds
+    /// read as seconds.
     pub(super) fn check_plausible(&self, rows: &[Row]) -> Result<(), TableError> {
         let (Some(start), Some(end)) = (self.start, self.end) else {
             return Ok(());
@@ -192,7 +194,7 @@ impl Columns {
     }
 }
 
-/// Puts a column where there is none yet, and tells whether there was one.
+/// Sets a column that is not set yet; returns whether it was set.
 fn put<T>(place: &mut Option<T>, column: T) -> bool {
     if place.is_some() {
         return true;
@@ -223,7 +225,7 @@ fn meaning(title: &str) -> Option<Title> {
     }
 }
 
-/// Returns what stands before the unit of a title, and the unit.
+/// Splits a title into the text before its unit, and the unit.
 fn unit(title: &str) -> (&str, Option<TimeUnit>) {
     for (end, unit) in [
         (" hh mm ss ms", None),
@@ -232,7 +234,7 @@ fn unit(title: &str) -> (&str, Option<TimeUnit>) {
         (" ss ms", Some(TimeUnit::Seconds)),
     ] {
         if let Some(name) = title.strip_suffix(end) {
-            // Clock times have no bare numbers; the unit tells that the form is known.
+            // Clock times are never bare numbers; setting the unit marks the form as known.
             return (name, unit.or(Some(TimeUnit::Seconds)));
         }
     }
@@ -244,7 +246,7 @@ fn unit(title: &str) -> (&str, Option<TimeUnit>) {
     }
 }
 
-/// The forms in which ELAN writes times.
+/// ELAN's formats of times.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Form {
     Clock,

@@ -1,4 +1,4 @@
-//! Changes to annotations in bulk, a row each.
+//! Bulk changes to annotations, one per row.
 //!
 //! ```csv
 //! recording,tier,start,end,value,action,id
@@ -20,16 +20,16 @@ use chereme_sign::text::{did_you_mean, nearest};
 use columns::{Columns, Time};
 use serde::Serialize;
 
-/// What a row asks for.
+/// The change that a row requests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Action {
-    /// A new annotation.
+    /// Adds an annotation.
     #[default]
     Add,
-    /// An annotation less.
+    /// Removes an annotation.
     Remove,
-    /// Another value, or another time, for an annotation.
+    /// Changes the value or the time of an annotation.
     Set,
 }
 
@@ -38,7 +38,7 @@ pub enum Action {
 pub struct Row {
     /// The line of the table, counted from 1.
     pub line: u64,
-    /// The recording's name or address; nothing where the table has no such column or cell.
+    /// The recording's name or address; `None` if the table has no such column or cell.
     pub recording: Option<String>,
     /// The tier's name.
     pub tier: Option<String>,
@@ -46,9 +46,9 @@ pub struct Row {
     pub start: Option<Moment>,
     /// The end.
     pub end: Option<Moment>,
-    /// The value; nothing for an empty cell.
+    /// The value; `None` for an empty cell.
     pub value: Option<String>,
-    /// What to do.
+    /// The change.
     pub action: Action,
     /// The id of the annotation to change or remove, or of the new one.
     pub id: Option<String>,
@@ -64,20 +64,20 @@ pub struct Fault {
     pub line: u64,
     /// The column.
     pub column: &'static str,
-    /// What is wrong and what would be right.
+    /// The problem, with a correction.
     pub message: String,
 }
 
-/// The rows of a table, those that cannot be carried out apart.
+/// The rows of a table; invalid ones are listed separately.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct Annotations {
     /// The changes in the order of the table.
     pub rows: Vec<Row>,
-    /// What is wrong with the others.
+    /// The problems of the other rows.
     pub faults: Vec<Fault>,
 }
 
-/// The columns by name; times are told apart by their titles.
+/// The columns by name; the titles of times are recognised separately.
 const NAMES: [&str; 8] = [
     "recording",
     "tier",
@@ -91,18 +91,18 @@ const NAMES: [&str; 8] = [
 
 /// Reads a table of changes; columns may stand in any order.
 ///
-/// A time is in seconds (`1.5`, `1.5s`), milliseconds (`1500ms`), minutes (`0:01.500`, `1:02:03.5`)
-/// or frames (`f12`). Bare numbers count in `unit`, or in the unit that stands in the title of their column
-/// (`start_ms`, `start [s]`, ELAN's `Begin Time - msec`), else in seconds. `action` is `add` (where nothing is
-/// said), `remove` or `set`. An added annotation needs a tier and either both times, a start and a `duration`,
-/// or a parent; a changed or removed one its id, or its tier and start.
+/// A time is in seconds (`1.5`, `1.5s`), milliseconds (`1500ms`), minutes (`0:01.500`, `1:02:03.5`) or
+/// frames (`f12`). Bare numbers are in `unit`, or in the unit in the title of their column (`start_ms`,
+/// `start [s]`, ELAN's `Begin Time - msec`), else in seconds. `action` is `add` (the default), `remove` or
+/// `set`. An added annotation needs a tier and either both times, a start and a `duration`, or a parent; a
+/// changed or removed one its id, or its tier and start.
 ///
-/// What ELAN exports as tab-delimited text is such a table, with titles and without, with a row for each
-/// annotation or a column for each tier.
+/// Tab-delimited exports of ELAN are such tables, with titles and without, with a row for each annotation
+/// or a column for each tier.
 ///
 /// # Errors
-/// [`TableError`] where the bytes are no table, no column names a tier or an id, or bare whole numbers would be
-/// annotations longer than any. Faults of single rows are in the result.
+/// [`TableError`] if the bytes are not a table, no column names a tier or an id, or bare whole numbers
+/// would be annotations longer than any. Faults of single rows are in the result.
 pub fn read(
     bytes: &[u8],
     unit: Option<TimeUnit>,

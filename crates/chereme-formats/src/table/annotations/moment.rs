@@ -1,4 +1,4 @@
-//! Points in time as people and programs write them.
+//! Parses points in time as people and programs write them.
 
 use chereme_motion::Instant;
 use serde::Serialize;
@@ -15,7 +15,7 @@ pub enum Moment {
     Frame(u64),
 }
 
-/// A text that is no [`Moment`].
+/// A text that is not a [`Moment`].
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{text:?} is no time: write 1.5, 1.5s, 1500ms, 0:01.500 or f12{}",
@@ -104,11 +104,10 @@ impl FromStr for TimeUnit {
 }
 
 impl Moment {
-    /// Reads a moment whose bare number counts in `unit`; a text with a unit of its own, or with colons, says
-    /// itself what it is.
+    /// Reads a moment whose bare number is in `unit`; a text with its own unit or with colons ignores `unit`.
     ///
     /// # Errors
-    /// [`MomentError`] where the text is no moment.
+    /// [`MomentError`] if the text is not a moment.
     pub fn read(text: &str, unit: TimeUnit) -> Result<Self, MomentError> {
         let bare = text.trim();
         if !is_bare(bare) {
@@ -129,7 +128,7 @@ fn time(micros: i64) -> Moment {
     Moment::Time(Instant::from_micros(micros))
 }
 
-/// Tells whether a time is a number without a unit.
+/// Returns whether a time is a number without a unit.
 pub(super) fn is_bare(text: &str) -> bool {
     let digits = text.strip_prefix('-').unwrap_or(text);
     !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit() || b == b'.')
@@ -168,7 +167,7 @@ fn clock(text: &str) -> Option<i64> {
     minutes.checked_mul(60_000_000)?.checked_add(micros)
 }
 
-/// Reads a decimal number times ten to the `shift`, further decimals rounded.
+/// Reads a decimal number times ten to the power `shift`, with further decimals rounded.
 fn decimal(text: &str, shift: usize) -> Option<i64> {
     let (sign, digits) = text
         .strip_prefix('-')
