@@ -313,7 +313,7 @@ fn pairs(mut table: Table, empty: Empty) -> Result<Pairs> {
         }
         by_field.push((name.clone(), found.len() - before));
     }
-    by_field.sort_by(|a, b| b.1.cmp(&a.1));
+    by_field.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     let mut degrees = vec![0; table.rows.len()];
     for (one, other, _) in &found {
         degrees[*one] += 1;

@@ -33,7 +33,7 @@ pub(super) struct Suggest {
 /// the others.
 pub(super) fn partners(found: &Suggestions, field: impl Fn(&str) -> String) -> Vec<Proposal> {
     let mut all: Vec<(bool, Proposal)> = Vec::new();
-    for partner in &found.partners {
+    for partner in found.partners.iter().chain(&found.possible) {
         let Some(recipe) = &partner.recipe else {
             continue;
         };
@@ -188,6 +188,7 @@ mod tests {
             from: "beak".into(),
             to: "U".into(),
             equal: 3,
+            one_sided: 0,
             recipe: recipe.map(str::to_owned),
         };
         let found = Suggestions {
@@ -199,6 +200,7 @@ mod tests {
                 partner("LIMACE", "lexicon", Some("token:7 | configure dominant U")),
                 partner("X", "lexicon", None),
             ],
+            possible: Vec::new(),
             unused: [("placement".to_owned(), vec!["neutral space".to_owned()])].into(),
         };
         let all = partners(&found, str::to_owned);

@@ -240,6 +240,8 @@ mod tests {
             total,
             hits: hits.collect(),
             facets: BTreeMap::new(),
+            facets_left_out: BTreeMap::new(),
+            findings: Vec::new(),
             notes: Vec::new(),
         })
     }
