@@ -1,7 +1,6 @@
-//! Animations: a clip seen from one or more sides at once, and their GIF.
+//! Animations: a clip from one or more sides at once, and their GIF.
 //!
-//! Frames are drawn one at a time and written as they come, so that a long clip takes no more
-//! memory than a short one.
+//! Frames are drawn and written one at a time, so that a long clip needs no more memory than a short one.
 
 use std::borrow::Cow;
 use std::io::Write;
@@ -20,18 +19,18 @@ use crate::raster::{Raster, Style};
 use crate::sheet::Progress;
 use crate::view::{Framing, View};
 
-/// How an animation looks.
+/// Options of an animation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AnimationOptions {
     /// The views, side by side from the left.
     pub views: Vec<View>,
-    /// The face of each frame of the clip; frames beyond them have it at rest.
+    /// The face of each frame of the clip; on later frames it is at rest.
     pub faces: Vec<Face>,
     /// The height in pixels.
     pub height: usize,
-    /// How long each picture stands, in hundredths of a second, 1 to 100; 4 gives 25 a second.
+    /// Duration of each picture in hundredths of a second, 1 to 100; 4 gives 25 pictures per second.
     pub centiseconds: u16,
-    /// How fast the movement is shown, one of [`SPEEDS`]; 0.5 is half as fast as it was.
+    /// Playback speed, one of [`SPEEDS`]; 0.5 is half the original speed.
     pub speed: f64,
     /// The colours of the body.
     pub palette: Palette,
@@ -53,7 +52,7 @@ impl Default for AnimationOptions {
     }
 }
 
-/// An animation whose pictures are drawn when they are asked for, in any order.
+/// An animation whose pictures are drawn on demand, in any order.
 pub struct Animation<'a> {
     clip: &'a Clip,
     anatomy: &'a Anatomy,
@@ -70,11 +69,11 @@ pub struct Animation<'a> {
     pose: Option<ModelPose>,
 }
 
-/// Height of the bar that shows how much has been played, in pixels.
+/// Height of the progress bar, in pixels.
 const BAR: usize = 4;
 
 impl<'a> Animation<'a> {
-    /// Returns the animation of `clip`, odd frames at its ends left out.
+    /// Returns the animation of `clip`, without odd frames at its ends.
     ///
     /// # Errors
     /// [`FigureError`] if the clip is empty, no view is requested, pictures would be too large or too
@@ -122,7 +121,7 @@ impl<'a> Animation<'a> {
         })
     }
 
-    /// Returns how many pictures there are, at least one.
+    /// Returns the number of pictures, at least one.
     #[must_use]
     pub fn frames(&self) -> usize {
         self.frames
@@ -134,7 +133,7 @@ impl<'a> Animation<'a> {
         self.size
     }
 
-    /// Returns the moment of the clip that picture `frame` shows.
+    /// Returns the time in the clip that picture `frame` shows.
     #[must_use]
     pub fn instant(&self, frame: usize) -> Instant {
         let step = f64::from(self.options.centiseconds.clamp(1, 100)) / 100.0;
@@ -184,7 +183,7 @@ impl<'a> Animation<'a> {
     }
 }
 
-/// How many pictures the colours of a GIF are chosen from.
+/// The number of pictures from which the colours of a GIF are chosen.
 const SAMPLED: usize = 12;
 
 /// Writes an animation as a GIF that repeats for ever, in colours chosen from pictures all over it; each
@@ -231,10 +230,10 @@ pub fn write_gif(
     Ok(())
 }
 
-/// The index that stands for what is shown already.
+/// The index for pixels that stay unchanged.
 const CLEAR: u8 = 255;
 
-/// Returns the smallest rectangle in which `next` differs from `shown`, equal pixels left clear.
+/// Returns the smallest rectangle in which `next` differs from `shown`, with unchanged pixels left clear.
 fn changed(shown: &[u8], next: &[u8], width: usize) -> gif::Frame<'static> {
     let height = next.len() / width;
     if shown.is_empty() {

@@ -4,10 +4,10 @@ use std::ops::Range;
 
 /// The depth of paper.
 const PAPER: f32 = f32::INFINITY;
-/// How much nearer than what hides it a veiled layer has to be, in metres, so that what hardly moved
-/// does not come through.
+/// Smallest distance in metres by which a veiled layer must be nearer than the surface that hides it, so
+/// that parts that hardly moved do not show through.
 const VEIL: f32 = 0.015;
-/// Colours are kept times this in a byte, so that light beyond white is not lost before shade falls on it.
+/// Factor on colours stored in a byte, so that light beyond white is not lost before shade falls on it.
 const SCALE: f32 = 0.875;
 
 /// The nearest surface at every sample; a margin of paper all around saves the test for the edge.
@@ -17,9 +17,9 @@ pub(crate) struct Buffers {
     pub(crate) size: [usize; 2],
     pub(crate) margin: usize,
     pub(crate) stride: usize,
-    /// Distance from the eye in metres; infinite where there is paper.
+    /// Distance from the eye in metres; infinite for paper.
     pub(crate) depth: Vec<f32>,
-    /// The part of the body and the lit colour, see [`packed`]; 0 where there is paper.
+    /// The part of the body and the lit colour, see [`packed`]; 0 for paper.
     pub(crate) paint: Vec<u32>,
     /// Columns and rows of samples in use; all others are paper.
     pub(crate) used: [Range<usize>; 2],
@@ -32,14 +32,15 @@ pub(crate) struct Buffers {
     solid_used: Range<usize>,
 }
 
-/// Returns a colour with the part it belongs to as one number: the part, then blue, green and red, a byte each.
+/// Packs a colour and its part of the body into one number: the part, then blue, green and red, a byte
+/// each.
 #[inline(always)]
 pub(crate) fn packed(group: u8, colour: [f32; 3]) -> u32 {
     let [red, green, blue] = colour;
     u32::from(group) << 24 | whole(blue) << 16 | whole(green) << 8 | whole(red)
 }
 
-/// Returns the whole number from 0 to 255 that is nearest to one that exceeds these by less than a half.
+/// Rounds to the nearest whole number from 0 to 255; the input may exceed this range by less than a half.
 #[inline(always)]
 pub(crate) fn whole(part: f32) -> u32 {
     /// Adding 2²³ to a number moves its whole part to the lowest bits.
@@ -47,20 +48,20 @@ pub(crate) fn whole(part: f32) -> u32 {
     (part + WHOLE).to_bits() & 0xFF
 }
 
-/// Returns the value that [`packed`] takes for a part of a colour, 0 to 255 and brighter.
+/// Returns the byte that [`packed`] takes for a component of a colour, 0 to 255 or brighter.
 #[inline(always)]
 pub(crate) fn kept(part: f32) -> f32 {
     (part * SCALE).clamp(0.0, 255.0)
 }
 
-/// Returns a part of packed colours again, 0 for red to 2 for blue.
+/// Returns a component of a packed colour, 0 for red to 2 for blue.
 #[inline(always)]
 pub(crate) fn unpacked(paint: u32, part: usize) -> f32 {
     (paint >> (8 * part) & 0xFF) as i32 as f32 * (1.0 / SCALE)
 }
 
 impl Buffers {
-    /// Makes all of it paper again.
+    /// Clears everything to paper.
     pub(crate) fn clear(&mut self, size: [usize; 2], margin: usize) {
         if (self.size, self.margin) == (size, margin) {
             let rows = self.rows_of(&self.used[1]);
@@ -89,19 +90,19 @@ impl Buffers {
         self.used = used;
     }
 
-    /// Returns the place of a sample in the buffers.
+    /// Returns the index of a sample in the buffers.
     #[inline]
     pub(crate) fn index(&self, x: usize, y: usize) -> usize {
         (y + self.margin) * self.stride + x + self.margin
     }
 
-    /// Returns where in the buffers whole rows lie.
+    /// Returns the range of whole rows in the buffers.
     fn rows_of(&self, rows: &Range<usize>) -> Range<usize> {
         let at = |row: usize| (row + self.margin) * self.stride;
         at(rows.start)..at(rows.end.max(rows.start))
     }
 
-    /// Takes away what lies behind the last layer that was [kept](Self::keep).
+    /// Removes everything behind the last layer that was [kept](Self::keep).
     pub(crate) fn veil(&mut self) {
         let rows = self.rows_of(&self.used[1]);
         let (depth, paint) = (&mut self.depth[rows.clone()], &mut self.paint[rows.clone()]);
@@ -120,7 +121,7 @@ impl Buffers {
         std::mem::swap(&mut self.solid_used, &mut self.depth_used);
     }
 
-    /// Parts the used rows of samples into `count` bands, fewer where there are few rows.
+    /// Splits the used rows of samples into `count` bands, or fewer if there are few rows.
     pub(crate) fn bands(&mut self, count: usize) -> Vec<Band<'_>> {
         let used = self.used[1].clone();
         let each = used.len().div_ceil(count).max(1);

@@ -1,15 +1,15 @@
-//! Where the eye stands, and how much of the signer it sees.
+//! The camera: position, direction and visible area.
 
 use glam::Vec3;
 
 /// An eye that looks at a point; the picture's middle is that point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
-    /// Where the eye is, in model space, in metres.
+    /// Position of the eye in model space, in metres.
     pub eye: Vec3,
-    /// Where it looks, in model space, in metres.
+    /// The point it looks at in model space, in metres.
     pub target: Vec3,
-    /// Which way is up in the picture; not along the line of sight.
+    /// The upward direction of the picture; must not be along the line of sight.
     pub up: Vec3,
     /// Half the height of the visible area at the target's distance, in metres.
     pub half_height: f32,
@@ -17,7 +17,7 @@ pub struct Camera {
     pub near: f32,
 }
 
-/// A place in the picture and how far it is from the eye.
+/// A position in the picture and its distance from the eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Projected {
     /// Columns from the left edge, in pixels.
@@ -28,13 +28,13 @@ pub struct Projected {
     pub depth: f32,
 }
 
-/// A camera with its axes worked out for a picture of some size.
+/// A camera prepared for a picture of some size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Projection {
     eye: Vec3,
     /// The picture's right, its up, and from the eye towards the target.
     axes: [Vec3; 3],
-    /// Pixels a metre at a distance of one metre.
+    /// Pixels per metre at a distance of one metre.
     scale: f32,
     centre: [f32; 2],
 }
@@ -58,7 +58,7 @@ impl Camera {
 }
 
 impl Projection {
-    /// Returns where `point` is in the picture.
+    /// Returns the position of `point` in the picture.
     #[must_use]
     pub fn project(&self, point: Vec3) -> Projected {
         let [right, up, forward] = self.axes;
@@ -72,8 +72,8 @@ impl Projection {
         }
     }
 
-    /// Returns where the line of sight through a place of the picture begins and which way it goes,
-    /// not of length 1.
+    /// Returns the origin and the direction of the line of sight through a position of the picture; the
+    /// direction is not normalised.
     #[must_use]
     pub fn ray(&self, x: f32, y: f32) -> (Vec3, Vec3) {
         let [right, up, forward] = self.axes;
@@ -81,13 +81,13 @@ impl Projection {
         (self.eye, forward + across / self.scale)
     }
 
-    /// Returns the way in which the eye looks, of length 1.
+    /// Returns the direction of view, of length 1.
     #[must_use]
     pub fn sight(&self) -> Vec3 {
         self.axes[2]
     }
 
-    /// Returns `direction` as the picture's right, up and towards the eye.
+    /// Converts `direction` to the picture's right, up and towards the eye.
     #[must_use]
     pub fn turned(&self, direction: Vec3) -> Vec3 {
         let [right, up, forward] = self.axes;

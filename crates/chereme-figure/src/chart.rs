@@ -1,16 +1,16 @@
-//! A chart of how two clips are aligned.
+//! A chart of the alignment of two clips.
 
 use crate::error::{FigureError, checked_size};
 use crate::font;
 use crate::image::Image;
 use crate::palette::{Colour, Theme};
 
-/// How the chart of an alignment looks.
+/// Options of the chart of an alignment.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ChartOptions {
     /// The names of the horizontal and the vertical axis.
     pub names: [String; 2],
-    /// The side of the square that the grid fills at most, in pixels.
+    /// The largest side of the grid's square, in pixels.
     pub size: usize,
     /// The paper.
     pub theme: Theme,
@@ -30,12 +30,12 @@ impl Default for ChartOptions {
 const MARGIN: usize = 34;
 const PATH: [Colour; 2] = [Colour::hex(0x00_5F_9E), Colour::hex(0x6F_C3_FF)];
 
-/// Draws the alignment of two clips of `lengths` frames: the first runs to the right, the second
-/// up, and `path` goes through the pairs of frames that correspond; a thin diagonal shows where
-/// it would go if both ran evenly.
+/// Draws the alignment of two clips of `lengths` frames: the first runs to the right, the second up, and
+/// `path` goes through the corresponding pairs of frames; a thin diagonal shows the path of an even
+/// alignment.
 ///
 /// # Errors
-/// [`FigureError`] where the path is empty, a pair lies outside, or the chart would be too large.
+/// [`FigureError`] if the path is empty, a pair lies outside, or the chart would be too large.
 pub fn alignment_picture(
     path: &[(usize, usize)],
     lengths: [usize; 2],
@@ -91,7 +91,7 @@ pub fn alignment_picture(
     Ok(chart)
 }
 
-/// Draws rules at round numbers of frames, at most ten each way.
+/// Draws rules at round numbers of frames, at most ten in each direction.
 fn grid(
     chart: &mut Image,
     place: impl Fn(i64, i64) -> [i64; 2],
@@ -126,7 +126,7 @@ fn labels(chart: &mut Image, options: &ChartOptions, lengths: [usize; 2], below:
     let across = format!("{} ({})", options.names[0], lengths[0]);
     let across = font::fitted(&across, options.size);
     chart.text(&across, [MARGIN as i64, below + 4], 1, text);
-    // Letters below one another, as many as there is room for.
+    // Letters below one another, as many as fit.
     let up = format!("{} ({})", options.names[1], lengths[1]);
     let room = options.size / font::HEIGHT;
     for (row, letter) in up.chars().take(room).enumerate() {

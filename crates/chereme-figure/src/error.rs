@@ -18,10 +18,10 @@ pub const MAX_FRAMES: usize = 12_000;
 /// A reason why a picture cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum FigureError {
-    /// The clip has no frame.
+    /// The clip has no frames.
     #[error("the clip is empty: it has no frame to draw")]
     Empty,
-    /// A frame was asked for that the clip does not have.
+    /// The clip does not have the requested frame.
     #[error("there is no frame {frame}; the clip's frames are 0 to {last}")]
     Frame {
         /// The frame.
@@ -29,13 +29,13 @@ pub enum FigureError {
         /// The clip's last frame.
         last: usize,
     },
-    /// No view or no column was asked for.
+    /// No view or no column was requested.
     #[error("nothing to draw: at least one {what} is needed")]
     Nothing {
         /// The missing thing, in the singular.
         what: &'static str,
     },
-    /// The picture would be too small to show anything or larger than is sensible.
+    /// The picture would be too small to show anything or unreasonably large.
     #[error(
         "a picture of {width} by {height} pixels cannot be made; sides are from 16 to \
          {MAX_SIDE}, one view has at most {MAX_VIEW_PIXELS} pixels and a sheet at most \
@@ -47,7 +47,7 @@ pub enum FigureError {
         /// The height in pixels.
         height: usize,
     },
-    /// An animation would run at no speed that shows anything.
+    /// The animation's speed is outside the allowed range.
     #[error("an animation cannot run at the speed {speed}; give a number from {} to {}", SPEEDS.start(), SPEEDS.end())]
     Speed {
         /// The speed.
@@ -59,15 +59,15 @@ pub enum FigureError {
          it faster"
     )]
     Long {
-        /// The pictures there would be.
+        /// The number of its pictures.
         frames: usize,
     },
-    /// The caller's progress function said to stop.
+    /// The caller's progress function stopped it.
     #[error("stopped after {done} of {total} pictures")]
     Stopped {
-        /// Pictures that were finished.
+        /// The number of finished pictures.
         done: usize,
-        /// Pictures there would have been.
+        /// The total number of pictures.
         total: usize,
     },
     /// A PNG could not be written.
@@ -78,7 +78,7 @@ pub enum FigureError {
     Gif(#[from] gif::EncodingError),
 }
 
-/// Returns the size where a picture of it can be made.
+/// Returns the size if a picture can have it.
 pub(crate) fn checked_size(width: usize, height: usize) -> Result<[usize; 2], FigureError> {
     let sides = 16..=MAX_SIDE;
     let inside = sides.contains(&width) && sides.contains(&height);
@@ -87,7 +87,7 @@ pub(crate) fn checked_size(width: usize, height: usize) -> Result<[usize; 2], Fi
     fits.then_some([width, height]).ok_or(error)
 }
 
-/// Returns the size where one view of a figure can be drawn at it.
+/// Returns the size if one view of a figure can have it.
 pub(crate) fn checked_view(width: usize, height: usize) -> Result<[usize; 2], FigureError> {
     checked_size(width, height)?;
     let error = FigureError::Size { width, height };

@@ -1,4 +1,4 @@
-//! Tables of what faces do.
+//! Tables of facial expressions.
 
 use chereme_motion::{Anatomy, Clip, Face};
 
@@ -10,11 +10,11 @@ use crate::mesh::Mesh;
 use crate::raster::{Raster, Style};
 use crate::view::{Framing, View};
 
-/// Draws faces as a table, `columns` in a row, each above its name and `size` pixels high and wide, on the head of
-/// the signer that the first frame of `clip` shows.
+/// Draws faces as a table, `columns` in a row, each above its name and `size` pixels high and wide, on the
+/// head of the signer in the first frame of `clip`.
 ///
 /// # Errors
-/// [`FigureError`] where there is no face or no frame, or the table would be too large.
+/// [`FigureError`] if there is no face or no frame, or the table would be too large.
 pub fn face_sheet(
     (clip, anatomy): (&Clip, &Anatomy),
     faces: &[(String, Face)],

@@ -1,13 +1,14 @@
-//! Triangles to samples: which are inside, what of them is nearest, and its colour.
+//! Fills triangles: finds the samples inside, keeps the nearest surface, and computes its colour.
 
 use pulp::{Arch, NullaryFnOnce};
 
 use crate::buffers::{Band, packed, whole};
 
-/// The snapping of corners: samples are divided by this.
+/// Corners are snapped to this fraction of a sample.
 pub(crate) const SUBPIXELS: f32 = 16.0;
 const UNIT: i32 = SUBPIXELS as i32;
-/// The widest and highest that a triangle may be for products of its sides to fit 32 bits, in parts of a sample.
+/// Largest width and height of a triangle, in parts of a sample, for which products of its sides fit 32
+/// bits.
 const NARROW: i32 = 1 << 14;
 
 /// A vertex in the picture: snapped place; depth and lit colour; the part it belongs to.
@@ -28,7 +29,7 @@ pub(crate) fn fill(band: Band<'_>, corners: &[Corner], triangles: &[[u32; 3]]) {
     });
 }
 
-/// A call that is compiled for each instruction set and chosen when run.
+/// A call that is compiled for each instruction set and selected at run time.
 struct Fill<'a> {
     band: Band<'a>,
     corners: &'a [Corner],
@@ -172,12 +173,12 @@ impl Band<'_> {
     }
 }
 
-/// Which columns of a row lie on the inner side of an edge.
+/// The columns of a row on the inner side of an edge.
 #[derive(Clone, Copy)]
 struct Limit {
-    /// How much the edge's value falls from column to column.
+    /// The decrease of the edge's value from column to column.
     across: i32,
-    /// One over that, 0 where it stays.
+    /// The inverse of `across`, 0 if that is 0.
     inverse: f64,
 }
 
@@ -192,10 +193,10 @@ impl Limit {
         Self { across, inverse }
     }
 
-    /// Leaves of columns those where the edge's value, `value` at column 0, is not positive.
+    /// Restricts columns to those in which the edge's value, `value` at column 0, is not positive.
     ///
-    /// The quotient of two such numbers is whole or is a hundred times farther from it than what is allowed for the
-    /// rounding of its product.
+    /// The quotient of two such numbers is whole, or a hundred times farther from a whole number than the
+    /// tolerance for the rounding of its product.
     #[inline(always)]
     fn cut(self, value: i32, from: &mut i32, to: &mut i32) {
         const ROUNDING: f64 = 1e-8;
@@ -224,8 +225,8 @@ fn span(first: [i64; 3], across: [i64; 3], wide: i64) -> (i64, i64) {
     (from, to)
 }
 
-/// Returns twice the signed area of a triangle in the picture, negative where it turns
-/// anticlockwise to the eye (rows count downwards).
+/// Returns twice the signed area of a triangle in the picture; negative if it is anticlockwise as seen by
+/// the eye (rows count downwards).
 #[inline(always)]
 fn cross(a: [i32; 2], b: [i32; 2], c: [i32; 2]) -> i64 {
     let side = |from: [i32; 2], to: [i32; 2], axis: usize| i64::from(to[axis] - from[axis]);

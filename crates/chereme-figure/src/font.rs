@@ -4,7 +4,7 @@
 
 use crate::letters;
 
-/// The width of a character's cell in dots, the gap after it included.
+/// The width of a character's cell in dots, with the gap after it.
 pub(crate) const WIDTH: usize = 6;
 /// The height of a character's cell in dots, accents and descenders included.
 pub(crate) const HEIGHT: usize = 12;
@@ -112,7 +112,7 @@ const ASCII: [[u8; 7]; 95] = [
     [0x00, 0x00, 0x08, 0x15, 0x02, 0x00, 0x00], // ~
 ];
 
-/// Letters and signs beyond ASCII that are no accented letter.
+/// Letters and signs beyond ASCII, except accented letters.
 #[rustfmt::skip]
 const SIGNS: &[(char, [u8; 7])] = &[
     ('Æ', [0x0F, 0x14, 0x14, 0x1F, 0x14, 0x14, 0x17]),
@@ -187,7 +187,7 @@ const ACCENTED: &[(char, char, [u8; 2])] = &[
 /// The glyph for unknown characters.
 const UNKNOWN: [u8; 7] = [0x1F, 0x11, 0x11, 0x11, 0x11, 0x11, 0x1F];
 
-/// Returns whether this letter has a character.
+/// Returns whether this font has a character.
 pub(crate) fn knows(character: char) -> bool {
     ACCENTED.iter().any(|entry| entry.0 == character) || known(character).is_some()
 }
@@ -197,9 +197,9 @@ pub(crate) fn width(text: &str) -> usize {
     letters::line(text).width()
 }
 
-/// Returns `text` cut to what `dots` dots hold, an ellipsis at its end where something is left out.
+/// Returns `text` cut to a width of `dots` dots, with an ellipsis at its end if something is left out.
 pub(crate) fn fitted(text: &str, dots: usize) -> String {
-    // Marks need no room; more of them than letters is no text.
+    // Marks need no room; a text with more marks than letters is not text.
     let most = dots.saturating_mul(2) + 1;
     let beginning = |count: usize| text.chars().take(count).collect::<String>();
     if text.chars().nth(most).is_none() && width(text) <= dots {

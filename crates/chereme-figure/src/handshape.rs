@@ -1,4 +1,4 @@
-//! Pictures of handshapes: one hand alone, made from joint angles, and tables of many.
+//! Pictures of handshapes: a single hand, built from joint angles, and tables of many.
 
 use std::sync::OnceLock;
 
@@ -13,7 +13,7 @@ use crate::image::Image;
 use crate::palette::{Palette, Theme};
 use crate::raster::{Raster, Style};
 
-/// Where a hand alone is looked at from; the fingers point up.
+/// The direction of view onto a single hand; the fingers point up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum HandView {
     /// Into the palm, somewhat from the thumb's side and from above: shows the fingers best.
@@ -27,10 +27,10 @@ pub enum HandView {
     Thumb,
 }
 
-/// How the picture of a handshape looks.
+/// Options of the picture of a handshape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HandshapeOptions {
-    /// Which hand.
+    /// The hand.
     pub side: Side,
     /// The direction of view.
     pub view: HandView,
@@ -58,10 +58,10 @@ impl Default for HandshapeOptions {
     }
 }
 
-/// Draws the hand whose posture is `angles`, always at the same scale.
+/// Draws a hand with the joint angles `angles`, always at the same scale.
 ///
 /// # Errors
-/// [`FigureError::Size`] where the picture would be too small or too large.
+/// [`FigureError::Size`] if the picture would be too small or too large.
 pub fn handshape_picture(
     angles: &HandAngles,
     options: &HandshapeOptions,
@@ -154,7 +154,7 @@ impl<'a> Artist<'a> {
     }
 }
 
-/// Returns the camera of a view; the hand stands at the origin, its palm towards +Z.
+/// Returns the camera of a view; the hand is at the origin, its palm towards +Z.
 fn camera(view: HandView, side: Side) -> Camera {
     let thumb = -side.sign() as f32;
     let towards = match view {
@@ -189,7 +189,7 @@ const FINGERS: [(&str, [f64; 2], [f64; 3]); 4] = [
 ];
 
 impl Hand {
-    /// Returns the hand of a side, made once.
+    /// Returns the hand of a side; built once.
     fn of(side: Side) -> &'static Self {
         static HANDS: [OnceLock<Hand>; 2] = [OnceLock::new(), OnceLock::new()];
         HANDS[side as usize].get_or_init(|| Self::new(side))

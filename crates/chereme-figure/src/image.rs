@@ -49,7 +49,7 @@ impl Image {
     /// Returns the colour at column `x` of row `y`.
     ///
     /// # Panics
-    /// Where the place is outside.
+    /// If the position is outside.
     #[must_use]
     pub fn pixel(&self, x: usize, y: usize) -> Colour {
         assert!(x < self.width && y < self.height, "the pixel is inside");
@@ -70,14 +70,14 @@ impl Image {
         &mut self.pixels
     }
 
-    /// Sets one pixel; outside nothing happens.
+    /// Sets one pixel; positions outside are ignored.
     pub(crate) fn set(&mut self, x: i64, y: i64, colour: Colour) {
         if (0..self.width as i64).contains(&x) && (0..self.height as i64).contains(&y) {
             self.pixels[y as usize * self.width + x as usize] = colour;
         }
     }
 
-    /// Fills a rectangle, as far as it is inside.
+    /// Fills the part of a rectangle that is inside.
     pub(crate) fn fill(&mut self, at: [i64; 2], size: [i64; 2], colour: Colour) {
         for y in at[1]..at[1] + size[1] {
             for x in at[0]..at[0] + size[0] {
@@ -98,7 +98,7 @@ impl Image {
         }
     }
 
-    /// Draws `other` with its top left corner at `at`, as far as it is inside.
+    /// Draws the part of `other` that is inside, with its top left corner at `at`.
     pub(crate) fn paste(&mut self, other: &Self, at: [usize; 2]) {
         let width = other.width.min(self.width.saturating_sub(at[0]));
         for row in 0..other.height.min(self.height.saturating_sub(at[1])) {
@@ -114,7 +114,7 @@ impl Image {
         line.draw(at, scale, |x, y, covered| self.blend(x, y, colour, covered));
     }
 
-    /// Covers a part of one pixel; outside nothing happens.
+    /// Covers a part of one pixel; positions outside are ignored.
     fn blend(&mut self, x: i64, y: i64, colour: Colour, covered: f32) {
         if covered >= 1.0 {
             return self.set(x, y, colour);

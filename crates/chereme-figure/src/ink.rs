@@ -15,16 +15,16 @@ use crate::image::Image;
 use crate::palette::Colour;
 use crate::raster::Style;
 
-/// Half the width of a line, and how far a shade reaches, in pixels of the finished picture.
+/// Half the width of a line, in pixels of the finished picture.
 const LINE: f32 = 0.6;
 const SHADE: f32 = 2.5;
-/// How dark a shade is at its darkest.
+/// Strength of the darkest shade.
 const SHADE_STRENGTH: f32 = 0.38;
 /// The depth step at which a shade begins, and the one beyond it at which it is full, in metres.
 const SHADE_STEPS: [f32; 2] = [0.006, 0.033];
 /// The depth step from which a line between two parts is drawn at full strength, in metres.
 const CLEAR_STEP: f32 = 0.004;
-/// How strong lines are: within a part, between parts that touch, between parts apart.
+/// Strengths of lines:
 const STRENGTHS: [f32; 3] = [0.75, 0.5, 0.9];
 /// The colour of lines within the figure.
 const INNER_LINE: [f32; 3] = [34.0, 30.0, 34.0];
@@ -38,7 +38,7 @@ fn reach(samples: usize, pixels: f32) -> usize {
     (samples as f32 * pixels).round().max(1.0) as usize
 }
 
-/// Returns how much paper is needed around the picture, in samples.
+/// Returns the width of the paper margin around the picture, in samples.
 pub(crate) fn margin(samples: usize) -> usize {
     reach(samples, SHADE) + 1
 }
@@ -60,7 +60,7 @@ const LANES: usize = 48;
 /// Red, green and blue of some samples or pixels in a row.
 type Colours = [[f32; LANES]; 3];
 
-/// Draws lines and shades, and averages the samples of each pixel over what is in `image`.
+/// Draws lines and shades, and averages the samples of each pixel over the background in `image`.
 pub(crate) fn finish(
     buffers: &Buffers,
     image: &mut Image,
@@ -75,7 +75,7 @@ pub(crate) fn finish(
         step: style.step,
         opacity: opacity.clamp(0.0, 1.0),
     };
-    // Beyond what is used and the reach of a line all is paper.
+    // Everything beyond the used area and the reach of a line is paper.
     let beside = reach(samples, LINE);
     let touched = |axis: usize, size: usize| {
         let used = &buffers.used[axis];
@@ -112,7 +112,7 @@ pub(crate) fn finish(
     });
 }
 
-/// A call that is compiled for each instruction set and chosen when run: some rows of the picture.
+/// A call that is compiled for each instruction set and selected at run time: some rows of the picture.
 struct Inking<'a> {
     ink: Ink,
     buffers: &'a Buffers,
@@ -158,7 +158,7 @@ impl Inking<'_> {
 }
 
 impl Ink {
-    /// Draws some pixels in a row, the first of whose samples has that place in the buffers.
+    /// Draws some pixels in a row; the index is that of the first pixel's first sample in the buffers.
     #[inline(always)]
     fn strip<const SAMPLES: usize, const MARKED: bool>(
         &self,
@@ -224,7 +224,7 @@ impl Ink {
         }
     }
 
-    /// Returns whether samples in a row and all that lines could be drawn around are paper.
+    /// Returns whether samples in a row and everything within the reach of a line are paper.
     #[inline(always)]
     fn is_paper(&self, buffers: &Buffers, at: usize) -> bool {
         let mut any = [0; LANES];
@@ -238,13 +238,14 @@ impl Ink {
         any.iter().fold(0, |all, one| all | one) == 0
     }
 
-    /// Returns the colours of samples in a row, with lines and shades; `below` is what paper shows.
+    /// Returns the colours of samples in a row, with lines and shades; `below` is the background that
+    /// paper shows.
     #[inline(always)]
     fn inked<const MARKED: bool>(&self, buffers: &Buffers, at: usize, below: &Colours) -> Colours {
         const FAR: [f32; LANES] = [f32::INFINITY; LANES];
         let depth = lanes(&buffers.depth, at, &FAR);
         let paint = lanes(&buffers.paint, at, &[0; LANES]);
-        // How much nearer neighbours are, of the same part and of others; endlessly beside paper.
+        // How much nearer the neighbours are, of the same part and of others; infinite next to paper.
         let (mut within, mut between) = ([0.0f32; LANES], [0.0f32; LANES]);
         for step in self.near {
             let beside = at.wrapping_add_signed(step);
@@ -321,7 +322,7 @@ impl Ink {
     }
 }
 
-/// Returns values in a row, from that place on, or others where there are not as many.
+/// Returns values in a row from an index on; `other` values beyond the end.
 #[inline(always)]
 fn lanes<'a, T>(all: &'a [T], at: usize, missing: &'a [T; LANES]) -> &'a [T; LANES] {
     let row = all.get(at..).and_then(|row| row.first_chunk());

@@ -7,7 +7,7 @@ use crate::palette::Colour;
 /// One corner of the triangles of a [`Mesh`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Vertex {
-    /// The place in model space, in metres.
+    /// The position in model space, in metres.
     pub position: Vec3,
     /// The outward direction of the surface, of length one.
     pub normal: Vec3,
@@ -27,7 +27,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Adds everything `other` holds.
+    /// Adds everything from `other`.
     pub fn append(&mut self, other: &Self) {
         let base = self.vertices.len() as u32;
         self.vertices.extend_from_slice(&other.vertices);
@@ -93,7 +93,7 @@ pub fn trail(points: &[Vec3], radius: f32, [from, to]: [Colour; 2], group: u8) -
 pub(crate) struct Grid {
     /// Points on the unit circle, one a column, from +X towards +Y.
     pub(crate) circle: Vec<Vec2>,
-    /// How many rings there are, each of `circle.len()` points, poles not counted.
+    /// The number of rings, each of `circle.len()` points, without the poles.
     pub(crate) rings: usize,
 }
 
@@ -108,12 +108,12 @@ impl Grid {
         Self { circle, rings }
     }
 
-    /// Returns how many vertices the surface has: the first pole, the rings, the last pole.
+    /// Returns the number of vertices of the surface: the first pole, the rings, the last pole.
     pub(crate) fn len(&self) -> usize {
         self.rings * self.circle.len() + 2
     }
 
-    /// Returns the triangles, anticlockwise from outside where the rings go along +Z.
+    /// Returns the triangles, anticlockwise from outside if the rings advance along +Z.
     pub(crate) fn triangles(&self, base: u32) -> Vec<[u32; 3]> {
         let columns = self.circle.len() as u32;
         let at = |ring: u32, column: u32| base + 1 + ring * columns + column % columns;
@@ -137,7 +137,7 @@ impl Grid {
         triangles
     }
 
-    /// Returns for every vertex how far it lies towards the ring's +X, from -1 to 1.
+    /// Returns for every vertex its position along the ring's +X, from -1 to 1.
     pub(crate) fn facing(&self) -> Vec<f32> {
         let ring = self.circle.iter().map(|point| point.x);
         std::iter::once(0.0)

@@ -5,13 +5,13 @@
 pub struct Colour(pub [u8; 3]);
 
 impl Colour {
-    /// Returns the colour that a six-digit hexadecimal number writes, as `0xRRGGBB`.
+    /// Returns the colour of a six-digit hexadecimal number `0xRRGGBB`.
     #[must_use]
     pub const fn hex(rgb: u32) -> Self {
         Self([(rgb >> 16) as u8, (rgb >> 8) as u8, rgb as u8])
     }
 
-    /// Returns the colour a share `weight` (0 to 1) of the way from `self` to `other`.
+    /// Returns the colour at the share `weight` (0 to 1) between `self` and `other`.
     #[must_use]
     pub fn mixed(self, other: Self, weight: f32) -> Self {
         let weight = weight.clamp(0.0, 1.0);
@@ -92,8 +92,8 @@ pub struct HandColours {
 
 /// The colours of a figure: dark clothing behind light hands, as sign language is filmed.
 ///
-/// The hands differ from each other as warm from cool and from the clothing by lightness, so that
-/// neither rests on telling red from green.
+/// The hands differ from each other as warm from cool and from the clothing by lightness, so that red and
+/// green need not be distinguished.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Palette {
     /// The right hand.

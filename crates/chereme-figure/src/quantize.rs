@@ -1,4 +1,5 @@
-//! Few colours for many: median cut (Heckbert 1982, doi:10.1145/965145.801294) over six bits a part.
+//! Reduces the number of colours: median cut (Heckbert 1982, doi:10.1145/965145.801294) with six bits per
+//! component.
 
 use crate::palette::Colour;
 
@@ -6,10 +7,10 @@ const BITS: u32 = 6;
 const CELLS: usize = 1 << (3 * BITS);
 const UNKNOWN: u16 = u16::MAX;
 
-/// Counts colours, chooses a palette of them, and finds the nearest of it for any colour.
+/// Counts colours, chooses a palette, and finds the palette's nearest colour.
 pub(crate) struct Quantizer {
     counts: Vec<u32>,
-    /// The sums of the colours met in each cell, so that a flat colour stays exactly itself.
+    /// The sums of the colours in each cell, so that a flat colour remains exact.
     sums: Vec<[u64; 3]>,
     palette: Vec<Colour>,
     nearest: Vec<u16>,
@@ -37,13 +38,13 @@ fn middle(cell: usize) -> Colour {
     Colour([part(2 * BITS), part(BITS), part(0)].map(|v| (v << 2) | (v >> 4)))
 }
 
-/// A box of colours: each with how often it was met.
+/// A box of colours: each with its number of occurrences.
 struct Box6 {
     colours: Vec<(Colour, u32)>,
 }
 
 impl Box6 {
-    /// Returns the axis along which the colours lie farthest apart, and how far, weighted so that
+    /// Returns the axis along which the colours are farthest apart, with their distance, weighted so that
     /// boxes of many pixels are cut first.
     fn widest(&self) -> (usize, f64) {
         let mut best = (0, -1.0);
@@ -99,7 +100,7 @@ impl Quantizer {
         }
     }
 
-    /// Returns the mean of the colours met in a cell.
+    /// Returns the mean of the colours in a cell.
     fn mean(&self, cell: usize) -> Colour {
         let count = u64::from(self.counts[cell].max(1));
         Colour(self.sums[cell].map(|sum| ((sum + count / 2) / count).min(255) as u8))
@@ -131,7 +132,7 @@ impl Quantizer {
         self.palette.iter().flat_map(|colour| colour.0).collect()
     }
 
-    /// Returns the place in the palette of the colour nearest `colour`.
+    /// Returns the index in the palette of the colour nearest to `colour`.
     pub(crate) fn index(&mut self, colour: Colour) -> u8 {
         let cell = cell(colour);
         if self.nearest[cell] == UNKNOWN {

@@ -1,8 +1,8 @@
-//! Triangles to pixels: a depth buffer and light; lines and shades are added after.
+//! Rasterises triangles with a depth buffer and light; lines and shades are added afterwards.
 //!
-//! Everything is drawn several times larger than asked for and averaged. Corners are snapped to a
-//! sixteenth of such a pixel and edges tested in integers, so that neighbouring triangles leave no
-//! gap and the same mesh gives the same bytes.
+//! Everything is drawn several times larger than requested and averaged. Corners are snapped to a
+//! sixteenth of such a pixel and edges tested in integers, so that neighbouring triangles leave no gap and
+//! the same mesh gives the same bytes.
 
 use std::ops::Range;
 
@@ -18,20 +18,20 @@ use crate::ink;
 use crate::mesh::{Mesh, Vertex};
 use crate::palette::Theme;
 
-/// How a figure is lit and outlined.
+/// Light and outlines of a figure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Style {
     /// The paper.
     pub theme: Theme,
-    /// How many samples a pixel has along each side, 1 to 4.
+    /// The number of samples per pixel along each side, 1 to 4.
     pub samples: usize,
-    /// Towards the stronger light, as the picture's right, up and towards the eye.
+    /// Direction of the stronger light: the picture's right, up and towards the eye.
     pub key_light: Vec3,
-    /// Towards the weaker light, in the same way.
+    /// Direction of the weaker light, in the same axes.
     pub fill_light: Vec3,
     /// The depth step from which a line is drawn within one part of the body, in metres.
     pub step: f32,
-    /// How many threads draw, at least one; the picture is the same.
+    /// The number of drawing threads, at least one; it does not change the picture.
     pub threads: usize,
 }
 
@@ -48,11 +48,11 @@ impl Default for Style {
     }
 }
 
-/// The share of light that comes from everywhere, from the key and from the fill light.
+/// Shares of ambient light, key light and fill light.
 const LIGHT: [f32; 3] = [0.52, 0.44, 0.16];
-/// How far outside the picture a corner may lie, in samples; triangles beyond are left out.
+/// Largest distance of a corner from the picture, in samples; triangles beyond are left out.
 const FAR_OUT: f32 = 1e6;
-/// The nearest that anything is drawn whatever the camera says, in metres before the eye.
+/// Smallest drawing distance for any camera, in metres before the eye.
 const NEAREST: f32 = 1e-3;
 
 /// Buffers for drawing, reused from picture to picture to save allocations.
@@ -62,19 +62,19 @@ pub struct Raster {
     corners: Vec<Corner>,
 }
 
-/// Something drawn over what is in the picture already.
+/// A surface to draw over the current picture.
 #[derive(Debug, Clone, Copy)]
 pub struct Layer<'a> {
     /// Its surface.
     pub mesh: &'a Mesh,
-    /// How much of what lies below it hides, from 0 to 1.
+    /// How much of the background it hides, from 0 to 1.
     pub opacity: f32,
-    /// Whether it is hidden where the last layer that is not so lies nearer to the eye.
+    /// Whether it is hidden behind the last layer that is not veiled.
     pub veiled: bool,
 }
 
 impl Raster {
-    /// Draws `mesh` as `camera` sees it, `size` being columns and rows of pixels.
+    /// Draws `mesh` as seen by `camera`; `size` is columns and rows of pixels.
     #[must_use]
     pub fn draw(&mut self, mesh: &Mesh, camera: &Camera, size: [usize; 2], style: &Style) -> Image {
         let mut image = Image::new(size[0], size[1], style.theme.background());
@@ -87,7 +87,7 @@ impl Raster {
         image
     }
 
-    /// Draws a layer as `camera` sees it over what is in `image`.
+    /// Draws a layer as seen by `camera` over the contents of `image`.
     pub fn draw_over(
         &mut self,
         image: &mut Image,
@@ -110,7 +110,7 @@ impl Raster {
         }
     }
 
-    /// Fills all triangles, each thread those samples that lie in its own rows.
+    /// Fills all triangles; each thread fills the samples of its own rows.
     fn fill(&mut self, mesh: &Mesh, threads: usize) {
         let corners = &self.corners;
         let mut bands = self.buffers.bands(threads.max(1));
@@ -141,7 +141,7 @@ impl Raster {
     }
 }
 
-/// A call that is compiled for each instruction set and chosen when run.
+/// A call that is compiled for each instruction set and selected at run time.
 struct Project<'a> {
     vertices: &'a [Vertex],
     projection: Projection,
@@ -152,7 +152,7 @@ struct Project<'a> {
 }
 
 impl NullaryFnOnce for Project<'_> {
-    /// The columns and rows of samples that are used.
+    /// The columns and rows of samples in use.
     type Output = [Range<usize>; 2];
 
     #[inline(always)]
@@ -192,7 +192,8 @@ impl NullaryFnOnce for Project<'_> {
     }
 }
 
-/// Returns how bright a surface is whose normal is `normal` in the picture's right, up, towards.
+/// Returns the brightness of a surface with the normal `normal` (the picture's right, up, towards the
+/// eye).
 #[inline(always)]
 fn brightness(normal: Vec3, [key, fill]: [Vec3; 2]) -> f32 {
     let sky = 0.5 + 0.5 * normal.y;

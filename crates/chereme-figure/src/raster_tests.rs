@@ -1,4 +1,4 @@
-//! The rasteriser against closed forms.
+//! Compares the rasteriser with closed forms.
 
 use glam::{Quat, Vec3};
 

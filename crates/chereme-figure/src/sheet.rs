@@ -14,7 +14,7 @@ use crate::palette::Palette;
 use crate::raster::{Raster, Style};
 use crate::view::{Framing, View};
 
-/// Which frames of a clip are shown.
+/// The frames of a clip to show.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Frames {
     /// This number of frames, evenly spaced from the first to the last, without odd frames at both ends;
@@ -24,7 +24,7 @@ pub enum Frames {
     At(Vec<usize>),
 }
 
-/// How a contact sheet looks.
+/// Options of a contact sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SheetOptions {
     /// The line above the pictures; no line if empty.
@@ -33,9 +33,9 @@ pub struct SheetOptions {
     pub frames: Frames,
     /// The rows.
     pub views: Vec<View>,
-    /// The face of each frame of the clip; frames beyond them have it at rest.
+    /// The face of each frame of the clip; on later frames it is at rest.
     pub faces: Vec<Face>,
-    /// The height of a cell in pixels, its label not counted.
+    /// The height of a cell in pixels, without its label.
     pub cell_height: usize,
     /// The colours of the body.
     pub palette: Palette,
@@ -84,11 +84,11 @@ pub type Progress<'a> = &'a mut dyn FnMut(usize, usize) -> ControlFlow<()>;
 const LABEL: usize = 18;
 const GAP: usize = 6;
 
-/// Draws the contact sheet of `clip`: a row a view, a column a frame, each with its time.
+/// Draws the contact sheet of `clip`: one row per view, one column per frame, each with its time.
 ///
 /// # Errors
-/// [`FigureError`] where the clip is empty, a frame is not in it, the sheet would be too large, or
-/// `progress` says to stop.
+/// [`FigureError`] if the clip is empty, a frame is not in it, the sheet would be too large, or `progress`
+/// stops it.
 pub fn contact_sheet(
     clip: &Clip,
     anatomy: &Anatomy,
@@ -157,10 +157,10 @@ pub fn contact_sheet(
     Ok(sheet)
 }
 
-/// Draws one small picture of the middle of `clip` from the front, `size` being columns and rows.
+/// Draws one small picture of the middle of `clip` from the front; `size` is columns and rows.
 ///
 /// # Errors
-/// [`FigureError`] where the clip is empty or the picture would be too small or too large.
+/// [`FigureError`] if the clip is empty or the picture would be too small or too large.
 pub fn thumbnail(
     clip: &Clip,
     anatomy: &Anatomy,
@@ -177,13 +177,13 @@ pub fn thumbnail(
     Ok(Raster::default().draw(&mesh, &camera, size, style))
 }
 
-/// Returns time and number of a frame, as labels have it.
+/// Returns time and number of a frame for its label.
 fn label(clip: &Clip, frame: usize) -> String {
     let seconds = clip.rate().instant(frame).seconds();
     format!("{seconds:.2} s  #{frame}")
 }
 
-/// Returns the frames that are chosen of `count`.
+/// Returns the chosen frames.
 fn chosen(frames: &Frames, clip: &Clip, anatomy: &Anatomy) -> Result<Vec<usize>, FigureError> {
     let last = clip.frames().checked_sub(1).ok_or(FigureError::Empty)?;
     let chosen = match frames {

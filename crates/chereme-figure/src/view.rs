@@ -1,4 +1,4 @@
-//! Presets of the camera, and the part of space a clip's signing takes.
+//! Camera presets, and the space of a clip's signing.
 
 use chereme_motion::ends::Ends;
 use chereme_motion::{Anatomy, Clip, ModelPose, Part, Side};
@@ -6,10 +6,10 @@ use glam::{Mat3, Vec3};
 
 use crate::camera::Camera;
 
-/// A place to look at the signer from.
+/// A direction of view onto the signer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum View {
-    /// From the front, as the person signed to sees it.
+    /// From the front, as the addressee sees it.
     Addressee,
     /// From above and behind the signer's head.
     Signer,
@@ -65,7 +65,7 @@ impl View {
     }
 }
 
-/// The space that a clip's signing takes, so that one camera serves every frame of it.
+/// The space of a clip's signing, so that one camera serves all its frames.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Framing {
     /// The signer's left, up and forwards.
@@ -75,15 +75,15 @@ pub struct Framing {
     high: Vec3,
     /// The length of a hand from wrist to fingertip, in metres.
     hand: f32,
-    /// The joint against which corners are, where the body travels: the camera goes with it.
+    /// The joint that the corners are relative to if the body travels: the camera follows it.
     follow: Option<usize>,
 }
 
-/// How many frames of a clip are looked at to find what it takes.
+/// The number of frames of a clip that are sampled to measure its space.
 const LOOKS: usize = 400;
-/// The eye's distance beside half the height of what it sees: a long lens.
+/// The eye's distance relative to half the height of the visible area:
 const DISTANCE: f32 = 7.0;
-/// How far a body goes from its middle before the camera goes with it, in metres.
+/// Largest distance of a body from its middle, in metres, before the camera follows it.
 const TRAVELS: f32 = 0.6;
 
 impl Framing {

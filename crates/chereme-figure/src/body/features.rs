@@ -15,7 +15,7 @@ pub(super) struct Features {
     pub(super) brows: [f32; 2],
     pub(super) frown: f32,
     pub(super) lids: [f32; 2],
-    /// To the signer's left, and up.
+    /// The direction of gaze: to the signer's left, and up.
     pub(super) gaze: [f32; 2],
     pub(super) nose: f32,
     jaw: f32,
@@ -31,9 +31,9 @@ pub(super) struct Features {
     cheeks: [f32; 2],
 }
 
-/// How far the chin goes down with the jaw, beside half the head's height.
+/// How far the chin moves down with the jaw, relative to half the head's height.
 const CHIN: f32 = 0.20;
-/// Where the lips meet at rest on the unit sphere.
+/// Height of the line between the lips at rest, on the unit sphere.
 const LIPS: f32 = -0.56;
 
 impl Features {
@@ -66,7 +66,7 @@ impl Features {
         }
     }
 
-    /// Returns where a point of the unit sphere lies on the head, jaw and cheeks as they are.
+    /// Returns the position on the head of a point of the unit sphere, with the current jaw and cheeks.
     pub(super) fn formed(&self, point: Vec3) -> Vec3 {
         let mut formed = egg(point);
         if point.z <= 0.0 {
@@ -86,8 +86,8 @@ impl Features {
         formed
     }
 
-    /// Returns the point of the head's surface that lies `at` to the signer's left and up, as they are on a
-    /// resting head's unit sphere.
+    /// Returns the point of the head's surface at `at` (to the signer's left, up) on a resting head's unit
+    /// sphere.
     pub(super) fn surface(&self, [x, y]: [f32; 2]) -> Vec3 {
         let on_sphere = |y: f32| Vec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt());
         // Find the point that the jaw lowers to this height.
@@ -100,7 +100,7 @@ impl Features {
         Vec3::new(egg(on_sphere(y)).x, y, formed.z)
     }
 
-    /// Returns the mouth as far as it is open, with lips, teeth and tongue.
+    /// Returns the open part of the mouth, with lips, teeth and tongue.
     pub(super) fn mouth(&self, palette: &Palette) -> Mouth {
         let shut = 1.0 - self.pressed;
         let narrow = (-self.wide).max(0.0);
@@ -133,15 +133,15 @@ impl Features {
 /// A mouth on the unit sphere of the head; `out` of its surface in units of the head's height.
 pub(super) struct Mouth {
     middle: [f32; 2],
-    /// Half of it.
+    /// Half its width.
     width: f32,
-    /// Above and below the middle.
+    /// The opening above and below the middle.
     open: [f32; 2],
-    /// How thick the upper and the lower lip are.
+    /// Thickness of the upper and the lower lip.
     lips: [f32; 2],
-    /// How far the right and left corner are raised.
+    /// Height of the raised right and left corner.
     corners: [f32; 2],
-    /// How far the lower lip is to the left of the upper one.
+    /// Offset of the lower lip to the left of the upper one.
     aside: f32,
     out: f32,
     teeth: f32,
@@ -157,14 +157,15 @@ struct Colours {
     tongue: Colour,
 }
 
-/// How far behind the surface pieces of the mouth are closed.
+/// Depth behind the surface at which pieces of the mouth are closed.
 const BEHIND: f32 = 0.03;
-/// Corners around the mouth, and along its teeth.
+/// The number of corners around the mouth, and along its teeth.
 const AROUND: usize = 24;
 const ALONG: usize = 11;
 
 impl Mouth {
-    /// Adds the mouth to a mesh; `surface` is where a place of the head is, so far out of it.
+    /// Adds the mouth to a mesh; `surface(at, out)` returns a position at a distance out of the head's
+    /// surface.
     pub(super) fn add(&self, mesh: &mut Mesh, surface: impl Fn([f32; 2], f32) -> Vec3) {
         self.lips(mesh, &surface);
         self.row_of_teeth(mesh, &surface);
@@ -302,7 +303,7 @@ impl Patch {
         self.triangles.extend([[a, b, c], [a, c, d]]);
     }
 
-    /// Adds it, closed by a cone from its rim, which runs anticlockwise, to a point behind it.
+    /// Appends the piece, closed by a cone from its rim, which runs anticlockwise, to a point behind it.
     fn append_to(mut self, mesh: &mut Mesh, rim: Vec<u32>, behind: Vec3) {
         smooth(&mut self.vertices, &self.triangles, 0);
         let tip = self.vertices.len() as u32;

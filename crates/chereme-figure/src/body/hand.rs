@@ -7,7 +7,7 @@ use super::group;
 use super::shape::{Assembly, Loft, Paint, Point, Rod, Section, ellipsoid, place, rotation};
 use crate::palette::{Colour, HandColours};
 
-/// A hand as joints: of the fingers base, middle and end, as many as were found.
+/// The joints of a hand: base, middle and end of each finger that the skeleton has.
 #[derive(Debug, Clone)]
 pub(super) struct HandJoints {
     side: Side,
@@ -18,7 +18,7 @@ pub(super) struct HandJoints {
 }
 
 impl HandJoints {
-    /// Returns the hand of `side`, or nothing where there is no wrist.
+    /// Returns the hand of `side`; `None` if there is no wrist.
     pub(super) fn of(anatomy: &Anatomy, side: Side) -> Option<Self> {
         let chain = |parts: Vec<Part>| -> Vec<usize> {
             parts
@@ -51,7 +51,7 @@ struct Measures {
 }
 
 impl Measures {
-    /// Returns the measures, or nothing where knuckles and wrist span no palm.
+    /// Returns the measures; `None` if knuckles and wrist do not span a palm.
     fn of(anatomy: &Anatomy, hand: &HandJoints, rest: &ModelPose) -> Option<Self> {
         let base = |joints: &[usize]| place(rest, joints[0]);
         let (first, last) = (hand.fingers.first()?, hand.fingers.last()?);
@@ -74,9 +74,9 @@ impl Measures {
     }
 }
 
-/// How thick each finger is beside the index, from the thumb outwards.
+/// Thickness of each finger relative to the index, from the thumb outwards.
 const THICKNESS: [f32; 5] = [1.18, 1.0, 1.0, 0.96, 0.85];
-/// How light each finger is beside the others, so that neighbours differ.
+/// Brightness of each finger relative to the others, so that neighbours differ.
 const TINT: [f32; 5] = [1.0, 1.0, 0.93, 1.0, 0.93];
 const WHITE: Colour = Colour::hex(0xFF_FF_FF);
 
@@ -171,7 +171,7 @@ impl Digit {
     }
 }
 
-/// Returns where the bone of a last joint ends: its tip, an end joint below it, or straight on.
+/// Returns the end of the bone of a last joint: its tip, an end joint below it, or straight on.
 fn tip(skeleton: &Skeleton, rest: &ModelPose, joint: usize, radius: f32) -> Point {
     let local = skeleton.joint(joint).tip.map(|tip| tip.as_vec3());
     let child = || {

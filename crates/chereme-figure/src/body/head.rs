@@ -22,17 +22,17 @@ pub(super) struct Head {
     pub(super) axes: Mat3,
 }
 
-/// Half the width, height and depth of a head beside its height, as the anatomy's landmarks have it.
+/// Half the width, height and depth of a head relative to its height, as in the anatomy's landmarks.
 const RADII: Vec3 = Vec3::new(0.345, 0.5, 0.42);
 
 impl Head {
-    /// Returns the head's surface in the space of its joint, with what its face does; whatever it does, the
-    /// corners are as many and in the same order.
+    /// Returns the head's surface in the space of its joint, with its facial expression. Every expression
+    /// has the same vertices in the same order.
     pub(super) fn mesh(&self, palette: &Palette, face: &Face) -> Mesh {
         let face = Features::of(face);
         let turn = Quat::from_mat3(&self.axes);
         let radii = RADII * self.height;
-        // The rings' poles lie on the ears' axis otherwise; turning puts them at crown and chin.
+        // Turning puts the rings' poles at crown and chin instead of the ears.
         let upright = Quat::from_rotation_x(-FRAC_PI_2);
         let mut mesh = ellipsoid(
             self.centre,
@@ -77,8 +77,8 @@ impl Head {
     }
 }
 
-/// Returns the point of a resting head's surface that lies `at` on the unit sphere, to the signer's left and up,
-/// in units of the head's height.
+/// Returns the point of a resting head's surface at `at` (to the signer's left, up) on the unit sphere, in
+/// units of the head's height.
 fn surface([x, y]: [f32; 2]) -> Vec3 {
     let z = (1.0 - x * x - y * y).max(0.0).sqrt();
     egg(Vec3::new(x, y, z)) * RADII

@@ -118,7 +118,7 @@ pub(super) struct Loft {
     /// From the first to the last ring.
     pub(super) sections: Vec<Section>,
     pub(super) columns: usize,
-    /// The shape of the rings: 1 is an ellipse, towards 0 ever more a rectangle.
+    /// The shape of the rings: 1 is an ellipse, and values towards 0 approach a rectangle.
     pub(super) roundness: f32,
 }
 
@@ -127,11 +127,11 @@ pub(super) struct Loft {
 pub(super) struct Section {
     /// Points along the ring's width from its -Y to its +Y end, each a mean of weighted points.
     pub(super) spine: Vec<Vec<(Point, f32)>>,
-    /// How far the ring reaches beyond the first and the last point of the spine, in metres.
+    /// Extension of the ring beyond the first and the last point of the spine, in metres.
     pub(super) beyond: f32,
     /// Half its thickness to the side it faces and to the other side, in metres.
     pub(super) thickness: [f32; 2],
-    /// How far the ring is moved along the surface, in metres.
+    /// Shift of the ring along the surface, in metres.
     pub(super) shift: f32,
 }
 
@@ -208,7 +208,7 @@ pub(super) struct Element {
 }
 
 impl Element {
-    /// Moves the element's vertices to where `pose` has them.
+    /// Moves the element's vertices to their positions in `pose`.
     pub(super) fn pose(&self, pose: &ModelPose, mesh: &mut Mesh) {
         let out = &mut mesh.vertices[self.vertices.clone()];
         match (&self.shape, &self.grid) {
@@ -233,7 +233,7 @@ impl Element {
     }
 }
 
-/// Elements and their mesh, as they are put together.
+/// Elements and their mesh, under construction.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Assembly {
     pub(super) mesh: Mesh,
@@ -306,8 +306,8 @@ impl Assembly {
     }
 }
 
-/// Returns an ellipsoid about `centre`, its axes turned by `turn`, coloured by `colour`, which is
-/// given each point on the unit sphere.
+/// Returns an ellipsoid about `centre`, with its axes rotated by `turn`; `colour` maps a point of the unit
+/// sphere to a colour.
 pub(crate) fn ellipsoid(
     centre: Vec3,
     radii: Vec3,

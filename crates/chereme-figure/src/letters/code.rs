@@ -1,4 +1,5 @@
-//! A character that no font has: a frame with its number in it, so that two such names can still be distinguished.
+//! Draws a character without a font as a frame with its number, so that two such names remain
+//! distinguishable.
 
 /// The height of a frame, in dots.
 pub const CODE_HEIGHT: usize = 15;
@@ -12,7 +13,7 @@ const DIGITS: [[u8; 5]; 16] = [
     [3, 4, 4, 4, 3], [6, 5, 5, 5, 6], [7, 4, 6, 4, 7], [7, 4, 6, 4, 4],
 ];
 
-/// Returns how many dots a character's frame is wide, the gap after it included.
+/// Returns the width of a character's frame in dots, with the gap after it.
 #[must_use]
 pub fn code_width(letter: char) -> usize {
     columns(letter) * 4 + 4
@@ -42,7 +43,7 @@ pub fn draw_code(letter: char, mut dot: impl FnMut(usize, usize)) {
     }
 }
 
-/// Returns how many digits stand in each of the two rows.
+/// Returns the number of digits in each of the two rows.
 fn columns(letter: char) -> usize {
     if letter as u32 > 0xFFFF { 3 } else { 2 }
 }

@@ -7,21 +7,21 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use fontdb::{Database, FaceInfo, ID, Stretch, Style};
 use skrifa::{FontRef, MetadataProvider};
 
-/// The largest font file that is read, and how many bytes of fonts are kept in memory at most.
+/// The largest font file in bytes; also the most bytes of fonts in memory.
 const MOST_FILE: usize = 48 << 20;
 const MOST_KEPT: usize = 192 << 20;
-/// How many characters are remembered with their font, and how many without one.
+/// The most remembered characters with a font, and the most without one.
 const MOST_KNOWN: usize = 1 << 16;
 const MOST_MISSING: usize = 512;
 
-/// A font that was read because a text needs it.
+/// A font that was loaded for a text.
 #[derive(Debug)]
 pub struct FontFile {
     /// Its family, with a number that distinguishes it from other fonts of the family.
     pub name: String,
     /// The bytes of its file.
     pub data: Vec<u8>,
-    /// Which font of the file it is.
+    /// The index of the font in the file.
     pub index: u32,
 }
 
@@ -38,19 +38,20 @@ impl FontFile {
     }
 }
 
-/// The fonts of this computer, once their names are read.
+/// The fonts of this computer, once their names have been read.
 static SHARED: OnceLock<SystemFonts> = OnceLock::new();
 
-/// The fonts in some folders. Only their names are read at first, and a whole font when a character needs it.
+/// The fonts in some folders. Initially only their names are read; a whole font is read when a character
+/// needs it.
 #[derive(Debug)]
 pub struct SystemFonts {
     faces: Database,
-    /// The plain fonts first.
+    /// Plain fonts come first.
     order: Vec<ID>,
     known: Mutex<Known>,
 }
 
-/// What was looked for.
+/// Results of earlier searches.
 #[derive(Debug, Default)]
 struct Known {
     loaded: Vec<(ID, Arc<FontFile>)>,
@@ -60,7 +61,7 @@ struct Known {
 }
 
 impl SystemFonts {
-    /// Returns the fonts of this computer; who asks first waits until their names are read.
+    /// Returns the fonts of this computer; the first caller waits until their names have been read.
     #[must_use]
     pub fn shared() -> &'static Self {
         SHARED.get_or_init(|| {
@@ -70,20 +71,21 @@ impl SystemFonts {
         })
     }
 
-    /// Returns the fonts of this computer where their names are read already.
+    /// Returns the fonts of this computer if their names have been read.
     #[must_use]
     pub fn ready() -> Option<&'static Self> {
         SHARED.get()
     }
 
-    /// Reads the names of the fonts of this computer on a thread of its own, so that nobody waits for them later.
+    /// Reads the names of the fonts of this computer on a thread of its own, so that later callers do not
+    /// wait.
     pub fn prepare() {
         std::thread::spawn(|| {
             let _ = Self::shared();
         });
     }
 
-    /// Returns the fonts in a folder and the folders in it.
+    /// Returns the fonts in a folder and its subfolders.
     #[must_use]
     pub fn of_folder(folder: &Path) -> Self {
         let mut faces = Database::new();
@@ -101,7 +103,7 @@ impl SystemFonts {
         }
     }
 
-    /// Returns a font that draws a character; one that was read already goes first.
+    /// Returns a font that draws a character; prefers one that is already loaded.
     #[must_use]
     pub fn find(&self, letter: char) -> Option<Arc<FontFile>> {
         let mut known = self.known();
@@ -129,7 +131,7 @@ impl SystemFonts {
         }
     }
 
-    /// Returns the characters asked for since the last call that no font has.
+    /// Returns the characters requested since the last call that no font has.
     #[must_use]
     pub fn take_missing(&self) -> BTreeSet<char> {
         std::mem::take(&mut self.known().missing)
@@ -170,7 +172,8 @@ fn draws(data: &[u8], index: u32, letter: char) -> bool {
     glyph.is_some_and(|glyph| font.outline_glyphs().get(glyph).is_some())
 }
 
-/// How far a font is from a plain upright one, then its name, so that the same fonts always give the same order.
+/// The difference of a font from a plain upright one, then its name, so that the same fonts always give
+/// the same order.
 type Rank = (u32, bool, String, u32);
 
 fn rank(face: &FaceInfo) -> Rank {

@@ -1,7 +1,8 @@
-//! Text in any script on a picture: the small letter of this crate, and for what it lacks the fonts of the computer.
+//! Text in any script on a picture: this crate's small font, and for its missing characters the fonts of
+//! the computer.
 //!
-//! The same text gives the same bytes on every computer as long as the [small letter](crate::font) has its
-//! characters; others look as the fonts of the computer have them, or as a frame with the character's number.
+//! The same text gives the same bytes on every computer if the [small font](crate::font) has its
+//! characters; others look as in the fonts of the computer, or are a frame with the character's number.
 
 mod code;
 mod fonts;
@@ -17,11 +18,11 @@ pub use order::{Run, any_from_right, hangs_on, mirrored, reads_from_right, runs}
 use crate::font;
 use outline::Placed;
 
-/// The size of a font beside the small letter, and where its base line is from the top of a cell, in dots.
+/// The size of a system font that matches the small font, in dots.
 const SIZE: f32 = 11.0;
 const BASE: f32 = 10.0;
 
-/// A line of text, laid out.
+/// A line of text after layout.
 #[derive(Debug, Default)]
 pub(crate) struct Line {
     pieces: Vec<(usize, Piece)>,
@@ -36,13 +37,13 @@ enum Piece {
 }
 
 impl Line {
-    /// Returns how many dots it is wide, without the gap after its last character.
+    /// Returns the width in dots, without the gap after its last character.
     pub(crate) fn width(&self) -> usize {
         self.width.saturating_sub(1)
     }
 
-    /// Paints it with the top left corner at `at`, each dot so many pixels wide; `paint` gets a pixel and how much of it
-    /// is covered.
+    /// Paints the line with the top left corner at `at`, each dot `scale` pixels wide; `paint` gets a
+    /// pixel and its covered share.
     pub(crate) fn draw(&self, at: [i64; 2], scale: usize, mut paint: impl FnMut(i64, i64, f32)) {
         let dots = scale as i64;
         for (left, piece) in &self.pieces {
@@ -88,7 +89,8 @@ impl Drawn {
     }
 }
 
-/// Lays a line of text out; the fonts of the computer are only looked at for what the small letter lacks.
+/// Lays a line of text out; the fonts of the computer are searched only for characters that the small font
+/// lacks.
 pub(crate) fn line(text: &str) -> Line {
     if !text.chars().all(font::knows) {
         return lay_out(text, SystemFonts::shared());
@@ -98,7 +100,7 @@ pub(crate) fn line(text: &str) -> Line {
     line
 }
 
-/// Lays a line of text out with some fonts.
+/// Lays a line of text out with the given fonts.
 fn lay_out(text: &str, fonts: &SystemFonts) -> Line {
     let mut line = Line::default();
     for run in runs(text) {
@@ -113,7 +115,7 @@ fn lay_out(text: &str, fonts: &SystemFonts) -> Line {
     line
 }
 
-/// Cuts a run into parts that one font draws.
+/// Splits a run into parts that one font draws.
 fn parts<'a>(run: &'a str, fonts: &SystemFonts) -> Vec<(&'a str, Drawn)> {
     let mut parts: Vec<(std::ops::Range<usize>, Drawn)> = Vec::new();
     for (at, letter) in run.char_indices() {

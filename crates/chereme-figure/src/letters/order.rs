@@ -1,5 +1,5 @@
-//! Text that runs left to right and right to left, as it stands on a line: by the Unicode Bidirectional Algorithm
-//! (UAX #9).
+//! The visual order of text that runs left to right and right to left, by the Unicode Bidirectional
+//! Algorithm (UAX #9).
 
 use std::ops::Range;
 
@@ -14,10 +14,10 @@ pub struct Run {
     pub from_right: bool,
 }
 
-/// Returns whether some of a text is read from the right.
+/// Returns whether a part of a text is read from the right.
 #[must_use]
 pub fn any_from_right(text: &str) -> bool {
-    // Nothing below U+0590 is.
+    // No character below U+0590 is.
     text.bytes().any(|byte| byte >= 0xD6)
         && text.chars().any(|c| {
             matches!(
@@ -27,7 +27,7 @@ pub fn any_from_right(text: &str) -> bool {
         })
 }
 
-/// Returns the runs of a line from left to right as they stand.
+/// Returns the runs of a line in visual order from left to right.
 ///
 /// The line as a whole goes left to right if it has a letter that does: a sentence of the window stays a sentence of
 /// its own language, even if it begins with an Arabic gloss. A line of right-to-left letters alone goes right to left.
@@ -49,7 +49,7 @@ pub fn runs(line: &str) -> Vec<Run> {
     ranges.into_iter().map(run).collect()
 }
 
-/// Returns a bracket as it looks when it is read from the right; other characters stay the same.
+/// Returns a bracket as it looks in text read from the right; other characters stay the same.
 #[must_use]
 pub fn mirrored(letter: char) -> char {
     const PAIRS: [(char, char); 6] = [
@@ -76,7 +76,7 @@ pub fn reads_from_right(letter: char) -> bool {
     letter >= '\u{590}' && matches!(bidi_class(letter), BidiClass::R | BidiClass::AL)
 }
 
-/// Returns whether a character belongs to the one before it: a mark, or something that is not seen.
+/// Returns whether a character belongs to the one before it: a mark, or an invisible character.
 #[must_use]
 pub fn hangs_on(letter: char) -> bool {
     matches!(bidi_class(letter), BidiClass::NSM | BidiClass::BN)
@@ -87,7 +87,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Writes the runs as they stand, those from the right in angle brackets.
+    /// Writes the runs in visual order, those from the right in angle brackets.
     fn shown(line: &str) -> String {
         let part = |run: &Run| match run.from_right {
             true => format!("<{}>", &line[run.range.clone()]),
@@ -104,7 +104,7 @@ mod tests {
             ("Ωμέγα Жук 漢字 ไทย", "Ωμέγα Жук 漢字 ไทย"),
             ("كتاب كبير", "<كتاب كبير>"),
             ("שלום", "<שלום>"),
-            // A sentence of the window stays its own, whatever it begins with.
+            // A sentence of the window keeps its direction, whatever word begins it.
             ("كتاب is notated.", "<كتاب> is notated."),
             (
                 "Only those with كتاب كبير, please",

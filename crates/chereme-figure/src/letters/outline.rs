@@ -1,4 +1,4 @@
-//! The outlines of a font's letters: shaped as their script wants, and filled.
+//! The outlines of a font's letters: shaped by the rules of their script, and filled.
 
 use harfrust::{Direction, ShapeOptions, ShaperData, UnicodeBuffer};
 use skrifa::instance::{LocationRef, Size};
@@ -7,14 +7,16 @@ use skrifa::{GlyphId, MetadataProvider};
 
 use super::fonts::FontFile;
 
-/// A letter's outline: which one, and where it stands from the beginning of its text, in parts of the font's size.
+/// The outline of a letter: its index, and its position from the beginning of its text, in parts of the
+/// font's size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Placed {
     glyph: u32,
     at: [f32; 2],
 }
 
-/// Returns a text of one direction as outlines from left to right, and how wide it is in parts of the font's size.
+/// Returns a text of one direction as outlines from left to right, and its width in parts of the font's
+/// size.
 pub(super) fn shape(font: &FontFile, text: &str, from_right: bool) -> (Vec<Placed>, f32) {
     let Some(tables) = font.tables() else {
         return (Vec::new(), 0.0);
@@ -47,8 +49,8 @@ pub(super) fn shape(font: &FontFile, text: &str, from_right: bool) -> (Vec<Place
     (placed, x)
 }
 
-/// Fills outlines at a size in pixels, their beginning on the base line at `at`; `paint` gets each touched pixel and
-/// how much of it is covered.
+/// Fills outlines at a size in pixels, their beginning on the base line at `at`; `paint` gets each touched
+/// pixel and its covered share.
 pub(super) fn fill(
     font: &FontFile,
     placed: &[Placed],
@@ -79,7 +81,7 @@ struct Path {
     last: [f32; 2],
 }
 
-/// How many straight pieces stand for a curve.
+/// The number of straight pieces per curve.
 const PIECES: u32 = 6;
 
 impl Path {
@@ -88,7 +90,7 @@ impl Path {
         self.last = next;
     }
 
-    /// Paints how much of each pixel lies inside; a place inside two parts of the outline counts once.
+    /// Paints the covered share of each pixel; overlapping parts of the outline count once.
     fn fill(&self, corner: [f32; 2], size: f32, paint: &mut impl FnMut(i64, i64, f32)) {
         let place = |p: [f32; 2]| [corner[0] + p[0], corner[1] - p[1]];
         let points = || self.sides.iter().flatten().map(|p| place(*p));
@@ -125,7 +127,8 @@ impl Path {
     }
 }
 
-/// Adds what a side changes from each pixel to the next: the sum along a row is how much of a pixel lies right of it.
+/// Adds the changes by a side from each pixel to the next: the sum along a row is the share of a pixel to
+/// the right of it.
 fn side(area: &mut [f32], width: usize, from: [f32; 2], to: [f32; 2]) {
     let (sign, from, to) = if from[1] < to[1] {
         (1.0, from, to)
@@ -159,7 +162,7 @@ fn side(area: &mut [f32], width: usize, from: [f32; 2], to: [f32; 2]) {
     }
 }
 
-/// Returns how much lies right of a side that goes from `low` to `high` within its row, and left of `edge`.
+/// Returns the area right of a side that goes from `low` to `high` within its row, and left of `edge`.
 fn right_of(low: f32, high: f32, edge: f32) -> f32 {
     let wide = high - low;
     let crossed = (edge - low).clamp(0.0, wide);
