@@ -36,7 +36,7 @@ fn tracks() -> Result<Vec<NewTrack>, Box<dyn Error>> {
     let wave = |frame: u16, phase: f32| (f32::from(frame) * 0.05 + phase).sin();
     let floats = |phase| Column::singles((0..600).map(|at| wave(at, phase)).collect());
     let whole = (0..600).map(|at| (wave(at, 0.5) * 3000.0) as i32).collect();
-    let whole = Column::integers(whole, 0.0, 0.1)?.with_gaps(&Gaps::of([20..40]))?;
+    let whole = Column::integers(whole, 0.0, 0.1)?.with_gaps(&Gaps::at(20..40))?;
     let point = |name, phase| {
         Marker::new(
             name,
