@@ -11,23 +11,24 @@ use super::tree::{
     Bend, Digit, FingerContact, Form, HandClass, Handshape, Opening, ThumbExtra, ThumbPosition,
 };
 
-/// The bends of three joints in units of a quarter of the most.
+/// The bends of three joints, in quarters of the largest bend.
 type Units = [f64; 3];
 
 const STRAIGHT: Units = [0.0, 0.1, 0.1];
 const CLOSED: Units = [3.86, 3.85, 3.82];
-/// Fingers beside a pinch or a cee that stay open.
+/// Bends of the open fingers next to a pinch or a cee.
 const OPEN: Units = [0.0, 0.25, 0.2];
 /// The spread of fingers in degrees towards the thumb, as in the inventory's spread hand.
 const SPREAD: [f64; 4] = [14.0, 3.0, -9.0, -20.0];
 /// The spread of two fingers apart.
 const SPREAD_TWO: [f64; 4] = [12.0, -9.0, 0.0, 0.0];
-/// How far the fingers of a flat hand and of a fist lean from the hand's axis, in degrees towards the
-/// thumb: fingers taper in the flat hand, and in the fist point to the root of the thumb.
+/// How far the fingers of a flat hand lean from the hand's axis, in degrees towards the thumb: fingers
+/// taper.
 const FLAT: [f64; 4] = [-1.5, 0.0, 1.5, 3.0];
+/// How far the fingers of a fist lean, in degrees towards the thumb: they point to the root of the thumb.
 const FIST: [f64; 4] = [-4.0, 0.0, 5.0, 11.0];
 
-/// Returns the finger of a digit; nothing for the thumb.
+/// Returns the finger of a digit; `None` for the thumb.
 #[must_use]
 pub fn finger_of(digit: Digit) -> Option<Finger> {
     match digit {
@@ -110,7 +111,7 @@ pub fn selected(class: HandClass, special: &[Digit]) -> [bool; 4] {
     Finger::ALL.map(|finger| fingers.contains(&finger))
 }
 
-/// Returns a bend in units of a quarter of the most, from the palm outwards.
+/// Returns a bend in quarters of the largest one, from the palm outwards.
 #[must_use]
 pub fn bend_units(bend: Bend) -> [f64; 3] {
     match bend {
@@ -124,7 +125,7 @@ pub fn bend_units(bend: Bend) -> [f64; 3] {
     }
 }
 
-/// Returns a bend as a class takes it: in pinches and cees the tips must still meet.
+/// Returns a bend in the form for a class: in pinches and cees the tips must still meet.
 fn units(bend: Bend, class: HandClass) -> Units {
     let pinch = matches!(
         class,
@@ -145,7 +146,7 @@ fn units(bend: Bend, class: HandClass) -> Units {
         Bend::Hooked if cee => [2.0, 4.0, 4.0],
         Bend::DoubleBent if cee => [2.0, 3.0, 2.0],
         Bend::DoubleHooked if cee => [2.0, 3.0, 3.0],
-        // Fingers bent at two joints meet the palm before the joints' own ends.
+        // Fingers bent at two joints meet the palm before the joints reach their limits.
         Bend::DoubleBent => [3.3, 3.75, 0.4],
         other => bend_units(other),
     }
@@ -201,7 +202,7 @@ fn form(form: &Form, shape: &Handshape) -> Shape {
     }
 }
 
-/// Spreads the first and last of the fingers that are chosen, those between evenly.
+/// Spreads the first and last of the chosen fingers, and those between evenly.
 fn two_apart(chosen: [bool; 4]) -> [f64; 4] {
     if chosen == [true, true, false, false] {
         return SPREAD_TWO;
@@ -215,7 +216,7 @@ fn two_apart(chosen: [bool; 4]) -> [f64; 4] {
     spread
 }
 
-/// Spreads the fingers beside a pinch.
+/// Spreads the fingers next to a pinch.
 fn beside(chosen: [bool; 4]) -> [f64; 4] {
     std::array::from_fn(|n| if chosen[n] { 0.0 } else { SPREAD[n] })
 }
@@ -287,7 +288,7 @@ fn middle(a: &Shape, b: &Shape) -> Shape {
     }
 }
 
-/// Lays one finger over another, or brings them together where a part of the other is met.
+/// Lays one finger over another, or brings them together if they touch a part of the other.
 fn cross(hand: &mut Shape, contact: &FingerContact) {
     let (Some(upper), Some(lower)) = (finger_of(contact.first), finger_of(contact.second)) else {
         return;

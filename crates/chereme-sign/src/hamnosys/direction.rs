@@ -34,7 +34,7 @@ impl Direction {
         Self { up, out, left }
     }
 
-    /// Returns the direction with these parts, each by its sign; nothing where all are zero.
+    /// Returns the direction with these parts, each by its sign; `None` if all are zero.
     #[must_use]
     pub fn from_parts(up: i8, out: i8, left: i8) -> Option<Self> {
         let direction = Self::of(up.signum(), out.signum(), left.signum());
@@ -60,8 +60,8 @@ impl Direction {
         parts.map(|part| part / length)
     }
 
-    /// Returns the direction nearest to a vector (left, up, out); nothing for the zero vector or
-    /// numbers that are not finite.
+    /// Returns the direction nearest to a vector (left, up, out); `None` for the zero vector or numbers
+    /// that are not finite.
     #[must_use]
     pub fn nearest(vector: [f64; 3]) -> Option<Self> {
         let dot = |direction: Self| -> f64 {
@@ -86,10 +86,10 @@ impl Direction {
         Self::of(-self.up, -self.out, -self.left)
     }
 
-    /// Returns the corner between two directions of two parts each that share one: `uo` and `ol`
-    /// make `uol`.
+    /// Returns the corner between two directions of two parts each that share one: `uo` and `ol` give
+    /// `uol`.
     ///
-    /// So HamNoSys writes where a hand points when it has no symbol of its own for it.
+    /// HamNoSys writes corners this way, as they have no symbol of their own.
     #[must_use]
     pub fn corner_with(self, other: Self) -> Option<Self> {
         let own = [self.up, self.out, self.left];
@@ -109,7 +109,7 @@ impl Direction {
         )
     }
 
-    /// Returns the two directions whose symbols, one after the other, stand for a corner.
+    /// Returns the two directions whose symbols, one after the other, mean a corner.
     #[must_use]
     pub fn corner_parts(self) -> Option<(Self, Self)> {
         (!self.has_symbol()).then_some((
@@ -143,7 +143,7 @@ impl fmt::Display for Direction {
     }
 }
 
-/// Why letters are no direction.
+/// A text that is not a direction.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{0:?} is no direction; write one to three of u or d, o or i, l or r, such as \"u\", \"ol\" or \"dir\""
@@ -153,7 +153,7 @@ pub struct DirectionError(pub String);
 impl FromStr for Direction {
     type Err = DirectionError;
 
-    /// Reads letters in any order; each of the three pairs may give one letter at most.
+    /// Reads letters in any order; each of the three pairs may contribute at most one letter.
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let error = || DirectionError(text.chars().take(12).collect());
         let (mut up, mut out, mut left) = (0, 0, 0);
@@ -189,7 +189,7 @@ impl From<Direction> for String {
     }
 }
 
-/// One of eight directions about an axis: where a palm faces, where a curve bulges, where a circle begins.
+/// One of eight directions about an axis: of a palm, of a curve's bulge, of a circle's start.
 ///
 /// For a palm the axis is the hand's own, and the letters are those of a hand that points away from the
 /// signer: `d` faces the floor, `l` the signer's left. For hands that point elsewhere,

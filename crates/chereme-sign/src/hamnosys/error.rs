@@ -5,31 +5,31 @@ use std::fmt;
 use super::symbol::Symbol;
 use crate::text::{did_you_mean, nearest};
 
-/// Why a text is no transcription. Indexes count symbols from 0.
+/// The reason why a text is not a transcription. Indexes count symbols from 0.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum HamnosysError {
-    /// There is no symbol at all.
+    /// There is no symbol.
     #[error("there is no symbol; write at least a handshape or a movement")]
     Empty,
-    /// A character or a name is no symbol.
+    /// A character or a name is not a symbol.
     #[error(
         "symbol {index} is {written:?}, which HamNoSys 4 does not have; write one of its 209 symbols or their names{}",
         meant(written)
     )]
     Unknown {
-        /// Which.
+        /// The index of the symbol.
         index: usize,
-        /// What is there.
+        /// The text found.
         written: String,
     },
-    /// A symbol is where it cannot be.
+    /// A symbol is at an impossible place.
     #[error("symbol {index} is {symbol}, but expected {expected}")]
     Unexpected {
-        /// Which.
+        /// The index of the symbol.
         index: usize,
-        /// What it is.
+        /// The symbol.
         symbol: Symbol,
-        /// What could be there.
+        /// The symbols that are possible there.
         expected: &'static str,
     },
     /// The text ends too early.
@@ -37,7 +37,7 @@ pub enum HamnosysError {
     Ended {
         /// The number of symbols.
         index: usize,
-        /// What should follow.
+        /// The expected symbols.
         expected: &'static str,
     },
     /// A bracket is not closed where it should be.
@@ -45,39 +45,39 @@ pub enum HamnosysError {
     Unclosed {
         /// The opening bracket.
         index: usize,
-        /// What it is.
+        /// The bracket.
         symbol: Symbol,
-        /// Where it should be closed.
+        /// The index at which it should be closed.
         at: usize,
-        /// By what.
+        /// The expected symbol.
         expected: &'static str,
     },
     /// Brackets or groups are nested too deep.
     #[error("symbol {index} nests deeper than {limit} levels; split the sign into parts")]
     TooDeep {
-        /// Where.
+        /// The index of the symbol.
         index: usize,
-        /// How deep is allowed.
+        /// The largest allowed depth.
         limit: usize,
     },
     /// The text is too long.
     #[error("{count} symbols are more than a transcription has; write {limit} at most")]
     TooLong {
-        /// How many there are.
+        /// The number of symbols.
         count: usize,
-        /// How many are allowed.
+        /// The largest allowed number.
         limit: usize,
     },
 }
 
-/// Returns the end of a message about a word that is no symbol's name: the name that was meant, if one is near.
+/// Returns the end of a message about a word that names no symbol: the most similar name, if any.
 pub(super) fn meant(written: &str) -> String {
     let near = nearest(written, Symbol::all().map(Symbol::name));
     did_you_mean(near.filter(|_| written.is_ascii()))
 }
 
 impl HamnosysError {
-    /// Returns the symbol it is about.
+    /// Returns the index of the symbol concerned.
     #[must_use]
     pub fn index(&self) -> Option<usize> {
         match self {
@@ -91,16 +91,16 @@ impl HamnosysError {
     }
 }
 
-/// Something odd about a transcription that did not stop its reading.
+/// An oddity of a transcription that did not stop its reading.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Finding {
-    /// The symbol it is about, from 0.
+    /// The index of the symbol concerned, from 0.
     pub index: usize,
-    /// What is odd.
+    /// The oddity.
     pub message: String,
-    /// What would be right.
+    /// A correction.
     pub remedy: &'static str,
-    /// The symbol is in the text only, not in the tree.
+    /// Whether the symbol is in the text only, not in the tree.
     pub dropped: bool,
 }
 

@@ -36,13 +36,13 @@ impl Expression {
         (!steps.is_empty()).then_some(Self { steps })
     }
 
-    /// Returns every listed code, such as `brows.RB`, with what it means.
+    /// Returns every listed code, such as `brows.RB`, with its meaning.
     pub fn listed() -> impl Iterator<Item = (&'static str, &'static str)> {
         let acts = Table::usual().acts.iter();
         acts.map(|(code, act)| (code.as_str(), act.means.as_str()))
     }
 
-    /// Returns the posture in it that is farthest from rest.
+    /// Returns its posture that is farthest from rest.
     #[must_use]
     pub fn fullest(&self) -> Face {
         let far = |face: &Face| face.numbers().iter().map(|it| it.abs()).sum::<f64>();
@@ -50,7 +50,7 @@ impl Expression {
         fullest.copied().unwrap_or_default()
     }
 
-    /// Returns the face when `share` of its time is over, from 0 to 1.
+    /// Returns the face at the elapsed `share` of its time, from 0 to 1.
     #[must_use]
     pub fn at(&self, share: f64) -> Face {
         let last = self.steps.len() - 1;
@@ -62,7 +62,7 @@ impl Expression {
     }
 }
 
-/// What the file holds.
+/// The contents of the file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Table {
@@ -108,7 +108,8 @@ impl Table {
         one.repeat(act.times)
     }
 
-    /// Returns the mouths of SAMPA; a length mark holds the mouth before it, what is no sound is passed over.
+    /// Returns the mouth shapes of a text in SAMPA; a length mark holds the previous mouth shape, and
+    /// characters that are not sounds are skipped.
     fn mouths(&self, sampa: &str) -> Vec<Face> {
         let mut mouths: Vec<Face> = Vec::new();
         let mut sign = [0; 4];

@@ -1,4 +1,4 @@
-//! HamNoSys that was saved as UTF-8 and read as Latin-1 or Windows-1252, once or twice.
+//! Repairs HamNoSys that was saved as UTF-8 and read as Latin-1 or Windows-1252, once or twice.
 
 use super::symbol::Symbol;
 
@@ -8,12 +8,11 @@ const WINDOWS: [char; 32] = [
     '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
 ];
 
-/// The first byte of a symbol of HamNoSys in UTF-8, as Latin-1 shows it, and what that becomes when it is read
-/// so a second time.
+/// The first byte of a symbol of HamNoSys in UTF-8 as Latin-1 shows it, and after a second such reading.
 const TRACES: [char; 3] = ['î', 'ï', 'Ã'];
 
-/// Returns a text with its symbols as they were before UTF-8 was read as another encoding, once or twice;
-/// nothing where it holds no such symbols.
+/// Returns a text with its symbols repaired, if UTF-8 was read as another encoding, once or twice; `None`
+/// if it holds no such symbols.
 ///
 /// ```
 /// use chereme_sign::hamnosys::mended;
@@ -52,8 +51,8 @@ pub fn is_garbled(text: &str) -> bool {
     }
 }
 
-/// Returns the characters at the start of a text that bytes above 0x7F may have become; a blank that stands in
-/// the place of the third byte of a symbol is one of them.
+/// Returns the leading characters of a text that may be misread bytes above 0x7F; they include a blank at
+/// the position of the third byte of a symbol.
 fn run(text: &str) -> &str {
     let mut open = 0;
     let taken = |c: char| {
@@ -81,7 +80,7 @@ fn byte(c: char) -> Option<u8> {
     }
 }
 
-/// Cuts a text into runs of what bytes above 0x7F may have become, and what stands between them.
+/// Splits a text into runs of possibly misread bytes above 0x7F, and the text between them.
 fn pieces(text: &str) -> Vec<&str> {
     let (mut pieces, mut rest) = (Vec::new(), text);
     while let Some(first) = rest.chars().next() {
@@ -100,7 +99,7 @@ fn holds_symbol(text: &str) -> bool {
     text.chars().any(|c| Symbol::from_char(c).is_some())
 }
 
-/// Returns what a run is as UTF-8, read once or twice, as soon as `wanted` says so.
+/// Returns the UTF-8 reading of a run, decoded once or twice until `wanted` accepts it.
 fn decoded(run: &str, wanted: impl Fn(&str) -> bool) -> Option<String> {
     let first = read_again(run)?;
     if wanted(&first) {

@@ -11,35 +11,35 @@ use std::sync::OnceLock;
 use chereme_motion::Anatomy;
 use serde::{Deserialize, Serialize};
 
-/// The form of body-language files that this program reads.
+/// The version of body-language files that this program reads.
 const VERSION: u32 = 1;
 
-/// Why a file of body language is refused.
+/// The reason why a file of body language is refused.
 #[derive(Debug, thiserror::Error)]
 pub enum LanguageError {
-    /// It is no JSON of this form.
+    /// It is not JSON of this form.
     #[error("not a file of body language: {0}; its form is that of body_language.json")]
     Form(#[from] serde_json::Error),
     /// It is newer than this program.
     #[error("body language of version {0} is unknown; this program reads version {VERSION}")]
     Version(u32),
-    /// A name that means nothing.
+    /// An unknown name.
     #[error("{name:?} is no value of body language{}", crate::text::did_you_mean(nearest.as_deref()))]
     Unknown {
         /// The name.
         name: String,
-        /// One near to it.
+        /// The most similar known name.
         nearest: Option<String>,
     },
     /// A value is missing from the file that must hold all.
     #[error("{0:?} is missing")]
     Missing(&'static str),
-    /// A place that no body has.
+    /// An unknown place.
     #[error("{name:?} is no place of the body{}; places are those of landmarks, such as chin, chest, right-ear", crate::text::did_you_mean(nearest.as_deref()))]
     Place {
         /// The name.
         name: String,
-        /// One near to it.
+        /// The most similar known name.
         nearest: Option<String>,
     },
     /// A place is moved too far from its usual position.
@@ -50,7 +50,7 @@ pub enum LanguageError {
         /// The number.
         by: f64,
     },
-    /// A number is not finite, negative or beyond what is possible.
+    /// A number is not finite, negative or too large.
     #[error("{name} is {value}; it must be from 0 to {most}")]
     Range {
         /// The name.
@@ -60,7 +60,7 @@ pub enum LanguageError {
         /// The largest possible one.
         most: f64,
     },
-    /// A unit is another than the value has.
+    /// The unit differs from the value's.
     #[error("{name} is in {found:?}; it must be in {unit:?}")]
     Unit {
         /// The name.
@@ -102,8 +102,8 @@ macro_rules! body_language {
         #[derive(Debug, Clone, PartialEq)]
         pub struct BodyLanguage {
             $(#[doc = $doc] pub $field: f64,)*
-            /// How far places of the body lie from where a skeleton's measures put them: the landmark's
-            /// name with the way to the left, up and forward in shoulder widths.
+            /// Offsets of the body's places from their positions according to a skeleton's measures: the
+            /// landmark's name with the offset (left, up, forward) in shoulder widths.
             pub places: BTreeMap<String, [f64; 3]>,
         }
 
@@ -278,10 +278,10 @@ impl BodyLanguage {
         Self::complete(&file.values)
     }
 
-    /// Returns what a file of the same form says: all of its values and places.
+    /// Reads all values and places of a file of the same form.
     ///
     /// # Errors
-    /// [`LanguageError`] naming what is unknown, in another unit, or out of range.
+    /// [`LanguageError`] for a name that is unknown, a wrong unit, or a number out of range.
     pub fn changes(text: &str) -> Result<LanguageChanges, LanguageError> {
         let file = read(text)?;
         let values = file.values.into_iter();
@@ -294,7 +294,7 @@ impl BodyLanguage {
     /// Returns this body language with the values and places that a file of the same form holds.
     ///
     /// # Errors
-    /// As [`changes`](Self::changes).
+    /// The same as [`changes`](Self::changes)'s.
     pub fn with_file(&self, text: &str) -> Result<Self, LanguageError> {
         let LanguageChanges { values, places } = Self::changes(text)?;
         let values = values.iter().map(|(name, value)| (name.as_str(), *value));
@@ -307,7 +307,7 @@ impl BodyLanguage {
     /// found in captured signs; names are those of [`NAMES`](Self::NAMES).
     ///
     /// # Errors
-    /// [`LanguageError`] where a name is unknown or a number out of range.
+    /// [`LanguageError`] if a name is unknown or a number out of range.
     pub fn with_measured<'a>(
         &self,
         values: impl IntoIterator<Item = (&'a str, f64)>,

@@ -1,4 +1,4 @@
-//! Laws of reading and writing, on trees and texts made at random.
+//! Tests laws of reading and writing, on random trees and texts.
 
 use proptest::collection::vec;
 use proptest::option;
@@ -114,7 +114,7 @@ fn body_action() -> BoxedStrategy<Vec<BodyAction>> {
     .boxed()
 }
 
-/// A posture with a direction at least, so that fingers of the shape are no place.
+/// A posture with at least a direction, so that fingers of the shape are not read as a place.
 fn posture(two: bool) -> BoxedStrategy<Posture> {
     (
         each(shape()),
@@ -268,7 +268,7 @@ fn shape() -> BoxedStrategy<Handshape> {
         .boxed()
 }
 
-/// The fingers selected and those that the bend leaves out, as the classes have it.
+/// The selected fingers and those that the bend leaves out, as far as the classes allow.
 fn chosen(form: &Form, between: Option<&Form>, digits: Vec<Digit>) -> (Digits, Digits) {
     use HandClass as C;
     let bent = form.bend.is_some() || between.is_some_and(|form| form.bend.is_some());
@@ -459,7 +459,7 @@ fn growth() -> impl Strategy<Value = Option<Growth>> + Clone {
     )
 }
 
-/// A size; always there, so that two movements in turn do not read as a corner.
+/// A size; always present, so that two successive movements do not read as a corner.
 fn amount() -> impl Strategy<Value = Amount> + Clone {
     let some = select(vec![Size::Small, Size::Big]);
     (some.clone(), option::weighted(0.2, some)).prop_map(|(first, second)| Amount {

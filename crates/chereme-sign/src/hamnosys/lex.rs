@@ -1,4 +1,4 @@
-//! Text to symbols: characters, names, or both mixed.
+//! Splits text into symbols: characters, names, or both mixed.
 
 use std::borrow::Cow;
 
@@ -9,14 +9,14 @@ use super::symbol::{Kind, Symbol};
 /// The most symbols of one transcription; the longest known has 104.
 pub const MAX_SYMBOLS: usize = 4096;
 
-/// A symbol that the grammar sees.
+/// A symbol of the grammar.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Token {
     pub(super) kind: Kind,
     pub(super) symbol: Symbol,
     /// Its index among all symbols of the text.
     pub(super) index: u32,
-    /// Where it begins in [`Lexed::text`].
+    /// The byte at which it begins in [`Lexed::text`].
     pub(super) start: u32,
 }
 
@@ -33,9 +33,9 @@ pub(super) struct Lexed<'a> {
     pub(super) text: Cow<'a, str>,
     /// The symbols without blanks, punctuation and all alternatives but the first.
     pub(super) tokens: Vec<Token>,
-    /// How many symbols there are in all.
+    /// The total number of symbols.
     pub(super) count: usize,
-    /// What was left out.
+    /// The symbols left out.
     pub(super) findings: Vec<Finding>,
 }
 
@@ -131,12 +131,12 @@ enum Choice {
     Other,
 }
 
-/// A text in characters, and the words of it that are no symbol's name, each a replacement character there.
+/// A text in characters, and its words that name no symbol, which are replacement characters in the text.
 type InCharacters<'a> = (Cow<'a, str>, Vec<String>);
 
 /// Returns the text with names turned into characters.
 ///
-/// Names are words of ASCII letters and digits; blanks and commas beside a name only part words.
+/// Names are words of ASCII letters and digits; blanks and commas next to a name only separate words.
 fn in_characters(text: &str, lenient: bool) -> Result<InCharacters<'_>, HamnosysError> {
     match in_plain_symbols(text) {
         Cow::Borrowed(text) => named_in_characters(text, lenient),
@@ -147,8 +147,8 @@ fn in_characters(text: &str, lenient: bool) -> Result<InCharacters<'_>, Hamnosys
     }
 }
 
-/// Returns the text with symbols that are given by the numbers of their characters as characters, as
-/// programs write what they cannot show: `U+E001`, `\uE001`, `&#xE001;`, `0xE001`, or two and more numbers
+/// Returns the text with symbols in place of the numbers of their characters, which programs write for
+/// characters that they cannot show: `U+E001`, `\uE001`, `&#xE001;`, `0xE001`, or two and more numbers
 /// side by side, `E001 E020`; the backslash of TeX before a name is left out. Text that was decoded with
 /// the wrong encoding is [`mended`].
 #[must_use]
@@ -233,7 +233,8 @@ fn in_decimal(text: &str) -> Option<(char, usize)> {
     (own && Symbol::from_char(symbol).is_some()).then_some((symbol, 7))
 }
 
-/// Adds the symbols of two or more bare numbers that begin a text, and returns the length of what they were.
+/// Appends the symbols of two or more bare numbers that begin a text, and returns their length in the
+/// text.
 fn row_of_numbers(text: &str, out: &mut String) -> usize {
     let (mut symbols, mut taken) = (String::new(), 0);
     while let Some((symbol, length)) = number(&text[taken..]) {
@@ -320,7 +321,7 @@ fn named_in_characters(text: &str, lenient: bool) -> Result<InCharacters<'_>, Ha
 /// Returns the names of a text's symbols, as H-SiGML writes its elements.
 ///
 /// # Errors
-/// A character or a name that is no symbol.
+/// [`HamnosysError`] for a character or a name that is not a symbol.
 pub fn to_names(text: &str) -> Result<Vec<&'static str>, HamnosysError> {
     let (text, _) = in_characters(text, false)?;
     Ok(text
@@ -332,7 +333,7 @@ pub fn to_names(text: &str) -> Result<Vec<&'static str>, HamnosysError> {
 /// Returns the text of symbols given by their names.
 ///
 /// # Errors
-/// A name that no symbol has.
+/// [`HamnosysError`] for a name that is not a symbol's.
 pub fn from_names<'a>(names: impl IntoIterator<Item = &'a str>) -> Result<String, HamnosysError> {
     names
         .into_iter()

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Nonmanual {
-    /// The tiers that say something.
+    /// The tiers with acts.
     pub tiers: BTreeMap<TierKind, NonmanualTier>,
 }
 
@@ -29,7 +29,7 @@ impl Nonmanual {
             .flat_map(|(kind, tier)| tier.groups.iter().flatten().map(move |act| (*kind, act)))
     }
 
-    /// Adds acts that happen at the same time, after what the tier holds already.
+    /// Adds simultaneous acts after the tier's last ones.
     pub fn push(&mut self, kind: TierKind, group: Vec<Act>) {
         self.tiers.entry(kind).or_default().groups.push(group);
     }
@@ -45,7 +45,7 @@ pub enum TierKind {
     Body,
     /// The head.
     Head,
-    /// Where the eyes look.
+    /// The gaze.
     EyeGaze,
     /// Brows, lids and nose.
     FacialExpr,
@@ -72,13 +72,13 @@ impl TierKind {
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct NonmanualTier {
-    /// When the tier starts, where not with the hands.
+    /// The start of the tier, if it differs from that of the hands.
     pub start: Option<TierStart>,
-    /// When the tier ends, where not with the hands.
+    /// The end of the tier, if it differs from that of the hands.
     pub end: Option<TierEnd>,
-    /// A mouth picture is stretched to the time of the hands.
+    /// Whether a mouth picture is stretched to the time of the hands.
     pub fit_picture: bool,
-    /// The acts in their order; those of one group happen at the same time.
+    /// The acts in their order; those of one group are simultaneous.
     pub groups: Vec<Vec<Act>>,
 }
 
@@ -90,7 +90,7 @@ impl NonmanualTier {
     }
 }
 
-/// When a tier starts beside the hands.
+/// The start of a tier relative to the hands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TierStart {
@@ -100,7 +100,7 @@ pub enum TierStart {
     StartSlightlyAhead,
 }
 
-/// When a tier ends beside the hands.
+/// The end of a tier relative to the hands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum TierEnd {
@@ -110,24 +110,24 @@ pub enum TierEnd {
     EndsBefore,
 }
 
-/// One thing that a part of face or body does.
+/// One act of a part of face or body.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Act {
-    /// The part that does it.
+    /// The acting part.
     pub part: NonmanualPart,
-    /// The tag as it is written, or the SAMPA of a mouth picture.
+    /// The tag as written, or the SAMPA of a mouth picture.
     pub tag: String,
-    /// How much of it, 1 as usual; some files carry it.
+    /// Its intensity, 1 by default; present in some files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub amount: Option<f64>,
-    /// A factor of speed, 1 as usual; some files carry it.
+    /// A factor on its speed, 1 by default; present in some files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub speed: Option<f64>,
 }
 
 impl Act {
-    /// Returns the act of a part as usual.
+    /// Returns an act of a part without modifications.
     #[must_use]
     pub fn new(part: NonmanualPart, tag: impl Into<String>) -> Self {
         Self {
@@ -158,7 +158,7 @@ impl Act {
     }
 }
 
-/// Equal are acts of one part and one code, whatever words follow the code.
+/// Acts are equal if part and code are, whatever words follow the code.
 impl PartialEq for Act {
     fn eq(&self, other: &Self) -> bool {
         self.part == other.part && self.code() == other.code() && self.numbers() == other.numbers()
@@ -187,9 +187,9 @@ pub enum NonmanualPart {
     Nose,
     /// The mouth, by a tag.
     MouthGesture,
-    /// The mouth, by the sounds that it seems to speak.
+    /// The mouth, by the sounds that it mouths.
     MouthPicture,
-    /// The mouth goes on with what it did: `holdprevious` or `stretchprevious`.
+    /// The mouth continues its previous act: `holdprevious` or `stretchprevious`.
     MouthMeta,
     /// Anything else.
     Extra,
@@ -214,7 +214,7 @@ impl NonmanualPart {
         Self::Neutral,
     ];
 
-    /// Returns the tier in which SiGML has it.
+    /// Returns its tier in SiGML.
     #[must_use]
     pub fn tier(self) -> TierKind {
         match self {

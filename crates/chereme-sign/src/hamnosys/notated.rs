@@ -1,4 +1,4 @@
-//! A sign of a notation file, with what the file says about it beside the notation.
+//! A sign of a notation file, with the file's other information about it.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,27 +10,27 @@ use super::tree::Sign;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Notated {
-    /// The sign's name; empty where the file has none.
+    /// The sign's name; empty if the file gives none.
     pub gloss: String,
-    /// The language that is signed.
+    /// The sign language.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sign_language: Option<String>,
     /// The language of the gloss.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gloss_language: Option<String>,
-    /// A factor of speed, 1 as usual.
+    /// A factor on the speed, 1 by default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed: Option<f64>,
-    /// A factor that its times are stretched by, 1 as usual; some files carry it.
+    /// A factor on its times, 1 by default; present in some files.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub timescale: Option<f64>,
-    /// How long it lasts, in the file's own unit (seconds as a rule); some files carry it.
+    /// Its duration in the file's own unit (usually seconds); present in some files.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub duration: Option<f64>,
-    /// The HamNoSys text, where it came as text or as symbols.
+    /// The HamNoSys text, if it was read from text or symbols.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub text: Option<String>,
-    /// What the hands do.
+    /// The actions of the hands.
     pub sign: Sign,
     /// The actions of face and body.
     #[serde(skip_serializing_if = "Nonmanual::is_empty")]
@@ -38,7 +38,7 @@ pub struct Notated {
 }
 
 impl Notated {
-    /// Returns what the hands do as HamNoSys: the text as it came, else the tree printed.
+    /// Returns the actions of the hands as HamNoSys: the original text, else the printed tree.
     #[must_use]
     pub fn hamnosys(&self) -> Printed {
         match &self.text {

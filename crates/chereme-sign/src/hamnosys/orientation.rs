@@ -1,25 +1,25 @@
-//! Where a palm faces: notation's letters for hands that point anywhere.
+//! Directions of the palm: notation's letters for hands that point anywhere.
 //!
-//! For a hand that points away from the signer the eight letters are plain. For one that points to a
-//! side, up or down it is turned there by the shortest way, and the letters with it: pointing up, `d`
-//! faces away from the signer. For one that points back towards the signer the letters are those of
-//! its mirror image that points away: `r` of a right hand that points inwards and left faces the
-//! signer's chest. So transcribers use them: in signs of the sign language of the Netherlands that
-//! touch the chest with the palm's side of such a hand, it is `r`. At the plane between the halves the
-//! meaning jumps, as it does in those signs.
+//! For a hand that points away from the signer the eight letters are plain directions. For one that points
+//! to a side, up or down, it is turned there by the shortest rotation, and the letters with it: pointing
+//! up, `d` faces away from the signer. For one that points back towards the signer the letters are those
+//! of its mirror image that points away: `r` of a right hand that points inwards and left faces the
+//! signer's chest. Transcribers use the letters this way: in signs of the sign language of the Netherlands
+//! that touch the chest with the palm's side of such a hand, it is `r`. At the plane between the two
+//! halves the meaning changes abruptly, as it does in those signs.
 
 /// A vector to the signer's left, up and away from the signer.
 type Vector = [f64; 3];
 
-/// Returns the unit vector that a palm faces: `direction` is a unit vector that the hand points to,
+/// Returns the unit vector of a palm's direction: `direction` is the unit vector of the hand's axis,
 /// `angle` that of [`Compass::angle`](super::Compass::angle).
 #[must_use]
 pub fn palm(direction: [f64; 3], angle: f64) -> [f64; 3] {
     about(direction, angle)
 }
 
-/// Returns the angle of a palm that faces `palm` on a hand that points to `direction`, both unit
-/// vectors: what [`palm`] makes of it is the part of `palm` across the direction.
+/// Returns the angle of a palm that faces `palm` on a hand that points to `direction`, both unit vectors.
+/// For this angle, [`palm`] returns the part of `palm` at a right angle to the direction.
 #[must_use]
 pub fn palm_angle(direction: [f64; 3], palm: [f64; 3]) -> f64 {
     let dot = |a: Vector, b: Vector| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
@@ -28,8 +28,8 @@ pub fn palm_angle(direction: [f64; 3], palm: [f64; 3]) -> f64 {
     right.atan2(down)
 }
 
-/// Returns what the shortest turn from pointing away to pointing to `direction` makes of the
-/// direction across that is `angle` from down over right; mirrored for directions towards the signer.
+/// Applies the shortest rotation from forward to `direction` to the direction at `angle` from down over
+/// right; mirrored for directions towards the signer.
 #[must_use]
 pub fn about(direction: [f64; 3], angle: f64) -> [f64; 3] {
     let [x, y, z] = direction;

@@ -1,4 +1,4 @@
-//! Locations of notation as places on a body: a landmark with an offset, and a way out from it.
+//! Locations of notation as places on a body: a landmark with an offset, and an outward normal.
 //!
 //! Offsets and directions are to the signer's left, up and forward; offsets in shoulder widths. The
 //! landmarks' names are those of `chereme_motion::Anatomy::landmark`.
@@ -29,29 +29,29 @@ pub enum Region {
 pub struct BodySite {
     /// The landmark's name.
     pub landmark: String,
-    /// From the landmark to the place, left, up and forward in shoulder widths.
+    /// Offset from the landmark to the place (left, up, forward) in shoulder widths.
     pub offset: [f64; 3],
-    /// The unit vector out of the body there: left, up, forward.
+    /// The outward unit normal there (left, up, forward).
     pub out: [f64; 3],
-    /// What it belongs to.
+    /// The part of the body that it belongs to.
     pub region: Region,
-    /// How far to the left of the middle a hand is that is not at the body but before it at this
-    /// place, in shoulder widths.
+    /// Distance to the left of the middle for a hand that is before the body rather than at it, in
+    /// shoulder widths.
     pub lateral: f64,
-    /// Whether it is a place beside the body; of these only those beside the head are touched, nearer by
-    /// [`TOUCHED_BESIDE`].
+    /// Whether the place is next to the body. Of these places hands touch only those next to the head,
+    /// nearer by [`TOUCHED_BESIDE`].
     pub beside: bool,
 }
 
-/// How far from the middle `at` a side of the trunk is, in shoulder widths.
+/// Distance from the middle of the `at` side of the trunk, in shoulder widths.
 const AT: f64 = 0.30;
-/// How far from the middle a hand is before such a place.
+/// Distance from the middle of a hand before such a place, in shoulder widths.
 const BEFORE: f64 = 0.45;
-/// How far from the middle a hand is beside the body.
+/// Distance from the middle of a hand next to the body, in shoulder widths.
 const BESIDE: f64 = 0.80;
 
-/// How far inwards of a place beside the head a hand is that touches there, in shoulder widths: at the temple,
-/// the cheek, the jaw.
+/// Inward distance from a place next to the head to the point that a hand touches there, in shoulder
+/// widths: at the temple, the cheek, the jaw.
 pub const TOUCHED_BESIDE: f64 = 0.22;
 
 /// Returns the place that a location of the body means for a hand.
@@ -127,7 +127,7 @@ pub fn body_site(site: &Site<BodyLocation>, acting: Half, mirrored: bool) -> Bod
         },
         BodyLocation::HeadTop => face("head-top".into(), shifted(0.16), [0.25 * sign, 1.0, 0.0]),
         BodyLocation::Forehead => match half {
-            // Where the skull bends to the temple.
+            // The curve of the skull towards the temple.
             Some(_) => face(
                 "forehead".into(),
                 [sign * 0.16, 0.0, -0.10],
@@ -168,7 +168,7 @@ pub fn body_site(site: &Site<BodyLocation>, acting: Half, mirrored: bool) -> Bod
     }
 }
 
-/// Returns a place on the arm that an acting hand reaches for: the other one.
+/// Returns a place on the arm that an acting hand reaches for: the opposite arm.
 fn arm(side: Option<Side>, acting: Half, part: &str, mirrored: bool) -> BodySite {
     let half = said(side, mirrored).unwrap_or(acting.other());
     let outside = half.sign();
@@ -192,7 +192,7 @@ fn arm(side: Option<Side>, acting: Half, part: &str, mirrored: bool) -> BodySite
     }
 }
 
-/// Returns which half of the body a side says.
+/// Returns the half of the body that a side means.
 #[must_use]
 pub fn said(side: Option<Side>, mirrored: bool) -> Option<Half> {
     let half = match side? {

@@ -1,4 +1,4 @@
-//! The 209 symbols of HamNoSys 4: character, name and what each stands for.
+//! The 209 symbols of HamNoSys 4: character, name and meaning.
 //!
 //! Characters and names are those of the font that the University of Hamburg publishes (HamNoSys4TeX):
 //! 201 code points of the private use area and eight ASCII marks. A name is also the name of the
@@ -23,7 +23,7 @@ impl Symbol {
         (0..TABLE.len()).map(|index| Self(index as u8))
     }
 
-    /// Returns the symbol of a character, or of a second code that older tables give one.
+    /// Returns the symbol of a character, or of its second code in older tables.
     #[must_use]
     pub fn from_char(character: char) -> Option<Self> {
         let code = character as usize;
@@ -38,8 +38,8 @@ impl Symbol {
         (slot != NONE).then_some(Self(slot))
     }
 
-    /// Returns the symbol of a name: `hamflathand`, or `flathand`, in whatever case, and under the
-    /// other names that files in use give it (`hamcee12open`, `hampinchopen`, `clockplus` ...).
+    /// Returns the symbol of a name: `hamflathand`, or `flathand`, in any case, and other names in use in
+    /// files (`hamcee12open`, `hampinchopen`, `clockplus` ...).
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         let lower = name.to_ascii_lowercase();
@@ -66,19 +66,19 @@ impl Symbol {
         self.row().name
     }
 
-    /// Returns what it stands for.
+    /// Returns its meaning.
     #[must_use]
     pub fn kind(self) -> Kind {
         self.row().kind
     }
 
-    /// Returns the group it belongs to.
+    /// Returns its group.
     #[must_use]
     pub fn class(self) -> Class {
         self.kind().class()
     }
 
-    /// Returns the symbol that stands for something, where there is one.
+    /// Returns the symbol with a meaning, if one exists.
     #[must_use]
     pub fn of(kind: Kind) -> Option<Self> {
         let (from, to) = kind.codes();
@@ -125,29 +125,29 @@ pub enum Kind {
     AltOr,
     /// Closes alternatives.
     AltEnd,
-    /// Says that HamNoSys 4.0 is meant.
+    /// States the version HamNoSys 4.0.
     Version,
-    /// Something is mimed.
+    /// A mimed action.
     Mime,
     /// A class of handshapes.
     Base(HandClass),
-    /// Where the thumb is.
+    /// The position of the thumb.
     Thumb(ThumbPosition),
-    /// How fingers are bent.
+    /// A bend of fingers.
     Bend(Bend),
-    /// Where the hand points.
+    /// The direction of the hand's axis.
     Extended(Direction),
-    /// Where the palm faces.
+    /// The direction of the palm.
     Palm(Compass),
     /// A place on body or arm, or neutral space.
     Body(BodyLocation),
-    /// Beside a place: before it to its left, after it to its right.
+    /// Next to a place: before it to its left, after it to its right.
     Beside,
     /// At the side of a place: before it the left one, after it the right one.
     At,
-    /// Names a place.
+    /// Assigns a number to a place.
     Define,
-    /// The place so named.
+    /// Refers to a numbered place.
     Refer,
     /// A part of the hand.
     Hand(HandLocation),
@@ -165,7 +165,7 @@ pub enum Kind {
     FingerPlay,
     /// A movement of the wrist.
     Wrist(WristMotion),
-    /// What follows replaces what was.
+    /// The following posture replaces the current one.
     Replace,
     /// A cross is drawn.
     Cross {
@@ -194,9 +194,9 @@ pub enum Kind {
     },
     /// A size.
     Size(Size),
-    /// How a movement is done.
+    /// A manner of movement.
     Manner(Mark),
-    /// How near the hand comes.
+    /// The nearness of the hand.
     Contact(Contact),
     /// Behind a place.
     Behind,
@@ -210,7 +210,7 @@ pub enum Kind {
     Close(Bracket),
     /// Between the two neighbours.
     Between,
-    /// Between what the dominant hand does and the other, or between two signs.
+    /// Between the parts of the two hands, or between two signs.
     Plus,
     /// Two hands.
     Symmetry {
@@ -221,7 +221,7 @@ pub enum Kind {
     Nondominant,
     /// In real space.
     RealSpace,
-    /// Roughly.
+    /// Approximately.
     Approx,
     /// Relative to the movement or the place.
     Relative,
@@ -245,11 +245,11 @@ pub enum Mark {
 /// The kinds of brackets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bracket {
-    /// One after the other; also contacts.
+    /// Successive motions; also contacts.
     Seq,
-    /// At the same time; also one thing per hand.
+    /// Simultaneous motions; also one part per hand.
     Par,
-    /// Running into each other.
+    /// Motions that run into each other.
     Fusion,
 }
 
@@ -306,7 +306,7 @@ impl Kind {
         }
     }
 
-    /// The code points, less E000, among which a symbol of this kind is.
+    /// The range of code points, relative to E000, of a symbol of this kind.
     fn codes(self) -> (usize, usize) {
         match self {
             K::Base(_) => (0x00, 0x0C),

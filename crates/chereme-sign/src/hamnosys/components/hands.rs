@@ -1,4 +1,4 @@
-//! The course of each hand through a sign.
+//! Follows each hand through a sign.
 
 use super::super::direction::{Compass, Direction};
 use super::super::tree::{
@@ -32,7 +32,7 @@ struct Hand {
     acts: bool,
 }
 
-/// Which hands something is about.
+/// The hands that a notation concerns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Acting {
     Dominant,
@@ -61,7 +61,7 @@ impl<'s, 'i> Hands<'s, 'i> {
         }
     }
 
-    /// Goes through one part of a sign.
+    /// Processes one part of a sign.
     pub(super) fn part(&mut self, part: &Manual, lost: &mut Lost) {
         let acting = match part.hands {
             HandsUsed::Dominant => Acting::Dominant,
@@ -151,7 +151,7 @@ impl<'s, 'i> Hands<'s, 'i> {
         }
     }
 
-    /// Returns what each hand does in a motion; postures that it leads to are taken on the way.
+    /// Returns the steps of each hand in a motion; the postures it leads to are included.
     fn motion(&mut self, motion: &Motion, acting: Acting, lost: &mut Lost) -> [Vec<Step>; 2] {
         let mut steps = match &motion.kind {
             MotionKind::Split(dominant, other) => {
@@ -248,7 +248,7 @@ impl<'s, 'i> Hands<'s, 'i> {
         steps
     }
 
-    /// Returns what it takes to reach a posture without a motion of its own.
+    /// Returns the steps to a posture without a motion of its own.
     fn change(&self, posture: &Posture, acting: Acting) -> [Vec<Step>; 2] {
         let mut steps = [Vec::new(), Vec::new()];
         for (dominant, (shape, _)) in of_hands(&posture.shape, acting) {

@@ -37,7 +37,7 @@ use crate::inventory::Inventory;
 /// The component values of a notated sign.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Mapped {
-    /// The values: of the dominant hand, of the weak hand, of face and body.
+    /// The values, in this order: of the dominant hand, of the weak hand, of face and body.
     pub values: Vec<MappedValue>,
     /// The parts of the notation that the values do not express, without duplicates.
     pub lost: Vec<String>,
@@ -50,11 +50,11 @@ pub struct MappedValue {
     pub field: Field,
     /// The id of a value of the field's inventory.
     pub value: String,
-    /// Whether it means all that the notation says.
+    /// Whether it means everything in the notation.
     pub exact: bool,
 }
 
-/// Says what notated signs have in each component.
+/// Maps notated signs to component values.
 #[derive(Debug)]
 pub struct Mapper<'i> {
     /// The values of each component and feature, by id and alias.
@@ -63,7 +63,7 @@ pub struct Mapper<'i> {
 }
 
 impl<'i> Mapper<'i> {
-    /// Prepares for these inventories; of several for one component or feature the first counts.
+    /// Prepares for these inventories; for each component or feature the first one counts.
     pub fn new(inventories: impl IntoIterator<Item = &'i Inventory>) -> Self {
         let mut words = BTreeMap::new();
         let mut shapes = Shapes::default();
@@ -92,7 +92,7 @@ impl<'i> Mapper<'i> {
         Self { words, shapes }
     }
 
-    /// Says what a sign has in each component.
+    /// Returns the component values of a sign.
     #[must_use]
     pub fn map(&self, notated: &Notated) -> Mapped {
         let mut lost = Lost::default();
@@ -197,7 +197,7 @@ fn name(component: Component, feature: Option<&str>) -> String {
     )
 }
 
-/// A value as an inventory spells it, and whether it means all that was said.
+/// A value as an inventory spells it, and whether it means the same as the notation.
 #[derive(Debug, Clone, PartialEq)]
 struct Value {
     word: String,

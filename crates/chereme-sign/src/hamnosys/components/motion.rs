@@ -35,7 +35,7 @@ impl Step {
     }
 }
 
-/// Puts courses that run at the same time into one, step by step.
+/// Merges simultaneous courses, step by step.
 pub(super) fn together(courses: Vec<Vec<Step>>) -> Vec<Step> {
     let mut whole: Vec<Step> = Vec::new();
     for course in courses {
@@ -49,7 +49,7 @@ pub(super) fn together(courses: Vec<Vec<Step>>) -> Vec<Step> {
     whole
 }
 
-/// Returns a motion without motions in it; nothing for the others.
+/// Returns a motion without nested motions; `None` for others.
 pub(super) fn simple(motion: &Motion, symmetry: Option<Symmetry>) -> Option<Step> {
     let mut step = match &motion.kind {
         MotionKind::Directed(directed) => way(directed, symmetry),
@@ -167,7 +167,7 @@ pub(super) fn manners(manner: &Manner) -> Vec<Value> {
     .collect()
 }
 
-/// Returns how often something is done.
+/// Returns the value for a kind of repetition.
 pub(super) fn repetition(repeat: Repeat) -> Value {
     match repeat {
         Repeat::FromStart => Value::exact("twice"),

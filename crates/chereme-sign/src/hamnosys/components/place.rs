@@ -5,16 +5,16 @@ use super::super::tree::{
 };
 use super::{Lost, Value};
 
-/// Which hand is meant, and whether it takes the place through a symmetry.
+/// The hand that a place is for, and whether a symmetry applies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Whose {
-    /// It is the dominant hand.
+    /// Whether it is the dominant hand.
     pub(super) dominant: bool,
-    /// Left and right are exchanged for it.
+    /// Whether left and right are exchanged for it.
     pub(super) mirrored: bool,
 }
 
-/// Returns the placement of a hand; nothing where the place says nothing of it.
+/// Returns the placement of a hand; `None` if the place does not concern it.
 pub(super) fn placement(place: &Place, whose: Whose, lost: &mut Lost) -> Option<Value> {
     match place {
         Place::Body(place) => Some(body(place, whose, lost)),
@@ -122,7 +122,7 @@ fn mirrored(side: Side) -> Side {
     }
 }
 
-/// Heights of the space before the signer: those that trunk locations without contact stand for.
+/// Heights in the space before the signer, for trunk locations without contact.
 fn height(at: BodyLocation) -> Option<&'static str> {
     match at {
         BodyLocation::Shoulders => Some("high"),

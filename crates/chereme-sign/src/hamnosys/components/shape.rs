@@ -1,4 +1,4 @@
-//! The inventory's handshape that is nearest to a notated one.
+//! Finds the inventory's handshape nearest to a notated one.
 
 use super::super::tree::{
     Bend, Digit, Digits, FingerContact, Form, HandClass, Handshape, Opening, ThumbPosition,
@@ -25,7 +25,7 @@ impl<'i> Shapes<'i> {
         let cost = |known: &Handshape| {
             let first = form_cost(&shape.form, &known.form);
             let between = match &shape.between {
-                // The first form weighs a little more, so that the middle of two falls to it.
+                // The first form weighs a little more, so that the middle of two forms maps to it.
                 Some(second) => 0.45 * form_cost(second, &known.form) + 0.55 * first,
                 None => first,
             };
@@ -47,7 +47,7 @@ impl<'i> Shapes<'i> {
     }
 }
 
-/// Reads a handshape of symbol names with blanks between them.
+/// Reads a handshape of symbol names separated by blanks.
 fn read(names: &str) -> Option<Handshape> {
     let mut shape = Handshape::default();
     let mut classed = false;
@@ -127,7 +127,7 @@ fn digit(name: &str) -> Option<Digit> {
     })
 }
 
-/// Returns how far three joints are bent, 0 to 4.
+/// Returns the bends of three joints, 0 to 4.
 pub(super) fn joints(bend: Option<Bend>) -> [f64; 3] {
     match bend {
         None => [0.0; 3],
@@ -162,8 +162,8 @@ fn form_cost(said: &Form, known: &Form) -> f64 {
     class + thumb + bend_cost(said.bend, known.bend)
 }
 
-/// Returns the thumb's position as far as the class has use for it: a cee has its opening, and a
-/// pinch has none.
+/// Returns the thumb's position if it matters for the class: a cee has an opening instead, and a pinch has
+/// neither.
 fn thumb(form: &Form) -> (Option<ThumbPosition>, Option<Opening>) {
     match form.class {
         HandClass::Pinch12 | HandClass::Pinch12Open | HandClass::PinchAll => (None, None),
@@ -190,7 +190,7 @@ fn group(class: HandClass) -> u8 {
     }
 }
 
-/// What selected, bent and crossed fingers cost.
+/// Returns the penalty for different selected, bent and crossed fingers.
 fn finger_cost(said: &Handshape, known: &Handshape) -> f64 {
     let both = |digit: &Digit| said.special.contains(*digit) != known.special.contains(*digit);
     let special = Digit::ALL.iter().filter(|digit| both(digit)).count() as f64;

@@ -1,4 +1,5 @@
-//! Hands, what marks their shapes, and their parts. A right hand is seen from its back: the thumb is at the left.
+//! Draws hands, the marks of their shapes, and their parts. A right hand is seen from its back: the thumb
+//! is at the left.
 
 use super::super::angles::bend_units;
 use super::super::symbol::Kind;
@@ -7,7 +8,7 @@ use super::{Drawing, Point, arc, oval};
 
 /// The width of a hand's box.
 const HAND: f32 = 0.72;
-/// Where the four fingers begin at the palm, and where they end together and spread.
+/// Positions of the four fingers: at the palm, at the tips together, and at the tips spread.
 const FINGERS: [[Point; 3]; 4] = [
     [[0.22, 0.5], [0.22, 0.06], [0.1, 0.12]],
     [[0.34, 0.46], [0.34, 0.02], [0.29, 0.02]],
@@ -38,7 +39,7 @@ fn finger(number: usize, spread: bool) -> [Point; 2] {
     [base, if spread { apart } else { together }]
 }
 
-/// Draws a class of handshapes or what marks one.
+/// Draws a class of handshapes or a mark of one.
 pub(super) fn shape(kind: Kind) -> Drawing {
     match kind {
         Kind::Base(class) => base(class),
@@ -56,7 +57,7 @@ fn base(class: HandClass) -> Drawing {
             .iter()
             .fold(hand, |hand, number| hand.line(finger(*number, spread)))
     };
-    // Thumb and index finger meet, or nearly, at the left of the others.
+    // Thumb and index finger meet, or nearly so, at the left of the others.
     let ring = |hand: Drawing, open: bool| {
         let (from, to) = if open { (0.62, 1.38) } else { (0.5, 1.5) };
         hand.line(arc([0.17, 0.38], [0.13, 0.16], from + 0.02, to))

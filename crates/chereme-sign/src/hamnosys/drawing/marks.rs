@@ -1,10 +1,10 @@
-//! Contacts, manner, repetitions, brackets, what is between symbols, and punctuation.
+//! Draws contacts, manner, repetitions, brackets, marks between symbols, and punctuation.
 
 use super::super::symbol::{Bracket, Kind, Mark};
 use super::super::tree::{Contact, Repeat};
 use super::{Drawing, Point, arc, oval};
 
-/// Draws what stands beside or between what moves.
+/// Draws a mark next to or between movements.
 pub(super) fn mark(kind: Kind) -> Drawing {
     match kind {
         Kind::Contact(contact) => touching(contact),
@@ -116,7 +116,7 @@ fn how(manner: Mark) -> Drawing {
 }
 
 fn again(repeat: Repeat) -> Drawing {
-    // The colon and bar that notes repeat with, and arrows end to end for what goes on.
+    // The colon and bar that repeat music, and arrows end to end for continuation.
     let from_start = |bars: &[f32], width: f32| {
         let colon = Drawing::new(width).dot([0.1, 0.36]).dot([0.1, 0.64]);
         bars.iter()

@@ -28,7 +28,7 @@ pub type Point = [f32; 2];
 pub enum Ink {
     /// The background: the body, the hand.
     Thin,
-    /// What is meant.
+    /// The meaning.
     Line,
     /// The meaning, as a convex solid; the points are its rim.
     Solid,
@@ -37,7 +37,7 @@ pub enum Ink {
 /// A line through points, or a solid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stroke {
-    /// What it is for.
+    /// Its role.
     pub ink: Ink,
     /// Its points, two or more; each from 0 to 1 from the top, and from 0 to the drawing's width.
     pub points: Vec<Point>,
@@ -46,7 +46,7 @@ pub struct Stroke {
 /// A drawn symbol, in a box one em high.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Drawing {
-    /// How wide its box is, in ems.
+    /// The width of its box, in ems.
     pub width: f32,
     /// Its lines and solids, in drawing order.
     pub strokes: Vec<Stroke>,
@@ -82,7 +82,7 @@ impl Drawing {
         self.solid(oval(at, [0.07, 0.07]))
     }
 
-    /// Adds the two sides of an arrow's head at the end of a way.
+    /// Adds the two sides of an arrow's head at the end of a path.
     fn head(self, points: &[Point], size: f32) -> Self {
         let [.., before, tip] = points else {
             return self;
@@ -101,10 +101,10 @@ impl Drawing {
     }
 }
 
-/// How long the sides of an arrow's head are.
+/// Length of the sides of an arrow's head.
 const HEAD: f32 = 0.2;
 
-/// Returns part of an ellipse, from and to in turns, clockwise from the right.
+/// Returns a part of an ellipse between two angles in turns, clockwise from the right.
 fn arc(centre: Point, radii: [f32; 2], from: f32, to: f32) -> Vec<Point> {
     const STEPS: u8 = 24;
     (0..=STEPS)
@@ -121,12 +121,12 @@ fn oval(centre: Point, radii: [f32; 2]) -> Vec<Point> {
     arc(centre, radii, 0.0, 1.0)
 }
 
-/// Returns a point from the middle of the page: to the right, and up.
+/// Returns a point relative to the middle of the page: to the right, and up.
 fn seen(centre: Point, right: f32, up: f32) -> Point {
     [centre[0] + right, centre[1] - up]
 }
 
-/// Returns how a symbol is drawn.
+/// Returns the drawing of a symbol.
 #[must_use]
 pub fn drawing(symbol: Symbol) -> Drawing {
     match symbol.kind() {
@@ -154,9 +154,9 @@ pub fn drawn(text: &str) -> Option<Vec<(Symbol, Drawing)>> {
     Some(symbols.map(|symbol| (symbol, drawing(symbol))).collect())
 }
 
-/// The empty room between two symbols, in ems.
+/// The gap between two symbols, in ems.
 pub const GAP: f32 = 0.16;
-/// How wide thin and other lines are, in ems.
+/// Widths of thin and other lines, in ems.
 pub const WIDTHS: [f32; 2] = [0.03, 0.06];
 
 /// Returns a text of HamNoSys as a picture in SVG, with symbols `em` units high and their names as titles;

@@ -1,10 +1,10 @@
-//! Places of the body and the arm, and what marks them.
+//! Draws places of the body and the arm, and their marks.
 
 use super::super::symbol::Kind;
 use super::super::tree::BodyLocation as B;
 use super::{Drawing, Point, arc, oval};
 
-/// The middle of the face and half its width and height.
+/// The middle of the face, and half its width and height.
 const FACE: (Point, [f32; 2]) = ([0.4, 0.46], [0.3, 0.42]);
 
 fn face() -> Drawing {
@@ -32,7 +32,7 @@ fn arm() -> Drawing {
     Drawing::new(0.8).thin([SHOULDER, ELBOW, WRIST])
 }
 
-/// Draws a place, or what marks one.
+/// Draws a place, or a mark of one.
 pub(super) fn place(kind: Kind) -> Drawing {
     match kind {
         Kind::Body(place) => body(place),

@@ -1,4 +1,4 @@
-//! Directions, palms, and movements with what marks them.
+//! Draws directions, palms, movements, and their marks.
 
 use super::super::direction::{Compass, Direction};
 use super::super::symbol::Kind;
@@ -7,7 +7,7 @@ use super::{Drawing, Point, arc, oval, seen};
 
 const MIDDLE: Point = [0.4, 0.5];
 
-/// Draws a direction, a palm, a movement, or what marks one.
+/// Draws a direction, a palm, a movement, or a mark of one.
 pub(super) fn way(kind: Kind) -> Drawing {
     match kind {
         Kind::Extended(to) => {
@@ -137,7 +137,7 @@ pub(super) fn way(kind: Kind) -> Drawing {
     }
 }
 
-/// Returns where a compass points on the page: to the right, and up.
+/// Returns the direction of a compass on the page: to the right, and up.
 fn on_page(compass: Compass) -> (f32, f32) {
     let (horizontal, vertical) = match compass {
         Compass::U => (0.0, 1.0),
@@ -153,7 +153,7 @@ fn on_page(compass: Compass) -> (f32, f32) {
     (horizontal / length, vertical / length)
 }
 
-/// Returns the view of a direction with its bar, where the direction points on the page, and the middle.
+/// Returns the view of a direction with its bar, the direction on the page, and the middle.
 fn plane(to: Direction) -> (Drawing, f32, f32, Point) {
     let [left, up, out] = to.vector().map(|part| part as f32);
     if out == 0.0 {
@@ -167,7 +167,7 @@ fn plane(to: Direction) -> (Drawing, f32, f32, Point) {
     (bar, out, up, [0.48, 0.5])
 }
 
-/// Where one looks at circles from: along this to the left, up and out, so that none is seen on its edge.
+/// The line of sight for circles (left, up, out), chosen so that no circle is seen on its edge.
 const LOOK: [f64; 3] = [0.2157, -0.52, 0.826];
 
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
@@ -210,7 +210,7 @@ fn circle(axis: Direction) -> Drawing {
 }
 
 fn wrist(motion: WristMotion) -> Drawing {
-    // The forearm from below, the hand to and fro about its end.
+    // The forearm from below, with the hand moving to and fro about its end.
     let stick = Drawing::new(0.8).thin([[0.4, 1.0], [0.4, 0.62]]);
     match motion {
         WristMotion::Nodding => Drawing::new(0.8)

@@ -1,4 +1,4 @@
-//! Movements, what modifies them, and what they end in.
+//! Reads movements, their modifiers, and the postures they end in.
 
 use super::{MAX_DEPTH, Parsed, Parser, is_motion};
 use crate::hamnosys::direction::{Compass, Direction};
@@ -8,7 +8,7 @@ use crate::hamnosys::tree::{
     Repeat, Repetition, Size, Zigzag,
 };
 
-/// A motion with how deep it nests.
+/// A motion with its depth of nesting.
 type Deep = (Motion, usize);
 
 /// The element that a size mark would belong to.
@@ -72,7 +72,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Reads one movement with everything after it that belongs to it.
+    /// Reads one movement with all its following modifiers.
     pub(super) fn action(&mut self) -> Parsed<Deep> {
         let from = self.at;
         let (kind, mut height) = self.core()?;
@@ -346,7 +346,7 @@ impl Parser<'_> {
         (first, between.then(|| self.way(way)))
     }
 
-    /// Takes one symbol of a direction, or the two that stand for a corner.
+    /// Takes one symbol of a direction, or the two symbols of a corner.
     fn way(&mut self, way: fn(Kind) -> Option<Direction>) -> Direction {
         let at = |parser: &Self, ahead| parser.kind(parser.at + ahead).and_then(way);
         let first = at(self, 0).unwrap_or(Direction::OUT);
@@ -358,7 +358,7 @@ impl Parser<'_> {
         corner.unwrap_or(first)
     }
 
-    /// Takes marks of manner, and such of size and form as come after them.
+    /// Takes marks of manner, and marks of size and form after them.
     fn manner(&mut self, motion: &mut Motion) {
         loop {
             self.modifiers(&mut motion.kind, Last::Way);
@@ -396,7 +396,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Takes the marks that modify a movement's form, in whatever order.
+    /// Takes the marks that modify a movement's form, in any order.
     fn modifiers(&mut self, kind: &mut MotionKind, mut last: Last) {
         loop {
             let there = match (self.peek(), &mut *kind) {

@@ -1,8 +1,8 @@
-//! Symbols to the tree, by recursive descent with one symbol of look-ahead and a bounded depth.
+//! Parses symbols into the tree, by recursive descent with one symbol of look-ahead and a bounded depth.
 //!
-//! A text is read once; where the canonical print of what was read is not the text, it is read a
-//! second time, and every part that prints differently from its own symbols remembers them
-//! ([`Written`]). So whatever is accepted prints as it was.
+//! A text is read once; if the canonical print of the result differs from the text, it is read a second
+//! time, and every part that prints differently from its own symbols remembers them ([`Written`]).
+//! Therefore every accepted text prints unchanged.
 
 mod action;
 mod place;
@@ -14,13 +14,13 @@ use super::print::{self, Write};
 use super::symbol::{Bracket, Kind, Symbol};
 use super::tree::{Bend, BodyAction, HandsUsed, Manual, Posture, Sign, Size, Symmetry, Written};
 
-/// How deep brackets, and things done to things done, may nest.
+/// Largest depth of nested brackets and modifiers.
 pub const MAX_DEPTH: usize = 48;
 
-/// A transcription that was read.
+/// A transcription after reading.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Transcription {
-    /// What it says.
+    /// The sign.
     pub sign: Sign,
     /// Oddities of the text; everything that the tree does not hold is listed here.
     pub findings: Vec<Finding>,
@@ -29,7 +29,7 @@ pub struct Transcription {
 }
 
 impl Transcription {
-    /// Returns the text that was read, to the byte.
+    /// Returns the original text, byte by byte.
     #[must_use]
     pub fn print(&self) -> String {
         match &self.text {
@@ -114,7 +114,7 @@ struct Parser<'a> {
     at: usize,
     depth: usize,
     lenient: bool,
-    /// Parts that print differently remember their symbols.
+    /// Whether parts that print differently remember their symbols.
     remember: bool,
     findings: Vec<Finding>,
 }
@@ -229,7 +229,7 @@ impl<'a> Parser<'a> {
             })
     }
 
-    /// Returns what comes after a place on the body with its side, where there is one.
+    /// Returns the index after a place on the body with its side, if one is here.
     fn after_body_site(&self) -> Option<usize> {
         let side = |at: usize| matches!(self.kind(at), Some(Kind::At | Kind::Beside));
         let mut at = self.at;
@@ -291,7 +291,8 @@ impl<'a> Parser<'a> {
             .unwrap_or_default()
     }
 
-    /// Returns what a part remembers that was read since `from` and prints as `write` says.
+    /// Returns the symbols that a part read since `from` must remember: its own, unless it prints the same
+    /// by `write`.
     fn written(&self, from: usize, write: impl FnOnce(&mut Write)) -> Written {
         if !self.remember {
             return Written(None);
@@ -320,14 +321,14 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Refuses the symbol that is next; a lenient reading leaves it out.
+    /// Refuses the next symbol; a lenient reading leaves it out.
     fn unexpected(&mut self, expected: &'static str) -> Parsed<()> {
         self.missing(expected)?;
         self.at += 1;
         Ok(())
     }
 
-    /// Says that something is missing here; a lenient reading goes on without it.
+    /// Reports that something is missing here; a lenient reading continues without it.
     fn missing(&mut self, expected: &'static str) -> Parsed<()> {
         let error = self.wrong(expected);
         if !self.lenient {
@@ -337,7 +338,7 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// Adds a finding about the symbol that is next.
+    /// Adds a finding about the next symbol.
     fn note(&mut self, message: &str, remedy: &'static str, dropped: bool) {
         let symbol = self
             .tokens
@@ -351,7 +352,7 @@ impl<'a> Parser<'a> {
         });
     }
 
-    /// Leaves out the symbol that is next, saying why.
+    /// Leaves out the next symbol, with a finding.
     fn drop(&mut self, message: &str, remedy: &'static str) {
         self.note(message, remedy, true);
         self.at += 1;
@@ -394,8 +395,8 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Returns the tokens within the group that opens at `at`, up to its close or the end, and
-    /// where its own hamplus is.
+    /// Returns the tokens within the group that opens at `at`, up to its close or the end, and the index
+    /// of its own hamplus.
     fn group(&self, at: usize) -> (&'a [Token], Option<usize>) {
         let inside = self.tokens.get(at + 1..).unwrap_or_default();
         let mut depth = 0_usize;

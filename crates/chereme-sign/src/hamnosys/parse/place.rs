@@ -1,4 +1,4 @@
-//! Places: on the body, on a hand, of the two hands by each other.
+//! Places: on the body, on a hand, in a constellation of the two hands.
 
 use super::{Parsed, Parser};
 use crate::hamnosys::symbol::{Bracket, Kind};
@@ -7,7 +7,7 @@ use crate::hamnosys::tree::{
     Site, Written,
 };
 
-/// How near, and which part of the hand.
+/// The contact, and the part of the hand.
 type Touching = (Contact, Option<HandSite>);
 
 impl Parser<'_> {
@@ -104,7 +104,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Reads a contact that no place comes before: of the two hands, or with what was met last.
+    /// Reads a contact that no place comes before: of the two hands, or with the last contact.
     fn bare_contact(&mut self) -> Parsed<Place> {
         let from = self.at;
         let Some((contact, by)) = self.contact()? else {
@@ -123,7 +123,7 @@ impl Parser<'_> {
         Ok(Place::Body(place))
     }
 
-    /// Reads what follows the sites and the contact of two hands.
+    /// Reads the rest of a constellation after the sites and the contact.
     fn constellation(
         &mut self,
         from: usize,
@@ -509,7 +509,7 @@ fn is_site(kind: Kind) -> bool {
     )
 }
 
-/// Returns the upper or lower of a pair, as the marks of double bends say after a location.
+/// Returns the upper or lower of a pair of locations, which marks of double bends select.
 fn level(location: BodyLocation, bend: Bend) -> Option<BodyLocation> {
     use BodyLocation as L;
     Some(match (location, bend) {
@@ -537,7 +537,7 @@ fn arm_location(location: BodyLocation) -> Option<HandLocation> {
     }
 }
 
-/// Returns the side that a part of the hand means after another part.
+/// Returns the side that a part of the hand means when it follows another part.
 fn hand_side(part: HandLocation) -> Option<Side> {
     match part {
         HandLocation::Palm => Some(Side::Palmar),

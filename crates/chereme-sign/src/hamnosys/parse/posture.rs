@@ -1,4 +1,4 @@
-//! Handshapes and orientations, for both hands or one by one.
+//! Reads handshapes and orientations, for both hands or one by one.
 
 use super::{Parsed, Parser};
 use crate::hamnosys::direction::{Compass, Direction};
@@ -18,7 +18,7 @@ struct Half {
 }
 
 impl Parser<'_> {
-    /// Reads handshape, orientation and place, as far as they are there.
+    /// Reads the handshape, orientation and place that are present.
     pub(super) fn posture(&mut self) -> Parsed<Posture> {
         let mut posture = Posture::default();
         loop {
@@ -114,7 +114,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Reads where the hand points: one symbol, two that make a corner, or the middle of two.
+    /// Reads the direction of the hand's axis: one symbol, two that form a corner, or the middle of two.
     pub(super) fn extended(&mut self) -> Parsed<Aim<Direction>> {
         let mut aim = Aim::at(self.extended_direction()?);
         let between = self.next_is(0, Kind::Between)
@@ -142,7 +142,7 @@ impl Parser<'_> {
         Ok(first)
     }
 
-    /// Reads where the palm faces: one symbol, or the middle of two.
+    /// Reads the direction of the palm: one symbol, or the middle of two.
     pub(super) fn palm(&mut self) -> Parsed<Aim<Compass>> {
         let Some(Kind::Palm(first)) = self.peek() else {
             self.missing("a palm orientation")?;
@@ -172,7 +172,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Reads a handshape with everything that modifies it.
+    /// Reads a handshape with all its modifiers.
     pub(super) fn handshape(&mut self) -> Parsed<Handshape> {
         let from = self.at;
         let mut shape = Handshape {
@@ -333,7 +333,7 @@ impl Parser<'_> {
         true
     }
 
-    /// Returns what a hambetween that joins no handshapes says of the thumb, and its length.
+    /// Returns the position of the thumb given by a hambetween that joins no handshapes, and its length.
     fn thumb_between(&self) -> Option<(ThumbExtra, usize)> {
         match (self.kind(self.at + 1), self.kind(self.at + 2)) {
             (Some(Kind::Digit(one)), Some(Kind::Digit(two))) => {
@@ -365,7 +365,7 @@ fn split<T>(each: &mut Each<T>, dominant: Option<T>, other: Option<T>) {
     }
 }
 
-/// Returns how far a cee is open by the mark of its thumb.
+/// Returns the opening of a cee by the mark of its thumb.
 fn opening(class: HandClass, thumb: ThumbPosition) -> Option<Opening> {
     match (is_cee(class), thumb) {
         (true, ThumbPosition::Across) => Some(Opening::Tight),

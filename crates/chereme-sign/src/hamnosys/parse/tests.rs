@@ -214,7 +214,7 @@ fn the_smallest_part_remembers() {
     assert_eq!(print(&sign).text, printed);
 }
 
-/// One meaning of an overloaded symbol: the text, and what must hold of its first part.
+/// One meaning of an overloaded symbol: the text, and a test of its first part.
 type Meaning = (&'static str, fn(&Manual) -> bool);
 
 fn shape(part: &Manual) -> &Handshape {

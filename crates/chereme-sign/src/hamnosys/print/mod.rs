@@ -1,4 +1,4 @@
-//! The tree to symbols.
+//! Prints the tree as symbols.
 //!
 //! The tree is printed in one canonical order; a part that remembers another spelling from text
 //! ([`Written`]) prints that spelling.
@@ -14,7 +14,7 @@ use super::tree::{
     Posture, Sign, Size, Symmetry, ThumbExtra, ThumbPosition, Written,
 };
 
-/// A sign as text, and what the text does not say.
+/// A sign as text, and the parts that the text does not express.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Printed {
     /// The text, one character per symbol.
@@ -23,10 +23,10 @@ pub struct Printed {
     pub losses: Vec<Loss>,
 }
 
-/// Something that HamNoSys has no symbols for.
+/// A part without symbols in HamNoSys.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Loss {
-    /// The part of the sign it is in, from 0.
+    /// The index of the part of the sign, from 0.
     pub part: usize,
     /// A description of the part, and of its replacement in the text.
     pub message: String,
@@ -34,7 +34,7 @@ pub struct Loss {
 
 /// Writes a sign as HamNoSys.
 ///
-/// The text reads back as the equal tree, or `losses` says why not.
+/// The text reads back as an equal tree, or `losses` lists the differences.
 #[must_use]
 pub fn print(sign: &Sign) -> Printed {
     let mut out = Write::default();
@@ -49,7 +49,7 @@ pub fn print(sign: &Sign) -> Printed {
     }
 }
 
-/// Returns the text of a sign without asking what is lost.
+/// Returns the text of a sign, ignoring losses.
 #[must_use]
 pub fn text_of(sign: &Sign) -> String {
     let mut out = Write::default();
@@ -168,7 +168,7 @@ impl Write {
         }
     }
 
-    /// Writes what was gathered for each hand, in one bracket.
+    /// Writes the parts collected for each hand, in one bracket.
     fn halves<'a>(&mut self, one: &mut Half<'a>, two: &mut Half<'a>, open: &mut bool) {
         if !std::mem::take(open) {
             return;
@@ -304,7 +304,7 @@ impl Write {
         }
     }
 
-    /// Writes a bend, or the two that it is the middle of; else the nearest.
+    /// Writes a bend, or two bends with this one half-way between; if neither is possible, the nearest bend.
     fn bend(&mut self, bend: Bend) {
         if !matches!(bend, Bend::HalfBent | Bend::Joints(_)) {
             return self.symbol(Kind::Bend(bend));

@@ -1,4 +1,4 @@
-//! Movements to symbols.
+//! Prints movements as symbols.
 
 use super::Write;
 use crate::hamnosys::direction::{Compass, Direction};
@@ -110,7 +110,7 @@ impl Write {
         }
     }
 
-    /// Writes a direction of a movement; a corner by the two symbols that stand for it.
+    /// Writes a direction of a movement; a corner as its two symbols.
     fn way(&mut self, direction: Direction, kind: fn(Direction) -> Kind) {
         match direction.corner_parts() {
             None => self.symbol(kind(direction)),

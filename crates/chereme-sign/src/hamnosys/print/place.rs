@@ -1,4 +1,4 @@
-//! Places to symbols.
+//! Prints places as symbols.
 
 use super::Write;
 use crate::hamnosys::symbol::{Bracket, Kind};
@@ -241,7 +241,7 @@ fn side_mark(side: Option<Side>) -> (Option<Kind>, bool) {
     }
 }
 
-/// Returns the symbol's location with the mark for the upper or lower of two.
+/// Returns the symbol's location, with a mark for the upper or lower of two.
 fn base_location(at: BodyLocation) -> (BodyLocation, Option<Bend>) {
     use BodyLocation as L;
     match at {

@@ -37,24 +37,24 @@ pub enum HandPoint {
     UpperArm,
 }
 
-/// Which face of a digit or wrist is meant.
+/// The face of a digit or wrist.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Face {
-    /// None in particular: the middle, or the very tip.
+    /// No specific face: the middle, or the very tip.
     Middle,
-    /// That of the palm.
+    /// The palm's face.
     Palmar,
-    /// That of the back.
+    /// The back's face.
     Dorsal,
-    /// That towards the thumb.
+    /// The face towards the thumb.
     Radial,
-    /// That towards the little finger.
+    /// The face towards the little finger.
     Ulnar,
 }
 
-/// Returns the points that a site of a hand names: one for each digit, all meant together.
+/// Returns the points that a site of a hand names: one for each digit, all together.
 ///
-/// `of` is the hand; left and right say the sides of a hand whose palm faces down.
+/// `of` is the hand; left and right are the sides of a hand whose palm faces down.
 #[must_use]
 pub fn hand_points(site: &HandSite, of: Half, mirrored: bool) -> Vec<HandPoint> {
     let face = face(site.side, of, mirrored);
@@ -132,9 +132,9 @@ fn face(side: Option<Side>, of: Half, mirrored: bool) -> Face {
     }
 }
 
-/// Returns how far a point of a digit or the wrist lies out of its bone, towards the face that it names,
-/// and how far back along the bone: in lengths of the hand from wrist to middle fingertip. Other points,
-/// and those that name no face, lie on the bone.
+/// Returns the offsets of a point of a digit or the wrist from its bone: out of it towards the named face,
+/// and back along it, in lengths of the hand from wrist to middle fingertip. Other points, and those
+/// without a named face, are on the bone.
 #[must_use]
 pub fn from_bone(point: HandPoint) -> [f64; 2] {
     match point {
@@ -142,7 +142,7 @@ pub fn from_bone(point: HandPoint) -> [f64; 2] {
         | HandPoint::Middle(_, Face::Middle)
         | HandPoint::Base(_, Face::Middle)
         | HandPoint::Wrist(Face::Middle) => [0.0; 2],
-        // A pad or nail lies a little before the very end.
+        // A pad or nail is a little before the very end.
         HandPoint::Tip(..) => [0.042, 0.03],
         HandPoint::Middle(..) => [0.042, 0.0],
         HandPoint::Base(..) => [0.06, 0.0],
@@ -151,9 +151,9 @@ pub fn from_bone(point: HandPoint) -> [f64; 2] {
     }
 }
 
-/// Returns where a point of the palm, the back or an edge of the hand lies: how far along from wrist to
-/// middle knuckle, as a share of that; how far out of the palm and how far towards the thumb, in lengths
-/// of the hand. Other points lie where the wrist is.
+/// Returns the position of a point of the palm, the back or an edge of the hand: its distance along the
+/// line from wrist to middle knuckle, as a share of that; out of the palm, and towards the thumb, in
+/// lengths of the hand. Other points are at the wrist.
 #[must_use]
 pub fn on_palm(point: HandPoint) -> [f64; 3] {
     match point {
@@ -166,7 +166,7 @@ pub fn on_palm(point: HandPoint) -> [f64; 3] {
     }
 }
 
-/// Returns the joint of a digit that notation calls its base (1), its middle joint (2), or the one
+/// Returns the joint of a digit that notation calls its base (1), its middle joint (2), or the joint
 /// before its tip (3); the thumb's base is the knuckle and its middle the joint after that.
 #[must_use]
 pub fn digit_joint(side: Half, digit: Digit, which: u8) -> Part {
@@ -233,7 +233,7 @@ pub fn coming_first(
     best.map_or(HandPoint::Palm, |(_, point)| point)
 }
 
-/// Returns the digit that a handshape points or touches with; nothing for a closed fist.
+/// Returns the digit that a handshape points or touches with; `None` for a closed fist.
 fn leading(shape: &Handshape) -> Option<Digit> {
     use HandClass::{
         Cee12, Cee12Open, Finger2, Finger23, Finger23Spread, Fist, Pinch12, Pinch12Open,

@@ -1,34 +1,34 @@
-//! Handshapes: a class, with what modifies it.
+//! Handshapes: a class, with its modifiers.
 
 use serde::{Deserialize, Serialize};
 
 use super::Written;
 
-/// A handshape: its class with what modifies it.
+/// A handshape: its class with its modifiers.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Handshape {
     /// The class with its thumb and bend.
     pub form: Form,
-    /// A second form where half-way between is meant.
+    /// A second form, if the handshape is half-way between two.
     pub between: Option<Form>,
-    /// Only roughly so.
+    /// Whether it is only approximate.
     pub approx: bool,
-    /// How far fingers are spread: 0, 1 or 2; as is the class's nature where unset.
+    /// Spread of the fingers: 0, 1 or 2; `None` for the class's usual spread.
     pub splay: Option<u8>,
-    /// The fingers selected, where not the class's own.
+    /// The selected fingers, if they differ from the class's own.
     pub special: Digits,
     /// Fingers that the bend does not apply to.
     pub exempt: Digits,
-    /// The digit that the thumb meets, where not the class's own.
+    /// The digit that the thumb meets, if it differs from the class's own.
     pub opposed: Option<Digit>,
     /// Bends of single digits, thumb first.
     pub bends: [Option<Bend>; 5],
     /// Fingers that touch each other or are crossed; two at most.
     pub contacts: Vec<FingerContact>,
-    /// Where the thumb is, beyond its position.
+    /// A detail of the thumb's position.
     pub thumb: Option<ThumbExtra>,
-    /// How text spelled it, where not as the printer would.
+    /// Its spelling in text, if it differs from the printer's.
     #[serde(skip)]
     pub written: Written,
 }
@@ -39,11 +39,11 @@ pub struct Handshape {
 pub struct Form {
     /// The class.
     pub class: HandClass,
-    /// Where the thumb is; alongside where unset.
+    /// The position of the thumb; alongside if `None`.
     pub thumb: Option<ThumbPosition>,
     /// The bend of the selected fingers.
     pub bend: Option<Bend>,
-    /// How far a cee is open; text writes it as the thumb's position.
+    /// The opening of a cee; text writes it as the thumb's position.
     pub opening: Option<Opening>,
 }
 
@@ -80,7 +80,7 @@ pub enum HandClass {
     CeeAll,
 }
 
-/// Where the thumb is.
+/// Positions of the thumb.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ThumbPosition {
@@ -92,7 +92,7 @@ pub enum ThumbPosition {
     Opposed,
 }
 
-/// How far the thumb of a cee is from the fingers.
+/// The distance between the thumb of a cee and the fingers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Opening {
@@ -102,13 +102,13 @@ pub enum Opening {
     Slack,
 }
 
-/// How far a finger's three joints are bent, from the palm outwards: 0 straight, 4 as far as goes.
+/// The bends of a finger's three joints, from the palm outwards: 0 straight, 4 fully bent.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Bend {
     /// At the base joint: 4 0 0.
     Bent,
-    /// At all joints a little: 2 2 2.
+    /// Slightly at all joints: 2 2 2.
     Round,
     /// At the middle and end joints: 0 4 4.
     Hooked,
@@ -123,7 +123,7 @@ pub enum Bend {
 }
 
 impl Bend {
-    /// Returns how far each joint is bent, from the palm outwards: 0 straight, 4 as far as goes.
+    /// Returns the bend of each joint, from the palm outwards: 0 straight, 4 fully bent.
     #[must_use]
     pub fn joints(self) -> [f64; 3] {
         match self {
@@ -138,7 +138,7 @@ impl Bend {
     }
 }
 
-/// A digit, thumb first as notation counts them: 1 to 5.
+/// A digit; notation counts from the thumb, 1 to 5.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Digit {
@@ -164,14 +164,14 @@ impl Digit {
         Self::Little,
     ];
 
-    /// Returns the number notation gives it, 1 to 5.
+    /// Returns its number in notation, 1 to 5.
     #[must_use]
     pub fn number(self) -> u8 {
         self as u8 + 1
     }
 }
 
-/// Digits of a hand, in the order they are written, none twice.
+/// Digits of a hand in the order of writing, without duplicates.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Digits(pub Vec<Digit>);
@@ -198,12 +198,12 @@ pub struct FingerContact {
     pub first: Digit,
     /// The other.
     pub second: Digit,
-    /// The part of the second digit that is met.
+    /// The part of the second digit that the first one meets.
     #[serde(default)]
     pub part: Option<FingerPart>,
 }
 
-/// Where the thumb is, beyond its position.
+/// Details of the thumb's position.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ThumbExtra {
@@ -211,7 +211,7 @@ pub enum ThumbExtra {
     Between(Digit, Digit),
     /// Enclosed by the fingers.
     Enclosed,
-    /// It touches this part of the fingers.
+    /// It touches this part of a finger.
     Contact(FingerPart),
 }
 

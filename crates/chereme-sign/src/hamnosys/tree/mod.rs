@@ -1,7 +1,8 @@
 //! The tree of a sign as notation describes it.
 //!
-//! The parts and their names follow gestural SiGML 1.2; HamNoSys text says the same in symbols. Parts that
-//! a spelling omits are `None` here, never a default: readers of the tree choose their own.
+//! The parts and their names follow gestural SiGML 1.2; HamNoSys text is another spelling of the same
+//! tree. Parts that a spelling omits are `None` here, never a default: readers of the tree choose their
+//! own.
 
 mod hand;
 mod motion;
@@ -35,9 +36,9 @@ pub struct Sign {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Manual {
-    /// Which hands act.
+    /// The acting hands.
     pub hands: HandsUsed,
-    /// The hands keep what the part before ended with.
+    /// Whether the hands keep the last posture of the part before.
     pub holdover: bool,
     /// Actions of the body while the sign begins.
     pub body: Vec<BodyAction>,
@@ -50,7 +51,7 @@ pub struct Manual {
     pub written: Written,
 }
 
-/// Which hands act in a sign.
+/// The acting hands of a sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum HandsUsed {
@@ -63,7 +64,7 @@ pub enum HandsUsed {
     Both(Symmetry),
 }
 
-/// How the second hand follows the dominant one.
+/// The symmetry by which the second hand follows the dominant one.
 ///
 /// Without any of the mirrors both do the same (parallel).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -77,7 +78,7 @@ pub struct Symmetry {
     pub out_in: bool,
     /// The second hand is half a period behind.
     pub out_of_phase: bool,
-    /// Places are meant in real space, not on each hand's own side.
+    /// Whether places are meant in real space, not on each hand's own side.
     pub real_space: bool,
 }
 
@@ -85,7 +86,7 @@ pub struct Symmetry {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Each<T> {
-    /// Nothing is said: as it was, or as is usual.
+    /// Unset: as before, or as usual.
     #[default]
     Unset,
     /// For every acting hand; the second takes it through the symmetry.
@@ -127,11 +128,11 @@ impl<T> Each<T> {
 pub struct Posture {
     /// The handshape.
     pub shape: Each<Handshape>,
-    /// Where the hand's own axis points, from the wrist to the middle knuckle.
+    /// The direction of the hand's own axis, from the wrist to the middle knuckle.
     pub extended: Each<Aim<Direction>>,
-    /// Where the palm faces, as an angle about that axis.
+    /// The direction of the palm, as an angle about that axis.
     pub palm: Each<Aim<Compass>>,
-    /// Where the hands are.
+    /// The place of the hands.
     pub place: Option<Place>,
 }
 
@@ -149,10 +150,10 @@ impl Posture {
 pub struct Aim<D> {
     /// The direction.
     pub first: D,
-    /// The second one where half-way between is meant.
+    /// The second direction, if half-way between two is meant.
     #[serde(default = "none", skip_serializing_if = "Option::is_none")]
     pub second: Option<D>,
-    /// Only roughly so.
+    /// Whether it is only approximate.
     #[serde(default)]
     pub approx: bool,
     /// The reference frame.
@@ -180,10 +181,10 @@ impl<D> Aim<D> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Frame {
-    /// As usual: the signer's body.
+    /// By default the signer's body.
     #[default]
     Plain,
-    /// The body, said expressly.
+    /// The body, stated explicitly.
     Absolute,
     /// The movement's direction, or the place on the body.
     Relative,
@@ -191,7 +192,7 @@ pub enum Frame {
 
 /// The symbols of a part in text, if they differ from those the printer would choose.
 ///
-/// Two parts are equal whatever their spelling. Whoever changes a part drops its spelling
+/// Two parts are equal whatever their spelling. Code that changes a part must reset its spelling
 /// (`Written::default()`).
 #[derive(Debug, Clone, Default)]
 pub struct Written(pub Option<Box<str>>);

@@ -1,20 +1,20 @@
-//! What hands do: ways, circles, turns of the wrist, and how these are put together.
+//! Motions of the hands: paths, circles, turns of the wrist, and their combinations.
 
 use serde::{Deserialize, Serialize};
 
 use super::{BodyLocation, Digits, Posture, Side, Written};
 use crate::hamnosys::direction::{Compass, Direction};
 
-/// Something that moves.
+/// A motion.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Motion {
-    /// What is done.
+    /// The kind of motion.
     pub kind: MotionKind,
-    /// How it is done.
+    /// Its manner.
     #[serde(default)]
     pub manner: Manner,
-    /// How text spelled it, where not as the printer would.
+    /// Its spelling in text, if it differs from the printer's.
     #[serde(skip)]
     pub written: Written,
 }
@@ -31,19 +31,19 @@ impl Motion {
     }
 }
 
-/// What a motion is.
+/// The kinds of motions.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum MotionKind {
-    /// Along a way.
+    /// Along a path.
     Directed(Directed),
     /// Round and round.
     Circular(Circular),
     /// Of the wrist.
     Wrist {
-        /// Which way.
+        /// The direction.
         motion: WristMotion,
-        /// How far.
+        /// The size.
         #[serde(default)]
         size: Option<Size>,
     },
@@ -52,11 +52,11 @@ pub enum MotionKind {
         /// Diagonal, like the letter X.
         diagonal: bool,
     },
-    /// The fingers play; these digits where not all.
+    /// The fingers play: these digits, or all of them if empty.
     FingerPlay(Digits),
     /// Nothing moves.
     Still,
-    /// The body does something instead of the hand.
+    /// An action of the body in place of the hand.
     Body(BodyAction),
     /// A motion for the dominant hand and one for the other; a missing one keeps what it had.
     Split(Option<Box<Motion>>, Option<Box<Motion>>),
@@ -64,15 +64,15 @@ pub enum MotionKind {
     Sequence {
         /// The motions.
         motions: Vec<Motion>,
-        /// They run into each other.
+        /// Whether they run into each other.
         #[serde(default)]
         fused: bool,
     },
     /// At the same time.
     Parallel(Vec<Motion>),
-    /// A motion that ends in a posture; a replacement where there is no motion.
+    /// A motion that ends in a posture; a change in place if there is no motion.
     Target {
-        /// The way there.
+        /// The motion that leads there.
         motion: Option<Box<Motion>>,
         /// The posture at its end.
         posture: Box<Posture>,
@@ -81,18 +81,18 @@ pub enum MotionKind {
     Repeated {
         /// The motion.
         motion: Box<Motion>,
-        /// How it is repeated.
+        /// The repetition.
         repetition: Repetition,
     },
 }
 
-/// A part of the body moves.
+/// An action of a part of the body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BodyAction {
-    /// The part that moves.
+    /// The acting part.
     pub part: BodyLocation,
-    /// The side of it.
+    /// Its side.
     #[serde(default)]
     pub side: Option<Side>,
     /// Its motion; `None` if it is only held.
@@ -100,36 +100,36 @@ pub struct BodyAction {
     pub motion: Option<Box<Motion>>,
 }
 
-/// A way through space.
+/// A path through space.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Directed {
-    /// Where it goes.
+    /// Its direction.
     pub direction: Direction,
-    /// A second direction where half-way between is meant.
+    /// A second direction, if half-way between two is meant.
     #[serde(default)]
     pub second: Option<Direction>,
-    /// How far.
+    /// Its size.
     #[serde(default)]
     pub size: Amount,
-    /// It is curved.
+    /// Its curve, if any.
     #[serde(default)]
     pub curve: Option<Curve>,
-    /// It goes to and fro, or in waves.
+    /// Its zigzag or waves, if any.
     #[serde(default)]
     pub zigzag: Option<Zigzag>,
-    /// The plane of the ellipse it is part of.
+    /// The plane of the ellipse that it belongs to.
     #[serde(default)]
     pub ellipse: Option<Ellipse>,
 }
 
-/// A size, or the middle of two; as is usual where unset.
+/// A size, or the middle of two; the usual one if unset.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Amount {
     /// The size.
     pub first: Option<Size>,
-    /// A second one where half-way between is meant, or where a circle has two.
+    /// A second one, if half-way between two is meant, or if a circle has two.
     pub second: Option<Size>,
 }
 
@@ -143,38 +143,38 @@ pub enum Size {
     Big,
 }
 
-/// How a way is curved.
+/// The curve of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Curve {
-    /// The side it bulges to, seen along the way: one of the eight directions about it.
+    /// The side of the bulge, seen along the path: one of the eight directions about it.
     pub to: Compass,
-    /// How deep.
+    /// Its depth.
     #[serde(default)]
     pub size: Option<Size>,
 }
 
-/// A way that goes to and fro.
+/// A zigzag or wave along a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Zigzag {
-    /// In waves, not in corners.
+    /// Whether it runs in waves; in corners otherwise.
     pub wavy: bool,
-    /// How wide.
+    /// Its width.
     #[serde(default)]
     pub size: Option<Size>,
-    /// It grows or shrinks.
+    /// Its growth, if any.
     #[serde(default)]
     pub growth: Option<Growth>,
 }
 
-/// Something grows or shrinks as it goes on.
+/// Growth or shrinking during a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Growth {
-    /// It grows; else it shrinks.
+    /// Whether it grows; it shrinks otherwise.
     pub increasing: bool,
-    /// By how much.
+    /// The amount.
     #[serde(default)]
     pub size: Option<Size>,
 }
@@ -199,38 +199,38 @@ pub enum Ellipse {
 pub struct Circular {
     /// The axis it turns about by the right-hand rule.
     pub axis: Direction,
-    /// A second axis where half-way between is meant.
+    /// A second axis, if half-way between two is meant.
     #[serde(default)]
     pub second: Option<Direction>,
     /// Its size.
     #[serde(default)]
     pub size: Amount,
-    /// The plane of the ellipse it is.
+    /// The long axis, if it is an ellipse.
     #[serde(default)]
     pub ellipse: Option<Ellipse>,
-    /// How narrow the ellipse is.
+    /// The narrowness of the ellipse.
     #[serde(default)]
     pub ellipse_size: Option<Size>,
-    /// Where it begins and ends, and how many turns it makes.
+    /// Its start, its end, and the number of turns.
     #[serde(default)]
     pub clock: Clock,
-    /// It goes to and fro.
+    /// Its zigzag or waves, if any.
     #[serde(default)]
     pub zigzag: Option<Zigzag>,
-    /// It grows or shrinks.
+    /// Its growth, if any.
     #[serde(default)]
     pub growth: Option<Growth>,
 }
 
-/// Where on its rim a circle begins and ends.
+/// The start and the end of a circle on its rim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Clock {
-    /// Where it begins.
+    /// The start.
     pub start: Option<Compass>,
-    /// Where it ends.
+    /// The end.
     pub end: Option<Compass>,
-    /// Full turns beyond, 0 to 2.
+    /// Additional full turns, 0 to 2.
     pub full: u8,
 }
 
@@ -250,7 +250,7 @@ pub enum WristMotion {
     StirCcw,
 }
 
-/// How a motion is done.
+/// The manner of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 #[expect(
@@ -264,7 +264,7 @@ pub struct Manner {
     pub slow: bool,
     /// Tense.
     pub tense: bool,
-    /// With a rest before it.
+    /// After a rest.
     pub rest: bool,
     /// It stops suddenly.
     pub halt: bool,
@@ -272,36 +272,36 @@ pub struct Manner {
     pub bouncing: bool,
     /// The hands alternate.
     pub alternating: bool,
-    /// The hands alternate, said a second time after a repetition.
+    /// The hands alternate, marked a second time after a repetition.
     pub second_alternating: bool,
-    /// Relative to the body even where the hand's frame turned.
+    /// Relative to the body even if the hand's frame is turned.
     pub absolute: bool,
-    /// A factor of speed, 1 as usual; some files carry it.
+    /// A factor on the speed, 1 by default; present in some files.
     pub speed: Option<f64>,
 }
 
-/// How a motion is repeated.
+/// The repetition of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Repetition {
-    /// How.
+    /// Its kind.
     pub repeat: Repeat,
     /// A second mark.
     #[serde(default)]
     pub second: Option<Repeat>,
-    /// It grows or shrinks from one to the next.
+    /// The growth from one repetition to the next.
     #[serde(default)]
     pub growth: Option<Growth>,
-    /// Each begins further on, in this direction.
+    /// The direction of the shift from each repetition to the next.
     #[serde(default)]
     pub shift: Option<Direction>,
-    /// How far on.
+    /// The size of that shift.
     #[serde(default)]
     pub shift_size: Option<Size>,
-    /// The steps grow or shrink.
+    /// The growth of the shifts.
     #[serde(default)]
     pub shift_growth: Option<Growth>,
-    /// Only roughly so.
+    /// Whether it is only approximate.
     #[serde(default)]
     pub approx: bool,
 }
@@ -310,19 +310,19 @@ pub struct Repetition {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Repeat {
-    /// Once more, from where it began.
+    /// Once more, from its start.
     FromStart,
-    /// Several times more, from where it began.
+    /// Several times more, from its start.
     FromStartSeveral,
     /// To and fro.
     ToFro,
     /// Many times, at random.
     ManyRandom,
-    /// Once more, from where it ended.
+    /// Once more, from its end.
     Continue,
-    /// Several times more, from where it ended.
+    /// Several times more, from its end.
     ContinueSeveral,
-    /// Back the way it came.
+    /// Back along the same path.
     Reverse,
     /// With the hands exchanged.
     Swap,

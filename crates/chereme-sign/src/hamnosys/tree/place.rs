@@ -1,10 +1,10 @@
-//! Where hands are: on the body, on a hand, or by each other.
+//! Places of hands: on the body, on a hand, or in a constellation.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Digits, Written};
 
-/// Where the hands are.
+/// The place of the hands.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Place {
@@ -12,7 +12,7 @@ pub enum Place {
     Body(BodyPlace),
     /// On a hand.
     Hand(HandSite),
-    /// The two hands by each other.
+    /// A constellation of the two hands.
     Hands(Constellation),
     /// One place for the dominant hand, then one for the other; a missing one keeps its previous value.
     Split(Option<Box<Place>>, Option<Box<Place>>),
@@ -24,24 +24,24 @@ pub enum Place {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct BodyPlace {
-    /// The place; nothing where only neutral space is said.
+    /// The place; `None` for mere neutral space.
     pub site: Option<Site<BodyLocation>>,
-    /// A second one where half-way between is meant.
+    /// A second place, if half-way between two is meant.
     pub second: Option<Site<BodyLocation>>,
-    /// Behind it.
+    /// Whether the hand is behind it.
     pub behind: bool,
-    /// How near the hand comes.
+    /// The nearness of the hand.
     pub contact: Option<Contact>,
-    /// Which part of the hand is meant.
+    /// The part of the hand that is meant.
     pub by: Option<HandSite>,
-    /// The number under which the place is called up later, 1 to 5.
+    /// The number by which later parts of the sign refer to the place, 1 to 5.
     pub define: Option<u8>,
-    /// How text spelled it, where not as the printer would.
+    /// Its spelling in text, if it differs from the printer's.
     #[serde(skip)]
     pub written: Written,
 }
 
-/// A location with the side of it that is meant.
+/// A location with its side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Site<L> {
@@ -50,7 +50,7 @@ pub struct Site<L> {
     /// The side.
     #[serde(default)]
     pub side: Option<Side>,
-    /// Only roughly there.
+    /// Whether it is only approximate.
     #[serde(default)]
     pub approx: bool,
 }
@@ -98,23 +98,23 @@ pub enum BodyLocation {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct HandSite {
-    /// The part; nothing where whole digits are meant.
+    /// The part; `None` for whole digits.
     pub at: Option<HandLocation>,
     /// The digits, if the part belongs to digits.
     pub digits: Digits,
     /// The side.
     pub side: Option<Side>,
-    /// Only roughly there.
+    /// Whether it is only approximate.
     pub approx: bool,
-    /// A second site where half-way between is meant.
+    /// A second site, if half-way between two is meant.
     pub second: Option<Box<HandSite>>,
-    /// How near the other hand comes.
+    /// The nearness of the other hand.
     pub contact: Option<Contact>,
-    /// Which part of the acting hand is meant.
+    /// The part of the acting hand that is meant.
     pub by: Option<Box<HandSite>>,
-    /// The number under which the place is called up later, 1 to 5.
+    /// The number by which later parts of the sign refer to the place, 1 to 5.
     pub define: Option<u8>,
-    /// How text spelled it, where not as the printer would.
+    /// Its spelling in text, if it differs from the printer's.
     #[serde(skip)]
     pub written: Written,
 }
@@ -159,7 +159,7 @@ pub enum Side {
     Ulnar,
 }
 
-/// How near the hand comes to a place.
+/// The nearness of a hand to a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Contact {
@@ -188,13 +188,13 @@ pub struct Constellation {
     pub dominant: Option<HandSite>,
     /// The site of the other hand.
     pub other: Option<HandSite>,
-    /// How near they come to each other.
+    /// Their nearness to each other.
     pub contact: Option<Contact>,
-    /// Where the two are.
+    /// The common place of the two.
     pub at: Option<BodyPlace>,
-    /// The number under which the place is called up later, 1 to 5.
+    /// The number by which later parts of the sign refer to the place, 1 to 5.
     pub define: Option<u8>,
-    /// How text spelled it, where not as the printer would.
+    /// Its spelling in text, if it differs from the printer's.
     #[serde(skip)]
     pub written: Written,
 }
