@@ -1,4 +1,4 @@
-//! How two signals of one event lie on each other's clocks: the shift at which they are most alike.
+//! Synchronises two signals of one event: finds the shift at which they are most alike.
 
 /// A signal with gaps, by time.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -7,19 +7,20 @@ pub struct Signal {
     pub points: Vec<(f64, f64)>,
 }
 
-/// The shift of one signal onto another, and how sure it is.
+/// The shift of one signal onto another, with its confidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Shift {
-    /// Seconds to be added to the times of the second signal.
+    /// Seconds to add to the times of the second signal.
     pub seconds: f64,
-    /// The correlation there, at most 1.
+    /// The correlation at that shift, at most 1.
     pub correlation: f64,
     /// The best correlation of shifts that differ by more than [`APART`] seconds.
     pub runner_up: f64,
 }
 
 impl Shift {
-    /// Returns how sure the shift is, from 0 to 1: the correlation, less if another shift fits nearly as well.
+    /// Returns the confidence in the shift, from 0 to 1: the correlation, less if another shift fits
+    /// nearly as well.
     #[must_use]
     pub fn confidence(&self) -> f64 {
         let ahead = (self.correlation - self.runner_up.max(0.0)) / CLEAR;
@@ -27,13 +28,13 @@ impl Shift {
     }
 }
 
-/// Shifts that differ by less than this are one and the same finding, in seconds.
+/// Shifts that differ by less than this (s) count as the same.
 pub const APART: f64 = 0.3;
-/// A correlation that is ahead of the runner-up by this much is not doubted.
+/// A lead of the best correlation over the runner-up that leaves no doubt.
 const CLEAR: f64 = 0.25;
 /// The time between samples, in seconds, if the signals are short enough.
 const STEP: f64 = 0.01;
-/// Samples times shifts that are computed at most.
+/// Largest product of samples and shifts to compute.
 const MOST_WORK: f64 = 4e8;
 /// Signals must share this many seconds, or half of the shorter one if that is less ...
 const SHARED: f64 = 2.0;
@@ -87,7 +88,7 @@ pub fn shift(first: &Signal, second: &Signal, limit: f64) -> Option<Shift> {
     })
 }
 
-/// Returns by how much a parabola through a value and its neighbours has its top beside the value.
+/// Returns the offset of the vertex of a parabola through a value and its neighbours.
 fn summit(all: &[f64], at: usize) -> f64 {
     let Some((before, after)) = at
         .checked_sub(1)
@@ -127,7 +128,7 @@ impl Signal {
     }
 }
 
-/// Returns the correlation of the samples that meet if the second signal lies `lag` samples later.
+/// Returns the correlation of the matching samples if the second signal is `lag` samples later.
 fn correlation(
     first: &[Option<f64>],
     second: &[Option<f64>],
@@ -163,7 +164,7 @@ fn correlation(
 mod tests {
     use super::*;
 
-    /// Movement of no period: a few bumps at times of their own.
+    /// Movement without a period: a few bumps at times of their own.
     fn event(time: f64) -> f64 {
         [
             (1.0, 0.2),

@@ -1,4 +1,5 @@
-//! How hands move, frame by frame: speed of the wrist, opening, the palm's direction, their distance.
+//! Kinematics of the hands, frame by frame: speed of the wrist, opening, the palm's direction, distance of
+//! the hands.
 
 use chereme_motion::anatomy::Part;
 use chereme_motion::{Anatomy, Clip, ModelPose, Side};
@@ -6,7 +7,7 @@ use glam::DVec3;
 
 use crate::strokes::{place_in, smoothed, speeds};
 
-/// A minimum of speed counts where the speed rises on both of its sides to this many times it.
+/// A minimum of speed counts if the speed rises on both sides to this multiple of it.
 const RISE: f64 = 1.25;
 /// Speeds below this, in metres per second, are rest: their minima carry no information.
 const REST: f64 = 0.02;
@@ -14,7 +15,7 @@ const REST: f64 = 0.02;
 /// Curves of a clip; each has a number for every frame, or is absent if the skeleton does not show it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Kinematics {
-    /// Those of the right hand, then of the left.
+    /// The curves of the right hand, then of the left.
     pub hands: [HandCurves; 2],
     /// The distance between the wrists, in metres.
     pub distance: Vec<f64>,
@@ -25,10 +26,10 @@ pub struct Kinematics {
 pub struct HandCurves {
     /// The speed of the wrist in the space of the trunk, in metres per second, smoothed over 30 ms.
     pub speed: Vec<f64>,
-    /// How open the hand is: the mean over the fingers of the distance from wrist to tip as a share of
-    /// the length along their bones; 1 for straight fingers.
+    /// Aperture of the hand: the mean over the fingers of the distance from wrist to tip as a share of the
+    /// length along their bones; 1 for straight fingers.
     pub aperture: Vec<f64>,
-    /// Where the palm points, as a unit vector `[left, up, forward]` in the space of the trunk.
+    /// Direction of the palm, as a unit vector `[left, up, forward]` in the space of the trunk.
     pub palm: Vec<DVec3>,
 }
 
@@ -79,7 +80,7 @@ pub fn wrist_speed(clip: &Clip, anatomy: &Anatomy, side: Side) -> Vec<f64> {
     smoothed(&raw, clip)
 }
 
-/// The joints of a finger from the wrist's child to the last, and where that one ends in its own space.
+/// The joints of a finger from the wrist's child to the last, and the end of that one in its own space.
 struct Chain {
     joints: Vec<usize>,
     tip: DVec3,
@@ -129,8 +130,8 @@ fn aperture(clip: &Clip, anatomy: &Anatomy, side: Side, poses: &[ModelPose]) -> 
     poses.iter().map(open).collect()
 }
 
-/// Returns the frames at which a smoothed speed is least between two rises: where one stroke ends and
-/// the next begins. Where the hand rests the first and the last frame of the rest.
+/// Returns the frames of least smoothed speed between two rises: the boundaries between strokes. Of a rest
+/// it returns the first and the last frame.
 #[must_use]
 pub fn minima(speed: &[f64]) -> Vec<usize> {
     let mut found = Vec::new();
@@ -223,7 +224,7 @@ mod tests {
         let (clip, anatomy) = bending(|t| t);
         let curves = kinematics(&clip, &anatomy);
         let [right, left] = &curves.hands;
-        // A radian a second, a quarter of a metre from the elbow; the ends are one-sided.
+        // One radian per second, a quarter of a metre from the elbow; the ends are one-sided.
         for speed in &right.speed[20..220] {
             assert!((speed - 0.25).abs() < 1e-4, "{speed}");
         }

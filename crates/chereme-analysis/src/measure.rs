@@ -9,14 +9,14 @@ use glam::{DQuat, DVec3};
 use crate::strokes::{Mover, between_minima, place_in, smoothed, speeds, strokes};
 use crate::transcribe::way::{self, Way};
 
-/// The least peak of speed of a stroke, in metres per second: small ones are slow.
+/// The least peak of speed of a stroke, in metres per second: small strokes are slow.
 const LEAST: f64 = 0.05;
 /// A stroke shorter than this share of the longest stroke next to it is not counted: the hand comes to
 /// rest.
 const AMONG: f64 = 1.0 / 3.0;
 /// A speed below this share of the peak is a hold.
 const STILL: f64 = 0.1;
-/// This share of a stroke lies in the stretch that it is looked for in.
+/// At least this share of a stroke must be inside the given stretch.
 const INSIDE: f64 = 2.0 / 3.0;
 
 /// The kind of movement to measure.
@@ -24,28 +24,28 @@ const INSIDE: f64 = 2.0 / 3.0;
 pub enum Kind {
     /// The wrist goes from place to place, straight or curved.
     Stroke,
-    /// It goes round.
+    /// The wrist moves in a circle.
     Round,
-    /// It goes to and fro across its way.
+    /// The wrist moves to and fro across its path.
     Wave,
     /// The fingers go from shape to shape.
     Shape,
-    /// The hand goes from where one thing ends to where another begins.
+    /// The hand moves from the end of one movement to the start of another.
     Transition,
 }
 
 /// The measurements of one movement.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Measured {
-    /// How long it takes; of a [`Kind::Round`] one turn.
+    /// Its duration in seconds; of a [`Kind::Round`] that of one turn.
     pub seconds: f64,
-    /// From where it starts to where it ends, in metres; nought for what goes round.
+    /// Distance from start to end, in metres; zero for circles.
     pub length: f64,
-    /// How far it bulges from the straight line against its length; half the width of a wave in metres.
+    /// Depth of the bulge relative to the length; for a wave half its width in metres.
     pub depth: f64,
-    /// The radius of what goes round in metres: the mean of the longer and the shorter.
+    /// The radius of a circle in metres: the mean of the longer and the shorter one.
     pub radius: f64,
-    /// How far the hand turns against the trunk from start to end, in radians.
+    /// Rotation of the hand relative to the trunk from start to end, in radians.
     pub turn: f64,
     /// The number of strokes of about the same size; only the first one is measured.
     pub strokes: usize,
@@ -54,8 +54,8 @@ pub struct Measured {
 /// Measures the movement of one hand that lies in `within`; the frames around it show where strokes
 /// begin and end.
 ///
-/// A stroke lies between two minima of the wrist's speed; where there are several in the stretch the first
-/// one is measured, so that repetitions and ways back do not count. Circling and waving movements are
+/// A stroke lies between two minima of the wrist's speed; if the stretch has several, the first one is
+/// measured, so that repetitions and return movements do not count. Circling and waving movements are
 /// measured over the stretch without the holds at its ends, a transition over the stretch itself. Lengths
 /// are those of the wrist in the space of the trunk. `None` if the skeleton has no such hand, or the
 /// movement is not of that kind.
@@ -177,7 +177,7 @@ fn is_inside(frames: &Range<usize>, within: &Range<usize>) -> bool {
     shared as f64 >= INSIDE * frames.len() as f64
 }
 
-/// Returns how a joint is turned in the space of `base`, a joint above it, or of the model.
+/// Returns the rotation of a joint in the space of `base`, a joint above it, or of the model.
 fn turned_in(clip: &Clip, joint: usize, base: Option<usize>, frame: usize) -> DQuat {
     let above = clip.skeleton().ancestors(joint);
     above

@@ -1,4 +1,5 @@
-//! How alike two performances are: their distance under the best alignment, component by component.
+//! Scores the similarity of two performances: their distance under the best alignment, component by
+//! component.
 //!
 //! Each frame of a clip becomes a point of up to 66 channels, per hand:
 //!
@@ -9,8 +10,8 @@
 //! | orientation | unit vectors out of the palm and along the hand, in the trunk's axes | 0.73: both turned by 30 degrees |
 //! | configuration | the 21 angles of thumb and fingers, in radians | 1.6: all off by 20 degrees |
 //!
-//! The numbers are those of the body, not of the skeleton, so clips of different skeletons, sizes and
-//! places on the floor compare; channels that one of them lacks are left out and reported. The points are
+//! The numbers describe the body, not the skeleton, so clips of different skeletons, sizes and places on
+//! the floor are comparable; channels that one of them lacks are left out and reported. The points are
 //! aligned by [dynamic time warping](crate::dtw).
 
 use std::collections::BTreeMap;
@@ -64,34 +65,34 @@ impl Scales {
     }
 }
 
-/// How two clips are scored.
+/// Options of a score.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct ScoreOptions {
-    /// How they are aligned: by default symmetric2 without a window, for which a path always
-    /// exists. The first clip is the query.
+    /// Options of the alignment: by default symmetric2 without a window, for which a path always exists.
+    /// The first clip is the query.
     pub dtw: dtw::Options,
-    /// What counts as 1.
+    /// The amounts that count as 1.
     pub scales: Scales,
 }
 
-/// How alike two clips are.
+/// The similarity of two clips.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Score {
     /// The cost of the best alignment, in units of [`Scales`] summed over time.
     pub distance: f64,
-    /// The same by the path's weight; nothing where the step pattern has no norm.
+    /// The distance divided by the path's weight; `None` if the step pattern has no norm.
     pub normalized: Option<f64>,
-    /// For each component the mean over the aligned frames of its own distance (both hands
-    /// together), in its own unit.
+    /// For each component, the mean of its own distance over the aligned frames (both hands together), in
+    /// its own unit.
     pub components: BTreeMap<Component, f64>,
-    /// The largest model-space distance, in metres, of a joint or a bone's tip to its counterpart:
-    /// frame by frame where the clips have the same number of frames, else of aligned frames.
-    /// Nothing where the skeletons have no joint in common.
+    /// The largest model-space distance, in metres, of a joint or a bone's tip to its counterpart: frame
+    /// by frame if the clips have the same number of frames, else of aligned frames. `None` if the
+    /// skeletons have no joint in common.
     pub max_joint_error_m: Option<f64>,
-    /// Where that is.
+    /// The place of that error.
     pub worst: Option<Worst>,
-    /// Frames of the first and of the second clip that go together.
+    /// Corresponding frames of the first and of the second clip.
     pub alignment: Vec<(usize, usize)>,
     /// Whether the policy for missing paths was needed.
     pub made: Made,
@@ -103,7 +104,7 @@ pub struct Score {
     pub only_in_second: Vec<String>,
 }
 
-/// The joint that is farthest from its counterpart, and when.
+/// The joint that is farthest from its counterpart, with the frames.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Worst {
     /// Its name in the first clip.
@@ -123,10 +124,10 @@ pub struct LeftOut {
     pub shown: (bool, bool),
 }
 
-/// Why two clips cannot be scored.
+/// The reason why two clips cannot be scored.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ScoreError {
-    /// A clip has no frame.
+    /// A clip has no frames.
     #[error("the {which} clip has no frames; score stretches of at least one frame")]
     Empty {
         /// `first` or `second`.
@@ -143,20 +144,20 @@ pub enum ScoreError {
     Dtw(#[from] DtwError),
 }
 
-/// Returns how alike two clips are, with the parts of their bodies found by joint names.
+/// Returns the score of two clips, with the parts of their bodies found by joint names.
 ///
 /// # Errors
-/// As [`score_as`].
+/// The same as [`score_as`]'s.
 pub fn score(a: &Clip, b: &Clip, options: &ScoreOptions) -> Result<Score, ScoreError> {
     let (first, second) = (Anatomy::detect(a.skeleton()), Anatomy::detect(b.skeleton()));
     score_as((a, &first), (b, &second), options)
 }
 
-/// Returns how alike two clips are, given the anatomy of each.
+/// Returns the score of two clips, given the anatomy of each.
 ///
 /// # Errors
-/// [`ScoreError`]: an empty clip, nothing in common, scales that are not above zero, and what
-/// [`dtw::align`] refuses (no path under the asked pattern and window, too many cells).
+/// [`ScoreError`] if a clip has no frames, the skeletons have no component in common, a scale is not positive,
+/// or [`dtw::align`] refuses (no path under the requested pattern and window, too many cells).
 pub fn score_as(
     a: (&Clip, &Anatomy),
     b: (&Clip, &Anatomy),
@@ -208,7 +209,7 @@ pub fn score_as(
     })
 }
 
-/// The channels of each component and hand, a value per frame.
+/// The channels of each component and hand, one value per frame.
 type Features = BTreeMap<(Component, Side), Vec<Vec<f64>>>;
 
 const MANUAL: [Component; 4] = [
@@ -281,8 +282,8 @@ fn orientation(
     Some([palm.to_array(), along.to_array()].concat())
 }
 
-/// Turns rows into columns; a frame that shows nothing takes the last shown before it, else the
-/// first shown after it. Nothing where no frame shows anything.
+/// Converts rows to columns; a missing frame takes the last value before it, else the first one after it.
+/// `None` if all frames are missing.
 fn filled(rows: Vec<Option<Vec<f64>>>) -> Option<Vec<Vec<f64>>> {
     let mut last = rows.iter().find_map(Clone::clone)?;
     let mut columns = vec![Vec::with_capacity(rows.len()); last.len()];
@@ -312,7 +313,7 @@ fn velocity(column: &[f64], rate: Rate) -> Vec<f64> {
         .collect()
 }
 
-/// Drops what only one of the clips shows and says so.
+/// Drops the components that only one of the clips shows, and returns them.
 fn keep_common(first: &mut Features, second: &mut Features) -> Vec<LeftOut> {
     let mut left_out = Vec::new();
     for component in MANUAL {
@@ -365,8 +366,8 @@ fn component_parts(
         .collect()
 }
 
-/// Returns the joints of both clips that stand for each other: all of them where the skeletons
-/// have the same joints, else those of the same part of the body, else of the same name.
+/// Returns the corresponding joints of both clips: all of them if the skeletons have the same joints, else
+/// those of the same part of the body, else of the same name.
 fn pairs_of(a: (&Clip, &Anatomy), b: (&Clip, &Anatomy)) -> Vec<(usize, usize)> {
     let (first, second) = (a.0.skeleton().joints(), b.0.skeleton().joints());
     let same = first.len() == second.len()
@@ -427,7 +428,7 @@ fn largest_error(
     largest
 }
 
-/// A clip's posture in model space at a frame that rarely changes between calls.
+/// The posture of a clip in model space, cached by frame.
 struct Walker<'a> {
     clip: &'a Clip,
     frame: usize,

@@ -5,16 +5,15 @@ use std::ops::Range;
 use chereme_motion::{Anatomy, Clip, Side};
 use glam::{DQuat, DVec3};
 
-/// The deviation of the Gauss curve that speeds are smoothed by before minima are looked for, in
-/// seconds.
+/// Standard deviation (s) of the Gaussian that smooths speeds before minima are searched.
 const SMOOTH: f64 = 0.03;
-/// The least time of a transition in seconds, and its least frames.
+/// Shortest duration of a transition: in seconds, and in frames.
 const LEAST: (f64, usize) = (0.1, 6);
-/// A minimum counts where the speed falls below this share of the peaks on both of its sides.
+/// A minimum counts if the speed falls below this share of the peaks on both sides.
 const DIP: f64 = 0.8;
 /// A speed below this share of the peak is rest: its first minimum ends the transition.
 const REST: f64 = 0.1;
-/// The least peak of speed in metres or radians per second, and the least way in metres or radians.
+/// The least peak of speed in metres or radians per second, and the least distance in metres or radians.
 const STROKE: (f64, f64) = (0.15, 0.05);
 const SHAPE: (f64, f64) = (0.5, 0.349);
 
@@ -29,7 +28,7 @@ pub enum Mover {
 }
 
 impl Mover {
-    /// Returns the joints that make the transition, in the skeleton's order; none where the skeleton
+    /// Returns the joints that move in the transition, in the skeleton's order; empty if the skeleton
     /// lacks them.
     #[must_use]
     pub fn joints(self, anatomy: &Anatomy, side: Side) -> Vec<usize> {
@@ -40,13 +39,12 @@ impl Mover {
     }
 }
 
-/// Returns the frames of every transition of one side, from the posture it starts in up to and with
-/// the one it ends in, in order of time.
+/// Returns the frames of every transition of one side, from its first posture up to and including its
+/// last, in order of time.
 ///
-/// A transition goes from one minimum of speed to the next and lasts a tenth of a second and six
-/// frames or more; the wrist ends 5 cm or more from where it started, or the fingers are turned by 20
-/// degrees or more altogether. Speeds are smoothed over 30 ms first. None where the skeleton has no
-/// such arm or hand.
+/// A transition goes from one minimum of speed to the next and lasts a tenth of a second and six frames or
+/// more; the wrist ends 5 cm or more from where it started, or the fingers are turned by 20 degrees or
+/// more altogether. Speeds are smoothed over 30 ms first. Empty if the skeleton has no such arm or hand.
 #[must_use]
 pub fn strokes(clip: &Clip, anatomy: &Anatomy, side: Side, mover: Mover) -> Vec<Range<usize>> {
     let joints = mover.joints(anatomy, side);
@@ -86,7 +84,7 @@ pub fn strokes(clip: &Clip, anatomy: &Anatomy, side: Side, mover: Mover) -> Vec<
     found
 }
 
-/// Returns a point of the space of `joint` in that of `base`, a joint above it, or of the model.
+/// Converts a point from the space of `joint` to that of `base`, a joint above it, or of the model.
 #[must_use]
 pub fn place_in(
     clip: &Clip,
@@ -103,7 +101,7 @@ pub fn place_in(
         })
 }
 
-/// Returns how far joints are turned from one frame to another: the root of the sum of squares.
+/// Returns the rotation of joints from one frame to another: the root of the sum of squares.
 fn turned(clip: &Clip, joints: &[usize], from: usize, to: usize) -> f64 {
     let squares = joints.iter().map(|&joint| {
         let column: &[DQuat] = &clip.channel(joint).rotations;
@@ -128,7 +126,7 @@ pub(crate) fn speeds(
         .collect()
 }
 
-/// Returns speeds smoothed by a Gauss curve, so that their minima are those of the movement.
+/// Returns speeds smoothed by a Gaussian, so that their minima are those of the movement.
 pub(crate) fn smoothed(speeds: &[f64], clip: &Clip) -> Vec<f64> {
     let frame = clip.rate().frame_time();
     let reach = ((3.0 * SMOOTH / frame).ceil() as usize).min(speeds.len());
@@ -174,8 +172,8 @@ pub(crate) fn between_minima(speeds: &[f64], least: f64) -> Vec<Range<usize>> {
     found
 }
 
-/// Walks away from a peak to the minimum that ends its transition; nothing where the speed rises
-/// above the peak before, or the movement ends without falling far enough.
+/// Searches from a peak for the minimum that ends its transition; `None` if the speed first rises above
+/// the peak, or the movement ends without falling far enough.
 fn minimum(speeds: &[f64], top: usize, way: impl Iterator<Item = usize>) -> Option<usize> {
     let mut lowest = top;
     for n in way {

@@ -4,14 +4,14 @@ use std::fmt;
 
 use super::{StepPattern, Window};
 
-/// Why there is no path.
+/// The reason why there is no path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Obstacle {
     /// The window leaves out the last pair of frames, or the first.
     Window(Window),
     /// The step pattern cannot stretch one length to the other.
     Slope(StepPattern),
-    /// Each would do, but not this window with this pattern.
+    /// Window and pattern each allow a path, but not together.
     Together(Window, StepPattern),
 }
 
@@ -36,17 +36,17 @@ pub enum DtwError {
     /// A series has no frame or no channel.
     #[error("a series needs at least one frame and one channel")]
     Empty,
-    /// A frame has another number of values than the others.
+    /// The number of values of a frame differs from that of the others.
     #[error("frame {frame} has {found} values where {expected} channels were expected")]
     Ragged {
         /// The frame, from 0.
         frame: usize,
-        /// Values it has.
+        /// The number of values.
         found: usize,
-        /// Values it should have.
+        /// The expected number of values.
         expected: usize,
     },
-    /// A value that has no distance to others.
+    /// A value without a distance to others, such as NaN.
     #[error(
         "channel {channel} is {value} at frame {frame}; values must be numbers within 1e140 of \
          zero: fill gaps first or leave the channel out"
@@ -56,10 +56,10 @@ pub enum DtwError {
         frame: usize,
         /// The channel, from 0.
         channel: usize,
-        /// What was found.
+        /// The value.
         value: f64,
     },
-    /// Not one scale per channel.
+    /// The number of scales differs from the number of channels.
     #[error("{found} scales were given for {channels} channels; each channel needs one")]
     Scales {
         /// Scales given.
@@ -67,7 +67,7 @@ pub enum DtwError {
         /// Channels of the series.
         channels: usize,
     },
-    /// A scale that nothing can be divided by.
+    /// A scale that is zero, negative or not finite.
     #[error("the scale of channel {channel} is {scale}; it must be a number above zero")]
     Scale {
         /// The channel, from 0.
@@ -86,7 +86,7 @@ pub enum DtwError {
         /// Channels of the reference.
         reference: usize,
     },
-    /// An open end was asked of a pattern that has no norm for it.
+    /// An open end was requested for a pattern that has no norm for it.
     #[error(
         "{pattern:?} cannot have an open {end}: {}",
         if *end == "begin" {
@@ -96,7 +96,7 @@ pub enum DtwError {
         }
     )]
     OpenEnd {
-        /// The pattern asked for.
+        /// The requested pattern.
         pattern: StepPattern,
         /// `begin` or `end`.
         end: &'static str,
@@ -108,7 +108,7 @@ pub enum DtwError {
         query: usize,
         /// Frames of the reference.
         reference: usize,
-        /// What is in the way.
+        /// The obstacle.
         reason: Obstacle,
         /// A change of pattern, window or lengths under which a path exists.
         remedy: String,
@@ -120,7 +120,7 @@ pub enum DtwError {
         cells: u64,
         /// Cells allowed.
         limit: u64,
-        /// What would fit.
+        /// A change that would fit the limits.
         remedy: String,
     },
 }

@@ -1,9 +1,9 @@
-//! Dynamic time warping: how alike two movements are whatever their tempo, and which frame of the
-//! one goes with which of the other.
+//! Dynamic time warping: measures how alike two movements are whatever their tempo, and which of their
+//! frames correspond.
 //!
-//! Exact, multivariate, in `f64`; the same numbers as dtw-python and R's `dtw`, which the field
-//! uses. [`align`] gives the path, [`distance`] the cost alone in the memory of one row, and
-//! [`nearest`] the best of many.
+//! Exact, multivariate, in `f64`; the results equal those of dtw-python and R's `dtw`, which the field
+//! uses. [`align`] gives the path, [`distance`] the cost alone in the memory of one row, and [`nearest`]
+//! the best of many.
 //!
 //! ```
 //! use chereme_analysis::dtw::{Options, Series, StepPattern, align};
@@ -16,9 +16,9 @@
 //! # Ok::<(), chereme_analysis::dtw::DtwError>(())
 //! ```
 //!
-//! **Where no path exists** (a window narrower than the difference in length, a pattern that cannot
-//! stretch so far) there is no distance either. [`Policy`] says what happens then; the default refuses,
-//! and [`Cost::made`] reports any other policy that was applied.
+//! **If no path exists** (a window narrower than the difference in length, a pattern that cannot stretch
+//! that far), there is no distance either. [`Policy`] decides what happens then; the default refuses, and
+//! [`Cost::made`] reports any other policy that was applied.
 
 mod error;
 mod nearest;
@@ -42,7 +42,7 @@ use serde::{Deserialize, Serialize};
 use pattern::Norm;
 use table::Table;
 
-/// How far apart two frames are.
+/// The local distance of two frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Local {
@@ -60,8 +60,8 @@ pub enum Policy {
     /// Refuse with [`DtwError::NoPath`], as dtw-python and R do.
     #[default]
     Refuse,
-    /// Bring the reference to the query's length by linear interpolation and align that, under the
-    /// same pattern and window; always possible. The path names the nearest original frames.
+    /// Resample the reference to the query's length by linear interpolation and align the result, under
+    /// the same pattern and window; always possible. The path names the nearest original frames.
     Resample,
     /// Exchange the window for a slanted band at least as wide (and wide enough for the lengths); a series
     /// that the step pattern itself forbids is still refused.
@@ -73,7 +73,7 @@ pub enum Policy {
 pub struct Limits {
     /// Most cells for which [`align`] keeps a step, one byte each.
     pub kept: u64,
-    /// Most cells that are worked out at all, in [`align`] and in [`distance`].
+    /// Most cells to compute, in [`align`] and in [`distance`].
     pub cells: u64,
 }
 
@@ -87,7 +87,8 @@ impl Default for Limits {
     }
 }
 
-/// How two series are aligned; the default is R's: symmetric2, no window, closed ends, refusing.
+/// Options of an alignment; the default is R's: symmetric2, no window, closed ends, refusal if there is no
+/// path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Options {
@@ -97,27 +98,27 @@ pub struct Options {
     pub window: Window,
     /// The distance of two frames.
     pub local: Local,
-    /// The path may start at any frame of the reference; only for patterns normalised by the
-    /// query's length. The window still counts from the first frames of both (dtw-python's is one
-    /// frame off there). All but the plain asymmetric pattern then leave out the reference's first
-    /// frame, as a step along the reference leads to the query's first.
+    /// Whether the path may start at any frame of the reference; only for patterns normalised by the
+    /// query's length. The window still counts from the first frames of both (dtw-python's is one frame
+    /// off there). All but the plain asymmetric pattern then leave out the reference's first frame, as a
+    /// step along the reference leads to the query's first.
     pub open_begin: bool,
-    /// The path may end at any frame of the reference: at the one with the least normalised
-    /// distance, the earliest where several have it; not for symmetric1.
+    /// Whether the path may end at any frame of the reference: at the one with the least normalised
+    /// distance, the earliest of several; not for symmetric1.
     pub open_end: bool,
-    /// What happens where there is no path.
+    /// The policy if there is no path.
     pub policy: Policy,
-    /// How much work and memory is allowed.
+    /// Limits of work and memory.
     pub limits: Limits,
 }
 
-/// How a cost came about.
+/// The method by which a cost was computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Made {
-    /// Under the pattern and window that were asked for.
+    /// Under the requested pattern and window.
     AsAsked,
-    /// After bringing the reference to the query's length, by [`Policy::Resample`].
+    /// After resampling the reference to the query's length, by [`Policy::Resample`].
     Resampled,
     /// In a slanted band of this half width, by [`Policy::SlantedBand`].
     SlantedBand(usize),
@@ -131,16 +132,16 @@ pub struct Cost {
     /// The distance divided by the path's total weight: the query's length, or the sum of both lengths,
     /// counting the reference only up to the end of the path. `None` for symmetric1, which has no norm.
     pub normalized: Option<f64>,
-    /// Whether the policy for missing paths was needed.
+    /// The method: as requested, or by the policy for missing paths.
     pub made: Made,
 }
 
 /// The best alignment of a query with a reference.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Alignment {
-    /// What it costs.
+    /// Its cost.
     pub cost: Cost,
-    /// Frames of the query and of the reference that go together, in order, neither ever falling.
+    /// Corresponding frames of the query and of the reference, in order; neither ever decreases.
     pub path: Vec<(usize, usize)>,
 }
 
@@ -149,8 +150,8 @@ pub struct Alignment {
 /// Memory is one byte per cell inside the window; see [`Limits`].
 ///
 /// # Errors
-/// [`DtwError::Channels`], [`DtwError::OpenEnd`], [`DtwError::TooLarge`], and
-/// [`DtwError::NoPath`] where the policy leaves none.
+/// [`DtwError::Channels`], [`DtwError::OpenEnd`], [`DtwError::TooLarge`], and [`DtwError::NoPath`] if the
+/// policy refuses.
 pub fn align(query: &Series, reference: &Series, options: &Options) -> Result<Alignment, DtwError> {
     let limit = options.limits.kept.min(options.limits.cells);
     check(query, reference, options, limit)?;
@@ -167,7 +168,7 @@ pub fn align(query: &Series, reference: &Series, options: &Options) -> Result<Al
 /// Equal to that of [`align`] to the last digit or two; memory grows with the lengths only.
 ///
 /// # Errors
-/// As [`align`].
+/// The same as [`align`]'s.
 pub fn distance(query: &Series, reference: &Series, options: &Options) -> Result<Cost, DtwError> {
     check(query, reference, options, options.limits.cells)?;
     let found = with_policy(query, reference, options, |query, reference, options| {
@@ -179,7 +180,7 @@ pub fn distance(query: &Series, reference: &Series, options: &Options) -> Result
     found.map(|alignment| alignment.cost)
 }
 
-/// Returns what a path to frame `end` of the reference is divided by.
+/// Returns the divisor of the cost of a path to frame `end` of the reference.
 fn norm(pattern: StepPattern, query: usize, end: usize) -> Option<f64> {
     match pattern.norm() {
         Norm::None => None,
@@ -188,7 +189,7 @@ fn norm(pattern: StepPattern, query: usize, end: usize) -> Option<f64> {
     }
 }
 
-/// Chooses the frame of the reference at which the path ends; nothing where none is reached.
+/// Chooses the frame of the reference at which the path ends; `None` if no frame is reached.
 fn finish(last: &[f64], query: usize, options: &Options) -> Option<(usize, Cost)> {
     let normalized = |end: usize| norm(options.pattern, query, end).map(|norm| last[end] / norm);
     let end = if options.open_end {
@@ -262,7 +263,7 @@ fn too_large(cells: u64, limit: u64, frames: usize, kept: bool) -> DtwError {
     }
 }
 
-/// Runs `run` as asked, and where that finds no path once more as the policy has it.
+/// Calls `run` as requested and, if it finds no path, once more according to the policy.
 fn with_policy(
     query: &Series,
     reference: &Series,

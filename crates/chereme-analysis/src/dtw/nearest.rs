@@ -1,4 +1,4 @@
-//! The nearest of many series, exactly, without working out most of the alignments.
+//! Finds the nearest of many series, exactly, without computing most of the alignments.
 
 use std::cmp::{Ordering, Reverse};
 use std::collections::{BTreeMap, BinaryHeap, VecDeque};
@@ -8,15 +8,15 @@ use super::skew::{self, Ask, Reversed, SLACK};
 use super::window::{connected, transposed};
 use super::{DtwError, Local, Options, Policy, Series, check, distance};
 
-/// Frames of a candidate whose bounds are found together.
+/// Frames of a candidate whose bounds are computed together.
 const RUN: usize = 16;
-/// Of this many frames one run is taken for a first bound.
+/// One run out of this many frames is sampled for a first bound.
 const SAMPLED: usize = 4 * RUN;
 
-/// One of the candidates and how far it is.
+/// A candidate with its distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Neighbour {
-    /// Its place among the candidates, from 0.
+    /// Its index among the candidates.
     pub index: usize,
     /// The distance of its best alignment, as [`distance`] gives it (not normalised).
     pub distance: f64,
@@ -25,23 +25,24 @@ pub struct Neighbour {
 /// The candidates nearest to a query, and counts of the work done to find them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Nearest {
-    /// Nearest first, equal distances by index; fewer than asked for where fewer have a path.
+    /// Nearest first, equal distances by index; fewer than requested if fewer have a path.
     pub neighbours: Vec<Neighbour>,
-    /// Candidates whose alignment was worked out to the end; the others were ruled out earlier.
+    /// The number of candidates whose alignment was computed to the end; the others were ruled out
+    /// earlier.
     pub completed: usize,
-    /// Candidates that have no path under these options, and so no distance.
+    /// The number of candidates without a path under these options, and therefore without a distance.
     pub without_path: usize,
 }
 
 /// Returns the `k` candidates with the least alignment distance to `query`.
 ///
-/// The answer is that of calling [`distance`] on every candidate. For the symmetric patterns with
-/// closed ends a lower bound of each (Keogh and Ratanamahatana 2005, doi
-/// 10.1007/s10115-004-0154-9; on each channel, with the window's own envelope) decides the order
-/// of work and rules most out, and a running alignment is given up once it cannot win.
+/// The answer equals that of [`distance`] on every candidate. For the symmetric patterns with closed ends
+/// a lower bound of each (Keogh and Ratanamahatana 2005, doi 10.1007/s10115-004-0154-9; on each channel,
+/// with the window's own envelope) determines the order of work and excludes most candidates, and a
+/// running alignment is abandoned once it cannot win.
 ///
 /// # Errors
-/// As [`distance`], but candidates without a path are counted instead of refused.
+/// The same as [`distance`]'s, but candidates without a path are counted instead of refused.
 pub fn nearest(
     query: &Series,
     candidates: &[Series],
@@ -77,8 +78,8 @@ fn every(
     Ok(best.found)
 }
 
-/// Works on the candidate of the least bound: first from a sample of its frames, then from all of
-/// them, then by its alignment.
+/// Processes the candidate with the least bound: first from a sample of its frames, then from all of them,
+/// then by its alignment.
 fn pruned(
     query: &Series,
     candidates: &[Series],
@@ -169,7 +170,7 @@ impl PartialEq for Bound {
 
 impl Eq for Bound {}
 
-/// Returns the sum, by eight sums that do not wait for each other.
+/// Returns the sum, by eight independent sums.
 fn total(bounds: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let (chunks, rest) = bounds.as_chunks::<8>();
@@ -201,7 +202,7 @@ struct Envelope {
 }
 
 impl Envelope {
-    /// Returns the envelope for candidates of `length` frames; nothing where they have no path.
+    /// Returns the envelope for candidates of `length` frames; `None` if they have no path.
     fn of(query: &Series, length: usize, options: &Options) -> Option<Self> {
         let window = options.window.rows(query.frames(), length);
         if !connected(&window, length) {
@@ -217,8 +218,8 @@ impl Envelope {
         Some(Self { rows, lower, upper })
     }
 
-    /// Writes for frames of `candidate` how far each is at least from any it may meet: for the
-    /// first [`RUN`] frames in every `stride`.
+    /// Writes for frames of `candidate` the least distance from any frame they may be aligned with: for
+    /// the first [`RUN`] frames in every `stride`.
     fn bounds(&self, candidate: &Series, local: Local, stride: usize, out: &mut Vec<f64>) {
         pulp::Arch::new().dispatch(Bounds {
             envelope: self,
@@ -258,7 +259,7 @@ impl Envelope {
     }
 }
 
-/// A call of [`Envelope::sums`] that is compiled for each instruction set and chosen when run.
+/// A call of [`Envelope::sums`] that is compiled for each instruction set and selected at run time.
 struct Bounds<'a> {
     envelope: &'a Envelope,
     candidate: &'a Series,
@@ -303,7 +304,7 @@ fn sliding(column: &[f64], ranges: &[Range<usize>], before: fn(f64, f64) -> bool
         .collect()
 }
 
-/// The best so far.
+/// The best candidates so far.
 struct Best {
     k: usize,
     found: Nearest,
@@ -317,7 +318,7 @@ impl Best {
         }
     }
 
-    /// Returns the distance that a candidate must not exceed to be of use.
+    /// Returns the distance that a useful candidate must not exceed.
     fn limit(&self) -> f64 {
         let kept = &self.found.neighbours;
         match kept.last() {

@@ -1,14 +1,14 @@
-//! Step patterns as tables: the ways in which an alignment may reach a cell.
+//! Step patterns as tables: the steps by which an alignment may reach a cell.
 
 use serde::{Deserialize, Serialize};
 
-/// Which steps an alignment may take and what they weigh.
+/// The allowed steps of an alignment with their weights.
 ///
-/// With *i* the frame of the query, *j* that of the reference, *d* the local distance and *g* the
-/// least cost of reaching a cell; the first cell always weighs 1. Where ways cost the same, the
-/// one listed first wins. Sources: Sakoe and Chiba 1978 (doi 10.1109/TASSP.1978.1163055), table I,
-/// for the symmetric and P1 patterns; Rabiner and Juang 1993, chapter 4, for the plain asymmetric
-/// one (Itakura's slope) and type III c.
+/// With *i* the frame of the query, *j* that of the reference, *d* the local distance and *g* the least
+/// cost of reaching a cell; the first cell always weighs 1. Of steps with equal costs, the one listed
+/// first wins. Sources: Sakoe and Chiba 1978 (doi 10.1109/TASSP.1978.1163055), table I, for the symmetric
+/// and P1 patterns; Rabiner and Juang 1993, chapter 4, for the plain asymmetric one (Itakura's slope) and
+/// type III c.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StepPattern {
@@ -17,22 +17,22 @@ pub enum StepPattern {
     /// `min(g(i-1,j-1) + 2d, g(i,j-1) + d, g(i-1,j) + d)`; normalised by the sum of the lengths.
     #[default]
     Symmetric2,
-    /// `d + min(g(i-1,j), g(i-1,j-1), g(i-1,j-2))`; every frame of the query counts exactly once
-    /// and frames of the reference may be skipped, so that its arguments cannot be exchanged. A
-    /// path needs `M-1 <= 2(N-1)`. Normalised by the query's length.
+    /// `d + min(g(i-1,j), g(i-1,j-1), g(i-1,j-2))`; every frame of the query counts exactly once and
+    /// frames of the reference may be skipped, so its arguments cannot be exchanged. A path needs `M-1 <=
+    /// 2(N-1)`. Normalised by the query's length.
     Asymmetric,
     /// Sakoe and Chiba's symmetric pattern of slope constraint P = 1.
     SymmetricP1,
     /// Sakoe and Chiba's asymmetric pattern of slope constraint P = 1.
     AsymmetricP1,
-    /// Rabiner and Juang's type III with slope weighting c: no two steps along the query in turn.
+    /// Rabiner and Juang's type III with slope weighting c: no two successive steps along the query.
     TypeIiiC,
 }
 
 /// The divisor that makes the costs of alignments of different lengths comparable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Norm {
-    /// Path weights depend on the path: there is no norm.
+    /// Path weights depend on the path, so there is no norm.
     None,
     /// The query's length.
     Query,
@@ -113,7 +113,7 @@ impl StepPattern {
         }
     }
 
-    /// Returns the weight of a diagonal step where only single steps are allowed both ways.
+    /// Returns the weight of a diagonal step, if the pattern has only single steps in both directions.
     pub(crate) fn diagonal(self) -> Option<f64> {
         match self {
             Self::Symmetric1 => Some(1.0),

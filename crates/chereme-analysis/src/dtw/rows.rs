@@ -1,5 +1,5 @@
-//! The table of least costs row by row, for every step pattern but the symmetric ones without slope
-//! constraint, with the steps taken where a path is wanted.
+//! The table of least costs row by row, for every step pattern except the symmetric ones without slope
+//! constraint, with the steps if a path is requested.
 
 use std::ops::Range;
 
@@ -8,17 +8,17 @@ use super::{Local, Options, Series, StepPattern};
 
 /// Columns of unreachable cost before the first, so that steps back need no test.
 const PAD: usize = 2;
-/// Columns whose local distance is found together.
+/// Columns whose local distances are computed together.
 const CHUNK: usize = 16;
 
 /// The parts of a filled table that are kept: the costs of its last row, and each cell's step if
 /// requested.
 pub(super) struct Table {
-    /// Least cost of reaching each frame of the reference with the query's last; infinite where
-    /// no path leads.
+    /// Least cost of reaching each frame of the reference with the query's last; infinite if no path leads
+    /// there.
     pub(super) last: Vec<f64>,
     steps: Vec<u8>,
-    /// For each row where its steps begin and the column they begin at.
+    /// For each row, the index at which its steps begin, and the column they begin at.
     offsets: Vec<(usize, usize)>,
 }
 
@@ -39,7 +39,7 @@ pub(super) fn fill(
     })
 }
 
-/// A call that is compiled for each instruction set and chosen when run.
+/// A call that is compiled for each instruction set and selected at run time.
 struct Fill<'a> {
     query: &'a Series,
     reference: &'a Series,
@@ -141,7 +141,7 @@ impl Row<'_> {
         }
     }
 
-    /// The asymmetric pattern: the step is how far the reference moves on.
+    /// The asymmetric pattern: the step is the number of frames by which the reference advances.
     #[inline(always)]
     fn asymmetric(self, cost: &mut [f64], steps: &mut [u8]) {
         let Range { start, end } = self.range;
@@ -218,7 +218,7 @@ fn add_squares(sums: &mut [f64], value: f64, column: &[f64]) {
 }
 
 impl Table {
-    /// Returns the step that leads to a cell, as the place of its production in the pattern.
+    /// Returns the step that leads to a cell, as the index of its production in the pattern.
     pub(super) fn step(&self, i: usize, j: usize) -> u8 {
         let (offset, start) = self.offsets[i];
         self.steps[offset + j - start]

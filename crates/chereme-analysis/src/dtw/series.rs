@@ -2,8 +2,8 @@
 
 use super::DtwError;
 
-/// Largest magnitude a value may have; its square, summed over any series that fits in memory,
-/// stays finite.
+/// Largest allowed magnitude of a value; its square, summed over any series that fits in memory, stays
+/// finite.
 const LARGEST: f64 = 1e140;
 
 /// A checked multivariate time series of at least one frame and one channel, all values finite.
@@ -19,9 +19,9 @@ impl Series {
     /// Returns the series whose frames are `rows`, each with one value per channel.
     ///
     /// # Errors
-    /// [`DtwError::Empty`] without frames or channels, [`DtwError::Ragged`] where a frame has
-    /// another number of channels than the first, [`DtwError::Value`] for NaN, infinities and
-    /// magnitudes above 1e140.
+    /// [`DtwError::Empty`] without frames or channels, [`DtwError::Ragged`] if the number of channels of a
+    /// frame differs from the first frame's, [`DtwError::Value`] for NaN, infinities and magnitudes above
+    /// 1e140.
     pub fn from_rows<R: AsRef<[f64]>>(rows: &[R]) -> Result<Self, DtwError> {
         let channels = rows.first().map_or(0, |row| row.as_ref().len());
         if channels == 0 {
@@ -43,7 +43,7 @@ impl Series {
     /// Returns the series whose channels are `columns`, each with one value per frame.
     ///
     /// # Errors
-    /// As [`from_rows`](Self::from_rows); the shorter or longer column is reported by the frame
+    /// The same as [`from_rows`](Self::from_rows)'s; a shorter or longer column is reported by the frame
     /// at which it departs.
     pub fn from_columns<C: AsRef<[f64]>>(columns: &[C]) -> Result<Self, DtwError> {
         let frames = columns.first().map_or(0, |column| column.as_ref().len());
@@ -84,12 +84,12 @@ impl Series {
         }
     }
 
-    /// Returns the series with every channel divided by its own scale: the amount of that channel
-    /// that shall weigh as much as 1 of another.
+    /// Returns the series with every channel divided by its own scale: the amount of that channel that
+    /// weighs as much as 1 of another.
     ///
     /// # Errors
-    /// [`DtwError::Scales`] where there is not one scale per channel, [`DtwError::Scale`] where a
-    /// scale is not a positive finite number, [`DtwError::Value`] where a quotient is too large.
+    /// [`DtwError::Scales`] if the numbers of scales and channels differ, [`DtwError::Scale`] if a scale
+    /// is not a positive finite number, [`DtwError::Value`] if a quotient is too large.
     pub fn scaled(&self, scales: &[f64]) -> Result<Self, DtwError> {
         if scales.len() != self.channels() {
             return Err(DtwError::Scales {
@@ -111,8 +111,8 @@ impl Series {
         Self::checked(self.frames, values)
     }
 
-    /// Returns the series stretched or squeezed to `frames` frames (at least one) by linear
-    /// interpolation, first on first and last on last; one frame is taken from the middle.
+    /// Returns the series stretched or squeezed to `frames` frames (at least one) by linear interpolation,
+    /// first on first and last on last; a single frame comes from the middle.
     #[must_use]
     pub fn resampled(&self, frames: usize) -> Self {
         let frames = frames.max(1);
@@ -129,13 +129,13 @@ impl Series {
         Self { frames, values }
     }
 
-    /// Returns how many frames the series has.
+    /// Returns the number of frames.
     #[must_use]
     pub fn frames(&self) -> usize {
         self.frames
     }
 
-    /// Returns how many channels a frame has.
+    /// Returns the number of channels.
     #[must_use]
     pub fn channels(&self) -> usize {
         self.values.len() / self.frames
@@ -144,7 +144,7 @@ impl Series {
     /// Returns the values of one channel, a value per frame.
     ///
     /// # Panics
-    /// Where there is no such channel.
+    /// If there is no such channel.
     #[must_use]
     pub fn column(&self, channel: usize) -> &[f64] {
         &self.values[channel * self.frames..][..self.frames]
@@ -156,7 +156,7 @@ impl Series {
     }
 }
 
-/// Returns where frame `i` of `frames` lies in a series of `source` frames, in frames.
+/// Returns the position of frame `i` of `frames` in a series of `source` frames, in frames.
 pub(crate) fn place(i: usize, frames: usize, source: usize) -> f64 {
     let last = (source - 1) as f64;
     if frames == 1 {

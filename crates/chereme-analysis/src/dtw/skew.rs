@@ -1,5 +1,5 @@
-//! The table of least costs for the symmetric patterns: eight rows at a time along anti-diagonals,
-//! whose cells do not wait for each other; without its steps in memory of one row.
+//! The table of least costs for the symmetric patterns: eight rows at a time along anti-diagonals, whose
+//! cells are independent; without its steps in memory of one row.
 
 use std::ops::Range;
 
@@ -8,9 +8,9 @@ use super::{Local, Series};
 /// Bounds are lowered by this share, far more than rounding can raise them.
 pub(super) const SLACK: f64 = 1.0 - 1e-9;
 
-/// Rows that are worked on together.
+/// Rows that are processed together.
 const LANES: usize = 8;
-/// Anti-diagonals whose local distances are found before their costs.
+/// Anti-diagonals whose local distances are computed before their costs.
 const TILE: usize = 32;
 
 type Lane = [f64; LANES];
@@ -52,19 +52,19 @@ pub(super) struct Ask<'a> {
     pub(super) diagonal: f64,
     /// Distance between two frames.
     pub(super) local: Local,
-    /// The cost above which the answer is of no use.
+    /// The cost above which the result is useless.
     pub(super) limit: f64,
-    /// For every row a lower bound of what the rows after it still cost; may be empty.
+    /// For every row a lower bound of the cost of the later rows; may be empty.
     pub(super) rest: &'a [f64],
 }
 
 /// The last row of a table, and each cell's step if kept.
 pub(super) struct Table {
-    /// Least cost of reaching each column with the last row; infinite where no path leads.
+    /// Least cost of reaching each column with the last row; infinite if no path leads there.
     pub(super) last: Vec<f64>,
     /// Steps of all blocks, anti-diagonal by anti-diagonal.
     steps: Vec<[u8; LANES]>,
-    /// For each block where its steps begin and the column they begin at.
+    /// For each block, the index at which its steps begin, and the column they begin at.
     blocks: Vec<(usize, usize)>,
 }
 
@@ -76,8 +76,8 @@ impl Table {
     }
 }
 
-/// Fills the table, with about a byte per cell for its steps if `KEEP`; nothing where the least
-/// cost was found to exceed the limit.
+/// Fills the table, with about a byte per cell for its steps if `KEEP`; `None` if the least cost exceeds
+/// the limit.
 pub(super) fn fill<const KEEP: bool>(
     rows: &Series,
     columns: &Reversed,
@@ -86,7 +86,7 @@ pub(super) fn fill<const KEEP: bool>(
     pulp::Arch::new().dispatch(Run::<KEEP> { rows, columns, ask })
 }
 
-/// A call of [`blocks`] that is compiled for each instruction set and chosen when run.
+/// A call of [`blocks`] that is compiled for each instruction set and selected at run time.
 struct Run<'a, const KEEP: bool> {
     rows: &'a Series,
     columns: &'a Reversed,
@@ -133,7 +133,7 @@ fn blocks<const KEEP: bool>(rows: &Series, columns: &Reversed, ask: &Ask<'_>) ->
     })
 }
 
-/// Gathers the eight frames from `first` on, channel by channel; past the end the last is repeated.
+/// Gathers the eight frames from `first` on, channel by channel; past the end the last frame is repeated.
 #[inline(always)]
 fn load(rows: &Series, first: usize, values: &mut [Lane]) {
     for (channel, lane) in values.iter_mut().enumerate() {
@@ -194,8 +194,8 @@ fn block<const KEEP: bool>(
     least
 }
 
-/// Writes the local distances of the anti-diagonals from step `from` on: lane `r` of step `s` is
-/// row `r`, column `s - r`.
+/// Writes the local distances of the anti-diagonals from step `from`: lane `r` of step `s` is row `r`,
+/// column `s - r`.
 #[inline(always)]
 fn local_costs(values: &[Lane], columns: &Reversed, from: usize, local: Local, tile: &mut [Lane]) {
     let base = LANES + columns.frames - 1 - from;

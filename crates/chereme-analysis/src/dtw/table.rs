@@ -1,4 +1,4 @@
-//! A table of least costs, filled the way that suits its step pattern, and the path through it.
+//! A table of least costs, filled by the method for its step pattern, and the path through it.
 
 use super::skew::Reversed;
 use super::{Options, Series, rows, skew};
@@ -30,8 +30,8 @@ impl Table {
         skew::fill::<KEEP>(query, &Reversed::of(reference), &ask).map(Self::Skew)
     }
 
-    /// Returns the least cost of reaching each frame of the reference with the query's last;
-    /// infinite where no path leads.
+    /// Returns the least cost of reaching each frame of the reference with the query's last; infinite if
+    /// no path leads there.
     pub(super) fn last(&self) -> &[f64] {
         match self {
             Self::Rows(table) => &table.last,

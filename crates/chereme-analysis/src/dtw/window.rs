@@ -1,22 +1,22 @@
-//! Windows: how far an alignment may depart from the diagonal.
+//! Windows: limits on the distance of an alignment from the diagonal.
 
 use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-/// How far an alignment may depart from a diagonal, in frames of the reference.
+/// The largest distance of an alignment from a diagonal, in frames of the reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Window {
-    /// Any departure.
+    /// Unlimited.
     #[default]
     None,
-    /// `|i - j| <= w` about the main diagonal (Sakoe and Chiba); lengths that differ by more than
-    /// `w` have no path.
+    /// `|i - j| <= w` about the main diagonal (Sakoe and Chiba); lengths that differ by more than `w` have
+    /// no path.
     SakoeChiba(usize),
-    /// `|j - i*(M-1)/(N-1)| <= w` about the line from corner to corner; a single frame of the
-    /// query lies at the reference's first. Very unequal lengths may have no path, as the line
-    /// then rises by more than the band's width at a step.
+    /// `|j - i*(M-1)/(N-1)| <= w` about the line from corner to corner; a single frame of the query is at
+    /// the reference's first. Very unequal lengths may have no path, as the line then rises by more than
+    /// the band's width per step.
     SlantedBand(usize),
 }
 
@@ -36,7 +36,7 @@ impl Window {
         }
     }
 
-    /// Returns [`row`](Self::row) for every frame of the query; starts and ends never fall.
+    /// Returns [`row`](Self::row) for every frame of the query; starts and ends never decrease.
     pub(crate) fn rows(self, n: usize, m: usize) -> Vec<Range<usize>> {
         (0..n)
             .map(|i| {
@@ -46,7 +46,7 @@ impl Window {
             .collect()
     }
 
-    /// Returns how many cells lie in the window, without making a list of them.
+    /// Returns the number of cells in the window, without listing them.
     pub(crate) fn cells(self, n: usize, m: usize) -> u64 {
         match self {
             Self::None => (n as u64).saturating_mul(m as u64),
@@ -68,7 +68,7 @@ pub(crate) fn connected(rows: &[Range<usize>], m: usize) -> bool {
     first && last && steps
 }
 
-/// Returns, for every column of `m`, the rows whose ranges hold it.
+/// Returns, for every column of `m`, the rows whose ranges include it.
 pub(crate) fn transposed(rows: &[Range<usize>], m: usize) -> Vec<Range<usize>> {
     let mut columns = Vec::with_capacity(m);
     let (mut start, mut end) = (0, 0);

@@ -17,8 +17,7 @@ const CURVED: f64 = 0.075;
 const SHALLOW: (f64, f64, f64) = (0.015, 0.035, 0.15);
 /// Smallest angle (rad) of a full circle: five sixths of a turn.
 pub(super) const ROUND: f64 = TAU * 0.83;
-/// Smallest angle (rad) of an incomplete circle; below it the path is an arc, of which the deepest is half
-/// a turn.
+/// Smallest angle (rad) of an incomplete circle; below it the path is an arc, at most half a turn.
 const PART: f64 = TAU * 0.75;
 /// Largest error of an incomplete circle, as a share of its radius.
 const PART_OFF: f64 = 0.12;
