@@ -111,8 +111,8 @@ Values
   placement=head > *                      begins at the head and moves on
   placement!=chest                        coded, and not this
   placement="neutral space"               with blanks: in quotes
-  configuration=B*                        * stands for any characters of the value
-                                          or its name; case counts only after ==
+  configuration=B*                        * for any characters of value or name,
+                                          in any case (the double sign minds it)
   configuration=[index middle -thumb]     features, and one that is absent
   placement=*                             has a value
   placement=unset   =n/a   =unclear       has none, and why
