@@ -2,7 +2,7 @@
 
 use chereme_tests::repository;
 use clap::CommandFactory;
-use clap::error::ErrorKind;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 
 use crate::args::Cli;
 
@@ -75,6 +75,14 @@ fn of_guide(text: &str) -> Vec<String> {
         .collect()
 }
 
+/// Returns whether the value that is wrong stands for another one, as RECORDING does.
+fn is_of_a_placeholder(error: &clap::Error) -> bool {
+    match error.get(ContextKind::InvalidValue) {
+        Some(ContextValue::String(value)) => value.chars().all(|c| c.is_ascii_uppercase()),
+        _ => false,
+    }
+}
+
 fn fault(command: &str) -> Option<String> {
     let mut words = words(command);
     // A redirection belongs to the shell.
@@ -88,6 +96,7 @@ fn fault(command: &str) -> Option<String> {
     let error = Cli::command().try_get_matches_from(&words).err()?;
     match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => None,
+        ErrorKind::ValueValidation if is_of_a_placeholder(&error) => None,
         // A command may be named without its arguments.
         ErrorKind::MissingRequiredArgument
         | ErrorKind::MissingSubcommand

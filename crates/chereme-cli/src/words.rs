@@ -198,7 +198,7 @@ mod tests {
             "{help}"
         );
         assert!(
-            help.contains("Afficher l’aide") && !help.contains("Print"),
+            help.contains("Afficher l’aide") && !help.contains("Print help"),
             "{help}"
         );
         assert!(help.contains("Annuler la dernière modification"), "{help}");

@@ -433,7 +433,7 @@ const CASES: &[Case] = &[
     ),
     ("export @c recording:1 BOL --to @d/takes", 1, ERROR),
     ("export @c recording:1 BOL --to @d/takes.bvh", 1, ERROR),
-    ("export @c BOL --to @d/bowl.glb", 1, ERROR),
+    ("export @c BOL --to @d/bowl.fbx", 1, ERROR),
     ("export @c BOL --to -", 1, ERROR),
     ("import @c -", 1, ERROR),
     ("export @c BOL --to @d/bowl.sigml", 1, ERROR),
@@ -796,11 +796,11 @@ fn an_unknown_action_is_answered_with_those_there_are() {
         corpus.display()
     ));
     assert!(
-        text(&done.stderr).contains("no role; roles are gloss"),
+        text(&done.stderr).contains("is no role; write gloss"),
         "{}",
         text(&done.stderr)
     );
-    let done = desk.run(&format!("render {} bowl --to x.png", corpus.display()));
+    let done = desk.run(&format!("suggest {} bowl", corpus.display()));
     let said = text(&done.stderr);
     assert!(said.contains("recording:\"bowl\""), "{said}");
 }

@@ -189,9 +189,9 @@ fn unknown(to: &Path, extension: &str) -> Error {
             .advise(remedy)
     };
     match extension {
-        "glb" | "gltf" | "fbx" | "usd" | "usda" | "usdz" => wrong(
+        "gltf" | "fbx" | "usd" | "usda" | "usdz" => wrong(
             format!("{extension} is not written"),
-            "write .bvh; Blender and others read it (File, Import, Motion Capture)",
+            "write .glb or .bvh, which Blender and others read",
         ),
         "png" | "gif" | "svg" => wrong(
             format!("{extension} is a picture"),
