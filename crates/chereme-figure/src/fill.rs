@@ -4,7 +4,7 @@ use pulp::{Arch, NullaryFnOnce};
 
 use crate::buffers::{Band, packed, whole};
 
-/// Corners are snapped to this fraction of a sample.
+/// Steps per sample to which corners are snapped.
 pub(crate) const SUBPIXELS: f32 = 16.0;
 const UNIT: i32 = SUBPIXELS as i32;
 /// Largest width and height of a triangle, in parts of a sample, for which products of its sides fit 32

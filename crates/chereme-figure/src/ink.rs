@@ -17,6 +17,7 @@ use crate::raster::Style;
 
 /// Half the width of a line, in pixels of the finished picture.
 const LINE: f32 = 0.6;
+/// Reach of a shade, in pixels of the finished picture.
 const SHADE: f32 = 2.5;
 /// Strength of the darkest shade.
 const SHADE_STRENGTH: f32 = 0.38;
@@ -24,7 +25,7 @@ const SHADE_STRENGTH: f32 = 0.38;
 const SHADE_STEPS: [f32; 2] = [0.006, 0.033];
 /// The depth step from which a line between two parts is drawn at full strength, in metres.
 const CLEAR_STEP: f32 = 0.004;
-/// Strengths of lines:
+/// Strengths of lines: within a part, between parts that touch, between parts apart.
 const STRENGTHS: [f32; 3] = [0.75, 0.5, 0.9];
 /// The colour of lines within the figure.
 const INNER_LINE: [f32; 3] = [34.0, 30.0, 34.0];

@@ -80,8 +80,9 @@ impl SheetOptions {
 /// A callback between pictures: receives the number of finished pictures and the total.
 pub type Progress<'a> = &'a mut dyn FnMut(usize, usize) -> ControlFlow<()>;
 
-/// Height of a line of labels, and the gap between cells, in pixels.
+/// Height of a line of labels, in pixels.
 const LABEL: usize = 18;
+/// The gap between cells, in pixels.
 const GAP: usize = 6;
 
 /// Draws the contact sheet of `clip`: one row per view, one column per frame, each with its time.

@@ -81,7 +81,7 @@ pub struct Framing {
 
 /// The number of frames of a clip that are sampled to measure its space.
 const LOOKS: usize = 400;
-/// The eye's distance relative to half the height of the visible area:
+/// The eye's distance relative to half the height of the visible area: a long lens.
 const DISTANCE: f32 = 7.0;
 /// Largest distance of a body from its middle, in metres, before the camera follows it.
 const TRAVELS: f32 = 0.6;

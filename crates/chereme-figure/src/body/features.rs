@@ -159,8 +159,9 @@ struct Colours {
 
 /// Depth behind the surface at which pieces of the mouth are closed.
 const BEHIND: f32 = 0.03;
-/// The number of corners around the mouth, and along its teeth.
+/// The number of corners around the mouth.
 const AROUND: usize = 24;
+/// The number of corners along the teeth.
 const ALONG: usize = 11;
 
 impl Mouth {

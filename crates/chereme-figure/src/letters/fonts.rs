@@ -7,11 +7,13 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use fontdb::{Database, FaceInfo, ID, Stretch, Style};
 use skrifa::{FontRef, MetadataProvider};
 
-/// The largest font file in bytes; also the most bytes of fonts in memory.
+/// The largest font file that is read, in bytes.
 const MOST_FILE: usize = 48 << 20;
+/// The most bytes of fonts in memory.
 const MOST_KEPT: usize = 192 << 20;
-/// The most remembered characters with a font, and the most without one.
+/// The most remembered characters with a font.
 const MOST_KNOWN: usize = 1 << 16;
+/// The most remembered characters without a font.
 const MOST_MISSING: usize = 512;
 
 /// A font that was loaded for a text.

@@ -20,6 +20,7 @@ use outline::Placed;
 
 /// The size of a system font that matches the small font, in dots.
 const SIZE: f32 = 11.0;
+/// The base line of a system font, in dots from the top of a cell.
 const BASE: f32 = 10.0;
 
 /// A line of text after layout.

@@ -14,6 +14,8 @@ pub enum ChannelFix {
 
 impl ChannelFix {
     /// Returns the root's channels in the actual order of the columns.
+    ///
+    /// The order among the rotations, and among the positions, is that of the file.
     #[must_use]
     pub fn apply(self, channels: &[Channel]) -> Vec<Channel> {
         match self {
