@@ -13,8 +13,9 @@ const LEAST: (f64, usize) = (0.1, 6);
 const DIP: f64 = 0.8;
 /// A speed below this share of the peak is rest: its first minimum ends the transition.
 const REST: f64 = 0.1;
-/// The least peak of speed in metres or radians per second, and the least distance in metres or radians.
+/// Least peak of speed (m/s) and least distance (m) of a stroke of the wrist.
 const STROKE: (f64, f64) = (0.15, 0.05);
+/// Least peak of speed (rad/s) and least rotation (rad) of a change of handshape: 20 degrees.
 const SHAPE: (f64, f64) = (0.5, 0.349);
 
 /// The body part that moves in a transition.

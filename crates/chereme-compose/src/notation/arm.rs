@@ -41,6 +41,7 @@ struct Clavicle {
     at: DVec3,
     /// Its rotation in model space.
     turned: DQuat,
+    /// The rotation of its parent in model space.
     above: DQuat,
     /// The rotation between it and the upper arm.
     between: DQuat,

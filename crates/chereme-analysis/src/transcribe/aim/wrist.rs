@@ -31,6 +31,7 @@ impl Wrist {
         left: bool,
         language: &BodyLanguage,
     ) -> Option<Self> {
+        // Smallest distance of the elbow from the line, as a share of the arm: below it the arm is straight.
         const BENT: f64 = 0.02;
         let mirror = DVec3::new(if left { -1.0 } else { 1.0 }, 1.0, 1.0);
         let [upper, lower] = [elbow - shoulder, wrist - elbow].map(|bone| bone * mirror);

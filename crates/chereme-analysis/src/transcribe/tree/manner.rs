@@ -70,12 +70,15 @@ struct Course {
     even: f64,
 }
 
-/// The courses that the animator's controller produces: `TARGETTED` for a meant goal, then into contact,
-/// with a sudden stop, tense, and for circles.
+/// The course that the animator's controller gives a movement to a meant goal.
 const TARGETTED: Course = course(0.50, 0.56, 0.52);
+/// The course of a movement into contact.
 const CONTACT: Course = course(0.39, 0.66, 0.48);
+/// The course of a movement with a sudden stop.
 const STOP: Course = course(0.38, 0.70, 0.48);
+/// The course of a tense movement.
 const TENSE: Course = course(0.57, 0.50, 0.61);
+/// The course of a circle.
 const ROUND: Course = course(0.68, 0.50, 0.62);
 
 const fn course(span: f64, late: f64, even: f64) -> Course {
