@@ -80,7 +80,7 @@ fn corpora_of_earlier_versions_open_whole() {
             let kinds: Vec<&str> = all.iter().map(|track| track.kind.name()).collect();
             assert_eq!(
                 kinds,
-                ["skeleton", "media", "markers", "curves"],
+                ["skeleton", "markers", "curves"],
                 "version {version}"
             );
         }
