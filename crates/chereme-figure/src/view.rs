@@ -257,7 +257,7 @@ impl Framing {
         }
     }
 
-    /// Returns where a joint is against what the camera follows.
+    /// Returns the position of a joint relative to the point that the camera follows.
     fn against(&self, pose: &ModelPose, joint: usize) -> Vec3 {
         pose.position(joint).as_vec3() - based(self.follow, pose)
     }
@@ -268,7 +268,7 @@ impl Framing {
         self.axes
     }
 
-    /// Returns how wide beside its height what a view sees is.
+    /// Returns the ratio of width to height of a view's visible area.
     #[must_use]
     pub fn aspect(&self, view: View) -> f32 {
         let [towards, up] = view.axes();
@@ -281,12 +281,12 @@ impl Framing {
     }
 }
 
-/// Returns where what the camera follows is; the origin where it stands still.
+/// Returns the point that the camera follows; the origin if it stands still.
 fn based(follow: Option<usize>, pose: &ModelPose) -> Vec3 {
     follow.map_or(Vec3::ZERO, |joint| pose.position(joint).as_vec3())
 }
 
-/// Returns the joint that carries the body, where the body travels farther than signers sway.
+/// Returns the joint that carries the body, if the body travels farther than signers sway.
 fn travelling(poses: &[ModelPose], anatomy: &Anatomy) -> Option<usize> {
     let parts = [Part::Hips, Part::Spine, Part::Chest];
     let joint = parts.iter().find_map(|&part| anatomy.joint(part))?;
@@ -298,8 +298,8 @@ fn travelling(poses: &[ModelPose], anatomy: &Anatomy) -> Option<usize> {
     ((high - low).length() * 0.5 > TRAVELS).then_some(joint)
 }
 
-/// Returns postures of a clip from its first to its last frame, evenly spaced where there are many; odd first and last
-/// frames are left out.
+/// Returns postures of a clip from its first to its last frame, evenly spaced if there are many; odd first
+/// and last frames are left out.
 fn looks(clip: &Clip, anatomy: &Anatomy) -> Option<Vec<ModelPose>> {
     clip.frames().checked_sub(1)?;
     let sound = Ends::of(clip, anatomy).sound;
@@ -323,7 +323,7 @@ fn hand_middle(pose: &ModelPose, anatomy: &Anatomy, side: Side) -> Option<Vec3> 
     Some(wrist.lerp(sum / fingers.len() as f32, 0.85))
 }
 
-/// Returns the middle of the head and its height, where both are known.
+/// Returns the middle of the head and its height, if both are known.
 fn head_middle(pose: &ModelPose, anatomy: &Anatomy) -> Option<(Vec3, f32)> {
     let joint = anatomy.joint(Part::Head)?;
     let measures = anatomy.measures()?;
@@ -339,7 +339,7 @@ fn arm_length(pose: &ModelPose, arm: chereme_motion::ArmChain) -> f32 {
     (upper + (at(arm.hand) - at(arm.forearm)).length()) as f32
 }
 
-/// Returns the signer's left, up and forwards over all postures, up being that of model space.
+/// Returns the signer's left, up and forwards over all postures; up is that of model space.
 fn facing(poses: &[ModelPose], anatomy: &Anatomy) -> Mat3 {
     let mut left = Vec3::ZERO;
     for part in [Part::Thigh as fn(Side) -> Part, Part::UpperArm] {

@@ -112,11 +112,11 @@ pub(super) fn add(
     thumb.add(body, skeleton, rest, &measures, (hand.side, colours));
 }
 
-/// A thumb without its metacarpal, or a finger.
+/// A finger, or the thumb without its metacarpal.
 struct Digit {
     number: usize,
     joints: Vec<usize>,
-    /// The direction its inner side faces at rest, in model space.
+    /// The direction of its inner side at rest, in model space.
     inner: Vec3,
 }
 
@@ -300,7 +300,7 @@ fn palm(
     body.rod(web, paint);
 }
 
-/// Returns the point a share of the way from `joint` to `to` (in model space), fixed to `joint`.
+/// Returns the point at a share of the line from `joint` to `to` (in model space), fixed to `joint`.
 fn between(rest: &ModelPose, joint: usize, to: Vec3, share: f32) -> Point {
     let bone = (to - place(rest, joint)) * share;
     Point {
@@ -309,7 +309,7 @@ fn between(rest: &ModelPose, joint: usize, to: Vec3, share: f32) -> Point {
     }
 }
 
-/// Adds a hand whose fingers the skeleton does not have: a round form in the forearm's direction.
+/// Adds a hand without fingers: a round form in the forearm's direction.
 fn mitten(body: &mut Assembly, skeleton: &Skeleton, hand: &HandJoints, colours: HandColours) {
     let joint = skeleton.joint(hand.wrist);
     let child = skeleton.children(hand.wrist).first();

@@ -84,14 +84,14 @@ fn surface([x, y]: [f32; 2]) -> Vec3 {
     egg(Vec3::new(x, y, z)) * RADII
 }
 
-/// Returns a point of the unit sphere moved onto the part of it above `edge`, closed by a disc there.
+/// Projects a point of the unit sphere onto the part of it above `edge`, closed by a disc there.
 fn cap(point: Vec3, edge: f32) -> Vec3 {
     let y = edge + (point.y + 1.0) * 0.5 * (1.0 - edge);
     let around = Vec3::new(point.x, 0.0, point.z).normalize_or_zero();
     around * (1.0 - y * y).max(0.0).sqrt() + Vec3::Y * y
 }
 
-/// Returns a point of the unit sphere moved to where an egg with its narrow end down has it.
+/// Maps a point of the unit sphere onto an egg with its narrow end down.
 pub(super) fn egg(point: Vec3) -> Vec3 {
     let low = (-point.y).max(0.0);
     let narrow = 1.0 - 0.30 * low * low;
@@ -112,9 +112,9 @@ fn crown_or_face(point: Vec3, palette: &Palette) -> Colour {
 
 /// A small form on the face, in units of the head's height.
 struct Mark {
-    /// Place on the unit sphere: towards the signer's left, and up.
+    /// Position on the unit sphere: towards the signer's left, and up.
     at: [f32; 2],
-    /// How far out of the surface its middle lies.
+    /// Distance of its middle from the surface.
     out: f32,
     radii: Vec3,
     tilt: f32,

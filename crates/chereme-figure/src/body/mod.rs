@@ -16,7 +16,7 @@ use crate::palette::Palette;
 use head::Head;
 use shape::{Assembly, Element, Loft, Paint, Point, Rod, Section, place, rotation};
 
-/// A signer's body, made once for a skeleton and moved to any posture of it.
+/// A signer's body, built once for a skeleton and moved to any posture of it.
 ///
 /// Limbs are rods between the joints, the torso a rounded slab from hips to shoulders, hands have
 /// palms, fingers and nails, the head a face. Parts that the anatomy lacks are left out; a hand
@@ -28,7 +28,7 @@ pub struct Body {
     face: Option<Expressive>,
 }
 
-/// A head whose face can be other than at rest.
+/// A head with a movable face.
 #[derive(Debug, Clone, PartialEq)]
 struct Expressive {
     joint: usize,
@@ -45,10 +45,10 @@ pub mod group {
     pub const TORSO: u8 = 1;
     /// The head.
     pub const HEAD: u8 = 2;
-    /// Legs, and the bones of a skeleton that is no body.
+    /// Legs, and the bones of a skeleton that is not a body.
     pub const REST: u8 = 3;
 
-    /// From here on: marks in space, such as a grid or a trail, without light and lines.
+    /// Numbers from here on are marks in space, such as a grid or a trail, without light and lines.
     pub const FLAT: u8 = 128;
 
     /// Returns the number of an arm.
@@ -77,7 +77,7 @@ pub mod group {
     }
 }
 
-/// The length of an arm from shoulder to wrist that the measures below are meant for, in metres.
+/// The arm's length from shoulder to wrist for which the measures below are defined, in metres.
 const ARM: f32 = 0.53;
 
 impl Body {
@@ -87,7 +87,7 @@ impl Body {
         Self::with_palette(skeleton, anatomy, &Palette::default())
     }
 
-    /// Returns the body of `skeleton` in colours of one's own.
+    /// Returns the body of `skeleton` in the given colours.
     #[must_use]
     pub fn with_palette(skeleton: &Skeleton, anatomy: &Anatomy, palette: &Palette) -> Self {
         let rest = skeleton.rest_model_pose();
@@ -111,7 +111,7 @@ impl Body {
         }
     }
 
-    /// Returns only both hands, arms left out; empty where there are no wrists.
+    /// Returns only both hands, without arms; empty if there are no wrists.
     #[must_use]
     pub fn hands(skeleton: &Skeleton, anatomy: &Anatomy, palette: &Palette) -> Self {
         let rest = skeleton.rest_model_pose();
@@ -125,7 +125,7 @@ impl Body {
         out.into_body(&rest)
     }
 
-    /// Returns only the hand of `side`, forearm left out; empty where there is no wrist.
+    /// Returns only the hand of `side`, without the forearm; empty if there is no wrist.
     #[must_use]
     pub fn hand(skeleton: &Skeleton, anatomy: &Anatomy, side: Side, palette: &Palette) -> Self {
         let rest = skeleton.rest_model_pose();
@@ -137,10 +137,10 @@ impl Body {
         out.into_body(&rest)
     }
 
-    /// Returns the surface in `pose`, a posture of the skeleton the body was made for.
+    /// Returns the surface in `pose`, a posture of the body's skeleton.
     ///
     /// # Panics
-    /// Where `pose` has fewer joints than that skeleton.
+    /// If `pose` has fewer joints than that skeleton.
     #[must_use]
     pub fn mesh(&self, pose: &ModelPose) -> Mesh {
         let mut mesh = self.template.clone();
@@ -148,11 +148,11 @@ impl Body {
         mesh
     }
 
-    /// Moves `mesh`, which [`mesh`](Self::mesh) of this body made, to `pose` without allocating a
-    /// new one; triangles, colours and groups stay.
+    /// Moves a `mesh` from [`mesh`](Self::mesh) of this body to `pose` without allocating a new one;
+    /// triangles, colours and groups stay.
     ///
     /// # Panics
-    /// Where `mesh` is smaller than this body's or `pose` has fewer joints.
+    /// If `mesh` is smaller than this body's or `pose` has fewer joints.
     pub fn shape(&self, pose: &ModelPose, mesh: &mut Mesh) {
         if mesh.vertices.len() != self.template.vertices.len() {
             mesh.clone_from(&self.template);
@@ -162,11 +162,11 @@ impl Body {
         }
     }
 
-    /// Gives `mesh`, which [`shape`](Self::shape) moved to `pose`, what the face does; a body without a head
-    /// stays as it is. The next `shape` puts the face at rest again.
+    /// Applies a facial expression to `mesh`, which [`shape`](Self::shape) moved to `pose`; a body without
+    /// a head is unchanged. The next `shape` puts the face at rest again.
     ///
     /// # Panics
-    /// As [`shape`](Self::shape).
+    /// The same as [`shape`](Self::shape)'s.
     pub fn express(&self, pose: &ModelPose, face: &Face, mesh: &mut Mesh) {
         let Some(known) = &self.face else { return };
         let local = known.head.mesh(&known.palette, face);
@@ -192,7 +192,7 @@ impl Assembly {
     }
 }
 
-/// Returns the size of the body beside an adult's, by its arms.
+/// Returns the size of the body relative to an adult's, by its arms.
 fn body_size(anatomy: &Anatomy) -> f32 {
     let arm = anatomy
         .measures()
@@ -207,7 +207,7 @@ fn colours(palette: &Palette, side: Side) -> crate::palette::HandColours {
     }
 }
 
-/// Points of a trunk that has no joints there, below the middle of the shoulders.
+/// Points of a trunk without joints, below the middle of the shoulders.
 struct Hang {
     joint: usize,
     at: Vec3,
@@ -217,7 +217,7 @@ struct Hang {
 }
 
 impl Hang {
-    /// Returns the point so many metres below the shoulders.
+    /// Returns the point `down` metres below the shoulders.
     fn below(&self, down: f32) -> Point {
         Point {
             joint: self.joint,
@@ -379,7 +379,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Returns what the trunk hangs on where joints of it are missing: the joint that carries both arms.
+    /// Returns the point that the trunk hangs on if joints of it are missing: the joint that carries both
+    /// arms.
     fn hang(&self, right: usize, left: usize) -> Hang {
         let above: Vec<usize> = self.skeleton.ancestors(right).collect();
         let shared = self.skeleton.ancestors(left).find(|it| above.contains(it));
@@ -443,7 +444,7 @@ impl Builder<'_> {
         });
     }
 
-    /// Adds every bone of a skeleton that is not known as a body.
+    /// Adds every bone of a skeleton that is not a known body.
     fn bones(&mut self) {
         let paint = Paint::plain(self.palette.face, group::REST);
         let places: Vec<Vec3> = (0..self.skeleton.len())

@@ -1,4 +1,4 @@
-//! The forms a body is put together from, each following the joints it hangs on.
+//! The forms of a body, each of which follows its joints.
 
 use std::ops::Range;
 
@@ -16,7 +16,7 @@ pub(super) struct Point {
 }
 
 impl Point {
-    /// Returns the joint's own place.
+    /// Returns the joint's own position.
     pub(super) fn at(joint: usize) -> Self {
         Self {
             joint,
@@ -29,17 +29,17 @@ impl Point {
     }
 }
 
-/// Returns where a joint is.
+/// Returns the position of a joint.
 pub(super) fn place(pose: &ModelPose, joint: usize) -> Vec3 {
     pose.position(joint).as_vec3()
 }
 
-/// Returns how a joint is turned.
+/// Returns the rotation of a joint.
 pub(super) fn rotation(pose: &ModelPose, joint: usize) -> Quat {
     pose.rotation(joint).as_quat()
 }
 
-/// A form and how it follows the joints.
+/// A form with its joints.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Shape {
     /// A rod with round ends.
@@ -54,13 +54,13 @@ pub(super) enum Shape {
     Loft(Loft),
 }
 
-/// A rod between two points, thinner or thicker at one end, its ends round.
+/// A rod between two points with round ends, which may differ in thickness.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Rod {
     pub(super) ends: [Point; 2],
     /// Radii at both ends and in the middle between them, in metres.
     pub(super) radii: [f32; 3],
-    /// The joint whose rotation, and the direction in its space, that the rod's +X side faces.
+    /// A joint, and the direction in its space that the rod's +X side faces.
     pub(super) facing: (usize, Vec3),
     pub(super) columns: usize,
 }

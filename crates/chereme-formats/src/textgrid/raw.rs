@@ -9,7 +9,7 @@ use crate::finding::Finding;
 use crate::table::{TableError, decode};
 use crate::tally::Findings;
 
-/// The two ways to write a TextGrid as text.
+/// The two text forms of a TextGrid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Form {
     /// Every value with its name, as Praat writes by default.
