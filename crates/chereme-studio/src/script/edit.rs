@@ -92,7 +92,13 @@ fn places(ui: &Ui, job: &LayoutJob, pieces: &[Piece]) -> (Vec<[f32; 2]>, f32) {
         let width = wide(&piece.text);
         let mut before = 0.0;
         for (at, letter) in part.char_indices() {
-            let after = wide(&part[..at + letter.len_utf8()]).min(width);
+            let end = at + letter.len_utf8();
+            let after = match piece.from_right && end < part.len() {
+                // A letter looks otherwise at the end than before another: this has it look as before one.
+                true => wide(&format!("{}\u{200d}", &part[..end])),
+                false => wide(&part[..end]),
+            };
+            let after = after.min(width).max(before);
             let place = match piece.from_right {
                 true => [left + width - before, 0.0],
                 false => [left + before, after - before],

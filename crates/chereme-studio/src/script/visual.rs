@@ -250,7 +250,8 @@ mod tests {
             ("كتاب is notated.", "<كتاب> is notated."),
             ("كتاب كبير", "<كبير> <كتاب>"),
             ("(كتاب)", "(<كتاب>)"),
-            ("see كتاب كبير (2)", "see <كبير> <كتاب> (2)"),
+            // A number after Arabic letters goes on with them.
+            ("see كتاب كبير (2)", "see (2) <كبير> <كتاب>"),
             ("שלום, עולם!", "!<עולם> ,<שלום>"),
         ] {
             assert_eq!(shown(line), wanted, "{line}");

@@ -152,7 +152,12 @@ impl Field {
             _ => None,
         };
         match taken {
-            Some(at) => typed.changed = self.take(offers, at),
+            Some(at) => {
+                let only = enter && self.at.is_none();
+                typed.changed = self.take(offers, at);
+                // Nothing is left to choose where that is all of a query.
+                typed.entered = only && Query::parse(&self.text).is_ok();
+            }
             None => typed.entered = enter,
         }
         if typed.entered {
