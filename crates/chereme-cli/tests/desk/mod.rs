@@ -1,5 +1,7 @@
 //! A desk to try commands on: a corpus, the files that it was made of, and the program.
 
+pub(crate) mod cases;
+
 use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
@@ -8,7 +10,7 @@ use std::process::{Command, Output, Stdio};
 use chereme_tests::files;
 use serde_json::Value;
 
-use super::{Case, ERROR};
+use cases::{Case, ERROR};
 
 /// A folder with a corpus and files to try commands on.
 pub(super) struct Desk {

@@ -5,6 +5,8 @@
 //! `[table, kind, before, after, uids of the rows referred to]`. Undo applies the inverse as a new
 //! operation, redo the inverse of that.
 
+mod tracked;
+
 use std::collections::BTreeMap;
 
 use rusqlite::{Connection, OptionalExtension, params};
@@ -14,106 +16,10 @@ use serde_json::Value;
 use super::damaged;
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
+use tracked::{Column, TRACKED, columns, from_image};
 
-/// The tables whose rows are recorded, and for each the columns that refer to a row with a uid.
-const TRACKED: [(&str, &[(&str, &str)]); 21] = [
-    ("meta", &[]),
-    ("signer", &[]),
-    ("skeleton", &[]),
-    ("recording", &[("signer_id", "signer")]),
-    ("source_file", &[("recording_id", "recording")]),
-    (
-        "track",
-        &[("recording_id", "recording"), ("skeleton_id", "skeleton")],
-    ),
-    ("track_block", &[("track_id", "track")]),
-    ("channel", &[("track_id", "track")]),
-    ("inventory", &[]),
-    ("inventory_value", &[("inventory_id", "inventory")]),
-    (
-        "tier",
-        &[
-            ("recording_id", "recording"),
-            ("parent_id", "tier"),
-            ("inventory_id", "inventory"),
-        ],
-    ),
-    (
-        "annotation",
-        &[("tier_id", "tier"), ("parent_id", "annotation")],
-    ),
-    ("sign", &[]),
-    ("sign_text", &[("sign_id", "sign")]),
-    (
-        "token",
-        &[
-            ("sign_id", "sign"),
-            ("recording_id", "recording"),
-            ("annotation_id", "annotation"),
-        ],
-    ),
-    (
-        "token_value",
-        &[
-            ("token_id", "token"),
-            ("inventory_id", "inventory"),
-            ("annotation_id", "annotation"),
-        ],
-    ),
-    (
-        "notation",
-        &[("token_id", "token"), ("source_file_id", "source_file")],
-    ),
-    ("attribute", &[("token_id", "token")]),
-    ("recipe", &[("recording_id", "recording")]),
-    (
-        "recipe_input",
-        &[
-            ("recipe_id", "recipe"),
-            ("recording_id", "recording"),
-            ("token_id", "token"),
-        ],
-    ),
-    ("kept_search", &[]),
-];
-
-/// Changes that alter what the search index holds of tokens: table, event, and which tokens.
-const TOUCHING: [(&str, &str, &str); 9] = [
-    ("sign", "UPDATE", "WHERE t.sign_id = NEW.id"),
-    ("sign_text", "INSERT", "WHERE t.sign_id = NEW.sign_id"),
-    ("sign_text", "UPDATE", "WHERE t.sign_id = NEW.sign_id"),
-    ("sign_text", "DELETE", "WHERE t.sign_id = OLD.sign_id"),
-    ("recording", "UPDATE", "WHERE t.recording_id = NEW.id"),
-    (
-        "signer",
-        "INSERT",
-        "WHERE t.recording_id IN (SELECT recording_id FROM main.tier WHERE participant = NEW.name)",
-    ),
-    (
-        "signer",
-        "UPDATE",
-        "WHERE t.recording_id IN (SELECT id FROM main.recording WHERE signer_id = NEW.id
-         UNION SELECT recording_id FROM main.tier WHERE participant IN (OLD.name, NEW.name))",
-    ),
-    (
-        "signer",
-        "DELETE",
-        "WHERE t.recording_id IN (SELECT recording_id FROM main.tier WHERE participant = OLD.name)",
-    ),
-    ("tier", "UPDATE", "WHERE t.recording_id = NEW.recording_id"),
-];
-
-/// What is said while a token lasts is found by search too: event, row, start and end of the change.
-const SAYING: [(&str, &str, &str, &str); 3] = [
-    ("INSERT", "NEW", "NEW.start_us", "NEW.end_us"),
-    (
-        "UPDATE",
-        "NEW",
-        "min(OLD.start_us, NEW.start_us)",
-        "max(OLD.end_us, NEW.end_us)",
-    ),
-    ("DELETE", "OLD", "OLD.start_us", "OLD.end_us"),
-];
+pub(super) use tracked::record_changes;
+pub(crate) use tracked::refers_to;
 
 const PART_BYTES: usize = 4 << 20;
 
@@ -160,103 +66,6 @@ pub struct OperationRow {
     pub changes: i64,
     /// Whether it stands: it is not taken back at this time.
     pub stands: bool,
-}
-
-/// Sets up this connection's triggers that record every change of a tracked table.
-pub(super) fn record_changes(connection: &Connection) -> Result<()> {
-    let mut sql = String::from(
-        "CREATE TEMP TABLE change (
-             seq INTEGER PRIMARY KEY, tbl TEXT NOT NULL, kind TEXT NOT NULL,
-             before TEXT, after TEXT, refs TEXT NOT NULL);
-         CREATE TEMP TABLE touched (token_id INTEGER PRIMARY KEY);",
-    );
-    for (table, references) in TRACKED {
-        let columns = columns(connection, table)?;
-        for (kind, event) in [("i", "INSERT"), ("u", "UPDATE"), ("d", "DELETE")] {
-            let image = |row: &str| row_image(&columns, row);
-            let (before, after) = match kind {
-                "i" => ("NULL".to_owned(), image("NEW")),
-                "u" => (image("OLD"), image("NEW")),
-                _ => (image("OLD"), "NULL".to_owned()),
-            };
-            let row = if kind == "d" { "OLD" } else { "NEW" };
-            let refs: Vec<String> = references
-                .iter()
-                .map(|(column, other)| {
-                    format!(
-                        "'{column}',(SELECT hex(uid) FROM main.{other} WHERE id={row}.{column})"
-                    )
-                })
-                .collect();
-            let refs = refs.join(",");
-            sql.push_str(&format!(
-                "CREATE TEMP TRIGGER record_{table}_{kind} AFTER {event} ON main.{table} BEGIN
-                 INSERT INTO temp.change (tbl, kind, before, after, refs)
-                 VALUES ('{table}', '{kind}', {before}, {after}, json_object({refs})); END;"
-            ));
-        }
-    }
-    for (table, column) in [("token", "id"), ("token_value", "token_id")] {
-        for (event, row) in [("INSERT", "NEW"), ("UPDATE", "NEW"), ("DELETE", "OLD")] {
-            sql.push_str(&format!(
-                "CREATE TEMP TRIGGER touch_{table}_{event} AFTER {event} ON main.{table} BEGIN
-                 INSERT OR IGNORE INTO temp.touched VALUES ({row}.{column}); END;"
-            ));
-        }
-    }
-    for (event, row, start, end) in SAYING {
-        sql.push_str(&format!(
-            "CREATE TEMP TRIGGER touch_annotation_{event} AFTER {event} ON main.annotation BEGIN
-             INSERT OR IGNORE INTO temp.touched SELECT t.id
-             FROM main.tier i JOIN main.token t ON t.recording_id = i.recording_id
-             WHERE i.id = {row}.tier_id AND i.role IN ('translation', 'comment')
-               AND t.end_us > {start} AND t.start_us < {end} AND t.start_us > {start} -
-                   (SELECT o.end_us - o.start_us FROM main.token o
-                    WHERE o.recording_id = i.recording_id
-                    ORDER BY o.end_us - o.start_us DESC LIMIT 1); END;"
-        ));
-    }
-    for (table, event, tokens) in TOUCHING {
-        sql.push_str(&format!(
-            "CREATE TEMP TRIGGER touch_{table}_{event} AFTER {event} ON main.{table} BEGIN
-             INSERT OR IGNORE INTO temp.touched SELECT t.id FROM main.token t {tokens}; END;"
-        ));
-    }
-    connection.execute_batch(&sql)?;
-    Ok(())
-}
-
-struct Column {
-    name: String,
-    blob: bool,
-}
-
-fn columns(connection: &Connection, table: &str) -> Result<Vec<Column>> {
-    let mut statement =
-        connection.prepare_cached("SELECT name, type FROM pragma_table_info(?1) ORDER BY cid")?;
-    let columns = statement
-        .query_map([table], |row| {
-            Ok(Column {
-                name: row.get(0)?,
-                blob: row.get::<_, String>(1)? == "BLOB",
-            })
-        })?
-        .collect::<rusqlite::Result<Vec<_>>>()?;
-    Ok(columns)
-}
-
-fn row_image(columns: &[Column], row: &str) -> String {
-    let fields: Vec<String> = columns
-        .iter()
-        .map(|Column { name, blob }| {
-            if *blob {
-                format!("'{name}',hex({row}.{name})")
-            } else {
-                format!("'{name}',{row}.{name}")
-            }
-        })
-        .collect();
-    format!("json_object({})", fields.join(","))
 }
 
 /// Writes the operation's row, whose number the changeset will carry.
@@ -539,13 +348,6 @@ pub(crate) fn steps(connection: &Connection) -> Result<(usize, usize)> {
     Ok((done.len(), undone.len()))
 }
 
-/// Returns the table that a column of a tracked table refers to.
-pub(crate) fn refers_to(table: &str, column: &str) -> Option<&'static str> {
-    let (_, references) = TRACKED.iter().find(|tracked| tracked.0 == table)?;
-    let (_, other) = references.iter().find(|reference| reference.0 == column)?;
-    Some(other)
-}
-
 /// Returns the name of a row as people know it; nothing where it is gone or has none.
 pub(crate) fn name_of(connection: &Connection, table: &str, id: i64) -> Result<Option<String>> {
     let sql = match table {
@@ -665,15 +467,6 @@ fn invert_change(
         }
     }
     Ok(())
-}
-
-fn from_image(column: &Column) -> String {
-    let name = &column.name;
-    if column.blob {
-        format!("unhex(json_extract(?1, '$.{name}'))")
-    } else {
-        format!("json_extract(?1, '$.{name}')")
-    }
 }
 
 /// Refuses to take back a change whose row something else has changed since.
