@@ -16,7 +16,7 @@ use serde_json::Value;
 use super::damaged;
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
-use tracked::{Column, TRACKED, columns, from_image};
+use tracked::{TRACKED, columns, from_image, row_image};
 
 pub(super) use tracked::record_changes;
 pub(crate) use tracked::refers_to;

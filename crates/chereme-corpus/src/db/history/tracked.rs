@@ -191,7 +191,7 @@ pub(super) fn columns(connection: &Connection, table: &str) -> Result<Vec<Column
 }
 
 /// Returns the SQL of a row as JSON.
-fn row_image(columns: &[Column], row: &str) -> String {
+pub(super) fn row_image(columns: &[Column], row: &str) -> String {
     let fields: Vec<String> = columns
         .iter()
         .map(|Column { name, blob }| {
