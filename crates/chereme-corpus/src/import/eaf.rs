@@ -7,6 +7,7 @@ mod vocabulary;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use chereme_formats::Finding;
 use chereme_formats::eaf;
 use chereme_formats::eaf::convert::{Annotation, Place, Timing, Transcript};
 use chereme_formats::roles::{self, Hands, Mapping, TierGuess};
@@ -37,6 +38,36 @@ const BEYOND: i64 = 1_000_000;
 
 /// Reads an annotation file onto its recording.
 pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
+    import_as(job, progress, |bytes| {
+        eaf::read(bytes).map_err(|error| error.to_string())
+    })
+}
+
+/// Adds tiers to a recording that has none of their names; returns whether it did.
+pub(super) fn add(
+    job: &mut Job<'_>,
+    recording: i64,
+    transcript: &Transcript,
+    report: &mut FileReport,
+    progress: &mut Progress<'_>,
+) -> Result<bool> {
+    let there = standing_tiers(job, recording, transcript)?;
+    if !there.is_empty() {
+        return Ok(false);
+    }
+    let guesses = guess(job, transcript, report)?;
+    let tiers = write_tiers(job, (recording, &there), transcript, &guesses, report)?;
+    write_annotations(job, transcript, &guesses, &tiers, progress)?;
+    recordings::lengthen(job.connection, recording, transcript.end().micros())?;
+    Ok(true)
+}
+
+/// Takes tiers of any format in; `read` turns the file's bytes into a transcript.
+pub(super) fn import_as(
+    job: &mut Job<'_>,
+    progress: &mut Progress<'_>,
+    read: impl FnOnce(&[u8]) -> std::result::Result<(Transcript, Vec<Finding>), String>,
+) -> Result<FileReport> {
     let maps = job.options.mapping.entries().next().is_some();
     let here = job.places.at(&job.place, job.kind).cloned();
     if let Some(here) = here.filter(|row| row.hash == job.hash && !maps)
@@ -46,8 +77,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     }
     let bytes = job.bytes()?;
     job.tell(progress)?;
-    let (transcript, findings) =
-        eaf::read(&bytes).map_err(|error| Error::wrong(error.to_string()))?;
+    let (transcript, findings) = read(&bytes).map_err(Error::wrong)?;
     job.tell(progress)?;
     let mut report = FileReport::new(job.path, FileStatus::Imported);
     report

@@ -4,6 +4,7 @@
 //! and does not keep the others out.
 
 mod bvh;
+mod captured;
 pub(crate) mod eaf;
 mod inventory;
 mod lexicon;

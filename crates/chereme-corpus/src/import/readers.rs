@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use super::{FileReport, Job, bvh, eaf, inventory, lexicon, notated};
+use super::{FileReport, Job, bvh, captured, eaf, notated};
 use crate::error::{Error, Result};
 use crate::notation::Form;
 use crate::progress::Progress;
@@ -27,14 +27,14 @@ pub(super) struct Reader {
 
 /// The kinds in the order in which an import reads them: annotations come last, so that they find
 /// their recordings and the values that they use.
-pub(super) static READERS: [Reader; 6] = [
+pub(super) static READERS: [Reader; 13] = [
     Reader {
         endings: &["json"],
         kind: "inventory",
-        holds: "inventories or signs",
+        holds: "inventories, signs or scores of a face",
         looks: always,
         keeps_inventories: false,
-        read: inventory::import,
+        read: captured::import_json,
     },
     Reader {
         endings: &["bvh"],
@@ -45,12 +45,52 @@ pub(super) static READERS: [Reader; 6] = [
         read: bvh::import,
     },
     Reader {
+        endings: &["glb", "gltf", "vrm"],
+        kind: "gltf",
+        holds: "movement",
+        looks: always,
+        keeps_inventories: true,
+        read: captured::import_gltf,
+    },
+    Reader {
+        endings: &["c3d"],
+        kind: "c3d",
+        holds: "markers",
+        looks: always,
+        keeps_inventories: true,
+        read: captured::import_c3d,
+    },
+    Reader {
+        endings: &["trc"],
+        kind: "trc",
+        holds: "markers",
+        looks: always,
+        keeps_inventories: true,
+        read: captured::import_trc,
+    },
+    Reader {
+        endings: &["pose"],
+        kind: "pose",
+        holds: "points from film",
+        looks: always,
+        keeps_inventories: true,
+        read: captured::import_pose,
+    },
+    Reader {
+        endings: &["fap"],
+        kind: "curves",
+        holds: "faces",
+        looks: always,
+        keeps_inventories: true,
+        read: captured::import_curves,
+    },
+    Reader {
         endings: &["csv", "tsv"],
         kind: "lexicon",
         holds: "lexicons",
         looks: always,
         keeps_inventories: false,
-        read: lexicon::import,
+        read: captured::import_table,
     },
     Reader {
         endings: &["sigml", "hsigml", "xml"],
@@ -67,6 +107,22 @@ pub(super) static READERS: [Reader; 6] = [
         looks: |path| Form::of(path) == Some(Form::Lines),
         keeps_inventories: true,
         read: notated::import_lines,
+    },
+    Reader {
+        endings: &["textgrid"],
+        kind: "textgrid",
+        holds: "annotations",
+        looks: always,
+        keeps_inventories: false,
+        read: captured::import_text_grid,
+    },
+    Reader {
+        endings: &["srt", "vtt"],
+        kind: "subtitles",
+        holds: "annotations",
+        looks: always,
+        keeps_inventories: false,
+        read: captured::import_subtitles,
     },
     Reader {
         endings: &["eaf"],
@@ -93,7 +149,7 @@ struct Unread {
 
 const MEDIA: &str = "import the .eaf that names it, or link it: chereme media";
 
-static UNREAD: [Unread; 10] = [
+static UNREAD: [Unread; 9] = [
     Unread {
         endings: &["txt"],
         what: "text without HamNoSys",
@@ -103,11 +159,6 @@ static UNREAD: [Unread; 10] = [
         endings: &["xml"],
         what: "XML without SiGML",
         remedy: "an .xml holds SiGML: its root is <sigml>",
-    },
-    Unread {
-        endings: &["textgrid"],
-        what: "annotations of Praat",
-        remedy: "open it in ELAN (File, Import, Praat TextGrid) and save it as .eaf",
     },
     Unread {
         endings: &["etf"],
@@ -120,9 +171,9 @@ static UNREAD: [Unread; 10] = [
         remedy: "import the .eaf next to it; this file goes with it",
     },
     Unread {
-        endings: &["fbx", "c3d", "trc", "glb", "gltf", "vrm"],
+        endings: &["fbx"],
         what: "movement in a form that is not read",
-        remedy: "movement is read from .bvh, which Blender, MotionBuilder and most capture software export",
+        remedy: "open it in Blender and export .glb or .bvh",
     },
     Unread {
         endings: &["mp4", "mov", "avi", "mpg", "mpeg", "webm", "mkv"],
@@ -211,7 +262,7 @@ mod tests {
     fn what_is_not_read_is_named_with_a_remedy() {
         for (name, said) in [
             ("a.etf", "template"),
-            ("a.GLB", "movement"),
+            ("a.FBX", "movement"),
             ("a.docx", "not known"),
             ("noending", "not known"),
         ] {

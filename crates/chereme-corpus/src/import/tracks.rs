@@ -12,7 +12,6 @@ use crate::track::{NewTrack, store};
 /// folder and stem, or a new one. The report gets a line for each track, and the caller's offset is added to each.
 ///
 /// The reader itself keeps the file ([`Job::keep`]) and reports what was odd about it.
-#[expect(dead_code, reason = "for readers of markers, curves and skeletons")]
 pub(super) fn store(job: &mut Job<'_>, new: Vec<NewTrack>, report: &mut FileReport) -> Result<i64> {
     let same_take = job
         .places

@@ -1,7 +1,7 @@
 //! Which recording an annotation file is about, and which file of the corpus it is a new version of.
 
-use chereme_formats::eaf;
 use chereme_formats::eaf::convert::Transcript;
+use chereme_formats::{eaf, subtitles, textgrid};
 
 use super::update;
 use super::{FileReport, Job, OwnEdits};
@@ -36,7 +36,12 @@ impl Target {
 
 fn read(job: &Job<'_>, file: &SourceFileRow) -> Result<Option<Transcript>> {
     let bytes = recordings::source_bytes(job.connection, file.id)?;
-    Ok(bytes.and_then(|bytes| Some(eaf::read(&bytes).ok()?.0)))
+    let parsed = |bytes: Vec<u8>| match file.kind.as_str() {
+        "textgrid" => Some(textgrid::read(&bytes).ok()?.0),
+        "subtitles" => Some(subtitles::read(&bytes).ok()?.0),
+        _ => Some(eaf::read(&bytes).ok()?.0),
+    };
+    Ok(bytes.and_then(parsed))
 }
 
 /// Returns the report of a file that is in its place as it was, if it is of the take that lies next to it.
