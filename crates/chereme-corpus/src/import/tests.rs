@@ -1,6 +1,7 @@
 //! What annotation files are understood as.
 
 mod again;
+mod captured;
 mod lexicon;
 
 use std::path::{Path, PathBuf};

@@ -1,0 +1,73 @@
+//! Captures of other formats, with the tiers of other programs next to them.
+
+use chereme_formats::gltf;
+
+use super::*;
+use crate::track::TrackKind;
+
+const TRC: &str = "PathFileType\t4\t(X/Y/Z)\ttake.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n\
+100\t100\t2\t1\tmm\t100\t1\t2\nFrame#\tTime\tLWRA\n\t\tX1\tY1\tZ1\n\n1\t0.00\t1.50\t900\t3\n2\t0.01\t1.60\t\t3\n";
+const FACE: &str =
+    "Timecode,BlendShapeCount,JawOpen\n00:00:00:00.0,61,0.25\n00:00:00:01.0,61,0.5\n";
+const GRID: &str =
+    "\"ooTextFile\" \"TextGrid\" 0 1 <exists> 1 \"IntervalTier\" \"Gloss\" 0 1 1 0 1 \"CHAT\"";
+
+#[test]
+fn markers_faces_and_tiers_of_one_take_share_a_recording() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let inbox = folder.path().join("in");
+    fs::create_dir_all(&inbox).expect("a folder");
+    for (name, text) in [
+        ("take.trc", TRC),
+        ("take.csv", FACE),
+        ("take.TextGrid", GRID),
+        ("words.csv", "gloss,handshape\nBOL,U\n"),
+    ] {
+        fs::write(inbox.join(name), text).expect("written");
+    }
+    let (clip, _) = crate::built_in_body().expect("a body");
+    let glb = gltf::write(&clip, &gltf::About::default());
+    fs::write(inbox.join("body.glb"), glb).expect("written");
+    let path = folder.path().join("a.chereme");
+    let mut corpus = Corpus::create(&path, "tester").expect("a corpus");
+    let mut hear = unheard;
+    let inbox = [inbox];
+    let report = corpus
+        .import(
+            &inbox,
+            &ImportOptions::default(),
+            &mut Progress::new(&mut hear),
+        )
+        .expect("an import");
+    let refused: Vec<_> = report
+        .files
+        .iter()
+        .filter(|file| file.status == FileStatus::Refused)
+        .collect();
+    assert!(refused.is_empty(), "{refused:?}");
+    let connection = corpus.store.read();
+    let take = crate::db::recordings::recording_named(connection, "take")
+        .expect("rows")
+        .expect("the take");
+    let rows = crate::db::tracks::tracks(connection, take.id).expect("rows");
+    let kinds: Vec<TrackKind> = rows.iter().map(|row| row.kind).collect();
+    assert!(kinds.contains(&TrackKind::Markers), "{kinds:?}");
+    assert!(kinds.contains(&TrackKind::Curves), "{kinds:?}");
+    let body = crate::db::recordings::recording_named(connection, "body")
+        .expect("rows")
+        .expect("the body");
+    let rows = crate::db::tracks::tracks(connection, body.id).expect("rows");
+    assert_eq!(rows[0].kind, TrackKind::Skeleton);
+    let found = corpus
+        .search("CHAT", &SearchOptions::default())
+        .expect("an answer");
+    assert_eq!(found.total, 1);
+    let again = corpus
+        .import(
+            &inbox,
+            &ImportOptions::default(),
+            &mut Progress::new(&mut hear),
+        )
+        .expect("an import");
+    assert_eq!(again.created.get("tracks"), None, "nothing comes twice");
+}
