@@ -251,6 +251,14 @@ fn what_is_like_the_selected_sign_is_found_and_weighed_and_shown_as_a_table() {
             .query_by_role_and_label(Role::Slider, "placement")
             .is_some()
     );
+    let slider = window.get_by_role_and_label(Role::Slider, "at least alike");
+    slider.focus();
+    window.run_steps(2);
+    window.key_press(Key::ArrowRight);
+    window.run_steps(2);
+    idle(&mut window);
+    assert!(query(&window).contains(" above 0."), "{}", query(&window));
+    assert_eq!(hits(&window), 1, "a sign is like itself");
     window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::G);
     window.run_steps(2);
     idle(&mut window);

@@ -73,6 +73,7 @@ texts! {
     NOT_APPLICABLE: "does not apply", "ne s’applique pas";
     UNCLEAR: "is unclear", "est incertain";
     LIKE: "like {example}; how much counts:", "comme {example} ; ce qui compte :";
+    LEAST_ALIKE: "at least alike", "ressemblance minimale";
     ALIKE: "{share} % alike", "{share} % pareil";
     MORE_LIKE: "Search for signs like this", "Rechercher des signes comme celui-ci";
     SAVED: "Saved", "Enregistrées";

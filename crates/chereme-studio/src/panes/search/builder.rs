@@ -40,7 +40,7 @@ pub(crate) enum Condition {
     /// A length or a moment.
     Time(TimeField, TimeTest),
     /// It is like an example: how much each component counts, in the order of [`Component::ALL`].
-    Like(Example, [f64; 5]),
+    Like(Example, [f64; 5], Option<f64>),
     /// What the builder cannot change, as it is written.
     Written(Expr),
 }
@@ -118,9 +118,6 @@ fn of_comparison(subject: Subject, comparison: &Comparison, not: bool) -> Option
 }
 
 fn of_like(like: &Like) -> Option<Condition> {
-    if like.above.is_some() {
-        return None;
-    }
     let mut weights = [1.0; 5];
     if !like.on.is_empty() {
         weights = [0.0; 5];
@@ -134,7 +131,7 @@ fn of_like(like: &Like) -> Option<Condition> {
             weights[place] = one.weight;
         }
     }
-    Some(Condition::Like(like.example.clone(), weights))
+    Some(Condition::Like(like.example.clone(), weights, like.above))
 }
 
 /// Returns the term of a row.
@@ -150,12 +147,12 @@ pub(crate) fn expr(row: &Condition) -> Expr {
         Condition::Written(expr) => expr.clone(),
         Condition::Words(field, words) => test(What::Words(*field, words.clone())),
         Condition::Time(field, time) => test(What::Time(*field, *time)),
-        Condition::Like(example, weights) => Expr::Like(Like {
+        Condition::Like(example, weights, above) => Expr::Like(Like {
             at: Default::default(),
             example_at: Default::default(),
             example: example.clone(),
             on: weighted(weights),
-            above: None,
+            above: *above,
         }),
         Condition::Values(subject, how, values) => {
             let comparison = comparison(*how, values);
@@ -255,6 +252,7 @@ mod tests {
             "origin=captured,made signer=\"A B\"",
             "like token:41 on configuration:2, placement",
             "like CHAT",
+            "like CHAT on placement above 0.6",
             "gloss=CHAT overlaps nonmanual.brows=raised",
             "not (gloss=A gloss=B)",
             "gloss~ESCRGO~2 tier(\"Mouthing\")=ma*",
@@ -285,7 +283,7 @@ mod tests {
             [Condition::Values(_, How::NotAtAll, _)]
         ));
         assert!(matches!(of("a or b")[..], [Condition::Written(_)]));
-        let [Condition::Like(_, weights)] = of("like token:1 on placement:3")[..] else {
+        let [Condition::Like(_, weights, _)] = of("like token:1 on placement:3")[..] else {
             panic!("it is by example");
         };
         assert_eq!(weights, [0.0, 3.0, 0.0, 0.0, 0.0]);
@@ -293,6 +291,16 @@ mod tests {
             of("like token:1 on right.placement")[..],
             [Condition::Written(_)]
         ));
+    }
+
+    #[test]
+    fn how_alike_hits_are_at_least_is_part_of_a_row() {
+        let all = rows(&"like CHAT above 60%".parse().expect("a query"));
+        let [Condition::Like(_, _, Some(above))] = all[..] else {
+            panic!("it is by example");
+        };
+        assert!((above - 0.6).abs() < 1e-9);
+        assert_eq!(text(&all), "like sign:CHAT above 0.6");
     }
 
     #[test]

@@ -269,8 +269,8 @@ fn row(
             }));
             time_ui(ui, test);
         }
-        Condition::Like(example, weights) => {
-            like_ui(ui, seen, out, examples.get(example, seen), weights);
+        Condition::Like(example, weights, above) => {
+            like_ui(ui, seen, out, examples.get(example, seen), (weights, above));
         }
         Condition::Written(expr) => {
             ui.label(RichText::new(expr.to_string()).monospace());
@@ -531,7 +531,7 @@ fn like_ui(
     seen: &Seen<'_>,
     out: &mut Outbox,
     example: Option<Known>,
-    weights: &mut [f64; 5],
+    (weights, above): (&mut [f64; 5], &mut Option<f64>),
 ) {
     let example = example.unwrap_or_default();
     if let Some((recording, span)) = example.place {
@@ -552,6 +552,13 @@ fn like_ui(
             let name = seen.say(component_text(component));
             let slider = Slider::new(weight, 0.0..=4.0).step_by(0.5).text(name);
             ui.add(slider);
+        }
+        let mut least = above.unwrap_or(0.0) * 100.0;
+        let slider = Slider::new(&mut least, 0.0..=95.0).step_by(5.0);
+        let slider = slider.suffix(" %").text(seen.say(words::LEAST_ALIKE));
+        if ui.add(slider).changed() {
+            // Nothing is alike by less than nothing.
+            *above = (least > 0.0).then_some(least / 100.0);
         }
         if weights.iter().all(|weight| *weight == 0.0) {
             // Something must count.
