@@ -30,7 +30,13 @@ pub(super) fn queries() -> String {
                 text.push_str(&format!("\n-- {title}\n"));
                 inside = true;
             }
-            "```" => inside = false,
+            "```" => {
+                // A query without its semicolon would run into the next one.
+                if inside && !text.ends_with(";\n") {
+                    text.insert(text.trim_end().len(), ';');
+                }
+                inside = false;
+            }
             line if inside => {
                 text.push_str(line);
                 text.push('\n');
