@@ -235,7 +235,7 @@ fn notation_is_given_back_in_each_of_its_forms() {
     let (text, notes) = desk.export(&ExportWhat::All, "all.hns");
     assert_eq!(
         notes,
-        ["left out of 1 signs, the first MERCI: what face and body do"]
+        ["left out of 1 sign, the first MERCI: what face and body do"]
     );
     let text = String::from_utf8(text).expect("text");
     let glosses: Vec<_> = text

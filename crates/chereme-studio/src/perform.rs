@@ -549,7 +549,7 @@ impl Studio {
         let unused = self.snapshot.as_ref().is_some_and(untouched);
         let made = self.made_for.take().filter(|_| unused && !self.gone);
         self.desk = None;
-        if let Some(path) = made {
+        if let Some(path) = made.filter(|path| holds_nothing(path)) {
             self.settings.recent.retain(|it| *it != path);
             // Where it cannot go, an empty corpus stays.
             drop(std::fs::remove_file(path));
@@ -637,4 +637,10 @@ impl Studio {
             self.shown.made = made;
         }
     }
+}
+
+/// Returns whether the corpus in a file has no operation at all, as the file itself says.
+fn holds_nothing(path: &std::path::Path) -> bool {
+    let overview = chereme_corpus::Corpus::open(path, "reader").and_then(|it| it.overview(1));
+    overview.is_ok_and(|it| it.operations.is_empty() && it.recordings.is_empty())
 }

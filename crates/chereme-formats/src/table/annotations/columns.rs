@@ -84,10 +84,18 @@ impl Columns {
             put(&mut found.at[if value { 4 } else { 6 }], column);
         }
         let timed = found.start.is_some() && (found.end.is_some() || found.duration.is_some());
-        let named = [1, 4, 6].into_iter().any(|at| found.at[at].is_some());
-        if timed && !named {
-            found.tiers = unknown;
-            return found;
+        let placed = found.at[1].is_some() || found.at[6].is_some();
+        if timed && !placed {
+            // Without a column of tiers, "Gloss" is the name of one.
+            let is_tier = |column: &usize| normal(&header[*column]) == "gloss";
+            if let Some(column) = found.at[4].take_if(|column| is_tier(column)) {
+                unknown.push((column, header[column].clone()));
+                unknown.sort();
+            }
+            if found.at[4].is_none() {
+                found.tiers = unknown;
+                return found;
+            }
         }
         for (_, title) in unknown {
             findings.add("unknown columns", || {
