@@ -165,7 +165,7 @@ enum Action {
     /// Make the changes of a table, all of them or none
     ///
     /// Columns: recording, tier, start, end, duration, value, action (add, set, remove), id, parent. The unit of
-    /// times stands in the title (start_ms, end [s]), with the number (1500ms), or in --unit; else they are
+    /// times stands in the title (start_ms, `end [s]`), with the number (1500ms), or in --unit; else they are
     /// seconds. The tab-delimited text that ELAN exports is such a table, with and without titles.
     From {
         /// The table (.csv, .tsv or .txt); - is standard input
