@@ -1,7 +1,7 @@
 //! Text in any script on a picture: this crate's small font, and for its missing characters the fonts of
 //! the computer.
 //!
-//! The same text gives the same bytes on every computer if the [small font](crate::font) has its
+//! The same text gives the same bytes on every computer if the small font has its
 //! characters; others look as in the fonts of the computer, or are a frame with the character's number.
 
 mod code;
