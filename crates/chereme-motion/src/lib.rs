@@ -25,7 +25,7 @@
 //! | [`clip`] | movement: a skeleton's rotations over frames; slicing, sampling, resampling |
 //! | [`markers`] | named points: optical markers, points estimated from film |
 //! | [`curves`] | named scalar channels: face parameters, analog signals |
-//! | [`column`] | the numbers of a channel exactly as a file gives them, gaps as gaps |
+//! | [`column`](mod@column) | the numbers of a channel exactly as a file gives them, gaps as gaps |
 //! | [`times`] | when the frames of a track are: at an even rate or each at its own time |
 //! | [`ends`] | odd first and last frames, and the movement between two rests |
 //! | [`euler`] | rotation orders and angles, as files write them |

@@ -2,7 +2,7 @@
 //!
 //! [`raw`] mirrors the file: tiers of intervals or points in seconds. [`read`] turns it into a
 //! [`Transcript`]: empty intervals are dropped and counted, a point becomes a short annotation on a tier
-//! of the kind [`POINTS`]. [`write`] fills the gaps again, so that a TextGrid comes back with the same
+//! of the kind [`POINTS`]. [`write()`] fills the gaps again, so that a TextGrid comes back with the same
 //! intervals, points and labels.
 
 pub mod raw;

@@ -1,7 +1,7 @@
 //! A TextGrid as the file says it.
 //!
 //! Praat reads text files by their free-standing numbers, quoted strings and flags, and skips every other
-//! word; so does [`read`], and both forms of text come out alike.
+//! word; so does the reader, and both forms of text come out alike.
 
 use std::borrow::Cow;
 
