@@ -1,4 +1,4 @@
-//! What is read of a recording: handshape, palm, fingers and place in some frames.
+//! The readings of a recording: handshape, palm, fingers and place in some frames.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use crate::Result;
 /// The hand that is read.
 pub(crate) const SIDE: Side = Side::Right;
 
-/// Places that are told apart.
+/// Places that the table distinguishes.
 const PLACES: [&str; 12] = [
     "forehead",
     "nose",
@@ -29,7 +29,7 @@ const PLACES: [&str; 12] = [
     "right-hip",
 ];
 
-/// What is read in one frame.
+/// The readings of one frame.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Reading {
     pub(crate) shape: String,
@@ -121,7 +121,7 @@ pub(crate) struct Score {
     first: Option<String>,
 }
 
-/// Compares what was read with what is there. A direction or place at the limit of two is right where it is within a
+/// Compares the readings with the truth. A direction or place at the limit of two is right where it is within a
 /// few degrees or centimetres of the truth.
 pub(crate) fn compare(truth: &[Reading], found: &[Reading]) -> Score {
     let mut score = Score {

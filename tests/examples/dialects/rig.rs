@@ -51,7 +51,7 @@ struct Bone {
     parent: Option<usize>,
     /// The joint of the capture with which it turns.
     of: usize,
-    /// Where it is in that joint's space.
+    /// Its place in that joint's space.
     at: DVec3,
     tip: Option<DVec3>,
     finger: bool,
