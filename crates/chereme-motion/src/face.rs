@@ -7,46 +7,134 @@ use crate::time::{Instant, Rate};
 /// The posture of a face: each number is 0 at rest and 1 where the face usually goes no farther.
 ///
 /// Pairs are of the signer's right and left, in this order. Numbers that say so go down to -1 for the opposite.
+/// Data spells each number as the field does ([`Face::NAMES`]); shorter names of older data are read as well.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Face {
     /// The brows raised; -1 is lowered.
+    #[serde(rename = "brow_raise", alias = "brows")]
     pub brows: [f64; 2],
     /// The brows drawn together.
+    #[serde(rename = "brow_squeeze", alias = "frown")]
     pub frown: f64,
     /// The eyes closed; -1 is wide open.
+    #[serde(rename = "eye_close", alias = "lids")]
     pub lids: [f64; 2],
     /// Where the eyes look: to the signer's left and up; -1 is to the right and down.
     pub gaze: [f64; 2],
     /// The nose wrinkled.
+    #[serde(rename = "nose_wrinkle", alias = "nose")]
     pub nose: f64,
     /// The jaw dropped.
+    #[serde(rename = "jaw_open", alias = "jaw")]
     pub jaw: f64,
     /// The jaw moved to the signer's left; -1 is to the right.
+    #[serde(rename = "jaw_left", alias = "aside")]
     pub aside: f64,
     /// The lips apart from each other, wherever the jaw is.
+    #[serde(rename = "lips_part", alias = "parted")]
     pub parted: f64,
     /// The mouth stretched sideways; -1 is rounded.
+    #[serde(rename = "mouth_stretch", alias = "wide")]
     pub wide: f64,
     /// The corners of the mouth raised; -1 is lowered.
+    #[serde(rename = "lip_corner", alias = "corners")]
     pub corners: [f64; 2],
     /// The lips closed on each other and drawn in, wherever the jaw is.
+    #[serde(rename = "lip_press", alias = "pressed")]
     pub pressed: f64,
     /// The lips pushed forward.
+    #[serde(rename = "lip_pucker", alias = "pout")]
     pub pout: f64,
     /// The teeth shown, as far as the mouth is open.
+    #[serde(rename = "teeth_show", alias = "teeth")]
     pub teeth: f64,
     /// The tongue out of the mouth.
+    #[serde(rename = "tongue_out", alias = "tongue")]
     pub tongue: f64,
     /// The tongue moved to the signer's left; -1 is to the right.
+    #[serde(rename = "tongue_left", alias = "tongue_aside")]
     pub tongue_aside: f64,
     /// The cheeks puffed; -1 is sucked in.
+    #[serde(rename = "cheek_puff", alias = "cheeks")]
     pub cheeks: [f64; 2],
 }
 
 impl Face {
     /// How many numbers it has.
     pub const LEN: usize = 21;
+
+    /// The name of each number as the field spells it, in the order of [`numbers`](Self::numbers).
+    pub const NAMES: [&str; Self::LEN] = [
+        "brow_raise_right",
+        "brow_raise_left",
+        "brow_squeeze",
+        "eye_close_right",
+        "eye_close_left",
+        "gaze_left",
+        "gaze_up",
+        "nose_wrinkle",
+        "jaw_open",
+        "jaw_left",
+        "lips_part",
+        "mouth_stretch",
+        "lip_corner_right",
+        "lip_corner_left",
+        "lip_press",
+        "lip_pucker",
+        "teeth_show",
+        "tongue_out",
+        "tongue_left",
+        "cheek_puff_right",
+        "cheek_puff_left",
+    ];
+
+    /// Returns the position in [`NAMES`](Self::NAMES) of a number; `None` for an unknown name.
+    #[must_use]
+    pub fn position(name: &str) -> Option<usize> {
+        Self::NAMES.iter().position(|known| *known == name)
+    }
+
+    /// Returns the least value that the number at this position can have: -1 if it has an opposite, else 0.
+    #[must_use]
+    pub fn least(position: usize) -> f64 {
+        const SINGLE: [usize; 8] = [2, 7, 8, 10, 14, 15, 16, 17];
+        if SINGLE.contains(&position) {
+            0.0
+        } else {
+            -1.0
+        }
+    }
+
+    /// Returns the face of these numbers, each kept between its ends; what is no number is 0.
+    #[must_use]
+    pub fn from_numbers(numbers: [f64; Self::LEN]) -> Self {
+        let mut face = Self::default();
+        for (at, (own, number)) in face.all().into_iter().zip(numbers).enumerate() {
+            *own = if number.is_nan() {
+                0.0
+            } else {
+                number.clamp(Self::least(at), 1.0)
+            };
+        }
+        face
+    }
+
+    /// Returns the face as the mirror shows it: right and left change places.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let swap = |[a, b]: [f64; 2]| [b, a];
+        Self {
+            brows: swap(self.brows),
+            lids: swap(self.lids),
+            gaze: [-self.gaze[0], self.gaze[1]],
+            aside: -self.aside,
+            corners: swap(self.corners),
+            tongue_aside: -self.tongue_aside,
+            cheeks: swap(self.cheeks),
+            ..*self
+        }
+    }
 
     /// Returns its numbers, in the order of its fields.
     #[must_use]
@@ -142,6 +230,38 @@ mod tests {
         assert_eq!((face.brows, face.gaze), ([-1.0, -1.0], [0.0, -1.0]));
         assert_eq!(face.towards(&Face::default(), 0.5).brows, [-0.5, -0.5]);
         assert_eq!(face.towards(&down, 1.0), down);
+    }
+
+    #[test]
+    fn numbers_have_names_and_ends_and_a_mirror() {
+        let numbers: [f64; Face::LEN] = std::array::from_fn(|at| 0.01 * (at + 1) as f64);
+        let face = Face::from_numbers(numbers);
+        assert_eq!(face.numbers(), numbers);
+        let at = |name: &str| Face::position(name).expect("a name");
+        assert_eq!(face.jaw, numbers[at("jaw_open")]);
+        assert_eq!(
+            face.brows,
+            [
+                numbers[at("brow_raise_right")],
+                numbers[at("brow_raise_left")]
+            ]
+        );
+        assert_eq!(Face::position("jaw"), None);
+        assert_eq!(face.mirrored().mirrored(), face);
+        assert_eq!(face.mirrored().brows[1], face.brows[0]);
+        let far = Face::from_numbers([-3.0; Face::LEN]);
+        assert_eq!((far.jaw, far.wide, far.pout), (0.0, -1.0, 0.0));
+        let gap = Face::from_numbers([f64::NAN; Face::LEN]);
+        assert!(gap.is_at_rest());
+    }
+
+    #[test]
+    fn older_names_are_read_as_well() {
+        let old = r#"{"jaw": 0.5, "wide": -1.0, "brows": [1.0, 0.0]}"#;
+        let new = r#"{"jaw_open": 0.5, "mouth_stretch": -1.0, "brow_raise": [1.0, 0.0]}"#;
+        let read = |text| serde_json::from_str::<Face>(text).expect("a face");
+        assert_eq!(read(old), read(new));
+        assert!(serde_json::from_str::<Face>(r#"{"jaws": 1.0}"#).is_err());
     }
 
     #[test]
