@@ -6,6 +6,7 @@
 //! | [`dtw`] | dynamic time warping: alignments, distances, nearest neighbours |
 //! | [`kinematics`](mod@kinematics) | how hands move, frame by frame |
 //! | [`measure`](mod@measure) | the size and duration of movements of a known kind |
+//! | [`phases`] | how alike two expressions of the face are, phase by phase |
 //! | [`score`](mod@score) | how alike two performances are, component by component, with their alignment |
 //! | [`strokes`](mod@strokes) | transitions of wrists and fingers between two minima of their speed |
 //! | [`transcribe`](mod@transcribe) | the notation of a sign: HamNoSys with residuals |
@@ -14,6 +15,7 @@ pub mod align;
 pub mod dtw;
 pub mod kinematics;
 pub mod measure;
+pub mod phases;
 pub mod score;
 pub mod strokes;
 pub mod transcribe;

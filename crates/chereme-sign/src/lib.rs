@@ -34,6 +34,7 @@
 //! | [`relation`] | how spans stand to each other in time |
 //! | [`inventory`] | the values of components as data, and those that come with the program |
 //! | [`token`] | what the tiers around a gloss say about it |
+//! | [`milestones`] | where an expression of the face begins, changes and ends against the signs that it spans |
 //! | [`query`] | the query language |
 //! | [`hamnosys`] | signs as notation: the tree that HamNoSys and SiGML write down |
 //! | [`cue`] | cued speech: codes as data, phones to keys, French text to phones |
@@ -43,6 +44,7 @@ pub mod component;
 pub mod cue;
 pub mod hamnosys;
 pub mod inventory;
+pub mod milestones;
 pub mod query;
 pub mod relation;
 pub mod text;

@@ -1,0 +1,426 @@
+//! Scores of performances phase by phase: how alike two expressions of the face are whatever their tempo.
+//!
+//! Each of the four phases of one performance is aligned with the same phase of the other by dynamic time warping; the
+//! costs, each divided by the frames of the query's phase, add up and are multiplied by the ratio of lengths. Source: the
+//! fourth founding paper (facial expressions for animations of American Sign Language), section 5.1, algorithm 1; R's
+//! `dtw` with the step pattern `asymmetric` and a Sakoe-Chiba window of 10 frames.
+//!
+//! ```
+//! use chereme_analysis::phases::{Options, Phased, score};
+//!
+//! let gold = Phased::new(&[vec![0.0, 1.0, 1.0, 0.5, 0.0, 0.0]], [0, 1, 3, 4, 6], 0.2)?;
+//! let slow = Phased::new(&[vec![0.0, 0.0, 1.0, 1.0, 1.0, 0.5, 0.0]], [0, 2, 5, 6, 7], 0.25)?;
+//! let found = score(&gold, &slow, 0.2, &Options::default())?;
+//! assert_eq!(found.score, 0.0, "the same but for its tempo");
+//! assert!((found.stretch - 0.8).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+use chereme_sign::milestones::Phase;
+use serde::{Deserialize, Serialize};
+
+use crate::dtw::{self, DtwError, Made, Policy, Series, StepPattern, Window};
+
+/// A performance cut into its phases.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Phased {
+    phases: [Option<Series>; 4],
+    frames: [usize; 4],
+    seconds: f64,
+}
+
+/// Why performances cannot be compared phase by phase.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PhasedError {
+    /// Milestones decrease or lie beyond the last frame.
+    #[error("the milestones {milestones:?} do not cut {frames} frames into phases")]
+    Milestones {
+        /// The milestones, in frames.
+        milestones: [usize; 5],
+        /// The frames there are.
+        frames: usize,
+    },
+    /// A length is not a positive number of seconds.
+    #[error("{0} is no length in seconds")]
+    Length(f64),
+    /// A phase cannot be aligned.
+    #[error("{}: {cause}", phase.name())]
+    Phase {
+        /// The phase.
+        phase: Phase,
+        /// The reason.
+        cause: DtwError,
+    },
+    /// The two have no phase in common.
+    #[error("the two performances have no phase in common")]
+    Nothing,
+}
+
+impl Phased {
+    /// Returns a performance: channels in units of which 1 counts alike, milestones M1 to M5 in frames, and its length in
+    /// seconds. A frame on a milestone belongs to the phase that begins there.
+    ///
+    /// # Errors
+    /// [`PhasedError::Milestones`], [`PhasedError::Length`], and [`PhasedError::Phase`] if a channel holds what is no number.
+    pub fn new(
+        channels: &[Vec<f64>],
+        milestones: [usize; 5],
+        seconds: f64,
+    ) -> Result<Self, PhasedError> {
+        let frames = channels.first().map_or(0, Vec::len);
+        let ordered = milestones.windows(2).all(|pair| pair[0] <= pair[1]);
+        if !ordered || milestones[4] > frames {
+            return Err(PhasedError::Milestones { milestones, frames });
+        }
+        if !(seconds.is_finite() && seconds > 0.0) {
+            return Err(PhasedError::Length(seconds));
+        }
+        let mut phases = [None, None, None, None];
+        for (n, phase) in Phase::ALL.into_iter().enumerate() {
+            let own = milestones[n]..milestones[n + 1];
+            if own.is_empty() {
+                continue;
+            }
+            let columns: Vec<&[f64]> = channels
+                .iter()
+                .map(|column| column.get(own.clone()).unwrap_or_default())
+                .collect();
+            let series = Series::from_columns(&columns);
+            phases[n] = Some(series.map_err(|cause| PhasedError::Phase { phase, cause })?);
+        }
+        Ok(Self {
+            phases,
+            frames: std::array::from_fn(|n| milestones[n + 1] - milestones[n]),
+            seconds,
+        })
+    }
+
+    /// Returns its length in seconds.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.seconds
+    }
+}
+
+/// What happens to a phase whose lengths no path connects.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum NoPath {
+    /// The score is refused, as dtw-python and R do.
+    Refuse,
+    /// The window becomes a slanted band; if the step pattern still forbids a path, the candidate's phase is resampled to
+    /// the query's length. The result says so.
+    #[default]
+    Adapt,
+}
+
+/// How performances are scored.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Options {
+    /// Half the window's width in frames.
+    pub window: usize,
+    /// What happens to a phase without a path.
+    pub no_path: NoPath,
+    /// What each phase's cost is multiplied by.
+    pub weights: [f64; 4],
+}
+
+impl Default for Options {
+    /// A window of 10 frames, a third of a second at 30 frames a second; all phases count alike.
+    fn default() -> Self {
+        Self {
+            window: 10,
+            no_path: NoPath::default(),
+            weights: [1.0; 4],
+        }
+    }
+}
+
+/// How alike two performances are.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PhasedScore {
+    /// The sum over phases times the ratio of lengths; 0 is alike, there is no upper end and no unit.
+    pub score: f64,
+    /// The sum over phases, without the ratio.
+    pub unstretched: f64,
+    /// The length of the target over that of the candidate.
+    pub stretch: f64,
+    /// The size of the natural logarithm of that ratio: how much is stretched or squeezed, both alike.
+    pub log_stretch: f64,
+    /// Whether a phase was left out because one of the two does not have it.
+    pub partial: bool,
+    /// The phases, in order.
+    pub phases: Vec<PhaseScore>,
+}
+
+/// How alike two performances are in one phase.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PhaseScore {
+    /// The phase.
+    pub phase: Phase,
+    /// Frames of the query and of the candidate.
+    pub frames: [usize; 2],
+    /// The cost of the best alignment; `None` if the phase is empty in one of them.
+    pub distance: Option<f64>,
+    /// The cost divided by the query's frames; 0 if the phase is empty in both.
+    pub normalized: Option<f64>,
+    /// How the alignment was computed; `None` without one.
+    pub made: Option<Made>,
+    /// For each channel the mean difference of aligned frames, in the units of the channels; only if asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub channels: Vec<f64>,
+}
+
+/// Returns how alike a candidate is to a query, whose expression lasts `seconds` in the target.
+///
+/// # Errors
+/// [`PhasedError::Phase`] if channels differ or, by [`NoPath::Refuse`], if no path exists; [`PhasedError::Nothing`];
+/// [`PhasedError::Length`].
+pub fn score(
+    query: &Phased,
+    candidate: &Phased,
+    seconds: f64,
+    options: &Options,
+) -> Result<PhasedScore, PhasedError> {
+    scored(query, candidate, seconds, options, false)
+}
+
+/// Returns what [`score`] returns, with the differences of each channel.
+///
+/// # Errors
+/// As there.
+pub fn explained(
+    query: &Phased,
+    candidate: &Phased,
+    seconds: f64,
+    options: &Options,
+) -> Result<PhasedScore, PhasedError> {
+    scored(query, candidate, seconds, options, true)
+}
+
+fn scored(
+    query: &Phased,
+    candidate: &Phased,
+    seconds: f64,
+    options: &Options,
+    explain: bool,
+) -> Result<PhasedScore, PhasedError> {
+    if !(seconds.is_finite() && seconds > 0.0) {
+        return Err(PhasedError::Length(seconds));
+    }
+    let mut phases = Vec::with_capacity(4);
+    let (mut sum, mut partial, mut compared) = (0.0, false, 0);
+    for (n, phase) in Phase::ALL.into_iter().enumerate() {
+        let mut own = PhaseScore {
+            phase,
+            frames: [query.frames[n], candidate.frames[n]],
+            distance: None,
+            normalized: None,
+            made: None,
+            channels: Vec::new(),
+        };
+        match (&query.phases[n], &candidate.phases[n]) {
+            (Some(a), Some(b)) => {
+                let aligned = align(a, b, options, explain);
+                let aligned = aligned.map_err(|cause| PhasedError::Phase { phase, cause })?;
+                let normalized = aligned.distance / a.frames() as f64;
+                sum += options.weights[n] * normalized;
+                compared += 1;
+                own.distance = Some(aligned.distance);
+                own.normalized = Some(normalized);
+                own.made = Some(aligned.made);
+                own.channels = aligned.channels;
+            }
+            (None, None) => own.normalized = Some(0.0),
+            _ => partial = true,
+        }
+        phases.push(own);
+    }
+    if compared == 0 {
+        return Err(PhasedError::Nothing);
+    }
+    let stretch = seconds / candidate.seconds;
+    Ok(PhasedScore {
+        score: sum * stretch,
+        unstretched: sum,
+        stretch,
+        log_stretch: stretch.ln().abs(),
+        partial,
+        phases,
+    })
+}
+
+struct Aligned {
+    distance: f64,
+    made: Made,
+    channels: Vec<f64>,
+}
+
+fn align(
+    query: &Series,
+    candidate: &Series,
+    options: &Options,
+    explain: bool,
+) -> Result<Aligned, DtwError> {
+    let mut dtw = dtw::Options {
+        pattern: StepPattern::Asymmetric,
+        window: Window::SakoeChiba(options.window),
+        ..dtw::Options::default()
+    };
+    let policies = match options.no_path {
+        NoPath::Refuse => &[Policy::Refuse][..],
+        NoPath::Adapt => &[Policy::SlantedBand, Policy::Resample],
+    };
+    let mut last = None;
+    for policy in policies {
+        dtw.policy = *policy;
+        let found = match explain {
+            true => dtw::align(query, candidate, &dtw).map(|it| (it.cost, it.path)),
+            false => dtw::distance(query, candidate, &dtw).map(|cost| (cost, Vec::new())),
+        };
+        match found {
+            Ok((cost, path)) => {
+                return Ok(Aligned {
+                    distance: cost.distance,
+                    made: cost.made,
+                    channels: match explain {
+                        true => differences(query, candidate, &path),
+                        false => Vec::new(),
+                    },
+                });
+            }
+            Err(error @ DtwError::NoPath { .. }) => last = Some(error),
+            Err(error) => return Err(error),
+        }
+    }
+    Err(last.unwrap_or(DtwError::Empty))
+}
+
+fn differences(query: &Series, candidate: &Series, path: &[(usize, usize)]) -> Vec<f64> {
+    let mean = |channel: usize| {
+        let (a, b) = (query.column(channel), candidate.column(channel));
+        let sum: f64 = path.iter().map(|&(i, j)| (a[i] - b[j]).abs()).sum();
+        sum / path.len().max(1) as f64
+    };
+    (0..query.channels()).map(mean).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wave(frames: usize, tempo: f64) -> Vec<Vec<f64>> {
+        let value = |channel: usize| {
+            let at = move |frame: usize| (frame as f64 * tempo * 0.2 + channel as f64).sin();
+            (0..frames).map(at).collect()
+        };
+        (0..3).map(value).collect()
+    }
+
+    #[test]
+    fn a_performance_is_like_itself_and_smaller_is_more_alike() {
+        let marks = [0, 10, 40, 55, 70];
+        let own = Phased::new(&wave(70, 1.0), marks, 70.0 / 30.0).expect("phases");
+        let near = Phased::new(&wave(70, 1.05), marks, 70.0 / 30.0).expect("phases");
+        let far = Phased::new(&wave(70, 1.9), marks, 70.0 / 30.0).expect("phases");
+        let of = |other| score(&own, other, 70.0 / 30.0, &Options::default()).expect("scored");
+        assert_eq!(of(&own).score, 0.0);
+        assert!(of(&near).score < of(&far).score, "{:?}", of(&near));
+        let it = explained(&own, &far, 70.0 / 30.0, &Options::default()).expect("scored");
+        assert!((it.score - of(&far).score).abs() < 1e-9);
+        assert!(it.phases.iter().all(|phase| phase.channels.len() == 3));
+        assert!(it.phases[1].channels.iter().all(|mean| *mean > 0.0));
+    }
+
+    /// The numbers were computed by a program of a few lines that fills the table of the recursion cell by cell.
+    #[test]
+    fn scores_equal_those_of_the_recursion_written_out() {
+        let wave = |frames: u32, tempo: f64, shift: f64| -> Vec<Vec<f64>> {
+            let value = |channel: u32, frame: u32| {
+                let value = (tempo * f64::from(frame) + f64::from(channel) + shift).sin();
+                (value * 1000.0).round() / 1000.0
+            };
+            let column = |channel| (0..frames).map(|frame| value(channel, frame)).collect();
+            (0..2).map(column).collect()
+        };
+        let gold = Phased::new(&wave(24, 0.31, 0.0), [0, 5, 14, 19, 24], 0.8).expect("phases");
+        let other = Phased::new(&wave(27, 0.27, 0.2), [0, 6, 16, 20, 27], 0.9).expect("phases");
+        let refuse = Options {
+            no_path: NoPath::Refuse,
+            ..Options::default()
+        };
+        let found = score(&gold, &other, 0.8, &refuse).expect("scored");
+        let want = [
+            0.7110492185227757,
+            0.9229278133337973,
+            0.6963985331701481,
+            0.7055101101105855,
+        ];
+        for (phase, want) in found.phases.iter().zip(want) {
+            let distance = phase.distance.expect("a distance");
+            assert!((distance - want).abs() < 1e-9, "{distance} {want}");
+        }
+        assert!(
+            (found.score - 0.466790317489394).abs() < 1e-9,
+            "{}",
+            found.score
+        );
+    }
+
+    #[test]
+    fn empty_phases_count_nothing_or_are_left_out_and_told() {
+        let whole = Phased::new(&wave(30, 1.0), [0, 5, 15, 20, 30], 1.0).expect("phases");
+        let one = Phased::new(&wave(30, 1.0), [0, 5, 5, 20, 30], 1.0).expect("phases");
+        let both = score(&one, &one, 1.0, &Options::default()).expect("scored");
+        assert_eq!(
+            (both.partial, both.phases[1].normalized),
+            (false, Some(0.0))
+        );
+        let half = score(&whole, &one, 1.0, &Options::default()).expect("scored");
+        assert_eq!((half.partial, half.phases[1].normalized), (true, None));
+        let onset = Phased::new(&wave(30, 1.0), [0, 30, 30, 30, 30], 1.0).expect("phases");
+        let offset = Phased::new(&wave(30, 1.0), [0, 0, 0, 0, 30], 1.0).expect("phases");
+        assert_eq!(
+            score(&onset, &offset, 1.0, &Options::default()),
+            Err(PhasedError::Nothing)
+        );
+    }
+
+    #[test]
+    fn a_phase_without_a_path_is_refused_by_name_or_adapted_and_told() {
+        let long = Phased::new(&wave(70, 1.0), [0, 10, 50, 60, 70], 1.0).expect("phases");
+        let short = Phased::new(&wave(50, 1.0), [0, 10, 30, 40, 50], 1.0).expect("phases");
+        let refuse = Options {
+            no_path: NoPath::Refuse,
+            ..Options::default()
+        };
+        let error = score(&long, &short, 1.0, &refuse).expect_err("no path");
+        assert!(error.to_string().starts_with("first: "), "{error}");
+        let made = score(&long, &short, 1.0, &Options::default()).expect("scored");
+        assert!(
+            matches!(made.phases[1].made, Some(Made::SlantedBand(_))),
+            "{made:?}"
+        );
+        let steep = Phased::new(&wave(130, 1.0), [0, 10, 110, 120, 130], 1.0).expect("phases");
+        let made = score(&short, &steep, 1.0, &Options::default()).expect("scored");
+        assert_eq!(made.phases[1].made, Some(Made::Resampled));
+    }
+
+    #[test]
+    fn what_is_no_performance_is_refused() {
+        let columns = wave(10, 1.0);
+        for marks in [[0, 1, 2, 3, 11], [0, 3, 2, 4, 5]] {
+            let error = Phased::new(&columns, marks, 1.0).expect_err("no phases");
+            assert!(matches!(error, PhasedError::Milestones { .. }));
+        }
+        for seconds in [0.0, -1.0, f64::NAN] {
+            assert!(Phased::new(&columns, [0, 1, 2, 3, 4], seconds).is_err());
+        }
+        let gap = vec![vec![f64::NAN; 10]];
+        assert!(Phased::new(&gap, [0, 1, 2, 3, 4], 1.0).is_err());
+        let other = Phased::new(&columns[..2], [0, 1, 2, 3, 4], 1.0).expect("phases");
+        let own = Phased::new(&columns, [0, 1, 2, 3, 4], 1.0).expect("phases");
+        assert!(score(&own, &other, 1.0, &Options::default()).is_err());
+    }
+}

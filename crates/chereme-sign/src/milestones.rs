@@ -1,0 +1,498 @@
+//! Milestones of an expression of the face: where it begins, changes and ends against the signs that it spans.
+//!
+//! Five milestones cut an expression into four phases: its onset (M1 to M2), its body in two parts (M2 to M3, M3 to M4) and its
+//! offset (M4 to M5). Two performances of one function are compared, and one is carried over to the other's time, phase by
+//! phase. Source: the fourth founding paper (facial expressions for animations of American Sign Language), section 3.
+//!
+//! ```
+//! use chereme_motion::{Instant, Span};
+//! use chereme_sign::milestones::{EDGE, Function, milestones};
+//!
+//! let sign = |from, to| Span::between(Instant::from_millis(from), Instant::from_millis(to));
+//! let signs = [sign(0, 400), sign(520, 800), sign(900, 1300), sign(1400, 2100), sign(2260, 2600)];
+//! let found = milestones(&signs, 1..4, &Function::of("negation"), EDGE).expect("signs");
+//! assert_eq!(found.to_string(), "0.400s 0.520s 0.900s 2.100s 2.260s");
+//! ```
+
+use std::fmt;
+use std::ops::Range;
+
+use chereme_motion::{Instant, Span};
+use serde::{Deserialize, Serialize};
+
+use crate::text::fold;
+
+/// The time between an expression and the edge of an utterance, in microseconds.
+pub const EDGE: i64 = 500_000;
+
+/// What an expression of the face does for the signs that it spans.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Function(String);
+
+/// The sign at which the body of an expression is cut in two.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Cut {
+    /// The second: NOT, or what negates, stands first.
+    Second,
+    /// The last: the question word, the doubled pronoun or the question mark stands last.
+    Last,
+}
+
+/// The functions that are known by several names, with their names in small letters and without signs between.
+const NAMES: [(&str, &[&str]); 6] = [
+    (
+        "negation",
+        &[
+            "negation",
+            "neg",
+            "negative",
+            "negated",
+            "negacion",
+            "negazione",
+            "verneinung",
+            "ontkenning",
+        ],
+    ),
+    (
+        "wh",
+        &[
+            "wh",
+            "whq",
+            "whquestion",
+            "qu",
+            "contentquestion",
+            "questionpartielle",
+            "wfrage",
+            "questionouverte",
+        ],
+    ),
+    (
+        "yn",
+        &[
+            "yn",
+            "ynq",
+            "yesno",
+            "yesnoquestion",
+            "polarquestion",
+            "questiontotale",
+            "questionfermee",
+            "janeinfrage",
+        ],
+    ),
+    (
+        "topic",
+        &[
+            "topic",
+            "top",
+            "theme",
+            "thema",
+            "topique",
+            "topicalisation",
+            "topicalization",
+        ],
+    ),
+    (
+        "conditional",
+        &[
+            "conditional",
+            "cond",
+            "condition",
+            "conditionnelle",
+            "bedingung",
+        ],
+    ),
+    (
+        "rhetorical",
+        &[
+            "rhetorical",
+            "rhq",
+            "rhetoricalquestion",
+            "questionrhetorique",
+        ],
+    ),
+];
+
+impl Function {
+    /// Returns the function of that name: `negation`, `wh`, `yn`, `topic`, `conditional` and `rhetorical` are known by
+    /// several; any other name stands for itself, in small letters and without accents.
+    #[must_use]
+    pub fn of(name: &str) -> Self {
+        let folded = fold(name.trim());
+        let plain: String = folded.chars().filter(|it| it.is_alphanumeric()).collect();
+        let known = NAMES.iter().find(|(_, names)| names.contains(&&*plain));
+        Self(known.map_or(folded, |(id, _)| (*id).to_owned()))
+    }
+
+    /// Returns its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.0
+    }
+
+    /// Tells whether it is one of those whose rules the paper states or that are cut like them.
+    #[must_use]
+    pub fn is_known(&self) -> bool {
+        NAMES.iter().any(|(id, _)| *id == self.0)
+    }
+
+    /// Returns the names of the functions that are known.
+    pub fn known() -> impl Iterator<Item = &'static str> {
+        NAMES.iter().map(|(id, _)| *id)
+    }
+
+    /// Returns where its body is cut: negation at the second sign, all others at the last.
+    #[must_use]
+    pub fn cut(&self) -> Cut {
+        match &*self.0 {
+            "negation" => Cut::Second,
+            _ => Cut::Last,
+        }
+    }
+}
+
+impl fmt::Display for Function {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+/// The milestones of one expression, on its recording's clock.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Milestones {
+    /// M1: the onset begins. It may lie before the recording, and after M2 if signs overlap.
+    #[serde(rename = "m1_us")]
+    pub m1: Instant,
+    /// M2: the first sign begins.
+    #[serde(rename = "m2_us")]
+    pub m2: Instant,
+    /// M3: the sign begins at which the body is cut; `None` if there is one sign, whose body is one phase.
+    #[serde(rename = "m3_us")]
+    pub m3: Option<Instant>,
+    /// M4: the last sign ends.
+    #[serde(rename = "m4_us")]
+    pub m4: Instant,
+    /// M5: the offset ends. It may lie before M4 if signs overlap.
+    #[serde(rename = "m5_us")]
+    pub m5: Instant,
+}
+
+impl fmt::Display for Milestones {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let m3 = self.m3.map_or("-".to_owned(), |m3| m3.to_string());
+        let Self { m1, m2, m4, m5, .. } = self;
+        write!(f, "{m1} {m2} {m3} {m4} {m5}")
+    }
+}
+
+/// A phase of an expression.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Phase {
+    /// From M1 to M2.
+    Onset,
+    /// From M2 to M3: of a negation the first sign, else all signs but the last; empty if there is one sign.
+    First,
+    /// From M3 to M4: of a negation the other signs, else the last.
+    Rest,
+    /// From M4 to M5.
+    Offset,
+}
+
+impl Phase {
+    /// Every phase in order.
+    pub const ALL: [Self; 4] = [Self::Onset, Self::First, Self::Rest, Self::Offset];
+
+    /// Returns the name: `onset`, `first`, `rest` or `offset`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Onset => "onset",
+            Self::First => "first",
+            Self::Rest => "rest",
+            Self::Offset => "offset",
+        }
+    }
+
+    /// Returns the milestones between which it lies, such as `M1-M2`.
+    #[must_use]
+    pub fn between(self) -> &'static str {
+        match self {
+            Self::Onset => "M1-M2",
+            Self::First => "M2-M3",
+            Self::Rest => "M3-M4",
+            Self::Offset => "M4-M5",
+        }
+    }
+}
+
+impl Milestones {
+    /// Returns the milestones of five times that never decrease.
+    #[must_use]
+    pub fn of_times([m1, m2, m3, m4, m5]: [Instant; 5]) -> Self {
+        Self {
+            m1,
+            m2,
+            m3: (m3 != m2).then_some(m3),
+            m4,
+            m5,
+        }
+    }
+
+    /// Returns five times that never decrease: an onset or offset that overlapping signs would give less than no time is
+    /// empty, and M3 is M2 if there is none.
+    #[must_use]
+    pub fn times(&self) -> [Instant; 5] {
+        let m3 = self.m3.unwrap_or(self.m2).max(self.m2);
+        let m4 = self.m4.max(m3);
+        [self.m1.min(self.m2), self.m2, m3, m4, self.m5.max(m4)]
+    }
+
+    /// Returns the span of each phase; empty ones are empty spans.
+    #[must_use]
+    pub fn phases(&self) -> [Span; 4] {
+        let times = self.times();
+        std::array::from_fn(|n| Span::between(times[n], times[n + 1]))
+    }
+
+    /// Returns from M1 to M5.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        let phases = self.phases();
+        Span::between(phases[0].start(), phases[3].end())
+    }
+
+    /// Returns the signs that are spanned: from M2 to M4.
+    #[must_use]
+    pub fn body(&self) -> Span {
+        let times = self.times();
+        Span::between(times[1], times[3])
+    }
+
+    /// Returns the milestones moved by `micros` microseconds.
+    #[must_use]
+    pub fn shifted(&self, micros: i64) -> Self {
+        Self {
+            m1: self.m1.shifted(micros),
+            m2: self.m2.shifted(micros),
+            m3: self.m3.map(|m3| m3.shifted(micros)),
+            m4: self.m4.shifted(micros),
+            m5: self.m5.shifted(micros),
+        }
+    }
+
+    /// Returns what is odd about them, for people; empty if nothing is.
+    #[must_use]
+    pub fn oddities(&self) -> Vec<String> {
+        let mut odd = Vec::new();
+        if self.m1 > self.m2 {
+            odd.push("the sign before overlaps the first sign, so the onset is empty".to_owned());
+        }
+        if self.m5 < self.m4 {
+            odd.push("the sign after overlaps the last sign, so the offset is empty".to_owned());
+        }
+        if self.m1 < Instant::ZERO {
+            let before = -self.m1.seconds();
+            odd.push(format!(
+                "M1 lies {before:.3} s before the recording, where nothing is to be read"
+            ));
+        }
+        odd
+    }
+
+    /// Returns the moment of this performance, in seconds, that is shown at a moment of a target with other milestones:
+    /// each phase is stretched evenly onto the target's; `None` before the target's M1 and after its M5.
+    ///
+    /// If the body of either is one phase, so is the other's. A phase that is empty in the target is passed over; one that is empty here shows its only moment.
+    #[must_use]
+    pub fn moment_for(&self, target: &Self, seconds: f64) -> Option<f64> {
+        let one = self.m3.is_none() || target.m3.is_none();
+        let (own, there) = (self.ends(one), target.ends(one));
+        if seconds < there[0] || seconds > there[4] {
+            return None;
+        }
+        if seconds == there[0] {
+            return Some(own[0]);
+        }
+        let phase = (0..4).find(|&n| seconds <= there[n + 1] && there[n + 1] > there[n])?;
+        let share = (seconds - there[phase]) / (there[phase + 1] - there[phase]);
+        Some(own[phase] + share * (own[phase + 1] - own[phase]))
+    }
+
+    /// Returns M1 to M5 in seconds; M3 is M2 if the body is to be one phase.
+    fn ends(&self, one: bool) -> [f64; 5] {
+        let mut times = self.times();
+        if one {
+            times[2] = times[1];
+        }
+        times.map(Instant::seconds)
+    }
+}
+
+/// Returns the milestones of an expression over `of` of the signs of an utterance, which are in order of time.
+///
+/// M1 is the end of the sign just before them, or `edge` microseconds before them if the utterance begins with them; M5
+/// likewise after them. `None` if `of` holds no sign.
+#[must_use]
+pub fn milestones(
+    signs: &[Span],
+    of: Range<usize>,
+    function: &Function,
+    edge: i64,
+) -> Option<Milestones> {
+    let spanned = signs.get(of.clone())?;
+    let (first, last) = (spanned.first()?, spanned.last()?);
+    let before = of.start.checked_sub(1).map(|at| signs[at].end());
+    let after = signs.get(of.end).map(|sign| sign.start());
+    let cut = match function.cut() {
+        Cut::Second => spanned.get(1),
+        Cut::Last => spanned.get(1..).and_then(<[Span]>::last),
+    };
+    Some(Milestones {
+        m1: before.unwrap_or(first.start().shifted(-edge)),
+        m2: first.start(),
+        m3: cut.map(|sign| sign.start()),
+        m4: last.end(),
+        m5: after.unwrap_or(last.end().shifted(edge)),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ms(millis: i64) -> Instant {
+        Instant::from_millis(millis)
+    }
+
+    fn signs(times: &[(i64, i64)]) -> Vec<Span> {
+        times
+            .iter()
+            .map(|(from, to)| Span::between(ms(*from), ms(*to)))
+            .collect()
+    }
+
+    fn found(times: &[(i64, i64)], of: Range<usize>, function: &str) -> Milestones {
+        milestones(&signs(times), of, &Function::of(function), EDGE).expect("signs")
+    }
+
+    /// Millis of M1 to M5; no M3 as `i64::MIN`.
+    fn millis(it: &Milestones) -> [i64; 5] {
+        let m3 = it.m3.map_or(i64::MIN, Instant::millis);
+        [
+            it.m1.millis(),
+            it.m2.millis(),
+            m3,
+            it.m4.millis(),
+            it.m5.millis(),
+        ]
+    }
+
+    #[test]
+    fn milestones_follow_the_signs() {
+        const NONE: i64 = i64::MIN;
+        let four = &[(100, 400), (500, 900), (1000, 1500), (1600, 1900)][..];
+        let cases = [
+            (four, 0..4, "yn", [-400, 100, 1600, 1900, 2400]),
+            (four, 1..3, "wh", [400, 500, 1000, 1500, 1600]),
+            (four, 0..3, "negation", [-400, 100, 500, 1500, 1600]),
+            (four, 1..4, "Négation", [400, 500, 1000, 1900, 2400]),
+            (four, 0..3, "topic", [-400, 100, 1000, 1500, 1600]),
+            (four, 2..3, "wh", [900, 1000, NONE, 1500, 1600]),
+            (four, 2..3, "neg", [900, 1000, NONE, 1500, 1600]),
+            (
+                &[(0, 500), (500, 900)],
+                1..2,
+                "wh",
+                [500, 500, NONE, 900, 1400],
+            ),
+            (
+                &[(0, 500), (450, 900), (850, 990)],
+                1..2,
+                "yn",
+                [500, 450, NONE, 900, 850],
+            ),
+        ];
+        for (times, of, function, want) in cases {
+            assert_eq!(
+                millis(&found(times, of.clone(), function)),
+                want,
+                "{of:?} {function}"
+            );
+        }
+        let none = milestones(&signs(four), 4..4, &Function::of("wh"), EDGE);
+        assert_eq!(
+            (none, milestones(&[], 0..1, &Function::of("wh"), EDGE)),
+            (None, None)
+        );
+    }
+
+    #[test]
+    fn overlapping_signs_leave_an_empty_phase_that_is_reported() {
+        let it = found(&[(0, 500), (450, 900), (850, 990)], 1..2, "yn");
+        let lengths: Vec<i64> = it
+            .phases()
+            .iter()
+            .map(|span| span.micros() / 1000)
+            .collect();
+        assert_eq!(lengths, [0, 0, 450, 0]);
+        assert_eq!(it.span(), Span::between(ms(450), ms(900)));
+        assert_eq!(it.oddities().len(), 2);
+        let early = found(&[(200, 900)], 0..1, "yn");
+        assert!(early.oddities()[0].contains("0.300 s before the recording"));
+        assert_eq!(
+            found(&[(0, 100), (200, 300), (400, 500)], 1..2, "wh").oddities(),
+            [""; 0]
+        );
+    }
+
+    #[test]
+    fn functions_are_known_by_several_names() {
+        for (name, id) in [
+            ("WH-question", "wh"),
+            ("Yes/No", "yn"),
+            ("Neg.", "negation"),
+            ("question fermée", "yn"),
+            ("Affect", "affect"),
+        ] {
+            assert_eq!(Function::of(name).name(), id, "{name}");
+        }
+        assert!(Function::of("topic").is_known() && !Function::of("affect").is_known());
+    }
+
+    #[test]
+    fn milestones_land_on_milestones_and_phases_are_stretched_evenly() {
+        let at = |times: [i64; 5]| Milestones::of_times(times.map(ms));
+        let (own, there) = (
+            at([0, 300, 800, 1000, 1400]),
+            at([100, 200, 1200, 1300, 1900]),
+        );
+        for (own_at, there_at) in [0.0, 0.3, 0.8, 1.0, 1.4]
+            .into_iter()
+            .zip([0.1, 0.2, 1.2, 1.3, 1.9])
+        {
+            let moment = own.moment_for(&there, there_at).expect("inside");
+            assert!((moment - own_at).abs() < 1e-9, "{there_at}: {moment}");
+        }
+        let middle = own.moment_for(&there, 0.7).expect("inside");
+        assert!((middle - 0.55).abs() < 1e-9, "{middle}");
+        assert_eq!(
+            (own.moment_for(&there, 0.05), own.moment_for(&there, 1.95)),
+            (None, None)
+        );
+        let no_onset = at([100, 100, 1200, 1300, 1900]);
+        assert_eq!(own.moment_for(&no_onset, 0.1), Some(0.0));
+        let passed = own.moment_for(&no_onset, 0.1001).expect("inside");
+        assert!((passed - 0.3).abs() < 1e-3, "{passed}");
+        let (short, long) = (at([0, 200, 200, 600, 700]), at([0, 500, 500, 900, 1000]));
+        let half = short.moment_for(&long, 0.7).expect("inside");
+        assert!((half - 0.4).abs() < 1e-9, "{half}");
+        let held = no_onset.moment_for(&own, 0.15).expect("inside");
+        assert!(
+            (held - 0.1).abs() < 1e-9,
+            "an onset that is empty here is held"
+        );
+    }
+}
