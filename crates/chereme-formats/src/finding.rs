@@ -1,6 +1,6 @@
 //! Oddities that a reader noticed and tolerated.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// An oddity of a foreign file that the reader tolerated.
 ///
@@ -50,7 +50,7 @@ impl Finding {
 }
 
 /// The severity of a [`Finding`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
     /// An understood oddity without loss.

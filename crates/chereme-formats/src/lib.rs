@@ -4,6 +4,7 @@ pub mod bvh;
 pub mod c3d;
 pub mod curves;
 pub mod eaf;
+pub mod faces;
 mod finding;
 pub mod gltf;
 pub mod hns;

@@ -1,0 +1,302 @@
+//! Face systems: what the channels of a face capture are called, and what they mean for the house's [`Face`].
+//!
+//! Each system is a file of `schema/faces`: its channels, a formula over them for each number of a face and for the turns of
+//! the head, and what the mapping loses. Captured channels stay as they are; a [`View`] is derived from them.
+//!
+//! ```
+//! use chereme_formats::faces::System;
+//! use chereme_motion::{Column, Curve, Curves, Rate, Times};
+//!
+//! let channel = |name, value| Curve::new(name, Column::doubles(vec![value]));
+//! let shapes = ["JawOpen", "BrowInnerUp", "EyeBlinkLeft", "MouthClose"];
+//! let curves = shapes.map(|name| channel(name, 0.5)).to_vec();
+//! let curves = Curves::new(Times::Even(Rate::new(60, 1)?), curves)?;
+//! let arkit = System::of(&curves).expect("these are shapes of ARKit");
+//! let view = arkit.view(&curves);
+//! assert_eq!((arkit.id.as_str(), view.faces[0].jaw), ("arkit", 0.5));
+//! assert_eq!(view.value("tongue_left"), None, "it has no such channel");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod formula;
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use chereme_motion::{Curves, Face};
+use serde::{Deserialize, Serialize};
+
+use crate::finding::{Finding, Severity};
+use formula::Formula;
+
+/// The files of systems, in the order in which a capture is compared with them.
+const FILES: [&str; 6] = [
+    include_str!("../../../../schema/faces/house.json"),
+    include_str!("../../../../schema/faces/mediapipe.json"),
+    include_str!("../../../../schema/faces/arkit.json"),
+    include_str!("../../../../schema/faces/openface.json"),
+    include_str!("../../../../schema/faces/fap.json"),
+    include_str!("../../../../schema/faces/sigml.json"),
+];
+
+/// A system of face parameters.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct System {
+    /// The short name, such as `arkit`.
+    pub id: String,
+    /// The version of the mapping.
+    pub version: u32,
+    /// The name for people.
+    pub name: String,
+    /// What its numbers are, and where that is written.
+    pub description: String,
+    /// Channels by which a capture shows that it is of this system: all of them,
+    needs: Vec<String>,
+    /// or any of these,
+    #[serde(default)]
+    or: Vec<String>,
+    /// but none of these.
+    #[serde(default)]
+    without: Vec<String>,
+    /// The channels as the system spells them.
+    pub channels: Vec<String>,
+    /// Other names of channels.
+    #[serde(default)]
+    pub aliases: BTreeMap<String, String>,
+    /// For numbers of a [`Face`], by [`Face::NAMES`], a formula over the channels.
+    pub house: BTreeMap<String, String>,
+    /// For `pitch` (down), `yaw` (to the signer's left) and `roll` (to the right), a formula in radians.
+    #[serde(default)]
+    pub head: BTreeMap<String, String>,
+    /// For `left`, `up` and `forward`, a formula for the place of the head in metres.
+    #[serde(default)]
+    pub place: BTreeMap<String, String>,
+    /// Whether each channel is a code of SiGML, whose posture `schema/notation/face.json` defines.
+    #[serde(default)]
+    pub expressions: bool,
+    /// Numbers of a face that the system says nothing about.
+    pub unknown: Vec<String>,
+    /// What the mapping loses.
+    pub loses: Vec<Loss>,
+    /// Pairs of channels that move together; a capture in which they do not has its sides exchanged.
+    #[serde(default)]
+    agree: Vec<[String; 2]>,
+}
+
+/// Something that a mapping loses.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Loss {
+    /// The numbers of a face that are concerned, or `head`.
+    pub channels: Vec<String>,
+    /// What is lost.
+    pub says: String,
+    /// How much it matters.
+    pub severity: Severity,
+}
+
+/// A face that is derived from captured channels, frame by frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct View {
+    /// The system of the channels.
+    pub system: &'static System,
+    /// The face of each frame; numbers that are not known are 0.
+    pub faces: Vec<Face>,
+    /// Which numbers of a face the capture gives.
+    pub known: [bool; Face::LEN],
+    /// The turns of the head in each frame, in radians: pitch (down), yaw (to the signer's left), roll (to the right).
+    pub head: Option<Vec<[f64; 3]>>,
+    /// The place of the head in each frame, in metres to the signer's left, up and forward.
+    pub place: Option<Vec<[f64; 3]>>,
+    /// How many frames had a gap, which was bridged from its neighbours.
+    pub bridged: usize,
+    /// What the mapping loses and what is odd in the capture.
+    pub findings: Vec<Finding>,
+}
+
+impl View {
+    /// Returns the numbers of a name of [`Face::NAMES`] over all frames; `None` if the capture does not give them.
+    #[must_use]
+    pub fn value(&self, name: &str) -> Option<Vec<f64>> {
+        let at = Face::position(name).filter(|at| self.known[*at])?;
+        Some(self.faces.iter().map(|face| face.numbers()[at]).collect())
+    }
+}
+
+impl System {
+    /// Returns every system.
+    #[must_use]
+    pub fn all() -> &'static [Self] {
+        static ALL: OnceLock<Vec<System>> = OnceLock::new();
+        ALL.get_or_init(|| {
+            let read = |text: &&str| serde_json::from_str(text);
+            let all: Result<_, _> = FILES.iter().map(read).collect();
+            all.expect("the program's own face systems are whole, which a test shows")
+        })
+    }
+
+    /// Returns the system of that short name.
+    #[must_use]
+    pub fn named(id: &str) -> Option<&'static Self> {
+        Self::all().iter().find(|system| system.id == id)
+    }
+
+    /// Returns the system that a track of curves is of; `None` if it is no face.
+    #[must_use]
+    pub fn of(curves: &Curves) -> Option<&'static Self> {
+        let names: Vec<String> = curves.curves().iter().map(|it| plain(&it.name)).collect();
+        let has = |name: &String| names.contains(&plain(name));
+        Self::all().iter().find(|system| {
+            let alias = |name: &String| {
+                let other = system.aliases.iter().find(|(_, channel)| *channel == name);
+                has(name) || other.is_some_and(|(alias, _)| has(alias))
+            };
+            let all = !system.needs.is_empty() && system.needs.iter().all(alias);
+            (all || system.or.iter().any(alias)) && !system.without.iter().any(has)
+        })
+    }
+
+    /// Returns the face that channels of this system mean.
+    #[must_use]
+    pub fn view(&'static self, curves: &Curves) -> View {
+        let mut bridged = vec![false; curves.frames()];
+        let mut columns: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+        for curve in curves.curves() {
+            let name = plain(&curve.name);
+            let known = self.aliases.iter().find(|(alias, _)| plain(alias) == name);
+            let name = known.map_or(name, |(_, channel)| plain(channel));
+            let mut values: Vec<Option<f64>> = curve.values.values().collect();
+            for (gap, value) in bridged.iter_mut().zip(&values) {
+                *gap |= value.is_none() && self.counts(&name);
+            }
+            if let Some(whole) = bridge(&mut values) {
+                columns.entry(name).or_insert(whole);
+            }
+        }
+        let frames = curves.frames();
+        let channel = |name: &str| columns.get(&plain(name)).map(Vec::as_slice);
+        let of = |formulas: &BTreeMap<String, String>, name: &str| {
+            let formula = Formula::read(formulas.get(name)?).ok()?;
+            formula.values(frames, &channel)
+        };
+        let three = |formulas: &BTreeMap<String, String>, names: [&str; 3]| {
+            let [a, b, c] = names.map(|name| of(formulas, name));
+            let (a, b, c) = (a?, b?, c?);
+            Some((0..frames).map(|at| [a[at], b[at], c[at]]).collect())
+        };
+        let numbers = Face::NAMES.map(|name| of(&self.house, name));
+        let face = |frame: usize| {
+            let number = |values: &Option<Vec<f64>>| values.as_ref().map_or(0.0, |it| it[frame]);
+            Face::from_numbers(std::array::from_fn(|at| number(&numbers[at])))
+        };
+        let known = std::array::from_fn(|at| numbers[at].is_some());
+        let head: Option<Vec<[f64; 3]>> = three(&self.head, ["pitch", "yaw", "roll"]);
+        let still = head
+            .as_ref()
+            .is_some_and(|all| all.iter().flatten().all(|it| *it == 0.0));
+        let mut findings = self.findings(&known);
+        if still {
+            let says = "the turns of the head are all 0: the tracker did not record them";
+            findings.push(Finding::note(None, says));
+        }
+        for [a, b] in &self.agree {
+            findings.extend(disagree([a, b], channel(a), channel(b)));
+        }
+        View {
+            system: self,
+            faces: (0..frames).map(face).collect(),
+            known,
+            head: head.filter(|_| !still),
+            place: three(&self.place, ["left", "up", "forward"]),
+            bridged: bridged.into_iter().filter(|gap| *gap).count(),
+            findings,
+        }
+    }
+
+    /// Returns what the mapping loses of a capture that gives these numbers.
+    fn findings(&self, known: &[bool; Face::LEN]) -> Vec<Finding> {
+        let concerns = |name: &String| {
+            let known = |at: usize| known[at] || self.unknown.contains(name);
+            Face::position(name).map_or(self.head.contains_key("yaw"), known)
+        };
+        let found = self
+            .loses
+            .iter()
+            .filter(|loss| loss.channels.iter().any(concerns));
+        let mut findings: Vec<Finding> = found
+            .map(|loss| match loss.severity {
+                Severity::Note => Finding::note(None, &*loss.says),
+                Severity::Warning => Finding::warning(None, &*loss.says),
+            })
+            .collect();
+        let missing: Vec<&str> = Face::NAMES
+            .into_iter()
+            .zip(known)
+            .filter(|(name, known)| !**known && self.house.contains_key(*name))
+            .map(|(name, _)| name)
+            .collect();
+        if !missing.is_empty() && !self.expressions {
+            let says = format!("the capture lacks channels for {}", missing.join(", "));
+            let remedy = "they are unknown, not at rest, and are left out of scores";
+            findings.push(Finding::warning(None, says).with_remedy(remedy));
+        }
+        findings
+    }
+
+    /// Returns whether a formula names this channel.
+    fn counts(&self, name: &str) -> bool {
+        let formulas = self.house.values().chain(self.head.values());
+        let mut read = formulas.filter_map(|text| Formula::read(text).ok());
+        read.any(|formula| formula.channels().iter().any(|known| plain(known) == name))
+    }
+}
+
+/// Returns a name without regard to case and surrounding blanks.
+fn plain(name: &str) -> String {
+    name.trim().to_lowercase()
+}
+
+/// Fills gaps on a straight line between their neighbours; `None` if there is nothing but gaps.
+fn bridge(values: &mut [Option<f64>]) -> Option<Vec<f64>> {
+    let known: Vec<(usize, f64)> = values
+        .iter()
+        .enumerate()
+        .filter_map(|(at, value)| Some((at, (*value)?)))
+        .collect();
+    let (first, last) = (known.first()?, known.last()?);
+    let mut whole = vec![first.1; values.len()];
+    for pair in known.windows(2) {
+        let ((from, a), (to, b)) = (pair[0], pair[1]);
+        for (n, value) in whole[from..to].iter_mut().enumerate() {
+            *value = a + (b - a) * n as f64 / (to - from) as f64;
+        }
+    }
+    whole[last.0..].fill(last.1);
+    Some(whole)
+}
+
+/// Returns a finding if two channels that move together in people move against each other.
+fn disagree(names: [&str; 2], a: Option<&[f64]>, b: Option<&[f64]>) -> Option<Finding> {
+    let (a, b) = (a?, b?);
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len().max(1) as f64;
+    let (mean_a, mean_b) = (mean(a), mean(b));
+    let (mut both, mut own_a, mut own_b) = (0.0, 0.0, 0.0);
+    for (a, b) in a.iter().zip(b) {
+        both += (a - mean_a) * (b - mean_b);
+        own_a += (a - mean_a).powi(2);
+        own_b += (b - mean_b).powi(2);
+    }
+    let together = both / (own_a * own_b).sqrt();
+    let moves = |own: f64, values: &[f64]| (own / values.len().max(1) as f64).sqrt() > 0.02;
+    let odd = moves(own_a, a) && moves(own_b, b) && together < -0.2;
+    odd.then(|| {
+        let [a, b] = names;
+        let says =
+            format!("{a} and {b} move against each other (r = {together:.2}), which faces do not");
+        let remedy = "the writer of the file may have exchanged the sides of one pair";
+        Finding::warning(None, says).with_remedy(remedy)
+    })
+}

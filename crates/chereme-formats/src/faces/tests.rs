@@ -1,0 +1,240 @@
+//! Face systems as data, and what captures of each mean.
+
+use chereme_motion::{Column, Curve, Curves, Face, Rate, Times};
+
+use super::formula::Formula;
+use super::{System, View};
+use crate::tracks::Content;
+
+fn curves(channels: &[(&str, &[f64])]) -> Curves {
+    let curve =
+        |(name, values): &(&str, &[f64])| Curve::new(*name, Column::doubles(values.to_vec()));
+    let rate = Times::Even(Rate::new(30, 1).expect("a rate"));
+    Curves::new(rate, channels.iter().map(curve).collect()).expect("a track")
+}
+
+fn view(channels: &[(&str, &[f64])]) -> View {
+    let curves = curves(channels);
+    System::of(&curves).expect("a system").view(&curves)
+}
+
+fn says(view: &View, text: &str) -> bool {
+    view.findings.iter().any(|it| it.message.contains(text))
+}
+
+#[test]
+fn every_system_is_whole() {
+    let ids: Vec<&str> = System::all().iter().map(|it| it.id.as_str()).collect();
+    assert_eq!(
+        ids,
+        ["house", "mediapipe", "arkit", "openface", "fap", "sigml"]
+    );
+    for system in System::all() {
+        let id = &system.id;
+        let formulas = system.house.iter().chain(&system.head).chain(&system.place);
+        for (name, text) in formulas {
+            let formula =
+                Formula::read(text).unwrap_or_else(|error| panic!("{id} {name}: {error}"));
+            for channel in formula.channels() {
+                let older = ["gaze_0_", "gaze_1_"]
+                    .iter()
+                    .any(|start| channel.starts_with(start));
+                let known = system
+                    .channels
+                    .iter()
+                    .any(|it| it.eq_ignore_ascii_case(channel))
+                    || older;
+                assert!(known, "{id} {name}: {channel}");
+            }
+        }
+        for name in system.house.keys().chain(&system.unknown) {
+            assert!(Face::position(name).is_some(), "{id}: {name}");
+        }
+        for name in Face::NAMES {
+            let told = system.house.contains_key(name) ^ system.unknown.iter().any(|it| it == name);
+            assert!(
+                told || system.expressions,
+                "{id} says nothing about {name}, or both"
+            );
+        }
+        for loss in &system.loses {
+            let known = |it: &String| it == "head" || Face::position(it).is_some();
+            assert!(loss.channels.iter().all(known), "{id}: {:?}", loss.channels);
+        }
+    }
+    let count = |id: &str| System::named(id).map(|it| it.channels.len());
+    assert_eq!(
+        [count("arkit"), count("mediapipe"), count("fap")],
+        [Some(61), Some(52), Some(68)]
+    );
+}
+
+#[test]
+fn captures_are_recognised_by_their_channels() {
+    let cases: [(&[&str], Option<&str>); 7] = [
+        (&["jawopen", "BrowInnerUp", "eyeBlinkLeft"], Some("arkit")),
+        (
+            &["_neutral", "jawOpen", "browInnerUp", "eyeBlinkLeft"],
+            Some("mediapipe"),
+        ),
+        (&["AU01_r", "AU04_r", "AU12_r"], Some("openface")),
+        (&["FAP31", "FAP32"], Some("fap")),
+        (&["raise_l_i_eyebrow"], Some("fap")),
+        (&["brow_raise_right", "jaw_open"], Some("house")),
+        (&["force", "moment"], None),
+    ];
+    for (names, id) in cases {
+        let channels: Vec<(&str, &[f64])> = names.iter().map(|name| (*name, &[0.0][..])).collect();
+        let found = System::of(&curves(&channels)).map(|it| it.id.as_str());
+        assert_eq!(found, id, "{names:?}");
+    }
+}
+
+#[test]
+fn shapes_of_arkit_are_a_face_and_its_brows_have_no_side() {
+    let it = view(&[
+        ("JawOpen", &[0.6, 0.6]),
+        ("MouthClose", &[0.6, 0.0]),
+        ("BrowInnerUp", &[1.0, 0.0]),
+        ("BrowOuterUpLeft", &[1.0, 0.0]),
+        ("BrowOuterUpRight", &[1.0, 0.0]),
+        ("BrowDownLeft", &[0.0, 1.0]),
+        ("BrowDownRight", &[0.0, 1.0]),
+        ("EyeBlinkLeft", &[1.0, 0.0]),
+        ("EyeSquintLeft", &[1.0, 0.5]),
+        ("EyeWideLeft", &[0.0, 0.0]),
+        ("MouthUpperUpLeft", &[0.0, 0.0]),
+        ("MouthUpperUpRight", &[0.0, 0.0]),
+        ("MouthLowerDownLeft", &[0.0, 0.0]),
+        ("MouthLowerDownRight", &[0.0, 0.0]),
+    ]);
+    assert_eq!((it.faces[0].brows, it.faces[0].lids[1]), ([1.0, 1.0], 1.0));
+    assert_eq!((it.faces[1].brows, it.faces[1].frown), ([-0.5, -0.5], 1.0));
+    assert_eq!(
+        (it.faces[1].lids[1], it.faces[0].parted, it.faces[1].parted),
+        (0.25, 0.0, 0.3)
+    );
+    assert!(says(&it, "one brow is raised cannot be seen"));
+    assert!(says(&it, "lacks channels for eye_close_right"));
+    assert_eq!(it.value("eye_close_right"), None, "unknown is not at rest");
+    assert_eq!(it.value("jaw_open"), Some(vec![0.6, 0.6]));
+}
+
+#[test]
+fn parameters_of_mpeg_4_keep_both_sides_and_the_head() {
+    let it = view(&[
+        ("FAP31", &[300.0]),
+        ("FAP33", &[300.0]),
+        ("FAP35", &[300.0]),
+        ("raise_r_i_eyebrow", &[0.0]),
+        ("FAP34", &[0.0]),
+        ("FAP36", &[-150.0]),
+        ("FAP23", &[61_087.0]),
+        ("FAP24", &[61_087.0]),
+        ("FAP48", &[10_000.0]),
+        ("FAP49", &[-20_000.0]),
+        ("FAP50", &[0.0]),
+    ]);
+    let face = it.faces[0];
+    assert_eq!(face.brows[1], 1.0);
+    assert!(
+        (face.brows[0] + 1.0 / 6.0).abs() < 1e-12,
+        "{:?}",
+        face.brows
+    );
+    assert_eq!(face.gaze[0], 1.0);
+    assert_eq!(it.head, Some(vec![[0.1, -0.2, 0.0]]));
+    assert!(!says(&it, "one brow"));
+}
+
+#[test]
+fn scores_of_mediapipe_leave_cheeks_nose_and_tongue_unknown() {
+    let channels = [
+        ("_neutral", &[0.0][..]),
+        ("jawOpen", &[0.3]),
+        ("browInnerUp", &[0.0]),
+        ("cheekPuff", &[0.0]),
+    ];
+    let it = view(&channels);
+    for name in ["cheek_puff_left", "nose_wrinkle", "tongue_out"] {
+        assert_eq!(it.value(name), None, "{name}");
+    }
+    assert!(says(&it, "there is no tongue") && says(&it, "cheeks and nose hardly answer"));
+}
+
+#[test]
+fn gaps_are_bridged_and_counted_and_a_still_head_is_told() {
+    let gap = f64::NAN;
+    let it = view(&[
+        ("brow_raise_right", &[0.0, gap, 1.0, gap]),
+        ("jaw_open", &[gap, 0.5, gap, 0.5]),
+        ("head_pitch", &[0.0; 4]),
+        ("head_yaw", &[0.0; 4]),
+        ("head_roll", &[0.0; 4]),
+    ]);
+    assert_eq!(it.value("brow_raise_right"), Some(vec![0.0, 0.5, 1.0, 1.0]));
+    assert_eq!((it.bridged, it.value("jaw_open")), (4, Some(vec![0.5; 4])));
+    assert_eq!(it.head, None);
+    assert!(says(&it, "turns of the head are all 0"));
+}
+
+#[test]
+fn sides_that_were_exchanged_are_reported() {
+    let up: Vec<f64> = (0..40)
+        .map(|n| (f64::from(n) * 0.3).sin().max(0.0))
+        .collect();
+    let down: Vec<f64> = (0..40)
+        .map(|n| (-f64::from(n) * 0.3).sin().max(0.0))
+        .collect();
+    let base = |left: &[f64]| {
+        let still = vec![0.0; 40];
+        let names = [
+            ("JawOpen", &still[..]),
+            ("BrowInnerUp", &still),
+            ("EyeBlinkLeft", &still),
+            ("JawLeft", &up),
+            ("MouthLeft", left),
+        ];
+        says(&view(&names), "move against each other")
+    };
+    assert!(base(&down) && !base(&up));
+}
+
+#[test]
+fn faces_of_others_are_seen_as_faces() {
+    let Some(folder) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        eprintln!("skipped: CHEREME_SHARED_DATA names no folder");
+        return;
+    };
+    let folder = std::path::Path::new(&folder).join("face");
+    for (path, id) in [
+        ("alexdjulin-LiveLinkFace/alex_rom_4.csv", "arkit"),
+        ("think-biq-LLV/dao_decoded.csv", "arkit"),
+        ("cosanlab-py-feat/OpenFace_Test.csv", "openface"),
+    ] {
+        let bytes = std::fs::read(folder.join(path)).expect("a file");
+        let (tracks, _) = crate::curves::read(&bytes).expect("read");
+        let Content::Curves(curves) = &tracks.tracks[0].content else {
+            panic!("curves");
+        };
+        let system = System::of(curves).expect("a system");
+        let view = system.view(curves);
+        assert_eq!(
+            (system.id.as_str(), view.faces.len()),
+            (id, curves.frames())
+        );
+        let moves = |name: &str| {
+            let values = view.value(name).expect(name);
+            let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            most - values.iter().copied().fold(f64::INFINITY, f64::min)
+        };
+        let mouth = (id == "arkit").then_some("lips_part");
+        let upper = ["brow_raise_right", "eye_close_left", "gaze_left"];
+        for name in upper.into_iter().chain(mouth) {
+            assert!(moves(name) > 0.02, "{path}: {name} {}", moves(name));
+        }
+        // In one of the takes the jaw's left goes with the mouth's right (r = 0.98): one pair is exchanged.
+        let exchanged = path.starts_with("think-biq");
+        assert_eq!(says(&view, "move against each other"), exchanged, "{path}");
+    }
+}
