@@ -157,17 +157,7 @@ fn check_step(step: &Step) -> Result<(), RecipeError> {
     let name = step.name();
     match step {
         Step::Reverse | Step::Swap | Step::Trim => Ok(()),
-        Step::Span(cut) => {
-            time(name, "the start", cut.from, LONGEST)?;
-            time(name, "the end", cut.to, LONGEST)?;
-            let (from, to) = (cut.from.map_or(0.0, |it| it.0), cut.to.map(|it| it.0));
-            if to.is_some_and(|to| to <= from) || (cut.from.is_none() && to.is_none()) {
-                let what =
-                    "it ends before it begins; write the earlier time first, such as 0.4s..1.9s";
-                return Err(RecipeError::Empty { step: name, what });
-            }
-            Ok(())
-        }
+        Step::Span(cut) => check_cut(name, cut),
         Step::Configure(configure) => {
             filled(name, &configure.values, "no value is given")?;
             configure
@@ -241,7 +231,28 @@ fn check_step(step: &Step) -> Result<(), RecipeError> {
                 Pace::To(seconds) => range(name, "the time", seconds.0, 0.01, 600.0),
             })
         }
-        Step::Nonmanual(nonmanual) => named(name, &nonmanual.from, "the name of the sign is empty"),
+        Step::Nonmanual(nonmanual) => {
+            named(name, &nonmanual.from, "the name of the sign is empty")?;
+            optional(
+                nonmanual.function.as_deref(),
+                name,
+                "the name of the function is empty",
+            )?;
+            match &nonmanual.over {
+                None => Ok(()),
+                Some(Over::Part(cut)) => check_cut(name, cut),
+                Some(Over::At(times)) => {
+                    for at in times {
+                        range(name, "a milestone", at.0, -LONGEST, LONGEST)?;
+                    }
+                    if times.windows(2).any(|pair| pair[0].0 > pair[1].0) {
+                        let what = "milestones decrease; write M1 to M5 in order of time";
+                        return Err(RecipeError::Empty { step: name, what });
+                    }
+                    Ok(())
+                }
+            }
+        }
         Step::Indicate(indicate) => {
             if indicate.from.is_none() && indicate.to.is_none() {
                 let what = "neither where it starts nor where it ends is given";
@@ -253,6 +264,17 @@ fn check_step(step: &Step) -> Result<(), RecipeError> {
                 .try_for_each(|at| spot(name, at))
         }
     }
+}
+
+fn check_cut(step: &'static str, cut: &Cut) -> Result<(), RecipeError> {
+    time(step, "the start", cut.from, LONGEST)?;
+    time(step, "the end", cut.to, LONGEST)?;
+    let (from, to) = (cut.from.map_or(0.0, |it| it.0), cut.to.map(|it| it.0));
+    if to.is_some_and(|to| to <= from) || (cut.from.is_none() && to.is_none()) {
+        let what = "it ends before it begins; write the earlier time first, such as 0.4s..1.9s";
+        return Err(RecipeError::Empty { step, what });
+    }
+    Ok(())
 }
 
 fn check_legs(step: &'static str, legs: &[Leg]) -> Result<(), RecipeError> {

@@ -472,9 +472,14 @@ impl Evaluator<'_> {
                 ops::shape::travel(work, settings, &course.arms, text)?.into()
             }
             Step::Retime(settings) => ops::retime::retime(work, &settings.paces, text)?.into(),
-            Step::Nonmanual(_) => {
+            Step::Nonmanual(settings) => {
                 let donor = self.material(format!("{path}/nonmanual/from"))?;
-                ops::nonmanual::nonmanual(work, donor, text)?.into()
+                match self.inputs.get(&format!("{path}/nonmanual/expression")) {
+                    Some(Input::Expression(given)) => {
+                        ops::expression::expression(work, donor, settings, given, text)?.into()
+                    }
+                    _ => ops::nonmanual::nonmanual(work, donor, text)?.into(),
+                }
             }
             Step::Indicate(settings) => {
                 let places = ["from", "to"].map(|end| self.place(format!("{path}/indicate/{end}")));

@@ -7,14 +7,29 @@ use chereme_sign::hamnosys::face::Expression;
 
 use crate::made::Curve;
 
+/// What the names of curves that are numbers of a face begin with.
+pub const NUMBER: &str = "face.";
+
 /// Returns the face of each frame, as many as the longest curve has; none where no curve is of a face.
 ///
-/// A curve tells how much there is of its non-manual. What goes on in it, such as the sounds of a mouth picture, is
+/// A curve `face.jaw_open` is a number of the face itself, by [`Face::NAMES`]. Any other tells how much there is of its
+/// non-manual. What goes on in it, such as the sounds of a mouth picture, is
 /// spread evenly over the time in which there is at least half of it.
 #[must_use]
 pub fn faces(curves: &[Curve]) -> Vec<Face> {
     let mut faces = Vec::new();
     for curve in curves {
+        if let Some(at) = curve.name.strip_prefix(NUMBER).and_then(Face::position) {
+            if faces.len() < curve.values.len() {
+                faces.resize(curve.values.len(), Face::default());
+            }
+            for (face, value) in faces.iter_mut().zip(&curve.values) {
+                let mut numbers = [0.0; Face::LEN];
+                numbers[at] = *value;
+                face.add(&Face::from_numbers(numbers), 1.0);
+            }
+            continue;
+        }
         let known = curve.name.split_once('.');
         let Some(expression) = known.and_then(|(part, code)| Expression::of(part, code)) else {
             continue;
@@ -82,6 +97,18 @@ mod tests {
         assert_eq!(brows, up);
         assert_eq!(all[2].lids, [0.5, 0.5]);
         assert!(faces(&[curve("head.SH", &[1.0; 9])]).is_empty());
+    }
+
+    #[test]
+    fn numbers_of_a_face_are_taken_as_they_are() {
+        let all = faces(&[
+            curve("face.mouth_stretch", &[-0.5, 0.25]),
+            curve("face.jaw_open", &[0.3, 0.6]),
+            curve("brows.RB", &[1.0, 0.0]),
+            curve("face.unknown", &[1.0, 1.0]),
+        ]);
+        assert_eq!((all[0].wide, all[1].wide, all[1].jaw), (-0.5, 0.25, 0.6));
+        assert_eq!(all[0].brows, [1.0, 1.0]);
     }
 
     #[test]

@@ -65,7 +65,7 @@ pub use check::{DEEPEST, MOST_PARTS, MOST_REPETITIONS};
 pub use draft::Draft;
 pub use error::{Cause, MakeError, Problem, RecipeError, TextError};
 pub use evaluate::{ENGINE, evaluate};
-pub use face::faces;
+pub use face::{NUMBER, faces};
 pub use json::VERSION;
 pub use language::{Language, LanguageValue};
 pub use learn::{CourseLearner, Stretch, bridge, learn_course};
@@ -76,9 +76,10 @@ pub use made::{
 pub use poses::{Exact, HandPose, PoseOrigin};
 pub use recipe::Recipe;
 pub use resolve::{
-    Input, Inputs, LetterInput, MaterialInput, PlaceInput, Resolved, resolve, restore,
+    ExpressionInput, Input, Inputs, LetterInput, MaterialInput, PlaceInput, Resolved, resolve,
+    restore,
 };
 pub use sources::{
-    Example, Held, LearnedCourse, LearnedProfile, Letter, LetterStroke, Material, Meaning,
-    MedianTime, SourceError, Sources, Spatial, SpellingTimes, Value,
+    Example, ExpressionSource, Held, LearnedCourse, LearnedProfile, Letter, LetterStroke, Material,
+    Meaning, MedianTime, SourceError, Sources, Spatial, SpellingTimes, Value,
 };

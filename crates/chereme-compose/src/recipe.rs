@@ -520,12 +520,49 @@ pub enum Pace {
     To(Seconds),
 }
 
-/// Settings of `nonmanual from TOKEN`: head and face of another sign, fitted to this one's time.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// Settings of `nonmanual from TOKEN`: head and face of another sign, fitted to this one's time, and of
+/// `nonmanual wh from recording:3 over 0.4s..1.9s by phases`: an expression carried over phase by phase.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Nonmanual {
     /// The other sign's address.
     pub from: String,
+    /// The function of the expression, such as `wh`; without one the only expression that is there.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub function: Option<String>,
+    /// The part of this movement over which the expression lies; without one all of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over: Option<Over>,
+    /// Whether each phase of the expression is stretched onto the same phase here; else all of it evenly.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub by_phases: bool,
+}
+
+impl Nonmanual {
+    /// Returns head and face of a whole sign, fitted to this one's time.
+    #[must_use]
+    pub fn of(from: impl Into<String>) -> Self {
+        Self {
+            from: from.into(),
+            ..Self::default()
+        }
+    }
+
+    /// Tells whether an expression with milestones is carried over, and not all of another sign.
+    #[must_use]
+    pub fn is_expression(&self) -> bool {
+        self.by_phases || self.over.is_some() || self.function.is_some()
+    }
+}
+
+/// Where an expression lies in a movement.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Over {
+    /// Over the signs of this part, `0.4s..1.9s`: the milestones follow from them.
+    Part(Cut),
+    /// With these milestones M1 to M5, `0s, 0.4s, 1.2s, 1.9s, 2.4s`; M3 is M2 if one sign is spanned.
+    At([Seconds; 5]),
 }
 
 /// Settings of `from me to left`: where a directional verb starts and ends.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use chereme_motion::Side;
 use chereme_sign::hamnosys::{self, Notated};
+use chereme_sign::milestones::{Function, Milestones};
 use chereme_sign::{Component, Handedness};
 use serde::{Deserialize, Serialize};
 
@@ -81,6 +82,18 @@ pub enum Input {
     Courses(LearnedProfile),
     /// How long letters are held, and how long the hand takes from one to the next.
     Times(SpellingTimes),
+    /// An expression of the face.
+    Expression(ExpressionInput),
+}
+
+/// An expression of the face as it was found.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ExpressionInput {
+    /// What it does for the signs that it spans.
+    pub function: Function,
+    /// Its milestones, from the first frame of its movement on.
+    pub milestones: Milestones,
 }
 
 /// A source of movement as it was found.
@@ -397,7 +410,20 @@ impl Resolver<'_> {
             Step::Repeat(repeat) => self.course(&repeat.via, format!("{path}/repeat/via")),
             Step::Travel(travel) => self.course(&travel.via, format!("{path}/travel/via")),
             Step::Nonmanual(nonmanual) => {
-                let material = self.sources.material(&nonmanual.from)?;
+                let material = match nonmanual.is_expression() {
+                    true => {
+                        let function = nonmanual.function.as_deref();
+                        let found = self.sources.expression(&nonmanual.from, function)?;
+                        let at = format!("{path}/nonmanual/expression");
+                        let input = ExpressionInput {
+                            function: found.function,
+                            milestones: found.milestones,
+                        };
+                        self.inputs.0.insert(at, Input::Expression(input));
+                        found.material
+                    }
+                    false => self.sources.material(&nonmanual.from)?,
+                };
                 self.keep(format!("{path}/nonmanual/from"), material)?;
                 Ok(())
             }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use chereme_motion::{Anatomy, Clip, HandAngles, Side, Span};
 use chereme_sign::hamnosys::Notated;
 use chereme_sign::inventory::{Inventory, InventoryValue, Landmark};
+use chereme_sign::milestones::{Function, Milestones};
 use chereme_sign::{Component, Handedness, Reading};
 use serde::{Deserialize, Serialize};
 
@@ -78,6 +79,23 @@ pub trait Sources {
         _signer: Option<&str>,
     ) -> Result<Language, SourceError> {
         Ok(Language::default())
+    }
+
+    /// Returns an expression of the face with its milestones: that of `function` at the address, or the only one there.
+    ///
+    /// # Errors
+    /// [`SourceError::Expression`] if nothing there has milestones, or several things have; those of
+    /// [`material`](Self::material).
+    fn expression(
+        &self,
+        address: &str,
+        function: Option<&str>,
+    ) -> Result<ExpressionSource, SourceError> {
+        let _ = function;
+        Err(SourceError::Expression {
+            address: address.to_owned(),
+            why: "it has no milestones".to_owned(),
+        })
     }
 
     /// Returns the letters of `word` in an alphabet, or in the corpus's usual one.
@@ -183,6 +201,17 @@ pub struct Material {
     pub held: Vec<Held>,
     /// Scalar curves of it, a value a frame.
     pub curves: Vec<Curve>,
+}
+
+/// An expression of the face with the movement it is part of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExpressionSource {
+    /// The movement, at least from M1 to M5 as far as it was recorded.
+    pub material: Material,
+    /// What the expression does for the signs that it spans.
+    pub function: Function,
+    /// Its milestones, from the first frame of the movement on.
+    pub milestones: Milestones,
 }
 
 /// A value of a component over a span of a piece of movement.
@@ -327,6 +356,14 @@ pub enum SourceError {
     NoMovement {
         /// The address as written.
         address: String,
+    },
+    /// Something has no expression with milestones.
+    #[error("{address:?} has no expression of the face to carry over: {why}")]
+    Expression {
+        /// The address as written.
+        address: String,
+        /// The reason, with a remedy.
+        why: String,
     },
     /// The sign is not there as notation.
     #[error(

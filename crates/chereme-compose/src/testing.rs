@@ -8,6 +8,7 @@ use chereme_motion::glam::{DQuat, DVec3, EulerRot};
 use chereme_motion::{
     Anatomy, Channel, Clip, HandAngles, Instant, Joint, ModelPose, Rate, Side, Skeleton, Span,
 };
+use chereme_sign::milestones::{Function, Milestones};
 use chereme_sign::{Component, Handedness, Reading};
 
 use crate::sources::*;
@@ -226,6 +227,8 @@ pub(crate) fn held(hand: Side, component: Component, value: &str, span: Span) ->
 pub(crate) struct Shelf {
     pub(crate) materials: BTreeMap<String, Material>,
     pub(crate) values: Vec<(Component, Value)>,
+    /// Expressions of the face by their material.
+    pub(crate) expressions: BTreeMap<String, (Function, Milestones)>,
 }
 
 impl Shelf {
@@ -309,6 +312,7 @@ impl Shelf {
         };
         Self {
             materials: all.into_iter().map(|m| (m.gloss.clone(), m)).collect(),
+            expressions: BTreeMap::new(),
             values: vec![
                 (configuration, value("Y", pose(0.3))),
                 (configuration, value("U", pose(0.9))),
@@ -341,6 +345,25 @@ impl Sources for Shelf {
                 )
                 .map(str::to_owned),
             })
+    }
+
+    fn expression(
+        &self,
+        address: &str,
+        _function: Option<&str>,
+    ) -> Result<ExpressionSource, SourceError> {
+        let material = self.material(address)?;
+        match self.expressions.get(&material.gloss) {
+            Some((function, milestones)) => Ok(ExpressionSource {
+                material,
+                function: function.clone(),
+                milestones: *milestones,
+            }),
+            None => Err(SourceError::Expression {
+                address: address.to_owned(),
+                why: "it has no milestones".to_owned(),
+            }),
+        }
     }
 
     fn stage(&self, signer: Option<&str>) -> Result<Material, SourceError> {

@@ -3,6 +3,7 @@
 pub(crate) mod clear;
 pub(crate) mod configure;
 pub(crate) mod cut;
+pub(crate) mod expression;
 pub(crate) mod join;
 pub(crate) mod mirror;
 pub(crate) mod nonmanual;

@@ -3,6 +3,7 @@
 mod choices;
 mod curves;
 mod draft;
+mod expression;
 mod laws;
 mod operators;
 mod robust;

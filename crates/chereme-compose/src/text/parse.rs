@@ -208,11 +208,7 @@ impl Parser<'_> {
             "retime" => Step::Retime(self.retime()?),
             "span" => Step::Span(self.cut()?),
             "trim" => Step::Trim,
-            "nonmanual" => {
-                self.expect("from", "\"from\" and a sign")?;
-                let from = self.name("a sign")?;
-                Step::Nonmanual(Nonmanual { from })
-            }
+            "nonmanual" => Step::Nonmanual(self.nonmanual()?),
             _ => Step::Indicate(self.indicate()?),
         })
     }
@@ -383,12 +379,53 @@ impl Parser<'_> {
         }
     }
 
+    fn nonmanual(&mut self) -> Parsed<Nonmanual> {
+        let function = match self.word() {
+            Some("from") => None,
+            _ => Some(self.name("\"from\" and a sign")?),
+        };
+        self.expect("from", "\"from\" and a sign")?;
+        let from = self.name("a sign")?;
+        let over = self.accept("over").then(|| self.over()).transpose()?;
+        let by_phases = self.accept("by");
+        if by_phases {
+            self.expect("phases", "\"phases\"")?;
+        }
+        Ok(Nonmanual {
+            from,
+            function,
+            over,
+            by_phases,
+        })
+    }
+
+    /// Reads a part of a movement, or the five milestones of an expression.
+    fn over(&mut self) -> Parsed<Over> {
+        const WANTED: &str = "a part such as 0.4s..1.9s, or five times with commas between";
+        let start = self.at;
+        let mut times = Vec::new();
+        while times.len() < 5 {
+            let Ok(time) = self.quantity(WANTED) else {
+                break;
+            };
+            times.push(time);
+            if times.len() < 5 && !self.accept_kind(Kind::Comma) {
+                break;
+            }
+        }
+        if let Ok(times) = times.try_into() {
+            return Ok(Over::At(times));
+        }
+        self.at = start;
+        self.cut().map(Over::Part)
+    }
+
     /// Reads two times with two dots between, one of which may be left out.
     fn cut(&mut self) -> Parsed<Cut> {
         const WANTED: &str = "two times with two dots between, such as 0.4s..1.9s";
         let start = self.at;
         let mut text = String::new();
-        while let Some(word) = self.word().filter(|word| *word != "then") {
+        while let Some(word) = self.word().filter(|word| !["then", "by"].contains(word)) {
             text.push_str(word);
             self.at += 1;
         }

@@ -45,7 +45,7 @@ fn within(f: &mut Formatter<'_>, node: &Node, parentheses: bool) -> fmt::Result 
 }
 
 /// Words that mean something somewhere; as a name each is quoted.
-const RESERVED: [&str; 42] = [
+const RESERVED: [&str; 44] = [
     "spell",
     "point",
     "hamnosys",
@@ -82,6 +82,8 @@ const RESERVED: [&str; 42] = [
     "travel",
     "retime",
     "nonmanual",
+    "over",
+    "phases",
     "span",
     "trim",
     "from",
@@ -230,6 +232,30 @@ impl Display for Leg {
     }
 }
 
+impl Display for Nonmanual {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str("nonmanual ")?;
+        if let Some(function) = &self.function {
+            write!(f, "{} ", Name(function))?;
+        }
+        write!(f, "from {}", Name(&self.from))?;
+        match &self.over {
+            None => {}
+            Some(Over::Part(cut)) => {
+                f.write_str(" over ")?;
+                list(f, cut.from, "")?;
+                f.write_str("..")?;
+                list(f, cut.to, "")?;
+            }
+            Some(Over::At(times)) => {
+                f.write_str(" over ")?;
+                list(f, times, ", ")?;
+            }
+        }
+        f.write_str(if self.by_phases { " by phases" } else { "" })
+    }
+}
+
 impl Display for Step {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
@@ -266,7 +292,7 @@ impl Display for Step {
                 f.write_str("retime ")?;
                 list(f, &retime.paces, ", ")
             }
-            Self::Nonmanual(nonmanual) => write!(f, "nonmanual from {}", Name(&nonmanual.from)),
+            Self::Nonmanual(nonmanual) => write!(f, "{nonmanual}"),
             Self::Indicate(indicate) => {
                 let from = indicate.from.as_ref().map(|spot| format!("from {spot}"));
                 let to = indicate.to.as_ref().map(|spot| format!("to {spot}"));

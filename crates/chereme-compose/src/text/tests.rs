@@ -84,6 +84,16 @@ fn what_people_write_is_read_and_printed() {
             "",
         ),
         ("recording:\"NGT Thanks\" | reverse", ""),
+        ("A | nonmanual from B by phases", ""),
+        (
+            "A | nonmanual wh from B over 0.4s..1.9s by phases | swap",
+            "",
+        ),
+        ("A | nonmanual from B over ..1.9s", ""),
+        (
+            "A | nonmanual from B over -500ms,0s,0.4s,1s,1.5s by phases",
+            "A | nonmanual from B over -0.5s, 0s, 0.4s, 1s, 1.5s by phases",
+        ),
         ("INDEX:1 then \"then\" then \"spell\" then \"a\\\"b\"", ""),
         (
             "ÉCOLE | place both by out 10% in 5cm",
@@ -352,7 +362,16 @@ fn step() -> impl Strategy<Value = Step> {
             via
         })),
         vec(pace, 1..3).prop_map(|paces| Step::Retime(Retime { paces })),
-        name().prop_map(|from| Step::Nonmanual(Nonmanual { from })),
+        (name(), of(name()), over(), any::<bool>()).prop_map(
+            |(from, function, over, by_phases)| {
+                Step::Nonmanual(Nonmanual {
+                    from,
+                    function,
+                    over,
+                    by_phases,
+                })
+            }
+        ),
         Just(Step::Trim),
         (of(0.0f64..1.0), 1.1f64..5.0).prop_map(|(from, to)| Step::Span(Cut {
             from: from.map(Seconds),
@@ -366,6 +385,25 @@ fn step() -> impl Strategy<Value = Step> {
             })
         }),
     ]
+}
+
+fn over() -> impl Strategy<Value = Option<Over>> {
+    let part = (of(0.0f64..1.0), 1.1f64..5.0).prop_map(|(from, to)| {
+        Over::Part(Cut {
+            from: from.map(Seconds),
+            to: Some(Seconds(to)),
+        })
+    });
+    let at = (-1.0f64..1.0, [0.0f64..1.0, 0.0..1.0, 0.0..1.0, 0.0..1.0]).prop_map(|(m1, gaps)| {
+        let mut time = m1;
+        let later = gaps.map(|gap| {
+            time += gap;
+            Seconds(time)
+        });
+        let [m2, m3, m4, m5] = later;
+        Over::At([Seconds(m1), m2, m3, m4, m5])
+    });
+    of(prop_oneof![part, at])
 }
 
 fn node() -> impl Strategy<Value = Node> {

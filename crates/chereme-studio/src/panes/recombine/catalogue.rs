@@ -147,9 +147,7 @@ pub(super) fn operators() -> [(Text, Text, Step); 14] {
         (
             words::NONMANUAL,
             words::NONMANUAL_HINT,
-            Step::Nonmanual(Nonmanual {
-                from: String::new(),
-            }),
+            Step::Nonmanual(Nonmanual::of("")),
         ),
     ]
 }

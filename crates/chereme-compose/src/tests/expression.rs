@@ -1,0 +1,218 @@
+//! Expressions of the face carried over phase by phase.
+
+use chereme_motion::{Instant, Part};
+use chereme_sign::milestones::{Function, Milestones};
+
+use crate::made::{Curve, Made};
+use crate::testing::Shelf;
+use crate::work::Group;
+use crate::{Cause, Recipe, evaluate, resolve, restore};
+
+const OWN: [i64; 5] = [100, 250, 600, 800, 950];
+
+/// A shelf on which BOL has an expression: brows that show the phase, from 0 at M1 to 1 at M5.
+fn shelf() -> Shelf {
+    let mut shelf = Shelf::new();
+    let bol = shelf.materials.get_mut("BOL").expect("there");
+    let rate = bol.clip.rate();
+    let value = |frame: usize| {
+        let at = rate.instant(frame).seconds() * 1000.0;
+        let ends = OWN.map(|end| end as f64);
+        match (0..4).find(|&n| at >= ends[n] && at < ends[n + 1]) {
+            Some(n) => 0.25 * (n as f64 + (at - ends[n]) / (ends[n + 1] - ends[n])),
+            None => 0.0,
+        }
+    };
+    let brows = (0..bol.clip.frames()).map(value).collect();
+    let curve = |name: &str, values: Vec<f64>| Curve {
+        name: name.to_owned(),
+        values,
+    };
+    bol.curves = vec![
+        curve("face.brow_squeeze", brows),
+        curve("face.jaw_open", vec![0.8; 120]),
+    ];
+    let marks = Milestones::of_times(OWN.map(Instant::from_millis));
+    shelf
+        .expressions
+        .insert("BOL".into(), (Function::of("wh"), marks));
+    shelf
+}
+
+fn made(recipe: &str, shelf: &Shelf) -> Made {
+    let recipe: Recipe = recipe
+        .parse()
+        .unwrap_or_else(|error| panic!("{recipe}: {error}"));
+    let resolved = resolve(&recipe, shelf).unwrap_or_else(|error| panic!("{recipe}: {error}"));
+    let made = evaluate(&resolved).unwrap_or_else(|error| panic!("{recipe}: {error}"));
+    let stored = restore(&recipe, resolved.inputs().clone(), shelf).expect("found again");
+    assert_eq!(
+        evaluate(&stored).expect("made again").clip,
+        made.clip,
+        "{recipe}"
+    );
+    made
+}
+
+fn curve<'a>(made: &'a Made, name: &str) -> &'a [f64] {
+    let found = made.curves.iter().find(|curve| curve.name == name);
+    &found.unwrap_or_else(|| panic!("{name}")).values
+}
+
+#[test]
+fn each_milestone_lands_within_a_frame_whatever_the_durations() {
+    let shelf = shelf();
+    for target in [
+        [100, 250, 600, 800, 950],
+        [50, 100, 150, 700, 990],
+        [10, 400, 450, 460, 900],
+    ] {
+        let times = target.map(|at| format!("{at}ms")).join(", ");
+        let recipe = format!("ESCARGOT | nonmanual wh from BOL over {times} by phases");
+        let made = made(&recipe, &shelf);
+        let brows = curve(&made, "face.brow_squeeze");
+        let frame = |at: i64| made.clip.rate().frame_at(Instant::from_millis(at));
+        for (n, at) in target.into_iter().enumerate().take(4).skip(1) {
+            let phase = 0.25 * n as f64;
+            let around = &brows[frame(at) - 1..=frame(at) + 1];
+            let (low, high) = (around[0].min(around[2]), around[0].max(around[2]));
+            assert!(
+                low <= phase + 1e-9 && high >= phase - 1e-9,
+                "{recipe}: M{} {around:?}",
+                n + 1
+            );
+        }
+        assert!(
+            brows[..frame(target[0])].iter().all(|value| *value == 0.0),
+            "{recipe}"
+        );
+        assert!(
+            brows[frame(target[4]) + 1..]
+                .iter()
+                .all(|value| *value < 1e-9),
+            "{recipe}"
+        );
+        let leap = brows
+            .windows(2)
+            .map(|pair| (pair[1] - pair[0]).abs())
+            .fold(0.0, f64::max);
+        assert!(leap < 0.36, "{recipe}: it grows and fades, {leap}");
+    }
+}
+
+#[test]
+fn head_and_trunk_go_with_it_and_the_hands_keep_their_fingers() {
+    let shelf = shelf();
+    let recipe = "ESCARGOT | nonmanual from BOL over 0.1s, 0.25s, 0.6s, 0.8s, 0.95s by phases";
+    let made = made(recipe, &shelf);
+    let own = &shelf.materials["ESCARGOT"].clip;
+    let groups = super::differing(&made, own);
+    assert!(
+        groups.contains(&Group::Head) && groups.contains(&Group::Trunk),
+        "{groups:?}"
+    );
+    assert!(
+        !groups
+            .iter()
+            .any(|group| matches!(group, Group::Fingers(_) | Group::Legs))
+    );
+    let head = made.anatomy.joint(Part::Head).expect("a head");
+    let theirs = &shelf.materials["BOL"].clip.channel(head).rotations;
+    let got = &made.clip.channel(head).rotations;
+    let same = made.clip.rate().frame_at(Instant::from_millis(700));
+    assert!(
+        got[same].angle_between(theirs[same]) < 1e-6,
+        "in the body it is the other's head"
+    );
+    assert_eq!(
+        got[0],
+        own.channel(head).rotations[0],
+        "before M1 nothing changes"
+    );
+    let hips = made.anatomy.joint(Part::Hips).expect("hips");
+    assert_eq!(made.clip.channel(hips), own.channel(hips));
+}
+
+#[test]
+fn a_mouth_that_speaks_keeps_its_own_movement() {
+    let mut shelf = shelf();
+    let still = made("ESCARGOT | nonmanual from BOL by phases", &shelf);
+    assert!(
+        curve(&still, "face.jaw_open")
+            .iter()
+            .any(|value| *value > 0.7)
+    );
+    let escargot = shelf.materials.get_mut("ESCARGOT").expect("there");
+    escargot.curves = vec![Curve {
+        name: "mouthing.map".into(),
+        values: vec![1.0; 120],
+    }];
+    let speaks = made("ESCARGOT | nonmanual from BOL by phases", &shelf);
+    assert_eq!(curve(&speaks, "mouthing.map"), [1.0; 120]);
+    assert!(
+        speaks
+            .curves
+            .iter()
+            .all(|curve| curve.name != "face.jaw_open")
+    );
+    assert!(
+        speaks
+            .curves
+            .iter()
+            .any(|curve| curve.name == "face.brow_squeeze")
+    );
+}
+
+#[test]
+fn milestones_follow_from_the_signs_that_are_spanned() {
+    let shelf = shelf();
+    let told = |recipe: &str| {
+        made(recipe, &shelf)
+            .report
+            .steps
+            .last()
+            .expect("a step")
+            .did[0]
+            .clone()
+    };
+    let all = told("(ESCARGOT then CHAT then LIMACE) | nonmanual from BOL by phases");
+    assert!(all.contains("onto -0.500s 0.000s"), "{all}");
+    let last =
+        told("(ESCARGOT then CHAT then LIMACE) | nonmanual from BOL over 1.9s..4s by phases");
+    let (_, onto) = last.split_once("onto ").expect(&last);
+    let times: Vec<&str> = onto.split(' ').collect();
+    assert_eq!(times[2], "-", "one sign has no M3: {last}");
+    let part = told("ESCARGOT | nonmanual from BOL over 0.8s..0.9s by phases");
+    assert!(
+        part.contains("onto 0.300s 0.800s") && part.contains("0.900s 1.400s"),
+        "{part}"
+    );
+}
+
+#[test]
+fn an_expression_composes_with_other_operators() {
+    let shelf = shelf();
+    for recipe in [
+        "ESCARGOT | retime 2 | nonmanual from BOL by phases | swap",
+        "(ESCARGOT then CHAT) | nonmanual from BOL over 0.2s..1.5s by phases | reverse",
+        "ESCARGOT | nonmanual from BOL over 0.2s..0.8s then LIMACE",
+        "LIMACE | nonmanual from BOL by phases | repeat 2",
+    ] {
+        let made = made(recipe, &shelf);
+        let brows = curve(&made, "face.brow_squeeze");
+        assert_eq!(brows.len(), made.clip.frames(), "{recipe}");
+        assert!(brows.iter().any(|value| *value > 0.3), "{recipe}");
+    }
+}
+
+#[test]
+fn what_has_no_milestones_is_refused_by_name() {
+    let recipe: Recipe = "BOL | nonmanual from CHAT by phases"
+        .parse()
+        .expect("a recipe");
+    let error = resolve(&recipe, &shelf()).expect_err("no milestones");
+    assert!(matches!(error.cause, Cause::Source(_)), "{error}");
+    assert!(error.to_string().contains("no expression"), "{error}");
+    let wrong = "BOL | nonmanual from CHAT over 2s, 1s, 3s, 4s, 5s by phases";
+    assert!(wrong.parse::<Recipe>().is_err());
+}
