@@ -57,7 +57,7 @@ pub enum PhasedError {
 }
 
 impl Phased {
-    /// Returns a performance: channels in units of which 1 counts alike, milestones M1 to M5 in frames, and its length in
+    /// Returns a performance: channels in units whose 1 counts alike, milestones M1 to M5 in frames, and its length in
     /// seconds. A frame on a milestone belongs to the phase that begins there.
     ///
     /// # Errors

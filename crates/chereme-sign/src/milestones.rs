@@ -131,7 +131,7 @@ impl Function {
         &self.0
     }
 
-    /// Tells whether it is one of those whose rules the paper states or that are cut like them.
+    /// Returns whether it is one of those whose rules the paper states or that are cut like them.
     #[must_use]
     pub fn is_known(&self) -> bool {
         NAMES.iter().any(|(id, _)| *id == self.0)
@@ -242,7 +242,7 @@ impl Milestones {
     }
 
     /// Returns five times that never decrease: an onset or offset that overlapping signs would give less than no time is
-    /// empty, and M3 is M2 if there is none.
+    /// empty, and M3 is M2 if one sign is spanned.
     #[must_use]
     pub fn times(&self) -> [Instant; 5] {
         let m3 = self.m3.unwrap_or(self.m2).max(self.m2);
@@ -334,7 +334,7 @@ impl Milestones {
 /// Returns the milestones of an expression over `of` of the signs of an utterance, which are in order of time.
 ///
 /// M1 is the end of the sign just before them, or `edge` microseconds before them if the utterance begins with them; M5
-/// likewise after them. `None` if `of` holds no sign.
+/// the same after them. `None` if `of` holds no sign.
 #[must_use]
 pub fn milestones(
     signs: &[Span],

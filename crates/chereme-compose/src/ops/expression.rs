@@ -119,7 +119,7 @@ fn target(work: &Work, over: Option<Over>, given: &ExpressionInput) -> Milestone
     })
 }
 
-/// Returns the milestones over the signs whose middle lies in `part`; `None` if there are none.
+/// Returns the milestones over the signs whose middle lies in `part`; `None` without such a sign.
 fn signed(work: &Work, part: Span, function: &Function) -> Option<Milestones> {
     let glosses = work.notes.iter().filter(|note| note.about == About::Gloss);
     let mut signs: Vec<Span> = glosses.map(|note| note.span).collect();
@@ -199,7 +199,7 @@ fn turn(
     let groups = groups(&work.skeleton, &work.anatomy);
     let hips = work.anatomy.joint(Part::Hips);
     let (mut head, mut trunk) = (0, 0);
-    // What is not blended keeps its rotation to the last bit.
+    // A frame that is not blended keeps its rotation to the last bit.
     let seen = |(frame, _): &(usize, &mut DQuat)| weights[*frame] > 0.0;
     for (joint, group) in groups.iter().enumerate() {
         let theirs = &other.channels[joint].rotations;
@@ -290,7 +290,7 @@ fn blend_curves(work: &mut Work, theirs: Vec<Curve>, weights: &[f64], span: Span
     mouth
 }
 
-/// Takes over what is said about the expression, in the time that it gets here.
+/// Takes over the notes about the expression, in the time that it gets here.
 fn take_notes(work: &mut Work, theirs: &[Note], course: &Course) {
     let (here, there) = (course.target.span(), course.own.span());
     let is_carried = |note: &Note| match &note.about {

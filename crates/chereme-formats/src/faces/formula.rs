@@ -50,7 +50,7 @@ impl Function {
 const DEEPEST: usize = 32;
 
 impl Formula {
-    /// Reads a formula; the text tells what is wrong with another.
+    /// Reads a formula; the error names the fault of another.
     pub(super) fn read(text: &str) -> Result<Self, String> {
         let mut reader = Reader { rest: text.trim() };
         let formula = reader.sum(0)?;
