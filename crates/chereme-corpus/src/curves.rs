@@ -13,6 +13,7 @@ use crate::address::{self, Address, Stretch};
 use crate::db::upgrade::NONMANUALS;
 use crate::db::{motion, tracks};
 use crate::error::{Error, Result};
+use crate::face;
 use crate::movement::Track;
 use crate::track::{self, NewTrack};
 
@@ -66,12 +67,26 @@ pub(crate) fn store(
     Ok(())
 }
 
-/// Returns the curves of non-manuals that go with a movement, over `frames` of it: a number for each frame.
+/// Returns the curves of non-manuals that go with a movement, over `frames` of it: a number for each frame. Those of a
+/// captured face are the numbers of the house's face, such as `face.jaw_open`.
 pub(crate) fn of_track(
     connection: &Connection,
     track: &Track,
     frames: Range<usize>,
 ) -> Result<Vec<Curve>> {
+    let mut all = made(connection, track, frames.clone())?;
+    let at = frames.map(|frame| track.rate.instant(frame).shifted(track.row.offset_us));
+    let captured = face::curves_at(connection, track.row.recording_id, at)?;
+    all.extend(
+        captured
+            .into_iter()
+            .filter(|curve| !curve.values.is_empty()),
+    );
+    Ok(all)
+}
+
+/// Returns the curves that a recipe made, over `frames` of its movement.
+fn made(connection: &Connection, track: &Track, frames: Range<usize>) -> Result<Vec<Curve>> {
     let Some(row) = motion::nonmanuals(connection, track.row.id)? else {
         return Ok(Vec::new());
     };

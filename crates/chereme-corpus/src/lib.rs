@@ -17,6 +17,7 @@ mod details;
 mod edit;
 mod error;
 mod export;
+mod face;
 mod import;
 mod info;
 mod inventories;
@@ -52,8 +53,11 @@ use std::sync::Arc;
 
 use db::Store;
 
+pub use chereme_formats::faces::{Loss, System as FaceSystem};
 pub use chereme_formats::roles::{Hands, Mapping, MappingError};
 pub use chereme_formats::table::annotations::{Moment, TimeUnit};
+pub use chereme_motion::Instant;
+pub use chereme_sign::milestones::{Function, Milestones, Phase as ExpressionPhase};
 pub use chereme_sign::query::HELP as QUERY_HELP;
 pub use chereme_sign::tier::spans::Mode;
 pub use chereme_sign::{Stereotype, TierRole, TierTopic};
@@ -69,6 +73,7 @@ pub use annotate::{
 pub use around::Around;
 pub use check::{CheckReport, Fault};
 pub use chereme_analysis::kinematics::{HandCurves, Kinematics};
+pub use chereme_analysis::phases::NoPath;
 pub use chereme_analysis::{Score, ScoreOptions};
 pub use chereme_compose::Curve;
 pub use chereme_figure::SPEEDS;
@@ -87,6 +92,11 @@ pub use details::{
 pub use edit::{RecordingChange, SignChange, SignerChange};
 pub use error::{Cause, Error, Result};
 pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile};
+pub use face::{
+    CHANNELS as FACE_CHANNELS, Choice, ChooseOptions, Expressions, FaceChannel, FaceFinding,
+    FaceNumber, FaceReport, FaceScore, FoundExpression, MilestoneOptions, Rank, Ranked,
+    ScoredChannel,
+};
 pub use import::{
     FileReport, FileStatus, ImportOptions, ImportReport, Outcome, OwnEdit, OwnEdits, ReportFinding,
     Saying, Unread,
@@ -127,6 +137,8 @@ pub struct Corpus {
     inventories: RefCell<Option<(i64, Arc<Vec<StoredInventory>>)>>,
     /// The recipe that is worked on.
     drafted: recombine::Drafted,
+    /// Expressions of faces as numbers, as they were after the newest operation.
+    faces: RefCell<face::Pool>,
 }
 
 impl Corpus {
@@ -140,6 +152,7 @@ impl Corpus {
             learned: RefCell::default(),
             inventories: RefCell::default(),
             drafted: recombine::Drafted::default(),
+            faces: RefCell::default(),
         })
     }
 
@@ -153,6 +166,7 @@ impl Corpus {
             learned: RefCell::default(),
             inventories: RefCell::default(),
             drafted: recombine::Drafted::default(),
+            faces: RefCell::default(),
         })
     }
 

@@ -20,7 +20,9 @@ use crate::Corpus;
 use crate::address::{self, Address, Stretch};
 use crate::animate::Staging;
 use crate::curves;
+use crate::db::recordings;
 use crate::error::{Error, Result};
+use crate::face;
 use crate::inventories;
 use crate::movement::{ChannelGroup, Track};
 use crate::notation::{self, Notation};
@@ -166,6 +168,16 @@ impl Corpus {
             Some(span) => stretch.span.intersection(span).unwrap_or_default(),
             None => stretch.span,
         };
+        if recordings::body_track(connection, stretch.recording.id)?.is_none()
+            && let Some(face) = face::stage::material(connection, &stretch)?
+        {
+            return Ok(Moving {
+                faces: chereme_compose::faces(&face.curves),
+                clip: face.clip,
+                anatomy: (*face.anatomy).clone(),
+                stretch,
+            });
+        }
         let track = Track::of(connection, stretch.recording.id)?;
         let frames = track.frames_in(stretch.span);
         let clip = track.clip(connection, frames.clone(), groups)?;

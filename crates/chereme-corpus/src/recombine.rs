@@ -323,6 +323,10 @@ fn source_of(
         let Ok(stretch) = address::stretch(connection, &material.address.parse()?) else {
             continue;
         };
+        // A recording of a face alone is performed by the program's own body.
+        if recordings::body_track(connection, stretch.recording.id)?.is_none() {
+            continue;
+        }
         let track = Track::of(connection, stretch.recording.id)?;
         let skeleton = convert::skeleton(&track.hierarchy).ok();
         let same =

@@ -4,12 +4,13 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use chereme_compose::{
-    Example, Held, Language, LearnedProfile, Letter, Material, SourceError, Sources, SpellingTimes,
-    Value,
+    Example, ExpressionSource, Held, Language, LearnedProfile, Letter, Material, SourceError,
+    Sources, SpellingTimes, Value,
 };
 use chereme_motion::{Instant, Side, Span};
 use chereme_sign::Inventory;
 use chereme_sign::hamnosys::Notated;
+use chereme_sign::milestones::Function;
 use chereme_sign::text::nearest;
 use chereme_sign::{Component, HandRef, Handedness, Reading};
 use rusqlite::Connection;
@@ -24,6 +25,7 @@ use crate::db::recordings::{self, RecordingRow};
 use crate::db::signs;
 use crate::db::tiers;
 use crate::error::{Error, Result};
+use crate::face;
 use crate::inventories::StoredInventory;
 use crate::movement::{ChannelGroup, Track};
 use crate::search::index::SearchIndex;
@@ -84,6 +86,12 @@ impl<'a> CorpusSources<'a> {
                 LONGEST / 60_000_000
             ))
             .advise("annotate the part on a gloss tier and name its token"));
+        }
+        if recordings::body_track(self.connection, stretch.recording.id)?.is_none()
+            && let Some(mut material) = face::stage::material(self.connection, stretch)?
+        {
+            material.held = self.held(stretch, material.handedness)?;
+            return Ok(material);
         }
         let track = Track::of(self.connection, stretch.recording.id)?;
         let mut material = movement(self.connection, &track, stretch)?;
@@ -360,6 +368,34 @@ impl Sources for CorpusSources<'_> {
             );
         }
         Ok(examples)
+    }
+
+    fn expression(
+        &self,
+        address: &str,
+        function: Option<&str>,
+    ) -> std::result::Result<ExpressionSource, SourceError> {
+        let function = function.map(Function::of);
+        let fault = |error: &Error| SourceError::Expression {
+            address: address.to_owned(),
+            why: match error.remedy() {
+                Some(remedy) => format!("{error}; {remedy}"),
+                None => error.to_string(),
+            },
+        };
+        let named: Address = address.parse().map_err(|error| fault(&error))?;
+        let found = face::expression_at(self.connection, &named, function.as_ref());
+        let found = found.map_err(|error| fault(&error))?;
+        let recording = Address::Recording(Name::Number(found.recording)).to_string();
+        let stretch = self.stretch(&recording).map_err(|error| fault(&error))?;
+        let material = self.load(&stretch).map_err(|error| fault(&error))?;
+        let start = face::stage::first_frame(self.connection, found.recording, stretch.span);
+        let start = start.map_err(|error| fault(&error))?;
+        Ok(ExpressionSource {
+            material,
+            function: found.function,
+            milestones: found.milestones.shifted(-start),
+        })
     }
 
     fn letters(

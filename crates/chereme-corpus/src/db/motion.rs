@@ -104,11 +104,29 @@ pub(crate) fn content_hash(connection: &Connection, track: i64) -> Result<String
     Ok(hex(&digest.finalize()))
 }
 
-/// Puts the names of the scalar curves that go with a made movement, and of their blocks, into a digest.
+/// Returns the SHA-256 over the names of a track's channels and blocks: the name of what it holds.
+pub(crate) fn track_hash(connection: &Connection, track: i64) -> Result<String> {
+    let mut digest = Sha256::new();
+    digest_track(connection, track, &mut digest)?;
+    Ok(hex(&digest.finalize()))
+}
+
+/// Puts the names of the scalar curves that go with a movement, and of their blocks, into a digest.
 fn digest_nonmanuals(connection: &Connection, track: i64, digest: &mut Sha256) -> Result<()> {
-    let Some(curves) = nonmanuals(connection, track)? else {
-        return Ok(());
-    };
+    if let Some(curves) = nonmanuals(connection, track)? {
+        digest_track(connection, curves, digest)?;
+    }
+    let sql = "SELECT c.id FROM track c JOIN track t ON t.recording_id = c.recording_id
+               WHERE t.id = ?1 AND c.kind = 'curves' AND c.name <> ?2 ORDER BY c.id";
+    let mut statement = connection.prepare_cached(sql)?;
+    let others = statement.query_map(params![track, NONMANUALS], |row| row.get(0))?;
+    for other in others.collect::<rusqlite::Result<Vec<i64>>>()? {
+        digest_track(connection, other, digest)?;
+    }
+    Ok(())
+}
+
+fn digest_track(connection: &Connection, curves: i64, digest: &mut Sha256) -> Result<()> {
     for channel in tracks::channels(connection, curves)? {
         digest.update(channel.name.as_bytes());
         digest.update([0]);

@@ -1,0 +1,285 @@
+//! Milestones derived from glosses and functions, and written as tiers that can be corrected.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use chereme_formats::table::annotations::Moment;
+use chereme_motion::Instant;
+use chereme_sign::TierRole;
+use chereme_sign::milestones::{Function, Milestones, Phase};
+use serde::Serialize;
+
+use super::expressions::{self, Expression, TIER};
+use super::recording_of;
+use crate::Corpus;
+use crate::address::{Address, Name};
+use crate::annotate::{
+    AnnotateOptions, AnnotationAction, AnnotationChange, AnnotationName, AnnotationOrigin, NewTier,
+    TierName,
+};
+use crate::db::recordings;
+use crate::db::tiers;
+use crate::error::Result;
+use crate::progress::{Progress, Step, Unit};
+
+/// Which milestones are derived, and whether they are written.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct MilestoneOptions {
+    /// The function; `None` for every function that a tier names.
+    pub function: Option<Function>,
+    /// The name of the tier of functions; `None` for tiers called function, construction, clause type and so on.
+    pub tier: Option<String>,
+    /// The recording; `None` for all.
+    pub recording: Option<Address>,
+    /// Whether nothing is written.
+    pub dry_run: bool,
+}
+
+/// The expressions that were found, and what was written.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Expressions {
+    /// How many annotations of phases were written.
+    pub written: u64,
+    /// How many expressions have milestones that a person wrote or corrected, and keep them.
+    pub kept: u64,
+    /// The expressions, by recording and time.
+    pub expressions: Vec<FoundExpression>,
+    /// How many expressions of each function tiers name.
+    pub functions: BTreeMap<String, u64>,
+}
+
+/// An expression of the face with its milestones.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FoundExpression {
+    /// The recording's name.
+    pub recording: String,
+    /// The address by which other commands know it.
+    pub address: String,
+    /// What it does for the signs that it spans.
+    pub function: Function,
+    /// The glosses that it spans.
+    pub signs: Vec<String>,
+    /// The milestones on the recording's clock.
+    #[serde(flatten)]
+    pub milestones: Milestones,
+    /// Whether its milestones are those that a person wrote or corrected.
+    pub corrected: bool,
+    /// What is odd.
+    pub findings: Vec<String>,
+}
+
+impl Corpus {
+    /// Finds expressions of the face by tiers of functions, derives their milestones from the glosses that they span, and
+    /// writes the phases of each onto a tier such as `milestones wh`.
+    ///
+    /// Phases that a person wrote or corrected stay, and are the expression's milestones from then on. An end that lies
+    /// outside of the recording is kept in the value, as `M1-M2 from -0.300s`.
+    ///
+    /// # Errors
+    /// If the recording is not there, the corpus cannot be written, or `progress` stops the work before anything is.
+    pub fn milestones(
+        &mut self,
+        options: &MilestoneOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Expressions> {
+        let connection = self.store.read();
+        let wanted = match &options.recording {
+            Some(address) => Some(recording_of(connection, address)?),
+            None => None,
+        };
+        let mut all = recordings::recordings(connection)?;
+        all.retain(|row| wanted.is_none_or(|id| row.id == id));
+        let mut report = Expressions::default();
+        let mut fresh: Vec<(String, i64, Expression)> = Vec::new();
+        for (done, row) in all.iter().enumerate() {
+            progress.tell(Step {
+                task: &row.name,
+                done: done as u64,
+                total: Some(all.len() as u64),
+                unit: Unit::Items,
+            })?;
+            let found =
+                expressions::of_recording(connection, row.id, None, options.tier.as_deref())?;
+            for it in &found {
+                *report
+                    .functions
+                    .entry(it.function.name().to_owned())
+                    .or_default() += 1;
+            }
+            let chosen = |it: &&Expression| {
+                options
+                    .function
+                    .as_ref()
+                    .is_none_or(|own| *own == it.function)
+            };
+            for it in found.iter().filter(chosen) {
+                report.kept += u64::from(it.corrected);
+                report.expressions.push(FoundExpression {
+                    recording: row.name.clone(),
+                    address: address_of(it, &found),
+                    function: it.function.clone(),
+                    signs: it.signs.clone(),
+                    milestones: it.milestones,
+                    corrected: it.corrected,
+                    findings: it.odd.clone(),
+                });
+                if !it.corrected {
+                    fresh.push((row.name.clone(), row.duration_us, it.clone()));
+                }
+            }
+        }
+        if !options.dry_run {
+            report.written = self.write_milestones(&fresh, progress)?;
+        }
+        Ok(report)
+    }
+
+    fn write_milestones(
+        &mut self,
+        fresh: &[(String, i64, Expression)],
+        progress: &mut Progress<'_>,
+    ) -> Result<u64> {
+        let mut changes: Vec<AnnotationChange> = Vec::new();
+        let mut written = 0;
+        let mut taken: BTreeMap<(i64, String), i64> = BTreeMap::new();
+        let mut derived: Vec<(&String, i64, Expression)> = Vec::new();
+        for (name, duration, it) in fresh {
+            let connection = self.store.read();
+            let again = rederived(connection, it)?;
+            let remove = it.stored.iter().map(|id| AnnotationAction::Remove {
+                annotation: AnnotationName::Number(*id),
+            });
+            changes.extend(remove.map(AnnotationChange::from));
+            derived.push((name, *duration, again));
+        }
+        for (name, duration, it) in &derived {
+            let parts = parts(&it.milestones, *duration);
+            let (Some(first), Some(last)) = (parts.first(), parts.last()) else {
+                continue;
+            };
+            let mut number = 1;
+            let tier = loop {
+                let tier = tier_name(&it.function, number);
+                let end = taken.get(&(it.recording, tier.clone())).copied();
+                let free = end.is_none_or(|end| end <= first.1)
+                    && !self.is_occupied(it.recording, &tier, first.1, last.2, fresh)?;
+                if free {
+                    break tier;
+                }
+                number += 1;
+            };
+            self.ensure_tier(it.recording, name, &tier)?;
+            taken.insert((it.recording, tier.clone()), last.2);
+            for (value, start, end) in parts {
+                let time = |micros| Some(Moment::Time(Instant::from_micros(micros)));
+                changes.push(
+                    AnnotationAction::Add {
+                        tier: TierName::Of {
+                            recording: Name::Number(it.recording),
+                            tier: tier.clone(),
+                        },
+                        start: time(start),
+                        end: time(end),
+                        parent: None,
+                        order: None,
+                        value,
+                        confidence: None,
+                    }
+                    .into(),
+                );
+                written += 1;
+            }
+        }
+        if !changes.is_empty() {
+            let options = AnnotateOptions {
+                origin: AnnotationOrigin::Detector,
+                ..AnnotateOptions::default()
+            };
+            self.annotate(&changes, &options, progress)?;
+        }
+        Ok(written)
+    }
+
+    /// Tells whether a tier holds annotations in the way of new ones: those that are not about to be removed.
+    fn is_occupied(
+        &self,
+        recording: i64,
+        tier: &str,
+        start: i64,
+        end: i64,
+        fresh: &[(String, i64, Expression)],
+    ) -> Result<bool> {
+        let connection = self.store.read();
+        let all = tiers::tiers(connection, recording)?;
+        let Some(row) = all.into_iter().find(|row| row.name == tier) else {
+            return Ok(false);
+        };
+        let going: BTreeSet<i64> = fresh
+            .iter()
+            .flat_map(|(.., it)| it.stored.clone())
+            .collect();
+        let near = tiers::annotations_near(connection, row.id, start, end)?;
+        Ok(near
+            .iter()
+            .any(|it| !going.contains(&it.id) && it.start_us < end && it.end_us > start))
+    }
+
+    fn ensure_tier(&mut self, recording: i64, name: &str, tier: &str) -> Result<()> {
+        let all = tiers::tiers(self.store.read(), recording)?;
+        if all.iter().any(|row| row.name == tier) {
+            return Ok(());
+        }
+        let new = NewTier::new(Name::Text(name.to_owned()), tier, TierRole::Free);
+        self.add_tier(&new).map(drop)
+    }
+}
+
+fn tier_name(function: &Function, number: usize) -> String {
+    match number {
+        1 => format!("{TIER}{function}"),
+        number => format!("{TIER}{function} {number}"),
+    }
+}
+
+/// Returns an expression with milestones that follow from today's glosses, whatever was written before.
+fn rederived(connection: &rusqlite::Connection, it: &Expression) -> Result<Expression> {
+    if it.stored.is_empty() || it.stored.contains(&it.annotation) {
+        return Ok(it.clone());
+    }
+    expressions::derived(connection, it)
+}
+
+/// Returns the address by which an expression is known among all of its recording.
+pub(super) fn address_of(it: &Expression, all: &[Expression]) -> String {
+    let alike = all
+        .iter()
+        .filter(|other| other.function == it.function)
+        .count();
+    match alike {
+        0 | 1 => Address::Recording(Name::Number(it.recording)).to_string(),
+        _ => Address::Annotation(it.annotation).to_string(),
+    }
+}
+
+/// Returns the annotations of an expression: their values and times, cut to the recording.
+fn parts(marks: &Milestones, duration: i64) -> Vec<(String, i64, i64)> {
+    let mut parts = Vec::new();
+    for (phase, span) in Phase::ALL.into_iter().zip(marks.phases()) {
+        let (from, to) = (span.start().micros(), span.end().micros());
+        let (start, end) = (from.clamp(0, duration), to.clamp(0, duration));
+        if start >= end {
+            continue;
+        }
+        let mut value = match (phase, marks.m3) {
+            (Phase::Rest, None) => "M2-M4".to_owned(),
+            _ => phase.between().to_owned(),
+        };
+        if start > from {
+            value.push_str(&format!(" from {}", span.start()));
+        }
+        if end < to {
+            value.push_str(&format!(" to {}", span.end()));
+        }
+        parts.push((value, start, end));
+    }
+    parts
+}

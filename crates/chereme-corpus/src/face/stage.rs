@@ -1,0 +1,120 @@
+//! A recording of a face alone as movement of the program's own body, whose head turns as the capture tells.
+
+use std::sync::Arc;
+
+use chereme_compose::{Curve, Material};
+use chereme_motion::glam::DQuat;
+use chereme_motion::{Clip, Part, Rate, Span};
+use chereme_sign::Handedness;
+use rusqlite::Connection;
+use sha2::{Digest, Sha256};
+
+use super::{captured, head};
+use crate::address::{Address, Name, Stretch};
+use crate::db::motion;
+use crate::db::recordings;
+use crate::error::{Error, Result};
+use crate::sources::notation::own_body;
+
+/// The rate of a capture whose frames have times of their own.
+const USUAL: u32 = 60;
+
+/// Returns a stretch of a recording without a skeleton as movement, with the curves of its face; `None` if it has no
+/// captured face.
+pub(crate) fn material(connection: &Connection, stretch: &Stretch) -> Result<Option<Material>> {
+    let recording = &stretch.recording;
+    let Some(face) = captured(connection, recording.id, None)? else {
+        return Ok(None);
+    };
+    let rate = face.times.rate().or(Rate::new(USUAL, 1).ok());
+    let rate = rate.ok_or_else(|| Error::wrong("the face has no rate"))?;
+    let mut frames = rate.frames_in(stretch.span.shifted(-face.row.offset_us));
+    frames.end = frames
+        .end
+        .min(rate.frame_at(face.row.span().end().shifted(-face.row.offset_us)) + 1);
+    let frames = frames.start.min(frames.end)..frames.end;
+    let moment = |frame: usize| rate.instant(frame).shifted(face.row.offset_us);
+    let body = own_body()?;
+    let mut channels = body.clip.channels().to_vec();
+    for channel in &mut channels {
+        channel.rotations = vec![channel.rotations[0]; frames.len()];
+        if let Some(places) = &mut channel.translations {
+            *places = vec![places[0]; frames.len()];
+        }
+    }
+    if let Some(joint) = body.anatomy.joint(Part::Head) {
+        let pose = body.clip.model_pose(0);
+        let parent = body.clip.skeleton().parent(joint);
+        let above = parent.map_or(DQuat::IDENTITY, |parent| pose.rotation(parent));
+        for (rotation, frame) in channels[joint].rotations.iter_mut().zip(frames.clone()) {
+            if let (_, Some(turned)) = face.at(moment(frame)) {
+                *rotation =
+                    (above.inverse() * head::rotation(turned) * pose.rotation(joint)).normalize();
+            }
+        }
+    }
+    let clip = Clip::new(Arc::clone(body.clip.skeleton()), rate, channels);
+    let clip = clip.map_err(|error| Error::wrong(error.to_string()))?;
+    let curves: Vec<Curve> = face.curves(frames.clone().map(moment));
+    let signer = recording
+        .signer_id
+        .map(|id| recordings::signer(connection, id))
+        .transpose()?
+        .flatten();
+    let left = signer
+        .as_ref()
+        .is_some_and(|it| it.handedness.as_deref() == Some("left"));
+    let (address, gloss) = match &stretch.token {
+        Some(token) => (format!("token:{}", token.id), token.gloss.clone()),
+        None => (
+            format!("recording:{}", recording.id),
+            recording.name.clone(),
+        ),
+    };
+    let name = format!(
+        "face {} {frames:?} {} {} {}",
+        motion::track_hash(connection, face.row.id)?,
+        face.row.offset_us,
+        face.view.system.id,
+        face.view.system.version
+    );
+    Ok(Some(Material {
+        address,
+        hash: motion::hex(&Sha256::digest(name.as_bytes())),
+        gloss,
+        signer: signer.map(|it| Address::Signer(Name::Text(it.name)).to_string()),
+        handedness: if left {
+            Handedness::Left
+        } else {
+            Handedness::Right
+        },
+        clip,
+        anatomy: body.anatomy,
+        held: Vec::new(),
+        curves,
+    }))
+}
+
+/// Returns where the first frame of a recording's movement lies on its clock, in microseconds: of its skeleton, or of its
+/// face if it has none; 0 if it has neither.
+pub(crate) fn first_frame(connection: &Connection, recording: i64, span: Span) -> Result<i64> {
+    if recordings::body_track(connection, recording)?.is_some() {
+        let track = crate::movement::Track::of(connection, recording)?;
+        let frames = track.frames_in(span);
+        return Ok(track
+            .rate
+            .instant(frames.start)
+            .micros()
+            .saturating_add(track.row.offset_us));
+    }
+    let Some(face) = captured(connection, recording, None)? else {
+        return Ok(0);
+    };
+    let rate = face.times.rate().or(Rate::new(USUAL, 1).ok());
+    Ok(rate.map_or(0, |rate| {
+        let frames = rate.frames_in(span.shifted(-face.row.offset_us));
+        rate.instant(frames.start)
+            .micros()
+            .saturating_add(face.row.offset_us)
+    }))
+}

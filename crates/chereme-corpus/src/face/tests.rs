@@ -1,0 +1,411 @@
+//! Faces from capture files to milestones, scores and choices.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use chereme_formats::table::annotations::Moment;
+use chereme_motion::{Instant, Part};
+use chereme_sign::TierRole;
+use chereme_sign::milestones::Function;
+
+use super::{ChooseOptions, MilestoneOptions, Rank};
+use crate::address::{Address, Name};
+use crate::annotate::{AnnotateOptions, AnnotationAction, AnnotationName, NewTier, TierName};
+use crate::{Corpus, ImportOptions, Progress, unheard};
+
+/// The signs of a sentence in milliseconds: one before the question, three in it.
+const SIGNS: [(&str, i64, i64); 4] = [
+    ("HIER", 200, 600),
+    ("ANNA", 700, 1100),
+    ("AIMER", 1200, 1600),
+    ("QUOI", 1700, 2300),
+];
+
+/// Writes a capture in the house's own numbers at 60 frames a second: brows that rise to `most` in the question, times
+/// stretched by `slow`, a head that nods as far, and a jaw that no one else has.
+fn write_face(path: &Path, most: f64, slow: f64, jaw: usize) {
+    let mut text = String::from(
+        "time [s],brow_raise_right,brow_raise_left,brow_squeeze,jaw_open,head_pitch,head_yaw,head_roll\n",
+    );
+    for frame in 0..(180.0 * slow) as usize {
+        let seconds = frame as f64 / 60.0;
+        let at = seconds / slow;
+        let share = ((at - 0.6) / 0.1).min((2.6 - at) / 0.3).clamp(0.0, 1.0);
+        let up = most * share;
+        writeln!(
+            text,
+            "{seconds:.6},{up:.6},{up:.6},0,0.{jaw},{:.6},0,0",
+            0.2 * up
+        )
+        .expect("text");
+    }
+    std::fs::write(path, text).expect("written");
+}
+
+struct Case {
+    _folder: tempfile::TempDir,
+    corpus: Corpus,
+}
+
+fn add(
+    corpus: &mut Corpus,
+    recording: &str,
+    tier: &str,
+    role: TierRole,
+    spans: &[(&str, i64, i64)],
+) {
+    let name = Name::Text(recording.to_owned());
+    corpus
+        .add_tier(&NewTier::new(name.clone(), tier, role))
+        .expect("a tier");
+    let time = |millis| Some(Moment::Time(Instant::from_millis(millis)));
+    let changes: Vec<_> = spans
+        .iter()
+        .map(|(value, start, end)| {
+            AnnotationAction::Add {
+                tier: TierName::Of {
+                    recording: name.clone(),
+                    tier: tier.to_owned(),
+                },
+                start: time(*start),
+                end: time(*end),
+                parent: None,
+                order: None,
+                value: (*value).to_owned(),
+                confidence: None,
+            }
+            .into()
+        })
+        .collect();
+    let options = AnnotateOptions::default();
+    corpus
+        .annotate(&changes, &options, &mut Progress::new(&mut unheard))
+        .expect("annotated");
+}
+
+/// Returns a corpus of wh questions: each by its name with the height of its brows and its slowness.
+fn case(sentences: &[(&str, f64, f64)]) -> Case {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("made");
+    for (jaw, (name, most, slow)) in sentences.iter().enumerate() {
+        let path = folder.path().join(format!("{name}.csv"));
+        write_face(&path, *most, *slow, jaw);
+        let options = ImportOptions::default();
+        corpus
+            .import(&[path], &options, &mut Progress::new(&mut unheard))
+            .expect("imported");
+        let at = |millis: i64| (millis as f64 * slow) as i64;
+        let signs = SIGNS.map(|(gloss, start, end)| (gloss, at(start), at(end)));
+        add(&mut corpus, name, "gloss", TierRole::Gloss, &signs);
+        add(
+            &mut corpus,
+            name,
+            "function",
+            TierRole::Free,
+            &[("wh-question", at(700), at(2300))],
+        );
+    }
+    Case {
+        _folder: folder,
+        corpus,
+    }
+}
+
+fn recording(name: &str) -> Address {
+    Address::Recording(Name::Text(name.to_owned()))
+}
+
+fn choose(case: &Case, target: &str, options: &ChooseOptions) -> super::Choice {
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let found = case
+        .corpus
+        .choose(&Function::of("wh"), &recording(target), options, progress);
+    found.unwrap_or_else(|error| panic!("{target}: {error}"))
+}
+
+fn names(choice: &super::Choice) -> Vec<&str> {
+    choice
+        .ranking
+        .iter()
+        .map(|it| it.recording.as_str())
+        .collect()
+}
+
+#[test]
+fn a_face_alone_moves_the_programs_own_body() {
+    let case = case(&[("W1", 1.0, 1.0)]);
+    let moving = case.corpus.movement(&recording("W1")).expect("movement");
+    assert_eq!((moving.clip.frames(), moving.faces.len()), (180, 180));
+    let frame = |seconds: f64| (seconds * 60.0) as usize;
+    assert_eq!(moving.faces[frame(0.3)].brows, [0.0, 0.0]);
+    assert!(moving.faces[frame(1.5)].brows[0] > 0.99);
+    let head = moving.anatomy.joint(Part::Head).expect("a head");
+    let turned = |seconds| moving.clip.model_pose(frame(seconds)).rotation(head);
+    let angle = turned(0.3).angle_between(turned(1.5));
+    assert!((angle - 0.2).abs() < 1e-6, "{angle}");
+    let report = case.corpus.face(&recording("W1")).expect("a face");
+    assert_eq!((report.system.as_str(), report.frames), ("house", 180));
+    assert!(
+        report
+            .numbers
+            .iter()
+            .any(|it| it.name == "eye_close_left" && !it.known)
+    );
+    assert!(case.corpus.face(&recording("W2")).is_err());
+}
+
+#[test]
+fn milestones_become_a_tier_and_a_correction_stays() {
+    let mut case = case(&[("W1", 1.0, 1.0)]);
+    let options = MilestoneOptions {
+        function: Some(Function::of("wh")),
+        ..MilestoneOptions::default()
+    };
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let dry = MilestoneOptions {
+        dry_run: true,
+        ..options.clone()
+    };
+    let found = case.corpus.milestones(&dry, progress).expect("found");
+    assert_eq!((found.written, found.expressions.len()), (0, 1));
+    assert_eq!(
+        found.expressions[0].milestones.to_string(),
+        "0.600s 0.700s 1.700s 2.300s 2.800s"
+    );
+    assert_eq!(found.expressions[0].signs, ["ANNA", "AIMER", "QUOI"]);
+    let written = case.corpus.milestones(&options, progress).expect("written");
+    assert_eq!((written.written, written.kept), (4, 0));
+    let again = case
+        .corpus
+        .milestones(&options, progress)
+        .expect("written again");
+    assert_eq!(
+        (again.written, again.expressions.len()),
+        (4, 1),
+        "its own are replaced"
+    );
+
+    let connection = case.corpus.store.read();
+    let id = crate::db::recordings::recording_named(connection, "W1")
+        .expect("read")
+        .expect("there")
+        .id;
+    let tiers = crate::db::tiers::tiers(connection, id).expect("read");
+    let tier = tiers
+        .iter()
+        .find(|tier| tier.name == "milestones wh")
+        .expect("a tier");
+    let rows = crate::db::tiers::annotations(connection, tier.id).expect("read");
+    let said: Vec<&str> = rows.iter().map(|row| row.value.as_str()).collect();
+    assert_eq!(said, ["M1-M2", "M2-M3", "M3-M4", "M4-M5"]);
+    let onset = AnnotationAction::Set {
+        annotation: AnnotationName::Number(rows[0].id),
+        start: Some(Moment::Time(Instant::from_millis(500))),
+        end: None,
+        value: None,
+    };
+    let corrected = case
+        .corpus
+        .annotate(&[onset.into()], &AnnotateOptions::default(), progress);
+    corrected.expect("corrected");
+    let kept = case.corpus.milestones(&options, progress).expect("kept");
+    assert_eq!((kept.written, kept.kept), (0, 1));
+    assert_eq!(
+        kept.expressions[0].milestones.to_string(),
+        "0.500s 0.700s 1.700s 2.300s 2.800s"
+    );
+}
+
+#[test]
+fn an_end_outside_of_the_recording_is_kept_in_the_value() {
+    let mut case = case(&[("W1", 1.0, 1.0)]);
+    add(
+        &mut case.corpus,
+        "W1",
+        "construction",
+        TierRole::Free,
+        &[("topic", 150, 650)],
+    );
+    let options = MilestoneOptions {
+        function: Some(Function::of("topic")),
+        ..MilestoneOptions::default()
+    };
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    for _ in 0..2 {
+        let found = case.corpus.milestones(&options, progress).expect("written");
+        assert_eq!(
+            found.expressions[0].milestones.to_string(),
+            "-0.300s 0.200s - 0.600s 0.700s"
+        );
+        assert!(
+            found.expressions[0].findings[0].contains("0.300 s before"),
+            "{found:?}"
+        );
+    }
+    let choice = ChooseOptions::default();
+    let other = case
+        .corpus
+        .choose(&Function::of("topic"), &recording("W1"), &choice, progress);
+    assert!(
+        other
+            .expect_err("it is alone")
+            .to_string()
+            .contains("no other recording")
+    );
+}
+
+#[test]
+fn performances_are_ranked_by_score_and_a_recording_is_never_its_own_candidate() {
+    let case = case(&[
+        ("W1", 1.0, 1.0),
+        ("W2", 0.2, 1.0),
+        ("W3", 0.9, 1.3),
+        ("W4", 0.6, 0.9),
+    ]);
+    let near = choose(&case, "W1", &ChooseOptions::default());
+    assert_eq!(names(&near), ["W3", "W4", "W2"]);
+    assert_eq!((near.rank, near.compared), (Rank::Nearest, 3));
+    assert!(
+        near.ranking
+            .windows(2)
+            .all(|pair| pair[0].score < pair[1].score)
+    );
+    let explained = &near.ranking[2].parts;
+    assert!(
+        explained.channels[0].name.starts_with("brow_raise"),
+        "{explained:?}"
+    );
+    assert!(
+        explained
+            .phases
+            .iter()
+            .all(|phase| phase.channels.len() == near.channels.len())
+    );
+    assert_eq!(near.channels.len(), 6);
+    let far = ChooseOptions {
+        rank: Rank::Farthest,
+        limit: 1,
+        ..ChooseOptions::default()
+    };
+    assert_eq!(names(&choose(&case, "W1", &far)), ["W2"]);
+    let usual = ChooseOptions {
+        rank: Rank::Medoid,
+        ..ChooseOptions::default()
+    };
+    let usual = choose(&case, "W1", &usual);
+    assert_eq!(
+        (names(&usual)[0], usual.references),
+        ("W4", 3),
+        "the one in the middle"
+    );
+    let one = ChooseOptions {
+        channels: vec!["head".into()],
+        ..ChooseOptions::default()
+    };
+    assert_eq!(choose(&case, "W1", &one).channels.len(), 3);
+    let odd = ChooseOptions {
+        channels: vec!["ears".into()],
+        ..ChooseOptions::default()
+    };
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    assert!(
+        case.corpus
+            .choose(&Function::of("wh"), &recording("W1"), &odd, progress)
+            .is_err()
+    );
+}
+
+#[test]
+fn equal_scores_are_ordered_by_name_and_strict_lengths_are_refused_by_name() {
+    let case = case(&[
+        ("W1", 1.0, 1.0),
+        ("Z", 0.5, 1.0),
+        ("B", 0.5, 1.0),
+        ("M", 0.5, 1.0),
+        ("SLOW", 0.5, 2.0),
+    ]);
+    let found = choose(&case, "W1", &ChooseOptions::default());
+    // The ratio of lengths favours what is squeezed, so SLOW may come first.
+    let mut order = names(&found);
+    order.retain(|name| *name != "SLOW");
+    assert_eq!(order, ["B", "M", "Z"]);
+    let strict = ChooseOptions {
+        no_path: chereme_analysis::phases::NoPath::Refuse,
+        ..ChooseOptions::default()
+    };
+    let strict = choose(&case, "W1", &strict);
+    assert_eq!((strict.compared, strict.skipped.len()), (3, 1));
+    assert!(
+        strict.skipped[0].1.starts_with("first"),
+        "{:?}",
+        strict.skipped
+    );
+}
+
+#[test]
+fn a_face_is_like_itself_and_scores_agree_with_the_ranking() {
+    let case = case(&[("W1", 1.0, 1.0), ("W2", 0.2, 1.0), ("W3", 0.9, 1.3)]);
+    let options = ChooseOptions::default();
+    let of = |a: &str, b: &str| {
+        let both = [&recording(a), &recording(b)];
+        case.corpus
+            .score_faces(both, None, &options)
+            .expect("scored")
+    };
+    assert_eq!(of("W1", "W1").stretched, 0.0);
+    let ranked = choose(&case, "W1", &options);
+    for it in &ranked.ranking {
+        assert!((of("W1", &it.recording).stretched - it.score).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn the_sentence_moves_with_the_chosen_face_and_its_milestones_land_within_a_frame() {
+    let mut case = case(&[("W1", 0.1, 1.0), ("W2", 1.0, 1.6)]);
+    let choice = choose(&case, "W1", &ChooseOptions::default());
+    let token = choice.ranking[0].token.clone();
+    let made = case
+        .corpus
+        .animate_choice(&choice, &token, "QUOI-VISAGE")
+        .expect("animated");
+    assert_eq!(made.faces.len(), made.clip.frames());
+    let brows = |seconds: f64| {
+        made.faces[made.clip.rate().frame_at(Instant::from_seconds(seconds))].brows[0]
+    };
+    assert!(
+        brows(0.7) > 0.9 && brows(1.5) > 0.9 && brows(2.2) > 0.9,
+        "{}",
+        brows(0.7)
+    );
+    assert!(brows(0.5) < 0.11, "outside it is its own: {}", brows(0.5));
+    let stored = case
+        .corpus
+        .movement(&Address::Gloss("QUOI-VISAGE".into()))
+        .expect("stored");
+    assert!((stored.faces[90].brows[0] - made.faces[90].brows[0]).abs() < 1e-5);
+    case.corpus.undo().expect("undone");
+}
+
+#[test]
+fn a_sentence_without_a_face_gets_the_most_usual_one() {
+    let mut case = case(&[("W1", 1.0, 1.0), ("W2", 0.2, 1.0), ("W3", 0.5, 1.0)]);
+    let path = case._folder.path().join("plain.csv");
+    std::fs::write(&path, "time [s],force\n0,1\n3,1\n").expect("written");
+    let options = ImportOptions::default();
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    case.corpus
+        .import(&[path], &options, progress)
+        .expect("imported");
+    add(&mut case.corpus, "plain", "gloss", TierRole::Gloss, &SIGNS);
+    let found = choose(&case, "plain", &ChooseOptions::default());
+    assert_eq!((found.rank, names(&found)[0]), (Rank::Medoid, "W3"));
+    assert_eq!(
+        found.milestones.to_string(),
+        "-0.300s 0.200s 1.700s 2.300s 2.800s"
+    );
+}
