@@ -3,14 +3,17 @@
 mod animate;
 mod annotate;
 mod check;
+mod choose;
 mod completions;
 mod demo;
 mod export;
+mod face;
 mod history;
 mod import;
 mod inventory;
 mod keys;
 mod list;
+mod milestones;
 mod new;
 mod pairs;
 mod recombine;
@@ -50,6 +53,9 @@ pub(crate) enum Command {
     Animate(animate::Args),
     Render(render::Args),
     Score(score::Args),
+    Face(face::Args),
+    Milestones(milestones::Args),
+    Choose(choose::Args),
     Suggest(suggest::Args),
     Pairs(pairs::Args),
     Transcribe(transcribe::Args),
@@ -78,6 +84,9 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Import(args) => return import::run(cli, args, output),
         Command::Check(args) => return check::run(cli, args, output).map_err(past_checking),
         Command::Score(args) => score::run(cli, args, output).map_err(offer_force),
+        Command::Face(args) => face::run(cli, args, output),
+        Command::Milestones(args) => milestones::run(cli, args, output),
+        Command::Choose(args) => choose::run(cli, args, output),
         Command::Suggest(args) => suggest::run(cli, args, output),
         Command::Pairs(args) => pairs::run(cli, args, output),
         Command::Transcribe(args) => transcribe::run(cli, args, output),

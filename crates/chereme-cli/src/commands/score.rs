@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{Address, ScoreOptions};
+use chereme_corpus::{Address, Corpus, Function, ScoreOptions};
 
 use crate::args::Cli;
 use crate::output::Output;
@@ -20,8 +20,16 @@ pub(crate) struct Args {
     a: String,
     /// The second
     b: String,
+    /// Compare expressions of the face phase by phase instead of movement; see `milestones` and `choose`
+    #[arg(long)]
+    face: bool,
+    /// The function of the expressions, if there are several
+    #[arg(long, requires = "face")]
+    function: Option<String>,
+    #[command(flatten)]
+    comparing: super::choose::Comparing,
     /// Draw the alignment to a picture (.png)
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_name = "FILE", conflicts_with = "face")]
     draw: Option<PathBuf>,
     /// Write over a picture that is there already
     #[arg(long)]
@@ -31,6 +39,9 @@ pub(crate) struct Args {
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let corpus = cli.open(&args.corpus)?;
     let (a, b): (Address, Address) = (args.a.parse()?, args.b.parse()?);
+    if args.face {
+        return faces(&corpus, [&a, &b], args, output);
+    }
     let options = ScoreOptions::default();
     let score = match &args.draw {
         Some(path) => corpus.draw_alignment([&a, &b], &options, path, args.force)?,
@@ -60,5 +71,50 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         "alignment: {}",
         output.counted(score.alignment.len() as u64, "pairs of frames")
     ))?;
+    output.document(score)
+}
+
+fn faces(corpus: &Corpus, both: [&Address; 2], args: &Args, output: &mut Output) -> Result<()> {
+    let function = args.function.as_deref().map(Function::of);
+    let score = corpus.score_faces(both, function.as_ref(), &args.comparing.options())?;
+    let told = if args.comparing.no_stretch {
+        score.unstretched
+    } else {
+        score.stretched
+    };
+    output.line(format!(
+        "score {told:.4} (0: alike); without the ratio of lengths {:.4}, ratio {:.3}{}",
+        score.unstretched,
+        score.stretch,
+        if score.partial {
+            "; a phase is empty in one of them and left out"
+        } else {
+            ""
+        }
+    ))?;
+    let number = |value: Option<f64>| value.map_or("-".to_owned(), |it| format!("{it:.4}"));
+    let rows: Vec<Vec<String>> = score
+        .phases
+        .iter()
+        .map(|it| {
+            vec![
+                it.phase.between().to_owned(),
+                it.phase.name().to_owned(),
+                format!("{} / {}", it.frames[0], it.frames[1]),
+                number(it.normalized),
+                it.made.map_or(String::new(), |made| format!("{made:?}")),
+            ]
+        })
+        .collect();
+    output.table(
+        &["milestones", "phase", "frames", "distance a frame", "path"],
+        &rows,
+    )?;
+    let rows: Vec<Vec<String>> = score
+        .channels
+        .iter()
+        .map(|it| vec![it.name.to_owned(), format!("{:.4}", it.difference)])
+        .collect();
+    output.table(&["channel", "mean difference"], &rows)?;
     output.document(score)
 }

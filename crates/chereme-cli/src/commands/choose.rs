@@ -1,0 +1,221 @@
+//! `chereme choose`.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{Choice, ChooseOptions, Function, NoPath, Progress, Rank, Ranked, Step};
+use clap::ValueEnum;
+use serde_json::json;
+
+use crate::args::Cli;
+use crate::output::{Bar, Output};
+
+/// Rank the recorded performances of a function for a sentence, and animate it with one of them
+///
+/// Each phase of a performance (see `milestones`) is aligned with the same phase of the sentence's own face by dynamic time
+/// warping; the sum, times the ratio of lengths, is the score: 0 is alike. A sentence whose face was not recorded gets
+/// the most usual performance, the medoid. A recording is never its own candidate; equal scores are ordered by name.
+///
+/// With --as the sentence is made again with head, trunk and face of the first performance (or of --use), each phase
+/// stretched onto the sentence's own.
+///
+/// `--json` gives "ranking", each with "token", "recording", "score", "unstretched", "stretch", "partial", "phases"
+/// ("phase", "frames", "distance", "normalized", "made", "channels") and "channels", and "channels", "left_out", "compared",
+/// "adapted", "skipped"; with --as "made" and "recipe".
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme choose mine.chereme --function wh --for recording:7
+  chereme choose mine.chereme --function wh --for recording:7 --as QUI-FACE
+  chereme choose mine.chereme --function negation --for recording:2 --rank farthest --channels head,brow")]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// The function: negation, wh, yn, topic, conditional, rhetorical, or another word of the tier of functions
+    #[arg(long)]
+    function: String,
+    /// The sentence: a recording, a token in it, or the annotation of its function
+    #[arg(long = "for", value_name = "TOKEN")]
+    target: String,
+    /// What comes first
+    #[arg(long, value_enum, default_value = "nearest")]
+    rank: RankArg,
+    #[command(flatten)]
+    comparing: Comparing,
+    /// How many performances to report
+    #[arg(long, default_value_t = 20, value_name = "N")]
+    limit: usize,
+    /// Animate the sentence with the face, and store it under this gloss
+    #[arg(long = "as", value_name = "GLOSS")]
+    gloss: Option<String>,
+    /// The performance to animate with, by its address; else the first of the ranking
+    #[arg(long = "use", value_name = "TOKEN", requires = "gloss")]
+    chosen: Option<String>,
+}
+
+/// How performances are compared.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Comparing {
+    /// The channels, with commas between: head, brow, eye, gaze, jaw, mouth …; else head and brows
+    #[arg(long, value_delimiter = ',', value_name = "NAMES")]
+    pub(super) channels: Vec<String>,
+    /// The weights of onset, first, rest and offset, such as 1,2,2,0.5
+    #[arg(long, value_delimiter = ',', num_args = 4, value_name = "W,W,W,W")]
+    pub(super) weights: Vec<f64>,
+    /// Leave the ratio of lengths out of the score
+    #[arg(long)]
+    pub(super) no_stretch: bool,
+    /// Refuse phases whose lengths the paper's window does not connect, instead of widening it
+    #[arg(long)]
+    pub(super) strict: bool,
+}
+
+impl Comparing {
+    pub(super) fn options(&self) -> ChooseOptions {
+        let usual = ChooseOptions::default();
+        ChooseOptions {
+            channels: self
+                .channels
+                .iter()
+                .map(|it| it.trim().to_owned())
+                .collect(),
+            weights: self.weights.clone().try_into().unwrap_or(usual.weights),
+            stretch: !self.no_stretch,
+            no_path: if self.strict {
+                NoPath::Refuse
+            } else {
+                NoPath::Adapt
+            },
+            ..usual
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum RankArg {
+    /// The most alike to the sentence's own face; without one the medoid
+    Nearest,
+    /// The least alike to the sentence's own face
+    Farthest,
+    /// The most alike to all others
+    Medoid,
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let mut corpus = cli.open(&args.corpus)?;
+    let options = ChooseOptions {
+        rank: match args.rank {
+            RankArg::Nearest => Rank::Nearest,
+            RankArg::Farthest => Rank::Farthest,
+            RankArg::Medoid => Rank::Medoid,
+        },
+        limit: args.limit,
+        ..args.comparing.options()
+    };
+    let mut bar = Bar::new();
+    let mut hear = |step: Step<'_>| bar.show(step);
+    let progress = &mut Progress::new(&mut hear);
+    let function = Function::of(&args.function);
+    let choice = corpus.choose(&function, &args.target.parse()?, &options, progress)?;
+    drop(bar);
+    show(&choice, output)?;
+    let Some(gloss) = &args.gloss else {
+        return output.document(choice);
+    };
+    let first = choice
+        .ranking
+        .first()
+        .map(|it| it.token.clone())
+        .unwrap_or_default();
+    let token = args.chosen.clone().unwrap_or(first);
+    let made = corpus.animate_choice(&choice, &token, gloss)?;
+    output.line(format!("{gloss} = {}", made.recipe))?;
+    let mut document = serde_json::to_value(&choice)?;
+    document["recipe"] = json!(made.recipe);
+    document["made"] = json!(made);
+    output.document(document)
+}
+
+fn show(choice: &Choice, output: &mut Output) -> Result<()> {
+    let by = match choice.rank {
+        Rank::Nearest => "the most alike to its own face first",
+        Rank::Farthest => "the least alike to its own face first",
+        Rank::Medoid => "the most usual first",
+    };
+    output.line(format!(
+        "{} performances of {} for {}, {by}; compared: {}",
+        choice.compared,
+        choice.function,
+        choice.target,
+        choice
+            .channels
+            .iter()
+            .map(|it| it.name)
+            .collect::<Vec<_>>()
+            .join(", ")
+    ))?;
+    let part = |it: &Ranked, at: usize| {
+        let phase = it.parts.phases.get(at).and_then(|phase| phase.normalized);
+        phase.map_or("-".to_owned(), |it| format!("{it:.3}"))
+    };
+    let rows: Vec<Vec<String>> = choice
+        .ranking
+        .iter()
+        .map(|it| {
+            let most = it.parts.channels.first();
+            vec![
+                it.token.clone(),
+                it.recording.clone(),
+                format!("{:.3}", it.score),
+                format!("{:.2}", it.parts.stretch),
+                part(it, 0),
+                part(it, 1),
+                part(it, 2),
+                part(it, 3),
+                most.map_or(String::new(), |it| {
+                    format!("{} {:.2}", it.name, it.difference)
+                }),
+            ]
+        })
+        .collect();
+    let titles = [
+        "token",
+        "recording",
+        "score",
+        "stretch",
+        "onset",
+        "first",
+        "rest",
+        "offset",
+        "differs most in",
+    ];
+    output.table(&titles, &rows)?;
+    if !choice.left_out.is_empty() {
+        output.line(format!(
+            "left out, as they are unknown: {}",
+            choice.left_out.join(", ")
+        ))?;
+    }
+    if choice.adapted > 0 {
+        output.line(format!(
+            "{} comparisons had phases of too different lengths for the window of 10 frames, which was widened",
+            choice.adapted
+        ))?;
+    }
+    if choice.references > 0 {
+        output.line(format!(
+            "each was compared with {} others",
+            choice.references
+        ))?;
+    }
+    for (token, why) in choice.skipped.iter().take(10) {
+        output.line(format!("not compared: {token}: {why}"))?;
+    }
+    if choice.skipped.len() > 10 {
+        output.line(format!(
+            "and {} more were not compared",
+            choice.skipped.len() - 10
+        ))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,117 @@
+//! `chereme face`.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{FaceFinding, FaceSystem};
+use serde_json::json;
+
+use crate::args::Cli;
+use crate::output::Output;
+
+/// Show a captured face as numbers of the house's face, or the face systems that are understood
+///
+/// Captured channels stay as their file has them; the house's face is derived from them. Without a recording the command
+/// lists the systems (ARKit, MediaPipe, OpenFace, MPEG-4, SiGML), and with --system what the mapping of one loses.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme face mine.chereme                       (the systems)
+  chereme face mine.chereme --system arkit        (its channels, formulas and losses)
+  chereme face mine.chereme recording:3           (the face of a recording)
+  chereme render mine.chereme recording:3 --to face.gif")]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// The recording, or a token in it
+    recording: Option<String>,
+    /// A face system: arkit, mediapipe, openface, fap, sigml or house
+    #[arg(long, conflicts_with = "recording")]
+    system: Option<String>,
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let corpus = cli.open(&args.corpus)?;
+    let Some(recording) = &args.recording else {
+        return systems(args.system.as_deref(), output);
+    };
+    let face = corpus.face(&recording.parse()?)?;
+    output.line(format!(
+        "{}: {} frames of {} in the track {:?}",
+        face.recording, face.frames, face.system, face.track
+    ))?;
+    let number = |value: Option<f64>| value.map_or("unknown".to_owned(), |it| format!("{it:.3}"));
+    let rows: Vec<Vec<String>> = face
+        .numbers
+        .iter()
+        .map(|it| {
+            vec![
+                it.name.clone(),
+                number(it.least),
+                number(it.mean),
+                number(it.most),
+            ]
+        })
+        .collect();
+    output.table(&["number", "least", "mean", "most"], &rows)?;
+    if face.bridged > 0 {
+        output.line(format!("{} frames with gaps were bridged", face.bridged))?;
+    }
+    findings(&face.findings, output)?;
+    output.document(face)
+}
+
+fn findings(all: &[FaceFinding], output: &mut Output) -> Result<()> {
+    for it in all {
+        let remedy = it
+            .remedy
+            .as_deref()
+            .map_or(String::new(), |it| format!(" ({it})"));
+        output.line(format!("- {}{remedy}", it.message))?;
+    }
+    Ok(())
+}
+
+fn systems(named: Option<&str>, output: &mut Output) -> Result<()> {
+    let Some(id) = named else {
+        let rows: Vec<Vec<String>> = FaceSystem::all()
+            .iter()
+            .map(|it| {
+                let numbers = if it.expressions {
+                    "by code".to_owned()
+                } else {
+                    it.house.len().to_string()
+                };
+                vec![
+                    it.id.clone(),
+                    it.name.clone(),
+                    it.channels.len().to_string(),
+                    numbers,
+                ]
+            })
+            .collect();
+        output.table(&["system", "name", "channels", "numbers of a face"], &rows)?;
+        return output.document(json!({ "systems": FaceSystem::all() }));
+    };
+    let Some(system) = FaceSystem::named(id) else {
+        let known: Vec<&str> = FaceSystem::all().iter().map(|it| it.id.as_str()).collect();
+        let error = chereme_corpus::Error::wrong(format!("{id:?} is no face system"));
+        return Err(error
+            .at(id)
+            .advise(format!("the systems are: {}", known.join(", ")))
+            .into());
+    };
+    output.line(format!("{}: {}", system.name, system.description))?;
+    let formulas = system.house.iter().chain(&system.head).chain(&system.place);
+    let rows: Vec<Vec<String>> = formulas
+        .map(|(name, formula)| vec![name.clone(), formula.clone()])
+        .collect();
+    output.table(&["number", "formula"], &rows)?;
+    if !system.unknown.is_empty() {
+        output.line(format!("unknown: {}", system.unknown.join(", ")))?;
+    }
+    for loss in &system.loses {
+        output.line(format!("- {} ({})", loss.says, loss.channels.join(", ")))?;
+    }
+    output.document(system)
+}
