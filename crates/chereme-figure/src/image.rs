@@ -99,7 +99,7 @@ impl Image {
     }
 
     /// Draws the part of `other` that is inside, with its top left corner at `at`.
-    pub(crate) fn paste(&mut self, other: &Self, at: [usize; 2]) {
+    pub fn paste(&mut self, other: &Self, at: [usize; 2]) {
         let width = other.width.min(self.width.saturating_sub(at[0]));
         for row in 0..other.height.min(self.height.saturating_sub(at[1])) {
             let to = (at[1] + row) * self.width + at[0];

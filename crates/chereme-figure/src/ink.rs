@@ -25,6 +25,9 @@ const SHADE_STRENGTH: f32 = 0.38;
 const SHADE_STEPS: [f32; 2] = [0.006, 0.033];
 /// The depth step from which a line between two parts is drawn at full strength, in metres.
 const CLEAR_STEP: f32 = 0.004;
+/// The depth step from which a line between two parts that touch is drawn, in metres: skin that goes on from one part
+/// to the next has none.
+const TOUCH_STEP: f32 = 0.0018;
 /// Strengths of lines: within a part, between parts that touch, between parts apart.
 const STRENGTHS: [f32; 3] = [0.75, 0.5, 0.9];
 /// The colour of lines within the figure.
@@ -51,6 +54,7 @@ struct Ink {
     near: [isize; 8],
     far: [isize; 8],
     step: f32,
+    touch: f32,
     opacity: f32,
 }
 
@@ -74,6 +78,7 @@ pub(crate) fn finish(
         near: around(reach(samples, LINE), buffers.stride),
         far: around(reach(samples, SHADE), buffers.stride),
         step: style.step,
+        touch: TOUCH_STEP,
         opacity: opacity.clamp(0.0, 1.0),
     };
     // Everything beyond the used area and the reach of a line is paper.
@@ -295,7 +300,7 @@ impl Ink {
             } else {
                 STRENGTHS[1]
             };
-            let apart = if between[k] > 0.0 { clear } else { 0.0 };
+            let apart = if between[k] > self.touch { clear } else { 0.0 };
             line[k] = if own > apart { own } else { apart };
             light[k] =
                 (1.0 - behind[k] * (SHADE_STRENGTH / 8.0 / SHADE_STEPS[1])) * (1.0 - line[k]);

@@ -1,7 +1,7 @@
 //! Turns movement into a visible body: its geometry, and pictures drawn without a window.
 //!
 //! A [`Body`] is built once for a skeleton and its anatomy, and then moved to any posture: a
-//! [`Mesh`](mesh::Mesh) of some twenty thousand triangles, for the window's stage and for the
+//! [`Mesh`](mesh::Mesh) of some fifteen thousand triangles, for the window's stage and for the
 //! [`Raster`](raster::Raster) here, which needs no GPU. Contact sheets, animations, thumbnails, pictures
 //! of handshapes and the chart of an alignment build on it. The same input gives the same bytes. The crate
 //! opens no window and no database, and knows nothing of the meaning of signs.

@@ -92,8 +92,8 @@ pub struct HandColours {
 
 /// The colours of a figure: dark clothing behind light hands, as sign language is filmed.
 ///
-/// The hands differ from each other as warm from cool and from the clothing by lightness, so that red and
-/// green need not be distinguished.
+/// Hands have the face's skin and differ from the clothing by lightness, so that red and green need not be
+/// distinguished.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Palette {
     /// The right hand.
@@ -102,14 +102,22 @@ pub struct Palette {
     pub left: HandColours,
     /// Head and neck.
     pub face: Colour,
-    /// The back of the head.
+    /// The hair.
     pub crown: Colour,
-    /// Brows, pupils.
+    /// Lashes.
     pub marks: Colour,
     /// The white of the eyes.
     pub eyes: Colour,
-    /// The mouth.
+    /// The lips.
     pub mouth: Colour,
+    /// The tongue.
+    pub tongue: Colour,
+    /// The iris of the eyes.
+    pub iris: Colour,
+    /// The brows.
+    pub brows: Colour,
+    /// How the hair, which has the colour of the crown, is cut.
+    pub cut: Hair,
     /// Chest and belly.
     pub torso: Colour,
     /// Upper and lower arms.
@@ -118,27 +126,97 @@ pub struct Palette {
     pub legs: Colour,
 }
 
+/// A cut of hair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Hair {
+    /// Short.
+    #[default]
+    Short,
+    /// To the chin.
+    Bob,
+    /// Tied in a knot behind the head.
+    Tied,
+    /// None.
+    None,
+}
+
+/// The Monk scale of skin tones (public, Google 2022), a little redder, from the lightest on.
+const TONES: [u32; 10] = [
+    0xF8_E8_DC, 0xF6_E1_D0, 0xF6_D8_BA, 0xEC_C6_9E, 0xE6_B6_8C, 0xA9_7A_54, 0x86_58_3F, 0x66_41_31,
+    0x42_2F_28, 0x30_24_1F,
+];
+
+impl Palette {
+    /// Returns the colours of a signer with a tone of skin, from 1, the lightest, to 10; other numbers are taken to
+    /// the nearest. Clothes are dark before light hands and light before dark ones.
+    #[must_use]
+    pub fn of_tone(tone: usize) -> Self {
+        let tone = tone.clamp(1, 10);
+        let skin = Colour::hex(TONES[tone - 1]);
+        let light = Colour::hex(0xFC_DE_C2);
+        let dark = tone > 5;
+        let hand = HandColours {
+            palm: skin.mixed(
+                light,
+                if dark {
+                    0.30 + 0.03 * (tone - 5) as f32
+                } else {
+                    0.55
+                },
+            ),
+            back: skin.scaled(0.87).mixed(Colour::hex(0x9A_4A_28), 0.10),
+            nail: skin.mixed(Colour::hex(0xFF_EE_E6), if dark { 0.45 } else { 0.6 }),
+        };
+        let cloth = Colour::hex(match tone {
+            0..=5 => 0x33_40_5A,
+            6 => 0xF4_F1_EA,
+            _ => 0xE9_E4_DA,
+        });
+        Self {
+            right: hand,
+            left: hand,
+            face: skin,
+            crown: Colour::hex(if tone < 4 {
+                0x5A_41_30
+            } else if dark {
+                0x1E_19_18
+            } else {
+                0x3D_2F_28
+            }),
+            marks: Colour::hex(0x2A_20_1D),
+            eyes: Colour::hex(0xFB_F9_F5),
+            mouth: skin.mixed(Colour::hex(0xA8_40_48), if dark { 0.42 } else { 0.55 }),
+            tongue: Colour::hex(0xC9_69_6B),
+            iris: Colour::hex(if dark { 0x4A_30_20 } else { 0x6B_4A_2E }),
+            brows: Colour::hex(if tone < 4 { 0x4A_35_28 } else { 0x26_1D_1A }),
+            cut: Hair::default(),
+            torso: cloth,
+            sleeves: if dark {
+                cloth.scaled(0.96)
+            } else {
+                cloth.mixed(Colour::hex(0xFF_FF_FF), 0.05)
+            },
+            legs: Colour::hex(if dark { 0xB9_B2_A6 } else { 0x2A_30_3C }),
+        }
+    }
+
+    /// Returns the palette with hands in two tints, warm for the right hand and cool for the left, for pictures in
+    /// which they must be told apart.
+    #[must_use]
+    pub fn with_hands_apart(mut self) -> Self {
+        let tint = |hand: HandColours, to: Colour| HandColours {
+            palm: hand.palm.mixed(to, 0.45),
+            back: hand.back.mixed(to, 0.55),
+            nail: hand.nail,
+        };
+        self.right = tint(self.right, Colour::hex(0xF0_A8_4E));
+        self.left = tint(self.left, Colour::hex(0xA4_A8_E4));
+        self
+    }
+}
+
 impl Default for Palette {
     fn default() -> Self {
-        Self {
-            right: HandColours {
-                palm: Colour::hex(0xFC_E0_BC),
-                back: Colour::hex(0xEB_B9_83),
-                nail: Colour::hex(0xFF_F4_E6),
-            },
-            left: HandColours {
-                palm: Colour::hex(0xE4_E4_F6),
-                back: Colour::hex(0xB9_BF_DD),
-                nail: Colour::hex(0xFA_FA_FF),
-            },
-            face: Colour::hex(0xE6_D2_BE),
-            crown: Colour::hex(0x6E_67_63),
-            marks: Colour::hex(0x2E_2B_2C),
-            eyes: Colour::hex(0xFB_FB_F8),
-            mouth: Colour::hex(0x9C_57_50),
-            torso: Colour::hex(0x33_3F_50),
-            sleeves: Colour::hex(0x4A_5A_70),
-            legs: Colour::hex(0x3C_40_48),
-        }
+        Self::of_tone(5)
     }
 }

@@ -49,7 +49,9 @@ impl Default for Style {
 }
 
 /// Shares of ambient light, key light and fill light.
-const LIGHT: [f32; 3] = [0.52, 0.44, 0.16];
+const LIGHT: [f32; 3] = [0.60, 0.42, 0.15];
+/// The share of light from behind along the rim, most at the top.
+const RIM: f32 = 0.16;
 /// Largest distance of a corner from the picture, in samples; triangles beyond are left out.
 const FAR_OUT: f32 = 1e6;
 /// Smallest drawing distance for any camera, in metres before the eye.
@@ -197,9 +199,11 @@ impl NullaryFnOnce for Project<'_> {
 #[inline(always)]
 fn brightness(normal: Vec3, [key, fill]: [Vec3; 2]) -> f32 {
     let sky = 0.5 + 0.5 * normal.y;
-    let around = LIGHT[0] * (0.85 + 0.15 * sky);
+    let around = LIGHT[0] * (0.80 + 0.20 * sky);
     let lit = LIGHT[1] * normal.dot(key).max(0.0) + LIGHT[2] * normal.dot(fill).max(0.0);
-    (around + lit).min(1.12)
+    let edge = (1.0 - normal.z).max(0.0);
+    let rim = RIM * edge * edge * edge * (0.3 + 0.7 * normal.y).max(0.0);
+    (around + lit + rim).min(1.14)
 }
 
 #[cfg(test)]

@@ -1,16 +1,15 @@
-//! Facial expressions as deformations of a head: jaw, cheeks and mouth.
+//! Facial expressions: how the numbers of a face move the canonical head, in head heights.
 
-use std::f32::consts::TAU;
+use std::f32::consts::{PI, TAU};
 
 use chereme_motion::Face;
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 
-use super::group;
-use super::head::egg;
-use crate::mesh::{Mesh, Vertex, smooth};
-use crate::palette::{Colour, Palette};
+use super::face::{BALL, Canon, EYE, LIPS, MOUTH, Place, lid};
+use super::form::smooth_step;
 
 /// A [`Face`] in the figure's numbers.
+#[derive(Debug, Clone)]
 pub(super) struct Features {
     pub(super) brows: [f32; 2],
     pub(super) frown: f32,
@@ -25,16 +24,16 @@ pub(super) struct Features {
     corners: [f32; 2],
     pressed: f32,
     pout: f32,
-    teeth: f32,
-    tongue: f32,
-    tongue_aside: f32,
+    pub(super) teeth: f32,
+    pub(super) tongue: f32,
+    pub(super) tongue_aside: f32,
     cheeks: [f32; 2],
 }
 
-/// How far the chin moves down with the jaw, relative to half the head's height.
-const CHIN: f32 = 0.20;
-/// Height of the line between the lips at rest, on the unit sphere.
-const LIPS: f32 = -0.56;
+/// How far the chin moves down with the jaw.
+const CHIN: f32 = 0.150;
+/// Half the width of the mouth at rest.
+const WIDTH: f32 = 0.110;
 
 impl Features {
     pub(super) fn of(face: &Face) -> Self {
@@ -66,258 +65,238 @@ impl Features {
         }
     }
 
-    /// Returns the position on the head of a point of the unit sphere, with the current jaw and cheeks.
-    pub(super) fn formed(&self, point: Vec3) -> Vec3 {
-        let mut formed = egg(point);
-        if point.z <= 0.0 {
-            return formed;
-        }
-        let front = (point.z * 3.0).min(1.0);
-        let low = ((-0.40 - point.y) / 0.5).clamp(0.0, 1.0);
-        let low = low * low * (3.0 - 2.0 * low) * front;
-        formed.y -= CHIN * self.jaw * low;
-        formed.x += 0.08 * self.aside * low;
-        for (cheek, side) in self.cheeks.into_iter().zip([-1.0, 1.0]) {
-            let off = Vec2::new(point.x - side * 0.56, point.y + 0.45).length_squared();
-            let much = cheek * (-off / 0.07).exp() * front;
-            formed.x += side * 0.14 * much;
-            formed.z += 0.14 * much;
-        }
-        formed
+    /// Returns whether the lips are apart.
+    pub(super) fn is_open(&self) -> bool {
+        self.gap().iter().sum::<f32>() > 0.006
     }
 
-    /// Returns the point of the head's surface at `at` (to the signer's left, up) on a resting head's unit
-    /// sphere.
-    pub(super) fn surface(&self, [x, y]: [f32; 2]) -> Vec3 {
-        let on_sphere = |y: f32| Vec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt());
-        // Find the point that the jaw lowers to this height.
-        let mut above = y;
-        for _ in 0..4 {
-            let lowered = above - self.formed(on_sphere(above)).y;
-            above = (y + lowered).min(1.0);
-        }
-        let formed = self.formed(on_sphere(above));
-        Vec3::new(egg(on_sphere(y)).x, y, formed.z)
-    }
-
-    /// Returns the open part of the mouth, with lips, teeth and tongue.
-    pub(super) fn mouth(&self, palette: &Palette) -> Mouth {
+    /// Returns how far the mouth is open above and below the line between the lips.
+    pub(super) fn gap(&self) -> [f32; 2] {
         let shut = 1.0 - self.pressed;
-        let narrow = (-self.wide).max(0.0);
-        let width = 0.265 * (1.0 + 0.28 * self.wide.max(0.0) - 0.55 * narrow);
-        let jaw = 0.26 * self.jaw * shut;
-        let up = (0.030 * self.parted + 0.03 * self.nose) * shut;
-        let down = 0.055 * self.parted * shut + jaw;
-        let full = (1.0 - 0.7 * self.pressed) * (1.0 + 0.6 * self.pout);
-        Mouth {
-            middle: [0.03 * self.aside, LIPS - 0.3 * down],
-            width,
-            open: [up + 0.3 * down, 0.7 * down],
-            lips: [0.030 * full, 0.040 * full],
-            corners: self.corners.map(|corner| corner * 0.075),
-            aside: 0.05 * self.aside,
-            out: 0.035 * self.pout,
-            teeth: self.teeth,
-            tongue: self.tongue,
-            tongue_aside: self.tongue_aside,
-            colours: Colours {
-                lips: palette.mouth,
-                inside: palette.mouth.scaled(0.35),
-                teeth: palette.eyes,
-                tongue: palette.mouth.mixed(palette.face, 0.35),
-            },
-        }
-    }
-}
-
-/// A mouth on the unit sphere of the head; `out` of its surface in units of the head's height.
-pub(super) struct Mouth {
-    middle: [f32; 2],
-    /// Half its width.
-    width: f32,
-    /// The opening above and below the middle.
-    open: [f32; 2],
-    /// Thickness of the upper and the lower lip.
-    lips: [f32; 2],
-    /// Height of the raised right and left corner.
-    corners: [f32; 2],
-    /// Offset of the lower lip to the left of the upper one.
-    aside: f32,
-    out: f32,
-    teeth: f32,
-    tongue: f32,
-    tongue_aside: f32,
-    colours: Colours,
-}
-
-struct Colours {
-    lips: Colour,
-    inside: Colour,
-    teeth: Colour,
-    tongue: Colour,
-}
-
-/// Depth behind the surface at which pieces of the mouth are closed.
-const BEHIND: f32 = 0.03;
-/// The number of corners around the mouth.
-const AROUND: usize = 24;
-/// The number of corners along the teeth.
-const ALONG: usize = 11;
-
-impl Mouth {
-    /// Adds the mouth to a mesh; `surface(at, out)` returns a position at a distance out of the head's
-    /// surface.
-    pub(super) fn add(&self, mesh: &mut Mesh, surface: impl Fn([f32; 2], f32) -> Vec3) {
-        self.lips(mesh, &surface);
-        self.row_of_teeth(mesh, &surface);
-        self.tongue(mesh, &surface);
-    }
-
-    /// Returns a place of the mouth: `at` along its half width and up from its middle.
-    fn place(&self, [x, y]: [f32; 2]) -> [f32; 2] {
-        let far = (x / self.width.max(1e-3)).clamp(-1.2, 1.2);
-        let corner = self.corners[usize::from(x > 0.0)] * far.abs().powf(1.5);
-        let lower = if y < 0.0 { 1.0 } else { 0.3 };
+        let tongue = if self.tongue > 0.0 { 0.35 } else { 0.0 };
+        let parted = self.parted.max(self.teeth * 0.35).max(tongue);
         [
-            self.middle[0] + x + self.aside * lower,
-            self.middle[1] + y + corner,
+            0.032 * parted * shut,
+            (0.029 * parted + CHIN * self.jaw) * shut,
         ]
     }
 
-    fn lips(&self, mesh: &mut Mesh, surface: &impl Fn([f32; 2], f32) -> Vec3) {
-        let Colours { lips, inside, .. } = self.colours;
-        let rings: [(f32, f32, f32, Colour); 5] = [
-            (0.5, 0.0, 0.006, inside),
-            (1.0, 0.0, 0.008, inside),
-            (1.0, 0.0, 0.008, lips),
-            (1.0, 0.5, 0.018, lips),
-            (1.0, 1.0, 0.001, lips),
-        ];
-        let mut patch = Patch::default();
-        patch.vertex(surface(self.place([0.0, 0.0]), 0.006 + self.out), inside);
-        for (open, lip, out, colour) in rings {
-            for step in 0..AROUND {
-                let (sine, cosine) = (TAU * step as f32 / AROUND as f32).sin_cos();
-                let half = usize::from(sine < 0.0);
-                let tall = self.open[half] * open + self.lips[half] * lip;
-                let wide = self.width * (0.9 * open + 0.1 * lip);
-                let at = self.place([wide * cosine, tall * sine]);
-                patch.vertex(surface(at, out + self.out), colour);
-            }
-        }
-        let around = AROUND as u32;
-        for step in 0..around {
-            let next = (step + 1) % around;
-            patch.triangles.push([0, 1 + step, 1 + next]);
-            for ring in 0..4 {
-                let (a, b) = (1 + ring * around, 1 + (ring + 1) * around);
-                patch.quad([a + step, b + step, b + next, a + next]);
-            }
-        }
-        let behind = surface(self.place([0.0, 0.0]), -BEHIND);
-        let rim = 1 + 4 * around..1 + 5 * around;
-        patch.append_to(mesh, rim.collect(), behind);
+    /// Returns half the width of the mouth.
+    pub(super) fn width(&self) -> f32 {
+        let narrow = (-self.wide).max(0.0);
+        WIDTH
+            * (1.0 + 0.40 * self.wide.max(0.0))
+            * (1.0 - 0.42 * narrow)
+            * (1.0 - 0.18 * self.pout)
+            * (1.0 - 0.10 * self.jaw)
     }
 
-    fn row_of_teeth(&self, mesh: &mut Mesh, surface: &impl Fn([f32; 2], f32) -> Vec3) {
-        let mut patch = Patch::default();
-        for row in [1.0, 0.0] {
-            for step in 0..ALONG {
-                let x = (step as f32 / (ALONG - 1) as f32 * 2.0 - 1.0) * 0.86;
-                let round = (1.0 - x * x).sqrt();
-                let (top, gap) = (self.open[0] * round, (self.open[0] + self.open[1]) * round);
-                let tall = (gap * 0.85).min(0.06) * self.teeth;
-                let y = top - tall * (1.0 - row);
-                let at = self.place([self.width * 0.9 * x, y]);
-                patch.vertex(surface(at, 0.0085 + self.out), self.colours.teeth);
-            }
-        }
-        let along = ALONG as u32;
-        for step in 0..along - 1 {
-            patch.quad([step + 1, step, along + step, along + step + 1]);
-        }
-        let behind = surface(self.place([0.0, 0.0]), -BEHIND);
-        let rim = (along..2 * along).chain((0..along).rev());
-        patch.append_to(mesh, rim.collect(), behind);
+    /// Returns how far forwards the lips are pushed.
+    pub(super) fn out(&self) -> f32 {
+        0.055 * self.pout + 0.018 * (-self.wide).max(0.0) - 0.010 * self.pressed
     }
 
-    fn tongue(&self, mesh: &mut Mesh, surface: &impl Fn([f32; 2], f32) -> Vec3) {
-        let out = self.tongue;
-        let visible = (out * 6.0).min(1.0);
-        let half = (self.width * 0.5).min(0.15) * visible;
-        let root = -self.open[1] * 0.4;
-        let long = 0.05 * visible + 0.20 * out;
-        let mut patch = Patch::default();
-        patch.vertex(
-            surface(self.place([0.0, root]), 0.0095 + self.out),
-            self.colours.tongue,
-        );
-        for ring in [0.5, 1.0] {
-            for step in 0..AROUND {
-                let (sine, cosine) = (TAU * step as f32 / AROUND as f32).sin_cos();
-                let below = (-sine).max(0.0);
-                let x = half * ring * cosine + self.tongue_aside * 0.14 * visible * below;
-                let y = root
-                    + ring
-                        * if sine < 0.0 {
-                            long * sine
-                        } else {
-                            0.03 * visible * sine
-                        };
-                let lift = (0.010 + 0.05 * out * below) * (1.5 - ring);
-                let at = self.place([x, y]);
-                patch.vertex(
-                    surface(at, 0.0095 + self.out + lift * visible),
-                    self.colours.tongue,
-                );
+    /// Returns how far the lower jaw moves what lies at a place.
+    pub(super) fn jawed(&self, at: Vec3) -> Vec3 {
+        let low = smooth_step((LIPS + 0.055 - at.y) / 0.10);
+        let front = smooth_step((at.z + 0.06) / 0.26);
+        let much = low * front;
+        Vec3::new(
+            0.055 * self.aside,
+            -CHIN * self.jaw,
+            -0.16 * CHIN * self.jaw,
+        ) * much
+    }
+
+    /// Returns the corner of the mouth's loop `ring` at `k` around it; the depth is relative to rest.
+    pub(super) fn lip(&self, ring: usize, k: usize) -> Vec3 {
+        let (sine, cosine) = (TAU * k as f32 / MOUTH as f32).sin_cos();
+        let far = sine.abs();
+        let upper = sine >= 0.0;
+        let bow = 1.0 - 0.28 * (-(cosine / 0.16).powi(2)).exp();
+        let narrow = (-self.wide).max(0.0);
+        let full = (1.0 - 0.22 * self.wide.max(0.0))
+            * (1.0 + 0.15 * narrow)
+            * (1.0 - 0.72 * self.pressed)
+            * (1.0 + 0.25 * self.pout);
+        let thick = if upper {
+            0.034 * far.powf(0.8) * bow
+        } else {
+            0.042 * far.powf(0.9)
+        } * full;
+        let [above, below] = self.gap();
+        let gap = if upper { above } else { below } * far.powf(0.75);
+        let (inner, wide, out) = [
+            (0.0, 0.97, 0.0),
+            (0.5, 0.985, 0.016),
+            (1.0, 1.0, 0.004),
+            (1.0, 1.0, 0.0),
+        ][ring];
+        let corner = 0.10 + self.corners[usize::from(cosine > 0.0)];
+        let lift = 0.042 * corner.clamp(-1.0, 1.1) * cosine.abs().powf(2.2)
+            - 0.035 * self.jaw * (1.0 - self.pressed) * cosine.abs().powi(3);
+        let aside = 0.055 * self.aside * if upper { 0.35 } else { 1.0 };
+        let nose = if upper { 0.010 * self.nose } else { 0.0 };
+        Vec3::new(
+            self.width() * wide * cosine + aside,
+            LIPS + sine.signum() * (thick * inner + gap) + lift + nose,
+            out * (1.0 - 0.6 * self.pressed)
+                + self.out() * (0.35 + 0.65 * far.max(1.0 - cosine.abs())),
+        )
+    }
+
+    /// Returns the canonical head's vertices with this expression.
+    pub(super) fn moved(&self, canon: &Canon) -> Vec<Vec3> {
+        let rest = Self::of(&Face::default());
+        let mut rim = Vec::with_capacity(MOUTH);
+        let mut places: Vec<Vec3> = canon.knots.iter().map(|knot| knot.at).collect();
+        let drawn = |own: Vec3, still: Vec3, at: Vec3| {
+            // Around the teeth the lips go back as they go aside.
+            let round = 1.1 * (still.x * still.x - own.x * own.x);
+            let jaw = if own.y < LIPS {
+                0.16 * (own.y - still.y).min(0.0)
+            } else {
+                0.0
+            };
+            Vec3::new(own.x, own.y, at.z + own.z + round + jaw)
+        };
+        for (index, knot) in canon.knots.iter().enumerate() {
+            if let Place::Mouth(ring @ 0..=2, k) = knot.place {
+                let (own, still) = (self.lip(ring, k), rest.lip(ring, k));
+                places[index] = drawn(own, still, knot.at);
+                if ring == 2 {
+                    let home = Vec3::new(still.x, still.y, knot.at.z);
+                    let moved = places[index] - home - Vec3::Z * still.z;
+                    rim.push((home, moved - self.jawed(home)));
+                }
             }
         }
-        let around = AROUND as u32;
-        for step in 0..around {
-            let next = (step + 1) % around;
-            patch.triangles.push([0, 1 + step, 1 + next]);
-            patch.quad([1 + step, 1 + around + step, 1 + around + next, 1 + next]);
+        for (index, knot) in canon.knots.iter().enumerate() {
+            let at = knot.at;
+            match knot.place {
+                Place::Skin | Place::Mouth(..) => {
+                    if !matches!(knot.place, Place::Mouth(0..=2, _)) {
+                        places[index] = at + self.jawed(at) + pulled(&rim, at) + self.landmarks(at);
+                    }
+                }
+                Place::Eye(side, ring, k) => places[index] = self.lidded(side, ring, k, at),
+                Place::Bowl(k) => {
+                    places[index] = if k < MOUTH {
+                        let edge = self.lip(0, k);
+                        Vec3::new(
+                            edge.x * 0.92,
+                            LIPS + (edge.y - LIPS) * 0.96,
+                            at.z + self.out() * 0.6,
+                        )
+                    } else {
+                        at + Vec3::Y * (-0.5 * self.gap()[1])
+                    };
+                }
+                Place::Socket(..) => {}
+            }
         }
-        let behind = surface(self.place([0.0, root]), -BEHIND);
-        patch.append_to(mesh, (1 + around..1 + 2 * around).collect(), behind);
+        places
+    }
+
+    /// Returns how brows, cheeks and nose move the skin.
+    pub(super) fn landmarks(&self, at: Vec3) -> Vec3 {
+        if at.z < 0.0 {
+            return Vec3::ZERO;
+        }
+        let near = |x: f32, y: f32, reach: f32| {
+            let (dx, dy) = (at.x - x, at.y - y);
+            (-(dx * dx + dy * dy) / (reach * reach)).exp()
+        };
+        let mut by = Vec3::ZERO;
+        for side in 0..2 {
+            let sign = if side == 0 { -1.0 } else { 1.0 };
+            let brow = self.brows[side];
+            let lift = if brow > 0.0 {
+                0.055 * brow
+            } else {
+                0.034 * brow
+            };
+            for [x, y] in [[0.048, 0.105], [0.135, 0.130], [0.223, 0.095]] {
+                by.y += lift * 0.62 * near(sign * x, y, 0.060);
+            }
+            by.y += lift * 0.3 * near(sign * 0.12, 0.22, 0.09);
+            let inner = near(sign * 0.05, 0.10, 0.05);
+            by += Vec3::new(-0.020 * sign, -0.016, 0.012) * self.frown * inner;
+            let wing = near(sign * 0.050, -0.165, 0.035);
+            by += Vec3::new(0.012 * sign, 0.036, 0.0) * self.nose * wing;
+            let fold = near(sign * 0.125, -0.12, 0.055);
+            by += Vec3::new(0.0, 0.030, 0.022) * self.nose * fold;
+            let corner = self.corners[side];
+            let apple = near(sign * 0.155, -0.165, 0.062);
+            by += Vec3::new(0.006 * sign, 0.020, 0.050) * corner.max(0.0) * apple;
+            let cheek = self.cheeks[side];
+            let puff = near(sign * 0.190, -0.250, 0.095);
+            let much = if cheek > 0.0 {
+                [0.036, 0.060]
+            } else {
+                [0.030, 0.045]
+            };
+            by += Vec3::new(much[0] * sign, 0.0, much[1]) * cheek * puff;
+        }
+        by
+    }
+
+    /// Returns where a lid's corner is: its edge slides over the eyeball.
+    fn lidded(&self, side: usize, ring: usize, k: usize, at: Vec3) -> Vec3 {
+        let upper = k <= EYE / 2;
+        let shut = self.lids[side];
+        let sign = if side == 0 { -1.0 } else { 1.0 };
+        let [x, y] = lid(side, ring, k);
+        let [_, edge] = lid(side, 0, k);
+        let look = 0.012 * self.gaze[1];
+        let height = |t: f32| 0.030 * (PI * t.powf(1.15)).sin().max(0.0).powf(0.9);
+        let half = EYE as f32 / 2.0;
+        let t = if k < EYE / 2 {
+            k as f32 / half
+        } else {
+            2.0 - k as f32 / half
+        };
+        let to = if upper {
+            let closed = -0.58 * height(t);
+            let lid = if shut > 0.0 {
+                edge + (closed - edge) * shut
+            } else {
+                edge * (1.0 - 0.42 * shut)
+            };
+            lid + look * (1.0 - shut.max(0.0)) * (edge / 0.046).clamp(0.0, 1.0)
+        } else if shut > 0.0 {
+            edge * (1.0 - 0.42 * shut)
+        } else {
+            edge * (1.0 - 0.25 * shut)
+        };
+        let follow = [1.0, 0.94, 0.42, 0.12][ring];
+        let y = y + (to - edge) * follow;
+        let (dx, reach) = (x - sign * BALL.0.x, BALL.1 * (1.10 + 0.03 * ring as f32));
+        let over = reach * reach - (0.86 * dx).powi(2) - y * y;
+        let ball = BALL.0.z + over.max(0.0).sqrt();
+        let z = match ring {
+            0 => ball,
+            1 => ball + 0.004,
+            2 => (ball + 0.006).max(at.z) * 0.5 + at.z * 0.5,
+            _ => at.z,
+        };
+        let brow = self.landmarks(at) * [0.0, 0.05, 0.25, 0.7][ring];
+        Vec3::new(x, y, z) + brow
     }
 }
 
-/// A piece of the face's surface, seen from the front.
-#[derive(Default)]
-struct Patch {
-    vertices: Vec<Vertex>,
-    triangles: Vec<[u32; 3]>,
-}
-
-impl Patch {
-    fn vertex(&mut self, position: Vec3, colour: Colour) {
-        self.vertices.push(Vertex {
-            position,
-            normal: Vec3::Z,
-            colour,
-            group: group::HEAD,
-        });
+/// Returns how the edge of the lips pulls the skin at a place.
+fn pulled(rim: &[(Vec3, Vec3)], at: Vec3) -> Vec3 {
+    let (mut sum, mut by, mut nearest) = (0.0, Vec3::ZERO, f32::INFINITY);
+    for &(home, moved) in rim {
+        let far = home.distance_squared(at);
+        nearest = nearest.min(far);
+        let weight = (-far / (0.035 * 0.035)).exp();
+        sum += weight;
+        by += moved * weight;
     }
-
-    fn quad(&mut self, [a, b, c, d]: [u32; 4]) {
-        self.triangles.extend([[a, b, c], [a, c, d]]);
+    if nearest > 0.09 {
+        return Vec3::ZERO;
     }
-
-    /// Appends the piece, closed by a cone from its rim, which runs anticlockwise, to a point behind it.
-    fn append_to(mut self, mesh: &mut Mesh, rim: Vec<u32>, behind: Vec3) {
-        smooth(&mut self.vertices, &self.triangles, 0);
-        let tip = self.vertices.len() as u32;
-        self.vertex(behind, self.vertices[0].colour);
-        let following = rim.iter().cycle().skip(1);
-        let cone = rim
-            .iter()
-            .zip(following)
-            .map(|(&from, &to)| [tip, to, from]);
-        self.triangles.extend(cone);
-        mesh.append(&Mesh {
-            vertices: self.vertices,
-            triangles: self.triangles,
-        });
-    }
+    by / (sum + 1e-6) * (-nearest / (0.085 * 0.085)).exp()
 }

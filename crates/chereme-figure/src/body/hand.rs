@@ -1,343 +1,395 @@
-//! A hand: a palm between wrist and knuckles, a thumb and fingers of rods, nails.
+//! The canonical hand fitted to a skeleton's hand, whatever joints it has.
 
 use chereme_motion::{Anatomy, Finger, ModelPose, Side, Skeleton, anatomy::Part};
-use glam::{Quat, Vec3};
+use glam::{Mat3, Quat, Vec3};
 
+use super::glove::{ARCH, BONES, CUFF, FOLLOWERS, Glove, HALF, PALM, bone};
 use super::group;
-use super::shape::{Assembly, Loft, Paint, Point, Rod, Section, ellipsoid, place, rotation};
+use super::shape::{place, rotation};
+use super::skin::{Bound, Follower, Rig};
+use crate::mesh::{Mesh, Vertex};
 use crate::palette::{Colour, HandColours};
 
-/// The joints of a hand: base, middle and end of each finger that the skeleton has.
-#[derive(Debug, Clone)]
-pub(super) struct HandJoints {
-    side: Side,
-    wrist: usize,
-    thumb: Vec<usize>,
-    /// The fingers found, from the thumb's side outwards, each with its joints from the base on.
-    fingers: Vec<(Finger, Vec<usize>)>,
+/// The length of the canonical hand from wrist to fingertip, in millimetres.
+const LENGTH: f32 = 190.0;
+
+/// Directions of a hand: towards the thumb, along it, out of the palm; of a left hand they are left-handed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct HandAxes {
+    /// In the space of the hand's joint.
+    pub(super) along: Vec3,
+    pub(super) palm: Vec3,
 }
 
-impl HandJoints {
-    /// Returns the hand of `side`; `None` if there is no wrist.
-    pub(super) fn of(anatomy: &Anatomy, side: Side) -> Option<Self> {
-        let chain = |parts: Vec<Part>| -> Vec<usize> {
-            parts
-                .into_iter()
-                .map_while(|part| anatomy.joint(part))
-                .collect()
-        };
-        let fingers = Finger::ALL
-            .into_iter()
-            .map(|f| (f, chain((1..4).map(|n| Part::Finger(side, f, n)).collect())))
-            .filter(|(_, joints)| !joints.is_empty());
-        Some(Self {
-            side,
-            wrist: anatomy.joint(Part::Hand(side))?,
-            thumb: chain((0..3).map(|n| Part::Thumb(side, n)).collect()),
-            fingers: fingers.collect(),
-        })
-    }
-}
-
-/// The measures of a hand at rest, and its axes in model space.
-struct Measures {
-    /// Half the thickness of a finger at its base, in metres.
-    radius: f32,
-    along: Vec3,
-    /// Towards the thumb's side.
-    thumbward: Vec3,
-    /// Out of the palm.
-    palm: Vec3,
-}
-
-impl Measures {
-    /// Returns the measures; `None` if knuckles and wrist do not span a palm.
-    fn of(anatomy: &Anatomy, hand: &HandJoints, rest: &ModelPose) -> Option<Self> {
-        let base = |joints: &[usize]| place(rest, joints[0]);
-        let (first, last) = (hand.fingers.first()?, hand.fingers.last()?);
-        let (first, last) = (base(&first.1), base(&last.1));
-        let along = (first + last) * 0.5 - place(rest, hand.wrist);
-        let gap = (first - last).length() / (hand.fingers.len().max(2) - 1) as f32;
-        let length = along.length();
-        let along = along.try_normalize()?;
-        let across = first - last;
-        let thumbward = (across - along * across.dot(along)).try_normalize()?;
-        Some(Self {
-            radius: (gap * 0.46).clamp(length * 0.075, length * 0.11),
-            along,
-            thumbward,
-            palm: anatomy.palm_normal(hand.side, rest).map_or_else(
-                || thumbward.cross(along) * -hand.side.sign() as f32,
-                |palm| palm.as_vec3(),
-            ),
-        })
-    }
-}
-
-/// Thickness of each finger relative to the index, from the thumb outwards.
-const THICKNESS: [f32; 5] = [1.18, 1.0, 1.0, 0.96, 0.85];
-/// Brightness of each finger relative to the others, so that neighbours differ.
-const TINT: [f32; 5] = [1.0, 1.0, 0.93, 1.0, 0.93];
-const WHITE: Colour = Colour::hex(0xFF_FF_FF);
-
-/// Adds the hand; without fingers it is a mitten.
-pub(super) fn add(
-    body: &mut Assembly,
-    (skeleton, anatomy): (&Skeleton, &Anatomy),
-    rest: &ModelPose,
-    hand: &HandJoints,
-    colours: HandColours,
-) {
-    let measures = (hand.fingers.len() >= 2)
-        .then(|| Measures::of(anatomy, hand, rest))
-        .flatten();
-    let Some(measures) = measures else {
-        return mitten(body, skeleton, hand, colours);
-    };
-    palm(body, rest, hand, &measures, colours);
-    let towards_palm = measures.palm;
-    for (finger, joints) in &hand.fingers {
-        let digit = Digit {
-            number: finger.index() + 1,
-            joints: joints.clone(),
-            inner: towards_palm,
-        };
-        digit.add(body, skeleton, rest, &measures, (hand.side, colours));
-    }
-    let thumb = Digit {
-        number: 0,
-        joints: hand.thumb.iter().copied().skip(1).collect(),
-        inner: (measures.palm * 0.8 - measures.thumbward * 0.6).normalize_or(measures.palm),
-    };
-    thumb.add(body, skeleton, rest, &measures, (hand.side, colours));
-}
-
-/// A finger, or the thumb without its metacarpal.
-struct Digit {
-    number: usize,
-    joints: Vec<usize>,
-    /// The direction of its inner side at rest, in model space.
-    inner: Vec3,
-}
-
-impl Digit {
-    fn add(
-        &self,
-        body: &mut Assembly,
-        skeleton: &Skeleton,
+impl HandAxes {
+    /// Returns the directions of a hand at rest; `neutral` is where the thumb is, in model space, if no finger tells.
+    pub(super) fn of(
+        anatomy: &Anatomy,
+        side: Side,
         rest: &ModelPose,
-        measures: &Measures,
-        (side, colours): (Side, HandColours),
+        neutral: Vec3,
+    ) -> Option<Self> {
+        let joint = anatomy.joint(Part::Hand(side))?;
+        let back = rotation(rest, joint).inverse();
+        let along = anatomy.hand_direction(side, rest)?.as_vec3();
+        let palm = anatomy.palm_normal(side, rest).map(|palm| palm.as_vec3());
+        let palm = palm.unwrap_or_else(|| neutral.cross(along) * -side.sign() as f32);
+        let palm = palm - along * along.dot(palm);
+        Some(Self {
+            along: back * along,
+            palm: back
+                * palm
+                    .try_normalize()
+                    .unwrap_or(along.any_orthonormal_vector()),
+        })
+    }
+}
+
+/// Returns the axes of a hand as columns: towards the thumb, along it, out of the palm.
+pub(super) fn frame(side: Side, along: Vec3, palm: Vec3) -> Mat3 {
+    let thumb = along.cross(palm) * -side.sign() as f32;
+    Mat3::from_cols(thumb, along, palm)
+}
+
+/// A hand's place in bind space: its wrist, and its axes there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Seat {
+    pub(super) wrist: Vec3,
+    pub(super) axes: Mat3,
+}
+
+/// A bone of the fitted hand.
+#[derive(Clone, Copy)]
+struct Fitted {
+    joint: Option<usize>,
+    from: Vec3,
+    axes: Mat3,
+    /// Scale across, along and out of the palm.
+    scale: Vec3,
+}
+
+/// Adds the hand of `side` to a skin.
+#[derive(Debug)]
+pub(super) struct HandFit<'a> {
+    pub(super) skeleton: &'a Skeleton,
+    pub(super) anatomy: &'a Anatomy,
+    pub(super) side: Side,
+    pub(super) axes: HandAxes,
+    pub(super) seat: Seat,
+    /// Numbers of the followers that are the hand and the forearm before it.
+    pub(super) hand: usize,
+    pub(super) cuff: usize,
+}
+
+impl HandFit<'_> {
+    /// Adds surface and followers.
+    pub(super) fn add(
+        &self,
+        rig: &mut Rig,
+        bound: &mut Vec<Bound>,
+        mesh: &mut Mesh,
+        colours: HandColours,
     ) {
-        let radius = measures.radius * THICKNESS[self.number];
-        let group = group::digit(side, self.number);
-        let tint = TINT[self.number];
-        for (index, &joint) in self.joints.iter().enumerate() {
-            let last = index + 1 == self.joints.len();
-            let start = Point::at(joint);
-            let end = match self.joints.get(index + 1) {
-                Some(&next) => Point::at(next),
-                None => tip(skeleton, rest, joint, radius),
-            };
-            let bone = end.place(rest) - start.place(rest);
-            let turn = rotation(rest, joint).inverse();
-            let along = bone.normalize_or(measures.along);
-            let inner = (self.inner - along * along.dot(self.inner)).normalize_or(self.inner);
-            let steps = self.joints.len().max(3) as f32;
-            let at = |i: usize| radius * (1.0 - 0.22 * (i as f32 / steps));
-            let radii = [at(index), at(index) * 0.93, at(index + 1)];
-            let light = if last { 0.22 } else { 0.0 };
-            let paint = Paint {
-                front: colours.palm.scaled(tint).mixed(WHITE, light),
-                back: colours.back.scaled(tint).mixed(WHITE, light * 0.6),
-                group,
-            };
-            let rod = Rod {
-                ends: [start, end],
-                radii,
-                facing: (joint, turn * inner),
-                columns: 16,
-            };
-            body.rod(rod, paint);
-            if last {
-                let nail = Nail {
-                    end: end.local,
-                    inner: turn * inner,
-                    radius: radii[2],
+        let glove = Glove::get();
+        let skeleton = self.skeleton;
+        let mut local = skeleton.rest_pose();
+        let angles = Glove::angles();
+        self.anatomy
+            .set_hand_angles(skeleton, self.side, &angles, &mut local);
+        let bind = ModelPose::of(skeleton, &local);
+        let Some(wrist) = self.anatomy.joint(Part::Hand(self.side)) else {
+            return;
+        };
+        let turned = rotation(&bind, wrist);
+        let own = frame(self.side, turned * self.axes.along, turned * self.axes.palm);
+        // From model space, with the hand as it was made, to bind space.
+        let to_bind = |at: Vec3| {
+            self.seat.wrist + self.seat.axes * (own.transpose() * (at - place(&bind, wrist)))
+        };
+        let turn = Quat::from_mat3(&(self.seat.axes * own.transpose())).normalize();
+        let (bones, size) = self.bones(glove, &bind, wrist, own);
+        let first = rig.followers.len();
+        self.followers(rig, glove, &bones, (&bind, turn), &to_bind, first);
+        let warp = Warp::new(glove, &bones);
+        let base = mesh.vertices.len() as u32;
+        for skin in &glove.skins {
+            let mut at = Vec3::ZERO;
+            for (follower, weight) in skin.weights {
+                let part = |index: usize| {
+                    if index == PALM {
+                        warp.place(skin.place)
+                    } else {
+                        let (fitted, made) = (bones[index], glove.bones[index]);
+                        let from = made.axes.transpose() * (skin.place - made.from);
+                        fitted.from + fitted.axes * (from * fitted.scale)
+                    }
                 };
-                body.rigid(joint, &nail.mesh(colours.nail, group));
+                let own = match follower {
+                    CUFF => part(PALM),
+                    f if ARCH.contains(&f) => part(PALM),
+                    f if f == HALF + PALM => part(PALM),
+                    f if f >= HALF => (part(f - HALF) + part(above(f - HALF))) * 0.5,
+                    f => part(f),
+                };
+                at += own * weight;
+            }
+            let shares = skin
+                .weights
+                .map(|(follower, weight)| (first + follower, weight));
+            bound.push(Bound::new(to_bind(at), &shares));
+            mesh.vertices.push(Vertex {
+                position: at,
+                normal: Vec3::Y,
+                colour: colour(skin, colours),
+                group: skin.digit.map_or(group::palm(self.side), |digit| {
+                    group::digit(self.side, digit)
+                }),
+            });
+        }
+        debug_assert!(size > 0.0);
+        let flip = self.side == Side::Left;
+        mesh.triangles.extend(glove.triangles.iter().map(|t| {
+            let [a, b, c] = t.map(|i| i + base);
+            if flip { [a, c, b] } else { [a, b, c] }
+        }));
+    }
+
+    /// Returns the fitted bones in model space in the posture of the making, and the hand's size.
+    fn bones(
+        &self,
+        glove: &Glove,
+        bind: &ModelPose,
+        wrist: usize,
+        own: Mat3,
+    ) -> ([Fitted; BONES], f32) {
+        let side = self.side;
+        let joint = |part| self.anatomy.joint(part);
+        let knuckle = |finger: Finger| joint(Part::Finger(side, finger, 1)).map(|j| place(bind, j));
+        let root = place(bind, wrist);
+        let measured = self
+            .anatomy
+            .measures()
+            .map_or(LENGTH / 1000.0, |it| it.hand as f32);
+        let size = (measured * 1000.0 / LENGTH).clamp(1e-6, 1e6) / 1000.0;
+        let made = |at: Vec3| at - glove.bones[PALM].from;
+        let knuckles: Vec<(Vec3, Vec3)> = Finger::ALL
+            .into_iter()
+            .filter_map(|finger| {
+                let to = own.transpose() * (knuckle(finger)? - root);
+                let from = made(glove.bones[bone(finger.index() + 1, 0)].from);
+                Some((glove.bones[PALM].axes.transpose() * from, to))
+            })
+            .collect();
+        let ratio = |from: f32, to: f32| {
+            let ratio = to / from;
+            if ratio.is_finite() {
+                ratio.clamp(size * 0.6, size * 1.6)
+            } else {
+                size
+            }
+        };
+        let long = if knuckles.is_empty() {
+            size
+        } else {
+            ratio(
+                knuckles.iter().map(|k| k.0.y).sum(),
+                knuckles.iter().map(|k| k.1.y).sum(),
+            )
+        };
+        let wide = match (knuckles.first(), knuckles.last()) {
+            (Some(a), Some(b)) if knuckles.len() > 1 => ratio(a.0.x - b.0.x, a.1.x - b.1.x),
+            _ => long,
+        };
+        let thick = (long * wide).sqrt().clamp(size * 0.8, size * 1.3);
+        let palm = Fitted {
+            joint: Some(wrist),
+            from: root,
+            axes: own,
+            scale: Vec3::new(wide, long, thick),
+        };
+        let mut bones = [palm; BONES];
+        for digit in 0..5 {
+            for at in 0..3 {
+                let part = match digit {
+                    0 => Part::Thumb(side, at as u8),
+                    n => Part::Finger(side, Finger::ALL[n - 1], at as u8 + 1),
+                };
+                let index = bone(digit, at);
+                let made = glove.bones[index];
+                let parent = above(index);
+                let within = |point: Vec3| {
+                    // Where a joint is missing, the bone lies as it was made relative to the one before it.
+                    let (fitted, made) = (bones[parent], glove.bones[parent]);
+                    fitted.from
+                        + fitted.axes * (made.axes.transpose() * (point - made.from) * fitted.scale)
+                };
+                let found = joint(part);
+                let from = found.map_or_else(|| within(made.from), |joint| place(bind, joint));
+                let length = made.from.distance(made.to);
+                let next = match (found, at) {
+                    (Some(_), 0 | 1) => joint(match digit {
+                        0 => Part::Thumb(side, at as u8 + 1),
+                        n => Part::Finger(side, Finger::ALL[n - 1], at as u8 + 2),
+                    })
+                    .map(|joint| place(bind, joint)),
+                    _ => None,
+                };
+                let end = match (next, found) {
+                    (Some(next), _) => Some(next),
+                    (None, Some(joint)) => tip(self.skeleton, joint)
+                        .map(|tip| place(bind, joint) + rotation(bind, joint) * tip),
+                    (None, None) => None,
+                };
+                let end = end.filter(|end| {
+                    let share = end.distance(from) / (length * thick);
+                    share.is_finite() && (0.3..3.0).contains(&share)
+                });
+                let towards = own * (glove.bones[PALM].axes.transpose() * made.axes.y_axis);
+                let (along, long) = match (end, found) {
+                    (Some(end), _) => (
+                        (end - from).normalize_or(towards),
+                        end.distance(from) / length,
+                    ),
+                    (None, Some(_)) => (towards, thick),
+                    (None, None) => {
+                        let (fitted, made_parent) = (bones[parent], glove.bones[parent]);
+                        let along = fitted.axes * (made_parent.axes.transpose() * made.axes.y_axis);
+                        (along.normalize_or(towards), thick)
+                    }
+                };
+                let pad = own * (glove.bones[PALM].axes.transpose() * made.axes.z_axis);
+                let pad = (pad - along * along.dot(pad)).normalize_or(own.z_axis);
+                let aside = along.cross(pad) * if self.side == Side::Left { -1.0 } else { 1.0 };
+                bones[index] = Fitted {
+                    joint: found,
+                    from,
+                    axes: Mat3::from_cols(aside, along, pad),
+                    scale: Vec3::new(thick, long, thick),
+                };
             }
         }
+        (bones, size)
+    }
+
+    fn followers(
+        &self,
+        rig: &mut Rig,
+        glove: &Glove,
+        bones: &[Fitted; BONES],
+        (bind, turn): (&ModelPose, Quat),
+        to_bind: &impl Fn(Vec3) -> Vec3,
+        first: usize,
+    ) {
+        let of = |joint: usize| Follower::Joint {
+            joint,
+            turn: rotation(bind, joint).inverse() * turn.inverse(),
+            at: to_bind(place(bind, joint)),
+        };
+        let mut all: Vec<Follower> = Vec::with_capacity(FOLLOWERS);
+        all.push(Follower::Same(self.hand));
+        for (index, fitted) in bones.iter().enumerate().skip(1) {
+            all.push(
+                fitted
+                    .joint
+                    .map_or(Follower::Same(first + above(index)), of),
+            );
+        }
+        for (index, fitted) in bones.iter().enumerate() {
+            let at = to_bind(fitted.from);
+            all.push(if index == PALM {
+                Follower::Half {
+                    parent: self.cuff,
+                    child: self.hand,
+                    at: self.seat.wrist,
+                    along: self.seat.axes.y_axis,
+                    swell: 0.10,
+                }
+            } else if fitted.joint.is_some() {
+                Follower::Half {
+                    parent: first + above(index),
+                    child: first + index,
+                    at,
+                    along: turn * fitted.axes.y_axis,
+                    swell: if glove.bones[index].from == glove.bones[bone(0, 0)].from {
+                        0.0
+                    } else {
+                        0.12
+                    },
+                }
+            } else {
+                Follower::Same(first + above(index))
+            });
+        }
+        all.push(Follower::Same(self.cuff));
+        for finger in [Finger::Ring, Finger::Little] {
+            let inner = self.anatomy.joint(Part::Finger(self.side, finger, 0));
+            let wrist = self.anatomy.joint(Part::Hand(self.side));
+            let inner = inner.filter(|&it| self.skeleton.parent(it) == wrist);
+            all.push(inner.map_or(Follower::Same(self.hand), of));
+        }
+        debug_assert_eq!(all.len(), FOLLOWERS);
+        rig.followers.extend(all);
     }
 }
 
-/// Returns the end of the bone of a last joint: its tip, an end joint below it, or straight on.
-fn tip(skeleton: &Skeleton, rest: &ModelPose, joint: usize, radius: f32) -> Point {
-    let local = skeleton.joint(joint).tip.map(|tip| tip.as_vec3());
-    let child = || {
+/// Returns the bone before another.
+fn above(index: usize) -> usize {
+    if index == PALM || (index - 1).is_multiple_of(3) {
+        PALM
+    } else {
+        index - 1
+    }
+}
+
+/// Returns the end of the bone of a last joint in its space, if the skeleton knows it.
+fn tip(skeleton: &Skeleton, joint: usize) -> Option<Vec3> {
+    let own = skeleton.joint(joint).tip.map(|tip| tip.as_vec3());
+    own.or_else(|| {
         let child = *skeleton.children(joint).first()?;
         Some(skeleton.joint(child).offset.as_vec3())
-    };
-    let onwards = || {
-        let parent = skeleton.parent(joint)?;
-        let bone = place(rest, joint) - place(rest, parent);
-        Some(rotation(rest, joint).inverse() * bone * 0.8)
-    };
-    let reach = local
-        .or_else(child)
-        .filter(|reach| reach.length() > radius * 0.5)
-        .or_else(onwards)
-        .unwrap_or(Vec3::Y * radius * 3.0);
-    let length = reach.length();
-    let round = (length - radius * 0.75).max(length * 0.6);
-    Point {
-        joint,
-        local: reach * (round / length.max(1e-9)),
+    })
+}
+
+/// The palm's fit: scaled to the hand, and pulled so that knuckles and thumb lie where the skeleton has them.
+struct Warp {
+    from: Mat3,
+    palm: Fitted,
+    pulls: Vec<(Vec3, Vec3)>,
+}
+
+impl Warp {
+    fn new(glove: &Glove, bones: &[Fitted; BONES]) -> Self {
+        let mut warp = Self {
+            from: glove.bones[PALM].axes.transpose(),
+            palm: bones[PALM],
+            pulls: Vec::new(),
+        };
+        let pulls: Vec<(Vec3, Vec3)> = (0..5)
+            .filter(|&digit| bones[bone(digit, 0)].joint.is_some())
+            .map(|digit| {
+                let made = glove.bones[bone(digit, 0)].from;
+                (made, bones[bone(digit, 0)].from - warp.place(made))
+            })
+            .collect();
+        warp.pulls = pulls;
+        warp
+    }
+
+    fn place(&self, at: Vec3) -> Vec3 {
+        let plain = self.palm.from + self.palm.axes * (self.from * at * self.palm.scale);
+        let mut sum = 1.0 / (at.length_squared() + 60.0);
+        let mut pull = Vec3::ZERO;
+        for (from, by) in &self.pulls {
+            let weight = 1.0 / (at.distance_squared(*from) + 60.0);
+            pull += *by * weight;
+            sum += weight;
+        }
+        plain + pull / sum
     }
 }
 
-/// The nail on the outer side of a finger's end.
-struct Nail {
-    end: Vec3,
-    inner: Vec3,
-    radius: f32,
-}
-
-impl Nail {
-    fn mesh(&self, colour: Colour, group: u8) -> crate::mesh::Mesh {
-        let along = self.end.normalize_or(Vec3::Y);
-        let side = along.cross(self.inner).normalize_or(Vec3::X);
-        let turn = Quat::from_mat3(&glam::Mat3::from_cols(
-            side,
-            self.inner,
-            side.cross(self.inner),
-        ));
-        let radius = self.radius;
-        let centre = self.end + along * radius * 0.12 - self.inner * radius * 0.82;
-        let radii = Vec3::new(0.66, 0.30, 0.85) * radius;
-        ellipsoid(centre, radii, turn, [10, 6], |point| (point, colour), group)
-    }
-}
-
-/// Adds the palm, the thumb's metacarpal, and the skin between the two.
-fn palm(
-    body: &mut Assembly,
-    rest: &ModelPose,
-    hand: &HandJoints,
-    measures: &Measures,
-    colours: HandColours,
-) {
-    let radius = measures.radius;
-    let paint = Paint {
-        front: colours.palm,
-        back: colours.back,
-        group: group::palm(hand.side),
-    };
-    let mut knuckles: Vec<Point> = hand.fingers.iter().map(|f| Point::at(f.1[0])).collect();
-    let turn = rotation(rest, hand.wrist).inverse();
-    let wrist = |thumbward: f32, along: f32| Point {
-        joint: hand.wrist,
-        local: turn * (measures.thumbward * thumbward + measures.along * along) * radius,
-    };
-    let mut roots: Vec<Point> = (0..knuckles.len())
-        .map(|i| i as f32 / (knuckles.len() - 1) as f32 * 2.0 - 1.0)
-        .map(|share| wrist(-share * 1.75, 0.0))
-        .collect();
-    if hand.side == Side::Right {
-        knuckles.reverse();
-        roots.reverse();
-    }
-    let section = |share: f32, beyond: f32, thickness: [f32; 2], shift: f32| Section {
-        spine: roots
-            .iter()
-            .zip(&knuckles)
-            .map(|(&root, &knuckle)| vec![(root, 1.0 - share), (knuckle, share)])
-            .collect(),
-        beyond: beyond * radius,
-        thickness: thickness.map(|t| t * radius),
-        shift: shift * radius,
-    };
-    body.loft(
-        Loft {
-            sections: vec![
-                section(0.0, -0.1, [1.0, 0.9], -0.6),
-                section(0.0, 0.35, [1.5, 1.25], 0.2),
-                section(0.35, 0.75, [1.6, 1.25], 0.0),
-                section(0.7, 0.95, [1.3, 1.1], 0.0),
-                section(0.93, 0.85, [1.0, 1.0], 0.0),
-                section(1.0, 0.45, [0.7, 0.75], 0.25),
-            ],
-            columns: 24,
-            roundness: 0.62,
-        },
-        paint,
-    );
-    let [Some(&root), Some(&middle)] = [hand.thumb.first(), hand.thumb.get(1)] else {
-        return;
-    };
-    let facing = (hand.wrist, turn * measures.palm);
-    let metacarpal = Rod {
-        ends: [Point::at(root), Point::at(middle)],
-        radii: [1.55, 1.45, 1.33].map(|r| r * radius),
-        facing,
-        columns: 18,
-    };
-    body.rod(metacarpal, paint);
-    let index = if hand.side == Side::Right {
-        knuckles.len() - 1
-    } else {
-        0
-    };
-    let web = Rod {
-        ends: [
-            between(rest, root, place(rest, middle), 0.62),
-            between(rest, hand.wrist, knuckles[index].place(rest), 0.6),
-        ],
-        radii: [1.15, 0.95, 1.0].map(|r| r * radius),
-        facing,
-        columns: 12,
-    };
-    body.rod(web, paint);
-}
-
-/// Returns the point at a share of the line from `joint` to `to` (in model space), fixed to `joint`.
-fn between(rest: &ModelPose, joint: usize, to: Vec3, share: f32) -> Point {
-    let bone = (to - place(rest, joint)) * share;
-    Point {
-        joint,
-        local: rotation(rest, joint).inverse() * bone,
-    }
-}
-
-/// Adds a hand without fingers: a round form in the forearm's direction.
-fn mitten(body: &mut Assembly, skeleton: &Skeleton, hand: &HandJoints, colours: HandColours) {
-    let joint = skeleton.joint(hand.wrist);
-    let child = skeleton.children(hand.wrist).first();
-    let forearm = joint.offset.as_vec3().length();
-    let reach = child
-        .map(|&child| skeleton.joint(child).offset.as_vec3())
-        .or(joint.tip.map(|tip| tip.as_vec3()))
-        .filter(|reach| reach.length() > forearm * 0.05)
-        .unwrap_or_else(|| joint.rest.as_quat().inverse() * joint.offset.as_vec3());
-    let size = forearm.max(0.05);
-    let along = reach.normalize_or(Vec3::Y) * size * 0.52;
-    let rod = Rod {
-        ends: [
-            Point::at(hand.wrist),
-            Point {
-                joint: hand.wrist,
-                local: along,
-            },
-        ],
-        radii: [size * 0.11, size * 0.19, size * 0.13],
-        facing: (hand.wrist, along.any_orthonormal_vector()),
-        columns: 16,
-    };
-    body.rod(
-        rod,
-        Paint::plain(
-            colours.palm.mixed(colours.back, 0.4),
-            group::palm(hand.side),
-        ),
-    );
+fn colour(skin: &super::glove::Skin, colours: HandColours) -> Colour {
+    let mixed = colours.back.mixed(colours.palm, skin.palmar);
+    let shaded = mixed.scaled(skin.open);
+    shaded.mixed(colours.nail, skin.nail * 0.85)
 }

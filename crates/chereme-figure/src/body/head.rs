@@ -1,15 +1,15 @@
-//! An egg-shaped head, with the features that show its direction: eyes, brows, nose, mouth, crown.
-
-use std::f32::consts::FRAC_PI_2;
+//! The head with its face: the canonical net moved by an expression, with eyes, brows, teeth, tongue, ears and hair.
 
 use chereme_motion::Face;
 use glam::{Mat3, Quat, Vec3};
 
+use super::extras;
+use super::face::{Canon, EYE, MOUTH, Place, scalp};
 use super::features::Features;
+use super::form::smooth_step;
 use super::group;
-use super::shape::ellipsoid;
-use crate::mesh::Mesh;
-use crate::palette::{Colour, Palette};
+use crate::mesh::{Mesh, Vertex, smooth};
+use crate::palette::{Colour, Hair, Palette};
 
 /// The head's place and measures in the space of its joint.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,171 +22,135 @@ pub(super) struct Head {
     pub(super) axes: Mat3,
 }
 
-/// Half the width, height and depth of a head relative to its height, as in the anatomy's landmarks.
-const RADII: Vec3 = Vec3::new(0.345, 0.5, 0.42);
+/// How far the canonical head lies before the middle of the skull, in head heights.
+const FORWARDS: f32 = 0.05;
 
 impl Head {
     /// Returns the head's surface in the space of its joint, with its facial expression. Every expression
     /// has the same vertices in the same order.
     pub(super) fn mesh(&self, palette: &Palette, face: &Face) -> Mesh {
-        let face = Features::of(face);
-        let turn = Quat::from_mat3(&self.axes);
-        let radii = RADII * self.height;
-        // Turning puts the rings' poles at crown and chin instead of the ears.
-        let upright = Quat::from_rotation_x(-FRAC_PI_2);
-        let mut mesh = ellipsoid(
-            self.centre,
-            Vec3::ONE,
-            turn,
-            [32, 24],
-            |point| {
-                let point = upright * point;
-                (face.formed(point) * radii, crown_or_face(point, palette))
-            },
-            group::HEAD,
-        );
-        for mark in marks(palette, &face) {
-            mesh.append(&self.mark(&mark, turn));
-        }
-        let surface = |at: [f32; 2], out: f32| {
-            self.centre + turn * (face.surface(at) * RADII + Vec3::Z * out) * self.height
+        let canon = Canon::get();
+        let features = Features::of(face);
+        let places = features.moved(canon);
+        let mut mesh = Mesh {
+            vertices: canon
+                .knots
+                .iter()
+                .zip(&places)
+                .map(|(knot, &position)| Vertex {
+                    position,
+                    normal: Vec3::Z,
+                    colour: colour(knot.place, knot.at, &features, palette).scaled(
+                        match knot.place {
+                            Place::Skin | Place::Eye(..) => knot.open,
+                            _ => 1.0,
+                        },
+                    ),
+                    group: group::HEAD,
+                })
+                .collect(),
+            triangles: canon.triangles.clone(),
         };
-        face.mouth(palette).add(&mut mesh, surface);
+        smooth(&mut mesh.vertices, &mesh.triangles, 0);
+        hair(&mut mesh, canon, palette);
+        extras::add(&mut mesh, &features, canon, palette);
+        let turn = Quat::from_mat3(&self.axes);
+        for vertex in &mut mesh.vertices {
+            let at = vertex.position + Vec3::Z * FORWARDS;
+            vertex.position = self.centre + turn * (at * self.height);
+            vertex.normal = turn * vertex.normal;
+        }
         mesh
     }
+}
 
-    fn mark(&self, mark: &Mark, turn: Quat) -> Mesh {
-        let centre = self.centre + turn * (surface(mark.at) + Vec3::Z * mark.out) * self.height;
-        let tilt =
-            turn * Quat::from_rotation_y(mark.at[0] * 0.8) * Quat::from_rotation_z(mark.tilt);
-        ellipsoid(
-            centre,
-            mark.radii * self.height,
-            tilt,
-            [14, 8],
-            |point| match mark.form {
-                Form::Whole => (point, mark.colour),
-                Form::Lid { edge, lash } => {
-                    let point = Quat::from_rotation_x(-FRAC_PI_2) * point;
-                    let colour = if point.y < -0.6 { lash } else { mark.colour };
-                    (cap(point, edge), colour)
-                }
-            },
-            group::HEAD,
-        )
+/// Adds a shell over the scalp, and what else the cut has.
+fn hair(mesh: &mut Mesh, canon: &Canon, palette: &Palette) {
+    if palette.cut == Hair::None {
+        return;
     }
+    let base = mesh.vertices.len();
+    let mut numbers = vec![u32::MAX; canon.knots.len()];
+    let mut order = Vec::new();
+    for &index in canon.scalp.iter().flatten() {
+        let slot = &mut numbers[index as usize];
+        if *slot == u32::MAX {
+            *slot = order.len() as u32;
+            order.push(index as usize);
+        }
+    }
+    let count = order.len() as u32;
+    for outer in [true, false] {
+        for &index in &order {
+            let (at, normal) = (mesh.vertices[index].position, mesh.vertices[index].normal);
+            let deep = smooth_step(scalp(canon.knots[index].at) / 0.24);
+            let top = smooth_step((at.y - 0.1) / 0.4);
+            let thick = if outer {
+                0.012 + (0.026 + 0.022 * top) * deep
+            } else {
+                -0.03
+            };
+            let strand =
+                (at.x * 55.0 + at.z * 18.0).sin() * 0.5 + (at.x * 23.0 - at.y * 31.0).sin() * 0.5;
+            mesh.vertices.push(Vertex {
+                position: at + normal * thick,
+                normal: Vec3::Z,
+                colour: palette.crown.scaled(1.0 + 0.07 * strand * deep),
+                group: group::HAIR,
+            });
+        }
+    }
+    let mut shell: Vec<[u32; 3]> = Vec::new();
+    let mut edges = std::collections::BTreeMap::new();
+    for t in &canon.scalp {
+        let own = t.map(|i| numbers[i as usize]);
+        shell.push(own);
+        shell.push([own[0], own[2], own[1]].map(|i| i + count));
+        for k in 0..3 {
+            edges.insert((own[k], own[(k + 1) % 3]), ());
+        }
+    }
+    for &(a, b) in edges.keys() {
+        if !edges.contains_key(&(b, a)) {
+            shell.extend([[b, a, a + count], [b, a + count, b + count]]);
+        }
+    }
+    smooth(&mut mesh.vertices[base..], &shell, 0);
+    let shell = shell.into_iter().map(|t| t.map(|i| i + base as u32));
+    mesh.triangles.extend(shell);
+    extras::cut(mesh, palette);
 }
 
-/// Returns the point of a resting head's surface at `at` (to the signer's left, up) on the unit sphere, in
-/// units of the head's height.
-fn surface([x, y]: [f32; 2]) -> Vec3 {
-    let z = (1.0 - x * x - y * y).max(0.0).sqrt();
-    egg(Vec3::new(x, y, z)) * RADII
-}
-
-/// Projects a point of the unit sphere onto the part of it above `edge`, closed by a disc there.
-fn cap(point: Vec3, edge: f32) -> Vec3 {
-    let y = edge + (point.y + 1.0) * 0.5 * (1.0 - edge);
-    let around = Vec3::new(point.x, 0.0, point.z).normalize_or_zero();
-    around * (1.0 - y * y).max(0.0).sqrt() + Vec3::Y * y
-}
-
-/// Maps a point of the unit sphere onto an egg with its narrow end down.
-pub(super) fn egg(point: Vec3) -> Vec3 {
-    let low = (-point.y).max(0.0);
-    let narrow = 1.0 - 0.30 * low * low;
-    let jaw = if point.z > 0.0 {
-        0.06 * low
-    } else {
-        -0.25 * low
-    };
-    Vec3::new(point.x * narrow, point.y, point.z * narrow + jaw)
-}
-
-fn crown_or_face(point: Vec3, palette: &Palette) -> Colour {
-    let behind = point.y * 0.62 - point.z * 0.80 - 0.13;
-    let low = (-0.45 - point.y) * 2.0;
-    let share = (behind.min(-low) * 6.0 + 0.5).clamp(0.0, 1.0);
-    palette.face.mixed(palette.crown, share)
-}
-
-/// A small form on the face, in units of the head's height.
-struct Mark {
-    /// Position on the unit sphere: towards the signer's left, and up.
-    at: [f32; 2],
-    /// Distance of its middle from the surface.
-    out: f32,
-    radii: Vec3,
-    tilt: f32,
-    colour: Colour,
-    form: Form,
-}
-
-/// The visible part of a mark's ellipsoid.
-enum Form {
-    Whole,
-    /// The part above an edge that has lashes.
-    Lid {
-        edge: f32,
-        lash: Colour,
-    },
-}
-
-fn marks(palette: &Palette, face: &Features) -> Vec<Mark> {
-    let mark = |at, out, radii: [f32; 3], colour| Mark {
-        at,
-        out,
-        radii: Vec3::from_array(radii),
-        tilt: 0.0,
-        colour,
-        form: Form::Whole,
-    };
-    let skin = palette.face.scaled(0.93);
-    let wrinkled = face.nose;
-    let nose = [
-        0.042 * (1.0 + 0.2 * wrinkled),
-        0.085 * (1.0 - 0.15 * wrinkled),
-        0.055,
-    ];
-    let mut all = vec![mark([0.0, -0.19 + 0.04 * wrinkled], 0.012, nose, skin)];
-    for (n, side) in [-1.0, 1.0].into_iter().enumerate() {
-        let (lid, brow) = (face.lids[n], face.brows[n]);
-        let wide = (-lid).max(0.0);
-        let eye = [0.063, 0.039 * (1.0 + 0.4 * wide), 0.026];
-        let edge = if lid > 0.0 {
-            0.60 - 1.42 * lid
+fn colour(place: Place, at: Vec3, features: &Features, palette: &Palette) -> Colour {
+    let lips = palette.mouth;
+    let skin = palette.face;
+    match place {
+        Place::Skin => {
+            // Colour in the cheeks, stubble of hair where none is drawn.
+            let side = if at.x > 0.0 { 1.0 } else { -1.0 };
+            let cheek = (at - Vec3::new(0.185 * side, -0.14, 0.25)).length();
+            let warm = (1.0 - smooth_step(cheek / 0.15)) * 0.16;
+            let fold = features.nose
+                * 0.10
+                * (1.0 - smooth_step((at - Vec3::new(0.09 * side, -0.13, 0.33)).length() / 0.06));
+            let grown = palette.cut != Hair::None && scalp(at) > 0.02;
+            let under = if grown { palette.crown } else { skin };
+            under.mixed(palette.mouth, warm).scaled(1.0 - fold)
+        }
+        Place::Mouth(0, k) => lips.scaled(if features.is_open() {
+            0.80
         } else {
-            0.60 + 0.35 * wide
-        };
-        let [aside, up] = face.gaze;
-        let pupil = [side * 0.385 + 0.09 * aside, 0.04 * up];
-        all.push(mark([side * 0.99, -0.08], 0.0, [0.035, 0.085, 0.045], skin));
-        all.push(mark([side * 0.39, 0.0], -0.012, eye, palette.eyes));
-        all.push(mark(pupil, 0.006, [0.027, 0.030, 0.018], palette.marks));
-        all.push(Mark {
-            form: Form::Lid {
-                edge,
-                lash: palette.marks.mixed(palette.face, 0.25),
-            },
-            ..mark(
-                [side * 0.39, 0.0],
-                -0.010,
-                [eye[0] + 0.006, eye[1] + 0.006, eye[2] + 0.014],
-                skin,
-            )
-        });
-        all.push(Mark {
-            tilt: side * (0.38 * face.frown - 0.02),
-            ..mark(
-                [
-                    side * (0.40 - 0.05 * face.frown),
-                    0.19 + 0.13 * brow.max(0.0) + 0.07 * brow.min(0.0) - 0.03 * face.frown,
-                ],
-                0.002 + 0.006 * face.frown,
-                [0.080, 0.013, 0.020],
-                palette.marks.mixed(palette.crown, 0.4),
-            )
-        });
+            if k <= MOUTH / 2 { 0.62 } else { 0.75 }
+        }),
+        Place::Mouth(1, k) => lips.scaled(if k <= MOUTH / 2 { 0.95 } else { 1.06 }),
+        Place::Mouth(2, _) => lips.mixed(skin, 0.45),
+        Place::Mouth(..) => skin,
+        Place::Eye(_, 0, k) if k <= EYE / 2 => palette.marks,
+        Place::Eye(_, 0, _) => skin.scaled(0.72),
+        Place::Eye(_, 1, _) => skin.scaled(0.93),
+        Place::Eye(_, 2, k) if k < EYE / 2 => skin.scaled(0.86),
+        Place::Eye(..) => skin.scaled(0.97),
+        Place::Bowl(_) => lips.scaled(0.36),
+        Place::Socket(..) => skin.scaled(0.4),
     }
-    all
 }

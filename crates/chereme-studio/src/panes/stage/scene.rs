@@ -304,6 +304,7 @@ fn plain(colour: Colour) -> Palette {
         torso: colour,
         sleeves: colour.mixed(white, 0.12),
         legs: colour,
+        ..Palette::default()
     }
 }
 

@@ -1,0 +1,565 @@
+//! The canonical head: one closed net around mouth and eyes, in head heights from the middle between chin and crown.
+//!
+//! x to the signer's left, y up, z forwards. The net is laid out once over directions from the middle of the head;
+//! what the face does moves its vertices.
+
+use std::f32::consts::{PI, TAU};
+use std::sync::OnceLock;
+
+use glam::{DVec2, Vec2, Vec3};
+
+use super::delaunay;
+use super::form::{Solid, joined, smooth_step};
+
+/// Corners of the mouth's loops and of the eyes' loops.
+pub(super) const MOUTH: usize = 24;
+pub(super) const EYE: usize = 18;
+/// Height of the line between the lips.
+pub(super) const LIPS: f32 = -0.292;
+/// Middle and radius of the signer's left eyeball.
+pub(super) const BALL: (Vec3, f32) = (Vec3::new(0.140, 0.0, 0.232), 0.064);
+/// The point that directions are counted from.
+const MIDDLE: Vec3 = Vec3::new(0.0, -0.05, -0.03);
+
+/// What a vertex of the head is part of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Place {
+    /// The skin, with whether hair grows there.
+    Skin,
+    /// A loop of the mouth from its inner edge outwards, and the place around it.
+    Mouth(usize, usize),
+    /// A loop of the right or left eye from its edge outwards, and the place around it.
+    Eye(usize, usize, usize),
+    /// Inside the mouth, and behind the lids.
+    Bowl(usize),
+    Socket(usize, usize),
+}
+
+/// A vertex of the canonical head at rest.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Knot {
+    pub(super) at: Vec3,
+    pub(super) place: Place,
+    /// How much light reaches it.
+    pub(super) open: f32,
+}
+
+/// The canonical head.
+#[derive(Debug)]
+pub(super) struct Canon {
+    pub(super) knots: Vec<Knot>,
+    pub(super) triangles: Vec<[u32; 3]>,
+    /// Triangles of the scalp.
+    pub(super) scalp: Vec<[u32; 3]>,
+    front: Vec<f32>,
+}
+
+/// Steps of the table of the front's surface, and its reach.
+const TABLE: usize = 72;
+const REACH: f32 = 0.52;
+
+impl Canon {
+    /// Returns the head; built once.
+    pub(super) fn get() -> &'static Self {
+        static CANON: OnceLock<Canon> = OnceLock::new();
+        CANON.get_or_init(Self::make)
+    }
+
+    /// Returns how far forwards the surface is at a place seen from the front.
+    pub(super) fn front(&self, x: f32, y: f32) -> f32 {
+        let at = |v: f32| {
+            ((v / REACH + 1.0) * 0.5 * (TABLE - 1) as f32).clamp(0.0, TABLE as f32 - 1.001)
+        };
+        let (u, v) = (at(x), at(y));
+        let (i, j) = (u as usize, v as usize);
+        let value = |i: usize, j: usize| self.front[j * TABLE + i];
+        let (s, t) = (u - i as f32, v - j as f32);
+        let row = |j: usize| value(i, j) * (1.0 - s) + value(i + 1, j) * s;
+        row(j) * (1.0 - t) + row(j + 1) * t
+    }
+
+    fn make() -> Self {
+        let solids = solids();
+        let field = |p: Vec3| head(&solids, p);
+        let step = 2.0 * REACH / (TABLE - 1) as f32;
+        let front: Vec<f32> = (0..TABLE * TABLE)
+            .map(|i| {
+                let (x, y) = (
+                    (i % TABLE) as f32 * step - REACH,
+                    (i / TABLE) as f32 * step - REACH,
+                );
+                from_front(&field, x, y)
+            })
+            .collect();
+        let mut canon = Self {
+            knots: Vec::new(),
+            triangles: Vec::new(),
+            scalp: Vec::new(),
+            front,
+        };
+        canon.lay_out(&field);
+        canon.shade(&field);
+        canon
+    }
+
+    fn lay_out(&mut self, field: &dyn Fn(Vec3) -> f32) {
+        let mut places: Vec<(Vec3, Place)> = Vec::new();
+        // Laid out with the lips apart, so that no two vertices lie in one place.
+        for ring in 0..4 {
+            for k in 0..MOUTH {
+                let [x, y] = lip(ring, k, 0.7);
+                places.push((Vec3::new(x, y, self.front(x, y)), Place::Mouth(ring, k)));
+            }
+        }
+        for side in 0..2 {
+            for ring in 0..4 {
+                for k in 0..EYE {
+                    let [x, y] = lid(side, ring, k);
+                    places.push((Vec3::new(x, y, self.front(x, y)), Place::Eye(side, ring, k)));
+                }
+            }
+        }
+        let loops = places.len();
+        // The line where the hair begins, then the nose, then the rest.
+        for k in 0..44 {
+            let around = TAU * k as f32 / 44.0;
+            let way = Vec3::new(around.sin(), hairline(around), around.cos());
+            let flat = Vec3::new(around.sin(), 0.0, around.cos());
+            let at = level(field, flat, way.y);
+            places.push((at, Place::Skin));
+        }
+        for k in 0..32 {
+            let (row, column) = (k / 4, k % 4);
+            let y = 0.0 - row as f32 * 0.029;
+            let wide = 0.020 + 0.050 * smooth_step(row as f32 / 6.0);
+            let x = (column as f32 / 1.5 - 1.0) * wide;
+            places.push((Vec3::new(x, y, self.front(x, y)), Place::Skin));
+        }
+        let fine = 0.115;
+        let grid = |spacing: f32| {
+            let rows = (PI / (spacing * 0.866)) as i32 + 1;
+            let columns = (PI / spacing) as i32 + 1;
+            (-rows..=rows).flat_map(move |row| {
+                (-columns..=columns).map(move |column| {
+                    let shift = if row % 2 == 0 { 0.0 } else { 0.5 };
+                    Vec2::new(
+                        (column as f32 + shift) * spacing,
+                        row as f32 * spacing * 0.866,
+                    )
+                })
+            })
+        };
+        for (spacing, from, to) in [(fine, 0.0, 1.15), (0.19, 1.15, 2.62)] {
+            for at in grid(spacing) {
+                let angle = at.length();
+                if angle < from || angle >= to {
+                    continue;
+                }
+                let at = thrown(field, direction(at));
+                let own = flat(at);
+                let near = places.iter().enumerate().any(|(index, (other, _))| {
+                    let limit = if index < loops {
+                        0.55 * fine
+                    } else {
+                        0.62 * spacing
+                    };
+                    flat(*other).distance(own) < f64::from(limit)
+                });
+                let inside = is_in_loop(&places, own, at);
+                if !near && !inside {
+                    places.push((at, Place::Skin));
+                }
+            }
+        }
+        let rim = places.len();
+        for k in 0..16 {
+            let angle = TAU * k as f32 / 16.0;
+            let at = Vec2::new(angle.cos(), angle.sin()) * 2.80;
+            places.push((thrown(field, direction(at)), Place::Skin));
+        }
+        let points: Vec<DVec2> = places.iter().map(|(at, _)| flat(*at)).collect();
+        let mut triangles = delaunay::net(&points);
+        triangles.retain(|t| !is_opening(t.map(|i| places[i].1)));
+        // Seen from outside, left of the signer is right: the net is anticlockwise as it is.
+        for (at, place) in &places {
+            self.knots.push(Knot {
+                at: *at,
+                place: *place,
+                open: 1.0,
+            });
+        }
+        self.triangles = triangles.iter().map(|t| t.map(|i| i as u32)).collect();
+        self.rest();
+        self.close(rim, field);
+        self.grow_hair();
+    }
+
+    /// Moves the loops to where they are at rest.
+    fn rest(&mut self) {
+        let moved: Vec<Vec3> = self
+            .knots
+            .iter()
+            .map(|knot| match knot.place {
+                Place::Mouth(ring, k) => {
+                    let [x, y] = lip(ring, k, 0.0);
+                    Vec3::new(x, y, self.front(x, y))
+                }
+                _ => knot.at,
+            })
+            .collect();
+        for (knot, at) in self.knots.iter_mut().zip(moved) {
+            knot.at = at;
+        }
+    }
+
+    /// Closes the back of the head, the mouth and the eyes.
+    fn close(&mut self, rim: usize, field: &dyn Fn(Vec3) -> f32) {
+        let back = self.add(thrown(field, Vec3::NEG_Z), Place::Skin);
+        for k in 0..16 {
+            let (a, b) = ((rim + k) as u32, (rim + (k + 1) % 16) as u32);
+            self.triangles.push([b, a, back]);
+        }
+        let first = |place: Place, knots: &[Knot]| knots.iter().position(|it| it.place == place);
+        let mouth = first(Place::Mouth(0, 0), &self.knots).unwrap_or(0) as u32;
+        let bowl: Vec<u32> = (0..MOUTH)
+            .map(|k| {
+                let at = self.knots[mouth as usize + k].at;
+                self.add(at - Vec3::Z * 0.07, Place::Bowl(k))
+            })
+            .collect();
+        let pole = self.add(Vec3::new(0.0, LIPS, 0.16), Place::Bowl(MOUTH));
+        for k in 0..MOUTH as u32 {
+            let next = (k + 1) % MOUTH as u32;
+            let (a, b) = (mouth + k, mouth + next);
+            let (c, d) = (bowl[k as usize], bowl[next as usize]);
+            self.triangles
+                .extend([[a, b, d], [a, d, c], [c, d, pole]].map(|[p, q, r]| [p, r, q]));
+        }
+        for side in 0..2 {
+            let edge = first(Place::Eye(side, 0, 0), &self.knots).unwrap_or(0) as u32;
+            let sign = if side == 0 { -1.0 } else { 1.0 };
+            let centre = BALL.0 * Vec3::new(sign, 1.0, 1.0);
+            let pole = self.add(centre - Vec3::Z * 0.10, Place::Socket(side, EYE));
+            for k in 0..EYE as u32 {
+                let next = (k + 1) % EYE as u32;
+                self.triangles.push([edge + k, pole, edge + next]);
+            }
+        }
+        orient(&mut self.triangles, &self.knots);
+    }
+
+    fn add(&mut self, at: Vec3, place: Place) -> u32 {
+        self.knots.push(Knot {
+            at,
+            place,
+            open: 1.0,
+        });
+        self.knots.len() as u32 - 1
+    }
+
+    fn grow_hair(&mut self) {
+        let above: Vec<bool> = self
+            .knots
+            .iter()
+            .map(|knot| knot.place == Place::Skin && scalp(knot.at) > -0.004)
+            .collect();
+        let scalp = self
+            .triangles
+            .iter()
+            .filter(|t| t.iter().all(|&i| above[i as usize]));
+        self.scalp = scalp.copied().collect();
+    }
+
+    fn shade(&mut self, field: &dyn Fn(Vec3) -> f32) {
+        for knot in &mut self.knots {
+            let normal = super::form::slope(field, knot.at, 0.006);
+            let mut dark = 0.0;
+            for step in 1..=5 {
+                let far = step as f32 * 0.03;
+                dark += (far - field(knot.at + normal * far)).max(0.0) / 0.03 * 0.5f32.powi(step);
+            }
+            knot.open = (1.0 - 0.26 * dark).clamp(0.80, 1.0);
+        }
+    }
+}
+
+/// Gives all triangles of a connected net one sense, outwards.
+fn orient(triangles: &mut [[u32; 3]], knots: &[Knot]) {
+    use std::collections::BTreeMap;
+    let mut edges: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
+    for (index, t) in triangles.iter().enumerate() {
+        for k in 0..3 {
+            let (a, b) = (t[k], t[(k + 1) % 3]);
+            edges.entry((a.min(b), a.max(b))).or_default().push(index);
+        }
+    }
+    let mut known = vec![false; triangles.len()];
+    let mut next = vec![0];
+    known[0] = true;
+    while let Some(index) = next.pop() {
+        let own = triangles[index];
+        for k in 0..3 {
+            let (a, b) = (own[k], own[(k + 1) % 3]);
+            for &other in &edges[&(a.min(b), a.max(b))] {
+                if known[other] {
+                    continue;
+                }
+                let t = triangles[other];
+                let same = (0..3).any(|k| (t[k], t[(k + 1) % 3]) == (a, b));
+                if same {
+                    triangles[other].swap(1, 2);
+                }
+                known[other] = true;
+                next.push(other);
+            }
+        }
+    }
+    let corner = |i: u32| knots[i as usize].at;
+    let volume: f32 = triangles
+        .iter()
+        .map(|t| corner(t[0]).dot(corner(t[1]).cross(corner(t[2]))))
+        .sum();
+    if volume < 0.0 {
+        for triangle in triangles {
+            triangle.swap(1, 2);
+        }
+    }
+}
+
+/// Returns a place of the plane on which the net is laid out: the direction from the middle of the head, by its angle
+/// from straight ahead.
+fn flat(at: Vec3) -> DVec2 {
+    let way = (at - MIDDLE).as_dvec3().normalize();
+    let angle = way.z.clamp(-1.0, 1.0).acos();
+    DVec2::new(way.x, way.y).normalize_or_zero() * angle
+}
+
+fn direction(at: Vec2) -> Vec3 {
+    let angle = at.length();
+    let way = at.normalize_or_zero();
+    Vec3::new(way.x * angle.sin(), way.y * angle.sin(), angle.cos())
+}
+
+/// Returns the surface in a direction from the middle of the head.
+fn thrown(field: &dyn Fn(Vec3) -> f32, towards: Vec3) -> Vec3 {
+    let (mut low, mut high) = (0.1, 0.9);
+    for _ in 0..18 {
+        let middle = (low + high) * 0.5;
+        if field(MIDDLE + towards * middle) < 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    MIDDLE + towards * high
+}
+
+/// Returns the surface at a height in a level direction from the middle of the head.
+fn level(field: &dyn Fn(Vec3) -> f32, towards: Vec3, y: f32) -> Vec3 {
+    let from = Vec3::new(0.0, y, MIDDLE.z);
+    let (mut low, mut high) = (0.05, 0.7);
+    for _ in 0..18 {
+        let middle = (low + high) * 0.5;
+        if field(from + towards * middle) < 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    from + towards * high
+}
+
+fn from_front(field: &dyn Fn(Vec3) -> f32, x: f32, y: f32) -> f32 {
+    let mut z = 0.62;
+    for _ in 0..60 {
+        let away = field(Vec3::new(x, y, z));
+        if away < 0.0008 || z < -0.5 {
+            break;
+        }
+        z -= (away * 0.8).max(0.001);
+    }
+    z.max(-0.2)
+}
+
+/// Returns whether a place lies inside an opening or its loops.
+fn is_in_loop(places: &[(Vec3, Place)], at: DVec2, place: Vec3) -> bool {
+    let within = |wanted: &dyn Fn(Place) -> bool| {
+        let corners: Vec<DVec2> = places
+            .iter()
+            .filter(|(_, place)| wanted(*place))
+            .map(|(at, _)| flat(*at))
+            .collect();
+        let mut inside = false;
+        for k in 0..corners.len() {
+            let (a, b) = (corners[k], corners[(k + 1) % corners.len()]);
+            if (a.y > at.y) != (b.y > at.y) && at.x < (b.x - a.x) * (at.y - a.y) / (b.y - a.y) + a.x
+            {
+                inside = !inside;
+            }
+        }
+        inside
+    };
+    place.z > 0.0
+        && (within(&|it| matches!(it, Place::Mouth(3, _)))
+            || within(&|it| matches!(it, Place::Eye(0, 3, _)))
+            || within(&|it| matches!(it, Place::Eye(1, 3, _))))
+}
+
+fn is_opening(places: [Place; 3]) -> bool {
+    places.iter().all(|it| matches!(it, Place::Mouth(0, _)))
+        || places.iter().all(|it| matches!(it, Place::Eye(0, 0, _)))
+        || places.iter().all(|it| matches!(it, Place::Eye(1, 0, _)))
+}
+
+/// Returns a corner of the mouth's loops with the lips apart by a share.
+fn lip(ring: usize, k: usize, apart: f32) -> [f32; 2] {
+    let (sine, cosine) = (TAU * k as f32 / MOUTH as f32).sin_cos();
+    let far = sine.abs();
+    let bow = 1.0 - 0.28 * (-(cosine / 0.16).powi(2)).exp();
+    let (thick, gap) = if sine >= 0.0 {
+        (0.034 * far.powf(0.8) * bow, 0.032 * apart)
+    } else {
+        (0.042 * far.powf(0.9), 0.029 * apart)
+    };
+    let [inner, wide] = [[0.0, 0.97], [0.5, 0.985], [1.0, 1.0], [1.0, 1.22]][ring];
+    let skin = if ring == 3 { 0.032 } else { 0.0 };
+    let y = sine.signum() * (thick * inner + gap * far.powf(0.75) + skin * far)
+        + 0.004 * cosine.abs().powf(2.2);
+    [0.110 * wide * cosine, LIPS + y]
+}
+
+/// Returns a corner of the loops of the right (0) or left (1) eye.
+pub(super) fn lid(side: usize, ring: usize, k: usize) -> [f32; 2] {
+    let half = EYE as f32 / 2.0;
+    let upper = k < EYE / 2;
+    // From the inner corner to the outer one above, and back below.
+    let t = if upper {
+        k as f32 / half
+    } else {
+        2.0 - k as f32 / half
+    };
+    let height = if upper {
+        0.042 * (PI * t.powf(0.85)).sin().max(0.0).powf(0.8)
+    } else {
+        -0.030 * (PI * t.powf(1.15)).sin().max(0.0).powf(0.9)
+    };
+    let x = -0.072 * (PI * t).cos();
+    let (wide, more) = [(1.0, 0.0), (1.06, 0.0075), (1.18, 0.022), (1.42, 0.042)][ring];
+    let round = (1.0 - (x / 0.072).powi(2)).max(0.0).sqrt();
+    let y = height + more * round * if upper { 1.0 } else { -0.75 };
+    let sign = if side == 0 { -1.0 } else { 1.0 };
+    [sign * (BALL.0.x + x * wide), y]
+}
+
+/// Returns the height of the hairline at an angle around the head, 0 straight ahead.
+fn hairline(around: f32) -> f32 {
+    const LINE: [[f32; 2]; 9] = [
+        [0.0, 0.335],
+        [30.0, 0.315],
+        [48.0, 0.26],
+        [62.0, 0.17],
+        [74.0, -0.02],
+        [86.0, 0.02],
+        [100.0, 0.06],
+        [125.0, -0.17],
+        [180.0, -0.26],
+    ];
+    let around = (around / TAU).fract() * 360.0;
+    let angle = if around > 180.0 {
+        360.0 - around
+    } else {
+        around
+    };
+    let piece = LINE.windows(2).find(|pair| angle <= pair[1][0]);
+    piece.map_or(-0.26, |pair| {
+        let share = (angle - pair[0][0]) / (pair[1][0] - pair[0][0]);
+        pair[0][1] + (pair[1][1] - pair[0][1]) * share
+    })
+}
+
+/// Returns how far above the hairline a place of the head is.
+pub(super) fn scalp(at: Vec3) -> f32 {
+    at.y - hairline(at.x.atan2(at.z - MIDDLE.z).rem_euclid(TAU))
+}
+
+struct Solids {
+    grown: Vec<(Vec<Solid>, f32)>,
+    sockets: Vec<Solid>,
+    nose: Vec<(Vec<Solid>, f32)>,
+}
+
+fn solids() -> Solids {
+    let both = |make: &dyn Fn(f32) -> Solid| vec![make(1.0), make(-1.0)];
+    Solids {
+        grown: vec![
+            (
+                vec![Solid::ball([0.0, 0.105, -0.055], [0.325, 0.395, 0.410])],
+                0.10,
+            ),
+            (
+                vec![Solid::ball([0.0, -0.10, 0.070], [0.262, 0.345, 0.265])],
+                0.10,
+            ),
+            (
+                both(&|s| {
+                    Solid::rod(
+                        [0.180 * s, -0.235, -0.03],
+                        [0.055 * s, -0.410, 0.185],
+                        [0.092, 0.078],
+                    )
+                }),
+                0.10,
+            ),
+            (
+                vec![Solid::ball([0.0, -0.43, 0.220], [0.085, 0.06, 0.065])],
+                0.05,
+            ),
+            (
+                both(&|s| Solid::ball([0.150 * s, -0.105, 0.180], [0.125, 0.125, 0.125])),
+                0.07,
+            ),
+            (
+                both(&|s| {
+                    Solid::rod(
+                        [0.03 * s, 0.085, 0.272],
+                        [0.19 * s, 0.075, 0.205],
+                        [0.052, 0.048],
+                    )
+                }),
+                0.05,
+            ),
+        ],
+        sockets: both(&|s| Solid::ball([0.140 * s, 0.002, 0.385], [0.088, 0.088, 0.088])),
+        nose: vec![
+            (
+                vec![Solid::rod(
+                    [0.0, 0.035, 0.288],
+                    [0.0, -0.148, 0.400],
+                    [0.024, 0.038],
+                )],
+                0.028,
+            ),
+            (
+                both(&|s| Solid::ball([0.043 * s, -0.165, 0.335], [0.034, 0.030, 0.034])),
+                0.025,
+            ),
+            (
+                vec![Solid::ball([0.0, -0.280, 0.232], [0.125, 0.095, 0.100])],
+                0.05,
+            ),
+        ],
+    }
+}
+
+fn head(solids: &Solids, point: Vec3) -> f32 {
+    let add = |all: f32, (parts, width): &(Vec<Solid>, f32)| {
+        parts
+            .iter()
+            .fold(all, |all, solid| joined(all, solid.distance(point), *width))
+    };
+    let mut all = solids.grown.iter().fold(f32::INFINITY, add);
+    for socket in &solids.sockets {
+        all = -joined(-all, socket.distance(point), 0.06);
+    }
+    solids.nose.iter().fold(all, add)
+}

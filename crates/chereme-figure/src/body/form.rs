@@ -1,0 +1,137 @@
+//! Implicit solids that a surface is thrown onto, and rays and steps towards their skin.
+
+use glam::Vec3;
+
+/// A simple solid; lengths in any one unit.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Solid {
+    /// Everything near a segment: its ends, the radii there, and how much thinner it is along a direction.
+    Rod {
+        ends: [Vec3; 2],
+        radii: [f32; 2],
+        flat: (Vec3, f32),
+    },
+    /// An ellipsoid along the axes.
+    Ball { centre: Vec3, radii: Vec3 },
+}
+
+impl Solid {
+    pub(super) fn rod(a: [f32; 3], b: [f32; 3], radii: [f32; 2]) -> Self {
+        Self::Rod {
+            ends: [Vec3::from_array(a), Vec3::from_array(b)],
+            radii,
+            flat: (Vec3::Z, 1.0),
+        }
+    }
+
+    pub(super) fn ball(centre: [f32; 3], radii: [f32; 3]) -> Self {
+        Self::Ball {
+            centre: Vec3::from_array(centre),
+            radii: Vec3::from_array(radii),
+        }
+    }
+
+    /// Returns the solid, thinner by `factor` along `direction`.
+    pub(super) fn flat(self, direction: Vec3, factor: f32) -> Self {
+        match self {
+            Self::Rod { ends, radii, .. } => Self::Rod {
+                ends,
+                radii,
+                flat: (direction, factor),
+            },
+            ball => ball,
+        }
+    }
+
+    /// Returns about how far a point is outside; negative inside.
+    pub(super) fn distance(&self, point: Vec3) -> f32 {
+        match *self {
+            Self::Rod {
+                ends,
+                radii,
+                flat: (direction, factor),
+            } => {
+                let stretched = |p: Vec3| p + direction * ((factor - 1.0) * p.dot(direction));
+                let [a, b] = ends.map(stretched);
+                let (from, bone) = (stretched(point) - a, b - a);
+                let share = from.dot(bone) / bone.length_squared().max(1e-9);
+                let share = share.clamp(0.0, 1.0);
+                let radius = radii[0] + (radii[1] - radii[0]) * share;
+                ((from - bone * share).length() - radius) / (1.0 + (factor - 1.0) / 2.0)
+            }
+            Self::Ball { centre, radii } => {
+                let from = point - centre;
+                let (near, steep) = (
+                    (from / radii).length(),
+                    (from / (radii * radii)).length().max(1e-9),
+                );
+                near * (near - 1.0) / steep
+            }
+        }
+    }
+}
+
+/// Returns the smaller of two distances, rounded over a width.
+pub(super) fn joined(a: f32, b: f32, width: f32) -> f32 {
+    let near = (width - (a - b).abs()).max(0.0) / width.max(1e-9);
+    a.min(b) - near * near * width * 0.25
+}
+
+/// Returns the distance to several solids that grow together over a width.
+pub(super) fn grown(solids: &[Solid], width: f32, point: Vec3) -> f32 {
+    let distances = solids.iter().map(|solid| solid.distance(point));
+    distances.fold(f32::INFINITY, |all, one| joined(all, one, width))
+}
+
+/// Returns the outward direction of a field at a point.
+pub(super) fn slope(field: &dyn Fn(Vec3) -> f32, point: Vec3, step: f32) -> Vec3 {
+    let way = [
+        Vec3::new(1.0, -1.0, -1.0),
+        Vec3::new(-1.0, -1.0, 1.0),
+        Vec3::new(-1.0, 1.0, -1.0),
+        Vec3::new(1.0, 1.0, 1.0),
+    ];
+    let sum: Vec3 = way.iter().map(|&way| way * field(point + way * step)).sum();
+    sum.normalize_or(Vec3::Y)
+}
+
+/// Returns the point of the skin near `point`.
+pub(super) fn on_skin(field: &dyn Fn(Vec3) -> f32, point: Vec3, step: f32) -> Vec3 {
+    let mut at = point;
+    for _ in 0..6 {
+        let away = field(at);
+        if away.abs() < step * 0.05 {
+            break;
+        }
+        at -= slope(field, at, step) * away.clamp(-step * 30.0, step * 30.0);
+    }
+    at
+}
+
+/// Returns the first point of the skin on a ray from inside.
+pub(super) fn thrown(field: &dyn Fn(Vec3) -> f32, from: Vec3, towards: Vec3, step: f32) -> Vec3 {
+    let mut far = 0.0;
+    for _ in 0..200 {
+        let away = field(from + towards * far);
+        if away >= 0.0 {
+            break;
+        }
+        far += (-away * 0.7).max(step * 0.2);
+    }
+    let (mut low, mut high) = ((far - step * 2.0).max(0.0), far);
+    for _ in 0..12 {
+        let middle = (low + high) * 0.5;
+        if field(from + towards * middle) < 0.0 {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    from + towards * high
+}
+
+/// Returns 0 below 0, 1 above 1, and a smooth rise between.
+pub(super) fn smooth_step(share: f32) -> f32 {
+    let share = share.clamp(0.0, 1.0);
+    share * share * (3.0 - 2.0 * share)
+}

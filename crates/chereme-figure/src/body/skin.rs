@@ -1,0 +1,192 @@
+//! A skin whose vertices follow several joints, and the joints between joints that keep it full at bends.
+
+use chereme_motion::ModelPose;
+use glam::{Mat3, Quat, Vec3};
+
+use super::shape::{place, rotation};
+use super::trunk::{ArmRig, TrunkRig};
+
+/// Something that moves vertices of a skin. Turns are relative to the posture in which the skin was fitted, the
+/// bind posture, in a space of its own: the signer's left, up and forwards about the middle of the shoulders.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Follower {
+    /// A joint; `turn` takes bind space to the joint's space, `at` is its place in bind space.
+    Joint {
+        joint: usize,
+        turn: Quat,
+        at: Vec3,
+    },
+    /// The same as another follower.
+    Same(usize),
+    /// A joint turned halfway between two followers about a place of bind space, thicker across a bend.
+    Half {
+        parent: usize,
+        child: usize,
+        at: Vec3,
+        along: Vec3,
+        swell: f32,
+    },
+    /// The pelvis, and the chest.
+    Pelvis,
+    Chest,
+    /// The skin over a shoulder: turned with the chest, moved with the shoulder's joint.
+    Shoulder(usize),
+    /// The upper arm with a share of its turn about its length.
+    Upper(usize, f32),
+    /// The forearm with a share of the hand's turn about its length.
+    Fore(usize, f32),
+    /// The hand.
+    Hand(usize),
+}
+
+/// How a follower moves what is fixed to it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Motion {
+    pub(super) turn: Quat,
+    pub(super) from: Vec3,
+    pub(super) to: Vec3,
+    pub(super) stretch: Option<(Vec3, f32)>,
+}
+
+impl Motion {
+    pub(super) fn new(turn: Quat, from: Vec3, to: Vec3) -> Self {
+        Self {
+            turn,
+            from,
+            to,
+            stretch: None,
+        }
+    }
+
+    /// Returns the turned axes and the offset of this motion.
+    fn matrix(&self) -> (Mat3, Vec3) {
+        let mut turn = Mat3::from_quat(self.turn);
+        if let Some((direction, factor)) = self.stretch {
+            let outer = Mat3::from_cols(
+                direction * direction.x,
+                direction * direction.y,
+                direction * direction.z,
+            );
+            turn *= Mat3::IDENTITY + outer * (factor - 1.0);
+        }
+        (turn, self.to - turn * self.from)
+    }
+}
+
+/// A vertex of a skin: its place in bind space, and the followers that move it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Bound {
+    pub(super) at: Vec3,
+    pub(super) followers: [u16; 4],
+    pub(super) weights: [f32; 4],
+}
+
+impl Bound {
+    /// Returns a vertex moved by weighted followers, of which the four strongest count.
+    pub(super) fn new(at: Vec3, shares: &[(usize, f32)]) -> Self {
+        let mut sorted: Vec<(usize, f32)> = Vec::with_capacity(shares.len());
+        for &(follower, share) in shares {
+            match sorted.iter_mut().find(|(known, _)| *known == follower) {
+                Some((_, sum)) => *sum += share,
+                None => sorted.push((follower, share)),
+            }
+        }
+        sorted.sort_by(|a, b| b.1.total_cmp(&a.1));
+        sorted.truncate(4);
+        let sum: f32 = sorted.iter().map(|it| it.1).sum();
+        let mut bound = Self {
+            at,
+            followers: [0; 4],
+            weights: [0.0; 4],
+        };
+        for (k, (follower, share)) in sorted.into_iter().enumerate() {
+            bound.followers[k] = follower as u16;
+            bound.weights[k] = share / sum.max(1e-6);
+        }
+        bound
+    }
+}
+
+/// The followers of a body and how they move.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Rig {
+    pub(super) followers: Vec<Follower>,
+    pub(super) trunk: Option<TrunkRig>,
+    pub(super) arms: [Option<ArmRig>; 2],
+}
+
+impl Rig {
+    /// Adds a follower and returns its number.
+    pub(super) fn add(&mut self, follower: Follower) -> usize {
+        self.followers.push(follower);
+        self.followers.len() - 1
+    }
+
+    /// Returns how each follower moves in `pose`.
+    pub(super) fn motions(&self, pose: &ModelPose) -> Vec<(Mat3, Vec3)> {
+        let trunk = self.trunk.as_ref().map(|trunk| trunk.posed(pose));
+        let chest = trunk.map_or(Quat::IDENTITY, |it| it.chest.turn);
+        let arms = [0, 1].map(|side| self.arms[side].as_ref().map(|arm| arm.posed(pose, chest)));
+        let rest = Motion::new(Quat::IDENTITY, Vec3::ZERO, Vec3::ZERO);
+        let mut motions: Vec<Motion> = Vec::with_capacity(self.followers.len());
+        for follower in &self.followers {
+            let motion = match *follower {
+                Follower::Joint { joint, turn, at } => {
+                    Motion::new(rotation(pose, joint) * turn, at, place(pose, joint))
+                }
+                Follower::Same(other) => motions[other],
+                Follower::Half {
+                    parent,
+                    child,
+                    at,
+                    along,
+                    swell,
+                } => half([motions[parent], motions[child]], at, along, swell),
+                Follower::Pelvis => trunk.map_or(rest, |it| it.pelvis),
+                Follower::Chest => trunk.map_or(rest, |it| it.chest),
+                Follower::Shoulder(side) => arms[side].map_or(rest, |arm| arm.shoulder),
+                Follower::Upper(side, share) => arms[side].map_or(rest, |arm| arm.upper(share)),
+                Follower::Fore(side, share) => arms[side].map_or(rest, |arm| arm.fore(share)),
+                Follower::Hand(side) => arms[side].map_or(rest, |arm| arm.hand),
+            };
+            motions.push(motion);
+        }
+        motions.iter().map(Motion::matrix).collect()
+    }
+}
+
+/// Returns the motion halfway between two, about a place of the child.
+fn half([parent, child]: [Motion; 2], at: Vec3, along: Vec3, swell: f32) -> Motion {
+    let other = if parent.turn.dot(child.turn) < 0.0 {
+        -child.turn
+    } else {
+        child.turn
+    };
+    let sum = parent.turn + other;
+    let turn = if sum.length_squared() > 1e-6 {
+        sum.normalize()
+    } else {
+        child.turn
+    };
+    let (axis, angle) = (parent.turn.inverse() * other).normalize().to_axis_angle();
+    let across = axis.cross(along);
+    let stretch = (angle > 0.02 && across.length_squared() > 0.04).then(|| {
+        let much = (1.0 - (angle.min(2.4) / 2.0).cos()) / (1.0 - std::f32::consts::FRAC_PI_4.cos());
+        (across.normalize(), 1.0 + swell * much)
+    });
+    let (turned, offset) = child.matrix();
+    Motion {
+        turn,
+        from: at,
+        to: turned * at + offset,
+        stretch,
+    }
+}
+
+/// Returns a rotation about `axis` by the part of `turn` that turns about it, in radians.
+pub(super) fn twist(turn: Quat, axis: Vec3) -> f32 {
+    let sine = Vec3::new(turn.x, turn.y, turn.z).dot(axis);
+    let angle = 2.0 * sine.atan2(turn.w);
+    let full = std::f32::consts::TAU;
+    angle - full * (angle / full).round()
+}

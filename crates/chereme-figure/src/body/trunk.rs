@@ -1,0 +1,298 @@
+//! How trunk and arms of a skeleton turn, whatever its joints' own axes are.
+
+use chereme_motion::{Anatomy, ModelPose, Side, Skeleton, anatomy::Part};
+use glam::{Mat3, Quat, Vec3};
+
+use super::hand::HandAxes;
+use super::shape::{place, rotation};
+use super::skin::{Motion, twist};
+
+/// The arm's direction below level in the bind posture, in radians.
+const LOWERED: f32 = 0.70;
+
+/// Returns the direction of an arm in the bind posture.
+pub(super) fn arm_direction(side: Side) -> Vec3 {
+    let (sine, cosine) = LOWERED.sin_cos();
+    Vec3::new(cosine * side.sign() as f32, -sine, 0.0)
+}
+
+/// The joints of the trunk, and where they are in bind space.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct TrunkRig {
+    /// Right and left shoulder.
+    shoulders: [usize; 2],
+    /// Joints on the right and the left whose line turns with the chest, and with the pelvis.
+    lines: [Option<[usize; 2]>; 2],
+    /// The joint in the middle of the spine.
+    middle: Option<usize>,
+    hips: Option<usize>,
+    /// A joint and the upward direction in its space, if nothing below the shoulders is known.
+    upright: (usize, Vec3),
+    /// The joint that the chest is fixed to, and its place in bind space.
+    anchor: Option<(usize, Vec3)>,
+    hips_at: Vec3,
+    /// From the turned chest and pelvis to bind space, in the posture at rest.
+    rest: [Quat; 2],
+}
+
+/// The motions of pelvis and chest.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct TrunkPosed {
+    pub(super) pelvis: Motion,
+    pub(super) chest: Motion,
+}
+
+/// Returns the rotation whose first axis is `left` and whose second is as near to `up` as it can be.
+fn turned(left: Vec3, up: Vec3) -> Quat {
+    let left = left.normalize_or(Vec3::X);
+    let up = (up - left * left.dot(up)).normalize_or(left.any_orthonormal_vector());
+    Quat::from_mat3(&Mat3::from_cols(left, up, left.cross(up))).normalize()
+}
+
+impl TrunkRig {
+    /// Returns the trunk of a skeleton with both shoulders.
+    pub(super) fn of(
+        skeleton: &Skeleton,
+        anatomy: &Anatomy,
+        rest: &ModelPose,
+        (size, trunk): (f32, f32),
+    ) -> Option<Self> {
+        let joint = |part| anatomy.joint(part);
+        let pair = |part: fn(Side) -> Part| match Side::BOTH.map(|side| joint(part(side))) {
+            [Some(right), Some(left)] => Some([right, left]),
+            _ => None,
+        };
+        let shoulders = pair(Part::UpperArm)?;
+        let apart = |[right, left]: [usize; 2]| place(rest, right).distance(place(rest, left));
+        let collars = pair(Part::Clavicle).filter(|&it| apart(it) > 0.12 * apart(shoulders));
+        let thighs = pair(Part::Thigh).filter(|&it| apart(it) > 0.03 * size);
+        let mid = (place(rest, shoulders[0]) + place(rest, shoulders[1])) * 0.5;
+        let hips = joint(Part::Hips).filter(|&hips| place(rest, hips).distance(mid) > 0.25 * size);
+        let top = joint(Part::Neck).or(joint(Part::Head));
+        let middle = hips.zip(top).and_then(|(hips, top)| {
+            let target = place(rest, hips).lerp(mid, 0.45);
+            let far = |joint: usize| place(rest, joint).distance(target);
+            let chain = skeleton.ancestors(top).skip(1);
+            let nearest = chain
+                .take_while(|&joint| joint != hips)
+                .min_by(|&a, &b| far(a).total_cmp(&far(b)))?;
+            (far(nearest) < 0.15 * size).then_some(nearest)
+        });
+        let above: Vec<usize> = skeleton.ancestors(shoulders[0]).collect();
+        let shared = skeleton
+            .ancestors(shoulders[1])
+            .find(|it| above.contains(it));
+        let carrier = joint(Part::Chest).or(shared).unwrap_or(0);
+        let up = anatomy
+            .body_frame(rest)
+            .map_or(Vec3::Y, |it| it.up.as_vec3());
+        let mut rig = Self {
+            shoulders,
+            lines: [collars, thighs],
+            middle,
+            hips,
+            upright: (carrier, rotation(rest, carrier).inverse() * up),
+            anchor: None,
+            hips_at: Vec3::new(0.0, -trunk, 0.0),
+            rest: [Quat::IDENTITY; 2],
+        };
+        if anatomy.is_posed() {
+            let own = turned(rig.left(rest, None), rig.up(rest));
+            let found = rig.axes(rest);
+            rig.rest = found.map(|it| (it.inverse() * own).normalize());
+            let within = |joint: usize| own.inverse() * (place(rest, joint) - mid);
+            rig.anchor = joint(Part::Neck)
+                .map(|neck| (neck, within(neck)))
+                .filter(|(_, at)| {
+                    let at = *at / size;
+                    at.x.abs() < 0.05 && (0.0..0.2).contains(&at.y) && at.z.abs() < 0.12
+                });
+            if let Some(at) = hips.map(within).filter(|at| at.z.abs() < 0.1 * size) {
+                rig.hips_at.z = at.z;
+            }
+        }
+        Some(rig)
+    }
+
+    fn mid(&self, pose: &ModelPose) -> Vec3 {
+        let [right, left] = self.shoulders.map(|joint| place(pose, joint));
+        (right + left) * 0.5
+    }
+
+    fn left(&self, pose: &ModelPose, line: Option<[usize; 2]>) -> Vec3 {
+        let [right, left] = line.or(self.lines[0]).unwrap_or(self.shoulders);
+        place(pose, left) - place(pose, right)
+    }
+
+    fn up(&self, pose: &ModelPose) -> Vec3 {
+        let (joint, up) = self.upright;
+        match self.hips {
+            Some(hips) => self.mid(pose) - place(pose, hips),
+            None => rotation(pose, joint) * up,
+        }
+    }
+
+    /// Returns the axes of chest and pelvis.
+    fn axes(&self, pose: &ModelPose) -> [Quat; 2] {
+        let whole = self.up(pose);
+        let chest = self
+            .middle
+            .map_or(whole, |it| self.mid(pose) - place(pose, it));
+        let pelvis = match (self.middle, self.hips) {
+            (Some(middle), Some(hips)) => place(pose, middle) - place(pose, hips),
+            _ => whole,
+        };
+        [
+            turned(self.left(pose, None), chest),
+            turned(self.left(pose, self.lines[1]), pelvis),
+        ]
+    }
+
+    pub(super) fn posed(&self, pose: &ModelPose) -> TrunkPosed {
+        let axes = self.axes(pose);
+        let turns = [0, 1].map(|part| (axes[part] * self.rest[part]).normalize());
+        let (from, to) = match self.anchor {
+            Some((joint, at)) => (at, place(pose, joint)),
+            None => (Vec3::ZERO, self.mid(pose)),
+        };
+        let chest = Motion::new(turns[0], from, to);
+        let pelvis = match self.hips {
+            Some(hips) => Motion::new(turns[1], self.hips_at, place(pose, hips)),
+            None => chest,
+        };
+        TrunkPosed { pelvis, chest }
+    }
+}
+
+/// The joints of an arm, and where they are in bind space.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ArmRig {
+    joints: [usize; 3],
+    /// In the space of the upper arm: the direction of the elbow.
+    elbow: Vec3,
+    hand: HandAxes,
+    along: Vec3,
+    /// Shoulder, elbow and wrist in bind space.
+    pub(super) places: [Vec3; 3],
+    /// From bind space to the canonical axes of upper arm and hand there, turned back.
+    bind: [Quat; 2],
+}
+
+/// How an arm moves in a posture.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct ArmPosed {
+    pub(super) shoulder: Motion,
+    pub(super) hand: Motion,
+    full: Motion,
+    straight: Motion,
+    along: Vec3,
+    forearm: Vec3,
+    /// The turns of upper arm and hand about their lengths, in radians.
+    twists: [f32; 2],
+}
+
+impl ArmRig {
+    /// Returns the arm of `side` with its shoulder at a place of bind space.
+    pub(super) fn of(
+        anatomy: &Anatomy,
+        side: Side,
+        rest: &ModelPose,
+        shoulder: Vec3,
+    ) -> Option<Self> {
+        let arm = anatomy.arm(side)?;
+        let joints = [arm.upper, arm.forearm, arm.hand];
+        let [upper, fore, wrist] = joints.map(|joint| place(rest, joint));
+        let back = rotation(rest, arm.upper).inverse();
+        let bone = (fore - upper).normalize_or(Vec3::X);
+        let elbow = anatomy.elbow(side).map(|it| it.as_vec3()).or_else(|| {
+            let frame = anatomy.body_frame(rest)?;
+            Some(back * -frame.forward.as_vec3())
+        });
+        let own = back * bone;
+        let elbow = elbow.unwrap_or(own.any_orthonormal_vector());
+        let elbow = (elbow - own * own.dot(elbow)).normalize_or(own.any_orthonormal_vector());
+        let neutral = -(rotation(rest, arm.upper) * elbow);
+        let hand = HandAxes::of(anatomy, side, rest, neutral)?;
+        let along = arm_direction(side);
+        let lengths = [fore.distance(upper), wrist.distance(fore)].map(|it| it.max(1e-6));
+        let places = [
+            shoulder,
+            shoulder + along * lengths[0],
+            shoulder + along * (lengths[0] + lengths[1]),
+        ];
+        let seat = hand_seat(side);
+        Some(Self {
+            joints,
+            elbow,
+            hand,
+            along,
+            places,
+            bind: [
+                turned_arm(along, Vec3::NEG_Z).inverse(),
+                turned_arm(seat.y_axis, seat.z_axis).inverse(),
+            ],
+        })
+    }
+
+    pub(super) fn hand_axes(&self) -> HandAxes {
+        self.hand
+    }
+
+    pub(super) fn posed(&self, pose: &ModelPose, chest: Quat) -> ArmPosed {
+        let [upper, fore, wrist] = self.joints.map(|joint| place(pose, joint));
+        let turn = rotation(pose, self.joints[0]);
+        let bone = (fore - upper).normalize_or(turn * self.along);
+        let full = (turned_arm(bone, turn * self.elbow) * self.bind[0]).normalize();
+        let forearm = (wrist - fore).normalize_or(bone);
+        let straight = (Quat::from_rotation_arc(bone, forearm) * full).normalize();
+        let hand = rotation(pose, self.joints[2]);
+        let hand = turned_arm(hand * self.hand.along, hand * self.hand.palm) * self.bind[1];
+        let hand = hand.normalize();
+        let cuff =
+            Quat::from_rotation_arc((hand * self.along).normalize_or(forearm), forearm) * hand;
+        ArmPosed {
+            shoulder: Motion::new(chest, self.places[0], upper),
+            hand: Motion::new(hand, self.places[2], wrist),
+            full: Motion::new(full, self.places[0], upper),
+            straight: Motion::new(straight, self.places[1], fore),
+            along: self.along,
+            forearm,
+            twists: [
+                twist((chest.inverse() * full).normalize(), self.along),
+                twist((cuff * straight.inverse()).normalize(), forearm),
+            ],
+        }
+    }
+}
+
+impl ArmPosed {
+    /// Returns the upper arm's motion with a share of its turn about its length.
+    pub(super) fn upper(&self, share: f32) -> Motion {
+        let back = Quat::from_axis_angle(self.along, self.twists[0] * (share - 1.0));
+        Motion {
+            turn: (self.full.turn * back).normalize(),
+            ..self.full
+        }
+    }
+
+    /// Returns the forearm's motion with a share of the hand's turn about its length.
+    pub(super) fn fore(&self, share: f32) -> Motion {
+        let on = Quat::from_axis_angle(self.forearm, self.twists[1] * share);
+        Motion {
+            turn: (on * self.straight.turn).normalize(),
+            ..self.straight
+        }
+    }
+}
+
+/// Returns the axes of a hand in bind space: towards the thumb, along it, out of the palm.
+pub(super) fn hand_seat(side: Side) -> Mat3 {
+    let along = arm_direction(side);
+    let palm = Vec3::Z.cross(along) * -side.sign() as f32;
+    Mat3::from_cols(Vec3::Z, along, palm)
+}
+
+/// Returns the rotation whose first axis is `along` and whose second is near `other`.
+fn turned_arm(along: Vec3, other: Vec3) -> Quat {
+    turned(along, other)
+}
