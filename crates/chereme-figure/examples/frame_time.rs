@@ -2,7 +2,7 @@
 //!
 //! Prints the time of one picture of 400 by 500 pixels of a whole signer with full hands, posing
 //! the body included, of the body alone, of the window's stage with two signers by one thread and
-//! by two, and of a little figure; of each so many frames, at most 64. Of threads, the first one's time is told: the others work beside it.
+//! by two, and of a little figure; of each so many frames, at most 64. With two threads, the time is the first one's: the other works at the same time.
 
 use std::error::Error;
 use std::hint::black_box;
@@ -16,8 +16,8 @@ use chereme_motion::Anatomy;
 #[path = "common/signer.rs"]
 mod signer;
 
-/// The moment on this thread's own clock of processor time where the system tells it, on the wall's
-/// elsewhere: on a machine that does other things too, only the first says what drawing takes.
+/// Returns the time on this thread's own clock of processor time if the system has one, else on the wall's: on a
+/// busy machine only the first measures drawing.
 fn now(begun: Instant) -> Duration {
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let used = told.and_then(|text| text.split(' ').next()?.parse().ok());

@@ -200,8 +200,8 @@ impl Palette {
         }
     }
 
-    /// Returns the palette with hands in two tints, warm for the right hand and cool for the left, for pictures in
-    /// which they must be told apart.
+    /// Returns the palette with hands in two tints, warm for the right hand and cool for the left, as an aid in
+    /// pictures of crossing hands.
     #[must_use]
     pub fn with_hands_apart(mut self) -> Self {
         let tint = |hand: HandColours, to: Colour| HandColours {

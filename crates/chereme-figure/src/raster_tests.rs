@@ -108,19 +108,40 @@ fn neighbouring_triangles_leave_no_gap_and_no_sample_twice() {
     }
 }
 
-#[test]
-fn lines_are_drawn_where_parts_meet_and_not_within_one() {
-    let draw = |group| {
-        let mut mesh = ball(Vec3::new(-0.25, 0.0, 0.0), 0.3, RED, 1);
-        mesh.append(&ball(Vec3::new(0.25, 0.0, 0.0), 0.3, RED, group));
-        Raster::default().draw(&mesh, &camera(9.0), [200, 200], &PLAIN())
+/// A square facing the eye, from its middle half as wide as `half`.
+fn plate(half: f32, z: f32, group: u8) -> Mesh {
+    let corner = |x: f32, y: f32| Vertex {
+        position: Vec3::new(x * half, y * half, z),
+        normal: Vec3::Z,
+        colour: RED,
+        group,
     };
-    let darkest = |image: &Image| (96..104).map(|x| image.pixel(x, 100).0[0]).min();
-    let (one, two) = (darkest(&draw(1)), darkest(&draw(2)));
-    assert!(
-        two.zip(one).is_some_and(|(two, one)| two + 10 < one),
-        "{two:?}, {one:?}"
-    );
+    Mesh {
+        vertices: vec![
+            corner(-1.0, -1.0),
+            corner(1.0, -1.0),
+            corner(1.0, 1.0),
+            corner(-1.0, 1.0),
+        ],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+    }
+}
+
+#[test]
+fn lines_are_drawn_between_parts_that_stand_apart_but_not_within_one_or_where_skin_goes_on() {
+    let darkest = |group, step: f32| {
+        let mut mesh = plate(0.6, 0.0, 1);
+        mesh.append(&plate(0.3, step, group));
+        let image = Raster::default().draw(&mesh, &camera(9.0), [200, 200], &PLAIN());
+        (60..140)
+            .map(|x| image.pixel(x, 100).0[0])
+            .min()
+            .unwrap_or(0)
+    };
+    let plain = darkest(1, 0.0);
+    assert!(darkest(1, 0.005) + 10 > plain, "within one part");
+    assert!(darkest(2, 0.001) + 10 > plain, "where skin goes on");
+    assert!(darkest(2, 0.005) + 40 < plain, "between parts");
 }
 
 #[test]

@@ -17,7 +17,7 @@ pub(super) const TRUNK: f32 = 500.0;
 pub(super) const UPPER: f32 = 290.0;
 pub(super) const FORE: f32 = 245.0;
 
-/// What moves a vertex of the clothes, in shares.
+/// Shares of everything that moves a vertex of the clothes.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Shares {
     pub(super) pelvis: f32,

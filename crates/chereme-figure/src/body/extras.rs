@@ -1,4 +1,4 @@
-//! What lies in and on the canonical head: eyeballs, brows, teeth, tongue, ears, and hair that hangs.
+//! Forms in and on the canonical head: eyeballs, brows, teeth, tongue, ears, and hair that hangs.
 
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 

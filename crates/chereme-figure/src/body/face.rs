@@ -1,7 +1,7 @@
 //! The canonical head: one closed net around mouth and eyes, in head heights from the middle between chin and crown.
 //!
 //! x to the signer's left, y up, z forwards. The net is laid out once over directions from the middle of the head;
-//! what the face does moves its vertices.
+//! expressions move its vertices.
 
 use std::f32::consts::{PI, TAU};
 use std::sync::OnceLock;
@@ -21,7 +21,7 @@ pub(super) const BALL: (Vec3, f32) = (Vec3::new(0.140, 0.0, 0.232), 0.064);
 /// The point that directions are counted from.
 const MIDDLE: Vec3 = Vec3::new(0.0, -0.05, -0.03);
 
-/// What a vertex of the head is part of.
+/// The part of the face that a vertex belongs to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Place {
     /// The skin, with whether hair grows there.
@@ -194,7 +194,7 @@ impl Canon {
         self.grow_hair();
     }
 
-    /// Moves the loops to where they are at rest.
+    /// Moves the loops to their places at rest.
     fn rest(&mut self) {
         let moved: Vec<Vec3> = self
             .knots

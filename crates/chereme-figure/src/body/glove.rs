@@ -29,7 +29,7 @@ pub(super) const fn bone(digit: usize, place: usize) -> usize {
     1 + digit * 3 + place
 }
 
-/// What a vertex of the hand belongs to, and how it is coloured.
+/// A vertex of the hand: its digit, its shade, and its followers.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Skin {
     pub(super) place: Vec3,

@@ -22,7 +22,8 @@ pub(super) struct HandAxes {
 }
 
 impl HandAxes {
-    /// Returns the directions of a hand at rest; `neutral` is where the thumb is, in model space, if no finger tells.
+    /// Returns the directions of a hand at rest. `neutral` is the direction of the thumb in model space, for a hand
+    /// without fingers.
     pub(super) fn of(
         anatomy: &Anatomy,
         side: Side,

@@ -82,7 +82,7 @@ pub(super) struct Bound {
 }
 
 impl Bound {
-    /// Returns a vertex moved by weighted followers, of which the four strongest count.
+    /// Returns a vertex moved by the four strongest of weighted followers.
     pub(super) fn new(at: Vec3, shares: &[(usize, f32)]) -> Self {
         let mut sorted: Vec<(usize, f32)> = Vec::with_capacity(shares.len());
         for &(follower, share) in shares {

@@ -16,7 +16,7 @@ pub(super) fn arm_direction(side: Side) -> Vec3 {
     Vec3::new(cosine * side.sign() as f32, -sine, 0.0)
 }
 
-/// The joints of the trunk, and where they are in bind space.
+/// The joints of the trunk, and their places in bind space.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct TrunkRig {
     /// Right and left shoulder.
@@ -164,7 +164,7 @@ impl TrunkRig {
     }
 }
 
-/// The joints of an arm, and where they are in bind space.
+/// The joints of an arm, and their places in bind space.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ArmRig {
     joints: [usize; 3],
