@@ -6,6 +6,7 @@
 //! | [`dtw`] | dynamic time warping: alignments, distances, nearest neighbours |
 //! | [`kinematics`](mod@kinematics) | how hands move, frame by frame |
 //! | [`measure`](mod@measure) | the size and duration of movements of a known kind |
+//! | [`nonmanuals`] | proposals for brows, lids, gaze, mouth and head from curves of a face |
 //! | [`phases`] | how alike two expressions of the face are, phase by phase |
 //! | [`score`](mod@score) | how alike two performances are, component by component, with their alignment |
 //! | [`strokes`](mod@strokes) | transitions of wrists and fingers between two minima of their speed |
@@ -15,6 +16,7 @@ pub mod align;
 pub mod dtw;
 pub mod kinematics;
 pub mod measure;
+pub mod nonmanuals;
 pub mod phases;
 pub mod score;
 pub mod strokes;

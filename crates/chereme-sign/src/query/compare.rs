@@ -4,7 +4,7 @@ use super::lex::{Cursor, Place};
 use super::tree::{At, Comparison, Operator, Property, Test, TextField, Value, Wanted, What};
 use super::values::{filled_word, list, path, value};
 use super::words::{self, Simple};
-use super::{Pattern, QueryError, attributes, times};
+use super::{Pattern, QueryError, attributes, curves, times};
 use crate::component::{Component, Field, HandRef, Phase};
 use crate::text::nearest;
 use std::str::FromStr;
@@ -17,6 +17,7 @@ pub(super) fn test(cursor: &mut Cursor<'_>) -> Result<Test, QueryError> {
         Some(Simple::Text(field)) => text_test(cursor, field)?,
         Some(Simple::Property(property)) => property_test(cursor, property)?,
         Some(Simple::Time(field)) => What::Time(field, times::time_test(cursor, field)?),
+        None if curves::opens(cursor, &name) => What::Curve(curves::test(cursor, &name)?),
         None => match attribute(cursor, &name, subject_at)? {
             Some(what) => what,
             None => {

@@ -24,7 +24,8 @@
 //! | alternatives | *terms* { `or` *terms* } |
 //! | terms | *term* { \[`and`\] *term* } |
 //! | term | `not` *term*, `(` *alternatives* `)`, *comparison*, *relation comparison*, *example*, *saved*, *text* |
-//! | comparison | *component* (`=` `!=` `==`) *values*; *property* (`=` `:` `!=` `==`) *values*; *textfield* (`=` `!=` `==`) *values*; *textfield* `:` *text* { `,` *text* }; *textfield* `~` *text* \[`~1` `~2`\]; *timefield* (`<` `<=` `>` `>=` `=`) *time*; *timefield* `=` \[*time*\]`..`\[*time*\]; `tier(`*text*`)` (`=` `!=` `==`) *values*; *attribute* (`=` `!=` `==`) *values*; *attribute* (`<` `<=` `>` `>=`) *number*; *attribute* `=` \[*number*\]`..`\[*number*\] |
+//! | comparison | *component* (`=` `!=` `==`) *values*; *property* (`=` `:` `!=` `==`) *values*; *textfield* (`=` `!=` `==`) *values*; *textfield* `:` *text* { `,` *text* }; *textfield* `~` *text* \[`~1` `~2`\]; *timefield* (`<` `<=` `>` `>=` `=`) *time*; *timefield* `=` \[*time*\]`..`\[*time*\]; `tier(`*text*`)` (`=` `!=` `==`) *values*; *attribute* (`=` `!=` `==`) *values*; *attribute* (`<` `<=` `>` `>=`) *number*; *attribute* `=` \[*number*\]`..`\[*number*\]; *curve* (`<` `<=` `>` `>=`) *number* \[`for` *time*\]; *curve* `=` \[*number*\]`..`\[*number*\] \[`for` *time*\] |
+//! | curve | `nonmanual.`*name*, before a number |
 //! | attribute | `attribute.`*name*, `attribute(`*text*`)`; the *name* alone before a number |
 //! | component | \[*phase*`.`\] \[*hand*`.`\] (`configuration` `placement` `movement` `orientation` `nonmanual`) \[`.`*part*\] |
 //! | phase, hand | `initial` `middle` `final`; `right` `left` `dominant` `weak` |
@@ -52,6 +53,7 @@
 mod attributes;
 mod compare;
 mod complete;
+mod curves;
 mod error;
 mod expression;
 mod lex;
@@ -77,8 +79,8 @@ pub use narrow::{facet_condition, narrow, wants, without};
 pub use pattern::Pattern;
 pub use saved::Saved;
 pub use tree::{
-    At, Comparison, Example, Expr, Feature, Like, Missing, Operator, Property, Query, Related,
-    Test, TextField, TimeField, TimeTest, Value, Wanted, Weighted, What,
+    At, Comparison, CurveTest, Example, Expr, Feature, Like, Missing, Operator, Property, Query,
+    Related, Test, TextField, TimeField, TimeTest, Value, Wanted, Weighted, What,
 };
 
 use std::str::FromStr;
@@ -129,6 +131,9 @@ Times: duration, start, end, in s, ms or min
 
 Attributes of the sign, as its table has them
   frequency>0.4   attribute.class=Noun   attribute("Sign Frequency")=2..5
+
+Curves of face and head, while the token lasts (1: the usual reach; degrees)
+  nonmanual.brows>0.5 for 0.3s   nonmanual.jaw_open>0.4   nonmanual.head_yaw<-10
 
 The token as a whole
   origin=captured,made,lexicon,generated

@@ -364,7 +364,7 @@ fn related(cursor: &mut Cursor<'_>, at: At, relation: Relation) -> Result<Expr, 
     }
     if matches!(
         other.what,
-        What::Property(..) | What::Time(..) | What::Attribute(..)
+        What::Property(..) | What::Time(..) | What::Attribute(..) | What::Curve(..)
     ) {
         return Err(QueryError::new(
             other.subject_at,

@@ -82,6 +82,13 @@ impl Display for Test {
                 write!(f, "){comparison}")
             }
             What::Time(field, test) => write!(f, "{}{test}", field.name()),
+            What::Curve(curve) => {
+                write!(f, "nonmanual.{}{}", curve.name, curve.test)?;
+                match curve.lasting {
+                    0 => Ok(()),
+                    lasting => write!(f, " for {}", Seconds(lasting)),
+                }
+            }
             What::Attribute(name, test) => {
                 attributes::write_name(f, name)?;
                 test.fmt(f)

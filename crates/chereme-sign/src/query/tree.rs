@@ -192,6 +192,19 @@ pub enum What {
     Time(TimeField, TimeTest),
     /// A number or a text that a table says of the sign: `frequency>0.4`, `attribute.class=Noun`.
     Attribute(String, AttributeTest),
+    /// A curve of the face or head: `nonmanual.brows>0.5 for 0.3s`.
+    Curve(CurveTest),
+}
+
+/// What a curve of the face or head does while the token lasts, or over a part of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurveTest {
+    /// The part or number after `nonmanual.`, such as `brows`, `jaw_open` or `head_yaw`.
+    pub name: String,
+    /// The numbers that pass; always a [`Number`](AttributeTest::Number).
+    pub test: AttributeTest,
+    /// How long they pass at least, in microseconds; 0 for one frame.
+    pub lasting: i64,
 }
 
 /// An operator with the values on its right.

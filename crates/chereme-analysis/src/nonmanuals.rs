@@ -1,0 +1,458 @@
+//! Proposals for what brows, lids, gaze, mouth and head do, from curves of a face by simple rules.
+//!
+//! Each rule is a threshold with hysteresis against the recording's own median: something begins where its curve passes the
+//! threshold, lasts while it stays above seven tenths of it, and counts if it lasts long enough; pauses of less than a
+//! tenth of a second do not end it. A blink is lids that close for less than 0.4 s, and a shake or nod is a head that
+//! turns back and forth at least twice, by three degrees and more, one to six times a second. The confidence is 0.5 at the
+//! threshold and 1 at twice the threshold; of shakes and nods it grows with the number of turns.
+//!
+//! ```
+//! use chereme_analysis::nonmanuals::{Curves, proposals};
+//!
+//! let blink: Vec<f64> = (0..60).map(|n| if (30..36).contains(&n) { 1.0 } else { 0.0 }).collect();
+//! let curves = Curves { rate: 30.0, eye_close: [Some(&blink), Some(&blink)], ..Curves::default() };
+//! let found = proposals(&curves);
+//! assert_eq!((found[0].feature, found[0].value, found[0].frames.clone()), ("lids", "blink", 30..36));
+//! ```
+
+use std::ops::Range;
+
+use serde::Serialize;
+
+/// The thresholds: shares of the usual reach, seconds, degrees.
+const BROWS: f64 = 0.3;
+const SIDE: f64 = 0.4;
+const SQUEEZE: f64 = 0.35;
+const CLOSED: f64 = 0.6;
+const GAZE: f64 = 0.35;
+const OPEN: f64 = 0.3;
+const BLINK: f64 = 0.4;
+const LEAST: f64 = 0.15;
+const PAUSE: f64 = 0.1;
+const SWING: f64 = 3.0;
+/// Half a swing of a head takes from a twelfth of a second to half a second.
+const HALF_SWING: [f64; 2] = [1.0 / 12.0, 0.5];
+const SWINGS: usize = 3;
+/// How far a curve stays above its threshold before it ends.
+const STAYS: f64 = 0.7;
+
+/// Curves of one face, a number a frame; `None` if unknown.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Curves<'a> {
+    /// Frames a second.
+    pub rate: f64,
+    /// Brows raised, right and left; below 0 lowered.
+    pub brow_raise: [Option<&'a [f64]>; 2],
+    /// Brows drawn together.
+    pub brow_squeeze: Option<&'a [f64]>,
+    /// Eyes closed, right and left.
+    pub eye_close: [Option<&'a [f64]>; 2],
+    /// Gaze to the signer's left.
+    pub gaze_left: Option<&'a [f64]>,
+    /// Gaze up.
+    pub gaze_up: Option<&'a [f64]>,
+    /// Jaw open.
+    pub jaw_open: Option<&'a [f64]>,
+    /// Lips apart.
+    pub lips_part: Option<&'a [f64]>,
+    /// Head turned down, in degrees.
+    pub head_pitch: Option<&'a [f64]>,
+    /// Head turned to the signer's left, in degrees.
+    pub head_yaw: Option<&'a [f64]>,
+}
+
+/// Something that a part of the face seems to do.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Proposal {
+    /// The part: `brows`, `lids`, `gaze`, `mouth` or `head`.
+    pub feature: &'static str,
+    /// The value of the part's inventory.
+    pub value: &'static str,
+    /// The frames.
+    pub frames: Range<usize>,
+    /// How sure it is, from 0.5 to 1.
+    pub confidence: f64,
+    /// The rule that found it, with its numbers.
+    pub why: String,
+}
+
+/// Returns proposals, part by part in order of time; those of one part do not overlap.
+#[must_use]
+pub fn proposals(curves: &Curves<'_>) -> Vec<Proposal> {
+    if !(curves.rate.is_finite() && curves.rate > 0.0) {
+        return Vec::new();
+    }
+    let mut all = [
+        brows(curves),
+        lids(curves),
+        gaze(curves),
+        mouth(curves),
+        head(curves),
+    ]
+    .concat();
+    all.sort_by_key(|it| (it.feature, it.frames.start, it.frames.end));
+    let mut kept: Vec<Proposal> = Vec::with_capacity(all.len());
+    for it in all {
+        match kept.last_mut() {
+            Some(last) if last.feature == it.feature && last.frames.end > it.frames.start => {
+                if it.confidence > last.confidence {
+                    *last = it;
+                }
+            }
+            _ => kept.push(it),
+        }
+    }
+    kept
+}
+
+/// Returns a curve counted from its own median; empty if unknown.
+fn from_median(curve: Option<&[f64]>) -> Vec<f64> {
+    let Some(curve) = curve.filter(|curve| !curve.is_empty()) else {
+        return Vec::new();
+    };
+    let mut sorted: Vec<f64> = curve.iter().copied().filter(|it| it.is_finite()).collect();
+    sorted.sort_by(f64::total_cmp);
+    let median = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
+    curve.iter().map(|value| value - median).collect()
+}
+
+fn mean_of(both: [Option<&[f64]>; 2]) -> Vec<f64> {
+    match both.map(from_median) {
+        [a, b] if a.len() == b.len() => a.iter().zip(&b).map(|(a, b)| (a + b) / 2.0).collect(),
+        [a, b] if a.is_empty() => b,
+        [a, _] => a,
+    }
+}
+
+fn brows(curves: &Curves<'_>) -> Vec<Proposal> {
+    let mean = mean_of(curves.brow_raise);
+    let squeeze = from_median(curves.brow_squeeze);
+    let mut all = found(&mean, curves.rate, BROWS, LEAST, "brows", "raised");
+    all.extend(found(
+        &squeeze,
+        curves.rate,
+        SQUEEZE,
+        LEAST,
+        "brows",
+        "furrowed",
+    ));
+    if let [Some(right), Some(left)] = curves.brow_raise {
+        let ahead =
+            |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a - b).collect() };
+        let sides = [
+            ("raised-right", ahead(right, left)),
+            ("raised-left", ahead(left, right)),
+        ];
+        for (value, more) in sides {
+            all.extend(found(&more, curves.rate, SIDE, LEAST, "brows", value));
+        }
+    }
+    all
+}
+
+fn lids(curves: &Curves<'_>) -> Vec<Proposal> {
+    let mut all = found(
+        &mean_of(curves.eye_close),
+        curves.rate,
+        CLOSED,
+        0.0,
+        "lids",
+        "closed",
+    );
+    for it in &mut all {
+        let seconds = it.frames.len() as f64 / curves.rate;
+        if seconds < BLINK {
+            it.value = "blink";
+            it.why = format!("{}, for less than {BLINK} s", it.why);
+        }
+    }
+    all
+}
+
+fn gaze(curves: &Curves<'_>) -> Vec<Proposal> {
+    let (left, up) = (from_median(curves.gaze_left), from_median(curves.gaze_up));
+    let back = |curve: &[f64]| -> Vec<f64> { curve.iter().map(|it| -it).collect() };
+    let ways = [
+        ("left", left.clone()),
+        ("right", back(&left)),
+        ("up", up.clone()),
+        ("down", back(&up)),
+    ];
+    let one = |(value, curve): &(&'static str, Vec<f64>)| {
+        found(curve, curves.rate, GAZE, LEAST, "gaze", value)
+    };
+    ways.iter().flat_map(one).collect()
+}
+
+fn mouth(curves: &Curves<'_>) -> Vec<Proposal> {
+    let (jaw, lips) = (from_median(curves.jaw_open), from_median(curves.lips_part));
+    let most = match (jaw.is_empty(), lips.is_empty()) {
+        (false, false) => jaw.iter().zip(&lips).map(|(a, b)| a.max(*b)).collect(),
+        (true, _) => lips,
+        (_, true) => jaw,
+    };
+    found(&most, curves.rate, OPEN, LEAST, "mouth", "open")
+}
+
+fn head(curves: &Curves<'_>) -> Vec<Proposal> {
+    let mut all = Vec::new();
+    for (value, curve) in [("shaking", curves.head_yaw), ("nodding", curves.head_pitch)] {
+        all.extend(swings(&from_median(curve), curves.rate, value));
+    }
+    all
+}
+
+/// Returns runs in which a curve passes a threshold, for `least` seconds and longer.
+fn found(
+    curve: &[f64],
+    rate: f64,
+    threshold: f64,
+    least: f64,
+    feature: &'static str,
+    value: &'static str,
+) -> Vec<Proposal> {
+    let mut runs: Vec<Range<usize>> = Vec::new();
+    let mut open: Option<usize> = None;
+    for (frame, number) in curve.iter().enumerate() {
+        match open {
+            None if *number >= threshold => open = Some(frame),
+            Some(start) if *number < threshold * STAYS || number.is_nan() => {
+                runs.push(start..frame);
+                open = None;
+            }
+            _ => {}
+        }
+    }
+    runs.extend(open.map(|start| start..curve.len()));
+    let mut joined: Vec<Range<usize>> = Vec::new();
+    for run in runs {
+        match joined.last_mut() {
+            Some(last) if (run.start - last.end) as f64 / rate < PAUSE => last.end = run.end,
+            _ => joined.push(run),
+        }
+    }
+    let long = joined
+        .into_iter()
+        .filter(|run| run.len() as f64 / rate >= least);
+    long.map(|frames| {
+        let peak = curve[frames.clone()]
+            .iter()
+            .copied()
+            .fold(f64::NEG_INFINITY, f64::max);
+        Proposal {
+            feature,
+            value,
+            confidence: (0.5 + 0.5 * (peak - threshold) / threshold).clamp(0.5, 1.0),
+            why: format!("{peak:.2} above the median; {threshold} is enough"),
+            frames,
+        }
+    })
+    .collect()
+}
+
+/// Returns stretches in which a head swings back and forth.
+fn swings(curve: &[f64], rate: f64, value: &'static str) -> Vec<Proposal> {
+    let turns = turning_points(curve);
+    let is_swing = |pair: &[usize]| {
+        let seconds = (pair[1] - pair[0]) as f64 / rate;
+        (curve[pair[1]] - curve[pair[0]]).abs() >= SWING
+            && (HALF_SWING[0]..=HALF_SWING[1]).contains(&seconds)
+    };
+    let mut all = Vec::new();
+    let mut at = 0;
+    while at + 1 < turns.len() {
+        let mut end = at;
+        while end + 1 < turns.len() && is_swing(&turns[end..end + 2]) {
+            end += 1;
+        }
+        let count = end - at;
+        if count >= SWINGS {
+            let frames = turns[at]..turns[end] + 1;
+            let sizes = turns[at..=end]
+                .windows(2)
+                .map(|pair| (curve[pair[1]] - curve[pair[0]]).abs());
+            let mean = sizes.sum::<f64>() / count as f64;
+            all.push(Proposal {
+                feature: "head",
+                value,
+                confidence: 1.0 - 0.5_f64.powi(count as i32 - SWINGS as i32 + 1),
+                why: format!(
+                    "{count} half swings of {mean:.1} degrees; {SWINGS} of {SWING} are enough"
+                ),
+                frames,
+            });
+        }
+        at = end.max(at + 1);
+    }
+    all
+}
+
+/// Returns the frames of the greatest and least values in turn; smaller ups and downs than a third of a swing are passed over.
+fn turning_points(curve: &[f64]) -> Vec<usize> {
+    let mut points: Vec<usize> = Vec::new();
+    let Some(_) = curve.first() else {
+        return points;
+    };
+    let (mut low, mut high, mut rising) = (0, 0, None);
+    for frame in 1..curve.len() {
+        if curve[frame] > curve[high] {
+            high = frame;
+        }
+        if curve[frame] < curve[low] {
+            low = frame;
+        }
+        let (up, down) = (curve[frame] - curve[low], curve[high] - curve[frame]);
+        match rising {
+            Some(true) | None if down >= SWING / 3.0 => {
+                points.push(high);
+                (low, high, rising) = (frame, frame, Some(false));
+            }
+            Some(false) | None if up >= SWING / 3.0 => {
+                points.push(low);
+                (low, high, rising) = (frame, frame, Some(true));
+            }
+            _ => {}
+        }
+    }
+    points.extend(match rising {
+        Some(true) => Some(high),
+        Some(false) => Some(low),
+        None => None,
+    });
+    points
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RATE: f64 = 50.0;
+
+    fn curve(seconds: f64, value: impl Fn(f64) -> f64) -> Vec<f64> {
+        (0..(seconds * RATE) as usize)
+            .map(|n| value(n as f64 / RATE))
+            .collect()
+    }
+
+    fn bump(at: f64, from: f64, to: f64) -> f64 {
+        if (from..to).contains(&at) { 1.0 } else { 0.0 }
+    }
+
+    fn said(found: &[Proposal]) -> Vec<(&'static str, f64, f64)> {
+        let one = |it: &Proposal| {
+            (
+                it.value,
+                it.frames.start as f64 / RATE,
+                it.frames.end as f64 / RATE,
+            )
+        };
+        found.iter().map(one).collect()
+    }
+
+    #[test]
+    fn brows_that_rise_are_found_whatever_their_rest() {
+        let raised = curve(4.0, |at| 0.2 + 0.8 * bump(at, 1.0, 2.0));
+        let squeeze = curve(4.0, |at| 0.9 * bump(at, 3.0, 3.5));
+        let curves = Curves {
+            rate: RATE,
+            brow_raise: [Some(&raised), Some(&raised)],
+            brow_squeeze: Some(&squeeze),
+            ..Curves::default()
+        };
+        let found = proposals(&curves);
+        assert_eq!(said(&found), [("raised", 1.0, 2.0), ("furrowed", 3.0, 3.5)]);
+        assert!(found.iter().all(|it| it.confidence > 0.9), "{found:?}");
+        let still = curve(4.0, |_| 0.2);
+        let one = Curves {
+            brow_raise: [Some(&raised), Some(&still)],
+            brow_squeeze: None,
+            ..curves
+        };
+        assert_eq!(said(&proposals(&one)), [("raised-right", 1.0, 2.0)]);
+    }
+
+    #[test]
+    fn a_blink_is_told_from_closed_eyes_and_pauses_are_bridged() {
+        let eyes = curve(4.0, |at| {
+            bump(at, 0.5, 0.6) + bump(at, 1.0, 2.0) + bump(at, 2.06, 2.5) + 0.2 * bump(at, 3.0, 3.5)
+        });
+        let curves = Curves {
+            rate: RATE,
+            eye_close: [Some(&eyes), Some(&eyes)],
+            ..Curves::default()
+        };
+        let found = proposals(&curves);
+        assert_eq!(said(&found), [("blink", 0.5, 0.6), ("closed", 1.0, 2.5)]);
+    }
+
+    #[test]
+    fn shakes_and_nods_are_swings_and_a_turn_is_none() {
+        let swing = |at: f64, from: f64, to: f64, size: f64| {
+            bump(at, from, to) * size * ((at - from) * 2.0 * std::f64::consts::TAU).sin()
+        };
+        let yaw = curve(6.0, |at| {
+            swing(at, 1.0, 2.5, 6.0) + 20.0 * bump(at, 4.0, 6.0)
+        });
+        let pitch = curve(6.0, |at| swing(at, 3.0, 4.0, 5.0));
+        let curves = Curves {
+            rate: RATE,
+            head_yaw: Some(&yaw),
+            head_pitch: Some(&pitch),
+            ..Curves::default()
+        };
+        let found = proposals(&curves);
+        let values: Vec<&str> = found.iter().map(|it| it.value).collect();
+        assert_eq!(values, ["shaking", "nodding"], "{found:?}");
+        let shake = &found[0].frames;
+        let (start, end) = (shake.start as f64 / RATE, shake.end as f64 / RATE);
+        assert!(
+            (0.9..1.3).contains(&start) && (2.2..2.6).contains(&end),
+            "{start} {end}"
+        );
+        assert!(
+            found[0].confidence > found[1].confidence,
+            "more swings are surer"
+        );
+    }
+
+    #[test]
+    fn gaze_and_mouth_have_ways_and_unknown_curves_give_nothing() {
+        let gaze = curve(3.0, |at| {
+            0.6 * bump(at, 0.5, 1.0) - 0.7 * bump(at, 2.0, 2.5)
+        });
+        let jaw = curve(3.0, |at| 0.5 * bump(at, 1.0, 1.4));
+        let curves = Curves {
+            rate: RATE,
+            gaze_left: Some(&gaze),
+            jaw_open: Some(&jaw),
+            ..Curves::default()
+        };
+        assert_eq!(
+            said(&proposals(&curves)),
+            [("left", 0.5, 1.0), ("right", 2.0, 2.5), ("open", 1.0, 1.4)]
+        );
+        assert_eq!(
+            proposals(&Curves {
+                rate: RATE,
+                ..Curves::default()
+            }),
+            []
+        );
+        assert_eq!(
+            proposals(&Curves {
+                rate: f64::NAN,
+                ..curves
+            }),
+            []
+        );
+        let gaps = vec![f64::NAN; 50];
+        assert_eq!(
+            proposals(&Curves {
+                rate: RATE,
+                jaw_open: Some(&gaps),
+                ..Curves::default()
+            }),
+            []
+        );
+    }
+}
