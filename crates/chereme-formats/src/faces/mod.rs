@@ -22,7 +22,7 @@ mod formula;
 #[cfg(test)]
 mod tests;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::OnceLock;
 
 use chereme_motion::{Curves, Face};
@@ -164,13 +164,17 @@ impl System {
     pub fn view(&'static self, curves: &Curves) -> View {
         let mut bridged = vec![false; curves.frames()];
         let mut columns: BTreeMap<String, Vec<f64>> = BTreeMap::new();
+        let counted = self.counted();
         for curve in curves.curves() {
             let name = plain(&curve.name);
             let known = self.aliases.iter().find(|(alias, _)| plain(alias) == name);
             let name = known.map_or(name, |(_, channel)| plain(channel));
+            if !counted.contains(&name) {
+                continue;
+            }
             let mut values: Vec<Option<f64>> = curve.values.values().collect();
             for (gap, value) in bridged.iter_mut().zip(&values) {
-                *gap |= value.is_none() && self.counts(&name);
+                *gap |= value.is_none();
             }
             if let Some(whole) = bridge(&mut values) {
                 columns.entry(name).or_insert(whole);
@@ -246,11 +250,16 @@ impl System {
         findings
     }
 
-    /// Returns whether a formula names this channel.
-    fn counts(&self, name: &str) -> bool {
+    /// Returns the channels that formulas and checks name.
+    fn counted(&self) -> BTreeSet<String> {
         let formulas = self.house.values().chain(self.head.values());
-        let mut read = formulas.filter_map(|text| Formula::read(text).ok());
-        read.any(|formula| formula.channels().iter().any(|known| plain(known) == name))
+        let formulas = formulas.chain(self.place.values());
+        let read: Vec<Formula> = formulas
+            .filter_map(|text| Formula::read(text).ok())
+            .collect();
+        let named = read.iter().flat_map(Formula::channels).map(plain);
+        let checked = self.agree.iter().flatten().map(|name| plain(name));
+        named.chain(checked).collect()
     }
 }
 
