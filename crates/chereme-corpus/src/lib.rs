@@ -94,8 +94,8 @@ pub use error::{Cause, Error, Result};
 pub use export::{ExportOptions, ExportReport, ExportWhat, ExportedFile};
 pub use face::{
     CHANNELS as FACE_CHANNELS, Choice, ChooseOptions, Expressions, FaceChannel, FaceFinding,
-    FaceNumber, FaceReport, FaceScore, FoundExpression, MilestoneOptions, Rank, Ranked,
-    ScoredChannel,
+    FaceNumber, FaceProposal, FaceProposals, FaceReport, FaceScore, FoundExpression,
+    MilestoneOptions, OnsetRow, Onsets, Quartiles, Rank, Ranked, ScoredChannel,
 };
 pub use import::{
     FileReport, FileStatus, ImportOptions, ImportReport, Outcome, OwnEdit, OwnEdits, ReportFinding,

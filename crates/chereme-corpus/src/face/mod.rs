@@ -7,13 +7,17 @@
 //! | [`expressions`] | where expressions of a function are, with their milestones |
 //! | [`milestones`] | milestones derived from glosses and written as tiers |
 //! | [`performances`] | expressions as numbers at one rate, kept while the corpus does not change |
+//! | [`onsets`] | when non-manuals begin and end against the signs that they span |
+//! | [`propose`] | proposals for brows, lids, gaze, mouth and head |
 //! | [`choose`] | performances ranked for a sentence |
 
 mod choose;
 mod expressions;
 mod head;
 mod milestones;
+mod onsets;
 mod performances;
+mod propose;
 pub(crate) mod stage;
 #[cfg(test)]
 mod tests;
@@ -35,8 +39,10 @@ use crate::track;
 pub use choose::{Choice, ChooseOptions, FaceScore, Rank, Ranked, ScoredChannel};
 pub(crate) use expressions::at as expression_at;
 pub use milestones::{Expressions, FoundExpression, MilestoneOptions};
-pub(crate) use performances::Pool;
+pub use onsets::{OnsetRow, Onsets, Quartiles};
 pub use performances::{CHANNELS, FaceChannel};
+pub(crate) use performances::{Pool, numbers as numbers_of};
+pub use propose::{FaceProposal, FaceProposals};
 
 /// The face of a recording, as its capture gives it.
 #[derive(Debug, Clone, PartialEq, Serialize)]

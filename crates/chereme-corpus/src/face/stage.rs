@@ -18,6 +18,8 @@ use crate::sources::notation::own_body;
 
 /// The rate of a capture whose frames have times of their own.
 const USUAL: u32 = 60;
+/// The most frames that are performed at once.
+const LONGEST: usize = 300_000;
 
 /// Returns a stretch of a recording without a skeleton as movement, with the curves of its face; `None` if it has no
 /// captured face.
@@ -33,6 +35,15 @@ pub(crate) fn material(connection: &Connection, stretch: &Stretch) -> Result<Opt
         .end
         .min(rate.frame_at(face.row.span().end().shifted(-face.row.offset_us)) + 1);
     let frames = frames.start.min(frames.end)..frames.end;
+    if frames.len() > LONGEST {
+        let minutes = frames.len() as f64 / rate.per_second() / 60.0;
+        return Err(Error::wrong(format!(
+            "{:?} is a face of {minutes:.0} min, too long to be performed at once",
+            recording.name
+        ))
+        .at(&recording.name)
+        .advise("annotate the part on a gloss tier and name its token"));
+    }
     let moment = |frame: usize| rate.instant(frame).shifted(face.row.offset_us);
     let body = own_body()?;
     let mut channels = body.clip.channels().to_vec();

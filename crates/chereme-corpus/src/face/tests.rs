@@ -340,7 +340,7 @@ fn equal_scores_are_ordered_by_name_and_strict_lengths_are_refused_by_name() {
     let strict = choose(&case, "W1", &strict);
     assert_eq!((strict.compared, strict.skipped.len()), (3, 1));
     assert!(
-        strict.skipped[0].1.starts_with("first"),
+        strict.skipped[0].1.starts_with("onset"),
         "{:?}",
         strict.skipped
     );
@@ -408,4 +408,138 @@ fn a_sentence_without_a_face_gets_the_most_usual_one() {
         found.milestones.to_string(),
         "-0.300s 0.200s 1.700s 2.300s 2.800s"
     );
+}
+
+#[test]
+fn curves_are_searched_while_a_token_lasts() {
+    let mut case = case(&[("W1", 1.0, 1.0), ("W2", 0.2, 1.0)]);
+    let mut found = |query: &str| -> Vec<String> {
+        let answer = case.corpus.search(query, &crate::SearchOptions::default());
+        let answer = answer.unwrap_or_else(|error| panic!("{query}: {error}"));
+        let mut names: Vec<String> = answer
+            .hits
+            .iter()
+            .map(|hit| {
+                format!(
+                    "{} {}",
+                    hit.recording.clone().unwrap_or_default(),
+                    hit.gloss
+                )
+            })
+            .collect();
+        names.sort();
+        names
+    };
+    assert_eq!(
+        found("nonmanual.brows>0.5"),
+        ["W1 AIMER", "W1 ANNA", "W1 QUOI"]
+    );
+    assert_eq!(
+        found("nonmanual.brows>0.5 for 0.3s gloss=QUOI"),
+        ["W1 QUOI"]
+    );
+    assert_eq!(found("nonmanual.brows>0.5 for 3s"), [""; 0]);
+    assert_eq!(found("nonmanual.brows=0.1..0.3 gloss=QUOI"), ["W2 QUOI"]);
+    assert_eq!(found("nonmanual.head_pitch>8 gloss=ANNA"), ["W1 ANNA"]);
+    assert_eq!(found("not nonmanual.brows>0.05 recording=W1"), ["W1 HIER"]);
+    let error = case
+        .corpus
+        .search("nonmanual.ears>1", &crate::SearchOptions::default());
+    assert!(
+        error
+            .expect_err("no such curve")
+            .to_string()
+            .contains("no curve")
+    );
+}
+
+#[test]
+fn proposals_are_written_as_tiers_and_a_persons_annotation_stays() {
+    let mut case = case(&[("W1", 1.0, 1.0)]);
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let found = case
+        .corpus
+        .propose_nonmanuals(&recording("W1"), false, progress)
+        .expect("found");
+    // The brows are up for most of the take, so they are raised against their median at no time.
+    assert!(
+        found
+            .proposals
+            .iter()
+            .all(|it| it.tier != "nonmanual.lids (proposed)"),
+        "{found:?}"
+    );
+    assert_eq!(found.written, 0);
+    let stored = case
+        .corpus
+        .propose_nonmanuals(&recording("W1"), true, progress)
+        .expect("stored");
+    let again = case
+        .corpus
+        .propose_nonmanuals(&recording("W1"), true, progress)
+        .expect("again");
+    assert_eq!(stored.written, again.written);
+}
+
+#[test]
+fn onsets_are_measured_against_the_signs() {
+    let case = case(&[("W1", 1.0, 1.0), ("W2", 0.8, 1.2), ("W3", 0.9, 0.9)]);
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let found = case
+        .corpus
+        .onsets(Some(&Function::of("wh")), progress)
+        .expect("measured");
+    let row = found
+        .rows
+        .iter()
+        .find(|row| row.channel == "brow_raise_right")
+        .expect("brows");
+    assert_eq!((row.n, found.without_face), (3, 0));
+    // The brows are half up at 0.65 s of 0.7 s, and half down at 2.45 s of 2.3 s.
+    assert!((row.onset_s.median + 0.05).abs() < 0.02, "{row:?}");
+    assert!((row.offset_s.median - 0.15).abs() < 0.02, "{row:?}");
+    assert!(found.rows.iter().any(|row| row.channel == "head_pitch"));
+    assert!(
+        case.corpus
+            .onsets(Some(&Function::of("topic")), progress)
+            .is_err()
+    );
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("onsets.svg");
+    case.corpus
+        .draw_onsets(&found, &path, false)
+        .expect("drawn");
+    let text = std::fs::read_to_string(&path).expect("read");
+    assert!(text.starts_with("<svg") && text.contains("wh: brow_raise_right (n = 3)"));
+    assert!(
+        case.corpus.draw_onsets(&found, &path, false).is_err(),
+        "it is there already"
+    );
+}
+
+#[test]
+fn a_face_whose_times_lie_years_apart_is_refused_and_fills_no_memory() {
+    let mut case = case(&[]);
+    let path = case._folder.path().join("far.csv");
+    let text = "time [s],brow_raise_right,jaw_open\n0,0,0\n1,1,0\n900000000,0,1\n";
+    std::fs::write(&path, text).expect("written");
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let options = ImportOptions::default();
+    let report = case
+        .corpus
+        .import(&[path], &options, progress)
+        .expect("read");
+    assert_eq!(report.files[0].recording.as_deref(), Some("far"));
+    let error = case
+        .corpus
+        .movement(&recording("far"))
+        .expect_err("too long");
+    assert!(error.to_string().contains("too long"), "{error}");
+    let found = case
+        .corpus
+        .propose_nonmanuals(&recording("far"), false, progress);
+    assert!(found.expect("looked at").proposals.len() < 10);
 }

@@ -55,7 +55,9 @@ impl Beside {
             What::Whole(field, _) | What::Words(field, _) | What::Fuzzy { field, .. } => {
                 texts_beside(ask, test, *field)?
             }
-            What::Property(..) | What::Time(..) | What::Attribute(..) => Vec::new(),
+            What::Property(..) | What::Time(..) | What::Attribute(..) | What::Curve(..) => {
+                Vec::new()
+            }
         };
         Ok(Self { relation, other })
     }

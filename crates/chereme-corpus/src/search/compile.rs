@@ -19,6 +19,7 @@ use super::any_term::AnyTerm;
 use super::attributes;
 use super::beside::Beside;
 use super::component::ComponentTest;
+use super::curves;
 use super::docs::{self, Docs};
 use super::finding::{Finding, FindingKind};
 use super::index::{Fields, SearchIndex};
@@ -204,6 +205,7 @@ pub(crate) fn test(ask: &Ask<'_>, test: &Test) -> Asked<Plan> {
         What::Tier(..) => Ok(Plan::Beside(Box::new(Beside::new(ask, None, test)?))),
         What::Time(field, times) => Ok(Plan::index(self::times(ask, *field, *times))),
         What::Attribute(name, wanted) => attributes::plan(ask, test, name, wanted),
+        What::Curve(wanted) => curves::plan(ask, test, wanted),
     }
 }
 

@@ -11,6 +11,7 @@ mod attributes;
 mod beside;
 mod compile;
 mod component;
+mod curves;
 mod directory;
 mod docs;
 mod finding;

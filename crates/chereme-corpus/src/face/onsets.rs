@@ -1,0 +1,306 @@
+//! When non-manuals begin and end against the signs that they span, for each construction.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::Path;
+
+use chereme_motion::Instant;
+use chereme_sign::milestones::{EDGE, Function};
+use serde::Serialize;
+
+use super::expressions;
+use super::performances::{CHANNELS, numbers};
+use crate::Corpus;
+use crate::db::recordings;
+use crate::error::{Error, Result};
+use crate::picture;
+use crate::progress::{Progress, Step, Unit};
+
+/// Frames a second at which onsets are looked for.
+const RATE: f64 = 60.0;
+/// A channel that departs less than this from its start, in units that count as 1, does nothing in an expression.
+const LEAST: f64 = 0.8;
+/// Longer expressions are passed over, in seconds.
+const LONGEST: f64 = 120.0;
+
+/// When non-manuals begin and end, for each function and channel.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Onsets {
+    /// How many expressions were looked at.
+    pub expressions: u64,
+    /// How many of them show no face.
+    pub without_face: u64,
+    /// The statistics, by function and channel.
+    pub rows: Vec<OnsetRow>,
+}
+
+/// When one channel begins and ends in the expressions of a function.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OnsetRow {
+    /// The function.
+    pub function: Function,
+    /// The channel.
+    pub channel: &'static str,
+    /// In how many expressions the channel does something.
+    pub n: u64,
+    /// Begin minus the begin of the first sign, in seconds; below 0 the channel begins before it.
+    pub onset_s: Quartiles,
+    /// End minus the end of the last sign, in seconds; above 0 the channel ends after it.
+    pub offset_s: Quartiles,
+}
+
+/// The quartiles of some numbers (type 7: linear between order statistics).
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Quartiles {
+    /// The first quartile.
+    pub q1: f64,
+    /// The median.
+    pub median: f64,
+    /// The third quartile.
+    pub q3: f64,
+}
+
+impl Quartiles {
+    /// Returns the quartiles of numbers; `None` without any.
+    fn of(mut values: Vec<f64>) -> Option<Self> {
+        values.sort_by(f64::total_cmp);
+        let last = values.len().checked_sub(1)?;
+        let at = |share: f64| {
+            let place = share * last as f64;
+            let (first, rest) = (place.floor() as usize, place.fract());
+            values[first] + (values[(first + 1).min(last)] - values[first]) * rest
+        };
+        Some(Self {
+            q1: at(0.25),
+            median: at(0.5),
+            q3: at(0.75),
+        })
+    }
+}
+
+impl Corpus {
+    /// Returns when non-manuals begin and end against the manual signs that they span, for each function and channel.
+    ///
+    /// A channel begins when it has gone half of its way from where it is half a second before the expression to its
+    /// farthest value in the body, and ends when it comes back to half.
+    ///
+    /// # Errors
+    /// If there are no expressions, or `progress` stops the work.
+    pub fn onsets(
+        &self,
+        function: Option<&Function>,
+        progress: &mut Progress<'_>,
+    ) -> Result<Onsets> {
+        let connection = self.store.read();
+        let mut found: BTreeMap<(Function, usize), Vec<(f64, f64)>> = BTreeMap::new();
+        let mut report = Onsets {
+            expressions: 0,
+            without_face: 0,
+            rows: Vec::new(),
+        };
+        let channels: Vec<usize> = (0..CHANNELS.len()).collect();
+        let all = recordings::recordings(connection)?;
+        for (done, row) in all.iter().enumerate() {
+            progress.tell(Step {
+                task: &row.name,
+                done: done as u64,
+                total: Some(all.len() as u64),
+                unit: Unit::Items,
+            })?;
+            for it in expressions::of_recording(connection, row.id, function, None)? {
+                let marks = it.milestones.times();
+                let from = marks[0].shifted(-EDGE).seconds();
+                let to = marks[4].shifted(EDGE).seconds();
+                if to - from > LONGEST {
+                    continue;
+                }
+                report.expressions += 1;
+                let moments: Vec<Instant> = (0..((to - from) * RATE) as usize)
+                    .map(|n| Instant::from_seconds(from + n as f64 / RATE))
+                    .collect();
+                let Some(columns) = numbers(connection, row.id, &moments, &channels)? else {
+                    report.without_face += 1;
+                    continue;
+                };
+                let frame = |at: Instant| ((at.seconds() - from) * RATE).round() as usize;
+                for (channel, column) in columns.iter().enumerate() {
+                    let Some(column) = column else { continue };
+                    let unit = CHANNELS[channel].counts_as_one;
+                    let Some((on, off)) = reach(column, frame(marks[1]), frame(marks[3]), unit)
+                    else {
+                        continue;
+                    };
+                    let seconds = |frame: usize| from + frame as f64 / RATE;
+                    let lags = (
+                        seconds(on) - marks[1].seconds(),
+                        seconds(off) - marks[3].seconds(),
+                    );
+                    let key = (it.function.clone(), channel);
+                    found.entry(key).or_default().push(lags);
+                }
+            }
+        }
+        if report.expressions == 0 {
+            return Err(Error::wrong("there are no expressions with a function")
+                .advise("annotate wh, yn, negation or topic on a tier called \"function\"; see `chereme milestones --help`"));
+        }
+        for ((function, channel), lags) in found {
+            let n = lags.len() as u64;
+            let (on, off): (Vec<f64>, Vec<f64>) = lags.into_iter().unzip();
+            let (Some(onset_s), Some(offset_s)) = (Quartiles::of(on), Quartiles::of(off)) else {
+                continue;
+            };
+            report.rows.push(OnsetRow {
+                function,
+                channel: CHANNELS[channel].name,
+                n,
+                onset_s,
+                offset_s,
+            });
+        }
+        Ok(report)
+    }
+
+    /// Draws onsets and offsets to an SVG: for each function and channel a box from the first to the third quartile with
+    /// its median.
+    ///
+    /// # Errors
+    /// If the file is there already and `force` is not set, or it cannot be written.
+    pub fn draw_onsets(&self, onsets: &Onsets, to: &Path, force: bool) -> Result<()> {
+        let text = svg(onsets);
+        let fill = |out: &mut std::io::BufWriter<std::fs::File>| {
+            std::io::Write::write_all(out, text.as_bytes()).map_err(|error| Error::file(to, error))
+        };
+        picture::write(to, force, fill).map(drop)
+    }
+}
+
+/// Returns the frames at which a channel has gone half of its way to its farthest value in the body, and comes back.
+fn reach(column: &[f64], first: usize, last: usize, unit: f64) -> Option<(usize, usize)> {
+    let rest = *column.first()?;
+    let body = column.get(first..last.min(column.len()))?;
+    let away = |value: f64| (value - rest).abs();
+    let (at, most) = body
+        .iter()
+        .enumerate()
+        .max_by(|(_, a), (_, b)| away(**a).total_cmp(&away(**b)))?;
+    if away(*most) < LEAST * unit {
+        return None;
+    }
+    let (peak, half) = (first + at, away(*most) / 2.0);
+    let side = (most - rest).signum();
+    let out = |frame: &usize| (column[*frame] - rest) * side < half;
+    let on = (0..peak).rev().find(out).map_or(0, |frame| frame + 1);
+    let off = (peak..column.len()).find(out).unwrap_or(column.len());
+    Some((on, off))
+}
+
+/// Onset or offset of a row.
+type Which = fn(&OnsetRow) -> Quartiles;
+
+fn svg(onsets: &Onsets) -> String {
+    const ROW: usize = 22;
+    const NAMES: f64 = 260.0;
+    const WIDTH: f64 = 300.0;
+    const GAP: f64 = 40.0;
+    let spread = |of: Which| {
+        let ends = onsets.rows.iter().flat_map(|row| [of(row).q1, of(row).q3]);
+        ends.fold((-0.1_f64, 0.1_f64), |(low, high), end| {
+            (low.min(end), high.max(end))
+        })
+    };
+    let height = 60 + ROW * onsets.rows.len();
+    let width = NAMES + 2.0 * WIDTH + GAP + 60.0;
+    let mut text = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" font-family=\"sans-serif\" font-size=\"12\">\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
+    );
+    let parts: [(&str, Which, f64); 2] = [
+        ("begin against the first sign [s]", |row| row.onset_s, NAMES),
+        (
+            "end against the last sign [s]",
+            |row| row.offset_s,
+            NAMES + WIDTH + GAP,
+        ),
+    ];
+    for (title, of, left) in parts {
+        let (low, high) = spread(of);
+        let x = |value: f64| left + (value - low) / (high - low) * WIDTH;
+        let _ = writeln!(text, "<text x=\"{left:.0}\" y=\"20\">{title}</text>");
+        let bottom = height - 20;
+        let _ = writeln!(
+            text,
+            "<line x1=\"{0:.1}\" y1=\"30\" x2=\"{0:.1}\" y2=\"{bottom}\" stroke=\"#888\" stroke-dasharray=\"3 3\"/>",
+            x(0.0)
+        );
+        for value in [low, 0.0, high] {
+            let _ = writeln!(
+                text,
+                "<text x=\"{:.1}\" y=\"{}\" text-anchor=\"middle\">{value:.2}</text>",
+                x(value),
+                height - 5
+            );
+        }
+        for (n, row) in onsets.rows.iter().enumerate() {
+            let y = 36 + n * ROW;
+            let it = of(row);
+            let (from, to) = (x(it.q1), x(it.q3));
+            let _ = writeln!(
+                text,
+                "<rect x=\"{from:.1}\" y=\"{y}\" width=\"{:.1}\" height=\"14\" fill=\"#9ecae1\" stroke=\"#3182bd\"/>\
+                 <line x1=\"{2:.1}\" y1=\"{y}\" x2=\"{2:.1}\" y2=\"{1}\" stroke=\"#08306b\" stroke-width=\"2\"/>",
+                (to - from).max(1.0),
+                y + 14,
+                x(it.median)
+            );
+        }
+    }
+    for (n, row) in onsets.rows.iter().enumerate() {
+        let y = 48 + n * ROW;
+        let function = row
+            .function
+            .name()
+            .replace('&', "&amp;")
+            .replace('<', "&lt;");
+        let _ = writeln!(
+            text,
+            "<text x=\"8\" y=\"{y}\">{function}: {} (n = {})</text>",
+            row.channel, row.n
+        );
+    }
+    text.push_str("</svg>\n");
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Quartiles, reach};
+
+    #[test]
+    fn a_channel_begins_and_ends_half_way() {
+        let column: Vec<f64> = (0..100)
+            .map(|n: i32| {
+                (f64::from(n - 20) / 10.0)
+                    .min(f64::from(80 - n) / 20.0)
+                    .clamp(0.0, 1.0)
+            })
+            .collect();
+        assert_eq!(reach(&column, 30, 60, 0.25), Some((25, 71)));
+        let down: Vec<f64> = column.iter().map(|it| -it).collect();
+        assert_eq!(reach(&down, 30, 60, 0.25), Some((25, 71)));
+        let little: Vec<f64> = column.iter().map(|it| it * 0.1).collect();
+        assert_eq!(reach(&little, 30, 60, 0.25), None);
+        assert_eq!(
+            (reach(&[], 0, 0, 1.0), reach(&column, 200, 300, 1.0)),
+            (None, None)
+        );
+    }
+
+    #[test]
+    fn quartiles_lie_between_order_statistics() {
+        let of =
+            |values: &[f64]| Quartiles::of(values.to_vec()).map(|it| [it.q1, it.median, it.q3]);
+        assert_eq!(of(&[4.0, 1.0, 3.0, 2.0]), Some([1.75, 2.5, 3.25]));
+        assert_eq!((of(&[5.0]), of(&[])), (Some([5.0; 3]), None));
+    }
+}
