@@ -3,11 +3,11 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{FaceFinding, FaceSystem};
+use chereme_corpus::{Address, Corpus, FaceFinding, FaceSystem, Progress, Step};
 use serde_json::json;
 
 use crate::args::Cli;
-use crate::output::Output;
+use crate::output::{Bar, Output};
 
 /// Show a captured face as numbers of the house's face, or the face systems that are understood
 ///
@@ -19,22 +19,32 @@ Examples:
   chereme face mine.chereme                       (the systems)
   chereme face mine.chereme --system arkit        (its channels, formulas and losses)
   chereme face mine.chereme recording:3           (the face of a recording)
+  chereme face mine.chereme recording:3 --propose --store   (brows, blinks, gaze, mouth, shakes and nods as tiers)
   chereme render mine.chereme recording:3 --to face.gif")]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
     /// The recording, or a token in it
     recording: Option<String>,
+    /// Propose what brows, lids, gaze, mouth and head do, with the confidence of each and the rule that found it
+    #[arg(long, requires = "recording")]
+    propose: bool,
+    /// Write the proposals onto tiers such as "nonmanual.brows (proposed)"; `undo` takes them back
+    #[arg(long, requires = "propose")]
+    store: bool,
     /// A face system: arkit, mediapipe, openface, fap, sigml or house
     #[arg(long, conflicts_with = "recording")]
     system: Option<String>,
 }
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
-    let corpus = cli.open(&args.corpus)?;
+    let mut corpus = cli.open(&args.corpus)?;
     let Some(recording) = &args.recording else {
         return systems(args.system.as_deref(), output);
     };
+    if args.propose {
+        return propose(&mut corpus, &recording.parse()?, args.store, output);
+    }
     let face = corpus.face(&recording.parse()?)?;
     output.line(format!(
         "{}: {} frames of {} in the track {:?}",
@@ -59,6 +69,38 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     }
     findings(&face.findings, output)?;
     output.document(face)
+}
+
+fn propose(corpus: &mut Corpus, address: &Address, store: bool, output: &mut Output) -> Result<()> {
+    let mut bar = Bar::new();
+    let mut hear = |step: Step<'_>| bar.show(step);
+    let found = corpus.propose_nonmanuals(address, store, &mut Progress::new(&mut hear))?;
+    drop(bar);
+    let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);
+    let rows: Vec<Vec<String>> = found
+        .proposals
+        .iter()
+        .map(|it| {
+            let confidence = format!("{:.2}", it.confidence);
+            let (start, end) = (seconds(it.start_us), seconds(it.end_us));
+            vec![
+                it.tier.clone(),
+                start,
+                end,
+                it.value.clone(),
+                confidence,
+                it.why.clone(),
+            ]
+        })
+        .collect();
+    output.table(
+        &["tier", "start", "end", "value", "confidence", "rule"],
+        &rows,
+    )?;
+    if store {
+        output.line(format!("{} annotations written", found.written))?;
+    }
+    output.document(found)
 }
 
 fn findings(all: &[FaceFinding], output: &mut Output) -> Result<()> {

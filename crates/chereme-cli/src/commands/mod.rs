@@ -15,6 +15,7 @@ mod keys;
 mod list;
 mod milestones;
 mod new;
+mod onsets;
 mod pairs;
 mod recombine;
 mod render;
@@ -56,6 +57,7 @@ pub(crate) enum Command {
     Face(face::Args),
     Milestones(milestones::Args),
     Choose(choose::Args),
+    Onsets(onsets::Args),
     Suggest(suggest::Args),
     Pairs(pairs::Args),
     Transcribe(transcribe::Args),
@@ -86,6 +88,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Score(args) => score::run(cli, args, output).map_err(offer_force),
         Command::Face(args) => face::run(cli, args, output),
         Command::Milestones(args) => milestones::run(cli, args, output),
+        Command::Onsets(args) => onsets::run(cli, args, output).map_err(offer_force),
         Command::Choose(args) => choose::run(cli, args, output),
         Command::Suggest(args) => suggest::run(cli, args, output),
         Command::Pairs(args) => pairs::run(cli, args, output),

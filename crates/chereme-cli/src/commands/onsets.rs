@@ -1,0 +1,77 @@
+//! `chereme onsets`.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{Function, Progress, Quartiles, Step};
+
+use crate::args::Cli;
+use crate::output::{Bar, Output};
+
+/// Measure when non-manuals begin and end against the signs that they span, for each construction
+///
+/// A channel of the face or head begins when it has gone half of its way from its value half a second before the expression
+/// to its farthest value over the signs, and ends when it comes back to half. Times are seconds after the begin of the first
+/// sign (below 0: before it) and after the end of the last. The functions are those of `milestones`.
+///
+/// `--json` gives "expressions", "without_face" and "rows", each with "function", "channel", "n", "onset_s" and "offset_s"
+/// ("q1", "median", "q3").
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme onsets mine.chereme
+  chereme onsets mine.chereme --function wh --draw onsets.svg")]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// The function: negation, wh, yn, topic, conditional, rhetorical, or another word of the tier; else all
+    #[arg(long)]
+    function: Option<String>,
+    /// Draw medians and quartiles to a picture (.svg)
+    #[arg(long, value_name = "FILE")]
+    draw: Option<PathBuf>,
+    /// Write over a picture that is there already
+    #[arg(long)]
+    force: bool,
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let corpus = cli.open(&args.corpus)?;
+    let mut bar = Bar::new();
+    let mut hear = |step: Step<'_>| bar.show(step);
+    let function = args.function.as_deref().map(Function::of);
+    let found = corpus.onsets(function.as_ref(), &mut Progress::new(&mut hear))?;
+    drop(bar);
+    let told = |it: &Quartiles| format!("{:+.3} ({:+.3} to {:+.3})", it.median, it.q1, it.q3);
+    let rows: Vec<Vec<String>> = found
+        .rows
+        .iter()
+        .map(|it| {
+            let (onset, offset) = (told(&it.onset_s), told(&it.offset_s));
+            vec![
+                it.function.to_string(),
+                it.channel.to_owned(),
+                it.n.to_string(),
+                onset,
+                offset,
+            ]
+        })
+        .collect();
+    let titles = [
+        "function",
+        "channel",
+        "n",
+        "begins: median (quartiles)",
+        "ends: median (quartiles)",
+    ];
+    output.table(&titles, &rows)?;
+    output.line(format!(
+        "{} expressions, {} without a face",
+        found.expressions, found.without_face
+    ))?;
+    if let Some(path) = &args.draw {
+        corpus.draw_onsets(&found, path, args.force)?;
+        output.line(format!("drew {}", path.display()))?;
+    }
+    output.document(found)
+}

@@ -1,0 +1,238 @@
+//! Sentences whose faces and milestones are known.
+
+use std::fmt::Write as _;
+
+use chereme_corpus::{
+    AnnotateOptions, AnnotationAction, Corpus, Function, Instant, Milestones, Moment, Name,
+    NewTier, Progress, TierName, TierRole, unheard,
+};
+use chereme_motion::Span;
+use chereme_sign::milestones::{EDGE, milestones};
+
+/// A small generator of numbers (splitmix64), so that runs are alike.
+pub(crate) struct Numbers(pub(crate) u64);
+
+impl Numbers {
+    /// Returns the next number from 0 to 1.
+    pub(crate) fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Returns a number of about the normal distribution.
+    pub(crate) fn normal(&mut self) -> f64 {
+        (0..12).map(|_| self.next()).sum::<f64>() - 6.0
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+}
+
+/// What a performance does in its body; each number is known.
+#[derive(Debug, Clone, Copy)]
+struct Manner {
+    /// Brows raised in the first part of the body and in the rest.
+    brows: [f64; 2],
+    /// Brows drawn together.
+    squeeze: f64,
+    /// The head turned down, in degrees.
+    pitch: f64,
+    /// The size of a shake of the head, in degrees.
+    shake: f64,
+}
+
+/// A sentence with its signs and its face.
+pub(crate) struct Sentence {
+    pub(crate) name: String,
+    pub(crate) function: &'static str,
+    pub(crate) milestones: Milestones,
+    seconds: f64,
+    signs: Vec<(String, Span)>,
+    body: Span,
+    manner: Manner,
+}
+
+/// The frame rate of the captures.
+const RATE: f64 = 30.0;
+
+impl Sentence {
+    /// Returns the 18 sentences of the experiment: N1 to N6, W1 to W6, Y2 to Y7.
+    pub(crate) fn all() -> Vec<Self> {
+        let mut numbers = Numbers(4);
+        let mut all = Vec::new();
+        for (letter, function, first) in [("N", "negation", 1), ("W", "wh", 1), ("Y", "yn", 2)] {
+            for number in first..first + 6 {
+                all.push(Self::new(
+                    format!("{letter}{number}"),
+                    function,
+                    &mut numbers,
+                ));
+            }
+        }
+        all
+    }
+
+    /// Returns a sentence of a function with lengths and a manner drawn from `numbers`.
+    pub(crate) fn new(name: String, function: &'static str, numbers: &mut Numbers) -> Self {
+        let before = usize::from(numbers.next() < 0.7);
+        let inside = 2 + (numbers.next() * 3.0) as usize;
+        let after = usize::from(function == "negation" && numbers.next() < 0.6);
+        let mut at = 200 + (numbers.next() * 300.0) as i64;
+        let mut signs = Vec::new();
+        for n in 0..before + inside + after {
+            let end = at + 300 + (numbers.next() * 400.0) as i64;
+            let span = Span::between(Instant::from_millis(at), Instant::from_millis(end));
+            signs.push((format!("S{}", n + 1), span));
+            at = end + 40 + (numbers.next() * 120.0) as i64;
+        }
+        let spans: Vec<Span> = signs.iter().map(|(_, span)| *span).collect();
+        let range = before..before + inside;
+        let found = milestones(&spans, range.clone(), &Function::of(function), EDGE);
+        let body = Span::between(spans[range.start].start(), spans[range.end - 1].end());
+        let manner = match function {
+            "negation" => Manner {
+                brows: [numbers.between(-0.4, 0.0), numbers.between(-0.3, 0.0)],
+                squeeze: numbers.between(0.2, 0.7),
+                pitch: numbers.between(-2.0, 4.0),
+                shake: numbers.between(4.0, 16.0),
+            },
+            "wh" => Manner {
+                brows: [numbers.between(-0.6, -0.1), numbers.between(-0.9, -0.3)],
+                squeeze: numbers.between(0.4, 1.0),
+                pitch: numbers.between(3.0, 14.0),
+                shake: 0.0,
+            },
+            _ => Manner {
+                brows: [numbers.between(0.3, 0.9), numbers.between(0.5, 1.0)],
+                squeeze: 0.0,
+                pitch: numbers.between(4.0, 12.0),
+                shake: 0.0,
+            },
+        };
+        Self {
+            name,
+            function,
+            milestones: found.unwrap_or_else(|| Milestones::of_times([Instant::ZERO; 5])),
+            seconds: (at + 700) as f64 / 1000.0,
+            signs,
+            body,
+            manner,
+        }
+    }
+
+    /// Returns how much of the expression there is at a moment, and how far its body has come.
+    fn course(&self, seconds: f64) -> (f64, f64) {
+        let [m1, m2, m3, m4, m5] = self.milestones.times().map(Instant::seconds);
+        let smooth = |share: f64| {
+            let share = share.clamp(0.0, 1.0);
+            share * share * (3.0 - 2.0 * share)
+        };
+        let step = |on: bool| f64::from(u8::from(on));
+        let rise = match m2 > m1 {
+            true => (seconds - m1) / (m2 - m1),
+            false => step(seconds >= m2),
+        };
+        let fall = match m5 > m4 {
+            true => (m5 - seconds) / (m5 - m4),
+            false => step(seconds < m4),
+        };
+        let part = smooth((seconds - m3) / 0.2 + 0.5);
+        (smooth(rise).min(smooth(fall)), part)
+    }
+
+    /// Returns the raised brow at a moment.
+    pub(crate) fn brow(&self, seconds: f64) -> f64 {
+        let (much, part) = self.course(seconds);
+        let [first, rest] = self.manner.brows;
+        much * (first + (rest - first) * part)
+    }
+
+    /// Returns how unlike the manners of two performances are, in the units that count as 1 in scores.
+    pub(crate) fn difference(&self, other: &Self) -> f64 {
+        let (a, b) = (self.manner, other.manner);
+        let brows: f64 = (0..2)
+            .map(|n| ((a.brows[n] - b.brows[n]) / 0.25).powi(2))
+            .sum();
+        let squeeze = ((a.squeeze - b.squeeze) / 0.25).powi(2);
+        let shake = ((a.shake - b.shake) / 10.0).powi(2) / 2.0;
+        let head = ((a.pitch - b.pitch) / 10.0).powi(2) + shake;
+        (brows + squeeze + head).sqrt()
+    }
+
+    /// Returns the performance as a file of MPEG-4 parameters, counted from 1 as in the standard.
+    pub(crate) fn fap(&self) -> String {
+        let frames = (self.seconds * RATE) as usize;
+        let used = [31, 32, 33, 34, 35, 36, 37, 38, 48, 49, 50];
+        let mask = (1..=68).map(|n| if used.contains(&n) { "1" } else { "0" });
+        let mask = mask.collect::<Vec<&str>>().join(" ");
+        let mut text = format!("2.1 {} {RATE} {frames}\n", self.name);
+        for frame in 0..frames {
+            let seconds = frame as f64 / RATE;
+            let (much, _) = self.course(seconds);
+            let brow = (300.0 * self.brow(seconds)).round();
+            let squeeze = (300.0 * much * self.manner.squeeze).round();
+            let degree = 100_000.0_f64.to_radians();
+            let pitch = (degree * much * self.manner.pitch).round();
+            let from = seconds - self.body.start().seconds();
+            let swing = (from * 2.2 * std::f64::consts::TAU).sin();
+            let yaw = (degree * much * self.manner.shake * swing).round();
+            let brows = [brow; 6].map(|it| it.to_string()).join(" ");
+            let _ = writeln!(
+                text,
+                "{mask}\n{frame} {brows} {squeeze} {squeeze} {pitch} {yaw} 0"
+            );
+        }
+        text
+    }
+
+    /// Writes the signs and the function of the sentence onto tiers.
+    pub(crate) fn annotate(&self, corpus: &mut Corpus) -> chereme_corpus::Result<()> {
+        add(
+            corpus,
+            &self.name,
+            "gloss",
+            TierRole::Gloss,
+            self.signs.clone(),
+        )?;
+        let function = vec![(self.function.to_owned(), self.body)];
+        add(corpus, &self.name, "function", TierRole::Free, function)
+    }
+}
+
+fn add(
+    corpus: &mut Corpus,
+    recording: &str,
+    tier: &str,
+    role: TierRole,
+    spans: Vec<(String, Span)>,
+) -> chereme_corpus::Result<()> {
+    let name = Name::Text(recording.to_owned());
+    corpus.add_tier(&NewTier::new(name.clone(), tier, role))?;
+    let change = |(value, span): (String, Span)| {
+        AnnotationAction::Add {
+            tier: TierName::Of {
+                recording: name.clone(),
+                tier: tier.to_owned(),
+            },
+            start: Some(Moment::Time(span.start())),
+            end: Some(Moment::Time(span.end())),
+            parent: None,
+            order: None,
+            value,
+            confidence: None,
+        }
+        .into()
+    };
+    let changes: Vec<_> = spans.into_iter().map(change).collect();
+    let mut hear = unheard;
+    corpus.annotate(
+        &changes,
+        &AnnotateOptions::default(),
+        &mut Progress::new(&mut hear),
+    )?;
+    Ok(())
+}
