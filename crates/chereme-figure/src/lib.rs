@@ -72,5 +72,5 @@ pub use handshape::{HandView, HandshapeOptions, handshape_picture, handshape_she
 pub use image::Image;
 pub use palette::{Colour, Palette, Theme};
 pub use sheet::{Frames, Progress, SheetOptions, contact_sheet, thumbnail};
-pub use view::{Framing, View};
+pub use view::{Framing, View, stroke};
 pub use writer::write_png;

@@ -204,13 +204,13 @@ impl Palette {
     /// pictures of crossing hands.
     #[must_use]
     pub fn with_hands_apart(mut self) -> Self {
-        let tint = |hand: HandColours, to: Colour| HandColours {
-            palm: hand.palm.mixed(to, 0.45),
-            back: hand.back.mixed(to, 0.55),
-            nail: hand.nail,
+        let hand = |palm, back, nail| HandColours {
+            palm: Colour::hex(palm),
+            back: Colour::hex(back),
+            nail: Colour::hex(nail),
         };
-        self.right = tint(self.right, Colour::hex(0xF0_A8_4E));
-        self.left = tint(self.left, Colour::hex(0xA4_A8_E4));
+        self.right = hand(0xFC_E0_BC, 0xEB_B9_83, 0xFF_F4_E6);
+        self.left = hand(0xE4_E4_F6, 0xB9_BF_DD, 0xFA_FA_FF);
         self
     }
 }

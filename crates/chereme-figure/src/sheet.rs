@@ -12,7 +12,7 @@ use crate::image::Image;
 use crate::mesh::Mesh;
 use crate::palette::Palette;
 use crate::raster::{Raster, Style};
-use crate::view::{Framing, View};
+use crate::view::{Framing, View, stroke};
 
 /// The frames of a clip to show.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -158,7 +158,7 @@ pub fn contact_sheet(
     Ok(sheet)
 }
 
-/// Draws one small picture of the middle of `clip` from the front; `size` is columns and rows.
+/// Draws one small picture of the stroke of `clip` from the front; `size` is columns and rows.
 ///
 /// # Errors
 /// [`FigureError`] if the clip is empty or the picture would be too small or too large.
@@ -170,8 +170,7 @@ pub fn thumbnail(
 ) -> Result<Image, FigureError> {
     let framing = Framing::of(clip, anatomy).ok_or(FigureError::Empty)?;
     let size = checked_view(size[0], size[1])?;
-    let sound = Ends::of(clip, anatomy).sound;
-    let pose = clip.model_pose(sound.start + sound.len() / 2);
+    let pose = clip.model_pose(stroke(clip, anatomy));
     let mesh = Body::new(clip.skeleton(), anatomy).mesh(&pose);
     let aspect = size[0] as f32 / size[1] as f32;
     let camera = framing.camera(View::Addressee, aspect, &pose, anatomy);

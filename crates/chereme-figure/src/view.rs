@@ -77,6 +77,8 @@ pub struct Framing {
     hand: f32,
     /// The joint that the corners are relative to if the body travels: the camera follows it.
     follow: Option<usize>,
+    /// Whether the body turns so far that the camera goes round with it.
+    turns: bool,
 }
 
 /// The number of frames of a clip that are sampled to measure its space.
@@ -84,26 +86,22 @@ const LOOKS: usize = 400;
 /// The eye's distance relative to half the height of the visible area: a long lens.
 const DISTANCE: f32 = 7.0;
 /// Largest distance of a body from its middle, in metres, before the camera follows it.
-const TRAVELS: f32 = 0.6;
+const TRAVELS: f32 = 0.25;
+/// Cosine of the largest angle between a body and its mean direction before the camera goes round with it.
+const TURNS: f32 = 0.5;
 
 impl Framing {
-    /// Returns the space of `clip`: from the hips to above the head, with the whole reach of both arms;
-    /// all joints if the skeleton is not a known body. `None` if the clip has no frames.
+    /// Returns the space of `clip`: from the hips to above the head, with the reach of both arms while they
+    /// sign; all joints if the skeleton is not a known body. Hands at rest below the hips, odd frames at both ends,
+    /// and the body's travel and turning are left out. `None` if the clip has no frames.
     #[must_use]
     pub fn of(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
-        Some(Self::around(&looks(clip, anatomy)?, anatomy))
-    }
-
-    /// Returns the space of `clip` as [`signing`](Self::signing) does, extended down to the hips; `None`
-    /// if it has no frames.
-    #[must_use]
-    pub fn of_signing(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
         let poses = looks(clip, anatomy)?;
         let mut framing = Self::signing(&poses, anatomy);
         if let (Some(hips), Some(_)) = (anatomy.joint(Part::Hips), anatomy.joint(Part::Head)) {
-            let at = |pose: &ModelPose| (framing.axes.transpose() * framing.against(pose, hips)).y;
+            let at = |pose: &ModelPose| framing.against(pose, hips, anatomy).y;
             let hips = poses.iter().map(at).fold(f32::INFINITY, f32::min);
-            framing.low.y = framing.low.y.min(hips - framing.hand * 0.3);
+            framing.low.y = framing.low.y.min(hips - framing.hand * 0.2);
         }
         Some(framing)
     }
@@ -112,7 +110,10 @@ impl Framing {
     #[must_use]
     pub fn around(poses: &[ModelPose], anatomy: &Anatomy) -> Self {
         let axes = facing(poses, anatomy);
-        let to_own = axes.transpose();
+        let turns = poses.iter().any(|pose| {
+            let own = facing(std::slice::from_ref(pose), anatomy);
+            own.z_axis.dot(axes.z_axis) < TURNS
+        });
         let mut found = Bounds::default();
         let arms = Side::BOTH.map(|side| anatomy.arm(side));
         let known = arms.iter().flatten().next().is_some();
@@ -120,6 +121,11 @@ impl Framing {
         let size = arm(0).max(arm(1)) / 0.53;
         let follow = travelling(poses, anatomy);
         for pose in poses {
+            let to_own = if turns {
+                facing(std::slice::from_ref(pose), anatomy).transpose()
+            } else {
+                axes.transpose()
+            };
             let mut add = |joint: usize, margin: Vec3| {
                 let at = to_own * (pose.position(joint).as_vec3() - based(follow, pose));
                 found.add(at - margin);
@@ -137,7 +143,7 @@ impl Framing {
                 add(joint, body);
             }
             if let Some(head) = anatomy.joint(Part::Head) {
-                add(head, Vec3::new(0.1, 0.235, 0.14) * size);
+                add(head, above(anatomy, size));
             }
             for (side, arm) in Side::BOTH.into_iter().zip(arms) {
                 let Some(arm) = arm else { continue };
@@ -169,6 +175,7 @@ impl Framing {
                 (high - low).max_element() * 0.2
             },
             follow,
+            turns: turns && known,
         }
     }
 
@@ -188,12 +195,11 @@ impl Framing {
         else {
             return whole;
         };
-        let to_own = whole.axes.transpose();
-        let at = |pose: &ModelPose, joint| to_own * whole.against(pose, joint);
+        let at = |pose: &ModelPose, joint| whole.against(pose, joint, anatomy);
         let (mut always, mut hands) = (Bounds::default(), Bounds::default());
         for pose in poses {
             if let Some(head) = anatomy.joint(Part::Head) {
-                always.around(at(pose, head), Vec3::new(0.1, 0.225, 0.14) * size);
+                always.around(at(pose, head), above(anatomy, size));
             }
             let hips = anatomy.joint(Part::Hips).map(|hips| at(pose, hips).y);
             for (side, arm) in Side::BOTH.into_iter().zip(arms) {
@@ -221,11 +227,15 @@ impl Framing {
     #[must_use]
     pub fn camera(&self, view: View, aspect: f32, pose: &ModelPose, anatomy: &Anatomy) -> Camera {
         let [towards, up] = view.axes();
+        let own = Self {
+            axes: self.facing(pose, anatomy),
+            ..*self
+        };
         if let View::Hand(side) = view
             && let Some(target) = hand_middle(pose, anatomy, side)
         {
             let half_height = self.hand * 0.66 / aspect.clamp(1e-3, 1.0);
-            let camera = self.place(target, [towards, up], half_height);
+            let camera = own.place(target, [towards, up], half_height);
             return Camera {
                 near: half_height * DISTANCE - self.hand * 1.2,
                 ..camera
@@ -235,16 +245,25 @@ impl Framing {
             && let Some((target, height)) = head_middle(pose, anatomy)
         {
             let half_height = height * 0.62 / aspect.clamp(1e-3, 1.0);
-            return self.place(target, [towards, up], half_height);
+            return own.place(target, [towards, up], half_height);
         }
         let half = (self.high - self.low) * 0.5;
-        let middle = self.axes * ((self.high + self.low) * 0.5) + based(self.follow, pose);
+        let middle = own.axes * ((self.high + self.low) * 0.5) + based(self.follow, pose);
         let right = up.cross(towards).normalize_or(Vec3::X);
         let tall = half.dot(right.cross(towards).abs());
         let wide = half.dot(right.abs());
         let deep = half.dot(towards.abs());
         let half_height = tall.max(wide / aspect.max(1e-3)) * 1.02 + deep / DISTANCE * 0.5;
-        self.place(middle, [towards, up], half_height)
+        own.place(middle, [towards, up], half_height)
+    }
+
+    /// Returns the signer's left, up and forwards in a posture as the camera takes them.
+    fn facing(&self, pose: &ModelPose, anatomy: &Anatomy) -> Mat3 {
+        if self.turns {
+            facing(std::slice::from_ref(pose), anatomy)
+        } else {
+            self.axes
+        }
     }
 
     fn place(&self, target: Vec3, [towards, up]: [Vec3; 2], half_height: f32) -> Camera {
@@ -257,9 +276,10 @@ impl Framing {
         }
     }
 
-    /// Returns the position of a joint relative to the point that the camera follows.
-    fn against(&self, pose: &ModelPose, joint: usize) -> Vec3 {
-        pose.position(joint).as_vec3() - based(self.follow, pose)
+    /// Returns the position of a joint relative to the point that the camera follows, along the signer's axes.
+    fn against(&self, pose: &ModelPose, joint: usize, anatomy: &Anatomy) -> Vec3 {
+        let from = pose.position(joint).as_vec3() - based(self.follow, pose);
+        self.facing(pose, anatomy).transpose() * from
     }
 
     /// Returns the signer's left, up and forwards in model space.
@@ -279,6 +299,34 @@ impl Framing {
         let right = up.cross(towards).normalize_or(Vec3::X);
         half.dot(right.abs()) / half.dot(right.cross(towards).abs()).max(1e-6)
     }
+}
+
+/// Returns the frame of `clip` to show first: the middle of its signing, when a hand is up; the middle of the clip
+/// if none ever is.
+#[must_use]
+pub fn stroke(clip: &Clip, anatomy: &Anatomy) -> usize {
+    let Some(last) = clip.frames().checked_sub(1) else {
+        return 0;
+    };
+    let sound = Ends::of(clip, anatomy).sound;
+    let middle = (sound.start + sound.len() / 2).min(last);
+    let hands = Side::BOTH.map(|side| anatomy.joint(Part::Hand(side)));
+    let (Some(hips), Some(size)) = (anatomy.joint(Part::Hips), anatomy.measures()) else {
+        return middle;
+    };
+    let count = sound.len().min(LOOKS);
+    let up: Vec<usize> = (0..count)
+        .map(|i| sound.start + (sound.len() - 1) * i / (count - 1).max(1))
+        .filter(|&frame| {
+            let pose = clip.model_pose(frame);
+            let least = pose.position(hips).y + 0.2 * size.trunk;
+            hands
+                .iter()
+                .flatten()
+                .any(|&hand| pose.position(hand).y > least)
+        })
+        .collect();
+    up.get(up.len() / 2).copied().unwrap_or(middle)
 }
 
 /// Returns the point that the camera follows; the origin if it stands still.
@@ -331,6 +379,13 @@ fn head_middle(pose: &ModelPose, anatomy: &Anatomy) -> Option<(Vec3, f32)> {
     let middle = up * (measures.head_top - measures.head * 0.5);
     let target = pose.position(joint) + middle;
     Some((target.as_vec3(), measures.head as f32))
+}
+
+/// Returns the room that a head takes around its joint.
+fn above(anatomy: &Anatomy, size: f32) -> Vec3 {
+    let top = anatomy.measures().map_or(0.0, |it| it.head_top as f32);
+    let top = top.clamp(0.19 * size, 0.36 * size) + 0.035 * size;
+    Vec3::new(0.1 * size, top, 0.14 * size)
 }
 
 fn arm_length(pose: &ModelPose, arm: chereme_motion::ArmChain) -> f32 {

@@ -91,7 +91,7 @@ impl Colours {
 /// Returns the colours of the right hand and of the left as the figure has them, strong enough for lines and
 /// words.
 pub(crate) fn hands(dark: bool) -> [Color32; 2] {
-    let palette = chereme_figure::Palette::default();
+    let palette = chereme_figure::Palette::default().with_hands_apart();
     [palette.right, palette.left].map(|hand| {
         let [r, g, b] = hand.back.0;
         let hue = Hsva::from(Color32::from_rgb(r, g, b));

@@ -192,7 +192,25 @@ impl<'a> Builder<'a> {
         let chest = self.rig.add(Follower::Chest);
         let shoulders = [0, 1].map(|side| self.rig.add(Follower::Shoulder(side)));
         let limbs = [0, 1].map(|side| self.arm_followers(side, chest));
-        self.clothes(&Shape { trunk, wide }, [pelvis, chest], shoulders, &limbs);
+        let collar = self.chin().map_or(self.size, |chin| {
+            // The collar ends below the chin.
+            ((chin - 0.012 * self.size) / 0.088).clamp(self.size * 0.25, self.size)
+        });
+        let thighs = Side::BOTH.map(|side| self.joint(Part::Thigh(side)));
+        let hips = match thighs {
+            [Some(right), Some(left)] => {
+                let apart = place(self.rest, right).distance(place(self.rest, left));
+                (apart * 0.5 + 0.072 * self.size) / 0.160
+            }
+            _ => self.size,
+        };
+        let shape = Shape {
+            trunk,
+            wide,
+            collar,
+            hips: hips.clamp(self.size, self.size * 1.4),
+        };
+        self.clothes(&shape, [pelvis, chest], shoulders, &limbs);
         for side in Side::BOTH {
             let at = usize::from(side == Side::Left);
             let Some(arm) = &self.rig.arms[at] else {
@@ -287,23 +305,8 @@ impl<'a> Builder<'a> {
             let paint = Paint::plain(self.palette.face.scaled(0.9), group::HEAD);
             self.limb(neck, joint, [0.050, 0.047, 0.046], paint);
         }
-        let axes = self.anatomy.head_axes(self.rest);
-        let (Some(axes), Some(measures)) = (axes, self.anatomy.measures()) else {
+        let Some(head) = self.head_form(joint) else {
             return;
-        };
-        let axes = Mat3::from_cols_array_2d(&axes.map(|axis| axis.as_vec3().to_array()));
-        let height = measures.head as f32;
-        let top = self.anatomy.landmark(self.skeleton, self.rest, "head-top");
-        let up = axes.y_axis;
-        let top = top.map_or_else(
-            || up * (measures.head_top as f32),
-            |top| top.as_vec3() - place(self.rest, joint),
-        );
-        let turn = rotation(self.rest, joint).inverse();
-        let head = Head {
-            centre: turn * (top - up * height * 0.5),
-            height,
-            axes: Mat3::from_quat(turn) * axes,
         };
         if dressed {
             self.neck(joint, &head);
@@ -321,15 +324,49 @@ impl<'a> Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// Adds the skin between chest and head.
-    fn neck(&mut self, joint: usize, head: &Head) {
-        const RINGS: usize = 6;
-        let posed = self.rig.trunk.as_ref().filter(|_| self.anatomy.is_posed());
+    /// Returns the head in its joint's space, if skeleton and measures have one.
+    fn head_form(&self, joint: usize) -> Option<Head> {
+        let axes = self.anatomy.head_axes(self.rest);
+        let (axes, measures) = (axes?, self.anatomy.measures()?);
+        let axes = Mat3::from_cols_array_2d(&axes.map(|axis| axis.as_vec3().to_array()));
+        let height = measures.head as f32;
+        let top = self.anatomy.landmark(self.skeleton, self.rest, "head-top");
+        let up = axes.y_axis;
+        let top = top.map_or_else(
+            || up * (measures.head_top as f32),
+            |top| top.as_vec3() - place(self.rest, joint),
+        );
+        let turn = rotation(self.rest, joint).inverse();
+        Some(Head {
+            centre: turn * (top - up * height * 0.5),
+            height,
+            axes: Mat3::from_quat(turn) * axes,
+        })
+    }
+
+    /// Returns the place of the head's joint in bind space, and the turn from there to the joint's space.
+    fn head_seat(&self, joint: usize, head: &Head) -> (Vec3, Quat) {
         let turn = Quat::from_mat3(&head.axes).normalize();
-        let at = match posed.map(|trunk| trunk.posed(self.rest).chest) {
+        let standing = self.rig.trunk.as_ref().filter(|trunk| trunk.stands());
+        let at = match standing.map(|trunk| trunk.posed(self.rest).chest) {
             Some(chest) => chest.turn.inverse() * (place(self.rest, joint) - chest.to) + chest.from,
             None => Vec3::Y * (0.117 * STATURE * self.size) - turn.inverse() * head.centre,
         };
+        (at, turn)
+    }
+
+    /// Returns the height of the chin in bind space, if there is a head.
+    fn chin(&self) -> Option<f32> {
+        let joint = self.joint(Part::Head)?;
+        let head = self.head_form(joint)?;
+        let (at, turn) = self.head_seat(joint, &head);
+        Some((at + turn.inverse() * head.centre).y - head.height * 0.5)
+    }
+
+    /// Adds the skin between chest and head.
+    fn neck(&mut self, joint: usize, head: &Head) {
+        const RINGS: usize = 6;
+        let (at, turn) = self.head_seat(joint, head);
         let follower = self.rig.add(Follower::Joint { joint, turn, at });
         let chest = self
             .rig
@@ -339,7 +376,7 @@ impl Builder<'_> {
         let Some(chest) = chest else { return };
         let middle = at + turn.inverse() * head.centre;
         let size = self.size * 0.001;
-        let low = (Vec3::new(0.0, 12.0, -22.0) * size, 56.0 * size);
+        let low = (Vec3::new(0.0, 12.0, -16.0) * size, 48.0 * size);
         let high = (
             middle + Vec3::new(0.0, -0.22, -0.04) * head.height,
             0.215 * head.height,
@@ -377,6 +414,9 @@ impl Builder<'_> {
 struct Shape {
     trunk: f32,
     wide: f32,
+    /// Factors on heights above the shoulders, and on breadths of the hips.
+    collar: f32,
+    hips: f32,
 }
 
 impl Shape {
@@ -386,11 +426,11 @@ impl Shape {
         let low = ((-cloth.at.y - 120.0) / 300.0).clamp(0.0, 1.0);
         let wide = self.wide / (2.0 * SHOULDER * metre);
         let wide = wide.clamp(size * 0.6, size * 1.5);
-        let across = wide + (size - wide) * low;
+        let across = wide + (self.hips - wide) * low;
         let tall = if cloth.at.y < 0.0 {
             self.trunk / (TRUNK * metre)
         } else {
-            size
+            self.collar
         };
         let trunk = cloth.at * Vec3::new(across, tall, size) * metre;
         let along = arm_direction(cloth.side);

@@ -263,7 +263,7 @@ fn tongue(mesh: &mut Mesh, features: &Features, palette: &Palette) {
         let over = (reach - 0.085).max(0.0);
         let aside = features.tongue_aside * 0.06 * out * s * s;
         let z = if out > 0.0 {
-            0.225 + (0.115 + features.out()) * s + 0.01 * out
+            0.245 + (0.135 + features.out()) * (s / 0.42).min(1.0) + 0.02 * s
         } else {
             inner
         };

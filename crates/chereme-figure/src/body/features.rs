@@ -135,7 +135,7 @@ impl Features {
         let corner = 0.10 + self.corners[usize::from(cosine > 0.0)];
         let lift = 0.042 * corner.clamp(-1.0, 1.1) * cosine.abs().powf(2.2)
             - 0.035 * self.jaw * (1.0 - self.pressed) * cosine.abs().powi(3);
-        let aside = 0.055 * self.aside * if upper { 0.35 } else { 1.0 };
+        let aside = 0.055 * self.aside * (0.35 + 0.65 * smooth_step(-sine));
         let nose = if upper { 0.010 * self.nose } else { 0.0 };
         Vec3::new(
             self.width() * wide * cosine + aside,

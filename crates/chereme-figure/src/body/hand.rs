@@ -243,7 +243,7 @@ impl HandFit<'_> {
                 };
                 let end = end.filter(|end| {
                     let share = end.distance(from) / (length * thick);
-                    share.is_finite() && (0.3..3.0).contains(&share)
+                    share.is_finite() && (0.45..1.8).contains(&share)
                 });
                 let towards = own * (glove.bones[PALM].axes.transpose() * made.axes.y_axis);
                 let (along, long) = match (end, found) {

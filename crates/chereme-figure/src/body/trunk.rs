@@ -31,8 +31,9 @@ pub(super) struct TrunkRig {
     /// The joint that the chest is fixed to, and its place in bind space.
     anchor: Option<(usize, Vec3)>,
     hips_at: Vec3,
-    /// From the turned chest and pelvis to bind space, in the posture at rest.
-    rest: [Quat; 2],
+    /// The joints that turn with chest and pelvis, each with the turn from bind space to its own space, if the
+    /// skeleton stands at rest.
+    turning: Option<[(usize, Quat); 2]>,
 }
 
 /// The motions of pelvis and chest.
@@ -94,12 +95,15 @@ impl TrunkRig {
             upright: (carrier, rotation(rest, carrier).inverse() * up),
             anchor: None,
             hips_at: Vec3::new(0.0, -trunk, 0.0),
-            rest: [Quat::IDENTITY; 2],
+            turning: None,
         };
-        if anatomy.is_posed() {
+        let standing = anatomy.clone().with_reference(skeleton, rest);
+        if standing.is_posed() {
             let own = turned(rig.left(rest, None), rig.up(rest));
-            let found = rig.axes(rest);
-            rig.rest = found.map(|it| (it.inverse() * own).normalize());
+            rig.turning = Some([carrier, hips.unwrap_or(carrier)].map(|joint| {
+                let back = rotation(rest, joint).inverse();
+                (joint, (back * own).normalize())
+            }));
             let within = |joint: usize| own.inverse() * (place(rest, joint) - mid);
             rig.anchor = joint(Part::Neck)
                 .map(|neck| (neck, within(neck)))
@@ -112,6 +116,11 @@ impl TrunkRig {
             }
         }
         Some(rig)
+    }
+
+    /// Returns whether the skeleton stands at rest, so that places at rest count.
+    pub(super) fn stands(&self) -> bool {
+        self.turning.is_some()
     }
 
     fn mid(&self, pose: &ModelPose) -> Vec3 {
@@ -149,8 +158,10 @@ impl TrunkRig {
     }
 
     pub(super) fn posed(&self, pose: &ModelPose) -> TrunkPosed {
-        let axes = self.axes(pose);
-        let turns = [0, 1].map(|part| (axes[part] * self.rest[part]).normalize());
+        let turns = match self.turning {
+            Some(joints) => joints.map(|(joint, own)| (rotation(pose, joint) * own).normalize()),
+            None => self.axes(pose),
+        };
         let (from, to) = match self.anchor {
             Some((joint, at)) => (at, place(pose, joint)),
             None => (Vec3::ZERO, self.mid(pose)),

@@ -85,7 +85,7 @@ impl Subject {
             Some(before) => Some(Self {
                 framing: match steady {
                     true => before.framing,
-                    false => Framing::of_signing(clip, anatomy)?,
+                    false => Framing::of(clip, anatomy)?,
                 },
                 points: BTreeMap::new(),
                 ..before
@@ -95,7 +95,7 @@ impl Subject {
     }
 
     fn new(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
-        let framing = Framing::of_signing(clip, anatomy)?;
+        let framing = Framing::of(clip, anatomy)?;
         let skeleton = clip.skeleton().clone();
         let first = clip.model_pose(0);
         let at = |joint: usize| first.position(joint).as_vec3();
