@@ -122,7 +122,7 @@ pub struct Options {
     pub window: usize,
     /// What happens to a phase without a path.
     pub no_path: NoPath,
-    /// What each phase's cost is multiplied by.
+    /// The factor of each phase's cost.
     pub weights: [f64; 4],
 }
 

@@ -32,7 +32,7 @@ impl Numbers {
     }
 }
 
-/// What a performance does in its body; each number is known.
+/// The numbers of a performance's body, all of them known.
 #[derive(Debug, Clone, Copy)]
 struct Manner {
     /// Brows raised in the first part of the body and in the rest.

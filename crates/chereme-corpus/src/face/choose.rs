@@ -40,7 +40,7 @@ pub struct ChooseOptions {
     pub rank: Rank,
     /// The names of the channels that are compared; empty for head, brows and brows drawn together.
     pub channels: Vec<String>,
-    /// What the cost of each phase is multiplied by.
+    /// The factor of each phase's cost.
     pub weights: [f64; 4],
     /// Whether the ratio of lengths counts, as in the paper.
     pub stretch: bool,

@@ -11,7 +11,7 @@ use crate::address::Address;
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
 
-/// What tiers of functions are called, folded and without signs between.
+/// Names of tiers of functions, folded and without signs between.
 const NAMES: [&str; 14] = [
     "function",
     "functions",
@@ -28,7 +28,7 @@ const NAMES: [&str; 14] = [
     "satztyp",
     "zinstype",
 ];
-/// What the name of a tier of milestones begins with; the function follows.
+/// The begin of the name of a tier of milestones; the function follows.
 pub(crate) const TIER: &str = "milestones ";
 
 /// An expression of the face in a recording.
@@ -46,7 +46,7 @@ pub(crate) struct Expression {
     pub(crate) stored: Vec<i64>,
     /// Whether a person wrote or corrected its milestones.
     pub(crate) corrected: bool,
-    /// What is odd about it.
+    /// Its oddities.
     pub(crate) odd: Vec<String>,
 }
 
@@ -163,7 +163,7 @@ impl Signing {
         inside.map(|(_, gloss)| gloss.clone()).collect()
     }
 
-    /// Returns the expression over the signs whose middle lies in an annotation; over its own span if there are none.
+    /// Returns the expression over the signs whose middle lies in an annotation; over its own span without signs.
     fn expression(&self, recording: i64, function: Function, of: &AnnotationRow) -> Expression {
         let span = span_of(of);
         let own = self.utterances.iter().find(|it| it.contains(middle(span)));

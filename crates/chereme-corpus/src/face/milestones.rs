@@ -54,7 +54,7 @@ pub struct FoundExpression {
     pub recording: String,
     /// The address by which other commands know it.
     pub address: String,
-    /// What it does for the signs that it spans.
+    /// Its function for the signs that it spans.
     pub function: Function,
     /// The glosses that it spans.
     pub signs: Vec<String>,
@@ -199,7 +199,7 @@ impl Corpus {
         Ok(written)
     }
 
-    /// Tells whether a tier holds annotations in the way of new ones: those that are not about to be removed.
+    /// Returns whether a tier holds annotations in the way of new ones: those that are not about to be removed.
     fn is_occupied(
         &self,
         recording: i64,

@@ -61,7 +61,7 @@ pub struct FaceReport {
     pub numbers: Vec<FaceNumber>,
     /// How many frames had gaps that were bridged.
     pub bridged: u64,
-    /// What the mapping loses, and what is odd.
+    /// The losses of the mapping, and oddities of the capture.
     pub findings: Vec<FaceFinding>,
 }
 
@@ -183,7 +183,7 @@ pub(crate) struct Captured {
 }
 
 /// Returns the captured face of a recording, whole or of the frames in a span of the recording's clock: the first track of
-/// curves that is of a face system. Curves that a recipe made are none.
+/// curves that is of a face system. Curves that a recipe made do not count.
 pub(crate) fn captured(
     connection: &Connection,
     recording: i64,

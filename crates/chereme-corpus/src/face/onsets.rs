@@ -81,7 +81,7 @@ impl Quartiles {
 impl Corpus {
     /// Returns when non-manuals begin and end against the manual signs that they span, for each function and channel.
     ///
-    /// A channel begins when it has gone half of its way from where it is half a second before the expression to its
+    /// A channel begins when it has gone half of its way from its value half a second before the expression to its
     /// farthest value in the body, and ends when it comes back to half.
     ///
     /// # Errors

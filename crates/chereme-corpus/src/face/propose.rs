@@ -23,7 +23,7 @@ const RATE: f64 = 60.0;
 /// A longer recording is looked at up to here, in seconds.
 const LONGEST: f64 = 7_200.0;
 
-/// What the parts of a face seem to do in a recording.
+/// Proposals for the parts of a face in a recording.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FaceProposals {
     /// The recording's name.

@@ -1,4 +1,4 @@
-//! A recording of a face alone as movement of the program's own body, whose head turns as the capture tells.
+//! A recording of a face alone as movement of the program's own body, whose head turns as in the capture.
 
 use std::sync::Arc;
 
