@@ -32,12 +32,17 @@ const ARROWS: [(&str, &[&str]); 10] = [
 ];
 
 /// Crates from outside that would bring in what a crate must never know: crate, and why.
-const NEVER: [(&str, &[&str], &str); 10] = [
+const NEVER: [(&str, &[&str], &str); 11] = [
     ("rusqlite", &["chereme-corpus"], "SQL lives in the corpus"),
     (
         "tantivy",
         &["chereme-corpus"],
         "the search index lives in the corpus",
+    ),
+    (
+        "rusty_h264",
+        &["chereme-corpus"],
+        "films are decoded and coded behind the door of the corpus",
     ),
     (
         "clap",

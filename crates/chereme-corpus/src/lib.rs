@@ -18,6 +18,7 @@ mod edit;
 mod error;
 mod export;
 mod face;
+mod film;
 mod import;
 mod info;
 mod inventories;
@@ -97,6 +98,7 @@ pub use face::{
     FaceNumber, FaceProposal, FaceProposals, FaceReport, FaceScore, FoundExpression,
     MilestoneOptions, OnsetRow, Onsets, Quartiles, Rank, Ranked, ScoredChannel,
 };
+pub use film::{Film, FilmFacts, FilmPicture, FilmTimes, Planes};
 pub use import::{
     FileReport, FileStatus, ImportOptions, ImportReport, Outcome, OwnEdit, OwnEdits, ReportFinding,
     Saying, Unread,
@@ -107,7 +109,7 @@ pub use kept::{KeptSearch, kept_like};
 pub use kinematics::Curves;
 pub use list::{ListFilter, ListKind, Listing, cell_text, components_text};
 pub use log::{ChangeKind, Changed, FieldChange, OperationDetail};
-pub use media::{MediaChange, MediaPlace};
+pub use media::{MediaChange, MediaPlace, find_media};
 pub use movement::ChannelGroup;
 pub use notation::{Notation, read_notation};
 pub use pairs::{Dense, Empty, FIELD_SETS, Pair, PairOptions, Pairs};

@@ -91,10 +91,81 @@ impl Corpus {
     pub fn media(&self, recording: &Name) -> Result<Vec<MediaPlace>> {
         let connection = self.store.read();
         let row = address::recording(connection, recording)?;
-        let folder = self.path().parent().unwrap_or(Path::new(""));
         let tracks = recordings::media_tracks(connection, row.id)?.into_iter();
-        Ok(tracks.map(|track| placed(track, folder)).collect())
+        Ok(tracks.map(|track| find_media(track, self.path())).collect())
     }
+}
+
+impl MediaTrackRow {
+    /// Returns whether it is a film, by its media type or its name.
+    #[must_use]
+    pub fn is_film(&self) -> bool {
+        let said = self.media_type.as_deref().filter(|it| it.contains('/'));
+        let kind = said.or_else(|| media_type(&self.url));
+        kind.is_some_and(|kind| kind.starts_with("video"))
+    }
+}
+
+/// Looks for the file of a media track of the corpus at `corpus`: where it is said to lie, then by its name next to the
+/// corpus and in folders there; as an MP4 of the same name, too, since films that no player here knows are converted.
+#[must_use]
+pub fn find_media(track: MediaTrackRow, corpus: &Path) -> MediaPlace {
+    let folder = corpus.parent().unwrap_or(Path::new(""));
+    let candidates = candidates(&track.url, folder);
+    let there = candidates.iter().find(|path| path.is_file()).cloned();
+    let there = there.or_else(|| {
+        let name = candidates
+            .last()?
+            .file_name()?
+            .to_string_lossy()
+            .into_owned();
+        let own = |entry: &Path| entry.file_name().is_some_and(|it| *it == *name);
+        let stem = Path::new(&name).file_stem()?.to_owned();
+        let converted = |entry: &Path| {
+            let kind = entry.extension().unwrap_or_default().to_string_lossy();
+            let film = matches!(kind.to_lowercase().as_str(), "mp4" | "m4v" | "mov");
+            film && track.is_film() && entry.file_stem() == Some(&stem)
+        };
+        let near = files_near(folder);
+        let found = near.iter().find(|path| own(path));
+        found
+            .or_else(|| near.iter().find(|path| converted(path)))
+            .cloned()
+    });
+    MediaPlace {
+        track,
+        is_there: there.is_some(),
+        path: there.or_else(|| candidates.into_iter().next()),
+    }
+}
+
+/// Most entries of folders that are looked at for a missing file, and how deep folders are.
+const MOST_ENTRIES: usize = 5000;
+const DEEPEST: usize = 3;
+
+/// Returns files in a folder and the folders in it, the nearest first.
+fn files_near(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut folders = vec![folder.to_owned()];
+    let mut seen = 0;
+    for _ in 0..DEEPEST {
+        let mut deeper = Vec::new();
+        for folder in folders {
+            let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+            let mut entries: Vec<PathBuf> = entries
+                .take(MOST_ENTRIES - seen)
+                .map(|entry| entry.path())
+                .collect();
+            entries.sort();
+            seen += entries.len();
+            let (inner, outer): (Vec<PathBuf>, Vec<PathBuf>) =
+                entries.into_iter().partition(|path| path.is_dir());
+            deeper.extend(inner);
+            files.extend(outer);
+        }
+        folders = deeper;
+    }
+    files
 }
 
 /// Returns the name of a file that a person linked, another than those of files that transcripts name.
@@ -106,16 +177,6 @@ fn said(url: &str) -> Result<String> {
     match url.trim() {
         "" => Err(Error::wrong("a media file needs a place").advise("give its path")),
         url => Ok(url.to_owned()),
-    }
-}
-
-fn placed(track: MediaTrackRow, folder: &Path) -> MediaPlace {
-    let candidates = candidates(&track.url, folder);
-    let there = candidates.iter().find(|path| path.is_file()).cloned();
-    MediaPlace {
-        track,
-        is_there: there.is_some(),
-        path: there.or_else(|| candidates.into_iter().next()),
     }
 }
 
@@ -195,6 +256,34 @@ mod tests {
         assert_eq!(first("https://example.org/film.mp4"), None);
         let last = candidates("file:///D:/Data\\film.mpg", folder).pop();
         assert_eq!(last, Some(PathBuf::from("/corpus/film.mpg")));
+    }
+
+    #[test]
+    fn a_missing_film_is_found_by_its_name_in_folders_near_the_corpus() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let corpus = folder.path().join("c.chereme");
+        let deep = folder.path().join("films/2019");
+        std::fs::create_dir_all(&deep).expect("made");
+        let row = |url: &str| MediaTrackRow {
+            id: 1,
+            recording_id: 1,
+            name: "film".to_owned(),
+            offset_us: 0,
+            media_type: None,
+            url: url.to_owned(),
+        };
+        let looked = |url: &str| find_media(row(url), &corpus);
+        assert!(!looked("file:///D:/gone/take.mpg").is_there);
+        let converted = deep.join("take.mp4");
+        std::fs::write(&converted, "").expect("written");
+        let found = looked("file:///D:/gone/take.mpg");
+        assert!(found.is_there);
+        assert_eq!(found.path, Some(converted));
+        let own = folder.path().join("films/take.mpg");
+        std::fs::write(&own, "").expect("written");
+        assert_eq!(looked("file:///D:/gone/take.mpg").path, Some(own));
+        assert!(!looked("take.wav").is_there, "sound is no film");
+        assert!(row("a.MP4").is_film() && !row("a.wav").is_film());
     }
 
     #[test]

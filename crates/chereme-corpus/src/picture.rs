@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use chereme_figure::{
-    Animation, AnimationOptions, FigureError, HandshapeOptions, SheetOptions, View, contact_sheet,
-    face_sheet, handshape_picture, handshape_sheet, write_gif, write_png,
+    Animation, AnimationOptions, Caption, FigureError, HandshapeOptions, SheetOptions, Strip,
+    Theme, View, contact_sheet, face_sheet, handshape_picture, handshape_sheet, write_gif,
+    write_png,
 };
 use chereme_motion::anatomy::Anatomy;
 use chereme_motion::{Clip, Face, Instant, Side, Span};
@@ -20,9 +21,10 @@ use crate::Corpus;
 use crate::address::{self, Address, Stretch};
 use crate::animate::Staging;
 use crate::curves;
-use crate::db::recordings;
+use crate::db::{recordings, signs};
 use crate::error::{Error, Result};
 use crate::face;
+use crate::film::{Shape, write_film};
 use crate::inventories;
 use crate::movement::{ChannelGroup, Track};
 use crate::notation::{self, Notation};
@@ -30,6 +32,9 @@ use crate::progress::{Progress, Step, Unit};
 use crate::recombine::Recombination;
 use crate::sources::notation::own_body;
 
+/// How high a film is, and how many pictures it shows in a second.
+const FILM: usize = 540;
+const FILM_RATE: u32 = 25;
 /// A stretch longer than this is drawn only in part.
 const LONGEST: i64 = 120_000_000;
 
@@ -50,10 +55,15 @@ pub struct PictureOptions {
     pub frames: usize,
     /// Whether the contact sheet shows the hands from close by, and the face where it does something.
     pub hands: bool,
-    /// How high one picture is, in pixels; without a number 260 for movement, 128 for a handshape, 160 for a face.
+    /// How high one picture is, in pixels; without a number 260 for movement, 540 for a film, 128 for a handshape, 160
+    /// for a face.
     pub height: Option<usize>,
     /// How fast an animation runs, 1 being the recorded speed; from 0.05 to 20.
     pub speed: f64,
+    /// How many pictures a film shows in a second, from 1 to 120.
+    pub rate: u32,
+    /// Whether glosses stand below an animation or a film while they are signed.
+    pub captions: bool,
     /// Whether a file that is there already is written over.
     pub force: bool,
 }
@@ -65,6 +75,8 @@ impl Default for PictureOptions {
             hands: true,
             height: None,
             speed: 1.0,
+            rate: FILM_RATE,
+            captions: false,
             force: false,
         }
     }
@@ -194,7 +206,7 @@ impl Corpus {
     }
 
     /// Draws movement to a file: a contact sheet where it ends in `.png`, an animation where it ends
-    /// in `.gif`. A sign that is there as notation only is animated, on the body that the corpus chooses.
+    /// in `.gif`, a film where it ends in `.mp4`. A sign that is there as notation only is animated, on the body that the corpus chooses.
     /// Where the file ends in `.svg`, the notation itself is drawn, symbol by symbol; of a sign without one, what
     /// its movement is transcribed as.
     ///
@@ -224,7 +236,82 @@ impl Corpus {
         let span = Span::between(from, from.shifted(stretch.span.micros().min(LONGEST)));
         let moving = self.movement_in(address, Some(span), &ChannelGroup::ALL)?;
         let title = title(&moving.stretch);
-        draw_clip((&moving).into(), &title, to, options, progress)
+        let captions = match options.captions {
+            true => self.captions(&moving.stretch)?,
+            false => Vec::new(),
+        };
+        let scene = Scene {
+            performance: (&moving).into(),
+            title: &title,
+            captions,
+        };
+        draw_scenes(&[scene], to, options, progress)
+    }
+
+    /// Draws several movements next to each other to a file, as one animation (`.gif`) or film (`.mp4`). They begin
+    /// together, and a shorter one holds its last picture.
+    ///
+    /// # Errors
+    /// As [`draw`](Self::draw); and if one of them has no movement, or the file is neither.
+    pub fn draw_together(
+        &mut self,
+        addresses: &[Address],
+        to: &Path,
+        options: &PictureOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Picture> {
+        if let [one] = addresses {
+            return self.draw(one, to, options, progress);
+        }
+        if !matches!(extension(to).as_str(), "gif" | "mp4") {
+            return Err(ending(
+                to,
+                "several movements are drawn next to each other to an .mp4 or a .gif",
+            ));
+        }
+        let mut all = Vec::with_capacity(addresses.len());
+        for address in addresses {
+            let from = address::stretch(self.store.read(), address)?.span;
+            let span = Span::between(
+                from.start(),
+                from.start().shifted(from.micros().min(LONGEST)),
+            );
+            let moving = self.movement_in(address, Some(span), &ChannelGroup::ALL)?;
+            let captions = match options.captions {
+                true => self.captions(&moving.stretch)?,
+                false => Vec::new(),
+            };
+            all.push((title(&moving.stretch), captions, moving));
+        }
+        let scenes: Vec<Scene<'_>> = all
+            .iter()
+            .map(|(title, captions, moving)| Scene {
+                performance: moving.into(),
+                title,
+                captions: captions.clone(),
+            })
+            .collect();
+        draw_scenes(&scenes, to, options, progress)
+    }
+
+    /// Returns the glosses in a stretch as captions, on the clock of its movement.
+    fn captions(&self, stretch: &Stretch) -> Result<Vec<Caption>> {
+        let from = stretch.span.start().micros();
+        let caption = |text: &str, span: Span| Caption {
+            span: span.shifted(-from),
+            text: text.to_owned(),
+        };
+        if let Some(token) = &stretch.token {
+            return Ok(vec![caption(&token.gloss, stretch.span)]);
+        }
+        let tokens = signs::tokens_of_recording(self.store.read(), stretch.recording.id)?;
+        let spans = tokens.iter().filter_map(|token| {
+            let (start, end) = (token.start_us?, token.end_us?);
+            let span = Span::between(Instant::from_micros(start), Instant::from_micros(end));
+            let within = span.intersection(stretch.span)?;
+            Some(caption(&token.gloss, within))
+        });
+        Ok(spans.collect())
     }
 
     /// Draws the symbols of a notation to an SVG: what is stored, or else what the movement is transcribed as.
@@ -385,69 +472,150 @@ pub fn draw_clip(
     options: &PictureOptions,
     progress: &mut Progress<'_>,
 ) -> Result<Picture> {
-    let Performance {
-        clip,
-        anatomy,
-        faces,
-    } = performance;
-    let kind = extension(to);
-    let mut hear = |done: usize, total: usize| {
-        let (done, total) = (done as u64, Some(total as u64));
-        match progress.tell(Step {
-            task: "drawing",
-            done,
-            total,
-            unit: Unit::Frames,
-        }) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(_) => ControlFlow::Break(()),
-        }
+    let whole = performance.clip.span();
+    let captions = match options.captions {
+        true => vec![Caption {
+            span: whole,
+            text: title.to_owned(),
+        }],
+        false => Vec::new(),
     };
-    let (bytes, frames) = match kind.as_str() {
-        "png" => {
-            let mut sheet = SheetOptions {
-                title: title.to_owned(),
-                frames: chereme_figure::Frames::Spaced(options.frames),
-                cell_height: options.height.unwrap_or(HEIGHT),
-                ..SheetOptions::default()
+    let scene = Scene {
+        performance,
+        title,
+        captions,
+    };
+    draw_scenes(&[scene], to, options, progress)
+}
+
+/// A movement that is drawn next to others.
+struct Scene<'a> {
+    performance: Performance<'a>,
+    title: &'a str,
+    captions: Vec<Caption>,
+}
+
+fn draw_scenes(
+    scenes: &[Scene<'_>],
+    to: &Path,
+    options: &PictureOptions,
+    progress: &mut Progress<'_>,
+) -> Result<Picture> {
+    let mut tell = |done: usize, total: usize| {
+        progress.tell(Step {
+            task: "drawing",
+            done: done as u64,
+            total: Some(total as u64),
+            unit: Unit::Frames,
+        })
+    };
+    let kind = extension(to);
+    let (bytes, frames) = match (kind.as_str(), scenes) {
+        ("png", [scene]) => {
+            let mut hear = |done: usize, total: usize| match tell(done, total) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(_) => ControlFlow::Break(()),
             };
-            if options.hands && Side::BOTH.iter().any(|&side| anatomy.has_fingers(side)) {
-                sheet = sheet.with_hands();
-            }
-            if options.hands {
-                sheet = sheet.with_faces(faces.to_vec());
-            } else {
-                sheet.faces = faces.to_vec();
-            }
-            let image = contact_sheet(clip, anatomy, &sheet, &mut hear).map_err(figure)?;
-            let bytes = write(to, options.force, |out| {
-                write_png(&image, out).map_err(figure)
-            })?;
-            (bytes, options.frames.min(clip.frames()))
+            sheet(scene, to, options, &mut hear)?
         }
-        "gif" => {
-            let settings = AnimationOptions {
-                views: vec![View::Addressee, View::Left],
-                height: options.height.unwrap_or(HEIGHT),
-                speed: options.speed,
-                faces: faces.to_vec(),
-                ..AnimationOptions::default()
+        ("gif", _) => {
+            let height = options.height.unwrap_or(HEIGHT);
+            let mut strip = strip(scenes, options, (height, None))?;
+            let mut hear = |done: usize, total: usize| match tell(done, total) {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(_) => ControlFlow::Break(()),
             };
-            let mut animation = Animation::new(clip, anatomy, settings).map_err(figure)?;
-            let frames = animation.frames();
+            let frames = chereme_figure::Pictures::frames(&strip);
             let bytes = write(to, options.force, |out| {
-                write_gif(&mut animation, out, &mut hear).map_err(figure)
+                write_gif(&mut strip, out, &mut hear).map_err(figure)
+            })?;
+            (bytes, frames)
+        }
+        ("mp4", _) => {
+            let rate = options.rate.clamp(1, 120);
+            let height = options.height.unwrap_or(FILM);
+            let mut strip = strip(scenes, options, (height, Some(rate)))?;
+            let shape = Shape { rate };
+            let mut frames = 0;
+            let bytes = write(to, options.force, |out| {
+                frames = write_film(&mut strip, shape, out, &mut tell)?;
+                Ok(())
             })?;
             (bytes, frames)
         }
         _ => {
             return Err(ending(
                 to,
-                "write a contact sheet to .png, an animation to .gif, or the notation to .svg",
+                "write a contact sheet to .png, an animation to .gif, a film to .mp4, or the notation to .svg",
             ));
         }
     };
-    Ok(told(to, title, bytes, frames))
+    let titles: Vec<&str> = scenes.iter().map(|scene| scene.title).collect();
+    Ok(told(to, &titles.join(", "), bytes, frames))
+}
+
+/// Draws a contact sheet, and returns its size in bytes and how many pictures stand side by side.
+fn sheet(
+    scene: &Scene<'_>,
+    to: &Path,
+    options: &PictureOptions,
+    hear: chereme_figure::Progress<'_>,
+) -> Result<(u64, usize)> {
+    let Performance {
+        clip,
+        anatomy,
+        faces,
+    } = scene.performance;
+    let mut sheet = SheetOptions {
+        title: scene.title.to_owned(),
+        frames: chereme_figure::Frames::Spaced(options.frames),
+        cell_height: options.height.unwrap_or(HEIGHT),
+        ..SheetOptions::default()
+    };
+    if options.hands && Side::BOTH.iter().any(|&side| anatomy.has_fingers(side)) {
+        sheet = sheet.with_hands();
+    }
+    if options.hands {
+        sheet = sheet.with_faces(faces.to_vec());
+    } else {
+        sheet.faces = faces.to_vec();
+    }
+    let image = contact_sheet(clip, anatomy, &sheet, hear).map_err(figure)?;
+    let bytes = write(to, options.force, |out| {
+        write_png(&image, out).map_err(figure)
+    })?;
+    Ok((bytes, options.frames.min(clip.frames())))
+}
+
+/// Returns the pictures of movements next to each other: one from two sides, of several each from the front.
+fn strip<'a>(
+    scenes: &[Scene<'a>],
+    options: &PictureOptions,
+    (height, rate): (usize, Option<u32>),
+) -> Result<Strip<'a>> {
+    let views = match scenes {
+        [_] => vec![View::Addressee, View::Left],
+        _ => vec![View::Addressee],
+    };
+    let mut cells = Vec::with_capacity(scenes.len());
+    for scene in scenes {
+        let Performance {
+            clip,
+            anatomy,
+            faces,
+        } = scene.performance;
+        let settings = AnimationOptions {
+            views: views.clone(),
+            height,
+            speed: options.speed,
+            rate,
+            faces: faces.to_vec(),
+            ..AnimationOptions::default()
+        };
+        let animation = Animation::new(clip, anatomy, settings).map_err(figure)?;
+        cells.push((animation, scene.captions.clone()));
+    }
+    Strip::new(cells, Theme::Light).map_err(figure)
 }
 
 fn title(stretch: &Stretch) -> String {

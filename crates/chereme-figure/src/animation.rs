@@ -30,6 +30,8 @@ pub struct AnimationOptions {
     pub height: usize,
     /// Duration of each picture in hundredths of a second, 1 to 100; 4 gives 25 pictures per second.
     pub centiseconds: u16,
+    /// Pictures per second, for films; it goes before `centiseconds`, in which a GIF counts.
+    pub rate: Option<u32>,
     /// Playback speed, one of [`SPEEDS`]; 0.5 is half the original speed.
     pub speed: f64,
     /// The colours of the body.
@@ -45,10 +47,54 @@ impl Default for AnimationOptions {
             faces: Vec::new(),
             height: 360,
             centiseconds: 4,
+            rate: None,
             speed: 1.0,
             palette: Palette::default(),
             style: Style::default(),
         }
+    }
+}
+
+impl AnimationOptions {
+    /// Returns how long a picture is shown.
+    fn seconds(&self) -> f64 {
+        match self.rate {
+            Some(rate) => 1.0 / f64::from(rate.clamp(1, 240)),
+            None => f64::from(self.centiseconds.clamp(1, 100)) / 100.0,
+        }
+    }
+}
+
+/// Pictures that follow each other and are drawn one at a time.
+pub trait Pictures {
+    /// Returns how many there are.
+    fn frames(&self) -> usize;
+
+    /// Returns width and height of each in pixels.
+    fn size(&self) -> [usize; 2];
+
+    /// Returns how long each is shown in a GIF, in hundredths of a second.
+    fn centiseconds(&self) -> u16;
+
+    /// Draws one of them.
+    fn draw(&mut self, frame: usize) -> Image;
+}
+
+impl Pictures for Animation<'_> {
+    fn frames(&self) -> usize {
+        self.frames()
+    }
+
+    fn size(&self) -> [usize; 2] {
+        self.size()
+    }
+
+    fn centiseconds(&self) -> u16 {
+        self.options.centiseconds.clamp(1, 100)
+    }
+
+    fn draw(&mut self, frame: usize) -> Image {
+        self.draw(frame)
     }
 }
 
@@ -100,7 +146,7 @@ impl<'a> Animation<'a> {
             });
         }
         let sound = clip.rate().span(Ends::of(clip, anatomy).sound);
-        let step = f64::from(options.centiseconds.clamp(1, 100)) / 100.0 * options.speed;
+        let step = options.seconds() * options.speed;
         let frames = ((sound.seconds() / step).ceil() as usize).max(1);
         if frames > MAX_FRAMES {
             return Err(FigureError::Long { frames });
@@ -136,8 +182,8 @@ impl<'a> Animation<'a> {
     /// Returns the time in the clip that picture `frame` shows.
     #[must_use]
     pub fn instant(&self, frame: usize) -> Instant {
-        let step = f64::from(self.options.centiseconds.clamp(1, 100)) / 100.0;
-        let from = Instant::from_seconds(frame as f64 * step * self.options.speed);
+        let step = self.options.seconds() * self.options.speed;
+        let from = Instant::from_seconds(frame as f64 * step);
         from.shifted(self.start.micros())
     }
 
@@ -192,7 +238,7 @@ const SAMPLED: usize = 12;
 /// # Errors
 /// [`FigureError`] if `out` cannot be written or `progress` stops it; the file is incomplete then.
 pub fn write_gif(
-    animation: &mut Animation<'_>,
+    animation: &mut impl Pictures,
     out: impl Write,
     progress: Progress<'_>,
 ) -> Result<(), FigureError> {
@@ -205,7 +251,7 @@ pub fn write_gif(
     }
     quantizer.choose(usize::from(CLEAR));
     let [width, height] = animation.size().map(|side| side as u16);
-    let delay = animation.options.centiseconds.clamp(1, 100);
+    let delay = animation.centiseconds();
     let mut encoder = gif::Encoder::new(out, width, height, &quantizer.palette_bytes())?;
     encoder.set_repeat(gif::Repeat::Infinite)?;
     let mut shown: Vec<u8> = Vec::new();

@@ -66,6 +66,11 @@ impl Image {
         }
     }
 
+    /// Sets the colour of the pixel in that column and row; positions outside are ignored.
+    pub fn set_colour(&mut self, [x, y]: [usize; 2], colour: Colour) {
+        self.set(x as i64, y as i64, colour);
+    }
+
     pub(crate) fn pixels_mut(&mut self) -> &mut [Colour] {
         &mut self.pixels
     }

@@ -37,6 +37,7 @@
 //! | [`image`], [`writer`] | pixels, and PNG |
 //! | [`sheet`] | contact sheets, thumbnails |
 //! | [`animation`] | moving pictures, and GIF |
+//! | [`strip`] | several of them next to each other, with captions |
 //! | [`handshape`] | a hand alone, from joint angles |
 //! | [`chart`] | how two clips are aligned |
 //! | [`letters`] | text in any script, and the fonts of the computer |
@@ -60,10 +61,11 @@ pub mod palette;
 mod quantize;
 pub mod raster;
 pub mod sheet;
+pub mod strip;
 pub mod view;
 pub mod writer;
 
-pub use animation::{Animation, AnimationOptions, write_gif};
+pub use animation::{Animation, AnimationOptions, Pictures, write_gif};
 pub use body::Body;
 pub use chart::{ChartOptions, alignment_picture};
 pub use error::{FigureError, MAX_FRAMES, SPEEDS};
@@ -72,5 +74,6 @@ pub use handshape::{HandView, HandshapeOptions, handshape_picture, handshape_she
 pub use image::Image;
 pub use palette::{Colour, Palette, Theme};
 pub use sheet::{Frames, Progress, SheetOptions, contact_sheet, thumbnail};
+pub use strip::{Caption, Strip};
 pub use view::{Framing, View, stroke};
 pub use writer::write_png;

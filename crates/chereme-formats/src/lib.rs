@@ -9,6 +9,7 @@ mod finding;
 pub mod gltf;
 pub mod hns;
 pub mod lexicon;
+pub mod mp4;
 pub mod pose;
 pub mod roles;
 pub mod sigml;

@@ -209,6 +209,8 @@ actions! {
     ShuttleForward "play.shuttle-forward" SHUTTLE_FORWARD Play Corpus;
     FrameBack "play.frame-back" FRAME_BACK Play Corpus repeats;
     FrameForward "play.frame-forward" FRAME_FORWARD Play Corpus repeats;
+    FilmBack "play.film-back" FILM_BACK Play Corpus repeats;
+    FilmForward "play.film-forward" FILM_FORWARD Play Corpus repeats;
     SecondBack "play.second-back" SECOND_BACK Play Corpus repeats;
     SecondForward "play.second-forward" SECOND_FORWARD Play Corpus repeats;
     ToStart "play.to-start" TO_START Play Corpus;
@@ -244,6 +246,10 @@ actions! {
     PanDown "stage.pan-down" PAN_DOWN Stage Corpus repeats;
     Nearer "stage.nearer" NEARER Stage Corpus repeats;
     Farther "stage.farther" FARTHER Stage Corpus repeats;
+    ShareFilm "share.film" SHARE_FILM Stage Corpus;
+    ShareGif "share.gif" SHARE_GIF Stage Corpus;
+    SharePicture "share.picture" SHARE_PICTURE Stage Corpus;
+    ShareGlb "share.glb" SHARE_GLB Stage Corpus;
     StageReset "stage.reset" STAGE_RESET Stage Corpus;
     ZoomIn "view.zoom-in" ZOOM_IN View Corpus repeats;
     ZoomOut "view.zoom-out" ZOOM_OUT View Corpus repeats;
@@ -264,6 +270,7 @@ actions! {
     ShowTimeline "pane.timeline" SHOW_TIMELINE Panes Corpus;
     ShowRecombine "pane.recombine" SHOW_RECOMBINE Panes Corpus;
     ShowInspector "pane.inspector" SHOW_INSPECTOR Panes Corpus;
+    ShowFilm "pane.film" SHOW_FILM Panes Corpus;
     ShowHistory "pane.history" SHOW_HISTORY Panes Corpus;
     OnlyPane "pane.only" ONLY_PANE Panes Corpus;
     OnlyAnnotating "pane.only-annotating" ONLY_ANNOTATING Panes Corpus;

@@ -14,6 +14,7 @@ use crate::clipboard::Clipboard;
 use crate::command::Command;
 use crate::context::{Outbox, Seen, Shown};
 use crate::draft::Drafts;
+use crate::film::Films;
 use crate::keys::{Keys, Place};
 use crate::little::Figures;
 use crate::model::Snapshot;
@@ -49,6 +50,7 @@ pub struct Studio {
     pub(crate) shown: Shown,
     pub(crate) reel: Reel,
     pub(crate) little: Figures,
+    pub(crate) films: Films,
     pub(crate) tree: Tree<PaneKind>,
     /// Whether the layout is that of a small window.
     pub(crate) small: bool,
@@ -116,6 +118,7 @@ impl Studio {
             shown: Shown::default(),
             reel: Reel::default(),
             little: Figures::default(),
+            films: Films::default(),
             panes: Panes::default(),
             pane: None,
             sprung: Sprung::default(),
@@ -196,6 +199,12 @@ impl Studio {
         self.panes.stage.is_drawn()
     }
 
+    /// Returns whether every film shows the frame that was wished for last.
+    #[must_use]
+    pub fn is_filmed(&self) -> bool {
+        self.films.are_pictured()
+    }
+
     /// Returns what the movement is called that the stage shows, where that was made of a recipe and its
     /// newest picture is there: the recipe, or a gloss.
     #[must_use]
@@ -238,6 +247,7 @@ impl Studio {
             shown: &self.shown,
             reel: &self.reel,
             little: &self.little,
+            films: &self.films,
             keys: &self.keys,
             settings: &self.settings,
             language: self.settings.language,
@@ -362,6 +372,7 @@ impl Studio {
             player.advance(passed.min(0.5));
             ctx.request_repaint();
         }
+        self.follow_films(ctx);
         let player = &self.shown.player;
         let (at, direction) = (player.playhead(), player.direction());
         let loading = self.desk.as_ref().map_or(0, |desk| {
@@ -432,6 +443,7 @@ impl Studio {
                 shown,
                 reel,
                 little,
+                films,
                 keys,
                 settings,
                 desk,
@@ -450,6 +462,7 @@ impl Studio {
                 shown,
                 reel,
                 little,
+                films,
                 keys,
                 settings,
                 language: settings.language,

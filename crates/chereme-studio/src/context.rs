@@ -6,6 +6,7 @@ use std::sync::Arc;
 use chereme_motion::{Instant, Span};
 
 use crate::command::Command;
+use crate::film::Films;
 use crate::keys::Keys;
 use crate::little::Figures;
 use crate::model::Snapshot;
@@ -109,6 +110,8 @@ pub(crate) struct Seen<'a> {
     pub(crate) reel: &'a Reel,
     /// Looping little figures of any movement.
     pub(crate) little: &'a Figures,
+    /// Films of the recording.
+    pub(crate) films: &'a Films,
     pub(crate) keys: &'a Keys,
     pub(crate) settings: &'a Settings,
     pub(crate) language: Language,

@@ -33,7 +33,7 @@ pub(crate) fn is_small(size: Vec2) -> bool {
 /// and the other panes are behind them.
 pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
     use LinearDir::{Horizontal, Vertical};
-    use PaneKind::{History, Import, Inspector, Library, Recombine, Search, Stage, Timeline};
+    use PaneKind::{Film, History, Import, Inspector, Library, Recombine, Search, Stage, Timeline};
     let mut tiles = Tiles::default();
     let mut tabs = |kinds: &[PaneKind]| {
         let children: Vec<TileId> = kinds.iter().map(|kind| tiles.insert_pane(*kind)).collect();
@@ -43,21 +43,21 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
         match busy {
             Busy::Annotating => {
                 let above = [
-                    Stage, Library, Search, Recombine, Import, Inspector, History,
+                    Stage, Film, Library, Search, Recombine, Import, Inspector, History,
                 ];
                 let parts = [(tabs(&above), 0.6), (tabs(&[Timeline]), 0.4)];
                 shares(&mut tiles, Vertical, &parts)
             }
             Busy::Recombining => {
                 let left = tabs(&[Library, Search, Recombine, Import]);
-                let side = tabs(&[Stage, Timeline, Inspector, History]);
+                let side = tabs(&[Stage, Film, Timeline, Inspector, History]);
                 shares(&mut tiles, Horizontal, &[(left, 0.46), (side, 0.54)])
             }
             Busy::Searching => {
                 let left = tabs(&[Library, Search, Recombine, Import]);
                 let side = [
                     (tabs(&[Stage]), 0.64),
-                    (tabs(&[Timeline, Inspector, History]), 0.36),
+                    (tabs(&[Timeline, Inspector, Film, History]), 0.36),
                 ];
                 let side = shares(&mut tiles, Vertical, &side);
                 shares(&mut tiles, Horizontal, &[(left, 0.46), (side, 0.54)])
@@ -69,11 +69,11 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
         // Three panes above each other would be too low to read.
         let below = match busy {
             Busy::Annotating => tabs(&[Timeline]),
-            _ => tabs(&[Timeline, Inspector, History]),
+            _ => tabs(&[Timeline, Inspector, Film, History]),
         };
         match busy {
             Busy::Annotating => {
-                let right = tabs(&[Inspector, History]);
+                let right = tabs(&[Inspector, Film, History]);
                 let top = [(left, 0.26), (stage, 0.52), (right, 0.22)];
                 let top = shares(&mut tiles, Horizontal, &top);
                 shares(&mut tiles, Vertical, &[(top, 0.58), (below, 0.42)])
@@ -181,11 +181,11 @@ pub(crate) fn hides(tree: &Tree<PaneKind>, kind: PaneKind, other: PaneKind) -> b
 
 /// Brings the stage into sight, and the timeline where only what tells of things stands before it.
 pub(crate) fn look(tree: &mut Tree<PaneKind>) {
-    use PaneKind::{History, Inspector, Stage, Timeline};
+    use PaneKind::{Film, History, Inspector, Stage, Timeline};
     if !shows(tree, Stage) {
         bring(tree, Stage);
     }
-    let told = [Inspector, History];
+    let told = [Inspector, Film, History];
     let told = told.into_iter().find(|it| hides(tree, *it, Timeline));
     if told.is_some_and(|it| shows(tree, it)) && !hides(tree, Stage, Timeline) {
         bring(tree, Timeline);

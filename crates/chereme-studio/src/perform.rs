@@ -13,6 +13,7 @@ use crate::choose::Choose;
 use crate::command::Command;
 use crate::context::{Outbox, Showing, Shown};
 use crate::draft::Drafts;
+use crate::film::Films;
 use crate::keys::Keys;
 use crate::layout::{self, Busy};
 use crate::little::Figures;
@@ -210,6 +211,9 @@ impl Studio {
             }
             Action::NextRecording => self.walk_recordings(1),
             Action::PreviousRecording => self.walk_recordings(-1),
+            Action::ShareFilm | Action::ShareGif | Action::SharePicture | Action::ShareGlb => {
+                self.share(action, ctx);
+            }
             Action::StoreSign => {
                 self.bring(PaneKind::Recombine);
                 self.act_in_panes(action, ctx);
@@ -342,6 +346,7 @@ impl Studio {
             Action::ShowRecombine => self.bring(PaneKind::Recombine),
             Action::ShowInspector => self.bring(PaneKind::Inspector),
             Action::ShowHistory => self.bring(PaneKind::History),
+            Action::ShowFilm => self.bring(PaneKind::Film),
             _ => return false,
         }
         true
@@ -381,7 +386,11 @@ impl Studio {
             Action::ShuttleStop => player.stop(),
             Action::FrameBack | Action::FrameForward => {
                 let frames = if action == Action::FrameBack { -1 } else { 1 };
-                if let Some(rate) = rate {
+                let filmed = made.is_none() && !self.reel.has_movement();
+                if filmed && let Some(next) = self.films.step(at, frames) {
+                    player.stop();
+                    player.seek(next);
+                } else if let Some(rate) = rate {
                     player.step(frames, rate);
                 }
             }
@@ -395,6 +404,19 @@ impl Studio {
             _ => return false,
         }
         true
+    }
+
+    /// Turns to the films of the recording that is shown; it lasts as long as the longest of them.
+    pub(crate) fn follow_films(&mut self, ctx: &Context) {
+        let Some(snapshot) = &self.snapshot else {
+            return;
+        };
+        self.films.follow(snapshot, self.shown.recording, ctx);
+        let whole = self.shown.player.whole;
+        let end = self.films.end();
+        if end > whole.end() && self.shown.recording.is_some() {
+            self.shown.player.fit(Span::between(whole.start(), end));
+        }
     }
 
     fn scale(&mut self, by: f32) {
@@ -510,6 +532,7 @@ impl Studio {
         let absolute = std::path::absolute(path);
         let path = absolute.as_deref().unwrap_or(path);
         self.settings.opened(path);
+        self.films = Films::of(path);
         let view = view_of(path);
         let known = self.settings.views.get(&view).cloned().unwrap_or_default();
         self.panes.timeline.remember(&known.windows);
@@ -568,6 +591,7 @@ impl Studio {
         self.shown = Shown::default();
         self.reel = Reel::default();
         self.little = Figures::default();
+        self.films = Films::default();
         self.panes = crate::panes::Panes::default();
         self.out = Outbox::after(&self.out);
     }
@@ -604,7 +628,7 @@ impl Studio {
                 };
             }
             Some(glance) => {
-                let end = Instant::from_micros(glance.row.duration_us);
+                let end = Instant::from_micros(glance.row.duration_us).max(self.films.end());
                 self.shown.player.fit(Span::between(Instant::ZERO, end));
             }
         }

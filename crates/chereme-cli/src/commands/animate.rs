@@ -41,7 +41,7 @@ pub(crate) struct Args {
     /// Show how the movement comes about: strokes, residuals, what was approximated
     #[arg(long)]
     explain: bool,
-    /// Draw the movement to a contact sheet (.png) or an animation (.gif)
+    /// Draw the movement to a contact sheet (.png), an animation (.gif) or a film (.mp4)
     #[arg(long, value_name = "FILE")]
     draw: Option<PathBuf>,
 }

@@ -63,7 +63,7 @@ pub(crate) struct Args {
     /// Show how the sign comes about: the steps, where each channel comes from, joins and residuals
     #[arg(long)]
     explain: bool,
-    /// Draw the sign to a contact sheet (.png) or an animation (.gif)
+    /// Draw the sign to a contact sheet (.png), an animation (.gif) or a film (.mp4)
     #[arg(long, value_name = "FILE")]
     draw: Option<PathBuf>,
 }

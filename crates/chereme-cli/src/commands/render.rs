@@ -9,17 +9,21 @@ use crate::args::{Cli, SideWord};
 use crate::output::{Bar, Output};
 use crate::streams;
 
-/// Draw movement as a contact sheet (.png) or an animation (.gif), handshapes (.png), or notation (.svg)
+/// Draw movement as a contact sheet (.png), an animation (.gif) or a film (.mp4), handshapes (.png), or notation (.svg)
 ///
 /// WHAT is a gloss, a recording's name, token:41, recording:3, recording:"NGT Thanks", or inventory:configurations and
 /// inventory:configurations/U for handshapes. A sign that is there as notation only is animated first.
 /// The symbols of HamNoSys are drawn by the program, no font is needed: inventory:hamnosys shows all.
 /// What a face does for each non-manual of SiGML is seen in inventory:faces.
+/// Several WHAT are drawn next to each other in one film or animation: they begin together, and a shorter one holds its
+/// last picture. Films are H.264, which every player, browser and office program knows.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   chereme render mine.chereme ESCARGOT --to escargot.png
   chereme render ngt.chereme BABYSITTEN --to babysitten.gif --speed 0.5
+  chereme render mine.chereme ESCARGOT LIMACE --to both.mp4 --captions
+  chereme render ngt.chereme recording:3 --to take.mp4 --captions --height 720
   chereme render ngt.chereme BABYSITTEN --to notation.svg
   chereme render mine.chereme inventory:configurations --to handshapes.png
   chereme render mine.chereme inventory:faces --to faces.png")]
@@ -27,23 +31,29 @@ pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
     /// What to draw
-    #[arg(value_name = "WHAT")]
-    what: String,
+    #[arg(value_name = "WHAT", required = true)]
+    what: Vec<String>,
     /// The picture; its extension says the kind; - is standard output
     #[arg(long, value_name = "FILE")]
     to: PathBuf,
-    /// The kind of picture for standard output: png, gif or svg
-    #[arg(long, value_name = "FORMAT", default_value = "png", value_parser = ["png", "gif", "svg"])]
+    /// The kind of picture for standard output: png, gif, mp4 or svg
+    #[arg(long, value_name = "FORMAT", default_value = "png", value_parser = ["png", "gif", "mp4", "svg"])]
     format: String,
     /// How many pictures a contact sheet has side by side, from 1 to 64
     #[arg(long, default_value_t = 8, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
     frames: u16,
-    /// How high one picture is, in pixels, from 32 to 2000; without it 260, for handshapes 128, for faces 160
+    /// How high one picture is, in pixels, from 32 to 2000; without it 260, for films 540, for handshapes 128, for faces 160
     #[arg(long, value_name = "PIXELS", value_parser = clap::value_parser!(u16).range(32..=2000))]
     height: Option<u16>,
     /// How fast an animation runs, from 0.05 to 20; 1 is the recorded speed
     #[arg(long, default_value_t = 1.0, value_name = "FACTOR", value_parser = speed, allow_negative_numbers = true)]
     speed: f64,
+    /// How many pictures a film shows in a second, from 1 to 120
+    #[arg(long, default_value_t = 25, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=120))]
+    rate: u32,
+    /// Write glosses below an animation or a film while they are signed
+    #[arg(long)]
+    captions: bool,
     /// Leave out the pictures of hands and face from close by
     #[arg(long)]
     no_hands: bool,
@@ -74,6 +84,8 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         hands: !args.no_hands,
         height: args.height.map(usize::from),
         speed: args.speed,
+        rate: args.rate,
+        captions: args.captions,
         force: args.force,
     };
     let stand = match streams::is_standard(&args.to) {
@@ -84,7 +96,11 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         false => None,
     };
     let to = stand.as_ref().map_or(&args.to, |stand| &stand.path);
-    let picture = match args.what.strip_prefix("inventory:") {
+    let inventory = match args.what.as_slice() {
+        [one] => one.strip_prefix("inventory:"),
+        _ => None,
+    };
+    let picture = match inventory {
         Some(name) => {
             let (inventory, value) = match name.split_once('/') {
                 Some((inventory, value)) => (inventory, Some(value)),
@@ -93,10 +109,14 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             corpus.draw_handshapes(inventory, value, args.hand.side(), to, &options)?
         }
         None => {
-            let address: Address = args.what.parse()?;
+            let addresses: Vec<Address> = args
+                .what
+                .iter()
+                .map(|what| what.parse())
+                .collect::<Result<_, _>>()?;
             let mut bar = Bar::new();
             let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
-            corpus.draw(&address, to, &options, &mut Progress::new(&mut hear))?
+            corpus.draw_together(&addresses, to, &options, &mut Progress::new(&mut hear))?
         }
     };
     if let Some(stand) = &stand {

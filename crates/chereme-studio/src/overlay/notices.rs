@@ -183,6 +183,11 @@ impl Notices {
                 let text = super::export::written_text(report);
                 fill(text.of(language), &[("n", &report.files.len())])
             }
+            Outcome::Shared(picture) => {
+                let values: [(&str, &dyn std::fmt::Display); 2] =
+                    [("title", &picture.title), ("path", &picture.path.display())];
+                fill(crate::words::stage::SHARED.of(language), &values)
+            }
             _ => return,
         };
         self.hint(text);

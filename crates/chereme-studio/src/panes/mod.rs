@@ -7,6 +7,7 @@ pub(crate) mod bare;
 pub(crate) mod carry;
 pub(crate) mod combo;
 pub(crate) mod complete;
+pub(crate) mod film;
 pub(crate) mod history;
 pub(crate) mod import;
 pub(crate) mod inspector;
@@ -41,10 +42,11 @@ pub(crate) enum PaneKind {
     Inspector,
     History,
     Import,
+    Film,
 }
 
 impl PaneKind {
-    pub(crate) const ALL: [Self; 8] = [
+    pub(crate) const ALL: [Self; 9] = [
         Self::Library,
         Self::Stage,
         Self::Timeline,
@@ -53,6 +55,7 @@ impl PaneKind {
         Self::Inspector,
         Self::History,
         Self::Import,
+        Self::Film,
     ];
 
     pub(crate) fn title(self) -> Text {
@@ -65,6 +68,7 @@ impl PaneKind {
             Self::Inspector => words::inspector::TITLE,
             Self::History => words::history::TITLE,
             Self::Import => words::import::TITLE,
+            Self::Film => words::film::TITLE,
         }
     }
 }
@@ -118,6 +122,7 @@ pub(crate) struct Panes {
     pub(crate) inspector: inspector::Inspector,
     pub(crate) history: history::History,
     pub(crate) import: import::Import,
+    pub(crate) film: film::FilmPane,
 }
 
 impl Panes {
@@ -131,6 +136,7 @@ impl Panes {
             PaneKind::Inspector => &mut self.inspector,
             PaneKind::History => &mut self.history,
             PaneKind::Import => &mut self.import,
+            PaneKind::Film => &mut self.film,
         }
     }
 

@@ -175,6 +175,13 @@ texts! {
     CARD_SWITCH: "Switch the card on or off", "Carte en ou hors service";
     CARD_REMOVE: "Remove the card", "Retirer la carte";
     SHOW_INSPECTOR: "Show the inspector", "Afficher l’inspecteur";
+    SHARE_FILM: "Share as a film (MP4)", "Partager en film (MP4)";
+    SHARE_GIF: "Share as an animation (GIF)", "Partager en animation (GIF)";
+    SHARE_PICTURE: "Share as a picture (PNG)", "Partager en image (PNG)";
+    SHARE_GLB: "Share as a body that moves (GLB)", "Partager en corps animé (GLB)";
+    SHOW_FILM: "Show the film", "Afficher le film";
+    FILM_BACK: "One film frame back", "Reculer d’une image du film";
+    FILM_FORWARD: "One film frame forward", "Avancer d’une image du film";
     SHOW_HISTORY: "Show the history", "Afficher l’historique";
     SHOW_IMPORT: "Import…", "Importer…";
     EXPORT: "Export…", "Exporter…";

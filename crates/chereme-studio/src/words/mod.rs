@@ -17,6 +17,7 @@ macro_rules! texts {
 
 pub(crate) mod actions;
 pub(crate) mod export;
+pub(crate) mod film;
 pub(crate) mod gestures;
 pub(crate) mod hamnosys;
 pub(crate) mod import;
@@ -35,9 +36,10 @@ pub(crate) mod timeline;
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 15] = [
+    const TABLES: [&[(&str, Text)]; 16] = [
         actions::ALL,
         export::ALL,
+        film::ALL,
         hamnosys::ALL,
         import::ALL,
         inspector::ALL,

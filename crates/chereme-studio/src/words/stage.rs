@@ -39,6 +39,10 @@ texts! {
     LITTLE_NOTHING: "no movement", "sans mouvement";
     SPEED: "Speed", "Vitesse";
     VIEW: "View", "Vue";
+    SHARE: "Share", "Partager";
+    SHARED: "{title} is in {path}", "{title} est dans {path}";
+    SHARE_NOTHING: "Nothing moves on the stage that could be shared. Choose a recording with movement first.", "Rien ne bouge sur la scène qui pourrait être partagé. Choisissez d’abord un enregistrement avec mouvement.";
+    SHARE_STORE: "Store the sign first ({recombine.store}); then it can be shared as GLB.", "Enregistrez d’abord le signe ({recombine.store}) ; il peut alors être partagé en GLB.";
     MORE_TOOLS: "Show…", "Afficher…";
     TIME: "Time", "Temps";
     LOOP: "Loop", "Boucle";

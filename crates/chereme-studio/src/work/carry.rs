@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_corpus::{
-    Address, ChannelGroup, Corpus, Details, ExportWhat, MadePart, Moving, Name, Progress, Result,
-    SearchOptions, Step, Unit,
+    Address, ChannelGroup, Corpus, Details, ExportWhat, MadePart, Moving, Name, Performance,
+    Progress, Result, SearchOptions, Step, Unit, draw_clip,
 };
 
-use super::{Outcome, Work};
+use super::{Outcome, Shared, Work};
 use crate::panes::inspector::Thing;
 
 /// Does it.
@@ -51,6 +51,9 @@ pub(super) fn carry(
             .map(|_| Outcome::Changed)?,
         Work::ChangeMedia(name, change) => corpus
             .change_media(&name, &change)
+            .map(|_| Outcome::Changed)?,
+        Work::ChangeTrack(name, track, change) => corpus
+            .change_track(&name, &track, &change)
             .map(|_| Outcome::Changed)?,
         Work::ChangeSigner(name, change) => corpus
             .change_signer(&name, &change)
@@ -96,6 +99,17 @@ pub(super) fn carry(
         Work::Export(what, to, options) => {
             Outcome::Exported(corpus.export(&what, &to, &options, progress)?)
         }
+        Work::Share(what, to, options) => Outcome::Shared(match what {
+            Shared::Stored(address) => corpus.draw(&address, &to, &options, progress)?,
+            Shared::Made(made) => {
+                let performance = Performance {
+                    clip: &made.clip,
+                    anatomy: &made.anatomy,
+                    faces: &made.faces,
+                };
+                draw_clip(performance, &made.name, &to, &options, progress)?
+            }
+        }),
         Work::Originals(parts) => originals(corpus, parts),
         Work::OriginalsOf(recording) => {
             let parts = corpus.made_parts(recording)?;

@@ -14,13 +14,14 @@ use std::sync::Arc;
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationChange, Answer, Around, CheckReport,
     Copied, Curves, Details, Error, ExportOptions, ExportReport, ExportWhat, ImportOptions,
-    ImportReport, KeptSearch, MadePart, MediaChange, Moving, Name, NewTier, OperationRow, Proposed,
-    Recombination, RecordingChange, Scheme, SearchOptions, SignChange, SignerChange, Suggestions,
-    TierChange, TierName, Unit,
+    ImportReport, KeptSearch, MadePart, MediaChange, Moving, Name, NewTier, OperationRow, Picture,
+    PictureOptions, Proposed, Recombination, RecordingChange, Scheme, SearchOptions, SignChange,
+    SignerChange, Suggestions, TierChange, TierName, TrackChange, Unit,
 };
 use chereme_motion::Span;
 use chereme_sign::Component;
 
+use crate::model::made::Made;
 use crate::panes::inspector::Thing;
 use crate::words::{Text, shell};
 
@@ -77,6 +78,8 @@ pub(crate) enum Work {
     ChangeRecording(Name, Box<RecordingChange>),
     /// Changes which media go with a recording.
     ChangeMedia(Name, MediaChange),
+    /// Changes a track of a recording, such as where it lies on the clock.
+    ChangeTrack(Name, String, TrackChange),
     /// Changes a signer.
     ChangeSigner(Name, Box<SignerChange>),
     /// Changes a sign.
@@ -119,6 +122,8 @@ pub(crate) enum Work {
     ExportFound(String, PathBuf, ExportOptions),
     /// Writes files.
     Export(ExportWhat, PathBuf, ExportOptions),
+    /// Draws what is on the stage to a film, an animation or a picture.
+    Share(Shared, PathBuf, PictureOptions),
     /// Loads a piece of movement of a recording.
     Movement {
         /// The recording's row.
@@ -186,6 +191,8 @@ pub(crate) enum Outcome {
     Paths(String, Vec<String>),
     /// Files were written.
     Exported(ExportReport),
+    /// What is on the stage was drawn.
+    Shared(Picture),
     /// A piece of movement.
     Moved {
         /// The recording's row.
@@ -208,6 +215,15 @@ pub(crate) enum Outcome {
         /// Its curves.
         curves: Box<Curves>,
     },
+}
+
+/// What is drawn to be shared.
+#[derive(Debug, Clone)]
+pub(crate) enum Shared {
+    /// What lies in the corpus.
+    Stored(Address),
+    /// What was made and is not stored.
+    Made(Arc<Made>),
 }
 
 /// A thread with a connection of its own; what is in one lane is done in order.
@@ -260,6 +276,7 @@ impl Work {
             | Self::Walk { .. }
             | Self::ChangeRecording(..)
             | Self::ChangeMedia(..)
+            | Self::ChangeTrack(..)
             | Self::ChangeSigner(..)
             | Self::ChangeSign(..)
             | Self::SetCitation(_)
@@ -280,7 +297,7 @@ impl Work {
             Self::Movement { .. } => Lane::Movement,
             Self::Stretch(..) | Self::Originals(_) | Self::OriginalsOf(_) => Lane::Little,
             Self::Measure { .. } => Lane::Measure,
-            Self::Export(..) | Self::ExportFound(..) => Lane::Export,
+            Self::Export(..) | Self::ExportFound(..) | Self::Share(..) => Lane::Export,
         }
     }
 
@@ -300,7 +317,7 @@ impl Work {
             | Self::RecombineAgain { .. }
             | Self::Preview(_)
             | Self::Draft { .. } => shell::TASK_RECOMBINE,
-            Self::Export(..) | Self::ExportFound(..) => shell::TASK_EXPORT,
+            Self::Export(..) | Self::ExportFound(..) | Self::Share(..) => shell::TASK_EXPORT,
             Self::Movement { .. }
             | Self::Stretch(..)
             | Self::Originals(_)

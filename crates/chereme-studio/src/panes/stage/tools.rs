@@ -69,6 +69,20 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
             ui.add_space(6.0);
             compare(stage, ui, seen);
         }
+        ui.add_space(6.0);
+        ui.menu_button(seen.say(words::SHARE), |ui| {
+            for action in [
+                Action::ShareFilm,
+                Action::ShareGif,
+                Action::SharePicture,
+                Action::ShareGlb,
+            ] {
+                if ui.button(seen.say(action.row().name)).clicked() {
+                    out.send(Command::Do(action));
+                    ui.close();
+                }
+            }
+        });
         if let Some(showing) = &seen.shown.made {
             ui.add_space(6.0);
             let name = fill(seen.say(words::MADE_OF), &[("name", &showing.made.name)]);

@@ -17,6 +17,7 @@ use super::{Eye, Stage, handle, marks, movement, original, tools, transport};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, Seen};
+use crate::film::Films;
 use crate::little;
 use crate::words::{Text, fill, stage as words};
 
@@ -58,6 +59,9 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
             });
         });
     let (whole, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+    let Some(whole) = films(stage, ui, seen, out, whole) else {
+        return;
+    };
     super::note_place(ui, whole);
     match why_nothing(stage, seen) {
         Some(text) => {
@@ -78,6 +82,42 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &Seen<'_>, out: &mut Ou
         }
         None => panes(stage, ui, seen, out, whole),
     }
+}
+
+/// Shows films on the stage where they have no pane of their own in sight: all over it if nothing moves, else next to
+/// the signer. Returns what is left of the stage.
+fn films(
+    stage: &Stage,
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    whole: Rect,
+) -> Option<Rect> {
+    let made = seen.shown.made.is_some();
+    if made || !seen.films.are_there() || Films::is_pane_seen(ui.ctx()) {
+        return Some(whole);
+    }
+    if why_nothing(stage, seen) == Some(words::NO_MOVEMENT) {
+        seen.films.show(ui, seen, out, whole);
+        return None;
+    }
+    // The longer side is parted.
+    let half = |from: f32, to: f32| (from + to) / 2.0;
+    let (rest, film) = if whole.width() > whole.height() * 1.1 {
+        let middle = half(whole.left(), whole.right());
+        (
+            whole.with_max_x(middle - 2.0),
+            whole.with_min_x(middle + 2.0),
+        )
+    } else {
+        let middle = half(whole.top(), whole.bottom());
+        (
+            whole.with_max_y(middle - 2.0),
+            whole.with_min_y(middle + 2.0),
+        )
+    };
+    seen.films.show(ui, seen, out, film);
+    Some(rest)
 }
 
 /// Returns why there is no signer to be seen, where there is none.

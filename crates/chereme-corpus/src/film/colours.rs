@@ -1,0 +1,195 @@
+//! Numbers of a film to colours of a screen, and back (ITU-R BT.601, BT.709, BT.2020).
+
+use chereme_figure::Image;
+use chereme_formats::mp4::{Colours, Turn};
+
+use super::FilmPicture;
+
+/// A decoded picture: brightness of each pixel, and two colour differences of each square of four.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Planes {
+    /// Width in pixels, as it is coded.
+    pub width: usize,
+    /// Height in pixels, as it is coded.
+    pub height: usize,
+    /// Brightness, row by row.
+    pub y: Vec<u8>,
+    /// The blue difference; rows have half of the width, rounded up.
+    pub u: Vec<u8>,
+    /// The red difference.
+    pub v: Vec<u8>,
+    /// How the numbers are colours, if the film says so.
+    pub(crate) colours: Option<Colours>,
+}
+
+/// Returns how much red and blue weigh in brightness.
+fn weights(matrix: u8) -> (f32, f32) {
+    match matrix {
+        5 | 6 => (0.299, 0.114),
+        9 | 10 => (0.2627, 0.0593),
+        _ => (0.2126, 0.0722),
+    }
+}
+
+/// Returns how colours of a picture of that height are coded where nothing is said: as televisions do.
+pub(crate) fn usual(height: usize) -> Colours {
+    Colours {
+        matrix: if height < 720 { 6 } else { 1 },
+        full_range: false,
+    }
+}
+
+/// Factors from numbers to colours, in 65,536ths.
+struct Factors {
+    bright: i32,
+    black: i32,
+    red: i32,
+    green: [i32; 2],
+    blue: i32,
+}
+
+impl Factors {
+    fn of(colours: Colours) -> Self {
+        let (red, blue) = weights(colours.matrix);
+        let green = 1.0 - red - blue;
+        let (bright, chroma) = if colours.full_range {
+            (1.0, 255.0 / 255.0)
+        } else {
+            (255.0 / 219.0, 255.0 / 224.0)
+        };
+        let fixed = |value: f32| (value * 65536.0).round() as i32;
+        Self {
+            bright: fixed(bright),
+            black: if colours.full_range { 0 } else { 16 },
+            red: fixed(2.0 * (1.0 - red) * chroma),
+            green: [
+                fixed(2.0 * (1.0 - blue) * blue / green * chroma),
+                fixed(2.0 * (1.0 - red) * red / green * chroma),
+            ],
+            blue: fixed(2.0 * (1.0 - blue) * chroma),
+        }
+    }
+
+    fn colour(&self, y: i32, u: i32, v: i32) -> [u8; 3] {
+        let bright = (y - self.black) * self.bright + 32768;
+        let (u, v) = (u - 128, v - 128);
+        [
+            bright + self.red * v,
+            bright - self.green[0] * u - self.green[1] * v,
+            bright + self.blue * u,
+        ]
+        .map(|sum| (sum >> 16).clamp(0, 255) as u8)
+    }
+}
+
+impl Planes {
+    /// Returns how many bytes it takes.
+    pub(crate) fn bytes(&self) -> usize {
+        self.y.len() + self.u.len() + self.v.len()
+    }
+
+    /// Returns it in colours of a screen, turned, and made smaller to lie within `within`.
+    #[must_use]
+    pub fn picture(&self, turn: Turn, within: [usize; 2]) -> FilmPicture {
+        let turned = turn.size([self.width, self.height]);
+        let [width, height] = fitted(turned, within);
+        let factors = Factors::of(self.colours.unwrap_or_else(|| usual(self.height)));
+        let chroma = self.width.div_ceil(2);
+        // Where columns and rows of the result lie in the picture as it is coded.
+        let spans = |count: usize, of: usize| -> Vec<(usize, usize)> {
+            let edge = |at: usize| at * of / count;
+            (0..count)
+                .map(|at| (edge(at), edge(at + 1).max(edge(at) + 1)))
+                .collect()
+        };
+        let (columns, rows) = (spans(width, turned[0]), spans(height, turned[1]));
+        let back = |(from, to): (usize, usize), size: usize| (size - to, size - from);
+        let mut rgba = Vec::with_capacity(width * height * 4);
+        for row in &rows {
+            for column in &columns {
+                let (xs, ys) = match turn {
+                    Turn::None => (*column, *row),
+                    Turn::Half => (back(*column, self.width), back(*row, self.height)),
+                    Turn::Quarter => (*row, back(*column, self.height)),
+                    Turn::ThreeQuarters => (back(*row, self.width), *column),
+                };
+                let mut sum = 0_u32;
+                for y in ys.0..ys.1 {
+                    let line = &self.y[y * self.width + xs.0..y * self.width + xs.1];
+                    sum += line.iter().map(|value| u32::from(*value)).sum::<u32>();
+                }
+                let count = ((xs.1 - xs.0) * (ys.1 - ys.0)) as u32;
+                let at = (ys.0 + ys.1) / 4 * chroma + (xs.0 + xs.1) / 4;
+                let near = at.min(self.u.len().saturating_sub(1));
+                let bright = ((sum + count / 2) / count) as i32;
+                let (u, v) = (i32::from(self.u[near]), i32::from(self.v[near]));
+                let [red, green, blue] = factors.colour(bright, u, v);
+                rgba.extend_from_slice(&[red, green, blue, 255]);
+            }
+        }
+        FilmPicture {
+            width,
+            height,
+            rgba,
+        }
+    }
+
+    /// Returns a drawn picture in numbers of a film; an odd width or height is made even by repeating the edge.
+    pub(crate) fn of(image: &Image, colours: Colours) -> Self {
+        let (wide, high) = (image.width(), image.height());
+        let (width, height) = (wide.next_multiple_of(2), high.next_multiple_of(2));
+        let (red, blue) = weights(colours.matrix);
+        let green = 1.0 - red - blue;
+        let pixels = image.pixels();
+        let at = |x: usize, y: usize| {
+            pixels[y.min(high - 1) * wide + x.min(wide - 1)]
+                .0
+                .map(f32::from)
+        };
+        let bright = |[r, g, b]: [f32; 3]| red * r + green * g + blue * b;
+        let mut y = Vec::with_capacity(width * height);
+        for row in 0..height {
+            y.extend((0..width).map(|x| {
+                let value = bright(at(x, row)) * (219.0 / 255.0) + 16.0;
+                (value + 0.5) as u8
+            }));
+        }
+        let (mut u, mut v) = (Vec::new(), Vec::new());
+        for row in (0..height).step_by(2) {
+            for x in (0..width).step_by(2) {
+                let four = [
+                    at(x, row),
+                    at(x + 1, row),
+                    at(x, row + 1),
+                    at(x + 1, row + 1),
+                ];
+                let mean = |channel: usize| four.iter().map(|it| it[channel]).sum::<f32>() / 4.0;
+                let colour = [mean(0), mean(1), mean(2)];
+                let middle = bright(colour);
+                let put = |value: f32, weight: f32| {
+                    let share = (value - middle) / (2.0 * (1.0 - weight));
+                    (share * (224.0 / 255.0) + 128.5) as u8
+                };
+                u.push(put(colour[2], blue));
+                v.push(put(colour[0], red));
+            }
+        }
+        Self {
+            width,
+            height,
+            y,
+            u,
+            v,
+            colours: Some(colours),
+        }
+    }
+}
+
+/// Returns the largest size of the same shape that lies within another and is no larger than itself.
+fn fitted([width, height]: [usize; 2], within: [usize; 2]) -> [usize; 2] {
+    let share = (within[0] as f64 / width.max(1) as f64)
+        .min(within[1] as f64 / height.max(1) as f64)
+        .min(1.0);
+    let side = |of: usize| ((of as f64 * share).round() as usize).clamp(1, of.max(1));
+    [side(width), side(height)]
+}

@@ -1,0 +1,236 @@
+//! Films that the program cannot decode itself, through the `ffmpeg` of the computer.
+
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::{Child, ChildStdout, Command, Stdio};
+
+use chereme_formats::mp4::{self, Colours};
+
+use super::colours::Planes;
+use super::{Decode, Error, FilmFacts, FilmTimes, Result};
+
+const PROGRAM: &str = "ffmpeg";
+/// The largest side of a picture that is decoded.
+const LARGEST: usize = 8192;
+
+/// Returns whether it is installed.
+pub(super) fn is_there() -> bool {
+    let mut command = quiet();
+    command.arg("-version").stdout(Stdio::null());
+    command.status().is_ok_and(|status| status.success())
+}
+
+fn quiet() -> Command {
+    let mut command = Command::new(PROGRAM);
+    command
+        .args(["-nostdin", "-v", "error"])
+        .stdin(Stdio::null())
+        .stderr(Stdio::null());
+    command
+}
+
+/// Opens a film, whose index is known if it is an MP4.
+pub(super) fn open(
+    path: &Path,
+    known: Option<(mp4::Container, Vec<String>)>,
+) -> Result<(FilmFacts, FilmTimes, Helper)> {
+    let failed = |reason: String| {
+        Error::wrong(format!("the film cannot be played: {reason}"))
+            .at(path.display().to_string())
+            .advise("export or copy it again from where it was recorded")
+    };
+    let (coding, size, turn, colours, times, findings) = match known {
+        Some((container, findings)) => (
+            container.coding_name().to_owned(),
+            [container.width as usize, container.height as usize],
+            container.turn,
+            container.colours,
+            super::times(&container),
+            findings,
+        ),
+        None => {
+            let listed = listed(path).map_err(failed)?;
+            let coding = "coding known to ffmpeg".to_owned();
+            let turn = mp4::Turn::None;
+            (coding, listed.0, turn, None, listed.1, Vec::new())
+        }
+    };
+    let [width, height] = size;
+    if !(1..=LARGEST).contains(&width) || !(1..=LARGEST).contains(&height) {
+        return Err(failed(format!("pictures of {width} by {height} pixels")));
+    }
+    let mut helper = Helper {
+        path: path.to_owned(),
+        size,
+        colours,
+        starts: (0..times.frames()).map(|it| times.start(it)).collect(),
+        running: None,
+    };
+    helper.decode(0, &|| false, &mut |_, _| {})?;
+    let [shown_width, shown_height] = turn.size(size);
+    let facts = FilmFacts {
+        coding,
+        width: shown_width,
+        height: shown_height,
+        frames: times.frames(),
+        rate: times.rate(),
+        duration_us: times.end(),
+        turn,
+        decoder: PROGRAM,
+        findings,
+    };
+    Ok((facts, times, helper))
+}
+
+/// Asks for the size of a film and the times of its frames, which `ffmpeg` lists without decoding them.
+fn listed(path: &Path) -> std::result::Result<([usize; 2], FilmTimes), String> {
+    let mut command = quiet();
+    command.arg("-i").arg(path);
+    command.args(["-map", "0:v:0", "-c", "copy", "-f", "framecrc", "-"]);
+    let output = command.output().map_err(|error| error.to_string())?;
+    let text = String::from_utf8_lossy(&output.stdout);
+    let told = |key: &str| text.lines().find_map(|line| line.strip_prefix(key));
+    let parts = |text: &str, between: char| -> Option<(i64, i64)> {
+        let (a, b) = text.trim().split_once(between)?;
+        Some((a.trim().parse().ok()?, b.trim().parse().ok()?))
+    };
+    let base = told("#tb 0:").and_then(|it| parts(it, '/'));
+    let size = told("#dimensions 0:").and_then(|it| parts(it, 'x'));
+    let (Some((part, whole)), Some((width, height))) = (base, size) else {
+        return Err("ffmpeg finds no pictures in it".to_owned());
+    };
+    let micros = |ticks: i64| {
+        let scaled = i128::from(ticks) * i128::from(part) * 1_000_000;
+        i64::try_from(scaled / i128::from(whole.max(1))).unwrap_or_default()
+    };
+    let mut rows: Vec<(i64, i64)> = text
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .filter_map(|line| {
+            let mut cells = line.split(',').skip(2);
+            let shown: i64 = cells.next()?.trim().parse().ok()?;
+            let lasts: i64 = cells.next()?.trim().parse().ok()?;
+            Some((shown, lasts))
+        })
+        .collect();
+    rows.sort_unstable();
+    let Some((last, lasts)) = rows.last().copied() else {
+        return Err("it has no frames".to_owned());
+    };
+    // Times begin with the film, as in its own index.
+    let times = FilmTimes {
+        starts: rows.iter().map(|row| micros(row.0)).collect(),
+        end: micros(last.saturating_add(lasts.max(1))),
+        sync: vec![true; rows.len()],
+    };
+    Ok((
+        [
+            width.unsigned_abs() as usize,
+            height.unsigned_abs() as usize,
+        ],
+        times,
+    ))
+}
+
+/// A film that `ffmpeg` decodes, from one frame on.
+pub(super) struct Helper {
+    path: PathBuf,
+    size: [usize; 2],
+    colours: Option<Colours>,
+    starts: Vec<i64>,
+    running: Option<Running>,
+}
+
+/// `ffmpeg` at work.
+struct Running {
+    child: Child,
+    pictures: ChildStdout,
+    next: usize,
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// Frames that are rather decoded and dropped than begun anew for.
+const NEAR: usize = 48;
+
+impl Helper {
+    fn begin(&mut self, frame: usize) -> Result<()> {
+        self.running = None;
+        let mut command = quiet();
+        command.arg("-noautorotate");
+        if frame > 0 {
+            // Half of a frame earlier, so that rounding does not lose it.
+            let (before, start) = (self.starts[frame - 1], self.starts[frame]);
+            let from = start - (start - before) / 2 - self.starts[0];
+            command.args(["-ss", &format!("{:.6}", from as f64 / 1e6)]);
+        }
+        command.arg("-i").arg(&self.path);
+        command.args(["-an", "-sn", "-map", "0:v:0", "-fps_mode", "passthrough"]);
+        command.args(["-f", "rawvideo", "-pix_fmt", "yuv420p", "pipe:1"]);
+        let fault = |error| Error::file(PROGRAM, error);
+        let mut child = command.stdout(Stdio::piped()).spawn().map_err(fault)?;
+        let pictures = child.stdout.take();
+        let pictures = pictures.ok_or_else(|| fault(std::io::ErrorKind::BrokenPipe.into()))?;
+        self.running = Some(Running {
+            child,
+            pictures,
+            next: frame,
+        });
+        Ok(())
+    }
+}
+
+impl Decode for Helper {
+    fn decode(
+        &mut self,
+        frame: usize,
+        stop: &dyn Fn() -> bool,
+        keep: &mut dyn FnMut(usize, Planes),
+    ) -> Result<()> {
+        let next = self.running.as_ref().map(|it| it.next);
+        if !next.is_some_and(|next| (next..next + NEAR).contains(&frame)) {
+            self.begin(frame)?;
+        }
+        let [width, height] = self.size;
+        let part = width.div_ceil(2) * height.div_ceil(2);
+        while let Some(running) = &mut self.running {
+            if stop() {
+                return Err(Error::Stopped);
+            }
+            let mut read = |size: usize| {
+                let mut bytes = vec![0; size];
+                running.pictures.read_exact(&mut bytes).map(|()| bytes)
+            };
+            let planes = read(width * height).and_then(|y| Ok((y, read(part)?, read(part)?)));
+            let at = running.next;
+            running.next += 1;
+            let Ok((y, u, v)) = planes else {
+                self.running = None;
+                return Err(Error::wrong(format!(
+                    "frame {frame} of the film cannot be decoded by ffmpeg"
+                ))
+                .at(self.path.display().to_string())
+                .advise("the file is damaged there; copy it again, or look at another frame"));
+            };
+            let colours = self.colours;
+            let planes = Planes {
+                width,
+                height,
+                y,
+                u,
+                v,
+                colours,
+            };
+            keep(at, planes);
+            if at == frame {
+                return Ok(());
+            }
+        }
+        Ok(())
+    }
+}

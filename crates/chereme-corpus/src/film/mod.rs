@@ -1,0 +1,316 @@
+//! Films next to a corpus: their pictures by frame, and films written.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `own` | H.264 decoded by the program itself |
+//! | `helper` | everything else, through the `ffmpeg` of the computer |
+//! | `colours` | numbers of a film to colours of a screen, and back |
+//! | `write` | pictures to a film |
+
+mod colours;
+mod helper;
+mod own;
+#[cfg(test)]
+mod tests;
+mod write;
+
+use std::collections::VecDeque;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use chereme_formats::mp4::{self, Turn};
+use serde::Serialize;
+
+pub use colours::Planes;
+pub(crate) use write::{Shape, write_film};
+
+use crate::error::{Error, Result};
+
+/// Bytes of decoded pictures that an open film keeps, so that steps back are at once there.
+const KEPT: usize = 96 << 20;
+
+/// When each frame of a film is shown, in microseconds from its start.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct FilmTimes {
+    /// When frames begin, in the order in which they are shown; never falling.
+    starts: Vec<i64>,
+    /// When the last one ends.
+    end: i64,
+    /// Whether decoding can begin at a frame.
+    sync: Vec<bool>,
+}
+
+impl FilmTimes {
+    /// Returns how many frames there are.
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        self.starts.len()
+    }
+
+    /// Returns when a frame begins; beyond the last, when the film ends.
+    #[must_use]
+    pub fn start(&self, frame: usize) -> i64 {
+        self.starts.get(frame).copied().unwrap_or(self.end)
+    }
+
+    /// Returns when the film ends.
+    #[must_use]
+    pub fn end(&self) -> i64 {
+        self.end
+    }
+
+    /// Returns the frame that is seen at a time; nothing before the first and after the last.
+    #[must_use]
+    pub fn frame_at(&self, micros: i64) -> Option<usize> {
+        let after = self.starts.partition_point(|start| *start <= micros);
+        (micros < self.end).then(|| after.checked_sub(1)).flatten()
+    }
+
+    /// Returns the last frame at or before `frame` with which decoding can begin.
+    #[must_use]
+    pub fn sync_before(&self, frame: usize) -> usize {
+        let until = self.sync.get(..=frame).unwrap_or(&self.sync);
+        until.iter().rposition(|sync| *sync).unwrap_or_default()
+    }
+
+    /// Returns pictures per second, on average.
+    #[must_use]
+    pub fn rate(&self) -> f64 {
+        let first = self.starts.first().copied().unwrap_or_default();
+        let seconds = (self.end - first) as f64 / 1e6;
+        if seconds > 0.0 {
+            self.frames() as f64 / seconds
+        } else {
+            0.0
+        }
+    }
+}
+
+/// What a film is like.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FilmFacts {
+    /// How it is coded, such as `H.264`.
+    pub coding: String,
+    /// Width in pixels, as it is looked at.
+    pub width: usize,
+    /// Height in pixels, as it is looked at.
+    pub height: usize,
+    /// How many frames it shows.
+    pub frames: usize,
+    /// Pictures per second, on average.
+    pub rate: f64,
+    /// How long it is, in microseconds.
+    pub duration_us: i64,
+    /// How coded pictures are turned.
+    pub turn: Turn,
+    /// Who decodes it: `chereme` or `ffmpeg`.
+    pub decoder: &'static str,
+    /// What was odd.
+    pub findings: Vec<String>,
+}
+
+/// A picture of a film in colours of a screen.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FilmPicture {
+    /// Width in pixels.
+    pub width: usize,
+    /// Height in pixels.
+    pub height: usize,
+    /// Red, green, blue and opacity of each pixel, row by row.
+    pub rgba: Vec<u8>,
+}
+
+/// Decodes the frames of a film, which are counted in the order in which they are shown.
+trait Decode: Send {
+    /// Decodes on until `frame` was given to `keep`, with all others on the way.
+    ///
+    /// # Errors
+    /// If that frame cannot be decoded; [`Error::Stopped`] if `stop` says so in between.
+    fn decode(
+        &mut self,
+        frame: usize,
+        stop: &dyn Fn() -> bool,
+        keep: &mut dyn FnMut(usize, Planes),
+    ) -> Result<()>;
+}
+
+/// A film that is open.
+pub struct Film {
+    path: PathBuf,
+    facts: FilmFacts,
+    times: Arc<FilmTimes>,
+    decoder: Box<dyn Decode>,
+    kept: VecDeque<(usize, Arc<Planes>)>,
+}
+
+impl Film {
+    /// Opens a film: H.264 in MP4 or QuickTime by itself, everything else through `ffmpeg` if that is installed.
+    ///
+    /// # Errors
+    /// If the file is damaged, or nothing here decodes it; the remedy says how to convert it.
+    pub fn open(path: &Path) -> Result<Self> {
+        let mut file = File::open(path).map_err(|error| Error::file(path, error))?;
+        let read = mp4::read(&mut file);
+        let (container, findings) = match read {
+            Ok(read) => read,
+            Err(mp4::Error::NoMp4) => return Self::helped(path, None, "no MP4 or QuickTime film"),
+            Err(error) => {
+                return Err(Error::wrong(format!("the film cannot be read: {error}"))
+                    .at(path.display().to_string())
+                    .advise("export or copy it again from where it was recorded"));
+            }
+        };
+        let findings = findings.into_iter().map(|it| it.message).collect();
+        let times = Arc::new(times(&container));
+        let coding = container.coding_name().to_owned();
+        if !matches!(container.coding.as_str(), "avc1" | "avc3") {
+            return Self::helped(path, Some((container, findings)), &coding);
+        }
+        let mut decoder = match own::Own::new(file, path, container.clone()) {
+            Ok(decoder) => decoder,
+            Err(reason) => return Self::helped(path, Some((container, findings)), &reason),
+        };
+        let mut first = None;
+        let decoded = decoder.decode(0, &|| false, &mut |at, planes| {
+            if at == 0 {
+                first = Some(planes);
+            }
+        });
+        let Some(first) = first else {
+            let reason = match decoded {
+                Err(error) => error.to_string(),
+                Ok(()) => coding,
+            };
+            return Self::helped(path, Some((container, findings)), &reason);
+        };
+        let [width, height] = container.turn.size([first.width, first.height]);
+        let facts = FilmFacts {
+            coding,
+            width,
+            height,
+            frames: times.frames(),
+            rate: times.rate(),
+            duration_us: times.end(),
+            turn: container.turn,
+            decoder: "chereme",
+            findings,
+        };
+        Ok(Self {
+            path: path.to_owned(),
+            facts,
+            times,
+            decoder: Box::new(decoder),
+            kept: VecDeque::from([(0, Arc::new(first))]),
+        })
+    }
+
+    /// Opens a film through `ffmpeg`, or says why that cannot be.
+    fn helped(
+        path: &Path,
+        known: Option<(mp4::Container, Vec<String>)>,
+        reason: &str,
+    ) -> Result<Self> {
+        let told = path.display();
+        if !helper::is_there() {
+            return Err(Error::wrong(format!(
+                "the film cannot be played: {reason}; the program itself plays H.264 (8 bits, 4:2:0, not interlaced) \
+                 in MP4 or MOV files"
+            ))
+            .at(told.to_string())
+            .advise(format!(
+                "install ffmpeg, which is used then; or convert the film once, where ffmpeg is: ffmpeg -i {told:?} \
+                 -c:v libx264 -pix_fmt yuv420p NEW.mp4"
+            )));
+        }
+        let (facts, times, decoder) = helper::open(path, known)?;
+        Ok(Self {
+            path: path.to_owned(),
+            facts,
+            times: Arc::new(times),
+            decoder: Box::new(decoder),
+            kept: VecDeque::new(),
+        })
+    }
+
+    /// Returns the file.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Returns what it is like.
+    #[must_use]
+    pub fn facts(&self) -> &FilmFacts {
+        &self.facts
+    }
+
+    /// Returns when its frames are shown.
+    #[must_use]
+    pub fn times(&self) -> &Arc<FilmTimes> {
+        &self.times
+    }
+
+    /// Returns a frame as it was decoded.
+    ///
+    /// # Errors
+    /// If there is no such frame or it is damaged; [`Error::Stopped`] if `stop` says so, after which another can be
+    /// asked for.
+    pub fn planes(&mut self, frame: usize, stop: &dyn Fn() -> bool) -> Result<Arc<Planes>> {
+        if let Some((_, planes)) = self.kept.iter().find(|it| it.0 == frame) {
+            return Ok(Arc::clone(planes));
+        }
+        if frame >= self.times.frames() {
+            let last = self.times.frames().saturating_sub(1);
+            return Err(Error::wrong(format!(
+                "the film has no frame {frame}; its frames are 0 to {last}"
+            ))
+            .at(self.path.display().to_string()));
+        }
+        let kept = &mut self.kept;
+        let mut found = None;
+        self.decoder.decode(frame, stop, &mut |at, planes| {
+            let planes = Arc::new(planes);
+            if at == frame {
+                found = Some(Arc::clone(&planes));
+            }
+            kept.retain(|it| it.0 != at);
+            kept.push_back((at, planes));
+            while kept.iter().map(|it| it.1.bytes()).sum::<usize>() > KEPT && kept.len() > 1 {
+                kept.pop_front();
+            }
+        })?;
+        found.ok_or_else(|| {
+            Error::wrong(format!("frame {frame} of the film was not found"))
+                .at(self.path.display().to_string())
+        })
+    }
+
+    /// Returns a frame in colours of a screen, turned to be looked at and no larger than `within` or the film.
+    ///
+    /// # Errors
+    /// As [`planes`](Self::planes).
+    pub fn picture(
+        &mut self,
+        frame: usize,
+        within: [usize; 2],
+        stop: &dyn Fn() -> bool,
+    ) -> Result<FilmPicture> {
+        let planes = self.planes(frame, stop)?;
+        Ok(planes.picture(self.facts.turn, within))
+    }
+}
+
+/// Returns when the frames of a film are shown.
+fn times(container: &mp4::Container) -> FilmTimes {
+    let order = container.shown_order();
+    let frame = |at: &usize| &container.frames[*at];
+    FilmTimes {
+        starts: order
+            .iter()
+            .map(|at| container.micros(frame(at).shown))
+            .collect(),
+        end: container.micros(container.length()),
+        sync: order.iter().map(|at| frame(at).sync).collect(),
+    }
+}

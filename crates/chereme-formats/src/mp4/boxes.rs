@@ -1,0 +1,179 @@
+//! A box at a time, never beyond its parent.
+
+use std::io::{Read, Seek, SeekFrom};
+
+use super::Error;
+
+/// Most bytes of a box that is read whole.
+const LARGEST: u64 = 256 << 20;
+/// Most boxes beside each other.
+const MANY: usize = 400_000;
+
+/// A box in a file that is read by ranges.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub(super) kind: [u8; 4],
+    /// Where it begins.
+    pub(super) at: u64,
+    /// Where its content begins and ends.
+    pub(super) from: u64,
+    pub(super) to: u64,
+}
+
+/// Returns the boxes of a file from its start; what follows a broken header is left out, and `true` returned.
+pub(super) fn places(input: &mut (impl Read + Seek)) -> Result<(Vec<Place>, bool), Error> {
+    let end = input.seek(SeekFrom::End(0))?;
+    let mut places = Vec::new();
+    let mut at = 0;
+    while end - at >= 8 && places.len() < MANY {
+        input.seek(SeekFrom::Start(at))?;
+        let mut head = [0; 16];
+        input.read_exact(&mut head[..8])?;
+        let size = u64::from(u32::from_be_bytes([head[0], head[1], head[2], head[3]]));
+        let kind = [head[4], head[5], head[6], head[7]];
+        let (header, size) = match size {
+            0 => (8, end - at),
+            1 if end - at >= 16 => {
+                input.read_exact(&mut head[8..])?;
+                let wide: [u8; 8] = head[8..].try_into().unwrap_or_default();
+                (16, u64::from_be_bytes(wide))
+            }
+            size => (8, size),
+        };
+        let to = at.checked_add(size).filter(|to| *to <= end);
+        if size < header {
+            return Ok((places, true));
+        }
+        places.push(Place {
+            kind,
+            at,
+            from: at + header,
+            to: to.unwrap_or(end),
+        });
+        let Some(to) = to else {
+            return Ok((places, true));
+        };
+        at = to;
+    }
+    Ok((places, at != end))
+}
+
+/// Reads the content of a box.
+pub(super) fn content(input: &mut (impl Read + Seek), place: &Place) -> Result<Vec<u8>, Error> {
+    let size = place.to - place.from;
+    if size > LARGEST {
+        return Err(Error::Limit {
+            what: "bytes of a header of the film",
+            found: size,
+            most: LARGEST,
+        });
+    }
+    input.seek(SeekFrom::Start(place.from))?;
+    let mut bytes = Vec::new();
+    input.take(size).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// A box inside bytes that were read.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Inner<'a> {
+    pub(super) kind: [u8; 4],
+    /// Where its content begins in the file.
+    pub(super) at: u64,
+    pub(super) bytes: &'a [u8],
+}
+
+impl<'a> Inner<'a> {
+    /// Returns the failure about this box.
+    pub(super) fn fault(&self, problem: &'static str) -> Error {
+        Error::Box {
+            kind: letters(self.kind),
+            at: self.at,
+            problem,
+        }
+    }
+
+    /// Returns the boxes in it that begin `skip` bytes after its start.
+    pub(super) fn children(self, skip: usize) -> impl Iterator<Item = Inner<'a>> {
+        let base = self.at;
+        let mut at = skip.min(self.bytes.len());
+        std::iter::from_fn(move || {
+            let rest = self.bytes.get(at..)?;
+            let size = number(rest, 0)? as usize;
+            let kind: [u8; 4] = rest.get(4..8)?.try_into().ok()?;
+            let (header, size) = match size {
+                0 => (8, rest.len()),
+                1 => (16, usize::try_from(long(rest, 8)?).ok()?),
+                size => (8, size),
+            };
+            let bytes = rest.get(header..size)?;
+            let inner = Inner {
+                kind,
+                at: base + (at + header) as u64,
+                bytes,
+            };
+            at += size;
+            Some(inner)
+        })
+    }
+
+    /// Returns the first box in it of that kind.
+    pub(super) fn child(self, kind: &[u8; 4]) -> Option<Inner<'a>> {
+        self.children(0).find(|it| it.kind == *kind)
+    }
+
+    /// Returns the four bytes at a place as a number.
+    pub(super) fn number(&self, at: usize) -> Result<u32, Error> {
+        number(self.bytes, at).ok_or_else(|| self.fault("it is too short"))
+    }
+
+    /// Returns the eight bytes at a place as a number.
+    pub(super) fn long(&self, at: usize) -> Result<u64, Error> {
+        long(self.bytes, at).ok_or_else(|| self.fault("it is too short"))
+    }
+
+    /// Returns the two bytes at a place as a number.
+    pub(super) fn short(&self, at: usize) -> Result<u16, Error> {
+        let bytes = self.bytes.get(at..at + 2);
+        let bytes = bytes.and_then(|it| it.try_into().ok());
+        bytes
+            .map(u16::from_be_bytes)
+            .ok_or_else(|| self.fault("it is too short"))
+    }
+
+    /// Returns its version, the byte with which most boxes begin.
+    pub(super) fn version(&self) -> Result<u8, Error> {
+        let first = self.bytes.first().copied();
+        first.ok_or_else(|| self.fault("it is too short"))
+    }
+
+    /// Returns the rows of a table whose count stands at `at`: never more than its bytes hold.
+    pub(super) fn rows(
+        &self,
+        at: usize,
+        width: usize,
+    ) -> Result<impl Iterator<Item = &'a [u8]> + use<'a>, Error> {
+        let count = self.number(at)? as usize;
+        let rest = self.bytes.get(at + 4..).unwrap_or_default();
+        Ok(rest.chunks_exact(width).take(count))
+    }
+}
+
+pub(super) fn number(bytes: &[u8], at: usize) -> Option<u32> {
+    let four = bytes.get(at..at.checked_add(4)?)?;
+    Some(u32::from_be_bytes(four.try_into().ok()?))
+}
+
+pub(super) fn long(bytes: &[u8], at: usize) -> Option<u64> {
+    let eight = bytes.get(at..at.checked_add(8)?)?;
+    Some(u64::from_be_bytes(eight.try_into().ok()?))
+}
+
+/// Returns the four letters of a kind as text.
+pub(super) fn letters(kind: [u8; 4]) -> String {
+    let letters = kind.iter().map(|byte| match byte {
+        b' '..=b'~' => char::from(*byte),
+        _ => '?',
+    });
+    letters.collect()
+}

@@ -1,0 +1,205 @@
+//! MP4 and QuickTime films: where each coded frame lies in the file and when it is shown, and films written.
+//!
+//! The pictures themselves stay coded: a decoder turns a [`Frame`]'s bytes into a picture. A file is read by ranges, so
+//! that a film of hours needs no more memory than its index. Every count of the file is bounded by the bytes that hold
+//! it; no input makes the reader hang or take memory without bound. Source: ISO/IEC 14496-12 (boxes), 14496-15 (`avcC`).
+//!
+//! | module | holds |
+//! |---|---|
+//! | `boxes` | a box at a time, never beyond its parent |
+//! | `read` | the tracks of a file and the index of its film |
+//! | `table` | the tables of samples: sizes, places, times |
+//! | `fragments` | the same of files that are written piece by piece |
+//! | `h264` | parameter sets, and what they say of colours |
+//! | `write` | a film of H.264 pictures to bytes |
+
+mod boxes;
+mod fragments;
+pub mod h264;
+mod read;
+mod table;
+#[cfg(test)]
+mod tests;
+mod write;
+
+pub use read::read;
+pub use write::{Muxer, Picture};
+
+use serde::Serialize;
+
+/// Most frames that a film may have: a day at 60 a second.
+pub const MAX_FRAMES: usize = 5_184_000;
+
+/// A film as its container describes it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Container {
+    /// The four letters of its coding, such as `avc1`, `hvc1`, `av01`.
+    pub coding: String,
+    /// What a decoder needs before the first frame: for H.264 the content of `avcC`, else empty.
+    pub configuration: Vec<u8>,
+    /// Width of a coded picture in pixels, before it is turned.
+    pub width: u32,
+    /// Height of a coded picture in pixels, before it is turned.
+    pub height: u32,
+    /// How a picture is turned to be looked at.
+    pub turn: Turn,
+    /// What the container says of colours.
+    pub colours: Option<Colours>,
+    /// Ticks of a second.
+    pub timescale: u32,
+    /// The frames in the order in which they are decoded.
+    pub frames: Vec<Frame>,
+}
+
+/// A coded picture of a film.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Frame {
+    /// Where its bytes begin in the file.
+    pub offset: u64,
+    /// How many there are.
+    pub size: u32,
+    /// Whether decoding can begin here.
+    pub sync: bool,
+    /// When it is shown, in ticks from the start of the film; composition offset and edit list are in it.
+    pub shown: i64,
+    /// How long it is shown, in ticks.
+    pub duration: u32,
+    /// Whether the edit list leaves it out; it may still be needed to decode others.
+    pub hidden: bool,
+}
+
+/// How a picture is turned to be looked at, clockwise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Turn {
+    /// As it is coded.
+    #[default]
+    None,
+    /// By 90 degrees.
+    Quarter,
+    /// By 180 degrees.
+    Half,
+    /// By 270 degrees.
+    ThreeQuarters,
+}
+
+impl Turn {
+    /// Returns the size of a picture after it was turned.
+    #[must_use]
+    pub fn size(self, [width, height]: [usize; 2]) -> [usize; 2] {
+        match self {
+            Self::None | Self::Half => [width, height],
+            Self::Quarter | Self::ThreeQuarters => [height, width],
+        }
+    }
+}
+
+/// How numbers of a picture are colours (ITU-T H.273).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Colours {
+    /// `matrix_coefficients`: 1 is BT.709, 5 and 6 are BT.601, 9 is BT.2020.
+    pub matrix: u8,
+    /// Whether black is 0 and white 255, instead of 16 and 235.
+    pub full_range: bool,
+}
+
+/// Why bytes could not be read as a film.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Error {
+    /// The file is of another kind.
+    #[error("this is no MP4 or QuickTime file")]
+    NoMp4,
+    /// The file has no list of its tracks, as films that were never finished.
+    #[error("the file has no movie header (moov); the recording was cut off, or is not finished")]
+    NoMovie,
+    /// No track holds pictures.
+    #[error("the file holds no pictures, only {0}")]
+    NoPictures(String),
+    /// A box is broken.
+    #[error("the box {kind} at byte {at}: {problem}")]
+    Box {
+        /// The four letters of the box.
+        kind: String,
+        /// Where it begins.
+        at: u64,
+        /// The problem.
+        problem: &'static str,
+    },
+    /// It is larger than anything that is a film.
+    #[error("{what}: {found} where at most {most} are read")]
+    Limit {
+        /// What there is too much of.
+        what: &'static str,
+        /// How much there is.
+        found: u64,
+        /// How much is read.
+        most: u64,
+    },
+    /// The parameter sets of H.264 are broken.
+    #[error("the parameter sets of H.264 are broken: {0}")]
+    Parameters(&'static str),
+    /// The file could not be read.
+    #[error("{0}")]
+    Input(String),
+}
+
+impl From<std::io::Error> for Error {
+    fn from(error: std::io::Error) -> Self {
+        Self::Input(error.to_string())
+    }
+}
+
+impl Container {
+    /// Returns how long the film is, in ticks.
+    #[must_use]
+    pub fn length(&self) -> i64 {
+        let shown = self.frames.iter().filter(|frame| !frame.hidden);
+        let ends = shown.map(|frame| frame.shown.saturating_add(i64::from(frame.duration)));
+        ends.max().unwrap_or_default().max(0)
+    }
+
+    /// Returns a time in ticks in microseconds.
+    #[must_use]
+    pub fn micros(&self, ticks: i64) -> i64 {
+        let scale = i128::from(self.timescale.max(1));
+        let micros = (i128::from(ticks) * 1_000_000 + scale / 2).div_euclid(scale);
+        i64::try_from(micros).unwrap_or_default()
+    }
+
+    /// Returns the positions in [`frames`](Self::frames) of those that are shown, in the order in which they are.
+    #[must_use]
+    pub fn shown_order(&self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.frames.len())
+            .filter(|at| !self.frames[*at].hidden)
+            .collect();
+        order.sort_by_key(|at| self.frames[*at].shown);
+        order
+    }
+
+    /// Returns the position of the frame at which decoding begins to reach frame `at`: the last before it that is not
+    /// shown after it, since pictures that are shown before such a frame and decoded after it may need earlier ones.
+    #[must_use]
+    pub fn sync_before(&self, at: usize) -> usize {
+        let shown = self.frames.get(at).map_or(i64::MAX, |frame| frame.shown);
+        let mut until = self.frames.iter().take(at.saturating_add(1));
+        let begins = |frame: &Frame| frame.sync && frame.shown <= shown;
+        until.rposition(begins).unwrap_or_default()
+    }
+
+    /// Returns the coding as the world calls it, such as `H.264`.
+    #[must_use]
+    pub fn coding_name(&self) -> &str {
+        match self.coding.as_str() {
+            "avc1" | "avc3" => "H.264",
+            "hvc1" | "hev1" => "H.265 (HEVC)",
+            "av01" => "AV1",
+            "vp09" => "VP9",
+            "vp08" => "VP8",
+            "mp4v" => "MPEG-4 Part 2",
+            "apch" | "apcn" | "apcs" | "apco" | "ap4h" => "ProRes",
+            "jpeg" | "mjpa" | "mjpb" => "Motion JPEG",
+            "dvh1" | "dvhe" => "Dolby Vision",
+            other => other,
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! The tables of samples: sizes, places, times.
+
+use super::boxes::{self, Inner};
+use super::{Error, Frame, MAX_FRAMES};
+
+/// What the edit list of a track makes of its clock.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Edit {
+    /// How much later the film begins, in ticks.
+    pub(super) delay: i64,
+    /// The time of the track with which it begins.
+    pub(super) from: i64,
+    /// The time of the track with which it ends.
+    pub(super) until: Option<i64>,
+}
+
+/// Frames that are being put together.
+#[derive(Debug)]
+pub(super) struct Shape {
+    /// Where the file ends.
+    pub(super) end: u64,
+    pub(super) edit: Edit,
+    /// Frames whose times are those of the track.
+    pub(super) frames: Vec<Frame>,
+    /// How many frames lie beyond the end of the file.
+    pub(super) beyond: usize,
+}
+
+impl Shape {
+    /// Adds a frame where the file holds it.
+    pub(super) fn add(&mut self, frame: Frame) {
+        let to = frame.offset.checked_add(u64::from(frame.size));
+        if to.is_some_and(|to| to <= self.end) && frame.size > 0 {
+            self.frames.push(frame);
+        } else {
+            self.beyond += 1;
+        }
+    }
+}
+
+/// Returns the frames with times from the start of the film, as the edit list says.
+pub(super) fn settled(shape: Shape) -> Vec<Frame> {
+    let Edit { delay, from, until } = shape.edit;
+    let mut frames = shape.frames;
+    for frame in &mut frames {
+        let before = frame.shown.saturating_add(i64::from(frame.duration)) <= from;
+        frame.hidden = before || until.is_some_and(|until| frame.shown >= until);
+        frame.shown = frame.shown.saturating_sub(from).saturating_add(delay);
+    }
+    if !frames.iter().any(|frame| frame.sync)
+        && let Some(first) = frames.first_mut()
+    {
+        first.sync = true;
+    }
+    frames
+}
+
+/// A table that tells values for runs of frames.
+struct Runs<'a> {
+    rows: Vec<&'a [u8]>,
+    row: usize,
+    used: u32,
+}
+
+impl<'a> Runs<'a> {
+    fn of(table: Option<Inner<'a>>) -> Result<Self, Error> {
+        let rows = match table {
+            Some(table) => table.rows(4, 8)?.collect(),
+            None => Vec::new(),
+        };
+        Ok(Self {
+            rows,
+            row: 0,
+            used: 0,
+        })
+    }
+
+    /// Returns the value of the next frame.
+    fn next(&mut self) -> Option<u32> {
+        loop {
+            let row = self.rows.get(self.row)?;
+            let count = boxes::number(row, 0)?;
+            if self.used < count {
+                self.used += 1;
+                return boxes::number(row, 4);
+            }
+            self.row += 1;
+            self.used = 0;
+        }
+    }
+}
+
+/// Adds the frames that a table of samples lists.
+pub(super) fn frames(stbl: Inner<'_>, shape: &mut Shape) -> Result<(), Error> {
+    let sizes = match stbl.child(b"stsz") {
+        Some(stsz) => {
+            let (each, count) = (stsz.number(4)?, stsz.number(8)? as usize);
+            if count > MAX_FRAMES {
+                return Err(Error::Limit {
+                    what: "frames",
+                    found: count as u64,
+                    most: MAX_FRAMES as u64,
+                });
+            }
+            match each {
+                0 => stsz
+                    .rows(8, 4)?
+                    .filter_map(|row| boxes::number(row, 0))
+                    .collect(),
+                // A size for all: never more frames than bytes in the file.
+                each => vec![each; count.min((shape.end / u64::from(each)) as usize + 1)],
+            }
+        }
+        None => small_sizes(stbl)?,
+    };
+    if sizes.is_empty() {
+        return Ok(());
+    }
+    let offsets = offsets(stbl, &sizes)?;
+    let mut durations = Runs::of(stbl.child(b"stts"))?;
+    let mut shifts = Runs::of(stbl.child(b"ctts"))?;
+    let sync: Option<Vec<u32>> = match stbl.child(b"stss") {
+        Some(stss) => {
+            let rows = stss.rows(4, 4)?;
+            Some(rows.filter_map(|row| boxes::number(row, 0)).collect())
+        }
+        None => None,
+    };
+    shape.beyond += sizes.len().saturating_sub(offsets.len());
+    let (mut time, mut last) = (0_i64, 0);
+    for (at, (size, offset)) in sizes.iter().zip(offsets).enumerate() {
+        let duration = durations.next().unwrap_or(last);
+        last = duration;
+        // Version 0 says that shifts are positive, and cameras write negative ones all the same.
+        let shift = shifts.next().unwrap_or_default().cast_signed();
+        let number = at as u32 + 1;
+        let is_sync = |sync: &Vec<u32>| sync.binary_search(&number).is_ok();
+        shape.add(Frame {
+            offset,
+            size: *size,
+            sync: sync.as_ref().is_none_or(is_sync),
+            shown: time.saturating_add(i64::from(shift)),
+            duration,
+            hidden: false,
+        });
+        time = time.saturating_add(i64::from(duration));
+    }
+    Ok(())
+}
+
+/// Reads sizes of 4, 8 or 16 bits (`stz2`).
+fn small_sizes(stbl: Inner<'_>) -> Result<Vec<u32>, Error> {
+    let Some(stz2) = stbl.child(b"stz2") else {
+        return Ok(Vec::new());
+    };
+    let (bits, count) = (stz2.number(4)? & 0xff, stz2.number(8)? as usize);
+    let bytes = stz2.bytes.get(12..).unwrap_or_default();
+    Ok(match bits {
+        4 => {
+            let pairs = bytes.iter().flat_map(|byte| [byte >> 4, byte & 15]);
+            pairs.map(u32::from).take(count).collect()
+        }
+        8 => bytes
+            .iter()
+            .map(|byte| u32::from(*byte))
+            .take(count)
+            .collect(),
+        16 => {
+            let pairs = bytes.chunks_exact(2);
+            let sizes = pairs.map(|pair| u32::from(pair[0]) << 8 | u32::from(pair[1]));
+            sizes.take(count).collect()
+        }
+        _ => return Err(stz2.fault("sizes have neither 4 nor 8 nor 16 bits")),
+    })
+}
+
+/// Returns where each sample begins.
+fn offsets(stbl: Inner<'_>, sizes: &[u32]) -> Result<Vec<u64>, Error> {
+    let chunks: Vec<u64> = match (stbl.child(b"stco"), stbl.child(b"co64")) {
+        (Some(stco), _) => {
+            let rows = stco.rows(4, 4)?;
+            rows.filter_map(|row| boxes::number(row, 0).map(u64::from))
+                .collect()
+        }
+        (None, Some(co64)) => {
+            let rows = co64.rows(4, 8)?;
+            rows.filter_map(|row| boxes::long(row, 0)).collect()
+        }
+        (None, None) => return Err(stbl.fault("it does not say where samples lie (stco)")),
+    };
+    let stsc = stbl.child(b"stsc");
+    let stsc = stsc.ok_or_else(|| stbl.fault("it does not say how samples lie together (stsc)"))?;
+    let rows: Vec<(u32, u32)> = stsc
+        .rows(4, 12)?
+        .filter_map(|row| Some((boxes::number(row, 0)?, boxes::number(row, 4)?)))
+        .collect();
+    let mut offsets = Vec::with_capacity(sizes.len());
+    let mut row = 0;
+    for (index, chunk) in chunks.iter().enumerate() {
+        let number = index as u64 + 1;
+        while rows
+            .get(row + 1)
+            .is_some_and(|next| u64::from(next.0) <= number)
+        {
+            row += 1;
+        }
+        let held = rows.get(row).map_or(0, |it| it.1) as usize;
+        let mut at = *chunk;
+        for _ in 0..held {
+            let Some(size) = sizes.get(offsets.len()) else {
+                return Ok(offsets);
+            };
+            offsets.push(at);
+            at = at.saturating_add(u64::from(*size));
+        }
+    }
+    Ok(offsets)
+}

@@ -1,0 +1,354 @@
+use std::io::Cursor;
+
+use proptest::prelude::*;
+
+use super::{Colours, Container, Error, Muxer, Picture, Turn, h264, read};
+
+/// A sequence of 32 by 32 pixels in the profile "High" whose colours are BT.709 over the full range, written by hand.
+fn sequence() -> Vec<u8> {
+    let code = |value: u32| {
+        let bits = format!("{:b}", value + 1);
+        format!("{}{bits}", "0".repeat(bits.len() - 1))
+    };
+    let mut all = format!("{:08b}{:08b}{:08b}", 100, 0, 30);
+    // Its number; 4:2:0 in eight bits; no lists; 16 numbers of frames, order of type 2, one reference; no gaps.
+    let codes = |values: &[u32]| -> String { values.iter().map(|value| code(*value)).collect() };
+    all += &codes(&[0, 1, 0, 0]);
+    all += "00";
+    all += &codes(&[0, 2, 1]);
+    all += "0";
+    // Two by two squares; frames, direct_8x8, no cropping; then how it is used.
+    all += &codes(&[1, 1]);
+    all += "1101";
+    // Neither aspect nor overscan; a format, the full range, and a description of colours; nothing else; the end.
+    all += "00110111";
+    all += &format!("{:08b}{:08b}{:08b}", 1, 1, 1);
+    all += "0000001";
+    while !all.len().is_multiple_of(8) {
+        all += "0";
+    }
+    let bytes = all.as_bytes().chunks(8).map(|byte| {
+        let text = std::str::from_utf8(byte).expect("digits");
+        u8::from_str_radix(text, 2).expect("a byte")
+    });
+    let mut piece = vec![0x67];
+    let mut zeros = 0;
+    for byte in bytes {
+        if zeros >= 2 && byte <= 3 {
+            piece.push(3);
+            zeros = 0;
+        }
+        zeros = if byte == 0 { zeros + 1 } else { 0 };
+        piece.push(byte);
+    }
+    piece
+}
+
+/// Returns a film of `count` coded pictures that are none, every fourth of which refreshes.
+fn film(count: usize) -> Vec<u8> {
+    let mut muxer = Muxer::new(Picture {
+        width: 32,
+        height: 32,
+        rate: (25, 1),
+        colours: Colours {
+            matrix: 1,
+            full_range: false,
+        },
+    });
+    for index in 0..count {
+        let mut stream = Vec::new();
+        let mut put = |piece: &[u8]| {
+            stream.extend_from_slice(&[0, 0, 0, 1]);
+            stream.extend_from_slice(piece);
+        };
+        if index % 4 == 0 {
+            put(&sequence());
+            put(&[0x68, 0xee, 0x3c, 0x80]);
+            put(&[0x65, 0x88, index as u8 + 1]);
+        } else {
+            put(&[0x41, 0x9a, index as u8 + 1, 7]);
+        }
+        muxer.add(&stream);
+    }
+    let mut bytes = Vec::new();
+    muxer.write(&mut bytes).expect("written");
+    bytes
+}
+
+fn opened(bytes: &[u8]) -> Container {
+    read(&mut Cursor::new(bytes)).expect("a film").0
+}
+
+/// Returns where the content of the first box of that kind begins.
+fn find(bytes: &[u8], kind: &[u8; 4]) -> usize {
+    let at = memchr::memmem::find(bytes, kind);
+    at.expect("the box is there") + 4
+}
+
+fn boxed(kind: &[u8; 4], content: &[u8]) -> Vec<u8> {
+    let mut bytes = (content.len() as u32 + 8).to_be_bytes().to_vec();
+    bytes.extend_from_slice(kind);
+    bytes.extend_from_slice(content);
+    bytes
+}
+
+fn words(words: &[u32]) -> Vec<u8> {
+    words.iter().flat_map(|word| word.to_be_bytes()).collect()
+}
+
+/// Puts a box at the end of another inside `path`, lengthens those around it, and moves what the index points to.
+fn inserted(bytes: &[u8], path: &[&[u8; 4]], new: &[u8]) -> Vec<u8> {
+    let mut bytes = bytes.to_vec();
+    let mut sizes = Vec::new();
+    let (mut at, mut end) = (0, bytes.len());
+    for kind in path {
+        loop {
+            let size = u32::from_be_bytes(bytes[at..at + 4].try_into().expect("four")) as usize;
+            if &bytes[at + 4..at + 8] == *kind {
+                sizes.push(at);
+                end = at + size;
+                at += 8;
+                break;
+            }
+            at += size;
+            assert!(at < end, "{kind:?} is there");
+        }
+    }
+    for at in sizes {
+        let size = u32::from_be_bytes(bytes[at..at + 4].try_into().expect("four"));
+        bytes[at..at + 4].copy_from_slice(&(size + new.len() as u32).to_be_bytes());
+    }
+    bytes.splice(end..end, new.iter().copied());
+    let stco = find(&bytes, b"stco") + 8;
+    let offset = u32::from_be_bytes(bytes[stco..stco + 4].try_into().expect("four"));
+    bytes[stco..stco + 4].copy_from_slice(&(offset + new.len() as u32).to_be_bytes());
+    bytes
+}
+
+#[test]
+fn a_film_that_is_written_is_read_back() {
+    let bytes = film(10);
+    let film = opened(&bytes);
+    assert_eq!((film.width, film.height), (32, 32));
+    assert_eq!(
+        (film.coding.as_str(), film.coding_name()),
+        ("avc1", "H.264")
+    );
+    assert_eq!(film.frames.len(), 10);
+    assert_eq!(film.micros(film.length()), 400_000);
+    let sync: Vec<bool> = film.frames.iter().map(|frame| frame.sync).collect();
+    let want: Vec<bool> = (0..10).map(|index| index % 4 == 0).collect();
+    assert_eq!(sync, want);
+    for (index, frame) in film.frames.iter().enumerate() {
+        assert_eq!(film.micros(frame.shown), index as i64 * 40_000);
+        let sample = &bytes[frame.offset as usize..][..frame.size as usize];
+        let last = if index % 4 == 0 { index + 1 } else { 7 };
+        assert_eq!(sample.last(), Some(&(last as u8)), "{index}");
+    }
+    assert_eq!(film.sync_before(7), 4);
+    let said = h264::configuration(&film.configuration).expect("parameter sets");
+    assert_eq!((said.length, said.sets.len()), (4, 2));
+    let frame = film.frames[1];
+    let sample = &bytes[frame.offset as usize..][..frame.size as usize];
+    let mut stream = Vec::new();
+    h264::annex_b(&said, sample, true, &mut stream).expect("a stream");
+    let pieces: Vec<&[u8]> = h264::pieces(&stream).collect();
+    assert_eq!(pieces.len(), 3);
+    assert!(h264::is_sequence(pieces[0]) && h264::is_parameters(pieces[1]));
+    assert!(!h264::is_refresh(pieces[2]));
+}
+
+#[test]
+fn colours_are_read_from_the_stream_and_from_the_container() {
+    let said = h264::sequence(&sequence()).expect("a sequence");
+    let full = Colours {
+        matrix: 1,
+        full_range: true,
+    };
+    assert_eq!((said.profile, said.interlaced), (100, false));
+    assert_eq!(said.colours, Some(full));
+    let film = opened(&film(1));
+    let limited = Colours {
+        full_range: false,
+        ..full
+    };
+    assert_eq!(film.colours, Some(limited));
+    for cut in 0..sequence().len() {
+        // No part of a sequence makes the reader fail but in words.
+        let _ = h264::sequence(&sequence()[..cut]);
+    }
+}
+
+#[test]
+fn phones_turn_their_films() {
+    let one = 0x1_0000_u32;
+    let minus = one.wrapping_neg();
+    for (matrix, turn, size) in [
+        ([one, 0, 0, one], Turn::None, [40, 30]),
+        ([0, one, minus, 0], Turn::Quarter, [30, 40]),
+        ([minus, 0, 0, minus], Turn::Half, [40, 30]),
+        ([0, minus, one, 0], Turn::ThreeQuarters, [30, 40]),
+        ([7, 7, 7, 7], Turn::None, [40, 30]),
+    ] {
+        let mut bytes = film(2);
+        let at = find(&bytes, b"tkhd") + 40;
+        for (term, place) in matrix.iter().zip([0, 4, 12, 16]) {
+            bytes[at + place..at + place + 4].copy_from_slice(&term.to_be_bytes());
+        }
+        let film = opened(&bytes);
+        assert_eq!(film.turn, turn, "{matrix:?}");
+        assert_eq!(turn.size([40, 30]), size);
+    }
+}
+
+#[test]
+fn pictures_are_shown_when_their_composition_times_say() {
+    // Decoded 0 1 2 3, shown 0 2 3 1, one frame later than decoded, and the edit list takes that frame away.
+    let ctts = [0, 4, 1, 3600, 1, 10_800, 1, 0, 1, 0];
+    let bytes = inserted(
+        &film(4),
+        &[b"moov", b"trak", b"mdia", b"minf", b"stbl"],
+        &boxed(b"ctts", &words(&ctts)),
+    );
+    let edit = boxed(b"elst", &words(&[0, 1, 160, 3600, 0x1_0000]));
+    let bytes = inserted(&bytes, &[b"moov", b"trak"], &boxed(b"edts", &edit));
+    let film = opened(&bytes);
+    let shown: Vec<i64> = film.frames.iter().map(|it| film.micros(it.shown)).collect();
+    assert_eq!(shown, [0, 120_000, 40_000, 80_000]);
+    assert_eq!(film.shown_order(), [0, 2, 3, 1]);
+    assert!(film.frames.iter().all(|frame| !frame.hidden));
+}
+
+#[test]
+fn an_edit_list_may_delay_and_cut_a_film() {
+    // Half a second of nothing, then the film from its third frame, for two frames.
+    let rows = [0, 2, 500, u32::MAX, 0x1_0000, 80, 7200, 0x1_0000];
+    let edit = boxed(b"edts", &boxed(b"elst", &words(&rows)));
+    let film = opened(&inserted(&film(8), &[b"moov", b"trak"], &edit));
+    let hidden: Vec<bool> = film.frames.iter().map(|frame| frame.hidden).collect();
+    assert_eq!(hidden, [true, true, false, false, true, true, true, true]);
+    assert_eq!(film.micros(film.frames[2].shown), 500_000);
+    assert_eq!(film.shown_order(), [2, 3]);
+}
+
+#[test]
+fn films_in_pieces_are_read() {
+    let whole = film(8);
+    let described = opened(&whole);
+    // The same film without its table, and two pieces of four frames each behind it.
+    let mut bytes = whole;
+    let stsz = find(&bytes, b"stsz") + 8;
+    bytes[stsz..stsz + 4].copy_from_slice(&0_u32.to_be_bytes());
+    let trex = boxed(b"trex", &words(&[0, 1, 1, 3600, 0, 0x1_0000]));
+    let mut bytes = inserted(&bytes, &[b"moov"], &boxed(b"mvex", &trex));
+    for piece in 0..2_u32 {
+        let frames = &described.frames[piece as usize * 4..][..4];
+        let base = bytes.len() as u64;
+        let shift = (frames[0].offset + 40).wrapping_sub(base) as u32;
+        let mut run = words(&[0x205, 4, shift, 0x200_0000]);
+        run.extend(frames.iter().flat_map(|frame| frame.size.to_be_bytes()));
+        let mut traf = boxed(b"tfhd", &words(&[0x2_0000, 1]));
+        traf.extend(boxed(b"tfdt", &words(&[0, piece * 4 * 3600])));
+        traf.extend(boxed(b"trun", &run));
+        bytes.extend(boxed(b"moof", &boxed(b"traf", &traf)));
+    }
+    let film = opened(&bytes);
+    assert_eq!(film.frames.len(), 8);
+    for (frame, want) in film.frames.iter().zip(&described.frames) {
+        assert_eq!((frame.shown, frame.size), (want.shown, want.size));
+        assert_eq!((frame.offset, frame.sync), (want.offset + 40, want.sync));
+    }
+}
+
+#[test]
+fn what_is_no_film_is_refused_in_words() {
+    let said = |bytes: &[u8]| {
+        let refused = read(&mut Cursor::new(bytes)).expect_err("refused");
+        refused.to_string()
+    };
+    assert_eq!(said(b""), Error::NoMp4.to_string());
+    assert_eq!(said(b"RIFF....AVI LIST"), Error::NoMp4.to_string());
+    let bytes = film(3);
+    let movie = find(&bytes, b"moov") - 8;
+    assert!(said(&bytes[..movie]).contains("moov"));
+    let mut sound = bytes.clone();
+    let handler = find(&sound, b"hdlr") + 8;
+    sound[handler..handler + 4].copy_from_slice(b"soun");
+    assert!(said(&sound).contains("only soun"));
+    let mut still = bytes;
+    let clock = find(&still, b"mdhd") + 12;
+    still[clock..clock + 4].fill(0);
+    assert!(said(&still).contains("clock"));
+}
+
+#[test]
+fn a_film_that_was_cut_short_shows_what_is_there() {
+    let bytes = film(10);
+    let cut = &bytes[..bytes.len() - 20];
+    let (film, findings) = read(&mut Cursor::new(cut)).expect("a film");
+    assert!((1..10).contains(&film.frames.len()));
+    assert_eq!(findings.len(), 2, "{findings:?}");
+}
+
+#[test]
+fn counts_that_no_file_holds_take_no_memory() {
+    for (kind, at) in [
+        (b"stsz", 8),
+        (b"stts", 4),
+        (b"stss", 4),
+        (b"stsc", 4),
+        (b"stco", 4),
+    ] {
+        let mut bytes = film(4);
+        let place = find(&bytes, kind) + at;
+        bytes[place..place + 4].fill(0xff);
+        let read = read(&mut Cursor::new(&bytes));
+        if let Ok((film, _)) = read {
+            assert!(film.frames.len() <= 4, "{kind:?}");
+        }
+    }
+    // A size for all of them, and as many as can be counted.
+    let mut bytes = film(4);
+    let place = find(&bytes, b"stsz") + 4;
+    bytes[place..place + 4].copy_from_slice(&1_u32.to_be_bytes());
+    bytes[place + 4..place + 8].copy_from_slice(&5_000_000_u32.to_be_bytes());
+    let film = opened(&bytes);
+    assert!(film.frames.len() <= bytes.len());
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    #[test]
+    fn hostile_bytes_are_read_or_refused(
+        flips in prop::collection::vec((0usize..1200, any::<u8>()), 1..20),
+        cut in 0usize..1400,
+        pieces in any::<bool>(),
+    ) {
+        let mut bytes = film(6);
+        if pieces {
+            let mut run = words(&[0xf05, 3, 40, 0]);
+            run.extend(words(&[3600, 7, 0, 0, 3600, 7, 0, 0, 3600, 7, 0, 0]));
+            let mut traf = boxed(b"tfhd", &words(&[0x2_0000, 1]));
+            traf.extend(boxed(b"trun", &run));
+            bytes.extend(boxed(b"moof", &boxed(b"traf", &traf)));
+        }
+        for (at, value) in flips {
+            let at = at % bytes.len();
+            bytes[at] = value;
+        }
+        bytes.truncate(bytes.len().max(cut));
+        if let Ok((film, _)) = read(&mut Cursor::new(&bytes)) {
+            prop_assert!(!film.shown_order().is_empty());
+            for frame in &film.frames {
+                prop_assert!(frame.offset + u64::from(frame.size) <= bytes.len() as u64);
+            }
+            let _ = (film.length(), film.micros(i64::MAX), film.sync_before(usize::MAX));
+            if let Ok(said) = h264::configuration(&film.configuration) {
+                for set in &said.sets {
+                    let _ = h264::sequence(set);
+                }
+            }
+        }
+    }
+}

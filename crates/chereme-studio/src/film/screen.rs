@@ -1,0 +1,141 @@
+//! A film on the screen: which frame it shows, and where it lies on the clock of its recording.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use chereme_corpus::{FilmTimes, MediaTrackRow};
+use chereme_motion::Instant;
+use eframe::egui::{Context, TextureHandle, TextureOptions};
+
+use super::projector::{Known, News, Projector, Wish};
+
+/// A film and what is seen of it.
+pub(super) struct Screen {
+    pub(super) track: MediaTrackRow,
+    projector: Projector,
+    pub(super) news: News,
+    pub(super) texture: Option<TextureHandle>,
+    /// The number of the picture that the texture holds.
+    held: u64,
+    wished: Option<Wish>,
+    /// The frame that is held while the recording goes on, so that both can be laid upon each other.
+    pub(super) loose: Option<usize>,
+    /// Where its start is being dragged to, in microseconds.
+    pub(super) dragged: Option<i64>,
+}
+
+impl Screen {
+    pub(super) fn new(track: MediaTrackRow, corpus: &Path, ctx: &Context) -> Self {
+        let wake = ctx.clone();
+        Self {
+            projector: Projector::new(track.clone(), corpus, move || wake.request_repaint()),
+            track,
+            news: News::default(),
+            texture: None,
+            held: 0,
+            wished: None,
+            loose: None,
+            dragged: None,
+        }
+    }
+
+    /// Returns it with what the corpus says of it now.
+    pub(super) fn moved(self, track: &MediaTrackRow) -> Self {
+        Self {
+            track: track.clone(),
+            dragged: None,
+            ..self
+        }
+    }
+
+    /// Returns when its frames are shown, once that is known.
+    pub(super) fn times(&self) -> Option<&Arc<FilmTimes>> {
+        match &self.news.known {
+            Known::Open(_, times) => Some(times),
+            _ => None,
+        }
+    }
+
+    /// Returns where its own time 0 lies on the recording's clock, in microseconds.
+    pub(super) fn offset(&self) -> i64 {
+        self.dragged.unwrap_or(self.track.offset_us)
+    }
+
+    /// Returns where it ends on the recording's clock.
+    pub(super) fn end(&self) -> Option<i64> {
+        Some(self.times()?.end() + self.track.offset_us)
+    }
+
+    /// Returns the frame of a moment of the recording.
+    pub(super) fn frame_at(&self, at: Instant) -> Option<usize> {
+        match self.loose {
+            Some(frame) => Some(frame),
+            None => self.times()?.frame_at(at.micros() - self.offset()),
+        }
+    }
+
+    /// Returns where the frame begins that is `frames` on from that of a moment; before the first it is the first.
+    pub(super) fn step(&self, at: Instant, frames: i64) -> Option<Instant> {
+        let times = self.times()?;
+        let own = at.micros() - self.offset();
+        let last = times.frames().checked_sub(1)?;
+        let next = match times.frame_at(own) {
+            Some(frame) => frame.saturating_add_signed(frames as isize).min(last),
+            None if own < times.start(0) => 0,
+            None => last,
+        };
+        Some(Instant::from_micros(times.start(next) + self.offset()))
+    }
+
+    /// Returns the start that it has if a frame of it is that moment of the recording.
+    pub(super) fn laid(&self, frame: usize, at: Instant) -> Option<i64> {
+        Some(at.micros() - self.times()?.start(frame))
+    }
+
+    /// Takes what the projector has, and wishes for the picture of a frame.
+    pub(super) fn follow(
+        &mut self,
+        frame: Option<usize>,
+        within: [usize; 2],
+        playing: bool,
+        ctx: &Context,
+    ) {
+        self.news = self.projector.news();
+        if let Some(shot) = self.news.shot.as_ref().filter(|it| it.number != self.held) {
+            self.held = shot.number;
+            match &mut self.texture {
+                Some(texture) => texture.set(shot.image.clone(), TextureOptions::LINEAR),
+                None => {
+                    let name = format!("film {}", self.track.id);
+                    let image = shot.image.clone();
+                    self.texture = Some(ctx.load_texture(name, image, TextureOptions::LINEAR));
+                }
+            }
+        }
+        let wish = frame.map(|frame| Wish {
+            frame,
+            within,
+            playing,
+        });
+        if self.times().is_some() && wish != self.wished {
+            self.wished = wish;
+            if let Some(wish) = wish {
+                self.projector.wish(wish);
+            }
+        }
+    }
+
+    /// Returns whether what is seen is what was wished for last.
+    pub(super) fn is_pictured(&self) -> bool {
+        let Some(wish) = self.wished else {
+            return !matches!(self.news.known, Known::Coming);
+        };
+        let shot = self.news.shot.as_ref();
+        shot.is_some_and(|it| it.frame == wish.frame)
+            || self
+                .news
+                .damaged
+                .as_ref()
+                .is_some_and(|it| it.0 == wish.frame)
+    }
+}

@@ -1,0 +1,288 @@
+//! The widgets of films: the pictures, and what moves them on the clock.
+
+use chereme_corpus::{Name, TrackChange};
+use chereme_motion::Instant;
+use eframe::egui::{
+    self, Align2, Button, Color32, DragValue, Rect, RichText, Role, Sense, TextStyle, Ui,
+    UiBuilder, WidgetInfo, pos2, vec2,
+};
+
+use super::projector::Known;
+use super::screen::Screen;
+use crate::choose::Choose;
+use crate::command::Command;
+use crate::context::{Outbox, Seen};
+use crate::panes::inspector::Thing;
+use crate::words::{fill, film as words};
+use crate::work::Work;
+
+/// The height of the line below a film.
+const LINE: f32 = 26.0;
+/// The gap between films.
+const GAP: f32 = 6.0;
+/// The most pixels of a picture; larger rooms show theirs scaled.
+const MOST: [usize; 2] = [1280, 1280];
+
+/// Shows films next to each other, or above each other where that makes them larger.
+pub(super) fn show(
+    screens: &mut [Screen],
+    ui: &mut Ui,
+    seen: &Seen<'_>,
+    out: &mut Outbox,
+    rect: Rect,
+) {
+    let count = screens.len();
+    if count == 0 {
+        return;
+    }
+    let columns = columns(count, rect.size());
+    let rows = count.div_ceil(columns);
+    let size = vec2(
+        (rect.width() - GAP * (columns - 1) as f32) / columns as f32,
+        (rect.height() - GAP * (rows - 1) as f32) / rows as f32,
+    );
+    for (at, screen) in screens.iter_mut().enumerate() {
+        let (column, row) = (at % columns, at / columns);
+        let corner = vec2(column as f32 * (size.x + GAP), row as f32 * (size.y + GAP));
+        let cell = Rect::from_min_size(rect.min + corner, size);
+        one(screen, ui, seen, out, cell);
+    }
+}
+
+/// Returns how many films stand beside each other so that wide ones are largest.
+fn columns(count: usize, room: egui::Vec2) -> usize {
+    let width = |columns: usize| {
+        let rows = count.div_ceil(columns) as f32;
+        let (wide, high) = (room.x / columns as f32, room.y / rows - LINE);
+        wide.min(high * 16.0 / 9.0)
+    };
+    let best = (1..=count).max_by(|a, b| width(*a).total_cmp(&width(*b)));
+    best.unwrap_or(1)
+}
+
+fn one(screen: &mut Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, cell: Rect) {
+    let player = &seen.shown.player;
+    let at = player.playhead();
+    let line = Rect::from_min_max(pos2(cell.left(), cell.bottom() - LINE), cell.max);
+    let room = cell.with_max_y(line.top() - 2.0);
+    let scale = ui.ctx().pixels_per_point();
+    let pixels = |side: f32, most: usize| ((side * scale) as usize / 16 * 16).clamp(64, most);
+    let within = [
+        pixels(room.width(), MOST[0]),
+        pixels(room.height(), MOST[1]),
+    ];
+    let frame = screen.frame_at(at);
+    let playing = player.direction() > 0.0 && seen.shown.made.is_none();
+    screen.follow(frame, within, playing, ui.ctx());
+    let id = ui.unique_id().with(("film", screen.track.id));
+    let response = ui.interact(room, id, Sense::click());
+    let name = name(&screen.track.url);
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name.clone()));
+    ui.painter().rect_filled(room, 3.0, Color32::BLACK);
+    match (&screen.news.known, frame) {
+        (Known::Open(..), Some(frame)) => picture(screen, ui, seen, room, frame),
+        (Known::Open(_, times), None) => {
+            let own = at.micros() - screen.offset();
+            let text = if own < times.start(0) {
+                words::NOT_BEGUN
+            } else {
+                words::IS_OVER
+            };
+            told(ui, room, seen.say(text));
+        }
+        (Known::Coming, _) => told(ui, room, seen.say(words::COMING)),
+        (Known::Gone(path), _) => {
+            let path = path.as_ref().map_or_else(
+                || screen.track.url.clone(),
+                |path| path.display().to_string(),
+            );
+            told(ui, room, &fill(seen.say(words::GONE), &[("path", &path)]));
+        }
+        (Known::Refused(why, remedy), _) => {
+            let remedy = remedy.as_deref().unwrap_or_default();
+            told(ui, room, &format!("{why}\n\n{remedy}"));
+        }
+    }
+    let mut builder = UiBuilder::new().max_rect(line);
+    builder = builder.id_salt(("film line", screen.track.id));
+    ui.scope_builder(builder, |ui| {
+        ui.set_clip_rect(line.intersect(ui.clip_rect()));
+        ui.horizontal(|ui| match screen.news.known {
+            Known::Open(..) => controls(screen, ui, seen, out, at),
+            Known::Coming => {}
+            _ => missing(screen, ui, seen, out),
+        });
+    });
+}
+
+/// Shows the picture, or what keeps it from being shown.
+fn picture(screen: &Screen, ui: &Ui, seen: &Seen<'_>, room: Rect, frame: usize) {
+    if let Some(texture) = &screen.texture {
+        let size = texture.size_vec2();
+        let share = (room.width() / size.x).min(room.height() / size.y);
+        let place = Rect::from_center_size(room.center(), size * share);
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        ui.painter()
+            .image(texture.id(), place, whole, Color32::WHITE);
+    }
+    let damaged = screen.news.damaged.as_ref().filter(|it| it.0 == frame);
+    if let Some((_, why)) = damaged {
+        told(ui, room, why);
+    }
+    if screen.loose.is_some() {
+        let stroke = egui::Stroke::new(2.0, seen.colours().accent);
+        let inside = egui::StrokeKind::Inside;
+        ui.painter().rect_stroke(room, 3.0, stroke, inside);
+    }
+}
+
+/// Writes into the dark.
+fn told(ui: &Ui, room: Rect, text: &str) {
+    let painter = ui.painter().with_clip_rect(room.intersect(ui.clip_rect()));
+    let font = TextStyle::Body.resolve(ui.style());
+    let white = Color32::from_gray(230);
+    let galley = painter.layout(
+        text.to_owned(),
+        font,
+        white,
+        (room.width() - 24.0).max(40.0),
+    );
+    let place = Align2::CENTER_CENTER.anchor_size(room.center(), galley.size());
+    let back = place.expand(6.0);
+    painter.rect_filled(back, 4.0, Color32::from_black_alpha(170));
+    painter.galley(place.min, galley, white);
+}
+
+/// Offers what helps where there is no film to be seen.
+fn missing(screen: &Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    if ui.small_button(seen.say(words::FIND)).clicked() {
+        let (recording, track) = (screen.track.recording_id, screen.track.id);
+        out.send(Command::Choose(Choose::Media(recording, Some(track))));
+    }
+    if ui.small_button(seen.say(words::ABOUT)).clicked() {
+        out.send(Command::Inspect(Thing::Recording(
+            screen.track.recording_id,
+        )));
+    }
+}
+
+/// Shows what moves the film: its frames, holding it, laying a frame upon a moment, its start.
+fn controls(screen: &mut Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox, at: Instant) {
+    let Some(times) = screen.times().cloned() else {
+        return;
+    };
+    ui.spacing_mut().item_spacing.x = 4.0;
+    let last = times.frames().saturating_sub(1);
+    for (sign, text, hint) in [(-1_i64, "◀", words::BACK), (1, "▶", words::FORWARD)] {
+        let name = seen.say(hint);
+        let button = ui.add(Button::new(text).small());
+        button.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
+        if !button.on_hover_text(name).clicked() {
+            continue;
+        }
+        match &mut screen.loose {
+            Some(frame) => *frame = frame.saturating_add_signed(sign as isize).min(last),
+            None => {
+                if let Some(next) = screen.step(at, sign) {
+                    out.send(Command::Cue(next));
+                }
+            }
+        }
+    }
+    let held = screen.loose.is_some();
+    let hold = ui.selectable_label(held, seen.say(words::HOLD));
+    if hold.on_hover_text(seen.say(words::HOLD_HINT)).clicked() {
+        screen.loose = match held {
+            true => None,
+            false => Some(screen.frame_at(at).unwrap_or_default()),
+        };
+    }
+    if let Some(frame) = screen.loose {
+        let here = ui.small_button(seen.say(words::HERE));
+        let hint = seen.say(words::HERE_HINT);
+        if here.on_hover_text(hint).clicked()
+            && let Some(offset) = screen.laid(frame, at)
+        {
+            lay(screen, out, offset);
+            screen.loose = None;
+        }
+    }
+    offset(screen, ui, seen, out);
+    let frame = screen.frame_at(at).map_or(0, |frame| frame + 1);
+    let values: [(&str, &dyn std::fmt::Display); 2] = [("n", &frame), ("all", &times.frames())];
+    let text = fill(seen.say(words::FRAME_OF), &values);
+    let label = ui.label(RichText::new(text).small().weak());
+    if let Known::Open(facts, _) = &screen.news.known {
+        let findings = facts.findings.join("\n");
+        let told = format!(
+            "{}\n{}, {} × {}, {:.3}/s ({})\n{findings}",
+            screen.track.url, facts.coding, facts.width, facts.height, facts.rate, facts.decoder
+        );
+        label.on_hover_text(told.trim_end());
+    }
+}
+
+/// Shows where the film starts on the clock, to be dragged or typed; letting go makes one change of the corpus.
+fn offset(screen: &mut Screen, ui: &mut Ui, seen: &Seen<'_>, out: &mut Outbox) {
+    let mut seconds = screen.offset() as f64 / 1e6;
+    let field = DragValue::new(&mut seconds)
+        .speed(0.005)
+        .fixed_decimals(3)
+        .range(-86_400.0..=86_400.0)
+        .suffix(" s");
+    let response = ui.add(field);
+    let name = seen.say(words::OFFSET);
+    response.widget_info(|| WidgetInfo {
+        value: Some(seconds),
+        ..WidgetInfo::labeled(Role::SpinButton, true, name)
+    });
+    if response.changed() {
+        screen.dragged = Some((seconds * 1e6).round() as i64);
+    }
+    let done = response.drag_stopped() || response.lost_focus();
+    if done && let Some(offset) = screen.dragged {
+        lay(screen, out, offset);
+    }
+    response.on_hover_text(seen.say(words::OFFSET_HINT));
+}
+
+/// Has the film start there.
+fn lay(screen: &mut Screen, out: &mut Outbox, offset: i64) {
+    if offset == screen.track.offset_us {
+        screen.dragged = None;
+        return;
+    }
+    // It stays there until the corpus says so too.
+    screen.dragged = Some(offset);
+    let recording = Name::Number(screen.track.recording_id);
+    let track = screen.track.name.clone();
+    out.work(Work::ChangeTrack(
+        recording,
+        track,
+        TrackChange::Offset(offset),
+    ));
+}
+
+/// Returns the name of the file at the end of a path or address.
+fn name(url: &str) -> String {
+    url.rsplit(['/', '\\']).next().unwrap_or(url).to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn films_stand_as_they_are_largest() {
+        assert_eq!(columns(1, vec2(400.0, 300.0)), 1);
+        assert_eq!(columns(2, vec2(1200.0, 400.0)), 2);
+        assert_eq!(columns(2, vec2(400.0, 900.0)), 1);
+        assert_eq!(columns(4, vec2(1280.0, 800.0)), 2);
+    }
+
+    #[test]
+    fn files_are_called_by_the_end_of_their_path() {
+        assert_eq!(name("file:///D:/films/a b.mp4"), "a b.mp4");
+        assert_eq!(name("D:\\films\\take.mov"), "take.mov");
+    }
+}

@@ -1,0 +1,113 @@
+//! One press shares what is on the stage: as a film, an animation, a picture or a body, in a file next to the corpus.
+
+use std::path::{Path, PathBuf};
+
+use chereme_corpus::{Address, ExportOptions, ExportWhat, Name, PictureOptions};
+use eframe::egui::Context;
+
+use crate::action::Action;
+use crate::app::Studio;
+use crate::command::Command;
+use crate::overlay::export::{What, file_name};
+use crate::panes::recombine::selected_token;
+use crate::words::stage as words;
+use crate::work::{Shared, Work};
+
+/// How high a shared film is, in pixels.
+const HEIGHT: usize = 720;
+
+impl Studio {
+    /// Writes what is on the stage: made movement, the selected sign, or else the recording.
+    pub(crate) fn share(&mut self, action: Action, ctx: &Context) {
+        match self.shared(action, ctx) {
+            Ok(work) => {
+                self.out.work(work);
+            }
+            Err(text) => self.out.send(Command::Cannot(text)),
+        }
+    }
+
+    fn shared(&self, action: Action, ctx: &Context) -> Result<Work, crate::words::Text> {
+        let nothing = words::SHARE_NOTHING;
+        let corpus = self.corpus().ok_or(nothing)?;
+        let ending = match action {
+            Action::ShareFilm => "mp4",
+            Action::ShareGif => "gif",
+            Action::SharePicture => "png",
+            _ => "glb",
+        };
+        let made = self.shown.made.as_ref().map(|it| it.made.clone());
+        let (what, name) = match made {
+            Some(made) => {
+                let name = What::Recording(0, made.name.clone());
+                (Shared::Made(made), name)
+            }
+            None => {
+                let seen = self.seen(ctx).ok_or(nothing)?;
+                let recording = seen.shown.recording.ok_or(nothing)?;
+                if !seen.reel.has_movement() {
+                    return Err(nothing);
+                }
+                let selected = seen.shown.annotation().is_some() || seen.shown.span.is_some();
+                match selected_token(&seen).filter(|_| selected) {
+                    Some((token, gloss)) => (
+                        Shared::Stored(Address::Token(token)),
+                        What::Token(token, gloss),
+                    ),
+                    None => {
+                        let glance = seen.snapshot.recording(recording).ok_or(nothing)?;
+                        let name = glance.row.name.clone();
+                        let address = Address::Recording(Name::Number(recording));
+                        (Shared::Stored(address), What::Recording(recording, name))
+                    }
+                }
+            }
+        };
+        let to = free(corpus, &file_name(&name, corpus, Some(ending)));
+        match (ending, what) {
+            ("glb", Shared::Stored(address)) => {
+                let what = ExportWhat::Address(address);
+                Ok(Work::Export(what, to, ExportOptions::default()))
+            }
+            ("glb", Shared::Made(_)) => Err(words::SHARE_STORE),
+            (ending, what) => {
+                let options = PictureOptions {
+                    height: (ending == "mp4").then_some(HEIGHT),
+                    captions: ending != "png",
+                    ..PictureOptions::default()
+                };
+                Ok(Work::Share(what, to, options))
+            }
+        }
+    }
+}
+
+/// Returns the place of a file next to the corpus that is not taken: `BOL.mp4`, else `BOL 2.mp4` and so on.
+fn free(corpus: &Path, name: &str) -> PathBuf {
+    let folder = corpus.parent().unwrap_or(Path::new(""));
+    let first = folder.join(name);
+    let name = Path::new(name);
+    let stem = name.file_stem().unwrap_or_default().to_string_lossy();
+    let ending = name.extension().unwrap_or_default().to_string_lossy();
+    let others = (2..10_000).map(|number| folder.join(format!("{stem} {number}.{ending}")));
+    let mut all = std::iter::once(first.clone()).chain(others);
+    all.find(|path| !path.exists()).unwrap_or(first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_that_is_there_is_written_over() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let corpus = folder.path().join("c.chereme");
+        let name = |expected: &str| {
+            assert_eq!(free(&corpus, "BOL.mp4"), folder.path().join(expected));
+            std::fs::write(folder.path().join(expected), "").expect("written");
+        };
+        name("BOL.mp4");
+        name("BOL 2.mp4");
+        name("BOL 3.mp4");
+    }
+}

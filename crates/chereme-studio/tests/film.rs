@@ -1,0 +1,175 @@
+//! Films driven by their labels: next to the signer, alone on the stage, laid upon the movement, missing, damaged.
+
+mod common;
+
+use std::path::{Path, PathBuf};
+
+use chereme_corpus::{
+    Address, Corpus, ImportOptions, MediaChange, Name, PictureOptions, Progress, unheard,
+};
+use chereme_studio::Options;
+use common::{Window, click, has, idle, options, small_corpus, until, window};
+use eframe::egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+
+fn shows(window: &Window<'_>, part: &str) -> bool {
+    window.query_all_by_label_contains(part).next().is_some()
+}
+
+/// Writes a film of the sign of the small corpus next to it.
+fn film(corpus: &mut Corpus, folder: &Path) -> PathBuf {
+    let path = folder.join("film.mp4");
+    let options = PictureOptions {
+        height: Some(96),
+        ..PictureOptions::default()
+    };
+    let mut hear = unheard;
+    let address: Address = "ESCARGOT".parse().expect("an address");
+    corpus
+        .draw(&address, &path, &options, &mut Progress::new(&mut hear))
+        .expect("drawn");
+    path
+}
+
+/// Opens the small corpus with a film linked to its recording.
+fn filmed<'a>(folder: &Path) -> (Window<'a>, PathBuf) {
+    let path = small_corpus(folder);
+    let mut corpus = Corpus::open(&path, "A").expect("opened");
+    film(&mut corpus, folder);
+    let take = Name::Text("escargot".to_owned());
+    corpus
+        .change_media(&take, &MediaChange::Add("film.mp4".to_owned()))
+        .expect("linked");
+    drop(corpus);
+    let options = Options {
+        corpus: Some(path.clone()),
+        ..options(folder)
+    };
+    (window(options), path)
+}
+
+/// Opens a corpus that holds an EAF file alone, which names this film.
+fn film_alone<'a>(folder: &Path, film: &str) -> Window<'a> {
+    let eaf = folder.join("talk.eaf");
+    let text = format!(
+        r#"<?xml version="1.0" encoding="UTF-8"?>
+<ANNOTATION_DOCUMENT AUTHOR="" DATE="2020-01-01T00:00:00+00:00" FORMAT="3.0" VERSION="3.0">
+<HEADER MEDIA_FILE="" TIME_UNITS="milliseconds"><MEDIA_DESCRIPTOR MEDIA_URL="file:///D:/gone/{film}" MIME_TYPE="video/mp4"/></HEADER>
+<TIME_ORDER><TIME_SLOT TIME_SLOT_ID="a" TIME_VALUE="0"/><TIME_SLOT TIME_SLOT_ID="b" TIME_VALUE="200"/></TIME_ORDER>
+<TIER LINGUISTIC_TYPE_REF="t" TIER_ID="Gloss"><ANNOTATION><ALIGNABLE_ANNOTATION ANNOTATION_ID="a1" TIME_SLOT_REF1="a" TIME_SLOT_REF2="b"><ANNOTATION_VALUE>MAISON</ANNOTATION_VALUE></ALIGNABLE_ANNOTATION></ANNOTATION></TIER>
+<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID="t" TIME_ALIGNABLE="true"/>
+</ANNOTATION_DOCUMENT>"#
+    );
+    std::fs::write(&eaf, text).expect("written");
+    let path = folder.join("talk.chereme");
+    let mut corpus = Corpus::create(&path, "A").expect("made");
+    let mut hear = unheard;
+    corpus
+        .import(
+            &[eaf],
+            &ImportOptions::default(),
+            &mut Progress::new(&mut hear),
+        )
+        .expect("imported");
+    drop(corpus);
+    window(Options {
+        corpus: Some(path),
+        ..options(folder)
+    })
+}
+
+fn offset(path: &Path) -> i64 {
+    let corpus = Corpus::open(path, "B").expect("opened");
+    let tracks = corpus.tracks(&Name::Text("escargot".to_owned()));
+    let tracks = tracks.expect("read");
+    let film = tracks.iter().find(|it| it.name == "linked 1");
+    film.expect("a film").offset_us
+}
+
+#[test]
+fn a_film_goes_along_with_the_signer_and_is_laid_upon_the_movement() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut window, path) = filmed(folder.path());
+    until(&mut window, "the film", |window| {
+        shows(window, "film frame 1 of")
+    });
+    assert!(has(&window, "film.mp4") && shows(&window, "The signer: "));
+    for _ in 0..6 {
+        window.key_press_modifiers(Modifiers::ALT, Key::Period);
+        window.run_steps(2);
+    }
+    assert_eq!(window.state().playhead().micros(), 240_000);
+    assert!(shows(&window, "film frame 7 of"));
+    until(&mut window, "its picture", |window| {
+        window.state().is_filmed()
+    });
+    // The film stands still while the movement goes on, and is laid there.
+    click(&mut window, "Hold");
+    for _ in 0..3 {
+        window.key_press_modifiers(Modifiers::SHIFT, Key::ArrowRight);
+        window.run_steps(2);
+    }
+    assert!(shows(&window, "film frame 7 of"));
+    let there = window.state().playhead().micros();
+    click(&mut window, "This frame is here");
+    idle(&mut window);
+    assert_eq!(offset(&path), there - 240_000);
+    assert!(shows(&window, "film frame 7 of"));
+    window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    window.run_steps(2);
+    idle(&mut window);
+    assert_eq!(offset(&path), 0);
+}
+
+#[test]
+fn the_pane_has_the_film_while_it_is_in_sight() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut window, _) = filmed(folder.path());
+    until(&mut window, "the film", |window| {
+        shows(window, "film frame 1 of")
+    });
+    let width = |window: &Window<'_>| window.get_by_label("film.mp4").rect().width();
+    let beside = width(&window);
+    window.key_press_modifiers(Modifiers::SHIFT, Key::F5);
+    window.run_steps(4);
+    assert!(width(&window) < beside, "it is in the pane, and once");
+    window.key_press_modifiers(Modifiers::SHIFT, Key::F4);
+    window.run_steps(4);
+    assert_eq!(width(&window), beside);
+}
+
+#[test]
+fn a_film_without_movement_is_on_the_stage_and_stepped_through() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = small_corpus(folder.path());
+    let mut corpus = Corpus::open(&path, "A").expect("opened");
+    film(&mut corpus, folder.path());
+    drop(corpus);
+    let mut window = film_alone(folder.path(), "film.mp4");
+    until(&mut window, "the film", |window| {
+        shows(window, "film frame 1 of")
+    });
+    assert!(!shows(&window, "The signer: "));
+    for frame in 1..=9 {
+        window.key_press_modifiers(Modifiers::COMMAND, Key::ArrowRight);
+        window.run_steps(2);
+        assert_eq!(window.state().playhead().micros(), frame * 40_000);
+    }
+    // It goes on where annotations end.
+    assert!(shows(&window, "film frame 10 of"));
+    window.key_press_modifiers(Modifiers::COMMAND, Key::ArrowLeft);
+    window.run_steps(2);
+    assert!(shows(&window, "film frame 9 of"));
+}
+
+#[test]
+fn a_film_that_is_missing_or_damaged_says_so() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = film_alone(folder.path(), "nowhere.mp4");
+    until(&mut window, "word of it", |window| has(window, "Find it…"));
+    let folder = tempfile::tempdir().expect("a folder");
+    let broken = folder.path().join("broken.mp4");
+    std::fs::write(broken, b"\0\0\0\x08ftyp\0\0\0\x07moov").expect("written");
+    let mut window = film_alone(folder.path(), "broken.mp4");
+    until(&mut window, "word of it", |window| has(window, "Find it…"));
+}
