@@ -302,7 +302,10 @@ impl Corpus {
             text: text.to_owned(),
         };
         if let Some(token) = &stretch.token {
-            return Ok(vec![caption(&token.gloss, stretch.span)]);
+            // The last picture may lie a part of a frame later, and is held.
+            let end = stretch.span.end().shifted(1_000_000);
+            let whole = Span::between(stretch.span.start(), end);
+            return Ok(vec![caption(&token.gloss, whole)]);
         }
         let tokens = signs::tokens_of_recording(self.store.read(), stretch.recording.id)?;
         let spans = tokens.iter().filter_map(|token| {

@@ -31,7 +31,7 @@ fn weights(matrix: u8) -> (f32, f32) {
     }
 }
 
-/// Returns how colours of a picture of that height are coded where nothing is said: as televisions do.
+/// Returns the coding of colours of a picture of that height if a film does not name it: that of television.
 pub(crate) fn usual(height: usize) -> Colours {
     Colours {
         matrix: if height < 720 { 6 } else { 1 },

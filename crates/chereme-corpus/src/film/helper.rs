@@ -155,7 +155,7 @@ impl Drop for Running {
     }
 }
 
-/// Frames that are rather decoded and dropped than begun anew for.
+/// So many frames are decoded and dropped before `ffmpeg` is started again instead.
 const NEAR: usize = 48;
 
 impl Helper {

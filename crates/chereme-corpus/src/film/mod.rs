@@ -87,7 +87,7 @@ impl FilmTimes {
     }
 }
 
-/// What a film is like.
+/// Facts of a film.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FilmFacts {
     /// How it is coded, such as `H.264`.
@@ -106,7 +106,7 @@ pub struct FilmFacts {
     pub turn: Turn,
     /// Who decodes it: `chereme` or `ffmpeg`.
     pub decoder: &'static str,
-    /// What was odd.
+    /// Oddities of the file.
     pub findings: Vec<String>,
 }
 
@@ -239,7 +239,7 @@ impl Film {
         &self.path
     }
 
-    /// Returns what it is like.
+    /// Returns its facts.
     #[must_use]
     pub fn facts(&self) -> &FilmFacts {
         &self.facts

@@ -55,7 +55,7 @@ impl Own {
             if sequence.profile > 100 {
                 return Err("H.264 of a profile with more than 8 bits, or 4:2:2".to_owned());
             }
-            // What the stream says goes before what the container says.
+            // The stream goes before the container.
             let said = sequence.colours.filter(|it| it.matrix != 2);
             let full = sequence.colours.is_some_and(|it| it.full_range);
             colours = said.or(colours).map(|it| Colours {

@@ -25,14 +25,14 @@ const LEVELS: [(u8, u64, u64); 8] = [
     (52, 36_864, 2_073_600),
 ];
 
-/// What a film is to be like.
+/// Properties of the film to be written.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Shape {
     /// Pictures per second.
     pub(crate) rate: u32,
 }
 
-/// Writes pictures as a film and returns how many there are; `hear` is told of each and may stop it.
+/// Writes pictures as a film and returns how many there are; `hear` learns of each and may stop it.
 pub(crate) fn write_film(
     pictures: &mut impl Pictures,
     shape: Shape,

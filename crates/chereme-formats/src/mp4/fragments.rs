@@ -4,7 +4,7 @@ use super::boxes::Inner;
 use super::table::Shape;
 use super::{Error, Frame, MAX_FRAMES};
 
-/// What samples of a track are like where nothing else is said.
+/// Properties of the samples of a track that a piece does not override.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Defaults {
     duration: u32,

@@ -2,16 +2,16 @@
 
 use super::{Colours, Error};
 
-/// What `avcC` says: how long the lengths of pieces are, and the parameter sets.
+/// The content of `avcC`: how long the lengths of pieces are, and the parameter sets.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Configuration {
-    /// How many bytes tell the length of a piece: 1, 2 or 4.
+    /// How many bytes hold the length of a piece: 1, 2 or 4.
     pub length: usize,
     /// Sequence and picture parameter sets, in this order.
     pub sets: Vec<Vec<u8>>,
 }
 
-/// What a sequence parameter set says that players need.
+/// Facts of a sequence parameter set that players need.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sequence {
     /// `profile_idc`.

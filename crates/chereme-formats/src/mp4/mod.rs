@@ -35,7 +35,7 @@ pub const MAX_FRAMES: usize = 5_184_000;
 pub struct Container {
     /// The four letters of its coding, such as `avc1`, `hvc1`, `av01`.
     pub coding: String,
-    /// What a decoder needs before the first frame: for H.264 the content of `avcC`, else empty.
+    /// The data that a decoder needs before the first frame: for H.264 the content of `avcC`, else empty.
     pub configuration: Vec<u8>,
     /// Width of a coded picture in pixels, before it is turned.
     pub width: u32,
@@ -43,7 +43,7 @@ pub struct Container {
     pub height: u32,
     /// How a picture is turned to be looked at.
     pub turn: Turn,
-    /// What the container says of colours.
+    /// How the container codes colours, if it says so.
     pub colours: Option<Colours>,
     /// Ticks of a second.
     pub timescale: u32,
@@ -128,7 +128,7 @@ pub enum Error {
     /// It is larger than anything that is a film.
     #[error("{what}: {found} where at most {most} are read")]
     Limit {
-        /// What there is too much of.
+        /// The thing that there is too much of.
         what: &'static str,
         /// How much there is.
         found: u64,

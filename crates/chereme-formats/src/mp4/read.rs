@@ -175,7 +175,7 @@ fn said_colours(colr: Inner<'_>) -> Option<Colours> {
     Some(Colours { matrix, full_range })
 }
 
-/// Returns how the matrix of a track turns its pictures; what is no turn by right angles turns nothing.
+/// Returns how the matrix of a track turns its pictures; a matrix that is no turn by right angles turns nothing.
 fn turn(trak: Inner<'_>) -> Turn {
     let found = || {
         let tkhd = trak.child(b"tkhd")?;

@@ -3,7 +3,7 @@
 use super::boxes::{self, Inner};
 use super::{Error, Frame, MAX_FRAMES};
 
-/// What the edit list of a track makes of its clock.
+/// The effect of the edit list of a track on its clock.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Edit {
     /// How much later the film begins, in ticks.
@@ -55,7 +55,7 @@ pub(super) fn settled(shape: Shape) -> Vec<Frame> {
     frames
 }
 
-/// A table that tells values for runs of frames.
+/// A table that holds a value for each run of frames.
 struct Runs<'a> {
     rows: Vec<&'a [u8]>,
     row: usize,

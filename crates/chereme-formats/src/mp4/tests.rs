@@ -44,7 +44,7 @@ fn sequence() -> Vec<u8> {
     piece
 }
 
-/// Returns a film of `count` coded pictures that are none, every fourth of which refreshes.
+/// Returns a film of `count` made-up coded pictures; every fourth refreshes.
 fn film(count: usize) -> Vec<u8> {
     let mut muxer = Muxer::new(Picture {
         width: 32,
@@ -217,6 +217,16 @@ fn pictures_are_shown_when_their_composition_times_say() {
     assert_eq!(shown, [0, 120_000, 40_000, 80_000]);
     assert_eq!(film.shown_order(), [0, 2, 3, 1]);
     assert!(film.frames.iter().all(|frame| !frame.hidden));
+}
+
+#[test]
+fn pictures_that_lead_a_refresh_are_decoded_from_the_one_before() {
+    let mut film = opened(&film(8));
+    // Frame 4 refreshes, and frame 5 is shown before it.
+    (film.frames[4].shown, film.frames[5].shown) = (film.frames[5].shown, film.frames[4].shown);
+    assert_eq!(film.sync_before(4), 4);
+    assert_eq!(film.sync_before(5), 0);
+    assert_eq!(film.sync_before(6), 4);
 }
 
 #[test]

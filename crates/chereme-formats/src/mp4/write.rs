@@ -6,12 +6,12 @@ use super::{Colours, Error, h264};
 
 /// Ticks of a second in written films: 25, 30, 50, 60, 100 and 120 pictures a second last whole ticks.
 const TIMESCALE: u32 = 90_000;
-/// Ticks of a second of the movie, by which its length is told.
+/// Ticks of a second in the header of the movie, which holds its length.
 const MOVIE: u32 = 1000;
 /// Most bytes of coded pictures.
 const LARGEST: usize = 2_000_000_000;
 
-/// What a film is like.
+/// Properties of a film.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Picture {
     /// Width in pixels.

@@ -46,7 +46,7 @@ impl Films {
         let same = screens.len() == wanted.len()
             && screens.iter().zip(&wanted).all(|(a, b)| a.track == **b);
         if contents.is_none() && recording.is_some() || same {
-            // What is said about the recording is still being read.
+            // The recording is still being read.
             return;
         }
         let mut before = std::mem::take(&mut *screens);

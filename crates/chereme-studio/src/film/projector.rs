@@ -9,7 +9,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use chereme_corpus::{Film, FilmFacts, FilmTimes, MediaTrackRow, find_media};
 use eframe::egui::{Color32, ColorImage};
 
-/// Pictures that are kept, so that what was seen is at once seen again.
+/// Pictures that are kept, so that a frame seen before comes back at once.
 const KEPT: usize = 48;
 /// How many pictures are decoded ahead while it plays.
 const AHEAD: usize = 3;
@@ -30,7 +30,7 @@ pub(super) struct Wish {
     pub(super) playing: bool,
 }
 
-/// What is known of the file.
+/// The state of the file.
 #[derive(Debug, Clone, Default)]
 pub(super) enum Known {
     /// It is being looked for and opened.
@@ -38,7 +38,7 @@ pub(super) enum Known {
     Coming,
     /// It plays.
     Open(Arc<FilmFacts>, Arc<FilmTimes>),
-    /// No file is there; where it was looked for first.
+    /// No file is there; the first place that was tried.
     Gone(Option<PathBuf>),
     /// It cannot be played: why, and what helps.
     Refused(String, Option<String>),

@@ -9,7 +9,7 @@ use eframe::egui::{Context, TextureHandle, TextureOptions};
 
 use super::projector::{Known, News, Projector, Wish};
 
-/// A film and what is seen of it.
+/// A film and its picture.
 pub(super) struct Screen {
     pub(super) track: MediaTrackRow,
     projector: Projector,
@@ -125,7 +125,7 @@ impl Screen {
         }
     }
 
-    /// Returns whether what is seen is what was wished for last.
+    /// Returns whether the picture is the last one wished for.
     pub(super) fn is_pictured(&self) -> bool {
         let Some(wish) = self.wished else {
             return !matches!(self.news.known, Known::Coming);
