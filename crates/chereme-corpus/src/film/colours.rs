@@ -53,7 +53,7 @@ impl Factors {
         let (red, blue) = weights(colours.matrix);
         let green = 1.0 - red - blue;
         let (bright, chroma) = if colours.full_range {
-            (1.0, 255.0 / 255.0)
+            (1.0, 1.0)
         } else {
             (255.0 / 219.0, 255.0 / 224.0)
         };
