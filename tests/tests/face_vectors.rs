@@ -2,6 +2,8 @@
 //!
 //! The vectors are not part of the repository: they lie in `facts` next to the folder that `CHEREME_SHARED_DATA` names.
 
+#![allow(clippy::print_stderr, reason = "a test says that it was skipped")]
+
 use std::path::Path;
 
 use chereme_analysis::phases::{NoPath, Options, Phased, PhasedError, score};

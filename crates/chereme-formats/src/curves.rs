@@ -49,6 +49,11 @@ impl Kind {
                 start.contains("\"categoryName\"") || start.contains("\"faceBlendshapes\"");
             return is_scores.then_some(Self::MediaPipe);
         }
+        let shown = start.lines().map(str::trim);
+        let shown = shown.filter(|line| !line.is_empty() && !line.starts_with('#'));
+        if shown.clone().next().is_some_and(mediapipe::opens_score) {
+            return Some(Self::MediaPipe);
+        }
         let head = start.lines().next()?.to_lowercase();
         if fap::is_header(&head) {
             return Some(Self::Fap);

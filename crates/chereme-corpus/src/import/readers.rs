@@ -77,7 +77,7 @@ pub(super) static READERS: [Reader; 13] = [
         read: captured::import_pose,
     },
     Reader {
-        endings: &["fap"],
+        endings: &["fap", "pbtxt"],
         kind: "curves",
         holds: "faces",
         looks: always,

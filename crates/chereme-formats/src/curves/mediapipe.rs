@@ -1,4 +1,4 @@
-//! JSON of MediaPipe's face landmarker: one object a frame with named scores.
+//! JSON of MediaPipe's face landmarker: one object a frame with named scores; and the text form of its list of scores.
 
 use chereme_motion::column::Number;
 use serde_json::Value;
@@ -11,7 +11,50 @@ use crate::tracks::rate_of;
 /// Frames per second if the file gives no times, as MediaPipe's results.
 const USUAL_RATE: f64 = 30.0;
 
+/// Returns whether a line opens a score of the text form of `ClassificationList`.
+pub(super) fn opens_score(line: &str) -> bool {
+    line.strip_prefix("classification")
+        .is_some_and(|rest| rest.trim_start().starts_with('{'))
+}
+
+/// Reads the text form of `ClassificationList`: one frame, a `label` and a `score` in each `classification`.
+fn read_text(text: &str, findings: &mut Findings) -> Result<Channels, Error> {
+    let mut channels = Channels::new(Vec::new());
+    let (mut score, mut label) = (None, None);
+    for (line, content) in (1u64..).zip(text.lines()) {
+        let content = content.trim();
+        match content
+            .split_once(':')
+            .map(|(key, value)| (key.trim(), value.trim()))
+        {
+            _ if opens_score(content) => (score, label) = (None, None),
+            Some(("score", value)) => {
+                let number = Number::parse(value.as_bytes());
+                score = Some(number.map_err(|_| Error::cell(line, value, "number"))?);
+            }
+            Some(("label", value)) => label = Some(value.trim_matches('"').to_owned()),
+            _ => {}
+        }
+        if let (Some(number), Some(name)) = (&score, &label) {
+            channels.names.push(name.clone());
+            channels.units.push("");
+            channels.columns.push(vec![Some(number.clone())]);
+            (score, label) = (None, None);
+        }
+    }
+    let usual = rate_of(USUAL_RATE).ok_or(Error::Empty)?;
+    channels.clock = Clock::Rate(usual);
+    findings.push(Finding::note(None, "it holds the scores of one frame"));
+    match channels.names.is_empty() {
+        true => Err(Error::Empty),
+        false => Ok(channels),
+    }
+}
+
 pub(super) fn read(text: &str, findings: &mut Findings) -> Result<Channels, Error> {
+    if !text.trim_start().starts_with(['{', '[']) {
+        return read_text(text, findings);
+    }
     let document: Value = serde_json::from_str(text)
         .map_err(|error| Error::Json(format!("line {}: {error}", error.line())))?;
     let frames = match &document {

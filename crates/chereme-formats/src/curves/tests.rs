@@ -107,6 +107,20 @@ fn plain_tables_come_back_as_they_were() {
 }
 
 #[test]
+fn scores_of_one_frame_are_read_from_their_text_form() {
+    let text = "# proto-message: ClassificationList\nclassification {\n  index: 0\n  score: 2.9e-05\n  label: \"_neutral\"\n}\n\
+                classification {\n  index: 1\n  score: 0.79\n  label: \"browDownLeft\"\n}\n";
+    assert_eq!(Kind::of(text.as_bytes()), Some(Kind::MediaPipe));
+    let (curves, _, findings) = curves(text);
+    assert_eq!((curves.frames(), curves.curves().len()), (1, 2));
+    let down = curves.curve("browDownLeft").expect("a score");
+    assert_eq!(down.values.text(0).as_deref(), Some("0.79"));
+    assert!(findings.iter().any(|it| it.message.contains("one frame")));
+    assert!(read(b"classification {\n score: high\n}\n").is_err());
+    assert!(read(b"classification {\n}\n").is_err());
+}
+
+#[test]
 fn tables_that_mean_nothing_are_refused_with_the_line() {
     let cases = [
         ("gloss,handshape\nCHAT,U\n", "no table of channels"),
