@@ -3,6 +3,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`align`](mod@align) | the shift at which two signals of one event are most alike |
+//! | [`cue`](mod@cue) | captured cued speech: models, restoration, recognisers, targets, generated sessions |
 //! | [`dtw`] | dynamic time warping: alignments, distances, nearest neighbours |
 //! | [`kinematics`](mod@kinematics) | how hands move, frame by frame |
 //! | [`measure`](mod@measure) | the size and duration of movements of a known kind |
@@ -13,6 +14,7 @@
 //! | [`transcribe`](mod@transcribe) | the notation of a sign: HamNoSys with residuals |
 
 pub mod align;
+pub mod cue;
 pub mod dtw;
 pub mod kinematics;
 pub mod measure;

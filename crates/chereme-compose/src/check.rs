@@ -2,7 +2,8 @@
 
 use crate::error::RecipeError;
 use crate::recipe::*;
-use crate::units::{Length, Seconds, towards};
+use crate::units::{Hands, Length, Seconds, towards};
+use chereme_sign::cue::Alphabet;
 
 /// The deepest nesting of pipes and utterances.
 pub const DEEPEST: usize = 32;
@@ -75,6 +76,7 @@ fn check(node: &Node, depth: usize, parts: &mut usize) -> Result<(), RecipeError
     let step = match node {
         Node::Spell(_) => "spell",
         Node::Point(_) => "point",
+        Node::Cue(_) => "cue",
         Node::Hamnosys(_) => "hamnosys",
         Node::Sigml(_) => "sigml",
         _ => "sign",
@@ -113,6 +115,40 @@ fn check(node: &Node, depth: usize, parts: &mut usize) -> Result<(), RecipeError
             optional(point.on.as_deref(), step, "the name of the signer is empty")?;
             time(step, "hold", point.hold, 60.0)?;
             via(step, &point.via)
+        }
+        Node::Cue(cue) => {
+            named(step, &cue.text, "there is nothing to cue")?;
+            for (name, what) in [
+                (&cue.phones, "the name of the alphabet is empty"),
+                (&cue.code, "the name of the code is empty"),
+                (&cue.on, "the name of the signer is empty"),
+            ] {
+                optional(name.as_deref(), step, what)?;
+            }
+            if let Some(phones) = &cue.phones
+                && !Alphabet::ALL.iter().any(|it| it.name() == phones)
+            {
+                return Err(RecipeError::Empty {
+                    step,
+                    what: "phones are written as sampa, ipa or mfa",
+                });
+            }
+            if cue.hand == Hands::Both {
+                return Err(RecipeError::Empty {
+                    step,
+                    what: "one hand cues: name right, left, dominant or weak",
+                });
+            }
+            match cue.pace {
+                Some(pace) if !(0.1..=10.0).contains(&pace.0) => Err(RecipeError::Range {
+                    step,
+                    what: "pace",
+                    found: pace.0.to_string(),
+                    least: 0.1,
+                    most: 10.0,
+                }),
+                _ => Ok(()),
+            }
         }
         Node::Hamnosys(notation) | Node::Sigml(notation) => {
             named(step, &notation.of, "nothing is notated")?;

@@ -136,6 +136,14 @@ pub enum Cause {
     /// HamNoSys that is not understood.
     #[error(transparent)]
     Hamnosys(#[from] chereme_sign::hamnosys::HamnosysError),
+    /// Text or phones that cannot be cued.
+    #[error("{said}; {remedy}", said = .0, remedy = .0.remedy())]
+    Utterance(Box<chereme_sign::cue::UtteranceError>),
+    /// The corpus holds too few captured keys to measure phases on.
+    #[error(
+        "the corpus has no captured keys with the tier Hand M1 M2; name another rule: paper, attina, sppas or duchnowski"
+    )]
+    NoPhases,
     /// Notation that cannot be animated.
     #[error(transparent)]
     Notation(#[from] crate::notation::NotationError),

@@ -7,6 +7,7 @@ use chereme_sign::Handedness;
 
 use crate::contact::{self, Carry, Contacts, Keep};
 use crate::course::{self, Courses};
+use crate::cue;
 use crate::draft::{Kept, Part};
 use crate::error::{Cause, MakeError};
 use crate::language::Language;
@@ -388,6 +389,27 @@ impl Evaluator<'_> {
                 };
                 let done = ops::point::point(&mut work, settings, &given, &course)?;
                 Ok((work, done.into()))
+            }
+            Node::Cue(settings) => {
+                let mut work = Work::of(self.material(format!("{path}/cue"))?);
+                let Some(Input::Poses(poses)) = self.inputs.get(&format!("{path}/cue/shapes"))
+                else {
+                    return Err(Cause::Input);
+                };
+                let read = cue::read(settings)?;
+                let numbers = std::iter::once(read.code.rest.number)
+                    .chain(read.code.shapes.iter().map(|shape| shape.number));
+                let shapes: Vec<(u8, HandPose)> = numbers.zip(poses.iter().cloned()).collect();
+                let measured = match self.inputs.get(&format!("{path}/cue/by")) {
+                    Some(Input::Phases(phases)) => *phases,
+                    _ => cue::CuePhases::default(),
+                };
+                let done = cue::cue(&mut work, settings, &shapes, &measured)?;
+                let told = done.warnings.into_iter();
+                self.report
+                    .warnings
+                    .extend(told.map(|it| format!("cue: {it}")));
+                Ok((work, (done.did, done.residual).into()))
             }
             Node::Hamnosys(_) => self.notation(&format!("{path}/hamnosys"), leaf),
             Node::Sigml(_) => self.notation(&format!("{path}/sigml"), leaf),

@@ -21,6 +21,7 @@
 //! | [`recipe`] | the tree: sources, operators with their settings, utterances |
 //! | [`units`] | lengths, times, directions and hands as recipes write them |
 //! | [`sources`] | what is asked of a corpus, and its answers |
+//! | [`cue`](mod@cue) | a cuer, its phases, and a dictionary of movements between keys |
 //! | [`made`] | movement with its notes and its report |
 //! | [`notation`] | movement from HamNoSys and SiGML |
 //!
@@ -36,6 +37,7 @@ mod body;
 mod check;
 mod contact;
 mod course;
+pub mod cue;
 mod draft;
 mod error;
 mod evaluate;
@@ -62,6 +64,7 @@ pub mod units;
 mod work;
 
 pub use check::{DEEPEST, MOST_PARTS, MOST_REPETITIONS};
+pub use cue::{CuePhases, PhaseRule};
 pub use draft::Draft;
 pub use error::{Cause, MakeError, Problem, RecipeError, TextError};
 pub use evaluate::{ENGINE, evaluate};
@@ -71,7 +74,7 @@ pub use language::{Language, LanguageValue};
 pub use learn::{CourseLearner, Stretch, bridge, learn_course};
 pub use lookup::{letters_in, value_in};
 pub use made::{
-    About, ChannelReport, Curve, HandReport, JoinReport, Made, Note, Report, StepReport,
+    About, ChannelReport, CueTier, Curve, HandReport, JoinReport, Made, Note, Report, StepReport,
 };
 pub use poses::{Exact, HandPose, PoseOrigin};
 pub use recipe::Recipe;

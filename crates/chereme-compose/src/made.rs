@@ -62,6 +62,35 @@ pub enum About {
     Component(Component, Option<String>),
     /// Movement synthesised between two pieces or values.
     Transition,
+    /// Cued speech.
+    Cue(CueTier),
+}
+
+/// What a note of cued speech is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CueTier {
+    /// A phone in SAMPA.
+    Phones,
+    /// A key, from the start of its first sound to the end of its last: the gloss of a token.
+    Keys,
+    /// The hand on its way to a key, from M1 to M2.
+    Hand,
+    /// The fingers changing for a key, from D1 to D2.
+    Fingers,
+}
+
+impl CueTier {
+    /// Returns the name of the tier.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Phones => "Phones",
+            Self::Keys => "Keys",
+            Self::Hand => "Hand M1 M2",
+            Self::Fingers => "Fingers D1 D2",
+        }
+    }
 }
 
 /// How a made sign came about, for people and for `--explain`.

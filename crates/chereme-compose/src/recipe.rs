@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::cue::PhaseRule;
 use crate::units::{Degrees, Direction, Factor, Hands, Length, Seconds};
 
 /// How a made clip comes about, as text (`ESCARGOT | configure right U`) and as JSON.
@@ -27,6 +28,8 @@ pub enum Node {
     Spell(Spell),
     /// A pointing gesture.
     Point(Point),
+    /// Cued speech.
+    Cue(Cue),
     /// A sign written in HamNoSys.
     Hamnosys(Notation),
     /// The signs of a SiGML file, or a notated sign, that the corpus knows.
@@ -147,6 +150,35 @@ pub struct Spell {
     #[serde(default, skip_serializing_if = "Transition::is_default")]
     pub via: Transition,
     /// Whose body spells; without one the corpus chooses.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub on: Option<String>,
+}
+
+/// Cued speech: `cue "le chat dort" dominant by paper pace 1.6 on signer:1`, `cue "l=87 @=131" as sampa`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cue {
+    /// The text, or phones separated by blanks; `a=120` is a phone of 120 ms.
+    pub text: String,
+    /// The alphabet of the phones: `sampa`, `ipa` or `mfa`; without one the text is in ordinary spelling.
+    #[serde(rename = "as", default, skip_serializing_if = "Option::is_none")]
+    pub phones: Option<String>,
+    /// The code; without one French.
+    #[serde(rename = "with", default, skip_serializing_if = "Option::is_none")]
+    pub code: Option<String>,
+    /// Habits of the cuer by their names, and `no-liaison`, `schwa-said`, `schwa-dropped`.
+    #[serde(rename = "variant", default, skip_serializing_if = "Vec::is_empty")]
+    pub variants: Vec<String>,
+    /// The hand that cues; never both.
+    #[serde(default = "dominant")]
+    pub hand: Hands,
+    /// When the hand is where.
+    #[serde(rename = "by", default, skip_serializing_if = "PhaseRule::is_default")]
+    pub phase: PhaseRule,
+    /// How many times longer than usual sounds last if the phones have no times; without one 1.6.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pace: Option<Factor>,
+    /// Whose body cues; without one the corpus chooses.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
 }

@@ -10,6 +10,7 @@ use chereme_sign::{Component, Handedness};
 use serde::{Deserialize, Serialize};
 
 use crate::body;
+use crate::cue::{CuePhases, PhaseRule};
 use crate::draft::Former;
 use crate::error::{Cause, MakeError};
 use crate::language::Language;
@@ -82,6 +83,8 @@ pub enum Input {
     Courses(LearnedProfile),
     /// How long letters are held, and how long the hand takes from one to the next.
     Times(SpellingTimes),
+    /// Measured phases of cued speech.
+    Phases(CuePhases),
     /// An expression of the face.
     Expression(ExpressionInput),
 }
@@ -228,7 +231,7 @@ impl Setting {
 }
 
 /// The ends of the paths at which sources keep their movement.
-const MATERIALS: [&str; 5] = ["sign", "spell", "point", "hamnosys", "sigml"];
+const MATERIALS: [&str; 6] = ["sign", "spell", "point", "cue", "hamnosys", "sigml"];
 
 impl Resolver<'_> {
     /// Takes over what was found for a part at `from`, now at `to`.
@@ -318,6 +321,31 @@ impl Resolver<'_> {
                     .map_err(fault)?;
                 self.course(&point.via, format!("{path}/point/via"))
                     .map_err(fault)?;
+                Ok(setting)
+            }
+            Node::Cue(cue) => {
+                let read = crate::cue::read(cue).map_err(fault)?;
+                let stage = self
+                    .sources
+                    .stage(cue.on.as_deref())
+                    .map_err(|e| fault(e.into()))?;
+                let setting = self.keep(format!("{path}/cue"), stage).map_err(fault)?;
+                let side = cue.hand.sides(setting.handedness)[0];
+                let own = read.code.shapes.iter().map(|shape| &shape.configuration);
+                let mut shapes = Vec::new();
+                for name in std::iter::once(&read.code.rest.configuration).chain(own) {
+                    let value = self.sources.value(Component::Configuration, name);
+                    let value = value.map_err(|e| fault(e.into()))?;
+                    shapes.push(self.shape_of_code(&value, side, &setting).map_err(fault)?);
+                }
+                let at = format!("{path}/cue/shapes");
+                self.inputs.0.insert(at, Input::Poses(shapes));
+                if cue.phase == PhaseRule::Measured {
+                    let phases = self.sources.cue_phases().map_err(|e| fault(e.into()))?;
+                    let phases = phases.ok_or_else(|| fault(Cause::NoPhases))?;
+                    let at = format!("{path}/cue/by");
+                    self.inputs.0.insert(at, Input::Phases(phases));
+                }
                 Ok(setting)
             }
             Node::Hamnosys(notation) => {
@@ -484,6 +512,25 @@ impl Resolver<'_> {
             self.inputs.0.insert(at, Input::Language(language));
         }
         Ok(setting)
+    }
+
+    /// Returns the posture of a shape of cued speech: the inventory's own, because every cuer learns the same
+    /// charts; captured ones if the inventory has none.
+    fn shape_of_code(
+        &self,
+        value: &crate::sources::Value,
+        side: Side,
+        setting: &Setting,
+    ) -> Result<HandPose, Cause> {
+        match &value.meaning {
+            Some(Meaning::Hand(angles)) => Ok(HandPose {
+                value: Some(value.id.clone()),
+                origin: poses::PoseOrigin::Inventory(value.inventory.clone()),
+                angles: *angles,
+                exact: None,
+            }),
+            _ => poses::of_value(self.sources, value, side, setting),
+        }
     }
 
     fn letters(&self, spell: &Spell, setting: &Setting) -> Result<Vec<LetterInput>, Cause> {

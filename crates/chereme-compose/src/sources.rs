@@ -9,6 +9,7 @@ use chereme_sign::milestones::{Function, Milestones};
 use chereme_sign::{Component, Handedness, Reading};
 use serde::{Deserialize, Serialize};
 
+use crate::cue::CuePhases;
 use crate::language::Language;
 use crate::made::Curve;
 
@@ -110,6 +111,14 @@ pub trait Sources {
     /// # Errors
     /// [`SourceError`] where the corpus cannot be read.
     fn learned_profile(&self) -> Result<Option<LearnedProfile>, SourceError> {
+        Ok(None)
+    }
+
+    /// Returns the phases of the corpus's captured keys of cued speech; nothing if there are too few.
+    ///
+    /// # Errors
+    /// [`SourceError`] if the corpus cannot be read.
+    fn cue_phases(&self) -> Result<Option<CuePhases>, SourceError> {
         Ok(None)
     }
 

@@ -72,7 +72,7 @@ impl Corpus {
     ///
     /// # Errors
     /// Where the corpus knows nobody of that name.
-    fn body(&self, wanted: &str) -> Result<String> {
+    pub(crate) fn body(&self, wanted: &str) -> Result<String> {
         let connection = self.store.read();
         let name = || Name::Text(wanted.to_owned());
         match wanted.parse() {

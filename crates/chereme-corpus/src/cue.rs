@@ -1,37 +1,22 @@
 //! Keys of cued speech from text or phones, without a corpus.
 
-use chereme_motion::{Instant, Span};
-use chereme_sign::cue::{self, Alphabet, CueCode, Phone, french};
+use std::path::Path;
+
+use chereme_compose::recipe::{Cue, Node};
+use chereme_compose::units::{Factor, Hands};
+use chereme_compose::{PhaseRule, VERSION};
+use chereme_formats::eaf::convert::{Tier, Transcript};
+use chereme_formats::{eaf, textgrid};
+use chereme_motion::Instant;
+use chereme_sign::cue::{self, Alphabet, Phone, Utterance, UtteranceError};
 use serde::Serialize;
+use serde_json::json;
 
+use crate::Corpus;
 use crate::error::{Error, Result};
+use crate::recombine::Recombination;
 
-/// How to read an utterance, and which code cues it.
-#[derive(Debug, Clone)]
-pub struct KeysOptions {
-    /// The code's name or language, such as `french` or `en-US`.
-    pub code: String,
-    /// The alphabet of the phones; nothing if the input is text.
-    pub phones: Option<Alphabet>,
-    /// Habits of some cuers, by the names that the code gives them.
-    pub variants: Vec<String>,
-    /// How text is said where spelling leaves it open.
-    pub french: french::Options,
-    /// How many times longer than usual phones last; nothing leaves keys without times.
-    pub pace: Option<f64>,
-}
-
-impl Default for KeysOptions {
-    fn default() -> Self {
-        Self {
-            code: "french".to_owned(),
-            phones: None,
-            variants: Vec::new(),
-            french: french::Options::default(),
-            pace: None,
-        }
-    }
-}
+pub use chereme_sign::cue::Reading as KeysOptions;
 
 /// The keys of an utterance.
 #[derive(Debug, Clone, Serialize)]
@@ -44,6 +29,12 @@ pub struct CueKeys {
     pub keys: Vec<CueKey>,
     /// What could not be read.
     pub findings: Vec<String>,
+    /// The tier of the file that the phones come from.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tier: Option<String>,
+    /// The alphabet of the phones of a file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub alphabet: Option<&'static str>,
 }
 
 /// A word of the text and its phones.
@@ -74,134 +65,252 @@ pub struct CueKey {
     pub end_us: Option<i64>,
 }
 
-/// Longer input is refused: an hour of speech has some 60,000 phones.
-const MOST_BYTES: usize = 1 << 20;
-
-/// Returns the keys of `input`, which is text or phones separated by blanks.
+/// Returns the keys of `input`, which is text or phones separated by blanks; `a=120` is a phone of 120 ms.
 ///
 /// # Errors
 /// [`Error::Wrong`] if the code or a variant does not exist, the pace is no positive number, the input is
 /// larger than a MiB, or text is given for a code without rules of spelling.
 pub fn cue_keys(input: &str, options: &KeysOptions) -> Result<CueKeys> {
-    let code = code(options)?;
-    if input.len() > MOST_BYTES {
-        return Err(Error::wrong(format!("the text has {} bytes", input.len()))
-            .advise("give at most 1 MiB at once"));
-    }
-    let (mut words, mut findings, mut doubtful) = (Vec::new(), Vec::new(), Vec::new());
-    let (labels, alphabet): (Vec<String>, _) = match options.phones {
-        Some(alphabet) => (
-            input.split_whitespace().map(str::to_owned).collect(),
-            alphabet,
-        ),
-        None => {
-            let spoken = spoken(input, &code, options)?;
-            findings.extend(spoken.findings.iter().map(ToString::to_string));
-            let mut labels = Vec::new();
-            for word in spoken.words {
-                doubtful.extend(word.doubtful.iter().map(|at| at + labels.len()));
-                labels.extend(word.phones.iter().cloned());
-                if !word.text.is_empty() {
-                    words.push(SpokenWord {
-                        text: word.text,
-                        phones: word.phones,
-                    });
-                }
-            }
-            (labels, Alphabet::Sampa)
+    let read = Utterance::read(input, options).map_err(unread)?;
+    Ok(CueKeys::of(&read))
+}
+
+fn unread(error: UtteranceError) -> Error {
+    Error::wrong(error.to_string()).advise(error.remedy())
+}
+
+impl CueKeys {
+    fn of(read: &Utterance) -> Self {
+        let words = read.words.iter().filter(|(text, _)| !text.is_empty());
+        Self {
+            code: read.code.id.clone(),
+            words: words
+                .map(|(text, phones)| SpokenWord {
+                    text: text.clone(),
+                    phones: phones.clone(),
+                })
+                .collect(),
+            keys: read.keys.iter().map(shown).collect(),
+            findings: read.findings.iter().map(ToString::to_string).collect(),
+            tier: None,
+            alphabet: None,
         }
-    };
-    let phones = timed(&labels, &code, alphabet, options.pace)?;
-    let (mut keys, odd) = code.keys(&phones, alphabet);
-    findings.extend(odd.iter().map(ToString::to_string));
-    for key in &mut keys {
-        mark_doubt(key, &doubtful, &code);
     }
-    Ok(CueKeys {
-        code: code.id.clone(),
-        words,
-        keys: keys.iter().map(shown).collect(),
-        findings,
+}
+
+/// The names of tiers of phones that aligners write, folded and without other signs.
+const PHONE_TIERS: [&str; 7] = [
+    "phones",
+    "phone",
+    "phonalign",
+    "mau",
+    "phonemes",
+    "phoneme",
+    "phonetique",
+];
+/// Shorter gaps between phones are no pauses, only rounding.
+const SILENCE_MICROS: i64 = 10_000;
+/// The largest file of an alignment.
+const MOST_FILE_BYTES: u64 = 1 << 28;
+
+/// Returns the keys of the phones of an alignment, a TextGrid or an EAF file, with their own times.
+///
+/// The tier is the one that is named, else the first that is called as aligners call it. The alphabet is the
+/// one that knows most of the labels if the options name none.
+///
+/// # Errors
+/// If the file cannot be read, or has no such tier.
+pub fn cue_keys_of_file(path: &Path, tier: Option<&str>, options: &KeysOptions) -> Result<CueKeys> {
+    let (read, name, mut findings) = aligned(path, tier, options)?;
+    let mut keys = CueKeys::of(&read);
+    findings.append(&mut keys.findings);
+    keys.findings = findings;
+    keys.tier = Some(name);
+    keys.alphabet = Some(read.alphabet.name());
+    Ok(keys)
+}
+
+/// Returns the phones of an alignment as a recipe takes them: SAMPA with milliseconds, the first pause included.
+///
+/// # Errors
+/// As [`cue_keys_of_file`].
+pub fn cue_phones_of_file(
+    path: &Path,
+    tier: Option<&str>,
+    options: &KeysOptions,
+) -> Result<String> {
+    let (read, ..) = aligned(path, tier, options)?;
+    Ok(read.written())
+}
+
+/// Who cues, and how.
+#[derive(Debug, Clone, Default)]
+pub struct CueOptions {
+    /// How the text or the phones are read.
+    pub reading: KeysOptions,
+    /// The name or address of a signer or a recording whose body cues; without one the corpus chooses.
+    pub signer: Option<String>,
+    /// The rule that says when the hand is where.
+    pub phase: PhaseRule,
+    /// The left hand cues, whatever the signer's handedness.
+    pub left: bool,
+}
+
+impl Corpus {
+    /// Makes the movement of a cuer who says `text`, which is text or phones; stores it under `gloss` if there
+    /// is one, with tiers for phones, keys, hand and fingers.
+    ///
+    /// # Errors
+    /// If nothing in the text can be cued, or the body has no arm, fingers or head. Nothing half-made is stored.
+    pub fn cue(
+        &mut self,
+        text: &str,
+        options: &CueOptions,
+        gloss: Option<&str>,
+    ) -> Result<Recombination> {
+        let signer = options.signer.as_deref();
+        let on = signer.map(|it| self.body(it)).transpose()?;
+        let french = options.reading.french;
+        let mut variants = options.reading.variants.clone();
+        if !french.liaison {
+            variants.push("no-liaison".to_owned());
+        }
+        match french.schwa {
+            cue::french::Schwa::Usual => {}
+            cue::french::Schwa::Said => variants.push("schwa-said".to_owned()),
+            cue::french::Schwa::Dropped => variants.push("schwa-dropped".to_owned()),
+        }
+        let code = Some(options.reading.code.clone()).filter(|code| code != "french");
+        let node = Node::Cue(Cue {
+            text: text.to_owned(),
+            phones: options.reading.phones.map(|it| it.name().to_owned()),
+            code,
+            variants,
+            hand: if options.left {
+                Hands::Left
+            } else {
+                Hands::Dominant
+            },
+            phase: options.phase,
+            pace: options.reading.pace.map(Factor),
+            on,
+        });
+        let recipe = json!({"version": VERSION, "make": node}).to_string();
+        match gloss {
+            Some(gloss) => self.recombine(&recipe, gloss),
+            None => self.preview(&recipe),
+        }
+    }
+}
+
+fn aligned(
+    path: &Path,
+    tier: Option<&str>,
+    options: &KeysOptions,
+) -> Result<(Utterance, String, Vec<String>)> {
+    let file = |source| Error::File {
+        path: path.to_owned(),
+        source,
+    };
+    let size = std::fs::metadata(path).map_err(file)?.len();
+    if size > MOST_FILE_BYTES {
+        return Err(Error::wrong(format!("the file has {size} bytes"))
+            .at(path.display().to_string())
+            .advise("give a file of at most 256 MiB"));
+    }
+    let bytes = std::fs::read(path).map_err(file)?;
+    let wrong = |error: String| {
+        Error::wrong(error)
+            .at(path.display().to_string())
+            .advise("give a TextGrid or an EAF file with a tier of phones")
+    };
+    let is_eaf = bytes.iter().take(512).any(|byte| *byte == b'<');
+    let (transcript, odd) = if is_eaf {
+        eaf::read(&bytes).map_err(|error| wrong(error.to_string()))?
+    } else {
+        textgrid::read(&bytes).map_err(|error| wrong(error.to_string()))?
+    };
+    let tier = phone_tier(&transcript, tier).map_err(wrong)?;
+    let labels = tier.annotations.iter().map(|one| Phone {
+        label: one.value.trim().to_owned(),
+        span: Some(one.span),
+    });
+    let mut phones: Vec<Phone> = labels.collect();
+    phones.sort_by_key(|phone| phone.span.map(|span| span.start()));
+    let known = cue::code(&options.code)
+        .ok_or_else(|| unread(UtteranceError::NoCode(options.code.clone())))?;
+    let variants: Vec<&str> = options.variants.iter().map(String::as_str).collect();
+    let code = known
+        .with_variants(&variants)
+        .map_err(|error| unread(error.into()))?;
+    let knows = |alphabet: &Alphabet| {
+        let labels = phones.iter().map(|phone| &phone.label);
+        labels
+            .filter(|label| code.symbols(label, *alphabet).is_some())
+            .count()
+    };
+    let guess = || {
+        // The first of equals: SAMPA before IPA before MFA.
+        let rated = Alphabet::ALL.iter().rev().max_by_key(|it| knows(it));
+        rated.copied().unwrap_or_default()
+    };
+    let alphabet = options.phones.unwrap_or_else(guess);
+    let spaced = with_gaps(phones);
+    let name = tier.name.clone();
+    let findings = odd.iter().map(|finding| finding.message.clone()).collect();
+    Ok((Utterance::of_phones(code, spaced, alphabet), name, findings))
+}
+
+fn phone_tier<'a>(
+    transcript: &'a Transcript,
+    wanted: Option<&str>,
+) -> std::result::Result<&'a Tier, String> {
+    let plain = |name: &str| -> String {
+        let folded = chereme_sign::text::fold(name);
+        folded.chars().filter(|c| c.is_alphanumeric()).collect()
+    };
+    let names = || {
+        let names: Vec<&str> = transcript
+            .tiers
+            .iter()
+            .map(|tier| tier.name.as_str())
+            .collect();
+        names.join(", ")
+    };
+    let found = match wanted {
+        Some(wanted) => transcript.tiers.iter().find(|tier| tier.name == wanted),
+        None => PHONE_TIERS.iter().find_map(|known| {
+            transcript.tiers.iter().find(|tier| {
+                let name = plain(&tier.name);
+                name == *known || name.ends_with(known) && *known != "mau"
+            })
+        }),
+    };
+    found.ok_or_else(|| match wanted {
+        Some(wanted) => format!("there is no tier {wanted:?}; there are: {}", names()),
+        None => format!(
+            "no tier is called like phones; name one with --tier: {}",
+            names()
+        ),
     })
 }
 
-fn code(options: &KeysOptions) -> Result<CueCode> {
-    let known = cue::code(&options.code).ok_or_else(|| {
-        let ids: Vec<&str> = cue::codes().iter().map(|code| code.id.as_str()).collect();
-        Error::wrong(format!("there is no code {:?}", options.code))
-            .advise(format!("the codes are {}", ids.join(" and ")))
-    })?;
-    let variants: Vec<&str> = options.variants.iter().map(String::as_str).collect();
-    known
-        .with_variants(&variants)
-        .map_err(|error| Error::wrong(error.to_string()))
-}
-
-fn spoken(text: &str, code: &CueCode, options: &KeysOptions) -> Result<french::Spoken> {
-    if code.language == "fr" {
-        return Ok(french::phones(text, options.french));
-    }
-    Err(
-        Error::wrong(format!("the code {:?} has no rules of spelling", code.id))
-            .advise("give phones: --phones sampa, ipa or mfa"),
-    )
-}
-
-/// Gives phones the usual durations of the code, `pace` times as long.
-fn timed(
-    labels: &[String],
-    code: &CueCode,
-    alphabet: Alphabet,
-    pace: Option<f64>,
-) -> Result<Vec<Phone>> {
-    let Some(pace) = pace else {
-        return Ok(labels.iter().map(Phone::new).collect());
-    };
-    if !(0.1..=10.0).contains(&pace) {
-        return Err(Error::wrong(format!("the pace is {pace}"))
-            .advise("a pace from 0.1 to 10; 1.6 is usual for people who cue"));
-    }
-    if code.durations_ms.is_empty() {
-        return Err(
-            Error::wrong(format!("the code {:?} has no table of durations", code.id))
-                .advise("leave the pace out"),
-        );
-    }
-    let usual = |label: &String| {
-        let sounds = code.symbols(label, alphabet).unwrap_or_default();
-        let one = |sound: &String| code.durations_ms.get(sound).copied().unwrap_or(100.0);
-        sounds.iter().map(one).sum::<f64>()
-    };
-    let mut at = 0.0;
-    let phones = labels.iter().map(|label| {
-        let start = at;
-        at += usual(label) * pace;
-        let instant = |ms: f64| Instant::from_seconds(ms / 1000.0);
-        Phone {
-            label: label.clone(),
-            span: Some(Span::between(instant(start), instant(at))),
+/// Puts a pause where nothing is said between two phones.
+fn with_gaps(phones: Vec<Phone>) -> Vec<Phone> {
+    let mut spaced: Vec<Phone> = Vec::with_capacity(phones.len());
+    let mut at = Instant::ZERO;
+    for phone in phones {
+        let Some(span) = phone.span else { continue };
+        if span.start().micros() - at.micros() > SILENCE_MICROS {
+            spaced.push(Phone {
+                label: "#".to_owned(),
+                span: Some(chereme_motion::Span::between(at, span.start())),
+            });
         }
-    });
-    Ok(phones.collect())
-}
-
-/// Names the other placement of a key whose vowel is uncertain.
-fn mark_doubt(key: &mut cue::Key, doubtful: &[usize], code: &CueCode) {
-    let (Some(at), Some(vowel)) = (key.from.last(), key.phones.last()) else {
-        return;
-    };
-    if doubtful.binary_search(at).is_err() {
-        return;
+        at = at.max(span.end());
+        spaced.push(phone);
     }
-    let other = code.doubtful.iter().find_map(|[one, other]| {
-        (one == vowel)
-            .then_some(other)
-            .or_else(|| (other == vowel).then_some(one))
-    });
-    let path = other.and_then(|other| code.path_of(other));
-    key.or_at = path
-        .and_then(|path| path.into_iter().next())
-        .filter(|place| *place != key.placement);
+    spaced
 }
 
 fn shown(key: &cue::Key) -> CueKey {

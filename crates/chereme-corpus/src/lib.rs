@@ -82,7 +82,10 @@ pub use chereme_sign::query::{facet_condition, narrow, wants, without};
 pub use contents::{
     AnnotationColumns, Contents, Overview, RecordingGlance, SignGlance, TierContents, ValueState,
 };
-pub use cue::{CueKey, CueKeys, KeysOptions, SpokenWord, cue_keys};
+pub use cue::{
+    CueKey, CueKeys, CueOptions, KeysOptions, SpokenWord, cue_keys, cue_keys_of_file,
+    cue_phones_of_file,
+};
 pub use db::recordings::{MediaTrackRow, RecordingRow, SignerRow};
 pub use db::signs::TokenRow;
 pub use db::tiers::TierRow;

@@ -3,5 +3,5 @@
 pub use chereme_compose::recipe::*;
 pub use chereme_compose::units::*;
 pub use chereme_compose::{
-    ChannelReport, JoinReport, Problem, RecipeError, Report, StepReport, TextError,
+    ChannelReport, JoinReport, PhaseRule, Problem, RecipeError, Report, StepReport, TextError,
 };

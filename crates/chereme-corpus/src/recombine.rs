@@ -3,11 +3,12 @@
 mod again;
 mod draft;
 mod parts;
+mod phases;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use chereme_compose::{About, ENGINE, Input, Made, Note, Recipe, Report, Resolved};
+use chereme_compose::{About, CueTier, ENGINE, Input, Made, Note, Recipe, Report, Resolved};
 use chereme_formats::bvh::convert;
 use chereme_formats::bvh::raw::{Column, Hierarchy};
 use chereme_motion::anatomy::Anatomy;
@@ -35,6 +36,7 @@ use crate::tokens;
 
 pub(crate) use draft::Drafted;
 pub use parts::MadePart;
+pub(crate) use phases::measured as measured_phases;
 
 /// Decimals of the numbers of made movement: a millionth of a degree, or of the file's unit.
 const DECIMALS: u8 = 6;
@@ -251,6 +253,7 @@ fn timed(note: &Note) -> TimedNote {
     let (about, feature) = match &note.about {
         About::Gloss => ("sign", None),
         About::Transition => ("transition", None),
+        About::Cue(tier) => ("cue", Some(tier.name().to_owned())),
         About::Component(component, feature) => (component.name(), feature.clone()),
     };
     TimedNote {
@@ -293,6 +296,7 @@ fn store(
     let inventories = inventories::load(connection)?;
     store_tiers(connection, recording, made, gloss, &inventories)?;
     tokens::derive(connection, recording, None, &inventories)?;
+    phases::store(connection, recording)?;
     store_recipe(connection, recording, recipe, resolved, made)?;
     let token = signs::tokens_of_recording(connection, recording)?;
     let token = token
@@ -505,6 +509,7 @@ fn tier_name(note: &Note) -> String {
     match &note.about {
         About::Gloss => SOURCE.to_owned(),
         About::Transition => format!("Transition{hand}"),
+        About::Cue(tier) => tier.name().to_owned(),
         About::Component(component, feature) => {
             let name = feature.as_deref().unwrap_or(component.name());
             let mut letters = name.chars();
@@ -527,7 +532,8 @@ fn note_tier(
 ) -> TierRow {
     let mut tier = new_tier(recording, name, position);
     let About::Component(component, feature) = &note.about else {
-        tier.role = "free".to_owned();
+        let is_key = note.about == About::Cue(CueTier::Keys);
+        tier.role = if is_key { "gloss" } else { "free" }.to_owned();
         return tier;
     };
     let mut field = Field::new(*component);

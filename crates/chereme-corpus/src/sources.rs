@@ -4,8 +4,8 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use chereme_compose::{
-    Example, ExpressionSource, Held, Language, LearnedProfile, Letter, Material, SourceError,
-    Sources, SpellingTimes, Value,
+    CuePhases, Example, ExpressionSource, Held, Language, LearnedProfile, Letter, Material,
+    SourceError, Sources, SpellingTimes, Value,
 };
 use chereme_motion::{Instant, Side, Span};
 use chereme_sign::Inventory;
@@ -423,6 +423,10 @@ impl Sources for CorpusSources<'_> {
         signer: Option<&str>,
     ) -> std::result::Result<Language, SourceError> {
         self.spoken(named, signer)
+    }
+
+    fn cue_phases(&self) -> std::result::Result<Option<CuePhases>, SourceError> {
+        crate::recombine::measured_phases(self.connection).map_err(|error| unreadable(&error))
     }
 
     fn spelling_times(&self) -> std::result::Result<SpellingTimes, SourceError> {

@@ -1,7 +1,9 @@
 //! `chereme keys`.
 
-use anyhow::Result;
-use chereme_corpus::{CueKey, KeysOptions, cue_keys};
+use std::path::PathBuf;
+
+use anyhow::{Result, bail};
+use chereme_corpus::{CueKey, KeysOptions, cue_keys, cue_keys_of_file};
 use chereme_sign::cue::Alphabet;
 use chereme_sign::cue::french::{Options, Schwa};
 use clap::ValueEnum;
@@ -23,10 +25,18 @@ Examples:
   chereme keys 'le chat dort'
   chereme keys 'b ɔ̃ ʒ u ʁ' --phones ipa
   chereme keys 'bonjour à tous' --pace 1.6 --json
+  chereme keys --from talk.TextGrid --tier phones
   chereme keys 'h aU s' --phones sampa --code english-us")]
 pub(crate) struct Args {
-    /// The text, or the phones separated by blanks
-    text: String,
+    /// The text, or the phones separated by blanks (a=120 is a phone of 120 ms)
+    #[arg(required_unless_present = "from")]
+    text: Option<String>,
+    /// Take phones and times from this TextGrid or EAF file
+    #[arg(long, value_name = "FILE", conflicts_with = "text")]
+    from: Option<PathBuf>,
+    /// The tier of phones in that file; else the first that is called as aligners call it
+    #[arg(long, value_name = "TIER", requires = "from")]
+    tier: Option<String>,
     /// Read the input as phones in this alphabet
     #[arg(long, value_enum, value_name = "ALPHABET")]
     phones: Option<AlphabetWord>,
@@ -51,36 +61,48 @@ pub(crate) struct Args {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum AlphabetWord {
+pub(super) enum AlphabetWord {
     Sampa,
     Ipa,
     Mfa,
 }
 
+impl From<AlphabetWord> for Alphabet {
+    fn from(word: AlphabetWord) -> Self {
+        match word {
+            AlphabetWord::Sampa => Self::Sampa,
+            AlphabetWord::Ipa => Self::Ipa,
+            AlphabetWord::Mfa => Self::Mfa,
+        }
+    }
+}
+
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum SchwaWord {
+pub(super) enum SchwaWord {
     Usual,
     Dropped,
     Said,
+}
+
+impl From<SchwaWord> for Schwa {
+    fn from(word: SchwaWord) -> Self {
+        match word {
+            SchwaWord::Usual => Self::Usual,
+            SchwaWord::Dropped => Self::Dropped,
+            SchwaWord::Said => Self::Said,
+        }
+    }
 }
 
 impl Args {
     fn options(&self) -> KeysOptions {
         KeysOptions {
             code: self.code.clone(),
-            phones: self.phones.map(|word| match word {
-                AlphabetWord::Sampa => Alphabet::Sampa,
-                AlphabetWord::Ipa => Alphabet::Ipa,
-                AlphabetWord::Mfa => Alphabet::Mfa,
-            }),
+            phones: self.phones.map(Alphabet::from),
             variants: self.variants.clone(),
             french: Options {
                 liaison: !self.no_liaison,
-                schwa: match self.schwa {
-                    SchwaWord::Usual => Schwa::Usual,
-                    SchwaWord::Dropped => Schwa::Dropped,
-                    SchwaWord::Said => Schwa::Said,
-                },
+                schwa: self.schwa.into(),
             },
             pace: self.pace,
         }
@@ -88,7 +110,12 @@ impl Args {
 }
 
 pub(super) fn run(_: &Cli, args: &Args, output: &mut Output) -> Result<()> {
-    let found = cue_keys(&args.text, &args.options())?;
+    let options = args.options();
+    let found = match (&args.from, &args.text) {
+        (Some(path), _) => cue_keys_of_file(path, args.tier.as_deref(), &options)?,
+        (None, Some(text)) => cue_keys(text, &options)?,
+        (None, None) => bail!("there is nothing to read; write a text, or --from FILE"),
+    };
     for word in &found.words {
         output.line(format!("{}: {}", word.text, word.phones.join(" ")))?;
     }

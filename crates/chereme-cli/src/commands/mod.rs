@@ -5,6 +5,7 @@ mod annotate;
 mod check;
 mod choose;
 mod completions;
+mod cue;
 mod demo;
 mod export;
 mod face;
@@ -61,6 +62,7 @@ pub(crate) enum Command {
     Suggest(suggest::Args),
     Pairs(pairs::Args),
     Transcribe(transcribe::Args),
+    Cue(cue::Args),
     Keys(keys::Args),
     Check(check::Args),
     Export(export::Args),
@@ -93,6 +95,7 @@ pub(crate) fn run(cli: &Cli, output: &mut Output) -> Result<ExitCode> {
         Command::Suggest(args) => suggest::run(cli, args, output),
         Command::Pairs(args) => pairs::run(cli, args, output),
         Command::Transcribe(args) => transcribe::run(cli, args, output),
+        Command::Cue(args) => cue::run(cli, args, output),
         Command::Keys(args) => keys::run(cli, args, output),
         Command::Track(args) => track::run(cli, args, output),
         Command::Search(args) => search::run(cli, args, output),

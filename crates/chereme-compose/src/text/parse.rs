@@ -3,6 +3,7 @@
 use std::str::FromStr;
 
 use super::lexer::{Kind, Token, fault, lex};
+use crate::cue::PhaseRule;
 use crate::error::{Problem, RecipeError, TextError};
 use crate::recipe::*;
 use crate::units::{Direction, Hands, Length, UnitError};
@@ -94,6 +95,9 @@ impl Parser<'_> {
         if self.accept("point") {
             return self.point();
         }
+        if self.accept("cue") {
+            return self.cue();
+        }
         if self.accept("hamnosys") {
             let notation = self.notation("the symbols of a sign, in quotes")?;
             return Ok(Node::Hamnosys(notation));
@@ -150,6 +154,44 @@ impl Parser<'_> {
                 spell.via = via;
             } else {
                 return Ok(Node::Spell(spell));
+            }
+        }
+    }
+
+    fn cue(&mut self) -> Parsed<Node> {
+        let mut cue = Cue {
+            text: self.name("the text to cue, in quotes")?,
+            phones: None,
+            code: None,
+            variants: Vec::new(),
+            hand: Hands::Dominant,
+            phase: PhaseRule::default(),
+            pace: None,
+            on: None,
+        };
+        loop {
+            if let Some(hand) = self.hand() {
+                cue.hand = hand;
+            } else if self.accept("as") {
+                cue.phones = Some(self.name("an alphabet: sampa, ipa or mfa")?);
+            } else if self.accept("with") {
+                cue.code = Some(self.name("a code, such as french")?);
+            } else if self.accept("variant") {
+                cue.variants
+                    .push(self.name("a habit of cuers, such as schwa-as-eu")?);
+            } else if self.accept("by") {
+                let rules = PhaseRule::ALL.map(PhaseRule::name);
+                let rule = PhaseRule::ALL
+                    .into_iter()
+                    .find(|rule| self.word() == Some(rule.name()));
+                cue.phase = rule.ok_or_else(|| self.expected("a rule of phases", &rules))?;
+                self.at += 1;
+            } else if self.accept("pace") {
+                cue.pace = Some(self.quantity("a factor, such as 1.6")?);
+            } else if self.accept("on") {
+                cue.on = Some(self.name("a signer")?);
+            } else {
+                return Ok(Node::Cue(cue));
             }
         }
     }

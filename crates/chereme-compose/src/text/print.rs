@@ -17,6 +17,7 @@ impl Display for Node {
             Self::Sign(address) => write!(f, "{}", Name(address)),
             Self::Spell(spell) => write!(f, "{spell}"),
             Self::Point(point) => write!(f, "{point}"),
+            Self::Cue(cue) => write!(f, "{cue}"),
             Self::Hamnosys(notation) => write!(f, "hamnosys {notation}"),
             Self::Sigml(notation) => write!(f, "sigml {notation}"),
             Self::Pipe(pipe) => {
@@ -163,6 +164,24 @@ impl Display for Spell {
         option(f, "with", self.alphabet.as_deref().map(Name))?;
         option(f, "hold", self.hold)?;
         write!(f, "{}", self.via)?;
+        option(f, "on", self.on.as_deref().map(Name))
+    }
+}
+
+impl Display for Cue {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "cue {} {}", Name(&self.text), self.hand.name())?;
+        option(f, "as", self.phones.as_deref().map(Name))?;
+        option(f, "with", self.code.as_deref().map(Name))?;
+        for variant in &self.variants {
+            write!(f, " variant {}", Name(variant))?;
+        }
+        option(
+            f,
+            "by",
+            Some(self.phase.name()).filter(|_| !self.phase.is_default()),
+        )?;
+        option(f, "pace", self.pace)?;
         option(f, "on", self.on.as_deref().map(Name))
     }
 }

@@ -11,8 +11,13 @@
 
 mod code;
 pub mod french;
+mod names;
 #[cfg(test)]
 mod tests;
+mod utterance;
+
+pub use names::{gloss, of_gloss, placement_number, placement_of_number};
+pub use utterance::{Reading, Utterance, UtteranceError};
 
 pub use code::{
     Alphabet, CueCode, CuePlacement, CueShape, CueVariant, UnknownVariant, code, codes,

@@ -4,7 +4,7 @@ use super::lex::{Cursor, Place};
 use super::tree::{At, Comparison, Operator, Property, Test, TextField, Value, Wanted, What};
 use super::values::{filled_word, list, path, value};
 use super::words::{self, Simple};
-use super::{Pattern, QueryError, attributes, curves, times};
+use super::{Pattern, QueryError, attributes, cue, curves, times};
 use crate::component::{Component, Field, HandRef, Phase};
 use crate::text::nearest;
 use std::str::FromStr;
@@ -14,6 +14,7 @@ pub(super) fn test(cursor: &mut Cursor<'_>) -> Result<Test, QueryError> {
     let subject_at = cursor.bare(Place::Term);
     let name = cursor.text(subject_at);
     let what = match words::simple_field(&name) {
+        None if cue::is_field(&name) => cue::test(cursor, &name, subject_at)?,
         Some(Simple::Text(field)) => text_test(cursor, field)?,
         Some(Simple::Property(property)) => property_test(cursor, property)?,
         Some(Simple::Time(field)) => What::Time(field, times::time_test(cursor, field)?),
@@ -275,6 +276,11 @@ fn component_comparison(cursor: &mut Cursor<'_>) -> Result<Comparison, QueryErro
         return Err(QueryError::new(value.at, message, remedy));
     }
     Ok(Comparison { operator, values })
+}
+
+/// Reads the operator and the values of a key.
+pub(super) fn comparison_of_key(cursor: &mut Cursor<'_>) -> Result<Comparison, QueryError> {
+    comparison(cursor, Colon::Equals)
 }
 
 fn comparison(cursor: &mut Cursor<'_>, colon: Colon) -> Result<Comparison, QueryError> {

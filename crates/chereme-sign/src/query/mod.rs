@@ -53,6 +53,7 @@
 mod attributes;
 mod compare;
 mod complete;
+mod cue;
 mod curves;
 mod error;
 mod expression;
@@ -134,6 +135,10 @@ Attributes of the sign, as its table has them
 
 Curves of face and head, while the token lasts (1: the usual reach; degrees)
   nonmanual.brows>0.5 for 0.3s   nonmanual.jaw_open>0.4   nonmanual.head_yaw<-10
+
+Keys of cued speech, placement before shape
+  cue=24 meets cue=31   cue=mouth-4   cue.shape=5 cue.placement=throat
+  cue.phase>100                           milliseconds from the sound to the hand
 
 The token as a whole
   origin=captured,made,lexicon,generated

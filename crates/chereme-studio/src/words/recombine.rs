@@ -50,6 +50,14 @@ texts! {
     ANY_ALPHABET: "usual alphabet", "alphabet habituel";
     POINT: "Pointing", "Pointage";
     POINT_AT: "at", "vers";
+    CUE: "Cued speech", "Langue parlée complétée";
+    CUE_TEXT: "French text to cue", "Texte à coder";
+    CUE_HINT: "le chat dort", "le chat dort";
+    CUE_OWN_HAND: "signer’s hand", "main du signeur";
+    CUE_LEFT: "left", "gauche";
+    CUE_RIGHT: "right", "droite";
+    CUE_PHASES: "phases of", "phases de";
+    CUE_PACE: "sounds last", "durée des sons";
     HAMNOSYS: "HamNoSys", "HamNoSys";
     HAMNOSYS_SYMBOLS: "HamNoSys symbols", "Symboles HamNoSys";
     SIGML: "Notated sign", "Signe noté";

@@ -1,16 +1,16 @@
 //! Every source and operator with what it is called, what it does, and one to begin with.
 
 use chereme_corpus::recipe::{
-    Amplify, Choice, Configure, Cut, Direction, Factor, Goal, Hands, Indicate, Leg, Length, Mirror,
-    Node, Nonmanual, Notation, Orient, Pace, Place, Point, Repeat, Retime, Seconds, Solver, Spell,
-    Spot, Step, Transition, Travel,
+    Amplify, Choice, Configure, Cue, Cut, Direction, Factor, Goal, Hands, Indicate, Leg, Length,
+    Mirror, Node, Nonmanual, Notation, Orient, Pace, PhaseRule, Place, Point, Repeat, Retime,
+    Seconds, Solver, Spell, Spot, Step, Transition, Travel,
 };
 
 use super::stack::What;
 use crate::words::{Text, recombine as words};
 
 /// Returns what each kind of source is called, with an empty one.
-pub(super) fn sources() -> [(Text, Node); 5] {
+pub(super) fn sources() -> [(Text, Node); 6] {
     let notation = || Notation {
         of: String::new(),
         language: None,
@@ -37,6 +37,19 @@ pub(super) fn sources() -> [(Text, Node); 5] {
                 with: None,
                 hold: None,
                 via: Transition::default(),
+                on: None,
+            }),
+        ),
+        (
+            words::CUE,
+            Node::Cue(Cue {
+                text: String::new(),
+                phones: None,
+                code: None,
+                variants: Vec::new(),
+                hand: Hands::Dominant,
+                phase: PhaseRule::default(),
+                pace: None,
                 on: None,
             }),
         ),
@@ -159,6 +172,7 @@ pub(super) fn title(what: &What) -> Text {
             Node::Sign(_) => words::SIGN,
             Node::Spell(_) => words::SPELL,
             Node::Point(_) => words::POINT,
+            Node::Cue(_) => words::CUE,
             Node::Hamnosys(_) => words::HAMNOSYS,
             Node::Sigml(_) => words::SIGML,
             Node::Pipe(_) | Node::Then(_) => words::TEXT,

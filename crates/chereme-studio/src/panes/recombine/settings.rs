@@ -1,6 +1,8 @@
 //! The settings of each source and operator as widgets; what they cannot show is a line of its text.
 
-use chereme_corpus::recipe::{Goal, Node, Recipe, Spell, Step, Transition};
+use chereme_corpus::recipe::{
+    Cue, Factor, Goal, Hands, Node, PhaseRule, Recipe, Spell, Step, Transition,
+};
 use eframe::egui::{Id, Role, TextEdit, Ui, WidgetInfo};
 
 use super::fields::{self, caption, choose};
@@ -55,6 +57,7 @@ fn source(ui: &mut Ui, seen: &Seen<'_>, at: At, node: &mut Node) -> bool {
             });
             changed
         }
+        Node::Cue(it) => cue(ui, seen, it),
         Node::Hamnosys(it) => {
             let mut changed = false;
             ui.horizontal(|ui| {
@@ -92,6 +95,41 @@ pub(super) fn line(ui: &mut Ui, name: &str, hint: &str, text: &mut String) -> bo
         response.request_focus();
     }
     response.changed()
+}
+
+fn cue(ui: &mut Ui, seen: &Seen<'_>, it: &mut Cue) -> bool {
+    let (name, hint) = (seen.say(words::CUE_TEXT), seen.say(words::CUE_HINT));
+    let mut changed = line(ui, name, hint, &mut it.text);
+    ui.horizontal_wrapped(|ui| {
+        for (hand, word) in [
+            (Hands::Dominant, words::CUE_OWN_HAND),
+            (Hands::Left, words::CUE_LEFT),
+            (Hands::Right, words::CUE_RIGHT),
+        ] {
+            changed |= ui
+                .selectable_value(&mut it.hand, hand, seen.say(word))
+                .changed();
+        }
+    });
+    ui.horizontal_wrapped(|ui| {
+        caption(ui, seen, words::CUE_PHASES);
+        for rule in PhaseRule::ALL {
+            changed |= ui
+                .selectable_value(&mut it.phase, rule, rule.name())
+                .changed();
+        }
+    });
+    ui.horizontal_wrapped(|ui| {
+        caption(ui, seen, words::CUE_PACE);
+        let mut pace = it.pace.map_or(1.6, |pace| pace.0);
+        let slider = egui::DragValue::new(&mut pace).range(0.5..=4.0).speed(0.02);
+        if ui.add(slider).changed() {
+            it.pace = Some(Factor(pace));
+            changed = true;
+        }
+        changed |= fields::signer(ui, seen, &mut it.on);
+    });
+    changed
 }
 
 fn spell(ui: &mut Ui, seen: &Seen<'_>, at: At, it: &mut Spell) -> bool {

@@ -69,6 +69,7 @@ impl What {
                 Node::Sign(name) => there(name),
                 Node::Spell(spell) => there(&spell.word),
                 Node::Point(point) => spot(&point.at) && point.with.as_ref().is_none_or(chosen),
+                Node::Cue(cue) => there(&cue.text),
                 Node::Hamnosys(notation) | Node::Sigml(notation) => there(&notation.of),
                 Node::Pipe(_) | Node::Then(_) => true,
             },

@@ -1,0 +1,235 @@
+//! The face: the head's motion, guided components of the rest, and how much of the head's motion each marker of
+//! the throat follows (section 3.1 of the paper).
+
+use glam::{DQuat, DVec3};
+
+use super::ModelError;
+use super::labels::{CHEEKS, FACE, JAW, LIPS, RIGID, THROAT};
+use super::linear::Matrix;
+use super::pca::guided;
+use super::rigid::Rigid;
+
+/// The places of the face's markers in one frame, in millimetres; nothing for a hidden one.
+pub type Frame = Vec<Option<DVec3>>;
+
+/// How many components a face has.
+pub const COMPONENTS: usize = 7;
+/// Rounds in which the weights of the throat and the components are found.
+const ROUNDS: usize = 5;
+
+/// A model of one person's face.
+#[derive(Debug, Clone)]
+pub struct FaceModel {
+    rigid: Vec<DVec3>,
+    mean: Vec<DVec3>,
+    /// What one unit of each component does to all 189 coordinates.
+    pub directions: Vec<Vec<f64>>,
+    /// How much of the head's motion each marker follows: 1 but for the throat.
+    pub weights: Vec<f64>,
+}
+
+/// Returns the coordinates that lead each component: jaw, rounding, upper lip, lower lip, corners, throat, and what
+/// is left of the cheeks.
+#[must_use]
+pub fn subsets() -> Vec<Vec<usize>> {
+    let of = |markers: std::ops::Range<usize>, axes: &[usize]| -> Vec<usize> {
+        markers
+            .flat_map(|marker| axes.iter().map(move |axis| 3 * marker + axis))
+            .collect()
+    };
+    let corners = [LIPS.start, LIPS.start + 8].map(|marker| 3 * marker + 1);
+    vec![
+        of(JAW, &[1, 2]),
+        of(LIPS, &[0, 2]),
+        of(LIPS.start + 1..LIPS.start + 8, &[1]),
+        of(LIPS.start + 9..LIPS.end, &[1]),
+        corners.to_vec(),
+        of(THROAT, &[0, 1, 2]),
+        of(CHEEKS, &[0, 1, 2]),
+    ]
+}
+
+/// Returns a share of a motion: of the turn about its own axis, and of the shift.
+#[must_use]
+pub fn share_of(motion: &Rigid, weight: f64) -> Rigid {
+    Rigid {
+        rotation: DQuat::from_scaled_axis(motion.rotation.to_scaled_axis() * weight),
+        translation: motion.translation * weight,
+    }
+}
+
+impl FaceModel {
+    /// Learns a model; frames in which a marker is hidden count for the head's motion only.
+    ///
+    /// # Errors
+    /// [`ModelError`] if fewer than 20 frames show every marker.
+    pub fn learn(frames: &[Frame]) -> Result<Self, ModelError> {
+        const LEAST: usize = 20;
+        let whole: Vec<Vec<DVec3>> = frames
+            .iter()
+            .filter(|frame| frame.len() == FACE)
+            .filter_map(|frame| frame.iter().copied().collect::<Option<Vec<DVec3>>>())
+            .filter(|frame| frame.iter().all(|at| at.is_finite()))
+            .collect();
+        if whole.len() < LEAST {
+            return Err(ModelError::FewFrames {
+                found: whole.len(),
+                least: LEAST,
+            });
+        }
+        let mut rigid: Vec<DVec3> = whole[0][RIGID].to_vec();
+        let mut motions = Vec::new();
+        for _ in 0..3 {
+            motions.clear();
+            let mut sum = vec![DVec3::ZERO; rigid.len()];
+            let mut mean_turn = DVec3::ZERO;
+            let mut mean_shift = DVec3::ZERO;
+            for frame in &whole {
+                let seen: Vec<Option<DVec3>> = frame[RIGID].iter().copied().map(Some).collect();
+                let motion = Rigid::fit(&rigid, &seen).map_err(|_| ModelError::Singular)?;
+                for (sum, at) in sum.iter_mut().zip(&frame[RIGID]) {
+                    *sum += motion.undo(*at);
+                }
+                mean_turn += motion.rotation.to_scaled_axis();
+                mean_shift += motion.translation;
+                motions.push(motion);
+            }
+            // The rigid set is put where it is on average, so that motions are about the session's mean.
+            let count = whole.len() as f64;
+            let usual = Rigid {
+                rotation: DQuat::from_scaled_axis(mean_turn / count),
+                translation: mean_shift / count,
+            };
+            rigid = sum
+                .into_iter()
+                .map(|sum| usual.apply(sum / count))
+                .collect();
+        }
+        for (motion, frame) in motions.iter_mut().zip(&whole) {
+            let seen: Vec<Option<DVec3>> = frame[RIGID].iter().copied().map(Some).collect();
+            *motion = Rigid::fit(&rigid, &seen).map_err(|_| ModelError::Singular)?;
+        }
+        Self::shapes(rigid, &whole, &motions)
+    }
+
+    fn shapes(
+        rigid: Vec<DVec3>,
+        whole: &[Vec<DVec3>],
+        motions: &[Rigid],
+    ) -> Result<Self, ModelError> {
+        let mut weights = vec![1.0; FACE];
+        weights[THROAT].fill(0.5);
+        let mut directions = Vec::new();
+        let mut mean = Vec::new();
+        for _ in 0..ROUNDS {
+            let free: Vec<Vec<f64>> = whole
+                .iter()
+                .zip(motions)
+                .map(|(frame, motion)| {
+                    let markers = frame.iter().zip(&weights);
+                    markers
+                        .flat_map(|(at, weight)| share_of(motion, *weight).undo(*at).to_array())
+                        .collect()
+                })
+                .collect();
+            let found = guided(&free, &subsets())?;
+            mean = points(&found.mean);
+            directions = found.directions;
+            // The weight of each marker of the throat: its motion along what the whole motion would do.
+            let parameters = free.iter().map(|row| fitted(&found.mean, &directions, row));
+            let parameters: Option<Vec<Vec<f64>>> = parameters.collect();
+            let parameters = parameters.ok_or(ModelError::Singular)?;
+            for marker in THROAT {
+                let (mut along, mut square) = (0.0, 0.0);
+                for ((frame, motion), own) in whole.iter().zip(motions).zip(&parameters) {
+                    let mut still = mean[marker];
+                    for (direction, parameter) in directions.iter().zip(own) {
+                        let at = &direction[3 * marker..3 * marker + 3];
+                        still += DVec3::new(at[0], at[1], at[2]) * *parameter;
+                    }
+                    let way = motion.apply(still) - still;
+                    along += way.dot(frame[marker] - still);
+                    square += way.length_squared();
+                }
+                if square > 1e-9 {
+                    weights[marker] = (along / square).clamp(0.0, 1.0);
+                }
+            }
+        }
+        Ok(Self {
+            rigid,
+            mean,
+            directions,
+            weights,
+        })
+    }
+
+    /// Returns the head's motion and the parameters of a frame, from what is visible of it; nothing if fewer than
+    /// three markers of the rigid set are.
+    #[must_use]
+    pub fn invert(&self, frame: &Frame) -> Option<(Rigid, Vec<f64>)> {
+        let motion = Rigid::fit(&self.rigid, frame.get(RIGID)?).ok()?;
+        let keep = self.directions.len();
+        let mut left = Matrix::zeros(keep, keep);
+        let mut right = vec![0.0; keep];
+        for (marker, at) in frame.iter().enumerate() {
+            let Some(at) = at.filter(|at| at.is_finite()) else {
+                continue;
+            };
+            let free = share_of(&motion, self.weights[marker]).undo(at) - self.mean[marker];
+            for axis in 0..3 {
+                let row: Vec<f64> = self
+                    .directions
+                    .iter()
+                    .map(|d| d[3 * marker + axis])
+                    .collect();
+                left.add_outer(&row, &row, 1.0);
+                for (right, value) in right.iter_mut().zip(&row) {
+                    *right += value * free[axis];
+                }
+            }
+        }
+        for k in 0..keep {
+            // Parameters have the variance 1; markers are weighed as if 1 mm off.
+            left[(k, k)] += 1.0;
+        }
+        Some((motion, left.cholesky()?.solve_factored(&right)))
+    }
+
+    /// Returns where the markers of a face are.
+    #[must_use]
+    pub fn place(&self, motion: &Rigid, parameters: &[f64]) -> Vec<DVec3> {
+        (0..FACE)
+            .map(|marker| {
+                let mut at = self.mean[marker];
+                for (direction, parameter) in self.directions.iter().zip(parameters) {
+                    let d = &direction[3 * marker..3 * marker + 3];
+                    at += DVec3::new(d[0], d[1], d[2]) * *parameter;
+                }
+                share_of(motion, self.weights[marker]).apply(at)
+            })
+            .collect()
+    }
+}
+
+fn points(row: &[f64]) -> Vec<DVec3> {
+    row.chunks_exact(3)
+        .map(|at| DVec3::new(at[0], at[1], at[2]))
+        .collect()
+}
+
+/// Returns the parameters of a whole row by least squares.
+fn fitted(mean: &[f64], directions: &[Vec<f64>], row: &[f64]) -> Option<Vec<f64>> {
+    let keep = directions.len();
+    let mut left = Matrix::zeros(keep, keep);
+    let mut right = vec![0.0; keep];
+    for (i, one) in directions.iter().enumerate() {
+        for (j, other) in directions.iter().enumerate() {
+            left[(i, j)] = one.iter().zip(other).map(|(a, b)| a * b).sum();
+        }
+        left[(i, i)] += 1e-6;
+        let apart = row.iter().zip(mean).map(|(x, m)| x - m);
+        right[i] = one.iter().zip(apart).map(|(a, b)| a * b).sum();
+    }
+    Some(left.cholesky()?.solve_factored(&right))
+}

@@ -1,0 +1,165 @@
+//! Recognisers: one Gaussian a class, and the tables of what they confuse.
+
+use super::ModelError;
+use super::linear::Matrix;
+use super::pca::covariance;
+
+/// A Gaussian a class.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recogniser {
+    classes: Vec<Class>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Class {
+    number: u8,
+    mean: Vec<f64>,
+    factor: Matrix,
+    log_norm: f64,
+}
+
+/// The fewest examples from which a class gets a covariance of its own; others share one.
+const OWN: usize = 20;
+
+impl Recogniser {
+    /// Learns a Gaussian for each class that has an example; `floor` is added to every variance.
+    ///
+    /// # Errors
+    /// [`ModelError`] if there are fewer than two examples, or their rows differ in length.
+    pub fn learn(examples: &[(u8, Vec<f64>)], floor: f64) -> Result<Self, ModelError> {
+        let width = examples.first().map_or(0, |(_, row)| row.len());
+        let legal = |row: &Vec<f64>| row.len() == width && row.iter().all(|x| x.is_finite());
+        if examples.len() < 2 || width == 0 || !examples.iter().all(|(_, row)| legal(row)) {
+            return Err(ModelError::FewFrames {
+                found: examples.len(),
+                least: 2,
+            });
+        }
+        let mut numbers: Vec<u8> = examples.iter().map(|(number, _)| *number).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let of = |number: u8| -> Vec<Vec<f64>> {
+            let own = examples.iter().filter(|(own, _)| *own == number);
+            own.map(|(_, row)| row.clone()).collect()
+        };
+        let mut pooled = Matrix::zeros(width, width);
+        let each: Vec<_> = numbers
+            .iter()
+            .map(|number| (*number, of(*number)))
+            .map(|(number, rows)| (number, rows.len(), covariance(&rows)))
+            .collect();
+        for (_, count, (_, matrix)) in &each {
+            let share = *count as f64 / examples.len() as f64;
+            for i in 0..width {
+                for j in 0..width {
+                    pooled[(i, j)] += share * matrix[(i, j)];
+                }
+            }
+        }
+        let mut classes = Vec::with_capacity(each.len());
+        for (number, count, (mean, matrix)) in each {
+            let mut own = if count >= OWN { matrix } else { pooled.clone() };
+            for i in 0..width {
+                own[(i, i)] += floor;
+            }
+            let factor = own.cholesky().ok_or(ModelError::Singular)?;
+            let log_norm = (0..width).map(|i| factor[(i, i)].ln()).sum::<f64>();
+            classes.push(Class {
+                number,
+                mean,
+                factor,
+                log_norm,
+            });
+        }
+        Ok(Self { classes })
+    }
+
+    /// Returns the log of the a-posteriori probability of each class, with equal priors, in order of their numbers.
+    #[must_use]
+    pub fn posteriors(&self, row: &[f64]) -> Vec<(u8, f64)> {
+        let score = |class: &Class| {
+            let apart: Vec<f64> = row.iter().zip(&class.mean).map(|(x, m)| x - m).collect();
+            let solved = class.factor.solve_factored(&apart);
+            let distance: f64 = apart.iter().zip(&solved).map(|(a, s)| a * s).sum();
+            -0.5 * distance - class.log_norm
+        };
+        let scores: Vec<f64> = self.classes.iter().map(score).collect();
+        let most = scores.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let sum = scores.iter().map(|s| (s - most).exp()).sum::<f64>().ln() + most;
+        let numbers = self.classes.iter().map(|class| class.number);
+        numbers.zip(scores).map(|(n, s)| (n, s - sum)).collect()
+    }
+
+    /// Returns the most probable class; of equals the lower number.
+    #[must_use]
+    pub fn best(&self, row: &[f64]) -> u8 {
+        let all = self.posteriors(row).into_iter();
+        all.reduce(|best, next| if next.1 > best.1 { next } else { best })
+            .map_or(0, |(number, _)| number)
+    }
+
+    /// Returns the log of the probability of one class; minus infinity if it was never learned.
+    #[must_use]
+    pub fn log_of(&self, row: &[f64], number: u8) -> f64 {
+        let found = self
+            .posteriors(row)
+            .into_iter()
+            .find(|(own, _)| *own == number);
+        found.map_or(f64::NEG_INFINITY, |(_, log)| log)
+    }
+}
+
+/// How often each class was recognised as which.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Confusion {
+    /// Produced, recognised, how often; in order.
+    pub counts: std::collections::BTreeMap<(u8, u8), usize>,
+}
+
+impl Confusion {
+    /// Recognises examples and counts.
+    #[must_use]
+    pub fn of(recogniser: &Recogniser, examples: &[(u8, Vec<f64>)]) -> Self {
+        let mut confusion = Self::default();
+        for (number, row) in examples {
+            *confusion
+                .counts
+                .entry((*number, recogniser.best(row)))
+                .or_default() += 1;
+        }
+        confusion
+    }
+
+    /// Returns the share that was recognised as what it is.
+    #[must_use]
+    pub fn rate(&self) -> f64 {
+        let all: usize = self.counts.values().sum();
+        let right: usize = self
+            .counts
+            .iter()
+            .filter(|((a, b), _)| a == b)
+            .map(|(_, n)| n)
+            .sum();
+        right as f64 / all.max(1) as f64
+    }
+}
+
+impl std::fmt::Display for Confusion {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let mut classes: Vec<u8> = self.counts.keys().flat_map(|(a, b)| [*a, *b]).collect();
+        classes.sort_unstable();
+        classes.dedup();
+        write!(f, "     ")?;
+        classes
+            .iter()
+            .try_for_each(|class| write!(f, "{class:>6}"))?;
+        for own in &classes {
+            write!(f, "\n{own:>5}")?;
+            for other in &classes {
+                let count = self.counts.get(&(*own, *other)).copied().unwrap_or(0);
+                write!(f, "{count:>6}")?;
+            }
+        }
+        Ok(())
+    }
+}

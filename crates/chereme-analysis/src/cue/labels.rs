@@ -1,0 +1,80 @@
+//! The names of the markers: 50 on hand and forearm, 63 on the face.
+
+/// The forearm: FA1-FA5.
+pub const FOREARM: std::ops::Range<usize> = 0..5;
+/// The back of the hand: HB1-HB4 on the knuckles from index to little finger, HB5-HB7 between them and the wrist.
+pub const BACK: std::ops::Range<usize> = 5..12;
+/// How many markers the hand has, the forearm included.
+pub const HAND: usize = 50;
+/// How many markers the face has.
+pub const FACE: usize = 63;
+
+/// Returns the first marker of a finger, 0 for the index to 3 for the little finger: 3 on the first phalange, 3 on
+/// the middle one, 2 on the last, of which the last is the tip.
+#[must_use]
+pub fn finger(finger: usize) -> usize {
+    12 + 8 * finger
+}
+
+/// The thumb: T1-T6, two on each part; the last is the tip.
+pub const THUMB: usize = 44;
+
+/// Returns the names of the hand's markers in order.
+#[must_use]
+pub fn hand() -> Vec<String> {
+    named(&[
+        ("FA", 5),
+        ("HB", 7),
+        ("I", 8),
+        ("M", 8),
+        ("R", 8),
+        ("L", 8),
+        ("T", 6),
+    ])
+}
+
+/// Returns the names of the face's markers in order: forehead, nose and ears (rigid), lips, cheeks, jaw, throat.
+#[must_use]
+pub fn face() -> Vec<String> {
+    named(&[
+        ("RF", 5),
+        ("RN", 2),
+        ("RE", 2),
+        ("LP", 16),
+        ("CK", 12),
+        ("JW", 8),
+        ("TH", 18),
+    ])
+}
+
+/// The rigid markers of the head.
+pub const RIGID: std::ops::Range<usize> = 0..9;
+/// The lips: 9 (LP1) and 17 (LP9) are the corners, LP2-LP8 the upper lip, LP10-LP16 the lower.
+pub const LIPS: std::ops::Range<usize> = 9..25;
+/// The cheeks.
+pub const CHEEKS: std::ops::Range<usize> = 25..37;
+/// The jaw.
+pub const JAW: std::ops::Range<usize> = 37..45;
+/// The throat.
+pub const THROAT: std::ops::Range<usize> = 45..63;
+
+fn named(groups: &[(&str, usize)]) -> Vec<String> {
+    let each = groups.iter();
+    each.flat_map(|(name, count)| (1..=*count).map(move |n| format!("{name}{n}")))
+        .collect()
+}
+
+/// Returns the place of each wanted name among the labels of a file; case, blanks and the subject's name before a
+/// colon do not count. A name that the file lacks is nothing.
+#[must_use]
+pub fn mapped(wanted: &[String], labels: &[&str]) -> Vec<Option<usize>> {
+    let plain = |label: &str| {
+        let own = label.rsplit(':').next().unwrap_or(label);
+        own.trim().to_lowercase()
+    };
+    let known: Vec<String> = labels.iter().map(|label| plain(label)).collect();
+    wanted
+        .iter()
+        .map(|name| known.iter().position(|label| *label == plain(name)))
+        .collect()
+}

@@ -1,0 +1,179 @@
+//! Small dense matrices: what the models of face and hand need, and no more.
+
+use std::ops::{Index, IndexMut};
+
+/// A matrix, row by row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Matrix {
+    rows: usize,
+    cols: usize,
+    data: Vec<f64>,
+}
+
+impl Index<(usize, usize)> for Matrix {
+    type Output = f64;
+    fn index(&self, (row, col): (usize, usize)) -> &f64 {
+        &self.data[row * self.cols + col]
+    }
+}
+
+impl IndexMut<(usize, usize)> for Matrix {
+    fn index_mut(&mut self, (row, col): (usize, usize)) -> &mut f64 {
+        &mut self.data[row * self.cols + col]
+    }
+}
+
+impl Matrix {
+    /// Returns a matrix of zeros.
+    #[must_use]
+    pub fn zeros(rows: usize, cols: usize) -> Self {
+        Self {
+            rows,
+            cols,
+            data: vec![0.0; rows * cols],
+        }
+    }
+
+    /// Returns how many rows it has.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Returns how many columns it has.
+    #[must_use]
+    pub fn cols(&self) -> usize {
+        self.cols
+    }
+
+    /// Returns a row.
+    #[must_use]
+    pub fn row(&self, row: usize) -> &[f64] {
+        &self.data[row * self.cols..(row + 1) * self.cols]
+    }
+
+    /// Adds `weight · x yᵀ`; `x` has as many numbers as rows, `y` as columns.
+    pub fn add_outer(&mut self, x: &[f64], y: &[f64], weight: f64) {
+        for (row, x) in self.data.chunks_exact_mut(self.cols.max(1)).zip(x) {
+            let factor = weight * x;
+            if factor != 0.0 {
+                for (own, y) in row.iter_mut().zip(y) {
+                    *own += factor * y;
+                }
+            }
+        }
+    }
+
+    /// Returns the lower triangle of its Cholesky factor; nothing if it is not positive definite.
+    #[must_use]
+    pub fn cholesky(&self) -> Option<Self> {
+        let n = self.rows;
+        let mut lower = Self::zeros(n, n);
+        for i in 0..n {
+            for j in 0..=i {
+                let below: f64 = (0..j).map(|k| lower[(i, k)] * lower[(j, k)]).sum();
+                let value = self[(i, j)] - below;
+                if i == j {
+                    if value.is_nan() || value <= 0.0 {
+                        return None;
+                    }
+                    lower[(i, i)] = value.sqrt();
+                } else {
+                    lower[(i, j)] = value / lower[(j, j)];
+                }
+            }
+        }
+        Some(lower)
+    }
+
+    /// Solves `L Lᵀ x = b` for a factor of [`cholesky`](Self::cholesky).
+    #[must_use]
+    pub fn solve_factored(&self, b: &[f64]) -> Vec<f64> {
+        let n = self.rows;
+        let mut x = b.to_vec();
+        for i in 0..n {
+            let below: f64 = (0..i).map(|k| self[(i, k)] * x[k]).sum();
+            x[i] = (x[i] - below) / self[(i, i)];
+        }
+        for i in (0..n).rev() {
+            let above: f64 = (i + 1..n).map(|k| self[(k, i)] * x[k]).sum();
+            x[i] = (x[i] - above) / self[(i, i)];
+        }
+        x
+    }
+}
+
+/// Returns eigenvalues, the greatest first, and their unit eigenvectors, one a row, of a symmetric matrix.
+///
+/// Cyclic Jacobi rotations. The largest entry of each vector is positive, the first of equals counting.
+#[must_use]
+pub fn eigen(symmetric: &Matrix) -> (Vec<f64>, Matrix) {
+    let n = symmetric.rows;
+    let mut a = symmetric.clone();
+    let mut v = Matrix::zeros(n, n);
+    for i in 0..n {
+        v[(i, i)] = 1.0;
+    }
+    const SWEEPS: usize = 40;
+    for _ in 0..SWEEPS {
+        let off: f64 = (0..n)
+            .flat_map(|i| (0..i).map(move |j| (i, j)))
+            .map(|at| a[at] * a[at])
+            .sum();
+        let size: f64 = (0..n).map(|i| a[(i, i)] * a[(i, i)]).sum();
+        if off.is_nan() || off <= 1e-24 * size {
+            break;
+        }
+        for p in 0..n {
+            for q in p + 1..n {
+                rotate(&mut a, &mut v, p, q);
+            }
+        }
+    }
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|x, y| a[(*y, *y)].total_cmp(&a[(*x, *x)]).then(x.cmp(y)));
+    let mut vectors = Matrix::zeros(n, n);
+    let mut values = Vec::with_capacity(n);
+    for (row, own) in order.into_iter().enumerate() {
+        values.push(a[(own, own)]);
+        let largest = v.row(own).iter().copied().fold(0.0, |most: f64, x| {
+            if x.abs() > most.abs() + 1e-12 {
+                x
+            } else {
+                most
+            }
+        });
+        let sign = if largest < 0.0 { -1.0 } else { 1.0 };
+        for col in 0..n {
+            vectors[(row, col)] = sign * v[(own, col)];
+        }
+    }
+    (values, vectors)
+}
+
+/// Turns rows and columns `p` and `q` so that they do not mix; the rows of `v` turn with them.
+fn rotate(a: &mut Matrix, v: &mut Matrix, p: usize, q: usize) {
+    let mixed = a[(p, q)];
+    if mixed.abs() < 1e-300 {
+        return;
+    }
+    let theta = (a[(q, q)] - a[(p, p)]) / (2.0 * mixed);
+    let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+    let t = if theta == 0.0 { 1.0 } else { t };
+    let c = 1.0 / (t * t + 1.0).sqrt();
+    let s = t * c;
+    let n = a.rows;
+    for k in 0..n {
+        let (x, y) = (a[(k, p)], a[(k, q)]);
+        a[(k, p)] = c * x - s * y;
+        a[(k, q)] = s * x + c * y;
+    }
+    for k in 0..n {
+        let (x, y) = (a[(p, k)], a[(q, k)]);
+        a[(p, k)] = c * x - s * y;
+        a[(q, k)] = s * x + c * y;
+        let (x, y) = (v[(p, k)], v[(q, k)]);
+        v[(p, k)] = c * x - s * y;
+        v[(q, k)] = s * x + c * y;
+    }
+}

@@ -1,0 +1,187 @@
+//! Principal components, plain, with values missing, and guided by subsets of the numbers.
+
+use super::ModelError;
+use super::linear::{Matrix, eigen};
+
+/// A mean and the directions in which rows differ from it most.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pca {
+    /// The mean of each number.
+    pub mean: Vec<f64>,
+    /// Unit vectors, the greatest variance first; the largest entry of each is positive.
+    pub directions: Vec<Vec<f64>>,
+    /// The variance along each direction.
+    pub variances: Vec<f64>,
+    /// The variance of all numbers together.
+    pub total: f64,
+}
+
+impl Pca {
+    /// Finds the first `keep` components of rows of equal length; a NaN is a missing number.
+    ///
+    /// Missing numbers are filled with the mean, then with what the components say, in `rounds` rounds.
+    ///
+    /// # Errors
+    /// [`ModelError`] if there are fewer than two rows, or a number is missing in all of them.
+    pub fn fit(rows: &[Vec<f64>], keep: usize, rounds: usize) -> Result<Self, ModelError> {
+        let width = rows.first().map_or(0, Vec::len);
+        if rows.len() < 2 || width == 0 || rows.iter().any(|row| row.len() != width) {
+            return Err(ModelError::FewFrames {
+                found: rows.len(),
+                least: 2,
+            });
+        }
+        let mut mean = vec![0.0; width];
+        for (n, mean) in mean.iter_mut().enumerate() {
+            let seen: Vec<f64> = rows
+                .iter()
+                .map(|row| row[n])
+                .filter(|x| x.is_finite())
+                .collect();
+            if seen.is_empty() {
+                return Err(ModelError::NeverSeen(n));
+            }
+            *mean = seen.iter().sum::<f64>() / seen.len() as f64;
+        }
+        let whole = rows.iter().flatten().all(|x| x.is_finite());
+        let mut filled: Vec<Vec<f64>> = rows
+            .iter()
+            .map(|row| {
+                let numbers = row.iter().zip(&mean);
+                numbers
+                    .map(|(x, mean)| if x.is_finite() { *x } else { *mean })
+                    .collect()
+            })
+            .collect();
+        let mut found = Self::of_whole(&filled, keep);
+        for _ in 0..if whole { 0 } else { rounds } {
+            for (own, row) in filled.iter_mut().zip(rows) {
+                let said = found.rebuild(&found.project(own));
+                for ((own, row), said) in own.iter_mut().zip(row).zip(said) {
+                    if !row.is_finite() {
+                        *own = said;
+                    }
+                }
+            }
+            found = Self::of_whole(&filled, keep);
+        }
+        Ok(found)
+    }
+
+    fn of_whole(rows: &[Vec<f64>], keep: usize) -> Self {
+        let (mean, covariance) = covariance(rows);
+        let (values, vectors) = eigen(&covariance);
+        let keep = keep.min(values.len());
+        Self {
+            total: values.iter().map(|value| value.max(0.0)).sum(),
+            directions: (0..keep).map(|n| vectors.row(n).to_vec()).collect(),
+            variances: values[..keep].iter().map(|value| value.max(0.0)).collect(),
+            mean,
+        }
+    }
+
+    /// Returns how far a row lies along each direction.
+    #[must_use]
+    pub fn project(&self, row: &[f64]) -> Vec<f64> {
+        let along = |direction: &Vec<f64>| {
+            let numbers = direction.iter().zip(row).zip(&self.mean);
+            numbers.map(|((d, x), mean)| d * (x - mean)).sum()
+        };
+        self.directions.iter().map(along).collect()
+    }
+
+    /// Returns the row that lies so far along each direction.
+    #[must_use]
+    pub fn rebuild(&self, parameters: &[f64]) -> Vec<f64> {
+        let mut row = self.mean.clone();
+        for (direction, parameter) in self.directions.iter().zip(parameters) {
+            for (own, d) in row.iter_mut().zip(direction) {
+                *own += d * parameter;
+            }
+        }
+        row
+    }
+}
+
+/// Returns the mean and the covariance of whole rows, divided by their count.
+#[must_use]
+pub fn covariance(rows: &[Vec<f64>]) -> (Vec<f64>, Matrix) {
+    let width = rows.first().map_or(0, Vec::len);
+    let count = rows.len().max(1) as f64;
+    let mut mean = vec![0.0; width];
+    for row in rows {
+        for (mean, x) in mean.iter_mut().zip(row) {
+            *mean += x / count;
+        }
+    }
+    let mut matrix = Matrix::zeros(width, width);
+    let mut centred = vec![0.0; width];
+    for row in rows {
+        for ((own, x), mean) in centred.iter_mut().zip(row).zip(&mean) {
+            *own = x - mean;
+        }
+        matrix.add_outer(&centred, &centred, 1.0 / count);
+    }
+    (mean, matrix)
+}
+
+/// Components that a subset of the numbers leads, one after another (section 3.1 of the paper).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Guided {
+    /// The mean of each number.
+    pub mean: Vec<f64>,
+    /// What one standard deviation of each predictor does to all numbers.
+    pub directions: Vec<Vec<f64>>,
+}
+
+/// Finds guided components: each predictor is the first component of its subset of what is left, and what it
+/// explains of all numbers is taken off before the next.
+///
+/// # Errors
+/// [`ModelError`] if there are fewer rows than two, or a subset names a number that rows do not have.
+pub fn guided(rows: &[Vec<f64>], subsets: &[Vec<usize>]) -> Result<Guided, ModelError> {
+    let width = rows.first().map_or(0, Vec::len);
+    if rows.len() < 2 || rows.iter().flatten().any(|x| !x.is_finite()) {
+        return Err(ModelError::FewFrames {
+            found: rows.len(),
+            least: 2,
+        });
+    }
+    if let Some(wrong) = subsets.iter().flatten().find(|n| **n >= width) {
+        return Err(ModelError::NeverSeen(*wrong));
+    }
+    let (mean, _) = covariance(rows);
+    let mut left: Vec<Vec<f64>> = rows
+        .iter()
+        .map(|row| row.iter().zip(&mean).map(|(x, mean)| x - mean).collect())
+        .collect();
+    let mut directions = Vec::with_capacity(subsets.len());
+    for subset in subsets {
+        let part: Vec<Vec<f64>> = left
+            .iter()
+            .map(|row| subset.iter().map(|n| row[*n]).collect())
+            .collect();
+        let first = Pca::of_whole(&part, 1);
+        let mut p: Vec<f64> = part.iter().map(|row| first.project(row)[0]).collect();
+        let sd = (p.iter().map(|x| x * x).sum::<f64>() / p.len() as f64).sqrt();
+        if sd < 1e-12 {
+            directions.push(vec![0.0; width]);
+            continue;
+        }
+        p.iter_mut().for_each(|x| *x /= sd);
+        let squares: f64 = p.iter().map(|x| x * x).sum();
+        let mut b = vec![0.0; width];
+        for (row, p) in left.iter().zip(&p) {
+            for (b, x) in b.iter_mut().zip(row) {
+                *b += p * x / squares;
+            }
+        }
+        for (row, p) in left.iter_mut().zip(&p) {
+            for (x, b) in row.iter_mut().zip(&b) {
+                *x -= p * b;
+            }
+        }
+        directions.push(b);
+    }
+    Ok(Guided { mean, directions })
+}

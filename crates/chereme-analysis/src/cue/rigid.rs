@@ -1,0 +1,116 @@
+//! The rigid motion that carries one set of points onto another.
+
+use glam::{DMat3, DQuat, DVec3};
+
+use super::linear::{Matrix, eigen};
+
+/// A turn and a shift: `x` goes to `rotation · x + translation`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rigid {
+    /// The turn.
+    pub rotation: DQuat,
+    /// The shift, in the unit of the points.
+    pub translation: DVec3,
+}
+
+impl Default for Rigid {
+    fn default() -> Self {
+        Self {
+            rotation: DQuat::IDENTITY,
+            translation: DVec3::ZERO,
+        }
+    }
+}
+
+/// Why no motion can be found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum RigidError {
+    /// Fewer than three points are seen.
+    #[error("{0} points are seen; a rigid motion needs 3")]
+    Few(usize),
+    /// All points lie on one line, or at one place.
+    #[error("the points lie on one line: their turn about it is unknown")]
+    Line,
+}
+
+impl Rigid {
+    /// Returns where a point goes.
+    #[must_use]
+    pub fn apply(&self, x: DVec3) -> DVec3 {
+        self.rotation * x + self.translation
+    }
+
+    /// Returns where a point comes from.
+    #[must_use]
+    pub fn undo(&self, x: DVec3) -> DVec3 {
+        self.rotation.inverse() * (x - self.translation)
+    }
+
+    /// Returns the motion that brings `from` nearest to `to` in the sense of least squares; unseen points count
+    /// for nothing.
+    ///
+    /// Horn's method: the turn is the eigenvector of the greatest eigenvalue of a 4 × 4 matrix, so that it is never
+    /// a reflection.
+    ///
+    /// # Errors
+    /// [`RigidError`] if fewer than three points are seen, or all of them lie on one line.
+    pub fn fit(from: &[DVec3], to: &[Option<DVec3>]) -> Result<Self, RigidError> {
+        let seen: Vec<(DVec3, DVec3)> = from
+            .iter()
+            .zip(to)
+            .filter_map(|(from, to)| Some((*from, to.filter(|to| to.is_finite())?)))
+            .collect();
+        if seen.len() < 3 {
+            return Err(RigidError::Few(seen.len()));
+        }
+        let count = seen.len() as f64;
+        let middle = |of: fn(&(DVec3, DVec3)) -> DVec3| seen.iter().map(of).sum::<DVec3>() / count;
+        let (a, b) = (middle(|pair| pair.0), middle(|pair| pair.1));
+        let mut own = DMat3::ZERO;
+        let mut s = [[0.0; 3]; 3];
+        for (from, to) in &seen {
+            let (x, y) = (*from - a, *to - b);
+            own += DMat3::from_cols(x * x.x, x * x.y, x * x.z);
+            for (i, row) in s.iter_mut().enumerate() {
+                for (j, value) in row.iter_mut().enumerate() {
+                    *value += x[i] * y[j];
+                }
+            }
+        }
+        if is_line(&own) {
+            return Err(RigidError::Line);
+        }
+        let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = s;
+        let horn = [
+            [xx + yy + zz, yz - zy, zx - xz, xy - yx],
+            [yz - zy, xx - yy - zz, xy + yx, zx + xz],
+            [zx - xz, xy + yx, yy - xx - zz, yz + zy],
+            [xy - yx, zx + xz, yz + zy, zz - xx - yy],
+        ];
+        let mut matrix = Matrix::zeros(4, 4);
+        for (i, row) in horn.iter().enumerate() {
+            for (j, value) in row.iter().enumerate() {
+                matrix[(i, j)] = *value;
+            }
+        }
+        let (_, vectors) = eigen(&matrix);
+        let q = vectors.row(0);
+        let rotation = DQuat::from_xyzw(q[1], q[2], q[3], q[0]).normalize();
+        Ok(Self {
+            rotation,
+            translation: b - rotation * a,
+        })
+    }
+}
+
+/// Tells whether points with this scatter lie on one line: the second eigenvalue is next to nothing.
+fn is_line(scatter: &DMat3) -> bool {
+    let mut matrix = Matrix::zeros(3, 3);
+    for i in 0..3 {
+        for j in 0..3 {
+            matrix[(i, j)] = scatter.col(j)[i];
+        }
+    }
+    let (values, _) = eigen(&matrix);
+    values[1] <= 1e-9 * values[0] || values[0] <= 0.0
+}

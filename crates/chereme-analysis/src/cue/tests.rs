@@ -1,0 +1,400 @@
+use glam::{DQuat, DVec3};
+
+use super::face::FaceModel;
+use super::gauss::{Confusion, Recogniser};
+use super::generate::{self, RATE, Random, Settings, Take};
+use super::hand::{Frame, HandModel};
+use super::labels::{FACE, HAND, RIGID, THROAT, finger};
+use super::linear::{Matrix, eigen};
+use super::pca::{Pca, guided};
+use super::rigid::{Rigid, RigidError};
+use super::targets::{Quartiles, Sought, TargetOptions, arrival, targets};
+use super::{labels, pca};
+
+fn clean() -> Settings {
+    Settings {
+        hidden: 0.0,
+        ..Settings::default()
+    }
+}
+
+#[test]
+fn labels_are_50_and_63_and_are_found_whatever_the_subject() {
+    assert_eq!((labels::hand().len(), labels::face().len()), (HAND, FACE));
+    assert_eq!(labels::hand()[finger(1) + 7], "M8");
+    let wanted = labels::hand();
+    let found = labels::mapped(&wanted, &["Anna:fa1", " M8 ", "ghost"]);
+    assert_eq!(
+        (found[0], found[finger(1) + 7], found[1]),
+        (Some(0), Some(1), None)
+    );
+}
+
+#[test]
+fn a_rigid_motion_is_found_and_what_has_none_is_refused() {
+    let mut random = Random::new(5);
+    let mut point = |sd: f64| DVec3::new(random.normal(), random.normal(), random.normal()) * sd;
+    for noise in [0.0, 0.3] {
+        for _ in 0..50 {
+            let motion = Rigid {
+                rotation: DQuat::from_scaled_axis(point(1.2)),
+                translation: point(300.0),
+            };
+            let from: Vec<DVec3> = (0..9).map(|_| point(60.0)).collect();
+            let to: Vec<Option<DVec3>> = from
+                .iter()
+                .map(|at| Some(motion.apply(*at) + point(noise)))
+                .collect();
+            let found = Rigid::fit(&from, &to).expect("a motion");
+            let turn = found.rotation.angle_between(motion.rotation).to_degrees();
+            let middle = from.iter().sum::<DVec3>() / 9.0;
+            let off = found.apply(middle).distance(motion.apply(middle));
+            if noise == 0.0 {
+                assert!(off < 1e-9, "{off}");
+            } else {
+                assert!(off < 0.5 && turn < 0.6, "{off} mm {turn} degrees");
+            }
+        }
+    }
+    let line: Vec<DVec3> = (0..5).map(|n| DVec3::X * f64::from(n)).collect();
+    let seen = |points: &[DVec3]| points.iter().copied().map(Some).collect::<Vec<_>>();
+    assert_eq!(Rigid::fit(&line, &seen(&line)), Err(RigidError::Line));
+    assert_eq!(
+        Rigid::fit(&line[..2], &seen(&line[..2])),
+        Err(RigidError::Few(2))
+    );
+    let lost = vec![Some(DVec3::NAN); 5];
+    assert_eq!(Rigid::fit(&line, &lost), Err(RigidError::Few(0)));
+}
+
+#[test]
+fn components_are_those_of_a_case_made_by_hand() {
+    let rows = vec![
+        vec![1.0, 1.0],
+        vec![-1.0, -1.0],
+        vec![0.5, -0.5],
+        vec![-0.5, 0.5],
+    ];
+    let found = Pca::fit(&rows, 2, 0).expect("components");
+    let half = 0.5f64.sqrt();
+    assert!((found.directions[0][0] - half).abs() < 1e-9);
+    assert!((found.directions[0][1] - half).abs() < 1e-9);
+    assert!((found.variances[0] - 1.0).abs() < 1e-9 && (found.variances[1] - 0.25).abs() < 1e-9);
+    assert!((found.total - 1.25).abs() < 1e-9);
+    // A second way: power iteration on the covariance.
+    let mut random = Random::new(3);
+    let rows: Vec<Vec<f64>> = (0..200)
+        .map(|_| (0..6).map(|k| random.normal() * f64::from(k + 1)).collect())
+        .collect();
+    let (_, covariance) = pca::covariance(&rows);
+    let mut vector = vec![1.0; 6];
+    for _ in 0..20_000 {
+        let next: Vec<f64> = (0..6)
+            .map(|i| (0..6).map(|j| covariance[(i, j)] * vector[j]).sum::<f64>())
+            .collect();
+        let length = next.iter().map(|x| x * x).sum::<f64>().sqrt();
+        vector = next.iter().map(|x| x / length).collect();
+    }
+    let found = Pca::fit(&rows, 1, 0).expect("components");
+    let cosine: f64 = vector
+        .iter()
+        .zip(&found.directions[0])
+        .map(|(a, b)| a * b)
+        .sum();
+    assert!((cosine.abs() - 1.0).abs() < 1e-9);
+    let hilbert = |i: usize, j: usize| 1.0 / (i + j + 1) as f64;
+    let mut matrix = Matrix::zeros(5, 5);
+    for i in 0..5 {
+        for j in 0..5 {
+            matrix[(i, j)] = hilbert(i, j);
+        }
+    }
+    let (values, vectors) = eigen(&matrix);
+    for (n, value) in values.iter().enumerate() {
+        for i in 0..5 {
+            let product: f64 = (0..5).map(|j| matrix[(i, j)] * vectors[(n, j)]).sum();
+            assert!((product - value * vectors[(n, i)]).abs() < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn guided_components_recover_those_that_made_the_data() {
+    let mut random = Random::new(11);
+    let subsets: Vec<Vec<usize>> = (0..7).map(|k| vec![3 * k, 3 * k + 1, 3 * k + 2]).collect();
+    let true_directions: Vec<Vec<f64>> = (0..7)
+        .map(|k| {
+            (0..40)
+                .map(|n| match n / 3 {
+                    own if own == k => 3.0,
+                    own if own < 7 => 0.0,
+                    _ => ((n * (k + 2)) as f64).sin(),
+                })
+                .collect()
+        })
+        .collect();
+    let rows: Vec<Vec<f64>> = (0..4000)
+        .map(|_| {
+            let own: Vec<f64> = (0..7).map(|_| random.normal()).collect();
+            (0..40)
+                .map(|n| {
+                    own.iter()
+                        .zip(&true_directions)
+                        .map(|(p, d)| p * d[n])
+                        .sum::<f64>()
+                })
+                .collect()
+        })
+        .collect();
+    let found = guided(&rows, &subsets).expect("components");
+    for (own, known) in found.directions.iter().zip(&true_directions) {
+        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let cosine = dot(own, known).abs() / (dot(own, own) * dot(known, known)).sqrt();
+        assert!(cosine > 0.99, "{cosine}");
+    }
+}
+
+/// Seen and hidden markers: mean distance, mean along an axis, the 95th percentile of hidden ones, and the share
+/// of hidden ones within what is predicted for 95 of 100.
+pub(super) struct Errors {
+    pub(super) seen: f64,
+    pub(super) axis: f64,
+    pub(super) hidden: f64,
+    pub(super) far: f64,
+    pub(super) covered: f64,
+}
+
+pub(super) fn errors(model: &HandModel, take: &Take) -> Errors {
+    let (mut seen, mut axis, mut hidden, mut covered) = (Vec::new(), Vec::new(), Vec::new(), 0);
+    let mut before = None;
+    for (frame, truth) in take.hand.iter().zip(&take.true_hand) {
+        let Some(restored) = model.restore(frame, before.as_ref()) else {
+            continue;
+        };
+        for marker in 0..HAND {
+            match frame[marker] {
+                Some(at) => {
+                    let apart = restored.points[marker] - at;
+                    seen.push(apart.length());
+                    axis.extend(apart.abs().to_array());
+                }
+                None => {
+                    let off = restored.points[marker].distance(truth[marker]);
+                    hidden.push(off);
+                    covered += usize::from(off <= 2.795 * restored.sd[marker]);
+                }
+            }
+        }
+        before = Some(restored);
+    }
+    let mean = |all: &[f64]| all.iter().sum::<f64>() / all.len().max(1) as f64;
+    hidden.sort_by(f64::total_cmp);
+    Errors {
+        seen: mean(&seen),
+        axis: mean(&axis),
+        hidden: mean(&hidden),
+        far: hidden.get(hidden.len() * 95 / 100).copied().unwrap_or(0.0),
+        covered: covered as f64 / hidden.len().max(1) as f64,
+    }
+}
+
+#[test]
+fn hidden_markers_of_a_hand_are_restored_and_never_looked_at() {
+    let model = HandModel::learn(&generate::transitions(&clean(), 1).hand, 12).expect("a model");
+    let take = generate::sentence(&Settings::default(), 3, 6);
+    let found = errors(&model, &take);
+    assert!(
+        found.seen < 4.0 && found.hidden < 6.0,
+        "{} {}",
+        found.seen,
+        found.hidden
+    );
+    let frame: Frame = take.hand[200].clone();
+    let mut nan = frame.clone();
+    for (own, seen) in nan.iter_mut().zip(&frame) {
+        if seen.is_none() {
+            *own = Some(DVec3::NAN);
+        }
+    }
+    let (one, two) = (model.restore(&frame, None), model.restore(&nan, None));
+    let (one, two) = (one.expect("restored"), two.expect("restored"));
+    assert_eq!(one.points, two.points, "bit by bit");
+    assert_eq!(
+        one.seen.iter().filter(|seen| !**seen).count(),
+        frame.iter().filter(|at| at.is_none()).count()
+    );
+    let mut folded = frame.clone();
+    folded[finger(2)..finger(2) + 8].fill(None);
+    let gone = model.restore(&folded, None).expect("restored");
+    assert!(
+        gone.sd[finger(2) + 7] > one.sd[finger(0) + 7],
+        "a hidden finger is uncertain"
+    );
+    assert!(model.restore(&vec![None; HAND], None).is_none());
+    assert!(model.restore(&Vec::new(), None).is_none());
+}
+
+#[test]
+fn the_weights_of_the_throat_are_recovered() {
+    let settings = clean();
+    let mut frames = Vec::new();
+    for number in 0..3 {
+        frames.extend(
+            generate::sentence(&settings, number, 8)
+                .face
+                .into_iter()
+                .step_by(4),
+        );
+    }
+    let model = FaceModel::learn(&frames).expect("a model");
+    for (n, truth) in generate::throat_weights().into_iter().enumerate() {
+        let found = model.weights[THROAT.start + n];
+        assert!(
+            (found - truth).abs() < 0.1,
+            "TH{}: {found} for {truth}",
+            n + 1
+        );
+    }
+    let take = generate::sentence(&settings, 99, 6);
+    let (mut sum, mut count) = (0.0, 0.0);
+    for frame in take.face.iter().step_by(5) {
+        let (motion, own) = model.invert(frame).expect("a head");
+        for (at, said) in frame.iter().zip(model.place(&motion, &own)) {
+            sum += at.map_or(0.0, |at| at.distance(said));
+            count += 1.0;
+        }
+    }
+    assert!(sum / count < 1.0, "{} mm", sum / count);
+    assert_eq!(model.invert(&vec![None; FACE]), None);
+    assert!(FaceModel::learn(&frames[..RIGID.len()]).is_err());
+}
+
+/// The seven distances and the tip at the true targets of takes.
+pub(super) fn at_targets(takes: &[Take]) -> (Vec<(u8, Vec<f64>)>, Vec<(u8, Vec<f64>)>) {
+    let (mut shapes, mut places) = (Vec::new(), Vec::new());
+    for take in takes {
+        for key in &take.keys {
+            let frame = ((key.times[1] * RATE).round() as usize).min(take.true_hand.len() - 1);
+            let points = &take.true_hand[frame];
+            if let (Some(seven), Some(tip)) = (
+                HandModel::distances(points),
+                HandModel::tip(points, key.shape),
+            ) {
+                shapes.push((key.shape, seven.to_vec()));
+                places.push((
+                    key.placement,
+                    take.head[frame].undo(tip).to_array().to_vec(),
+                ));
+            }
+        }
+    }
+    (shapes, places)
+}
+
+#[test]
+fn shapes_and_placements_of_unseen_sentences_are_recognised() {
+    let of = |numbers: std::ops::Range<u64>| -> Vec<Take> {
+        numbers
+            .map(|n| generate::sentence(&clean(), n, 10))
+            .collect()
+    };
+    let (shapes, places) = at_targets(&of(0..20));
+    let (new_shapes, new_places) = at_targets(&of(100..110));
+    let by_shape = Recogniser::learn(&shapes, 0.25).expect("shapes");
+    let by_place = Recogniser::learn(&places, 0.25).expect("places");
+    let rates = [
+        Confusion::of(&by_shape, &new_shapes).rate(),
+        Confusion::of(&by_place, &new_places).rate(),
+    ];
+    assert!(rates[0] > 0.9 && rates[1] > 0.9, "{rates:?}");
+    assert!(Recogniser::learn(&[], 0.25).is_err());
+    assert!(Recogniser::learn(&[(1, vec![f64::NAN]), (2, vec![0.0])], 0.25).is_err());
+}
+
+#[test]
+fn targets_found_by_dynamic_programming_are_the_best_of_all() {
+    let mut random = Random::new(21);
+    let options = TargetOptions {
+        window: 0.04,
+        apart: 0.02,
+        ..TargetOptions::default()
+    };
+    for _ in 0..100 {
+        let frame_time = 0.01;
+        let speed: Vec<f64> = (0..20).map(|_| random.share()).collect();
+        let keys: Vec<Sought> = (0..3)
+            .map(|n| Sought {
+                a1: 0.05 + 0.05 * f64::from(n),
+                log: (0..20).map(|_| -3.0 * random.share()).collect(),
+            })
+            .collect();
+        let found = targets(&keys, &speed, frame_time, &options).expect("targets");
+        let mut sorted = speed.clone();
+        sorted.sort_by(f64::total_cmp);
+        let median = sorted[10];
+        let score = |frames: &[usize]| -> f64 {
+            let each = keys.iter().zip(frames).map(|(key, frame)| {
+                let near = (*frame as f64 * frame_time - key.a1) / options.spread;
+                key.log[*frame] - 0.5 * (speed[*frame] / median).powi(2) - 0.5 * near * near
+            });
+            each.sum()
+        };
+        let mut best = f64::NEG_INFINITY;
+        for (a, b, c) in
+            (0..20usize).flat_map(|a| (0..20).flat_map(move |b| (0..20).map(move |c| (a, b, c))))
+        {
+            let near = |frame: usize, key: &Sought| {
+                let first = ((key.a1 - 0.04) / frame_time).round() as usize;
+                let last = ((key.a1 + 0.04) / frame_time).round() as usize;
+                (first..=last).contains(&frame)
+            };
+            if near(a, &keys[0])
+                && near(b, &keys[1])
+                && near(c, &keys[2])
+                && a + 2 <= b
+                && b + 2 <= c
+            {
+                best = best.max(score(&[a, b, c]));
+            }
+        }
+        assert!((score(&found) - best).abs() < 1e-9);
+    }
+    let close = vec![
+        Sought {
+            a1: 0.0,
+            log: Vec::new()
+        };
+        50
+    ];
+    assert_eq!(targets(&close, &[0.0; 3], 0.01, &options), None, "no room");
+    assert_eq!(targets(&close, &[], 0.01, &options), None);
+}
+
+#[test]
+fn an_arrival_on_a_minimum_jerk_way_is_where_the_way_ends() {
+    let course = chereme_motion::Interpolation::MinimumJerk;
+    let (start, end) = (0.31, 0.56);
+    let at = |frame: usize| {
+        course.share(((frame as f64 / RATE - start) / (end - start)).clamp(0.0, 1.0))
+    };
+    let speed: Vec<f64> = (0..120)
+        .map(|frame| (at(frame + 1) - at(frame.saturating_sub(1))).abs())
+        .collect();
+    let found = arrival(&speed, 30, 70, 1.0 / RATE, 0.1);
+    assert!((found - end).abs() < 0.006, "{found}");
+    assert_eq!(
+        Quartiles::of(&[4.0, 1.0, 3.0, 2.0, 5.0]).map(|q| (q.low, q.median, q.high)),
+        Some((2.0, 3.0, 4.0))
+    );
+    assert_eq!(Quartiles::of(&[f64::NAN]), None);
+}
+
+#[test]
+fn a_session_is_the_same_for_the_same_seed() {
+    let one = generate::sentence(&Settings::default(), 7, 5);
+    let two = generate::sentence(&Settings::default(), 7, 5);
+    assert_eq!((one.hand.clone(), one.keys.clone()), (two.hand, two.keys));
+    let hidden = one.hand.iter().flatten().filter(|at| at.is_none()).count();
+    let share = hidden as f64 / (one.hand.len() * HAND) as f64;
+    assert!((0.03..0.35).contains(&share), "{share}");
+}

@@ -1,0 +1,667 @@
+//! A dictionary of movements between keys, and sentences made of them.
+//!
+//! A *dikey* is the movement of all parameters of hand and head from the target of one key to that of the next
+//! (Gibert et al. 2004, section 5). Parameters are numbers whose meaning is the caller's: those of a model of the
+//! hand, or angles of joints. Time is in seconds.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Serialize;
+
+/// A key: the number of its placement (0 is rest) and of its shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+pub struct DikeyEnd {
+    /// The placement.
+    pub placement: u8,
+    /// The shape.
+    pub shape: u8,
+}
+
+impl std::fmt::Display for DikeyEnd {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}{}", self.placement, self.shape)
+    }
+}
+
+/// A captured movement from one key to the next.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dikey {
+    /// The key at its first frame.
+    pub from: DikeyEnd,
+    /// The key at its last frame.
+    pub to: DikeyEnd,
+    /// The parameters of each frame, two frames or more.
+    pub frames: Vec<Vec<f64>>,
+    /// Where it was cut from.
+    pub source: String,
+}
+
+/// A dictionary of dikeys.
+#[derive(Debug, Clone, Default)]
+pub struct Dictionary {
+    dikeys: Vec<Dikey>,
+    by_ends: BTreeMap<(DikeyEnd, DikeyEnd), Vec<usize>>,
+    /// Frames a second.
+    rate: f64,
+    /// Weight and spread within a key of each parameter.
+    scale: Vec<(f64, f64)>,
+    /// The mean of the parameters at each key, and the mean of where each placement is.
+    keys: BTreeMap<DikeyEnd, Vec<f64>>,
+    places: BTreeMap<u8, [f64; 3]>,
+}
+
+/// How candidates are weighed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Costs {
+    /// The weight of a duration that differs by 100 ms.
+    pub duration: f64,
+    /// The weight of a join whose ends differ by the spread within one key.
+    pub join: f64,
+}
+
+impl Default for Costs {
+    fn default() -> Self {
+        Self {
+            duration: 1.0,
+            join: 1.0,
+        }
+    }
+}
+
+/// A piece of a sentence: which dikey stands for which, and what it cost.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Piece {
+    /// What was wanted.
+    pub wanted: (DikeyEnd, DikeyEnd),
+    /// The number of the dikey; nothing for a synthetic ramp between the means of the two keys.
+    pub dikey: Option<usize>,
+    /// Where it was cut from.
+    pub source: String,
+    /// The ends of the dikey that stands for a missing one.
+    pub instead: Option<(DikeyEnd, DikeyEnd)>,
+    /// The cost of its duration.
+    pub duration_cost: f64,
+    /// The cost of the join to the piece before.
+    pub join_cost: f64,
+}
+
+/// Duration and join may at most be stretched and squeezed so far; beyond, the hand is held at the target.
+const STRETCH: (f64, f64) = (0.5, 2.5);
+
+impl Dictionary {
+    /// Returns the dikeys between neighbours of `targets`, the key and the frame of each, in order of time.
+    #[must_use]
+    pub fn cut(rows: &[Vec<f64>], targets: &[(DikeyEnd, usize)], source: &str) -> Vec<Dikey> {
+        let mut found = Vec::new();
+        for pair in targets.windows(2) {
+            let ((from, start), (to, end)) = (pair[0], pair[1]);
+            if start < end && end < rows.len() {
+                found.push(Dikey {
+                    from,
+                    to,
+                    frames: rows[start..=end].to_vec(),
+                    source: format!("{source} frames {start}-{end}"),
+                });
+            }
+        }
+        found
+    }
+
+    /// Returns a dictionary; `weights` is the variance that each parameter explains, `places` where each placement is.
+    /// Dikeys with fewer than two frames, or of another width, are left out.
+    #[must_use]
+    pub fn new(
+        dikeys: Vec<Dikey>,
+        rate: f64,
+        weights: &[f64],
+        places: BTreeMap<u8, [f64; 3]>,
+    ) -> Self {
+        let width = weights.len();
+        let legal = |dikey: &Dikey| {
+            dikey.frames.len() > 1
+                && dikey
+                    .frames
+                    .iter()
+                    .all(|row| row.len() == width && row.iter().all(|x| x.is_finite()))
+        };
+        let dikeys: Vec<Dikey> = dikeys.into_iter().filter(legal).collect();
+        let mut by_ends: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+        let mut at_key: BTreeMap<DikeyEnd, Vec<&[f64]>> = BTreeMap::new();
+        for (n, dikey) in dikeys.iter().enumerate() {
+            by_ends.entry((dikey.from, dikey.to)).or_default().push(n);
+            let (first, last) = (&dikey.frames[0], &dikey.frames[dikey.frames.len() - 1]);
+            at_key.entry(dikey.from).or_default().push(first);
+            at_key.entry(dikey.to).or_default().push(last);
+        }
+        let mean = |rows: &[&[f64]]| -> Vec<f64> {
+            let sum = |n: usize| rows.iter().map(|row| row[n]).sum::<f64>();
+            (0..width).map(|n| sum(n) / rows.len() as f64).collect()
+        };
+        let keys: BTreeMap<DikeyEnd, Vec<f64>> = at_key
+            .iter()
+            .map(|(key, rows)| (*key, mean(rows)))
+            .collect();
+        let mut squares = vec![0.0; width];
+        let mut count: f64 = 0.0;
+        for (key, rows) in &at_key {
+            for row in rows {
+                count += 1.0;
+                for ((square, x), mean) in squares.iter_mut().zip(*row).zip(&keys[key]) {
+                    *square += (x - mean) * (x - mean);
+                }
+            }
+        }
+        let scale = weights
+            .iter()
+            .zip(&squares)
+            .map(|(weight, square)| (*weight, (square / count.max(1.0)).sqrt().max(1e-9)))
+            .collect();
+        Self {
+            dikeys,
+            by_ends,
+            rate,
+            scale,
+            keys,
+            places,
+        }
+    }
+
+    /// Returns its dikeys.
+    #[must_use]
+    pub fn dikeys(&self) -> &[Dikey] {
+        &self.dikeys
+    }
+
+    /// Returns how many of the 1,680 different dikeys of 41 keys it has.
+    #[must_use]
+    pub fn kinds(&self) -> usize {
+        self.by_ends.len()
+    }
+
+    /// Returns the pairs of keys of a script that it lacks, with how often each occurs.
+    #[must_use]
+    pub fn missing(&self, script: &[Vec<DikeyEnd>]) -> BTreeMap<(DikeyEnd, DikeyEnd), usize> {
+        let mut missing = BTreeMap::new();
+        for pair in script.iter().flat_map(|keys| keys.windows(2)) {
+            if !self.by_ends.contains_key(&(pair[0], pair[1])) {
+                *missing.entry((pair[0], pair[1])).or_default() += 1;
+            }
+        }
+        missing
+    }
+
+    /// Returns the sentences of a script that would add most, the best first, with how many new dikeys each adds
+    /// after those before it.
+    #[must_use]
+    pub fn worth_recording(&self, script: &[Vec<DikeyEnd>], most: usize) -> Vec<(usize, usize)> {
+        let mut known: BTreeSet<(DikeyEnd, DikeyEnd)> = self.by_ends.keys().copied().collect();
+        let pairs: Vec<BTreeSet<(DikeyEnd, DikeyEnd)>> = script
+            .iter()
+            .map(|keys| keys.windows(2).map(|pair| (pair[0], pair[1])).collect())
+            .collect();
+        let mut chosen = Vec::new();
+        while chosen.len() < most {
+            let adds = pairs
+                .iter()
+                .enumerate()
+                .map(|(n, own)| (own.difference(&known).count(), n));
+            let Some((count, n)) =
+                adds.reduce(|best, next| if next.0 > best.0 { next } else { best })
+            else {
+                break;
+            };
+            if count == 0 {
+                break;
+            }
+            known.extend(pairs[n].iter().copied());
+            chosen.push((n, count));
+        }
+        chosen
+    }
+
+    /// Chooses dikeys for keys with the times of their targets: the least sum of both costs, of equals the lower
+    /// number.
+    #[must_use]
+    pub fn select(&self, wanted: &[(DikeyEnd, f64)], costs: &Costs) -> Vec<Piece> {
+        let mut steps: Vec<Vec<Candidate>> = Vec::new();
+        for pair in wanted.windows(2) {
+            steps.push(self.candidates(pair[0].0, pair[1].0, pair[1].1 - pair[0].1, costs));
+        }
+        let chosen = self.cheapest(&steps, costs);
+        let mut pieces: Vec<Piece> = Vec::with_capacity(steps.len());
+        for (n, pair) in wanted.windows(2).enumerate() {
+            let own = &steps[n][chosen[n]];
+            let before = n.checked_sub(1).map(|n| &steps[n][chosen[n]]);
+            let join = before.map_or(0.0, |before| self.join(before, own, costs));
+            let dikey = own.dikey.map(|n| &self.dikeys[n]);
+            let ends = dikey.map(|dikey| (dikey.from, dikey.to));
+            let asked = (pair[0].0, pair[1].0);
+            pieces.push(Piece {
+                wanted: asked,
+                dikey: own.dikey,
+                source: dikey.map_or_else(|| "synthetic".to_owned(), |it| it.source.clone()),
+                instead: ends.filter(|ends| *ends != asked),
+                duration_cost: own.duration,
+                join_cost: join,
+            });
+        }
+        pieces
+    }
+
+    /// Returns the candidates for a pair of keys: exact ones, else those of the nearest second placement, else of the
+    /// nearest first placement, else a ramp.
+    fn candidates(
+        &self,
+        from: DikeyEnd,
+        to: DikeyEnd,
+        length: f64,
+        costs: &Costs,
+    ) -> Vec<Candidate> {
+        let found = self
+            .by_ends
+            .get(&(from, to))
+            .or_else(|| {
+                let with = |place| {
+                    (
+                        from,
+                        DikeyEnd {
+                            placement: place,
+                            ..to
+                        },
+                    )
+                };
+                self.nearest(to.placement, with)
+            })
+            .or_else(|| {
+                let with = |place| {
+                    (
+                        DikeyEnd {
+                            placement: place,
+                            ..from
+                        },
+                        to,
+                    )
+                };
+                self.nearest(from.placement, with)
+            });
+        let Some(found) = found else {
+            return vec![Candidate {
+                dikey: None,
+                duration: 0.0,
+                ends: [self.mean_of(from), self.mean_of(to)],
+            }];
+        };
+        let candidate = |n: &usize| {
+            let frames = &self.dikeys[*n].frames;
+            let own = (frames.len() - 1) as f64 / self.rate;
+            Candidate {
+                dikey: Some(*n),
+                duration: costs.duration * (own - length).abs() / 0.1,
+                ends: [frames[0].clone(), frames[frames.len() - 1].clone()],
+            }
+        };
+        found.iter().map(candidate).collect()
+    }
+
+    fn nearest(
+        &self,
+        placement: u8,
+        with: impl Fn(u8) -> (DikeyEnd, DikeyEnd),
+    ) -> Option<&Vec<usize>> {
+        let own = self.places.get(&placement)?;
+        let apart = |other: &[f64; 3]| -> f64 {
+            own.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum()
+        };
+        let mut others: Vec<(f64, u8)> = self
+            .places
+            .iter()
+            .filter(|(place, _)| **place != placement)
+            .map(|(place, at)| (apart(at), *place))
+            .collect();
+        others.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        others
+            .iter()
+            .find_map(|(_, place)| self.by_ends.get(&with(*place)))
+    }
+
+    /// Returns the mean of the parameters at a key; at a key that no dikey has, the mean of the nearest that one has.
+    fn mean_of(&self, key: DikeyEnd) -> Vec<f64> {
+        let alike = |own: &DikeyEnd| {
+            u8::from(own.shape != key.shape) * 2 + u8::from(own.placement != key.placement)
+        };
+        let found = self.keys.iter().min_by_key(|(own, _)| alike(own));
+        found.map_or_else(|| vec![0.0; self.scale.len()], |(_, mean)| mean.clone())
+    }
+
+    fn join(&self, before: &Candidate, own: &Candidate, costs: &Costs) -> f64 {
+        let all: f64 = self.scale.iter().map(|(weight, _)| weight).sum();
+        let numbers = before.ends[1].iter().zip(&own.ends[0]).zip(&self.scale);
+        let square: f64 = numbers
+            .map(|((a, b), (weight, spread))| weight * ((a - b) / spread).powi(2))
+            .sum();
+        costs.join * (square / all.max(1e-12)).sqrt()
+    }
+
+    fn cheapest(&self, steps: &[Vec<Candidate>], costs: &Costs) -> Vec<usize> {
+        let mut table: Vec<Vec<(f64, usize)>> = Vec::with_capacity(steps.len());
+        for (n, own) in steps.iter().enumerate() {
+            let row = own.iter().map(|candidate| {
+                let Some(before) = n.checked_sub(1) else {
+                    return (candidate.duration, 0);
+                };
+                let sums = steps[before].iter().zip(&table[before]).enumerate();
+                let sums = sums
+                    .map(|(at, (other, (sum, _)))| (sum + self.join(other, candidate, costs), at));
+                let best = sums.reduce(|best, next| if next.0 < best.0 { next } else { best });
+                let (sum, at) = best.unwrap_or((0.0, 0));
+                (sum + candidate.duration, at)
+            });
+            table.push(row.collect());
+        }
+        let mut chosen = vec![0; steps.len()];
+        let last = table.last().map(|row| {
+            let ends = row.iter().enumerate().map(|(at, (sum, _))| (*sum, at));
+            ends.reduce(|best, next| if next.0 < best.0 { next } else { best })
+        });
+        let mut at = last.flatten().map_or(0, |(_, at)| at);
+        for n in (0..steps.len()).rev() {
+            chosen[n] = at;
+            at = table[n][at].1;
+        }
+        chosen
+    }
+
+    /// Returns the parameters frame by frame, from the first target to the last: each dikey warped to the time
+    /// between its targets, the jump to the next spread over it as a straight ramp.
+    #[must_use]
+    pub fn render(&self, pieces: &[Piece], wanted: &[(DikeyEnd, f64)]) -> Vec<Vec<f64>> {
+        let ends = |n: usize| -> [Vec<f64>; 2] {
+            match pieces[n].dikey.and_then(|n| self.dikeys.get(n)) {
+                Some(dikey) => [
+                    dikey.frames[0].clone(),
+                    dikey.frames[dikey.frames.len() - 1].clone(),
+                ],
+                None => [
+                    self.mean_of(pieces[n].wanted.0),
+                    self.mean_of(pieces[n].wanted.1),
+                ],
+            }
+        };
+        let Some((first, last)) = wanted.first().zip(wanted.last()) else {
+            return Vec::new();
+        };
+        let frames = ((last.1 - first.1) * self.rate).round().max(0.0) as usize + 1;
+        let mut out = Vec::with_capacity(frames);
+        let mut n = 0;
+        for frame in 0..frames {
+            let time = first.1 + frame as f64 / self.rate;
+            while n + 1 < pieces.len() && time >= wanted[n + 1].1 {
+                n += 1;
+            }
+            if pieces.is_empty() {
+                out.push(self.mean_of(first.0));
+                continue;
+            }
+            let (start, end) = (wanted[n].1, wanted[n + 1].1);
+            let share = ((time - start) / (end - start).max(1e-9)).clamp(0.0, 1.0);
+            let [own_start, own_end] = ends(n);
+            let mut row = match pieces[n].dikey.and_then(|n| self.dikeys.get(n)) {
+                Some(dikey) => warped(dikey, share, end - start, self.rate),
+                None => {
+                    let eased = share * share * (3.0 - 2.0 * share);
+                    let both = own_start.iter().zip(&own_end);
+                    both.map(|(a, b)| a + (b - a) * eased).collect()
+                }
+            };
+            // The jump to what follows is spread over the dikey: its end is where the next one starts.
+            let goal = match pieces.get(n + 1) {
+                Some(_) => Some(ends(n + 1)[0].clone()),
+                None => pieces[n].instead.map(|_| self.mean_of(pieces[n].wanted.1)),
+            };
+            if let Some(goal) = goal {
+                for ((x, goal), end) in row.iter_mut().zip(&goal).zip(&own_end) {
+                    *x += (goal - end) * share;
+                }
+            }
+            out.push(row);
+        }
+        out
+    }
+}
+
+/// Returns a dikey's parameters at a share of its new time; beyond the greatest stretch it waits at its target.
+fn warped(dikey: &Dikey, share: f64, length: f64, rate: f64) -> Vec<f64> {
+    let last = dikey.frames.len() - 1;
+    let own = last as f64 / rate;
+    let moving = length.min(own * STRETCH.1);
+    let share = (share * length / moving.max(1e-9)).min(1.0);
+    let at = share * last as f64;
+    let first = (at.floor() as usize).min(last);
+    let next = (first + 1).min(last);
+    let both = dikey.frames[first].iter().zip(&dikey.frames[next]);
+    both.map(|(a, b)| a + (b - a) * at.fract()).collect()
+}
+
+struct Candidate {
+    dikey: Option<usize>,
+    duration: f64,
+    ends: [Vec<f64>; 2],
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn key(placement: u8, shape: u8) -> DikeyEnd {
+        DikeyEnd { placement, shape }
+    }
+
+    /// Numbers from 0 to 1 that are the same every time.
+    fn random(seed: &mut u64) -> f64 {
+        *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        (*seed >> 40) as f64 / (1u64 << 24) as f64
+    }
+
+    fn places() -> BTreeMap<u8, [f64; 3]> {
+        let at = [
+            (0, [90.0, -130.0, 0.0]),
+            (1, [97.0, 46.0, 0.0]),
+            (2, [34.0, 40.0, 0.0]),
+            (3, [10.0, 14.0, 0.0]),
+            (4, [50.0, 75.0, 0.0]),
+            (5, [9.0, -52.0, 0.0]),
+        ];
+        at.into_iter().collect()
+    }
+
+    #[test]
+    fn the_cheapest_way_is_that_of_trying_all() {
+        let mut seed = 1;
+        for _ in 0..200 {
+            let keys = [key(1, 1), key(2, 2), key(3, 3), key(4, 4)];
+            let mut dikeys = Vec::new();
+            for pair in keys.windows(2) {
+                for _ in 0..3 {
+                    let frames = 2 + (random(&mut seed) * 20.0) as usize;
+                    let row = |seed: &mut u64| vec![random(seed), random(seed)];
+                    dikeys.push(Dikey {
+                        from: pair[0],
+                        to: pair[1],
+                        frames: (0..frames).map(|_| row(&mut seed)).collect(),
+                        source: String::new(),
+                    });
+                }
+            }
+            let book = Dictionary::new(dikeys, 50.0, &[2.0, 1.0], places());
+            let times: Vec<(DikeyEnd, f64)> = keys
+                .iter()
+                .zip([0.0, 0.2, 0.5, 0.7])
+                .map(|(key, time)| (*key, time))
+                .collect();
+            let costs = Costs::default();
+            let pieces = book.select(&times, &costs);
+            let sum: f64 = pieces
+                .iter()
+                .map(|piece| piece.duration_cost + piece.join_cost)
+                .sum();
+            let of = |n: usize| {
+                book.candidates(keys[n], keys[n + 1], times[n + 1].1 - times[n].1, &costs)
+            };
+            let (a, b, c) = (of(0), of(1), of(2));
+            let mut best = f64::INFINITY;
+            for a in &a {
+                for b in &b {
+                    for c in &c {
+                        let joins = book.join(a, b, &costs) + book.join(b, c, &costs);
+                        best = best.min(a.duration + b.duration + c.duration + joins);
+                    }
+                }
+            }
+            assert!((sum - best).abs() < 1e-12, "{sum} {best}");
+            assert_eq!(pieces, book.select(&times, &costs));
+        }
+    }
+
+    /// A take of keys at every tenth frame, in two parameters.
+    fn take(keys: &[DikeyEnd], seed: &mut u64) -> (Vec<Vec<f64>>, Vec<(DikeyEnd, usize)>) {
+        let at = |key: DikeyEnd, seed: &mut u64| {
+            let place = places()[&key.placement];
+            vec![
+                place[0] + random(seed),
+                f64::from(key.shape) * 10.0 + random(seed),
+            ]
+        };
+        let goals: Vec<Vec<f64>> = keys.iter().map(|key| at(*key, seed)).collect();
+        let mut rows = Vec::new();
+        for pair in goals.windows(2) {
+            for step in 0..10 {
+                let share = f64::from(step) / 10.0;
+                let eased = share * share * (3.0 - 2.0 * share);
+                rows.push(
+                    pair[0]
+                        .iter()
+                        .zip(&pair[1])
+                        .map(|(a, b)| a + (b - a) * eased)
+                        .collect(),
+                );
+            }
+        }
+        rows.push(goals[goals.len() - 1].clone());
+        let targets = keys
+            .iter()
+            .enumerate()
+            .map(|(n, key)| (*key, 10 * n))
+            .collect();
+        (rows, targets)
+    }
+
+    fn timed(targets: &[(DikeyEnd, usize)]) -> Vec<(DikeyEnd, f64)> {
+        targets
+            .iter()
+            .map(|(key, frame)| (*key, *frame as f64 / 50.0))
+            .collect()
+    }
+
+    #[test]
+    fn a_sentence_of_the_dictionary_comes_back_as_it_was() {
+        let mut seed = 5;
+        let keys = [
+            key(0, 0),
+            key(2, 4),
+            key(3, 1),
+            key(1, 3),
+            key(2, 4),
+            key(5, 5),
+            key(0, 0),
+        ];
+        let (rows, targets) = take(&keys, &mut seed);
+        let book = Dictionary::new(
+            Dictionary::cut(&rows, &targets, "take 1"),
+            50.0,
+            &[1.0, 1.0],
+            places(),
+        );
+        assert_eq!(book.kinds(), 6);
+        let wanted = timed(&targets);
+        let pieces = book.select(&wanted, &Costs::default());
+        assert!(
+            pieces
+                .iter()
+                .all(|piece| piece.instead.is_none() && piece.dikey.is_some())
+        );
+        let made = book.render(&pieces, &wanted);
+        assert_eq!(made.len(), rows.len());
+        for (made, row) in made.iter().zip(&rows) {
+            for (a, b) in made.iter().zip(row) {
+                assert!((a - b).abs() < 1e-9, "{a} {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_missing_dikey_is_that_of_the_nearest_placement_and_ends_where_the_next_one_starts() {
+        let mut seed = 9;
+        let (rows, targets) = take(
+            &[key(1, 1), key(2, 2), key(3, 3), key(4, 3), key(1, 1)],
+            &mut seed,
+        );
+        let book = Dictionary::new(
+            Dictionary::cut(&rows, &targets, "take 1"),
+            50.0,
+            &[1.0, 1.0],
+            places(),
+        );
+        // 33 after 22 is there, 53 after 22 is not; the chin is nearest to the throat.
+        let wanted = timed(&[(key(1, 1), 0), (key(2, 2), 10), (key(5, 3), 25)]);
+        let pieces = book.select(&wanted, &Costs::default());
+        assert_eq!(pieces[1].instead, Some((key(2, 2), key(3, 3))));
+        assert_eq!(pieces[0].instead, None);
+        let wanted = timed(&[
+            (key(1, 1), 0),
+            (key(2, 2), 10),
+            (key(3, 3), 20),
+            (key(4, 3), 30),
+        ]);
+        let pieces = book.select(&wanted, &Costs::default());
+        let made = book.render(&pieces, &wanted);
+        let jump = made
+            .windows(2)
+            .map(|pair| (pair[1][0] - pair[0][0]).abs())
+            .fold(0.0, f64::max);
+        assert!(jump < 20.0, "no jump at joins: {jump}");
+        let none = timed(&[(key(5, 7), 0), (key(4, 8), 10)]);
+        let pieces = book.select(&none, &Costs::default());
+        assert_eq!((pieces[0].dikey, &*pieces[0].source), (None, "synthetic"));
+        assert_eq!(book.render(&pieces, &none).len(), 11);
+        let missing = book.missing(&[vec![key(1, 1), key(2, 2), key(5, 3)]]);
+        assert_eq!(
+            missing.into_iter().collect::<Vec<_>>(),
+            [((key(2, 2), key(5, 3)), 1)]
+        );
+        let script = [
+            vec![key(1, 1), key(2, 2)],
+            vec![key(2, 2), key(5, 3), key(1, 1)],
+        ];
+        assert_eq!(book.worth_recording(&script, 5), [(1, 2)]);
+    }
+
+    #[test]
+    fn an_empty_dictionary_and_odd_rows_make_no_trouble() {
+        let book = Dictionary::new(Vec::new(), 50.0, &[1.0], places());
+        assert!(book.select(&[], &Costs::default()).is_empty());
+        assert!(book.render(&[], &[]).is_empty());
+        let wanted = [(key(1, 1), 0.0), (key(2, 2), 0.3)];
+        let pieces = book.select(&wanted, &Costs::default());
+        assert_eq!(book.render(&pieces, &wanted).len(), 16);
+        let odd = Dikey {
+            from: key(1, 1),
+            to: key(2, 2),
+            frames: vec![vec![f64::NAN], vec![1.0]],
+            source: String::new(),
+        };
+        assert_eq!(
+            Dictionary::new(vec![odd], 50.0, &[1.0], places()).kinds(),
+            0
+        );
+    }
+}

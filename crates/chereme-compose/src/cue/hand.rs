@@ -1,0 +1,136 @@
+//! Fingers, hand and arm that show one target after another.
+
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Finger, Interpolation, ModelPose, Part, Side};
+use chereme_sign::cue::CueCode;
+
+use super::Target;
+use super::places::{Head, Spot};
+use crate::arm;
+use crate::error::Cause;
+use crate::poses::{self, HandPose};
+use crate::work::Work;
+
+/// The way of least jerk from rest to rest.
+const COURSE: Interpolation = Interpolation::MinimumJerk;
+
+/// Moves fingers, hand and arm of `side`; returns by how much the wrist misses its way at most, in metres.
+pub(super) fn show(
+    work: &mut Work,
+    side: Side,
+    head: &Head,
+    targets: &[Target],
+    (shapes, code): (&[(u8, HandPose)], &CueCode),
+) -> Result<f64, Cause> {
+    fingers(work, side, targets, shapes)?;
+    let turns: Vec<DQuat> = targets
+        .iter()
+        .map(|target| rotation(work, side, head, &target.spot))
+        .collect::<Option<_>>()
+        .ok_or(Cause::NoFingers(side))?;
+    let hand = work.anatomy.arm(side).ok_or(Cause::NoArm(side))?.hand;
+    let (mut wrists, mut hands) = (Vec::new(), Vec::new());
+    for frame in 0..work.frames {
+        let (n, share) = along(targets, time(work, frame), |times| (times.m1, times.m2));
+        let before = n.saturating_sub(1);
+        let turn = COURSE.rotation(turns[before], turns[n], share);
+        let share = COURSE.share(share);
+        let at = targets[n]
+            .bow
+            .at(&targets[before].spot, &targets[n].spot, share);
+        let model = ModelPose::of(&work.skeleton, &work.pose(frame));
+        let tip = tip(work, &model, side, targets, frame, code).ok_or(Cause::NoFingers(side))?;
+        let reach = model.rotation(hand).inverse() * (tip - model.position(hand));
+        wrists.push(head.point(at) - turn * reach);
+        hands.push(turn);
+    }
+    let outside = head.axes[0];
+    let reach = arm::raise_arm(work, side, &wrists, &hands, outside).ok_or(Cause::NoArm(side))?;
+    Ok(reach.residual)
+}
+
+fn time(work: &Work, frame: usize) -> f64 {
+    frame as f64 * work.rate.frame_time()
+}
+
+/// Returns the target that is shown or on its way at a time, and the share of the time of its way.
+fn along(
+    targets: &[Target],
+    time: f64,
+    of: impl Fn(&super::KeyTimes) -> (f64, f64),
+) -> (usize, f64) {
+    let n = targets
+        .partition_point(|target| of(&target.times).0 <= time)
+        .saturating_sub(1);
+    let (from, to) = of(&targets[n].times);
+    let share = if to > from {
+        ((time - from) / (to - from)).clamp(0.0, 1.0)
+    } else {
+        1.0
+    };
+    (n, share)
+}
+
+fn fingers(
+    work: &mut Work,
+    side: Side,
+    targets: &[Target],
+    shapes: &[(u8, HandPose)],
+) -> Result<(), Cause> {
+    let mut known = Vec::with_capacity(shapes.len());
+    for (number, pose) in shapes {
+        let joints = poses::rotations(&work.skeleton, &work.anatomy, side, pose);
+        known.push((*number, joints.ok_or(Cause::NoFingers(side))?));
+    }
+    let shape = |number: u8| {
+        let found = known.iter().find(|(own, _)| *own == number);
+        found.map(|(_, joints)| joints)
+    };
+    for frame in 0..work.frames {
+        let (n, share) = along(targets, time(work, frame), |times| (times.d1, times.d2));
+        let before = shape(targets[n.saturating_sub(1)].shape);
+        let (Some(before), Some(after)) = (before, shape(targets[n].shape)) else {
+            return Err(Cause::Input);
+        };
+        for ((joint, from), (_, to)) in before.iter().zip(after) {
+            work.channels[*joint].rotations[frame] = COURSE.rotation(*from, *to, share);
+        }
+    }
+    Ok(())
+}
+
+/// Returns how the hand is turned at a place: fingers up and towards the face, the back of the hand to the front.
+fn rotation(work: &Work, side: Side, head: &Head, spot: &Spot) -> Option<DQuat> {
+    let level = DVec3::new(-spot.angle.cos(), spot.angle.sin(), 0.0);
+    let along = level * spot.lean.cos() - DVec3::Z * spot.lean.sin();
+    let (along, palm) = (head.direction(along), head.direction(DVec3::NEG_Z));
+    work.anatomy.hand_rotation(side, along, palm)
+}
+
+/// Returns where the tip is that points at a frame: of the index or the middle finger, on the way between both
+/// while the shape changes, and the knuckle of the index at rest.
+pub(super) fn tip(
+    work: &Work,
+    model: &ModelPose,
+    side: Side,
+    targets: &[Target],
+    frame: usize,
+    code: &CueCode,
+) -> Option<DVec3> {
+    let (n, share) = along(targets, time(work, frame), |times| (times.d1, times.d2));
+    let of = |target: &Target| {
+        let landmark = |finger: &str| {
+            let name = format!("{}-{finger}-tip", side.name());
+            work.anatomy.landmark(&work.skeleton, model, &name)
+        };
+        match code.shape(target.shape) {
+            Some(shape) => landmark(&shape.points_with),
+            None => {
+                let knuckle = work.anatomy.joint(Part::Finger(side, Finger::Index, 1))?;
+                Some(model.position(knuckle))
+            }
+        }
+    };
+    let (before, after) = (of(&targets[n.saturating_sub(1)])?, of(&targets[n])?);
+    Some(before.lerp(after, COURSE.share(share)))
+}

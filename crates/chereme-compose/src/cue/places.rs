@@ -1,0 +1,238 @@
+//! Where the tip of the pointing finger goes, in the space of the head, and where the lips are.
+//!
+//! Lengths are shares of the head's height from chin to top (about 230 mm): towards the cueing hand, up from the
+//! height of the chin, and forward of the middle of the skull. Places and angles of the forearm follow the
+//! means of five cuers that SPPAS measured (synthesis of 3,752 pictures, face of 140 by 125 mm), moved outwards
+//! so that the finger touches the skin and leaves the lips free.
+
+use chereme_motion::glam::DVec3;
+use chereme_motion::{Anatomy, Face, ModelPose, Side, Skeleton};
+
+/// The chin and the throat as landmarks have them, in the space of the head.
+const CHIN: DVec3 = DVec3::new(0.0, 0.04, 0.44);
+/// How far the tip stays off the contour of the lips at least, in metres.
+pub(super) const CLEAR: f64 = 0.006;
+/// What paths are planned for, in metres: more than the least, as faces move.
+const PLANNED: f64 = 0.009;
+
+/// The space of a head, seen from the cueing hand.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Head {
+    origin: DVec3,
+    /// Unit vectors towards the cueing hand, up and forward.
+    pub(super) axes: [DVec3; 3],
+    /// The head's height in metres.
+    pub(super) size: f64,
+    throat: DVec3,
+}
+
+/// A place for the tip, with how the hand comes to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Spot {
+    /// In the space of the head.
+    pub(super) at: DVec3,
+    /// The angle of forearm and fingers above the horizontal, in radians.
+    pub(super) angle: f64,
+    /// How far the fingers lean back towards the face, in radians.
+    pub(super) lean: f64,
+    /// Whether the tip touches the body here.
+    pub(super) touches: bool,
+}
+
+impl Head {
+    /// Returns the head's space in a posture; nothing if the skeleton has no head or no trunk.
+    pub(super) fn of(
+        anatomy: &Anatomy,
+        skeleton: &Skeleton,
+        model: &ModelPose,
+        side: Side,
+    ) -> Option<Self> {
+        let [left, up, forward] = anatomy.head_axes(model)?;
+        let size = anatomy.measures()?.head;
+        let axes = [left * side.sign(), up, forward];
+        let chin = anatomy.landmark(skeleton, model, "chin")?;
+        let mut head = Self {
+            origin: chin,
+            axes,
+            size,
+            throat: DVec3::ZERO,
+        };
+        head.origin = chin - head.direction(CHIN) * size;
+        let throat = anatomy.landmark(skeleton, model, "throat");
+        head.throat = throat.map_or(DVec3::new(0.0, -0.23, 0.25), |at| head.local(at));
+        Some(head)
+    }
+
+    /// Returns a direction of the head in model space.
+    pub(super) fn direction(&self, v: DVec3) -> DVec3 {
+        self.axes[0] * v.x + self.axes[1] * v.y + self.axes[2] * v.z
+    }
+
+    /// Returns a point of the head in model space.
+    pub(super) fn point(&self, at: DVec3) -> DVec3 {
+        self.origin + self.direction(at) * self.size
+    }
+
+    /// Returns a point of model space in the space of the head.
+    pub(super) fn local(&self, at: DVec3) -> DVec3 {
+        let way = (at - self.origin) / self.size;
+        DVec3::new(
+            way.dot(self.axes[0]),
+            way.dot(self.axes[1]),
+            way.dot(self.axes[2]),
+        )
+    }
+
+    /// Returns the place of that name; nothing if it is unknown.
+    pub(super) fn spot(&self, placement: &str) -> Option<Spot> {
+        let spot = |at: [f64; 3], angle: f64, lean: f64, touches| Spot {
+            at: DVec3::from(at),
+            angle: angle.to_radians(),
+            lean: lean.to_radians(),
+            touches,
+        };
+        Some(match placement {
+            "side" => spot([0.43, 0.20, 0.44], 68.0, 6.0, false),
+            "side-forward" => spot([0.43, 0.20, 0.55], 68.0, 6.0, false),
+            "side-down" => spot([0.43, 0.145, 0.44], 68.0, 6.0, false),
+            "mouth" => spot([0.16, 0.195, 0.41], 63.0, 16.0, true),
+            "chin" => spot([0.045, 0.045, 0.465], 61.0, 16.0, true),
+            "cheek" => spot([0.22, 0.325, 0.37], 64.0, 16.0, true),
+            "throat" => Spot {
+                at: self.throat + DVec3::new(0.04, 0.0, 0.05),
+                ..spot([0.0; 3], 54.0, 34.0, true)
+            },
+            "rest" => spot([0.42, -0.55, 0.85], 45.0, 4.0, false),
+            _ => return None,
+        })
+    }
+}
+
+/// Returns how far a point of the head's space is outside of the lips of a face, seen from the front, in metres;
+/// negative inside.
+///
+/// The contour is an ellipse about the mouth that grows as the jaw drops and the corners go apart.
+pub(super) fn clearance(at: DVec3, face: &Face, size: f64) -> f64 {
+    let jaw = face.jaw.clamp(0.0, 1.0);
+    let middle = DVec3::new(0.0, 0.21 - 0.035 * jaw, 0.0);
+    let (wide, high) = (
+        0.11 * (1.0 + 0.12 * face.wide.clamp(-1.0, 1.0)),
+        0.05 + 0.035 * jaw,
+    );
+    let (x, y) = (at.x - middle.x, at.y - middle.y);
+    let mut nearest = f64::INFINITY;
+    const STEPS: u32 = 96;
+    for n in 0..STEPS {
+        let angle = std::f64::consts::TAU * f64::from(n) / f64::from(STEPS);
+        let (dx, dy) = (wide * angle.cos() - x, high * angle.sin() - y);
+        nearest = nearest.min(dx.hypot(dy));
+    }
+    let inside = (x / wide).powi(2) + (y / high).powi(2) < 1.0;
+    nearest * size * if inside { -1.0 } else { 1.0 }
+}
+
+/// By how much a path between two places bends, at its middle.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(super) struct Bow {
+    /// In the space of the head.
+    by: DVec3,
+}
+
+impl Bow {
+    /// Returns the bow of the way between two places: forward, away from the face, and outwards as far as the
+    /// lips ask for.
+    pub(super) fn between(from: &Spot, to: &Spot, size: f64) -> Self {
+        let far = from.at.distance(to.at);
+        let forward = if from.touches || to.touches {
+            0.03 + 0.15 * far
+        } else {
+            0.0
+        };
+        // The mouth as wide and as open as it goes in speech.
+        let open = Face {
+            jaw: 0.75,
+            wide: 0.8,
+            ..Face::default()
+        };
+        let mut bow = Self {
+            by: DVec3::new(0.0, 0.0, forward),
+        };
+        let clear = |bow: &Self| {
+            let ends = clearance(from.at, &open, size).min(clearance(to.at, &open, size));
+            let wanted = PLANNED.min(ends);
+            (1..24).all(|n| {
+                let at = bow.at(from, to, f64::from(n) / 24.0);
+                clearance(at, &open, size) >= wanted - 1e-9
+            })
+        };
+        while !clear(&bow) && bow.by.x < 0.6 {
+            bow.by.x += 0.01;
+        }
+        bow
+    }
+
+    /// Returns the bow of a small movement away and back, with which a key is shown a second time.
+    pub(super) fn renewed() -> Self {
+        Self {
+            by: DVec3::new(0.02, 0.0, 0.07),
+        }
+    }
+
+    /// Returns where the tip is after a share of the way.
+    pub(super) fn at(&self, from: &Spot, to: &Spot, share: f64) -> DVec3 {
+        let bend = (std::f64::consts::PI * share).sin();
+        from.at.lerp(to.at, share) + self.by * (bend * bend)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn head() -> Head {
+        Head {
+            origin: DVec3::ZERO,
+            axes: [DVec3::X, DVec3::Y, DVec3::Z],
+            size: 0.23,
+            throat: DVec3::new(0.0, -0.23, 0.25),
+        }
+    }
+
+    const PLACES: [&str; 8] = [
+        "side",
+        "side-forward",
+        "side-down",
+        "mouth",
+        "chin",
+        "cheek",
+        "throat",
+        "rest",
+    ];
+
+    #[test]
+    fn no_path_between_places_comes_near_the_lips() {
+        let open = Face {
+            jaw: 0.75,
+            wide: 0.8,
+            ..Face::default()
+        };
+        let head = head();
+        for (from, to) in PLACES.iter().flat_map(|a| PLACES.map(|b| (*a, b))) {
+            let (a, b) = (head.spot(from).expect(from), head.spot(to).expect(to));
+            let bow = Bow::between(&a, &b, head.size);
+            for n in 0..=100 {
+                let at = bow.at(&a, &b, f64::from(n) / 100.0);
+                let clear = clearance(at, &open, head.size);
+                assert!(clear > CLEAR, "{from} to {to} at {n}: {clear}");
+            }
+        }
+    }
+
+    #[test]
+    fn clearance_is_the_distance_to_the_contour() {
+        let face = Face::default();
+        let outside = clearance(DVec3::new(0.21, 0.21, 0.0), &face, 0.2);
+        assert!((outside - 0.02).abs() < 1e-9, "{outside}");
+        assert!(clearance(DVec3::new(0.0, 0.21, 0.0), &face, 0.2) < 0.0);
+    }
+}

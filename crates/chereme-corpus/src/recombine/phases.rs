@@ -1,0 +1,106 @@
+//! The phase of each key of cued speech: milliseconds from the start of its sound to the hand at its target.
+
+use chereme_compose::{CuePhases, CueTier};
+use chereme_sign::cue;
+use rusqlite::Connection;
+
+use crate::db::attributes::{self, AttributeRow};
+use crate::db::tiers::{self, AnnotationRow};
+use crate::db::{recordings, signs};
+use crate::error::Result;
+
+/// The attribute of a key's token.
+pub(crate) const PHASE: &str = "cue-phase";
+/// The fewest keys of a type on which its phase is measured.
+const FEWEST: usize = 8;
+
+/// Gives the tokens of keys of a recording their phase, as its tiers of keys and of the hand's movement have it.
+pub(crate) fn store(connection: &Connection, recording: i64) -> Result<()> {
+    let mut tokens = signs::tokens_of_recording(connection, recording)?;
+    tokens.retain(|token| cue::of_gloss(&token.gloss).is_some());
+    if tokens.is_empty() {
+        return Ok(());
+    }
+    let ways = named(connection, recording, CueTier::Hand.name())?;
+    let mut ways = ways.iter().peekable();
+    for token in tokens {
+        let key = token.gloss.trim_start_matches("cue:").to_owned();
+        let to_key = |way: &AnnotationRow| way.value.rsplit('>').next() == Some(&*key);
+        let Some(way) = ways.find(|way| to_key(way)) else {
+            break;
+        };
+        let Some(start) = token.start_us else {
+            continue;
+        };
+        let phase = (way.end_us - start) as f64 / 1000.0;
+        let row = AttributeRow {
+            name: PHASE.to_owned(),
+            text: format!("{phase:.1}"),
+            number: Some(phase),
+        };
+        attributes::set(connection, token.id, &[row])?;
+    }
+    Ok(())
+}
+
+/// Returns the annotations of a tier of that name, by time.
+fn named(connection: &Connection, recording: i64, name: &str) -> Result<Vec<AnnotationRow>> {
+    let mut found = Vec::new();
+    for tier in tiers::tiers(connection, recording)? {
+        if tier.name == name {
+            found.extend(tiers::annotations(connection, tier.id)?);
+        }
+    }
+    found.sort_by_key(|row| row.start_us);
+    Ok(found)
+}
+
+/// Returns the medians of the phases of captured keys by type; nothing if a type has fewer than eight.
+///
+/// The sounds of a key are the phones that begin within it.
+pub(crate) fn measured(connection: &Connection) -> Result<Option<CuePhases>> {
+    let mut found: [Vec<f64>; 3] = Default::default();
+    for row in recordings::recordings(connection)? {
+        if row.origin == "made" {
+            continue;
+        }
+        let keys = named(connection, row.id, CueTier::Keys.name())?;
+        let phones = named(connection, row.id, CueTier::Phones.name())?;
+        let ways = named(connection, row.id, CueTier::Hand.name())?;
+        let mut ways = ways.iter();
+        for key in &keys {
+            let own = key.value.trim_start_matches("cue:");
+            let Some(way) = ways.find(|way| way.value.rsplit('>').next() == Some(own)) else {
+                break;
+            };
+            let first = phones.partition_point(|phone| phone.start_us < key.start_us);
+            let sounds: Vec<&AnnotationRow> = phones[first..]
+                .iter()
+                .take_while(|phone| phone.start_us < key.end_us)
+                .collect();
+            let phase = (way.end_us - key.start_us) as f64 / 1e6;
+            match (sounds.len(), cue::of_gloss(&key.value)) {
+                (2.., _) => {
+                    let consonant = (sounds[1].start_us - key.start_us) as f64 / 1e6;
+                    found[0].push(phase / consonant.max(1e-3));
+                }
+                (_, Some((_, 5))) => found[1].push(phase),
+                _ => found[2].push(phase),
+            }
+        }
+    }
+    if found.iter().any(|of| of.len() < FEWEST) {
+        return Ok(None);
+    }
+    let counts = [found[0].len(), found[1].len(), found[2].len()];
+    let [pair, vowel, consonant] = found.map(|mut of| {
+        of.sort_by(f64::total_cmp);
+        of[of.len() / 2]
+    });
+    Ok(Some(CuePhases {
+        pair,
+        vowel,
+        consonant,
+        counts,
+    }))
+}

@@ -1,0 +1,169 @@
+//! Cued speech through the one door: keys of alignments, a cuer stored, found and taken back.
+
+use std::fs;
+use std::path::PathBuf;
+
+use chereme_corpus::{
+    Corpus, CueOptions, KeysOptions, SearchOptions, cue_keys_of_file, cue_phones_of_file,
+};
+use chereme_sign::cue::Alphabet;
+
+fn glosses(corpus: &mut Corpus, query: &str) -> Vec<String> {
+    let answer = corpus.search(query, &SearchOptions::default());
+    let hits = answer.expect(query).hits;
+    hits.into_iter().map(|hit| hit.gloss).collect()
+}
+
+/// A TextGrid with one tier, in Praat's short form.
+fn grid(name: &str, phones: &[(&str, f64, f64)]) -> String {
+    let end = phones.last().map_or(0.0, |phone| phone.2);
+    let mut text = format!(
+        "File type = \"ooTextFile\"\nObject class = \"TextGrid\"\n\n0\n{end}\n<exists>\n1\n\"IntervalTier\"\n\"{name}\"\n0\n{end}\n{}\n",
+        phones.len()
+    );
+    for (label, from, to) in phones {
+        text += &format!("{from}\n{to}\n\"{label}\"\n");
+    }
+    text
+}
+
+fn file(folder: &tempfile::TempDir, name: &str, text: &str) -> PathBuf {
+    let path = folder.path().join(name);
+    fs::write(&path, text).expect("written");
+    path
+}
+
+#[test]
+fn a_cued_sentence_is_found_by_its_keys_and_works_with_operators() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let options = CueOptions::default();
+    let done = corpus.cue("le chat dort bien", &options, Some("CHAT_DORT"));
+    let done = done.expect("the program has a body");
+    assert!(
+        done.report.warnings.is_empty(),
+        "{:?}",
+        done.report.warnings
+    );
+    assert!(!done.faces.is_empty(), "the mouth speaks");
+    let keys: Vec<String> = done
+        .notes
+        .iter()
+        .filter(|note| note.feature.as_deref() == Some("Keys"))
+        .filter_map(|note| note.value.clone())
+        .collect();
+    let expected = [
+        "cue:side-6",
+        "cue:side-6",
+        "cue:chin-1",
+        "cue:side-3",
+        "cue:side-4",
+        "cue:cheek-8",
+    ];
+    assert_eq!(keys, expected);
+    assert_eq!(
+        glosses(&mut corpus, "cue.shape=1 cue.placement=chin"),
+        ["cue:chin-1"]
+    );
+    assert_eq!(glosses(&mut corpus, "cue=16 meets cue=31"), ["cue:side-6"]);
+    assert!(glosses(&mut corpus, "cue=31 meets cue=16").is_empty());
+    assert_eq!(
+        glosses(&mut corpus, "cue=* configuration=V"),
+        ["cue:cheek-8"]
+    );
+    let late = glosses(&mut corpus, "cue.phase>10");
+    assert!(
+        late.contains(&"cue:side-6".to_owned()) && !late.contains(&"cue:side-3".to_owned()),
+        "{late:?}"
+    );
+    let moved = corpus.preview("cue \"le chat\" | place right by up 3cm");
+    assert!(moved.is_ok(), "{:?}", moved.err());
+    let again = corpus
+        .preview(&done.recipe)
+        .expect("the recipe is a recipe");
+    assert_eq!(
+        again.clip, done.clip,
+        "the same recipe gives the same movement"
+    );
+    corpus.undo().expect("undone");
+    assert!(glosses(&mut corpus, "cue=*").is_empty());
+}
+
+#[test]
+fn phones_of_an_alignment_are_the_clock_in_every_alphabet() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let times = [(0.3, 0.36), (0.36, 0.53), (0.53, 0.65), (0.65, 0.8)];
+    let of = |labels: [&'static str; 4]| -> Vec<(&str, f64, f64)> {
+        labels
+            .iter()
+            .zip(times)
+            .map(|(label, (from, to))| (*label, from, to))
+            .collect()
+    };
+    let mut all = Vec::new();
+    for (name, tier, labels) in [
+        ("sampa.TextGrid", "PhonAlign", ["b", "O~", "Z", "u"]),
+        ("ipa.TextGrid", "speaker - phones", ["b", "ɔ̃", "ʒ", "u"]),
+        ("mfa.TextGrid", "phones", ["b", "ɔ̃", "ʒ", "u"]),
+    ] {
+        let path = file(&folder, name, &grid(tier, &of(labels)));
+        let found = cue_keys_of_file(&path, None, &KeysOptions::default()).expect(name);
+        assert_eq!(found.tier.as_deref(), Some(tier));
+        let keys = found.keys.iter().map(|key| {
+            (
+                key.shape,
+                key.placement.clone(),
+                key.start_us,
+                key.vowel_us,
+                key.end_us,
+            )
+        });
+        all.push(keys.collect::<Vec<_>>());
+    }
+    assert_eq!(all[0], all[1]);
+    assert_eq!(all[1], all[2]);
+    assert_eq!(
+        all[0][0],
+        (
+            4,
+            "mouth".to_owned(),
+            Some(300_000),
+            Some(360_000),
+            Some(530_000)
+        )
+    );
+    let path = folder.path().join("sampa.TextGrid");
+    let phones = cue_phones_of_file(&path, None, &KeysOptions::default()).expect("phones");
+    assert_eq!(phones, "#=300 b=60 O~=170 Z=120 u=150");
+    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let mut options = CueOptions::default();
+    options.reading.phones = Some(Alphabet::Sampa);
+    let done = corpus.cue(&phones, &options, None).expect("cued");
+    assert!(done.duration_us > 800_000);
+}
+
+#[test]
+fn alignments_that_are_none_are_refused_or_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let read = |text: &str, tier: Option<&str>| {
+        let path = file(&folder, "x.TextGrid", text);
+        cue_keys_of_file(&path, tier, &KeysOptions::default())
+    };
+    assert!(read("", None).is_err());
+    assert!(read("not a grid", None).is_err());
+    let phones = grid("words", &[("le", 0.0, 1.0)]);
+    let error = read(&phones, None).expect_err("no phones").to_string();
+    assert!(error.contains("words"), "{error}");
+    let odd = grid(
+        "phones",
+        &[("b", 0.0, 1.0), ("??", 1.0, 2.0), ("", 2.0, 3.0)],
+    );
+    let found = read(&odd, Some("phones")).expect("read");
+    assert_eq!(found.keys.len(), 1);
+    assert!(
+        found.findings.iter().any(|finding| finding.contains("??")),
+        "{:?}",
+        found.findings
+    );
+    assert!(cue_keys_of_file(&folder.path().join("none"), None, &KeysOptions::default()).is_err());
+}

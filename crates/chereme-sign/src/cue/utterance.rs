@@ -1,0 +1,305 @@
+//! An utterance that is to be cued: text or phones, with times and keys.
+
+use chereme_motion::{Instant, Span};
+
+use super::{Alphabet, CueCode, CueFinding, Key, Phone, code, codes, french};
+
+/// How to read an utterance, and which code cues it.
+#[derive(Debug, Clone)]
+pub struct Reading {
+    /// The code's name or language, such as `french` or `en-US`.
+    pub code: String,
+    /// The alphabet of the phones; nothing if the input is text.
+    pub phones: Option<Alphabet>,
+    /// Habits of some cuers, by the names that the code gives them.
+    pub variants: Vec<String>,
+    /// How text is said where spelling leaves it open.
+    pub french: french::Options,
+    /// How many times longer than usual phones last; nothing leaves keys without times.
+    pub pace: Option<f64>,
+}
+
+impl Default for Reading {
+    fn default() -> Self {
+        Self {
+            code: "french".to_owned(),
+            phones: None,
+            variants: Vec::new(),
+            french: french::Options::default(),
+            pace: None,
+        }
+    }
+}
+
+/// An utterance as it was understood.
+#[derive(Debug, Clone)]
+pub struct Utterance {
+    /// The code, with its variants.
+    pub code: CueCode,
+    /// The words with their phones in SAMPA, a pause as a word without text; empty if the input was phones.
+    pub words: Vec<(String, Vec<String>)>,
+    /// The phones, with times if the input has them or a pace is given.
+    pub phones: Vec<Phone>,
+    /// The alphabet of the phones.
+    pub alphabet: Alphabet,
+    /// The keys in order.
+    pub keys: Vec<Key>,
+    /// What could not be read.
+    pub findings: Vec<CueFinding>,
+}
+
+/// Why nothing can be cued.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum UtteranceError {
+    /// No code has this name.
+    #[error("there is no code {0:?}")]
+    NoCode(String),
+    /// The code has no such variant.
+    #[error(transparent)]
+    Variant(#[from] super::UnknownVariant),
+    /// The input is longer than an hour of speech by far.
+    #[error("the text has {0} bytes")]
+    Long(usize),
+    /// Text is given for a code that has no rules of spelling.
+    #[error("the code {0:?} has no rules of spelling")]
+    NoSpelling(String),
+    /// The pace is no number from 0.1 to 10.
+    #[error("the pace is {0}")]
+    Pace(f64),
+    /// The code has no usual durations.
+    #[error("the code {0:?} has no table of durations")]
+    NoDurations(String),
+    /// A duration after a phone is no number of milliseconds.
+    #[error("{label:?}: {text:?} is no duration in milliseconds")]
+    Duration {
+        /// The phone.
+        label: String,
+        /// What stands after the sign.
+        text: String,
+    },
+}
+
+impl UtteranceError {
+    /// Returns what would work.
+    #[must_use]
+    pub fn remedy(&self) -> String {
+        match self {
+            Self::NoCode(_) => {
+                let ids: Vec<&str> = codes().iter().map(|code| code.id.as_str()).collect();
+                format!("the codes are {}", ids.join(" and "))
+            }
+            Self::Variant(variant) => format!("the variants are {}", variant.known),
+            Self::Long(_) => "give at most 1 MiB at once".to_owned(),
+            Self::NoSpelling(_) => "give phones: --phones sampa, ipa or mfa".to_owned(),
+            Self::Pace(_) => "a pace from 0.1 to 10; 1.6 is usual for people who cue".to_owned(),
+            Self::NoDurations(_) => {
+                "give each phone its milliseconds, such as h=80 aU=240, or leave the pace out"
+                    .to_owned()
+            }
+            Self::Duration { .. } => "write for example a=120: from 1 to 60000".to_owned(),
+        }
+    }
+}
+
+/// Longer input is refused: an hour of speech has some 60,000 phones.
+const MOST_BYTES: usize = 1 << 20;
+/// The longest phone that is believed, in milliseconds.
+const LONGEST_MS: f64 = 60_000.0;
+/// How long a sound lasts that the table does not have, in milliseconds.
+const USUAL_MS: f64 = 100.0;
+
+impl Utterance {
+    /// Reads text, or phones separated by blanks; `a=120` is a phone of 120 ms.
+    ///
+    /// # Errors
+    /// [`UtteranceError`] if the code, a variant, the pace or a duration is wrong, the input is larger than
+    /// a MiB, or text is given for a code without rules of spelling.
+    pub fn read(input: &str, reading: &Reading) -> Result<Self, UtteranceError> {
+        let known =
+            code(&reading.code).ok_or_else(|| UtteranceError::NoCode(reading.code.clone()))?;
+        let variants: Vec<&str> = reading.variants.iter().map(String::as_str).collect();
+        let code = known.with_variants(&variants)?;
+        if input.len() > MOST_BYTES {
+            return Err(UtteranceError::Long(input.len()));
+        }
+        let (mut words, mut findings, mut doubtful) = (Vec::new(), Vec::new(), Vec::new());
+        let mut given: Vec<(String, Option<f64>)> = Vec::new();
+        let alphabet = match reading.phones {
+            Some(alphabet) => {
+                for word in input.split_whitespace() {
+                    given.push(with_duration(word)?);
+                }
+                alphabet
+            }
+            None if code.language == "fr" => {
+                let spoken = french::phones(input, reading.french);
+                findings.extend(spoken.findings);
+                for word in spoken.words {
+                    doubtful.extend(word.doubtful.iter().map(|at| at + given.len()));
+                    given.extend(word.phones.iter().map(|phone| (phone.clone(), None)));
+                    words.push((word.text, word.phones));
+                }
+                Alphabet::Sampa
+            }
+            None => return Err(UtteranceError::NoSpelling(code.id)),
+        };
+        let phones = timed(given, &code, alphabet, reading.pace)?;
+        let mut read = Self::of_phones(code, phones, alphabet);
+        findings.append(&mut read.findings);
+        read.findings = findings;
+        read.words = words;
+        for key in &mut read.keys {
+            mark_doubt(key, &doubtful, &read.code);
+        }
+        Ok(read)
+    }
+
+    /// Returns the utterance of phones that have their own times, such as those of an alignment.
+    #[must_use]
+    pub fn of_phones(code: CueCode, phones: Vec<Phone>, alphabet: Alphabet) -> Self {
+        let (keys, findings) = code.keys(&phones, alphabet);
+        Self {
+            words: Vec::new(),
+            code,
+            phones,
+            alphabet,
+            keys,
+            findings,
+        }
+    }
+
+    /// Returns the phones in SAMPA with their durations in milliseconds, as [`read`](Self::read) takes them;
+    /// gaps are pauses, and a phone that the code does not know is one, too.
+    #[must_use]
+    pub fn written(&self) -> String {
+        let mut out: Vec<String> = Vec::new();
+        let mut at: Option<Instant> = None;
+        for phone in &self.phones {
+            let symbols = self.code.symbols(&phone.label, self.alphabet);
+            let symbols = symbols.unwrap_or_else(|| vec!["#".to_owned()]);
+            let Some(span) = phone.span else {
+                out.extend(symbols);
+                continue;
+            };
+            let gap = at.map_or(0, |at| span.start().micros() - at.micros());
+            let mut length = span.micros();
+            if gap > 10_000 {
+                out.push(format!("#={}", ms(gap)));
+            } else {
+                length += gap;
+            }
+            let each = length / symbols.len().max(1) as i64;
+            out.extend(
+                symbols
+                    .iter()
+                    .map(|symbol| format!("{symbol}={}", ms(each))),
+            );
+            at = Some(span.end());
+        }
+        out.join(" ")
+    }
+}
+
+/// Returns microseconds as milliseconds, at least one of them.
+fn ms(micros: i64) -> String {
+    let text = format!("{:.3}", (micros as f64 / 1000.0).max(1.0));
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn with_duration(word: &str) -> Result<(String, Option<f64>), UtteranceError> {
+    let Some((label, text)) = word.rsplit_once('=').filter(|(_, text)| !text.is_empty()) else {
+        return Ok((word.to_owned(), None));
+    };
+    let number = text.parse::<f64>().ok();
+    match number.filter(|number| (1.0..=LONGEST_MS).contains(number)) {
+        Some(number) => Ok((label.to_owned(), Some(number))),
+        None => Err(UtteranceError::Duration {
+            label: label.to_owned(),
+            text: text.to_owned(),
+        }),
+    }
+}
+
+/// Gives phones times one after another: their own durations, else the usual ones of the code, `pace` times as long.
+fn timed(
+    given: Vec<(String, Option<f64>)>,
+    code: &CueCode,
+    alphabet: Alphabet,
+    pace: Option<f64>,
+) -> Result<Vec<Phone>, UtteranceError> {
+    if let Some(pace) = pace
+        && !(0.1..=10.0).contains(&pace)
+    {
+        return Err(UtteranceError::Pace(pace));
+    }
+    let own = !given.is_empty() && given.iter().all(|(_, ms)| ms.is_some());
+    if !own && pace.is_none() && given.iter().all(|(_, ms)| ms.is_none()) {
+        return Ok(given
+            .into_iter()
+            .map(|(label, _)| Phone::new(label))
+            .collect());
+    }
+    if !own && code.durations_ms.is_empty() {
+        return Err(UtteranceError::NoDurations(code.id.clone()));
+    }
+    let usual = |label: &str| {
+        let sounds = code.symbols(label, alphabet).unwrap_or_default();
+        let one = |sound: &String| code.durations_ms.get(sound).copied().unwrap_or(USUAL_MS);
+        sounds.iter().map(one).sum::<f64>() * pace.unwrap_or(1.0)
+    };
+    let mut at = 0.0;
+    let phones = given.into_iter().map(|(label, ms)| {
+        let start = at;
+        at += ms.unwrap_or_else(|| usual(&label));
+        let instant = |ms: f64| Instant::from_seconds(ms / 1000.0);
+        Phone {
+            label,
+            span: Some(Span::between(instant(start), instant(at))),
+        }
+    });
+    Ok(phones.collect())
+}
+
+/// Names the other placement of a key whose vowel is uncertain.
+fn mark_doubt(key: &mut Key, doubtful: &[usize], code: &CueCode) {
+    let (Some(at), Some(vowel)) = (key.from.last(), key.phones.last()) else {
+        return;
+    };
+    if doubtful.binary_search(at).is_err() {
+        return;
+    }
+    let other = code.doubtful.iter().find_map(|[one, other]| {
+        (one == vowel)
+            .then_some(other)
+            .or_else(|| (other == vowel).then_some(one))
+    });
+    let path = other.and_then(|other| code.path_of(other));
+    key.or_at = path
+        .and_then(|path| path.into_iter().next())
+        .filter(|place| *place != key.placement);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn phones_with_durations_come_back_as_they_were_written() {
+        let reading = Reading {
+            phones: Some(Alphabet::Sampa),
+            ..Reading::default()
+        };
+        let text = "l=87 @=131 #=250 S=135.5 a=177";
+        let read = Utterance::read(text, &reading).expect("read");
+        assert_eq!(read.written(), text);
+        let times: Vec<i64> = read.keys[1].span.map_or(Vec::new(), |span| {
+            vec![span.start().micros(), span.end().micros()]
+        });
+        assert_eq!(times, [468_000, 780_500]);
+        for wrong in ["a=x", "a=0", "a=-3", "a=NaN", "a=1e9"] {
+            assert!(Utterance::read(wrong, &reading).is_err(), "{wrong}");
+        }
+        let mixed = Utterance::read("l=90 a", &reading).expect("the table has the others");
+        assert!(mixed.phones[1].span.is_some());
+    }
+}

@@ -1,0 +1,110 @@
+//! Comparisons of keys of cued speech: `cue=24`, `cue.shape=5`, `cue.placement=throat`, `cue.phase>100`.
+//!
+//! A key is a token whose gloss names placement and shape, so that these are shorter words for a comparison of
+//! its gloss, and of the number of milliseconds by which the hand is late.
+
+use super::compare::comparison_of_key;
+use super::lex::Cursor;
+use super::tree::{At, Value, Wanted, What};
+use super::{Pattern, QueryError, TextField, attributes};
+use crate::cue;
+
+/// The attribute of a key that holds its phase: milliseconds from the sound's start to the hand at its target.
+const PHASE: &str = "cue-phase";
+
+/// Returns whether a word names something of a key.
+pub(super) fn is_field(name: &str) -> bool {
+    let lower = name.to_lowercase();
+    matches!(&*lower, "cue" | "clé" | "cle") || lower.starts_with("cue.")
+}
+
+/// Reads the comparison after the field `name`, which stands at `at`.
+pub(super) fn test(cursor: &mut Cursor<'_>, name: &str, at: At) -> Result<What, QueryError> {
+    let part = name.split_once('.').map_or("", |(_, part)| part);
+    let part = part.to_lowercase();
+    let glob: fn(&str) -> Option<String> = match &*part {
+        "" => key,
+        "shape" | "handshape" | "configuration" | "forme" => |text| Some(format!("cue:*-{text}")),
+        "placement" | "place" | "location" | "lieu" => {
+            |text| Some(format!("cue:{}-*", place(text)))
+        }
+        "phase" => return attributes::test(cursor, PHASE.to_owned()),
+        _ => {
+            let message = format!("a key has no part {part:?}");
+            return Err(QueryError::new(
+                at,
+                message,
+                "write cue=24, cue.shape=5, cue.placement=throat or cue.phase>100",
+            ));
+        }
+    };
+    let mut comparison = comparison_of_key(cursor)?;
+    for value in &mut comparison.values {
+        value.wanted = Wanted::Named(wanted(value, glob)?);
+    }
+    Ok(What::Whole(TextField::Gloss, comparison))
+}
+
+fn wanted(value: &Value, glob: fn(&str) -> Option<String>) -> Result<Pattern, QueryError> {
+    let found = match &value.wanted {
+        Wanted::Present => Some("cue:*".to_owned()),
+        Wanted::Named(pattern) => pattern.as_literal().and_then(glob),
+        _ => None,
+    };
+    found.map(|text| Pattern::from_glob(&text)).ok_or_else(|| {
+        let remedy = "a key is written as placement and shape: mouth-4, or 24 with the numbers of the paper (1 side, 2 mouth, 3 chin, 4 cheek, 5 throat)";
+        QueryError::new(value.at, "this is no key", remedy)
+    })
+}
+
+/// Returns the gloss of a key written as `24` or `mouth-4`.
+fn key(text: &str) -> Option<String> {
+    let digits: Vec<usize> = text
+        .chars()
+        .map(|c| c.to_digit(10).map(|digit| digit as usize))
+        .collect::<Option<_>>()
+        .unwrap_or_default();
+    if let [placement, shape] = digits[..] {
+        let name = cue::placement_of_number(placement)?;
+        return (shape <= 8).then(|| format!("cue:{name}-{shape}"));
+    }
+    let whole = format!("cue:{}", text.strip_prefix("cue:").unwrap_or(text));
+    cue::of_gloss(&whole).is_some().then_some(whole)
+}
+
+/// Returns the name of a placement that may be written as its number.
+fn place(text: &str) -> &str {
+    let number = text.parse().ok().and_then(cue::placement_of_number);
+    number.unwrap_or(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Query;
+
+    #[test]
+    fn keys_are_found_by_number_name_shape_and_placement() {
+        for (text, canonical) in [
+            ("cue=24", "gloss=cue:mouth-4"),
+            ("cue=mouth-4,31", "gloss=cue:mouth-4,cue:chin-1"),
+            (
+                "cue.shape=5 cue.placement=throat",
+                "gloss=cue:*-5 gloss=cue:throat-*",
+            ),
+            ("cue.placement=5", "gloss=cue:throat-*"),
+            (
+                "cue=24 meets cue=31",
+                "gloss=cue:mouth-4 meets gloss=cue:chin-1",
+            ),
+            ("cue=*", "gloss=cue:*"),
+            ("cue.phase>100", "attribute.cue-phase>100"),
+        ] {
+            let query: Query = text.parse().expect(text);
+            assert_eq!(query.to_string(), canonical, "{text}");
+            assert_eq!(canonical.parse::<Query>(), Ok(query), "{canonical}");
+        }
+        for wrong in ["cue=4", "cue=79", "cue=19", "cue.colour=red", "cue=unset"] {
+            assert!(wrong.parse::<Query>().is_err(), "{wrong}");
+        }
+    }
+}
