@@ -224,7 +224,8 @@ fn aligned(
             .at(path.display().to_string())
             .advise("give a TextGrid or an EAF file with a tier of phones")
     };
-    let is_eaf = bytes.iter().take(512).any(|byte| *byte == b'<');
+    let text = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(&bytes);
+    let is_eaf = text.trim_ascii_start().starts_with(b"<");
     let (transcript, odd) = if is_eaf {
         eaf::read(&bytes).map_err(|error| wrong(error.to_string()))?
     } else {

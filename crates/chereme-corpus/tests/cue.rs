@@ -68,8 +68,8 @@ fn a_cued_sentence_is_found_by_its_keys_and_works_with_operators() {
     assert_eq!(glosses(&mut corpus, "cue=16 meets cue=31"), ["cue:side-6"]);
     assert!(glosses(&mut corpus, "cue=31 meets cue=16").is_empty());
     assert_eq!(
-        glosses(&mut corpus, "cue=* configuration=V"),
-        ["cue:cheek-8"]
+        glosses(&mut corpus, "configuration=V placement=cheek"),
+        ["CHAT_DORT"]
     );
     let late = glosses(&mut corpus, "cue.phase>10");
     assert!(

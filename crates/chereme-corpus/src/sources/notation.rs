@@ -106,7 +106,7 @@ fn material(made: Made, address: String, hash: String, gloss: String) -> Materia
             value: note.value,
             span: note.span,
         }),
-        About::Gloss | About::Transition => None,
+        About::Gloss | About::Transition | About::Cue(_) => None,
     });
     Material {
         address,
