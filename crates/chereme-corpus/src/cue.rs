@@ -27,7 +27,7 @@ pub struct CueKeys {
     pub words: Vec<SpokenWord>,
     /// The keys in order.
     pub keys: Vec<CueKey>,
-    /// What could not be read.
+    /// The parts that could not be read.
     pub findings: Vec<String>,
     /// The tier of the file that the phones come from.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -296,7 +296,7 @@ fn phone_tier<'a>(
     })
 }
 
-/// Puts a pause where nothing is said between two phones.
+/// Puts a pause into every silence between two phones.
 fn with_gaps(phones: Vec<Phone>) -> Vec<Phone> {
     let mut spaced: Vec<Phone> = Vec::with_capacity(phones.len());
     let mut at = Instant::ZERO;

@@ -2,7 +2,8 @@
 //!
 //! `cargo run --release -p chereme-tests --example cued -- table` prints the table;
 //! `… -- session OUT [SENTENCES] [SEED]` writes a session: TRC, TextGrid and the truth as CSV, with a README that says
-//! that nothing of it was captured.
+//! that nothing of it was captured. `… -- fable` prints the keys of a fable of La Fontaine, line by line; the same text
+//! is cued with `chereme cue CORPUS "$(cat tests/examples/cued/fable.txt)"`.
 
 mod session;
 mod table;
@@ -35,8 +36,26 @@ fn main() -> ExitCode {
                 }
             }
         }
+        Some("fable") => {
+            for line in include_str!("fable.txt").lines() {
+                match chereme_corpus::cue_keys(line, &chereme_corpus::KeysOptions::default()) {
+                    Ok(read) => {
+                        let keys = read.keys.iter();
+                        let keys: Vec<String> = keys
+                            .map(|key| format!("{}-{}", key.placement, key.shape))
+                            .collect();
+                        println!("{line}\n    {}", keys.join(" "));
+                        read.findings
+                            .iter()
+                            .for_each(|finding| println!("    {finding}"));
+                    }
+                    Err(error) => eprintln!("{line}: {error}"),
+                }
+            }
+            ExitCode::SUCCESS
+        }
         _ => {
-            eprintln!("write `table`, or `session OUT [SENTENCES] [SEED]`");
+            eprintln!("write `table`, `fable`, or `session OUT [SENTENCES] [SEED]`");
             ExitCode::from(2)
         }
     }

@@ -1,4 +1,4 @@
-//! What the models recover of generated truth, as one table.
+//! The truth that models recover from generated sessions, as one table.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -469,7 +469,7 @@ fn end(key: &TrueKey) -> DikeyEnd {
     }
 }
 
-/// The seven distances and the tip in the head's space: what the recognisers look at, as parameters.
+/// The seven distances and both tips in the head's space, as the parameters of a frame.
 fn parameters(take: &Take) -> Vec<Vec<f64>> {
     let frames = take.true_hand.iter().zip(&take.head);
     frames

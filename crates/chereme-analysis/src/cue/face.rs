@@ -22,14 +22,14 @@ const ROUNDS: usize = 5;
 pub struct FaceModel {
     rigid: Vec<DVec3>,
     mean: Vec<DVec3>,
-    /// What one unit of each component does to all 189 coordinates.
+    /// The change of all 189 coordinates by one unit of each component.
     pub directions: Vec<Vec<f64>>,
     /// How much of the head's motion each marker follows: 1 but for the throat.
     pub weights: Vec<f64>,
 }
 
-/// Returns the coordinates that lead each component: jaw, rounding, upper lip, lower lip, corners, throat, and what
-/// is left of the cheeks.
+/// Returns the coordinates that lead each component: jaw, rounding, upper lip, lower lip, corners, throat, and the
+/// rest of the cheeks.
 #[must_use]
 pub fn subsets() -> Vec<Vec<usize>> {
     let of = |markers: std::ops::Range<usize>, axes: &[usize]| -> Vec<usize> {
@@ -94,7 +94,7 @@ impl FaceModel {
                 mean_shift += motion.translation;
                 motions.push(motion);
             }
-            // The rigid set is put where it is on average, so that motions are about the session's mean.
+            // The rigid set takes its mean place, so that motions are about the session's mean.
             let count = whole.len() as f64;
             let usual = Rigid {
                 rotation: DQuat::from_scaled_axis(mean_turn / count),

@@ -56,7 +56,7 @@ impl Random {
     }
 }
 
-/// What a session is like.
+/// The settings of a session.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// The seed; the same gives the same session.
@@ -173,7 +173,7 @@ const CONSONANTS: [(&str, u8, f64, f64); 16] = [
     ("N", 8, 0.8, 110.0),
 ];
 
-/// Returns a sentence of so many syllables; `number` tells one sentence of a session from another.
+/// Returns a sentence of so many syllables; `number` counts the sentences of a session.
 #[must_use]
 pub fn sentence(settings: &Settings, number: u64, syllables: usize) -> Take {
     let mut random = Random::new(settings.seed.wrapping_mul(0x5851_F42D_4C95_7F2D) ^ number);
@@ -511,7 +511,7 @@ pub fn throat_weights() -> Vec<f64> {
         .collect()
 }
 
-/// What each of the seven true parameters does to a marker of the face, in millimetres.
+/// Returns the change of a marker of the face by one unit of a true parameter, in millimetres.
 fn face_direction(parameter: usize, marker: usize) -> DVec3 {
     let lower = (LIPS.start + 9..LIPS.end).contains(&marker);
     let upper = (LIPS.start + 1..LIPS.start + 8).contains(&marker);

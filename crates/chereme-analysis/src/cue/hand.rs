@@ -18,7 +18,7 @@ pub type Frame = Vec<Option<DVec3>>;
 pub const ANGLES: usize = 25;
 /// The numbers of `[1, cos, sin]`.
 const TERMS: usize = 2 * ANGLES + 1;
-/// What the error of measurement is taken to be when markers are weighed against what is usual, in millimetres.
+/// The error of measurement with which markers are weighed against usual postures, in millimetres.
 const SIGMA: f64 = 2.0;
 /// Steps of Gauss and Newton from the posture of the frame before.
 const STEPS: usize = 5;
@@ -34,7 +34,7 @@ pub struct HandModel {
     pub components: Pca,
     /// For each term the 150 coordinates that it moves.
     terms: Matrix,
-    /// What the model misses of each marker on the frames it was learned from: mean square of an axis.
+    /// The error of each marker on the frames of the learning: mean square of an axis.
     missed: Vec<f64>,
 }
 
@@ -131,7 +131,7 @@ impl HandModel {
 
     /// Restores a frame from its visible markers, starting from the frame before; hidden places are not looked at.
     ///
-    /// Nothing if fewer than three markers of the forearm and none of the rest tell where the hand is.
+    /// Nothing if fewer than three markers of the forearm are seen and no frame before gives its place.
     #[must_use]
     pub fn restore(&self, frame: &Frame, before: Option<&Restored>) -> Option<Restored> {
         if frame.len() != HAND {
@@ -205,7 +205,7 @@ impl HandModel {
         })
     }
 
-    /// Returns the seven numbers by which shapes are told apart, of markers in any space.
+    /// Returns the seven numbers by which shapes are distinguished, of markers in any space.
     #[must_use]
     pub fn distances(points: &[DVec3]) -> Option<[f64; 7]> {
         if points.len() != HAND {
@@ -314,7 +314,7 @@ fn whole(row: &[f64], components: &Pca) -> Vec<f64> {
     own
 }
 
-/// Returns the mean places of markers of which the frames show a rigid set: two rounds of fitting and averaging.
+/// Returns the mean places of the markers of a rigid set: two rounds of fitting and averaging.
 fn mean_rigid(frames: &[Frame], set: std::ops::Range<usize>) -> Result<Vec<DVec3>, ModelError> {
     let all =
         |frame: &&Frame| frame.len() == HAND && frame[set.clone()].iter().all(Option::is_some);

@@ -10,7 +10,7 @@ pub const HAND: usize = 50;
 pub const FACE: usize = 63;
 
 /// Returns the first marker of a finger, 0 for the index to 3 for the little finger: 3 on the first phalange, 3 on
-/// the middle one, 2 on the last, of which the last is the tip.
+/// the middle one, 2 on the last; the second of these is the tip.
 #[must_use]
 pub fn finger(finger: usize) -> usize {
     12 + 8 * finger

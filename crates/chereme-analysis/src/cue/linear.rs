@@ -1,4 +1,4 @@
-//! Small dense matrices: what the models of face and hand need, and no more.
+//! Small dense matrices for the models of face and hand.
 
 use std::ops::{Index, IndexMut};
 

@@ -130,12 +130,12 @@ pub fn covariance(rows: &[Vec<f64>]) -> (Vec<f64>, Matrix) {
 pub struct Guided {
     /// The mean of each number.
     pub mean: Vec<f64>,
-    /// What one standard deviation of each predictor does to all numbers.
+    /// The change of all numbers by one standard deviation of each predictor.
     pub directions: Vec<Vec<f64>>,
 }
 
-/// Finds guided components: each predictor is the first component of its subset of what is left, and what it
-/// explains of all numbers is taken off before the next.
+/// Finds guided components: each predictor is the first component of its subset of the residual, and its part of
+/// all numbers is subtracted before the next.
 ///
 /// # Errors
 /// [`ModelError`] if there are fewer rows than two, or a subset names a number that rows do not have.

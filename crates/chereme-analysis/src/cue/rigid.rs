@@ -103,7 +103,7 @@ impl Rigid {
     }
 }
 
-/// Tells whether points with this scatter lie on one line: the second eigenvalue is next to nothing.
+/// Returns whether points with this scatter lie on one line: the second eigenvalue is next to nothing.
 fn is_line(scatter: &DMat3) -> bool {
     let mut matrix = Matrix::zeros(3, 3);
     for i in 0..3 {

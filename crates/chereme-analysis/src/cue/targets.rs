@@ -174,7 +174,7 @@ pub struct Quartiles {
 }
 
 impl Quartiles {
-    /// Returns those of numbers; nothing if there is none. Between two numbers they are interpolated.
+    /// Returns those of numbers; nothing without numbers. Between two numbers they are interpolated.
     #[must_use]
     pub fn of(numbers: &[f64]) -> Option<Self> {
         let mut sorted: Vec<f64> = numbers.iter().copied().filter(|x| x.is_finite()).collect();

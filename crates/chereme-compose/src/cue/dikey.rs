@@ -32,7 +32,7 @@ pub struct Dikey {
     pub to: DikeyEnd,
     /// The parameters of each frame, two frames or more.
     pub frames: Vec<Vec<f64>>,
-    /// Where it was cut from.
+    /// The recording and the frames that it was cut from.
     pub source: String,
 }
 
@@ -75,7 +75,7 @@ pub struct Piece {
     pub wanted: (DikeyEnd, DikeyEnd),
     /// The number of the dikey; nothing for a synthetic ramp between the means of the two keys.
     pub dikey: Option<usize>,
-    /// Where it was cut from.
+    /// The recording and the frames that it was cut from.
     pub source: String,
     /// The ends of the dikey that stands for a missing one.
     pub instead: Option<(DikeyEnd, DikeyEnd)>,

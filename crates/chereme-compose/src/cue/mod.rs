@@ -32,7 +32,7 @@ const PACE: f64 = 1.6;
 /// The least time before the first sound, and the time that the hand rests at either end, in seconds.
 const LEAD: f64 = 0.6;
 const REST: f64 = 0.2;
-/// How long the hand takes to come to rest, and the silence from which on it does, in seconds.
+/// The time that the hand takes to come to rest, and the shortest silence in which it rests, in seconds.
 const TO_REST: f64 = 0.4;
 const SILENCE: f64 = 0.25;
 /// The name of the place between utterances.
@@ -40,7 +40,7 @@ const AT_REST: &str = "rest";
 /// The number of the shape between utterances.
 const FIST: u8 = 0;
 
-/// What the hand shows from one moment on.
+/// A key or the rest between keys, with the times of hand and fingers.
 struct Target {
     placement: String,
     shape: u8,

@@ -12,7 +12,7 @@ use chereme_motion::{Anatomy, Face, ModelPose, Side, Skeleton};
 const CHIN: DVec3 = DVec3::new(0.0, 0.04, 0.44);
 /// How far the tip stays off the contour of the lips at least, in metres.
 pub(super) const CLEAR: f64 = 0.006;
-/// What paths are planned for, in metres: more than the least, as faces move.
+/// The distance from the lips that paths are planned for, in metres: more than the least, as faces move.
 const PLANNED: f64 = 0.009;
 
 /// The space of a head, seen from the cueing hand.

@@ -42,7 +42,7 @@ impl PhaseRule {
         }
     }
 
-    /// Tells whether this is the usual one.
+    /// Returns whether this is the usual one.
     #[must_use]
     pub fn is_default(&self) -> bool {
         *self == Self::default()
@@ -63,7 +63,7 @@ pub struct CuePhases {
     pub counts: [usize; 3],
 }
 
-/// What a key stands for.
+/// The sounds of a key: its type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum KeyType {
     /// A consonant and the vowel after it.

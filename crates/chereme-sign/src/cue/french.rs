@@ -45,7 +45,7 @@ pub enum Schwa {
 pub struct Spoken {
     /// The words in the order of the text; pauses are words without letters.
     pub words: Vec<Word>,
-    /// What could not be read.
+    /// The parts that could not be read.
     pub findings: Vec<CueFinding>,
 }
 

@@ -1,4 +1,4 @@
-//! What keys are called on tiers and in queries.
+//! The names of keys on tiers and in queries.
 //!
 //! A key is a gloss such as `cue:mouth-4`: the placement and the number of the shape. The founding paper
 //! writes the same key as two digits, the placement's number before the shape's: 24.

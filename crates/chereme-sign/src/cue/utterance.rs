@@ -44,7 +44,7 @@ pub struct Utterance {
     pub alphabet: Alphabet,
     /// The keys in order.
     pub keys: Vec<Key>,
-    /// What could not be read.
+    /// The parts that could not be read.
     pub findings: Vec<CueFinding>,
 }
 
@@ -74,7 +74,7 @@ pub enum UtteranceError {
     Duration {
         /// The phone.
         label: String,
-        /// What stands after the sign.
+        /// The text after the sign.
         text: String,
     },
 }

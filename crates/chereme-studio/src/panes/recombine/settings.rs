@@ -3,7 +3,7 @@
 use chereme_corpus::recipe::{
     Cue, Factor, Goal, Hands, Node, PhaseRule, Recipe, Spell, Step, Transition,
 };
-use eframe::egui::{Id, Role, TextEdit, Ui, WidgetInfo};
+use eframe::egui::{DragValue, Id, Role, TextEdit, Ui, WidgetInfo};
 
 use super::fields::{self, caption, choose};
 use super::stack::What;
@@ -122,7 +122,7 @@ fn cue(ui: &mut Ui, seen: &Seen<'_>, it: &mut Cue) -> bool {
     ui.horizontal_wrapped(|ui| {
         caption(ui, seen, words::CUE_PACE);
         let mut pace = it.pace.map_or(1.6, |pace| pace.0);
-        let slider = egui::DragValue::new(&mut pace).range(0.5..=4.0).speed(0.02);
+        let slider = DragValue::new(&mut pace).range(0.5..=4.0).speed(0.02);
         if ui.add(slider).changed() {
             it.pace = Some(Factor(pace));
             changed = true;
