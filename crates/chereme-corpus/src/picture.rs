@@ -1,5 +1,7 @@
 //! Pictures of stored movement and of inventories, drawn without a window.
 
+mod faces;
+
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::ops::ControlFlow;
@@ -8,12 +10,10 @@ use std::sync::Arc;
 
 use chereme_figure::{
     Animation, AnimationOptions, Caption, FigureError, HandshapeOptions, SheetOptions, Strip,
-    Theme, View, contact_sheet, face_sheet, handshape_picture, handshape_sheet, write_gif,
-    write_png,
+    Theme, View, contact_sheet, handshape_picture, handshape_sheet, write_gif, write_png,
 };
 use chereme_motion::anatomy::Anatomy;
 use chereme_motion::{Clip, Face, Instant, Side, Span};
-use chereme_sign::hamnosys::face::Expression;
 use chereme_sign::hamnosys::{Symbol, drawing};
 use serde::Serialize;
 
@@ -21,7 +21,7 @@ use crate::Corpus;
 use crate::address::{self, Address, Stretch};
 use crate::animate::Staging;
 use crate::curves;
-use crate::db::{recordings, signs};
+use crate::db::signs;
 use crate::error::{Error, Result};
 use crate::face;
 use crate::film::{Shape, write_film};
@@ -40,9 +40,8 @@ const LONGEST: i64 = 120_000_000;
 
 /// What the symbols of HamNoSys are called beside the inventories.
 const SYMBOLS: &str = "hamnosys";
-/// What the faces of SiGML's non-manuals are called beside the inventories, and how large one is drawn.
+/// What the faces of SiGML's non-manuals are called beside the inventories.
 const FACES: &str = "faces";
-const FACE: usize = 160;
 /// How high one picture of movement is, in pixels.
 const HEIGHT: usize = 260;
 /// How high a symbol of notation is drawn, in pixels of a picture that can be shown at any size.
@@ -180,15 +179,8 @@ impl Corpus {
             Some(span) => stretch.span.intersection(span).unwrap_or_default(),
             None => stretch.span,
         };
-        if recordings::body_track(connection, stretch.recording.id)?.is_none()
-            && let Some(face) = face::stage::material(connection, &stretch)?
-        {
-            return Ok(Moving {
-                faces: chereme_compose::faces(&face.curves),
-                clip: face.clip,
-                anatomy: (*face.anatomy).clone(),
-                stretch,
-            });
+        if let Some(moving) = face::stage::moving(connection, &stretch)? {
+            return Ok(moving);
         }
         let track = Track::of(connection, stretch.recording.id)?;
         let frames = track.frames_in(stretch.span);
@@ -389,7 +381,7 @@ impl Corpus {
             return written(&chart, SYMBOLS, Symbol::all().len(), to, options.force);
         }
         if inventory == FACES && value.is_none() {
-            return draw_faces(to, options);
+            return faces::draw(to, options);
         }
         let all = inventories::load(self.store.read())?;
         let ids: Vec<&str> = all.iter().map(|it| it.inventory.id.as_str()).collect();
@@ -651,26 +643,6 @@ fn told(to: &Path, title: &str, bytes: u64, frames: usize) -> Picture {
         animated_on: None,
         transcribed: false,
     }
-}
-
-/// Draws every listed face of SiGML on the program's own body.
-fn draw_faces(to: &Path, options: &PictureOptions) -> Result<Picture> {
-    if extension(to) != "png" {
-        return Err(ending(to, "faces are drawn to a .png"));
-    }
-    let face = |(code, means): (&str, &str)| {
-        let (part, short) = code.split_once('.')?;
-        let expression = Expression::of(part, short)?;
-        Some((format!("{short} {means}"), expression.fullest()))
-    };
-    let faces: Vec<_> = Expression::listed().filter_map(face).collect();
-    let (clip, anatomy) = built_in_body()?;
-    let size = options.height.unwrap_or(FACE);
-    let image = face_sheet((&clip, &anatomy), &faces, 8, size).map_err(figure)?;
-    let bytes = write(to, options.force, |out| {
-        write_png(&image, out).map_err(figure)
-    })?;
-    Ok(told(to, FACES, bytes, faces.len()))
 }
 
 fn ending(path: &Path, advice: &str) -> Error {

@@ -1,5 +1,7 @@
 //! From text to the tree.
 
+mod expression;
+
 use std::str::FromStr;
 
 use super::lexer::{Kind, Token, fault, lex};
@@ -419,47 +421,6 @@ impl Parser<'_> {
                 return Ok(Retime { paces });
             }
         }
-    }
-
-    fn nonmanual(&mut self) -> Parsed<Nonmanual> {
-        let function = match self.word() {
-            Some("from") => None,
-            _ => Some(self.name("\"from\" and a sign")?),
-        };
-        self.expect("from", "\"from\" and a sign")?;
-        let from = self.name("a sign")?;
-        let over = self.accept("over").then(|| self.over()).transpose()?;
-        let by_phases = self.accept("by");
-        if by_phases {
-            self.expect("phases", "\"phases\"")?;
-        }
-        Ok(Nonmanual {
-            from,
-            function,
-            over,
-            by_phases,
-        })
-    }
-
-    /// Reads a part of a movement, or the five milestones of an expression.
-    fn over(&mut self) -> Parsed<Over> {
-        const WANTED: &str = "a part such as 0.4s..1.9s, or five times with commas between";
-        let start = self.at;
-        let mut times = Vec::new();
-        while times.len() < 5 {
-            let Ok(time) = self.quantity(WANTED) else {
-                break;
-            };
-            times.push(time);
-            if times.len() < 5 && !self.accept_kind(Kind::Comma) {
-                break;
-            }
-        }
-        if let Ok(times) = times.try_into() {
-            return Ok(Over::At(times));
-        }
-        self.at = start;
-        self.cut().map(Over::Part)
     }
 
     /// Reads two times with two dots between, one of which may be left out.

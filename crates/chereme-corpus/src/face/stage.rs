@@ -14,6 +14,7 @@ use crate::address::{Address, Name, Stretch};
 use crate::db::motion;
 use crate::db::recordings;
 use crate::error::{Error, Result};
+use crate::picture::Moving;
 use crate::sources::notation::own_body;
 
 /// The rate of a capture whose frames have times of their own.
@@ -103,6 +104,20 @@ pub(crate) fn material(connection: &Connection, stretch: &Stretch) -> Result<Opt
         anatomy: body.anatomy,
         held: Vec::new(),
         curves,
+    }))
+}
+
+/// Returns a stretch of a recording of a face alone as movement to look at; `None` if the recording has a skeleton, or no
+/// captured face.
+pub(crate) fn moving(connection: &Connection, stretch: &Stretch) -> Result<Option<Moving>> {
+    if recordings::body_track(connection, stretch.recording.id)?.is_some() {
+        return Ok(None);
+    }
+    Ok(material(connection, stretch)?.map(|face| Moving {
+        faces: chereme_compose::faces(&face.curves),
+        clip: face.clip,
+        anatomy: (*face.anatomy).clone(),
+        stretch: stretch.clone(),
     }))
 }
 
