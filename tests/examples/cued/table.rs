@@ -312,10 +312,12 @@ fn recognisers(table: &mut Table) -> Vec<(&'static str, Confusion)> {
 
 /// The speed of the pointing tip in the head's space, in mm/s.
 fn speed(take: &Take) -> Vec<f64> {
-    let tip = |frame: usize| {
+    let shape_at = |frame: usize| {
         let time = frame as f64 / RATE;
         let n = take.keys.partition_point(|key| key.times[0] <= time);
-        let shape = n.checked_sub(1).map_or(0, |n| take.keys[n].shape);
+        n.checked_sub(1).map_or(0, |n| take.keys[n].shape)
+    };
+    let tip = |frame: usize, shape: u8| {
         let points = &take.true_hand[frame];
         take.head[frame].undo(HandModel::tip(points, shape).unwrap_or_default())
     };
@@ -323,9 +325,9 @@ fn speed(take: &Take) -> Vec<f64> {
     (0..=last)
         .map(|frame| {
             let (a, b) = (frame.saturating_sub(1), (frame + 1).min(last));
-            // The pointing finger changes at the start of a way: no step of both is a speed.
-            let step = tip(b).distance(tip(a)) * RATE / (b - a).max(1) as f64;
-            step.min(3000.0)
+            // One finger in both frames: the step from one finger to another is no speed.
+            let shape = shape_at(frame);
+            tip(b, shape).distance(tip(a, shape)) * RATE / (b - a).max(1) as f64
         })
         .collect()
 }
