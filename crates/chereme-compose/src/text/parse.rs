@@ -423,31 +423,6 @@ impl Parser<'_> {
         }
     }
 
-    /// Reads two times with two dots between, one of which may be left out.
-    fn cut(&mut self) -> Parsed<Cut> {
-        const WANTED: &str = "two times with two dots between, such as 0.4s..1.9s";
-        let start = self.at;
-        let mut text = String::new();
-        while let Some(word) = self.word().filter(|word| !["then", "by"].contains(word)) {
-            text.push_str(word);
-            self.at += 1;
-        }
-        let Some((from, to)) = text.split_once("..").filter(|_| text != "..") else {
-            self.at = start;
-            return Err(self.expected(WANTED, &[]));
-        };
-        let time = |text: &str| match text {
-            "" => Ok(None),
-            text => text.parse().map(Some),
-        };
-        let times = time(from).and_then(|from| Ok((from, time(to)?)));
-        let (from, to) = times.map_err(|error: UnitError| {
-            self.at = start;
-            self.fault(Problem::Unit(error))
-        })?;
-        Ok(Cut { from, to })
-    }
-
     fn indicate(&mut self) -> Parsed<Indicate> {
         let from = if self.accept("from") {
             Some(self.spot()?)

@@ -1,4 +1,4 @@
-//! Reads `nonmanual wh from recording:3 over 0.4s..1.9s by phases`.
+//! Reads `nonmanual wh from recording:3 over 0.4s..1.9s by phases`, and parts of movement such as `0.4s..1.9s`.
 
 use super::*;
 
@@ -42,5 +42,30 @@ impl Parser<'_> {
         }
         self.at = start;
         self.cut().map(Over::Part)
+    }
+
+    /// Reads two times with two dots between, one of which may be left out.
+    pub(super) fn cut(&mut self) -> Parsed<Cut> {
+        const WANTED: &str = "two times with two dots between, such as 0.4s..1.9s";
+        let start = self.at;
+        let mut text = String::new();
+        while let Some(word) = self.word().filter(|word| !["then", "by"].contains(word)) {
+            text.push_str(word);
+            self.at += 1;
+        }
+        let Some((from, to)) = text.split_once("..").filter(|_| text != "..") else {
+            self.at = start;
+            return Err(self.expected(WANTED, &[]));
+        };
+        let time = |text: &str| match text {
+            "" => Ok(None),
+            text => text.parse().map(Some),
+        };
+        let times = time(from).and_then(|from| Ok((from, time(to)?)));
+        let (from, to) = times.map_err(|error: UnitError| {
+            self.at = start;
+            self.fault(Problem::Unit(error))
+        })?;
+        Ok(Cut { from, to })
     }
 }
